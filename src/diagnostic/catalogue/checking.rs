@@ -1,0 +1,4 @@
+//! Codes of checking.
+
+super::area! {
+}

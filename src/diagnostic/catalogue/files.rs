@@ -1,0 +1,4 @@
+//! Codes of files.
+
+super::area! {
+}

@@ -1,0 +1,125 @@
+//! The catalogue: every code clsmith can report, each with one line of meaning, help and a long explanation.
+//!
+//! A new code is one row in the file of its area. Codes are stable: a retired one is never used again.
+
+mod checking;
+mod files;
+mod reading;
+mod recipe;
+mod running;
+
+use super::Severity;
+use std::fmt;
+
+/// A row of the catalogue.
+#[derive(Debug)]
+pub struct Entry {
+    /// `CL0001`.
+    pub id: &'static str,
+    /// Severity unless changed on the command line.
+    pub severity: Severity,
+    /// One line: what the code says.
+    pub meaning: &'static str,
+    /// What to do about it, in a sentence; may be empty.
+    pub help: &'static str,
+    /// A few paragraphs for `clsmith explain`.
+    pub explanation: &'static str,
+}
+
+/// A code of the catalogue; cheap to copy and compare.
+#[derive(Clone, Copy)]
+pub struct Code(&'static Entry);
+
+impl Code {
+    /// `CL0001`.
+    pub fn id(self) -> &'static str {
+        self.0.id
+    }
+    /// Severity unless changed on the command line.
+    pub fn severity(self) -> Severity {
+        self.0.severity
+    }
+    /// One line: what the code says.
+    pub fn meaning(self) -> &'static str {
+        self.0.meaning
+    }
+    /// What to do about it; may be empty.
+    pub fn help(self) -> &'static str {
+        self.0.help
+    }
+    /// A few paragraphs for `clsmith explain`.
+    pub fn explanation(self) -> &'static str {
+        self.0.explanation
+    }
+}
+
+impl PartialEq for Code {
+    fn eq(&self, other: &Self) -> bool {
+        self.0.id == other.0.id
+    }
+}
+impl Eq for Code {}
+impl std::hash::Hash for Code {
+    fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
+        self.0.id.hash(state);
+    }
+}
+impl PartialOrd for Code {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl Ord for Code {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        self.0.id.cmp(other.0.id)
+    }
+}
+impl fmt::Debug for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0.id)
+    }
+}
+impl fmt::Display for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0.id)
+    }
+}
+
+/// Writes one area of the catalogue: constants to report with, and the rows to list.
+macro_rules! area {
+    ($($name:ident = $id:literal, $severity:ident, $meaning:literal, $help:literal, $explanation:literal;)*) => {
+        $(
+            #[doc = concat!("`", $id, "`: ", $meaning, ".")]
+            pub const $name: $crate::diagnostic::Code = $crate::diagnostic::catalogue::of(&$crate::diagnostic::catalogue::Entry {
+                id: $id,
+                severity: $crate::diagnostic::Severity::$severity,
+                meaning: $meaning,
+                help: $help,
+                explanation: $explanation,
+            });
+        )*
+        pub(super) const ROWS: &[$crate::diagnostic::Code] = &[$($name),*];
+    };
+}
+pub(crate) use area;
+
+pub(crate) const fn of(entry: &'static Entry) -> Code {
+    Code(entry)
+}
+
+/// Constants for all codes, by name.
+pub mod codes {
+    pub use super::checking::*;
+    pub use super::files::*;
+    pub use super::reading::*;
+    pub use super::recipe::*;
+    pub use super::running::*;
+}
+
+/// Every code, area by area, in the order of their ids.
+pub const CATALOGUE: &[&[Code]] = &[reading::ROWS, checking::ROWS, recipe::ROWS, running::ROWS, files::ROWS];
+
+/// Looks a code up by its id, in any case.
+pub fn code(id: &str) -> Option<Code> {
+    CATALOGUE.iter().flat_map(|rows| rows.iter()).copied().find(|code| code.id().eq_ignore_ascii_case(id))
+}

@@ -1,0 +1,4 @@
+//! Codes of recipe.
+
+super::area! {
+}

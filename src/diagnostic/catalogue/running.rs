@@ -1,0 +1,4 @@
+//! Codes of running.
+
+super::area! {
+}

@@ -1,0 +1,86 @@
+//! Diagnostics as plain data: a code from the catalogue, a message, and labels into files.
+//!
+//! Nothing here prints. `report::render` turns diagnostics into text for people, JSON or SARIF.
+
+mod catalogue;
+
+pub use catalogue::{CATALOGUE, Code, code};
+pub use catalogue::codes;
+
+use crate::source::{Source, Span};
+use std::fmt;
+use std::sync::Arc;
+
+/// How bad it is. Nothing is written while an [`Severity::Error`] stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Severity {
+    /// Worth knowing; off unless asked for.
+    Note,
+    /// The program may do something its author did not mean.
+    Warning,
+    /// The program or recipe is wrong; nothing is written.
+    Error,
+}
+
+impl fmt::Display for Severity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Note => "note",
+            Self::Warning => "warning",
+            Self::Error => "error",
+        })
+    }
+}
+
+/// A place in a file and what is to be seen there.
+#[derive(Debug, Clone)]
+pub struct Label {
+    /// The file: a CL file, a recipe, a setup file.
+    pub source: Arc<Source>,
+    /// The bytes meant.
+    pub span: Span,
+    /// What is to be seen there; may be empty.
+    pub message: String,
+}
+
+/// One finding, with its places. The first label is the primary one.
+#[derive(Debug, Clone)]
+pub struct Diagnostic {
+    /// Its entry in the catalogue.
+    pub code: Code,
+    /// The catalogue's severity, unless `--deny` or `--allow` changed it.
+    pub severity: Severity,
+    /// One sentence, specific to this finding.
+    pub message: String,
+    /// Where; empty for findings about a whole file or run.
+    pub labels: Vec<Label>,
+    /// What to do; the catalogue's help unless the finding knows better.
+    pub help: Option<String>,
+}
+
+impl Diagnostic {
+    /// A finding with the catalogue's severity and help.
+    pub fn new(code: Code, message: impl Into<String>) -> Self {
+        let help = (!code.help().is_empty()).then(|| code.help().to_owned());
+        Self { code, severity: code.severity(), message: message.into(), labels: Vec::new(), help }
+    }
+
+    /// Adds a place; the first one added is the primary.
+    #[must_use]
+    pub fn label(mut self, source: &Arc<Source>, span: Span, message: impl Into<String>) -> Self {
+        self.labels.push(Label { source: Arc::clone(source), span, message: message.into() });
+        self
+    }
+
+    /// Replaces the catalogue's help by one that fits this finding.
+    #[must_use]
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// Whether nothing may be written while it stands.
+    pub fn is_error(&self) -> bool {
+        self.severity == Severity::Error
+    }
+}

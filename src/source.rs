@@ -1,0 +1,129 @@
+//! Bytes of a file, and places in them.
+//!
+//! Everything above this module speaks of bytes by [`Span`]; only people see lines and columns.
+
+use std::fmt;
+use std::sync::{Arc, OnceLock};
+
+/// A half-open range of bytes in a [`Source`].
+///
+/// 32 bits are enough because [`Source::new`] refuses files of 4 GiB and more; a statement costs 8 bytes less for it.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord)]
+pub struct Span {
+    /// First byte.
+    pub start: u32,
+    /// One past the last byte.
+    pub end: u32,
+}
+
+impl Span {
+    /// The bytes `start..end`. Offsets come from a [`Source`], so they fit 32 bits.
+    pub fn new(start: usize, end: usize) -> Self {
+        Self { start: start as u32, end: end.max(start) as u32 }
+    }
+
+    /// Number of bytes.
+    pub fn len(self) -> usize {
+        (self.end - self.start) as usize
+    }
+
+    /// Whether the span holds no byte.
+    pub fn is_empty(self) -> bool {
+        self.start == self.end
+    }
+
+    /// The span as a range of `usize`.
+    pub fn range(self) -> std::ops::Range<usize> {
+        self.start as usize..self.end as usize
+    }
+
+    /// A span inside this one, given by offsets from its start.
+    pub fn part(self, from: usize, to: usize) -> Self {
+        let start = self.start as usize;
+        Self::new(start + from, (start + to).min(self.end as usize))
+    }
+}
+
+impl fmt::Debug for Span {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}..{}", self.start, self.end)
+    }
+}
+
+/// A file that was read: its name and its bytes, which never change.
+pub struct Source {
+    name: String,
+    bytes: Vec<u8>,
+    line_starts: OnceLock<Vec<u32>>,
+}
+
+/// A file is too large for 32-bit spans.
+#[derive(Debug, Clone, Copy, thiserror::Error)]
+#[error("the file has {bytes} bytes; clsmith reads files below 4 GiB")]
+pub struct TooLarge {
+    /// Size of the refused file.
+    pub bytes: usize,
+}
+
+impl Source {
+    /// Takes the bytes of a file; `name` is what diagnostics call it.
+    ///
+    /// # Errors
+    /// [`TooLarge`] from 4 GiB on.
+    pub fn new(name: impl Into<String>, bytes: Vec<u8>) -> Result<Arc<Self>, TooLarge> {
+        if bytes.len() >= u32::MAX as usize {
+            return Err(TooLarge { bytes: bytes.len() });
+        }
+        Ok(Arc::new(Self { name: name.into(), bytes, line_starts: OnceLock::new() }))
+    }
+
+    /// What diagnostics call the file.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// All bytes.
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// The bytes of a span; empty when the span does not lie in this file.
+    pub fn slice(&self, span: Span) -> &[u8] {
+        self.bytes.get(span.range()).unwrap_or_default()
+    }
+
+    /// 1-based line and column (in bytes) of an offset. Lines end at LF, CRLF or a lone CR.
+    pub fn line_column(&self, offset: u32) -> (usize, usize) {
+        let starts = self.line_starts.get_or_init(|| line_starts(&self.bytes));
+        let line = starts.partition_point(|&start| start <= offset).max(1);
+        let start = starts.get(line - 1).copied().unwrap_or(0);
+        (line, (offset - start) as usize + 1)
+    }
+
+    /// The span of a 1-based line, without its line end. `None` past the last line.
+    pub fn line(&self, line: usize) -> Option<Span> {
+        let starts = self.line_starts.get_or_init(|| line_starts(&self.bytes));
+        let start = *starts.get(line.checked_sub(1)?)? as usize;
+        let end = starts.get(line).map_or(self.bytes.len(), |&next| next as usize);
+        let text = self.bytes.get(start..end)?;
+        let kept = text.iter().rposition(|b| !matches!(b, b'\n' | b'\r')).map_or(0, |last| last + 1);
+        Some(Span::new(start, start + kept))
+    }
+}
+
+impl fmt::Debug for Source {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Source({:?}, {} bytes)", self.name, self.bytes.len())
+    }
+}
+
+fn line_starts(bytes: &[u8]) -> Vec<u32> {
+    let mut starts = vec![0];
+    for at in memchr::memchr2_iter(b'\n', b'\r', bytes) {
+        let crlf = bytes.get(at) == Some(&b'\r') && bytes.get(at + 1) == Some(&b'\n');
+        if !crlf {
+            starts.push(at as u32 + 1);
+        }
+    }
+    starts
+}
