@@ -6,4 +6,6 @@
 
 pub mod diagnostic;
 pub mod number;
+pub mod parse;
+pub mod program;
 pub mod source;

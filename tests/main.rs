@@ -1,1 +1,5 @@
-fn main(){}
+//! One test binary; a folder for each area.
+
+mod motion;
+mod parse;
+mod support;

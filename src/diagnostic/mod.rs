@@ -4,8 +4,8 @@
 
 mod catalogue;
 
-pub use catalogue::{CATALOGUE, Code, code};
 pub use catalogue::codes;
+pub use catalogue::{CATALOGUE, Code, code};
 
 use crate::source::{Source, Span};
 use std::fmt;

@@ -1,4 +1,3 @@
 //! Codes of checking.
 
-super::area! {
-}
+super::area! {}

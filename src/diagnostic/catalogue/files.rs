@@ -1,4 +1,3 @@
 //! Codes of files.
 
-super::area! {
-}
+super::area! {}

@@ -1,4 +1,3 @@
 //! Codes of recipe.
 
-super::area! {
-}
+super::area! {}

@@ -1,4 +1,3 @@
 //! Codes of running.
 
-super::area! {
-}
+super::area! {}

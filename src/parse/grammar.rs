@@ -1,0 +1,112 @@
+//! From pest's pairs to our own [`Syntax`]: the only place that knows pest.
+
+use crate::number;
+use crate::program::{Field, FieldKind, Form, Group, Syntax};
+use pest::Parser;
+use pest::iterators::Pair;
+use std::borrow::Cow;
+
+#[derive(pest_derive::Parser)]
+#[grammar = "grammar/cl.pest"]
+struct Grammar;
+
+/// The statement at the start of `window`, and the number of bytes it takes.
+///
+/// `window` holds whole lines. `Syntax::open` says that the statement goes on past its end; give a longer window, unless the
+/// file ends there. Never fails: what no form of the grammar fits has [`Form::Refused`].
+pub fn statement(window: &[u8]) -> Syntax<'_> {
+    let readable = readable(window);
+    let Some(statement) = Grammar::parse(Rule::statement, &readable).ok().and_then(|mut pairs| pairs.next())
+    else {
+        // `refused` takes any text, so this is only reached when pest itself gives up (its call limit, unset here).
+        return bare(window, Form::Refused);
+    };
+    let Some(form) = statement.into_inner().next() else { return bare(window, Form::Refused) };
+    let text = window.get(..form.as_span().end()).unwrap_or(window);
+    let mut syntax = bare(text, form_of(form.as_rule()));
+    syntax.open = form.clone().into_inner().flatten().any(|part| part.as_rule() == Rule::open);
+    for part in form.into_inner() {
+        place(part, &mut syntax);
+    }
+    syntax
+}
+
+/// Where a refused line stopped making sense: the furthest byte the strict forms reached.
+pub fn refusal_place(text: &[u8]) -> usize {
+    match Grammar::parse(Rule::words, &readable(text)) {
+        Ok(_) => 0,
+        Err(error) => match error.location {
+            pest::error::InputLocation::Pos(at) => at,
+            pest::error::InputLocation::Span((at, _)) => at,
+        },
+    }
+}
+
+/// pest reads `str`; every byte from 0x80 on becomes DEL, so offsets stay and every code page is read alike.
+fn readable(window: &[u8]) -> Cow<'_, str> {
+    match std::str::from_utf8(window) {
+        Ok(text) if text.is_ascii() => Cow::Borrowed(text),
+        _ => Cow::Owned(
+            window.iter().map(|&byte| if byte.is_ascii() { char::from(byte) } else { '\u{7F}' }).collect(),
+        ),
+    }
+}
+
+fn bare(text: &[u8], form: Form) -> Syntax<'_> {
+    Syntax { text, form, word: 0..0, fields: Vec::new(), remark: None, open: false }
+}
+
+fn form_of(rule: Rule) -> Form {
+    match rule {
+        Rule::blank_line => Form::Blank,
+        Rule::structured => Form::Structured,
+        Rule::frame_mark => Form::FrameMark,
+        Rule::matrix_row => Form::MatrixRow,
+        Rule::comment => Form::Comment,
+        Rule::operation_start => Form::OperationStart,
+        Rule::free_text | Rule::listed_text => Form::FreeText,
+        Rule::numbers => Form::Numbers,
+        Rule::definition => Form::Definition,
+        Rule::words => Form::Words,
+        _ => Form::Refused,
+    }
+}
+
+fn place(part: Pair<'_, Rule>, syntax: &mut Syntax<'_>) {
+    let at = part.as_span().start()..part.as_span().end();
+    match part.as_rule() {
+        Rule::head | Rule::free_word | Rule::listed_word | Rule::operation_word => syntax.word = at,
+        Rule::remark => syntax.remark = Some(at),
+        _ => syntax.fields.extend(field(part)),
+    }
+}
+
+fn field(part: Pair<'_, Rule>) -> Option<Field> {
+    let at = part.as_span().start()..part.as_span().end();
+    let kind = match part.as_rule() {
+        Rule::empty => FieldKind::Empty,
+        Rule::number => number::parse(part.as_str().as_bytes()).map_or(FieldKind::Text, FieldKind::Number),
+        Rule::quoted => FieldKind::Quoted,
+        Rule::text
+        | Rule::inner_text
+        | Rule::text_line
+        | Rule::listed
+        | Rule::operation_name
+        | Rule::tool_name => FieldKind::Text,
+        Rule::group => FieldKind::Group(Box::new(group(part))),
+        _ => return None,
+    };
+    Some(Field { at, kind })
+}
+
+fn group(part: Pair<'_, Rule>) -> Group {
+    let mut group = Group { word: 0..0, fields: Vec::new() };
+    for inner in part.into_inner() {
+        if inner.as_rule() == Rule::head {
+            group.word = inner.as_span().start()..inner.as_span().end();
+        } else if let Some(field) = field(inner) {
+            group.fields.push(field);
+        }
+    }
+    group
+}

@@ -1,0 +1,201 @@
+//! From bytes to a [`Program`]: one statement at a time, by the grammar, with a shortcut for plain GOTO lines.
+
+mod grammar;
+mod shortcut;
+
+pub use grammar::statement as syntax;
+
+use crate::diagnostic::{Diagnostic, codes};
+use crate::program::record::BadRecord;
+use crate::program::{Detector, Dialect, Form, Program, Record, Syntax};
+use crate::source::{Source, Span};
+use std::sync::Arc;
+
+/// What came out of reading a file: a program, always, and what was wrong on the way.
+#[derive(Debug)]
+pub struct Parsed {
+    /// The program; its statements tile the source.
+    pub program: Program,
+    /// Findings, in the order of the file.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Reads a whole file. `dialect` forces one; otherwise it is detected.
+///
+/// Never refuses a statement: what cannot be read is kept and reported. A file that is no CL data at all (an APT part
+/// program, UTF-16 text) is kept as one statement with one diagnostic.
+pub fn parse(source: &Arc<Source>, dialect: Option<Dialect>) -> Parsed {
+    let bytes = source.bytes();
+    let mut reader = Reader {
+        source,
+        program: Program::new(Arc::clone(source)),
+        diagnostics: Vec::new(),
+        detector: Detector::default(),
+        last_was_points: false,
+    };
+    if let Some(problem) = not_text(bytes) {
+        return reader.refuse(Diagnostic::new(codes::NOT_TEXT, problem).label(
+            source,
+            Span::new(0, bytes.len().min(2)),
+            "",
+        ));
+    }
+    // A six-value GOTO has some 62 bytes, a three-value one some 32.
+    reader.program.reserve(bytes.len() / 48);
+    let mut at = 0;
+    if bytes.starts_with(b"\xEF\xBB\xBF") {
+        reader.program.push(Record::ByteOrderMark, Span::new(0, 3));
+        at = 3;
+    }
+    while let Some(rest) = bytes.get(at..).filter(|rest| !rest.is_empty()) {
+        if let Some((goto, length)) = shortcut::goto(rest) {
+            reader.program.push(Record::Goto(goto), Span::new(at, at + length));
+            reader.last_was_points = true;
+            at += length;
+            continue;
+        }
+        match reader.read(at, rest) {
+            Ok(length) => at += length,
+            Err(refusal) => return reader.refuse(*refusal),
+        }
+    }
+    let dialect = dialect.unwrap_or_else(|| reader.detector.dialect());
+    reader.program.set_dialect(dialect);
+    Parsed { program: reader.program, diagnostics: reader.diagnostics }
+}
+
+/// Takes one statement text (from an edit or a rewrite rule) apart and reads its meaning.
+///
+/// # Errors
+/// What is wrong with it; refused text too.
+pub fn record(text: &[u8]) -> Result<(Record, Syntax<'_>), BadRecord> {
+    let syntax = statement_of(text).0;
+    if syntax.form == Form::Refused {
+        let at = grammar::refusal_place(text).min(text.len().saturating_sub(1));
+        let problem = "this is no CL statement".to_owned();
+        return Err(BadRecord { at: at..text.len(), problem, is_number: false });
+    }
+    Record::read(&syntax).map(|record| (record, syntax))
+}
+
+struct Reader<'s> {
+    source: &'s Arc<Source>,
+    program: Program,
+    diagnostics: Vec<Diagnostic>,
+    detector: Detector,
+    last_was_points: bool,
+}
+
+impl Reader<'_> {
+    /// Reads one statement and gives its length; an error when the file is no CL data.
+    fn read(&mut self, at: usize, rest: &[u8]) -> Result<usize, Box<Diagnostic>> {
+        let (syntax, length) = statement_of(rest);
+        let span = Span::new(at, at + length);
+        let record = self.record(&syntax, span);
+        if record == Record::Definition {
+            let shown = Span::new(at, at + trimmed(rest.get(..length).unwrap_or_default()));
+            return Err(Box::new(
+                Diagnostic::new(
+                    codes::APT_PART_PROGRAM,
+                    "this is an APT part program, not cutter-location data",
+                )
+                .label(self.source, shown, "geometry and variables are defined here"),
+            ));
+        }
+        if syntax.open {
+            self.diagnostics.push(
+                Diagnostic::new(codes::CONTINUES_PAST_END, "the statement continues, but the file ends here")
+                    .label(self.source, Span::new(at, at + trimmed(rest)), "continued with `$`"),
+            );
+        }
+        self.detector.see(&syntax, &record);
+        self.last_was_points = matches!(record, Record::Goto(_) | Record::Points(_));
+        self.program.push(record, span);
+        Ok(length)
+    }
+
+    fn record(&mut self, syntax: &Syntax<'_>, span: Span) -> Record {
+        let problem = match syntax.form {
+            Form::Refused => {
+                self.diagnostics.push(malformed(self.source, syntax.text, span));
+                return Record::Unparsed;
+            }
+            Form::Numbers if !self.last_was_points => BadRecord {
+                at: 0..trimmed(syntax.text),
+                problem: "bare numbers, but no GOTO before them to continue".to_owned(),
+                is_number: false,
+            },
+            _ => match Record::read(syntax) {
+                Ok(record) => return record,
+                Err(problem) => problem,
+            },
+        };
+        let code = if problem.is_number { codes::BAD_NUMBER } else { codes::BAD_ARGUMENTS };
+        let at = span.part(problem.at.start, problem.at.end);
+        self.diagnostics.push(Diagnostic::new(code, problem.problem).label(self.source, at, ""));
+        Record::Unparsed
+    }
+
+    fn refuse(self, diagnostic: Diagnostic) -> Parsed {
+        let mut program = Program::new(Arc::clone(self.source));
+        let bytes = self.source.bytes().len();
+        if bytes > 0 {
+            program.push(Record::Unparsed, Span::new(0, bytes));
+        }
+        Parsed { program, diagnostics: vec![diagnostic] }
+    }
+}
+
+fn malformed(source: &Arc<Source>, text: &[u8], span: Span) -> Diagnostic {
+    let end = trimmed(text);
+    let at = grammar::refusal_place(text).min(end.saturating_sub(1));
+    Diagnostic::new(codes::MALFORMED, "this statement cannot be read").label(
+        source,
+        span.part(at, end),
+        "from here it makes no sense as CL data",
+    )
+}
+
+/// The statement at the start of `rest`, with as many lines as it continues over.
+fn statement_of(rest: &[u8]) -> (Syntax<'_>, usize) {
+    let mut lines = 1;
+    let mut window = lines_of(rest, 0, lines);
+    loop {
+        let syntax = grammar::statement(rest.get(..window).unwrap_or(rest));
+        if !syntax.open || window == rest.len() {
+            let length = syntax.text.len();
+            return (syntax, length.max(1));
+        }
+        // Doubling keeps a statement of very many lines linear.
+        window = lines_of(rest, window, lines);
+        lines *= 2;
+    }
+}
+
+/// The end of the `count`-th line after `from`. LF, CRLF and a lone CR end a line.
+fn lines_of(bytes: &[u8], from: usize, count: usize) -> usize {
+    let mut end = from;
+    for _ in 0..count {
+        let Some(rest) = bytes.get(end..).filter(|rest| !rest.is_empty()) else { break };
+        end += match memchr::memchr2(b'\n', b'\r', rest) {
+            None => rest.len(),
+            Some(at) if rest.get(at..at + 2) == Some(b"\r\n") => at + 2,
+            Some(at) => at + 1,
+        };
+    }
+    end
+}
+
+/// Length without the line end and the blanks before it.
+fn trimmed(text: &[u8]) -> usize {
+    text.trim_ascii_end().len()
+}
+
+fn not_text(bytes: &[u8]) -> Option<&'static str> {
+    if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
+        return Some("the file is UTF-16 text");
+    }
+    let head = bytes.get(..4096).unwrap_or(bytes);
+    let zeros = memchr::memchr_iter(0, head).count();
+    (zeros * 4 > head.len()).then_some("the file is binary, not text")
+}

@@ -1,0 +1,199 @@
+//! The dialects of CL text: how they are told apart, and the facts that differ between them.
+
+use super::record::Record;
+use super::syntax::{Form, Syntax};
+use std::fmt;
+
+/// A dialect of CL text. Names are those of `--dialect` and of reports.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Dialect {
+    /// Siemens NX CLSF.
+    Nx,
+    /// CATIA V5 APT.
+    Catia,
+    /// CATIA V5 APT through an ICAM table.
+    CatiaIcam,
+    /// PTC Creo NCL (`$$->` records).
+    Creo,
+    /// PTC Creo's G-POST input (`REMARK ->`, `PPWORD`).
+    CreoGpost,
+    /// SolidWorks CAM APT.
+    SolidWorks,
+    /// CAMWorks CLT.
+    CamWorks,
+    /// Makino FF cldata.
+    MakinoFf,
+    /// Plain ISO 4343 / APT words.
+    #[default]
+    Iso,
+}
+
+/// How the printed axis of a CIRCLE turns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ArcRule {
+    /// Left-hand: axis +z is clockwise (measured: NX 1,143 of 1,143 tangent arcs, FF 53 of 53).
+    LeftHand,
+    /// Right-hand: axis +z is counter-clockwise (measured: SolidWorks 2,914 of 2,953).
+    RightHand,
+    /// A word in the record says it.
+    ByWord,
+    /// Nothing says it: the sense that continues the motion before, else right-hand as ISO 4343 has it.
+    FromTangent,
+}
+
+impl Dialect {
+    /// All dialects.
+    pub const ALL: [Self; 9] = [
+        Self::Nx,
+        Self::Catia,
+        Self::CatiaIcam,
+        Self::Creo,
+        Self::CreoGpost,
+        Self::SolidWorks,
+        Self::CamWorks,
+        Self::MakinoFf,
+        Self::Iso,
+    ];
+
+    /// The name on the command line and in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Nx => "nx",
+            Self::Catia => "catia",
+            Self::CatiaIcam => "catia-icam",
+            Self::Creo => "creo",
+            Self::CreoGpost => "creo-gpost",
+            Self::SolidWorks => "solidworks",
+            Self::CamWorks => "camworks",
+            Self::MakinoFf => "makino-ff",
+            Self::Iso => "iso",
+        }
+    }
+
+    /// The name people know it by.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Nx => "Siemens NX CLSF",
+            Self::Catia => "CATIA V5 APT",
+            Self::CatiaIcam => "CATIA V5 APT (ICAM)",
+            Self::Creo => "PTC Creo NCL",
+            Self::CreoGpost => "PTC Creo NCL (G-POST)",
+            Self::SolidWorks => "SolidWorks CAM APT",
+            Self::CamWorks => "CAMWorks CLT",
+            Self::MakinoFf => "Makino FF cldata",
+            Self::Iso => "ISO 4343 / APT",
+        }
+    }
+
+    /// The dialect of a name.
+    pub fn of_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|dialect| dialect.name().eq_ignore_ascii_case(name))
+    }
+
+    /// How the axis of a CIRCLE turns.
+    pub fn arc_rule(self) -> ArcRule {
+        match self {
+            Self::Nx | Self::MakinoFf => ArcRule::LeftHand,
+            Self::SolidWorks => ArcRule::RightHand,
+            Self::CamWorks => ArcRule::ByWord,
+            Self::Catia | Self::CatiaIcam | Self::Creo | Self::CreoGpost | Self::Iso => ArcRule::FromTangent,
+        }
+    }
+
+    /// Whether numbers stand right-aligned in columns.
+    pub fn has_columns(self) -> bool {
+        matches!(self, Self::Catia | Self::CatiaIcam)
+    }
+
+    /// Whether a program is expected to end in FINI (or END).
+    pub fn ends_with_fini(self) -> bool {
+        !matches!(self, Self::Nx | Self::MakinoFf | Self::Iso)
+    }
+
+    /// Whether `TLAXIS` tells how the setup stands in the machine instead of the axis in the printed coordinates: CAMWorks
+    /// CLT prints every setup in its own frame with the tool along z (its arcs' axis is always 0,0,1).
+    pub fn axis_is_of_setup(self) -> bool {
+        self == Self::CamWorks
+    }
+}
+
+impl fmt::Display for Dialect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.title())
+    }
+}
+
+/// Finds the dialect while statements go by.
+#[derive(Debug, Default)]
+pub struct Detector {
+    catia: bool,
+    icam: bool,
+    found: Option<Dialect>,
+}
+
+impl Detector {
+    /// Looks at one statement. Marks are exact texts that only one system writes, so the first one decides.
+    pub fn see(&mut self, syntax: &Syntax<'_>, record: &Record) {
+        if self.found.is_some() {
+            return;
+        }
+        self.found = match (syntax.form, record) {
+            (Form::OperationStart, _) => Some(Dialect::Nx),
+            (Form::FrameMark, _) => {
+                self.catia = true;
+                None
+            }
+            (Form::Comment, _) => self.comment(syntax.text),
+            (Form::Structured, _) if syntax.text.trim_ascii_start().starts_with(b"$$") => Some(Dialect::Creo),
+            (Form::Structured, _) => Some(Dialect::CreoGpost),
+            (Form::FreeText, _) => free_text(syntax),
+            (Form::Words, _) => words(&syntax.major(), syntax),
+            _ => None,
+        };
+    }
+
+    /// The dialect, [`Dialect::Iso`] when nothing told.
+    pub fn dialect(&self) -> Dialect {
+        match self.found {
+            Some(found) => found,
+            None if self.icam => Dialect::CatiaIcam,
+            None if self.catia => Dialect::Catia,
+            None => Dialect::Iso,
+        }
+    }
+
+    fn comment(&mut self, text: &[u8]) -> Option<Dialect> {
+        let has = |mark: &[u8]| memchr::memmem::find(text, mark).is_some();
+        self.catia |= has(b"CATIA APT VERSION");
+        self.icam |= has(b"ICAM - ") || has(b"ICAM_");
+        if has(b"Pro/CLfile") {
+            return Some(Dialect::Creo);
+        }
+        None
+    }
+}
+
+fn free_text(syntax: &Syntax<'_>) -> Option<Dialect> {
+    let text = syntax.fields.first().map(|field| syntax.bytes(&field.at)).unwrap_or_default();
+    match syntax.major().as_str() {
+        "OPFEATSTART" => Some(Dialect::CamWorks),
+        "PPRINT" if text.starts_with(b"APTCL-SPEC,MAKINO") => Some(Dialect::MakinoFf),
+        _ => None,
+    }
+}
+
+fn words(major: &str, syntax: &Syntax<'_>) -> Option<Dialect> {
+    match major {
+        "TLDATA" | "MSYS" | "PAINT" | "END-OF-PATH" => Some(Dialect::Nx),
+        "CSI_SET_FLUTE_LENGTH" | "CSI_SET_EXTENSION_LENGTH" | "TRNTYP" => Some(Dialect::SolidWorks),
+        "BOX" | "MOVE_ATTRIB" => Some(Dialect::CamWorks),
+        "PPWORD" | "CAMERA" => Some(Dialect::CreoGpost),
+        "CIRCLE" if last_word_is_sense(syntax) => Some(Dialect::CamWorks),
+        _ => None,
+    }
+}
+
+fn last_word_is_sense(syntax: &Syntax<'_>) -> bool {
+    let last = syntax.fields.len().checked_sub(1).and_then(|last| syntax.word_at(last));
+    matches!(last.as_deref(), Some("CLOCKWISE" | "COUNTERCLOCKWISE"))
+}

@@ -1,0 +1,70 @@
+//! The one gate through which a statement changes.
+//!
+//! Texts come from `write`, which patches and reads back; here they are only put in place and signed with the step.
+
+use super::statement::{Change, Statement, StepId, TextPlace};
+use super::{Program, Record};
+use crate::source::Span;
+
+impl Program {
+    fn keep(&mut self, text: &[u8]) -> TextPlace {
+        let start = (self.source.bytes().len() + self.edits.len()) as u64;
+        self.edits.extend_from_slice(text);
+        TextPlace { start, length: text.len() as u32 }
+    }
+
+    /// Gives a statement a new text and the record that was read from it. Equal text is no change.
+    pub(crate) fn replace(&mut self, index: usize, text: &[u8], record: Record, step: StepId) {
+        let same = self.statement(index).is_none_or(|statement| self.text(statement) == text);
+        if same {
+            return;
+        }
+        let place = self.keep(text);
+        if let Some(statement) = self.statements.get_mut(index) {
+            statement.text = place;
+            statement.record = record;
+            statement.change = match statement.change {
+                Change::Inserted(_) => Change::Inserted(step),
+                _ => Change::Edited(step),
+            };
+        }
+    }
+
+    /// Takes a statement out of the program. One that a step inserted is still kept, as deleted, for the report.
+    pub(crate) fn delete(&mut self, index: usize, step: StepId) {
+        if let Some(statement) = self.statements.get_mut(index) {
+            statement.change = Change::Deleted(step);
+        }
+    }
+
+    /// Puts new statements in, each before the statement of its index (the count of statements for the end). Insertions of
+    /// one index keep their order. Indices are those before the call.
+    pub(crate) fn insert(&mut self, mut new: Vec<(usize, Vec<u8>, Record)>, step: StepId) {
+        if new.is_empty() {
+            return;
+        }
+        new.sort_by_key(|(index, _, _)| *index);
+        let mut merged = Vec::with_capacity(self.statements.len() + new.len());
+        let mut new = new.into_iter().peekable();
+        let old = std::mem::take(&mut self.statements);
+        let end = old.last().map_or(0, |last| last.origin.end);
+        for (index, statement) in old.into_iter().enumerate() {
+            while let Some((_, text, record)) = new.next_if(|(before, _, _)| *before <= index) {
+                let origin = Span { start: statement.origin.start, end: statement.origin.start };
+                let text = self.keep(&text);
+                merged.push(Statement { record, text, origin, change: Change::Inserted(step) });
+            }
+            merged.push(statement);
+        }
+        for (_, text, record) in new {
+            let text = self.keep(&text);
+            merged.push(Statement {
+                record,
+                text,
+                origin: Span { start: end, end },
+                change: Change::Inserted(step),
+            });
+        }
+        self.statements = merged;
+    }
+}

@@ -1,0 +1,226 @@
+//! Paths between two points: lines, arcs, helices and splines, in the program's frame and the file's unit.
+
+use nalgebra::{Point3, Unit, Vector3};
+use std::f64::consts::TAU;
+
+/// Points closer than this (in the file's unit) are one point: half of the fourth decimal, the coarsest that any measured
+/// dialect prints.
+pub const SAME_POINT: f64 = 5e-5;
+
+/// Where the tool is: its tip and its axis (from the tip into the holder, a unit vector).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// Cutter location.
+    pub point: Point3<f64>,
+    /// Tool axis.
+    pub axis: Vector3<f64>,
+}
+
+/// How the tool goes from one pose to the next.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Path {
+    /// Straight; the axis turns evenly (slerp) when it differs.
+    Line,
+    /// An arc or helix.
+    Arc(Box<Arc>),
+    /// A cubic B-spline.
+    Spline(Box<Spline>),
+    /// It stays (a FROM, or a point where nothing was known before).
+    Start,
+}
+
+/// An arc, right-hand about `axis`, from `start`; a helix when `rise` is not zero.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Arc {
+    /// Where it starts.
+    pub start: Point3<f64>,
+    /// A point of its axis.
+    pub center: Point3<f64>,
+    /// Its axis; the sweep is positive about it.
+    pub axis: Unit<Vector3<f64>>,
+    /// Radius: the distance of the start from the axis.
+    pub radius: f64,
+    /// Sweep in radians, positive.
+    pub sweep: f64,
+    /// Travel along the axis over the whole sweep.
+    pub rise: f64,
+}
+
+impl Arc {
+    /// The arc from `start` to `end` about `axis` (right-hand). Equal start and end make a full turn; `turns_more` are added.
+    pub fn between(
+        start: Point3<f64>,
+        end: Point3<f64>,
+        center: Point3<f64>,
+        axis: Unit<Vector3<f64>>,
+        turns_more: u32,
+    ) -> Self {
+        let from = flat(start - center, &axis);
+        let to = flat(end - center, &axis);
+        let mut sweep = axis.dot(&from.cross(&to)).atan2(from.dot(&to));
+        let full = (from - to).norm() <= SAME_POINT;
+        if full {
+            sweep = TAU;
+        } else if sweep <= 0.0 {
+            sweep += TAU;
+        }
+        sweep += TAU * f64::from(turns_more);
+        let rise = axis.dot(&(end - start));
+        Self { start, center, axis, radius: from.norm(), sweep, rise }
+    }
+
+    /// The point at a share `t` (0..=1) of the arc.
+    pub fn point(&self, t: f64) -> Point3<f64> {
+        let rotation = nalgebra::Rotation3::from_axis_angle(&self.axis, self.sweep * t);
+        self.center + rotation * (self.start - self.center) + self.axis.into_inner() * (self.rise * t)
+    }
+
+    /// The unit tangent at a share `t`; zero when the arc has no length.
+    pub fn tangent(&self, t: f64) -> Vector3<f64> {
+        let rotation = nalgebra::Rotation3::from_axis_angle(&self.axis, self.sweep * t);
+        let spoke = rotation * flat(self.start - self.center, &self.axis);
+        let derivative = self.axis.cross(&spoke) * self.sweep + self.axis.into_inner() * self.rise;
+        derivative.try_normalize(0.0).unwrap_or_default()
+    }
+
+    /// Length.
+    pub fn length(&self) -> f64 {
+        (self.radius * self.sweep).hypot(self.rise)
+    }
+
+    /// How far the end lies off the circle: the difference of its distance from the axis and the radius.
+    pub fn end_deviation(&self, end: Point3<f64>) -> f64 {
+        (flat(end - self.center, &self.axis).norm() - self.radius).abs()
+    }
+}
+
+fn flat(vector: Vector3<f64>, axis: &Unit<Vector3<f64>>) -> Vector3<f64> {
+    vector - axis.into_inner() * axis.dot(&vector)
+}
+
+/// A clamped cubic B-spline, as NX prints it: the first control point is where the tool is, the leading zero knots and the
+/// repeated last knot are left out (measured: CNTRL count = knot count + 2 in 70 of 70).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spline {
+    /// Control points, the start included.
+    pub controls: Vec<Point3<f64>>,
+    /// The full knot vector: control points + 4.
+    pub knots: Vec<f64>,
+}
+
+impl Spline {
+    /// The spline of printed knots and control points. `None` when the counts or the order of the knots do not fit.
+    pub fn clamped(start: Point3<f64>, printed_knots: &[f64], controls: &[Point3<f64>]) -> Option<Self> {
+        let last = *printed_knots.last()?;
+        let ascending = printed_knots.windows(2).all(|pair| matches!(pair, [a, b] if a <= b));
+        if controls.len() != printed_knots.len() + 2
+            || !ascending
+            || last <= 0.0
+            || printed_knots.first()? < &0.0
+        {
+            return None;
+        }
+        let knots = [&[0.0; 4], printed_knots, &[last; 3]].concat();
+        let controls = std::iter::once(start).chain(controls.iter().copied()).collect();
+        Some(Self { controls, knots })
+    }
+
+    /// The point at a share `t` (0..=1) of the parameter range (de Boor's algorithm).
+    pub fn point(&self, t: f64) -> Point3<f64> {
+        let count = self.controls.len();
+        let knot = |index: usize| self.knots.get(index).copied().unwrap_or_default();
+        let u = t.clamp(0.0, 1.0) * knot(self.knots.len().saturating_sub(1));
+        let span = (3..count).rev().find(|&span| knot(span) <= u && knot(span) < knot(span + 1)).unwrap_or(3);
+        let mut points: Vec<Vector3<f64>> =
+            self.controls.iter().skip(span - 3).take(4).map(|point| point.coords).collect();
+        for level in 1..=3 {
+            for index in (level..=3).rev() {
+                let low = knot(span + index - 3);
+                let high = knot(span + index + 1 - level);
+                let share = if high > low { (u - low) / (high - low) } else { 0.0 };
+                if let (Some(&left), Some(right)) = (points.get(index - 1), points.get(index).copied())
+                    && let Some(place) = points.get_mut(index)
+                {
+                    *place = left * (1.0 - share) + right * share;
+                }
+            }
+        }
+        points.get(3).copied().map(Point3::from).unwrap_or_else(Point3::origin)
+    }
+
+    /// The unit tangent at the start.
+    pub fn start_tangent(&self) -> Vector3<f64> {
+        let first = self.controls.first();
+        let next =
+            first.and_then(|first| self.controls.iter().find(|point| (*point - first).norm() > SAME_POINT));
+        match (first, next) {
+            (Some(first), Some(next)) => (next - first).normalize(),
+            _ => Vector3::zeros(),
+        }
+    }
+
+    /// The unit tangent at the end.
+    pub fn end_tangent(&self) -> Vector3<f64> {
+        let last = self.controls.last();
+        let before = last
+            .and_then(|last| self.controls.iter().rev().find(|point| (last - *point).norm() > SAME_POINT));
+        match (before, last) {
+            (Some(before), Some(last)) => (last - before).normalize(),
+            _ => Vector3::zeros(),
+        }
+    }
+
+    /// Length, by 16 chords for each knot span (relative error below 1e-3 for the spans CAM systems write).
+    pub fn length(&self) -> f64 {
+        let steps = 16 * self.controls.len().saturating_sub(3).max(1);
+        let mut length = 0.0;
+        let mut last = self.point(0.0);
+        for step in 1..=steps {
+            let next = self.point(step as f64 / steps as f64);
+            length += (next - last).norm();
+            last = next;
+        }
+        length
+    }
+}
+
+impl Path {
+    /// Length of the path from `from` to `to`.
+    pub fn length(&self, from: Point3<f64>, to: Point3<f64>) -> f64 {
+        match self {
+            Self::Start => 0.0,
+            Self::Line => (to - from).norm(),
+            Self::Arc(arc) => arc.length(),
+            Self::Spline(spline) => spline.length(),
+        }
+    }
+
+    /// Unit tangent at the end; `None` when the path has no length.
+    pub fn end_tangent(&self, from: Point3<f64>, to: Point3<f64>) -> Option<Vector3<f64>> {
+        let tangent = match self {
+            Self::Start => Vector3::zeros(),
+            Self::Line if (to - from).norm() > SAME_POINT => (to - from).normalize(),
+            Self::Line => Vector3::zeros(),
+            Self::Arc(arc) => arc.tangent(1.0),
+            Self::Spline(spline) => spline.end_tangent(),
+        };
+        (tangent.norm() > 0.5).then_some(tangent)
+    }
+
+    /// Points on the path that bound it within an arc's sagitta: both ends, and inside an arc every 15 degrees, inside a
+    /// spline its samples. For boxes and drawings.
+    pub fn samples(&self, from: Point3<f64>, to: Point3<f64>) -> Vec<Point3<f64>> {
+        match self {
+            Self::Start => vec![to],
+            Self::Line => vec![from, to],
+            Self::Arc(arc) => {
+                let steps = (arc.sweep / 15f64.to_radians()).ceil().clamp(1.0, 100_000.0) as usize;
+                (0..=steps).map(|step| arc.point(step as f64 / steps as f64)).collect()
+            }
+            Self::Spline(spline) => {
+                let steps = 8 * spline.controls.len();
+                (0..=steps).map(|step| spline.point(step as f64 / steps as f64)).collect()
+            }
+        }
+    }
+}

@@ -1,0 +1,140 @@
+//! Arcs: from the record that announces one and the points before and after it to the sense and sweep.
+
+use super::state::ProblemKind;
+use crate::program::dialect::ArcRule;
+use crate::program::geometry::{Arc, SAME_POINT};
+use crate::program::record::{ArcSense, Circle, DriveArc, MoveArc};
+use nalgebra::{Point3, Unit, Vector3};
+
+/// Radii may differ by the rounding of both points and the centre (measured: at most 0.0001 in every NX arc).
+const RADIUS_TOLERANCE: f64 = 2e-3;
+
+/// An arc that waits for its end point.
+#[derive(Debug, Clone)]
+pub(super) enum PendingArc {
+    Circle(Circle),
+    MoveArc(MoveArc),
+    Drive(DriveArc),
+}
+
+/// The arc, if there is one, and what is wrong with it.
+pub(super) struct Resolved {
+    pub(super) arc: Option<Arc>,
+    pub(super) problems: Vec<ProblemKind>,
+}
+
+impl PendingArc {
+    /// `direction` is INDIRV, `before` the unit tangent of the feed motion before.
+    pub(super) fn resolve(
+        self,
+        rule: ArcRule,
+        start: Point3<f64>,
+        end: Point3<f64>,
+        direction: Option<Vector3<f64>>,
+        before: Option<Vector3<f64>>,
+    ) -> Resolved {
+        match self {
+            Self::Circle(circle) => of_circle(&circle, rule, start, end, before),
+            Self::MoveArc(arc) => of_move_arc(&arc, start, end),
+            Self::Drive(arc) => of_drive(&arc, start, end, direction),
+        }
+    }
+}
+
+fn of_circle(
+    circle: &Circle,
+    rule: ArcRule,
+    start: Point3<f64>,
+    end: Point3<f64>,
+    before: Option<Vector3<f64>>,
+) -> Resolved {
+    let mut problems = Vec::new();
+    let printed = Unit::new_normalize(circle.axis);
+    let counter_clockwise = match (circle.sense, rule) {
+        (ArcSense::Clockwise, _) => false,
+        (ArcSense::CounterClockwise, _) => true,
+        (ArcSense::OfDialect, ArcRule::LeftHand) => false,
+        (ArcSense::OfDialect, ArcRule::RightHand | ArcRule::ByWord) => true,
+        (ArcSense::OfDialect, ArcRule::FromTangent) => {
+            let tangent = printed.cross(&(start - circle.center));
+            match before.map(|before| before.dot(&tangent)) {
+                Some(along) if along.abs() > 0.9 * tangent.norm() => along > 0.0,
+                _ => {
+                    problems.push(ProblemKind::AssumedSense);
+                    true
+                }
+            }
+        }
+    };
+    let axis = if counter_clockwise { printed } else { -printed };
+    let arc = Arc::between(start, end, circle.center, axis, circle.times - 1);
+    if let Some(radius) = circle.radius {
+        let off = (radius - arc.radius).abs();
+        if off > RADIUS_TOLERANCE {
+            problems.push(ProblemKind::ArcStartOffCircle(off));
+        }
+    }
+    check_end(&arc, end, &mut problems);
+    Resolved { arc: Some(arc), problems }
+}
+
+fn of_move_arc(record: &MoveArc, start: Point3<f64>, end: Point3<f64>) -> Resolved {
+    let mut problems = Vec::new();
+    let mut arc = Arc::between(start, end, record.center, Unit::new_normalize(record.axis), 0);
+    if let Some(degrees) = record.sweep_degrees {
+        let told = degrees.to_radians();
+        // The end point and the angle both say where the arc ends; whole turns only the angle can say.
+        let turns = ((told - arc.sweep) / std::f64::consts::TAU).round().clamp(0.0, 10_000.0);
+        arc.sweep += turns * std::f64::consts::TAU;
+    }
+    let off = (record.radius - arc.radius).abs();
+    if off > RADIUS_TOLERANCE {
+        problems.push(ProblemKind::ArcStartOffCircle(off));
+    }
+    check_end(&arc, end, &mut problems);
+    Resolved { arc: Some(arc), problems }
+}
+
+/// CATIA gives the start tangent; the arc's plane holds it and the spoke, and its axis turns the spoke into the tangent.
+fn of_drive(
+    record: &DriveArc,
+    start: Point3<f64>,
+    end: Point3<f64>,
+    direction: Option<Vector3<f64>>,
+) -> Resolved {
+    let mut problems = Vec::new();
+    let spoke = start - record.center;
+    let Some(direction) = direction.filter(|direction| direction.norm() > 1e-6) else {
+        return Resolved { arc: None, problems: vec![ProblemKind::TangentMismatch] };
+    };
+    let normal = spoke.cross(&direction);
+    if normal.norm() < 0.5 * spoke.norm() * direction.norm() || spoke.norm() < SAME_POINT {
+        return Resolved { arc: None, problems: vec![ProblemKind::TangentMismatch] };
+    }
+    // Five printed decimals tilt the normal a little; the exact plane is that of start, end and centre where they span one.
+    let through_end = spoke.cross(&(end - record.center));
+    let exact = if through_end.norm() > 1e-3 * spoke.norm_squared() {
+        through_end * through_end.dot(&normal).signum()
+    } else {
+        normal
+    };
+    let arc = Arc::between(start, end, record.center, Unit::new_normalize(exact), 0);
+    let off = (record.radius - arc.radius).abs();
+    if off > RADIUS_TOLERANCE {
+        problems.push(ProblemKind::ArcStartOffCircle(off));
+    }
+    check_end(&arc, end, &mut problems);
+    if record.beyond_half != (arc.sweep > std::f64::consts::PI + 1e-4)
+        && (arc.sweep - std::f64::consts::PI).abs() > 1e-3
+    {
+        problems.push(ProblemKind::TangentMismatch);
+    }
+    Resolved { arc: Some(arc), problems }
+}
+
+fn check_end(arc: &Arc, end: Point3<f64>, problems: &mut Vec<ProblemKind>) {
+    let off = arc.end_deviation(end);
+    if off > RADIUS_TOLERANCE {
+        problems.push(ProblemKind::ArcEndOffCircle(off));
+    }
+}

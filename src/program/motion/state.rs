@@ -1,0 +1,126 @@
+//! The modal state of a CL program.
+
+use crate::program::class::MotionClass;
+use crate::program::geometry::Pose;
+use crate::program::record::{CutterCompensation, Cycle, Spindle, ToolData};
+use crate::program::{Feed, LengthUnit};
+use nalgebra::{Matrix3, Vector3};
+use std::sync::Arc;
+
+/// The tool in force.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Tool {
+    /// Its number, once a record has said it.
+    pub number: Option<u32>,
+    /// Its name, where the file has one (NX: in `TOOL PATH/`).
+    pub name: Option<String>,
+    /// Its shape, as far as the file says.
+    pub data: Option<ToolData>,
+    /// Whether a record loaded it (an NX path without LOAD/TOOL only describes it).
+    pub loaded: bool,
+}
+
+/// Where the printed coordinates stand: `outside = origin + axes * printed`.
+///
+/// The direction of CSYS, CAMERA and CATIA0 matrices is the file's own statement; for NX it is measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    /// The statement that set it (of a CATIA0 matrix: its mark).
+    pub statement: usize,
+    /// Origin.
+    pub origin: Vector3<f64>,
+    /// Axes as columns.
+    pub axes: Matrix3<f64>,
+}
+
+/// A problem met while motions were resolved, for `check`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Problem {
+    /// The statement it is about.
+    pub statement: usize,
+    /// What is wrong.
+    pub kind: ProblemKind,
+}
+
+/// Kinds of [`Problem`].
+#[derive(Debug, Clone, PartialEq)]
+pub enum ProblemKind {
+    /// RAPID with no motion after it.
+    RapidWithoutMotion,
+    /// CIRCLE, MOVARC or INDIRV with no end point after it.
+    ArcWithoutEnd,
+    /// The end of the arc lies off its circle by this much.
+    ArcEndOffCircle(f64),
+    /// The start of the arc lies off its circle (printed radius and distance differ) by this much.
+    ArcStartOffCircle(f64),
+    /// An arc or step from a place that no statement has told.
+    UnknownStart,
+    /// The start tangent (INDIRV) and the arc do not fit.
+    TangentMismatch,
+    /// NURBS, KNOT and CNTRL counts or order do not fit.
+    BrokenSpline,
+    /// A stored sense of an arc was not told and had to be assumed right-hand.
+    AssumedSense,
+    /// A CATIA0 mark without three rows of four numbers.
+    BrokenFrame,
+}
+
+/// Everything modal.
+#[derive(Debug, Clone)]
+pub struct State {
+    /// Where the tool is, once known.
+    pub pose: Option<Pose>,
+    /// The axis in force.
+    pub axis: Vector3<f64>,
+    /// Whether MULTAX is in force.
+    pub multi_axis: bool,
+    /// Feed, and the statement that set it.
+    pub feed: Option<(Feed, usize)>,
+    /// Spindle.
+    pub spindle: Option<Arc<Spindle>>,
+    /// Tool.
+    pub tool: Option<Arc<Tool>>,
+    /// Frame.
+    pub frame: Option<Arc<Frame>>,
+    /// TRANS and ORIGIN: the shift that the post will add.
+    pub shift: Vector3<f64>,
+    /// Cutter compensation, and the statement that set it.
+    pub compensation: Option<(CutterCompensation, usize)>,
+    /// Cycle, and the statement that set it.
+    pub cycle: Option<(Arc<Cycle>, usize)>,
+    /// Class of motion that the file has marked.
+    pub marked: Option<MotionClass>,
+    /// Unit of lengths, where the file says it.
+    pub units: Option<LengthUnit>,
+    /// Index of the operation.
+    pub operation: usize,
+}
+
+impl Default for State {
+    fn default() -> Self {
+        Self {
+            pose: None,
+            axis: Vector3::z(),
+            multi_axis: false,
+            feed: None,
+            spindle: None,
+            tool: None,
+            frame: None,
+            shift: Vector3::zeros(),
+            compensation: None,
+            cycle: None,
+            marked: None,
+            units: None,
+            operation: 0,
+        }
+    }
+}
+
+impl State {
+    /// Changes the tool in force; `change` sees a copy of it.
+    pub(super) fn change_tool(&mut self, change: impl FnOnce(&mut Tool)) {
+        let mut tool = self.tool.as_deref().cloned().unwrap_or_default();
+        change(&mut tool);
+        self.tool = Some(Arc::new(tool));
+    }
+}

@@ -1,0 +1,133 @@
+//! Drilling cycles: `CYCLE/DRILL,...` and the holes after it.
+
+use super::{BadRecord, Reading, Record, Role};
+use crate::program::syntax::{Field, FieldKind, Syntax, folded};
+use crate::program::units::{Feed, FeedUnit};
+
+/// What the cycle does in the hole.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CycleKind {
+    /// Down at feed, up at rapid (DRILL, CDRILL, CSINK, BRKCHP, DEEP, ...).
+    Drill,
+    /// Down and up at feed (TAP, BORE, REAM, THREAD, MILL).
+    FeedOut,
+}
+
+/// A drilling cycle. Distances are relative to the hole's point along the tool axis, in the file's unit; signs as printed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cycle {
+    /// What happens in the hole.
+    pub kind: CycleKind,
+    /// `FEDTO`, `DEPTH`, or the first bare number.
+    pub depth: Option<f64>,
+    /// Whether `depth` came from `FEDTO`: NX prints a coordinate there (negative is down), others a depth.
+    pub depth_is_fedto: bool,
+    /// `RAPTO`, `CLEAR`, or the bare number that stands for it.
+    pub clearance: Option<f64>,
+    /// `RTRCTO`, `RETURN`; `AUTO` is `None`.
+    pub retract: Option<f64>,
+    /// Feed, where the record has one.
+    pub feed: Option<Feed>,
+}
+
+pub(super) fn read(major: &str, syntax: &Syntax<'_>) -> Reading {
+    if major != "CYCLE" {
+        return None;
+    }
+    let first = syntax.word_at(0).unwrap_or_default();
+    Some(match first.as_str() {
+        "OFF" | "NOMORE" => Ok(Record::CycleOff),
+        // CLT's CYCLE/ ON and SolidWorks' CYCLE/INIT announce a cycle; NX's CYCLE/ON,FEDTO,... changes the one in force.
+        "ON" | "INIT" if syntax.fields.len() == 1 => Ok(Record::CycleOn),
+        "" => Ok(Record::CycleOn),
+        _ => cycle(&first, syntax).map(|cycle| Record::Cycle(Box::new(cycle))),
+    })
+}
+
+/// A number of the cycle with the word that governs it.
+enum Item {
+    Word(String),
+    Number(f64),
+}
+
+fn items(syntax: &Syntax<'_>) -> Vec<Item> {
+    let words = |field: &Field| {
+        let text = folded(syntax.bytes(&field.at));
+        text.split(' ').map(|word| Item::Word(word.to_owned())).collect::<Vec<_>>()
+    };
+    let item = |field: &Field| match &field.kind {
+        FieldKind::Number(value) => vec![Item::Number(*value)],
+        FieldKind::Text => words(field),
+        _ => Vec::new(),
+    };
+    syntax.fields.iter().flat_map(item).collect()
+}
+
+fn cycle(first: &str, syntax: &Syntax<'_>) -> Result<Cycle, BadRecord> {
+    let kind = match first.split(' ').next().unwrap_or_default() {
+        "TAP" | "BORE" | "REAM" | "THREAD" | "MILL" | "BORE1" | "BORE2" | "RTAP" => CycleKind::FeedOut,
+        _ => CycleKind::Drill,
+    };
+    let mut cycle =
+        Cycle { kind, depth: None, depth_is_fedto: false, clearance: None, retract: None, feed: None };
+    let mut bare = Vec::new();
+    let mut word = String::new();
+    for item in items(syntax) {
+        let value = match item {
+            Item::Word(next) => {
+                word = next;
+                continue;
+            }
+            Item::Number(value) => value,
+        };
+        match word.as_str() {
+            "FEDTO" => (cycle.depth, cycle.depth_is_fedto) = (Some(value), true),
+            "DEPTH" => cycle.depth = Some(value),
+            "RAPTO" | "CLEAR" => cycle.clearance = Some(value),
+            "RTRCTO" | "RETURN" => cycle.retract = Some(value),
+            unit if FeedUnit::of_word(unit).is_some() && cycle.feed.is_none() => {
+                cycle.feed = Some(Feed { value, unit: FeedUnit::of_word(unit) });
+                // What follows the feed without a word is the clearance (CLT, ISO): not another feed.
+                word = "AFTER-FEED".to_owned();
+                continue;
+            }
+            "STEP" | "INCR" | "1STPECK" | "SUBPECK" | "PECKING" | "DWELL" | "RTRCTO-STEP" => {}
+            _ => bare.push(value),
+        }
+        if !keeps_governing(&word) {
+            word = String::new();
+        }
+    }
+    // Positional forms: CATIA depth,clearance; ISO depth,feed,clearance; CLT depth ... feed,clearance,retract,retract.
+    let mut bare = bare.into_iter();
+    cycle.depth = cycle.depth.or_else(|| bare.next());
+    cycle.clearance = cycle.clearance.or_else(|| bare.next());
+    cycle.retract = cycle.retract.or_else(|| bare.next());
+    Ok(cycle)
+}
+
+/// CLT writes two numbers after PECKING.
+fn keeps_governing(word: &str) -> bool {
+    word == "PECKING"
+}
+
+pub(super) fn roles(syntax: &Syntax<'_>) -> Vec<Role> {
+    let mut roles = Vec::new();
+    let mut word = String::new();
+    for item in items(syntax) {
+        match item {
+            Item::Word(next) => word = next,
+            Item::Number(_) => {
+                roles.push(match word.as_str() {
+                    unit if FeedUnit::of_word(unit).is_some() => Role::Feed,
+                    "DWELL" | "TIMES" | "REV" | "SPINDL" | "RPM" => Role::Plain,
+                    _ => Role::Length,
+                });
+                if !keeps_governing(&word) {
+                    word = String::new();
+                }
+            }
+        }
+    }
+    roles
+}

@@ -1,0 +1,93 @@
+//! Frames: where the program's coordinates stand in the part, and shifts and turns of them.
+
+use super::{BadRecord, Reading, Record, Role, all_numbers, wrong_count};
+use crate::program::syntax::{Form, Syntax};
+
+/// The word of a frame record; the meaning of its numbers hangs on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FrameWord {
+    /// NX `MSYS/`: origin, x axis, y axis (9 numbers).
+    Msys,
+    /// `CSYS/`, `$$-> CSYS /`, `CAMERA/`: three rows of x, y, z column and translation (12 numbers).
+    Csys,
+    /// `TRANS/dx,dy,dz`: the post adds this to every point.
+    Trans,
+    /// `ORIGIN/x,y,z`: the post subtracts this from every point.
+    Origin,
+    /// `ROTABL/`, `ROTHED/`: a rotary axis turns.
+    Rotary,
+}
+
+/// A frame record and its numbers as printed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrameRecord {
+    /// The word.
+    pub word: FrameWord,
+    /// Its numbers.
+    pub numbers: Vec<f64>,
+}
+
+pub(super) fn read(major: &str, syntax: &Syntax<'_>) -> Reading {
+    let (word, takes, counts): (_, _, &[usize]) = match major {
+        "MSYS" => (FrameWord::Msys, "9 numbers", &[9]),
+        "CSYS" | "CAMERA" => (FrameWord::Csys, "12 numbers", &[12]),
+        "TRANS" => (FrameWord::Trans, "3 numbers", &[3]),
+        "ORIGIN" => (FrameWord::Origin, "3 numbers", &[3]),
+        "ROTABL" | "ROTHED" => {
+            let numbers = syntax.fields.iter().filter_map(|field| field.number()).collect();
+            return Some(Ok(Record::Frame(Box::new(FrameRecord { word: FrameWord::Rotary, numbers }))));
+        }
+        _ => return None,
+    };
+    if syntax.fields.is_empty()
+        || syntax.word_at(0).is_some_and(|word| word.starts_with(|c: char| c.is_ascii_alphabetic()))
+    {
+        return Some(Ok(Record::Known));
+    }
+    Some(all_numbers(syntax).and_then(|numbers| {
+        if counts.contains(&numbers.len()) {
+            Ok(Record::Frame(Box::new(FrameRecord { word, numbers })))
+        } else {
+            Err(wrong_count(major, syntax, takes, numbers.len()))
+        }
+    }))
+}
+
+pub(super) fn matrix_row(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
+    debug_assert_eq!(syntax.form, Form::MatrixRow);
+    match all_numbers(syntax)?.as_slice() {
+        [a, b, c, d] => Ok(Record::MatrixRow(Box::new([*a, *b, *c, *d]))),
+        other => Err(wrong_count("a matrix row", syntax, "4 numbers", other.len())),
+    }
+}
+
+pub(super) fn roles(record: &Record) -> Vec<Role> {
+    let word = match record {
+        Record::Frame(frame) => frame.word,
+        // Which row it is only the statements before it say; the frame view gives rows their roles.
+        _ => return Vec::new(),
+    };
+    match word {
+        FrameWord::Msys => [origin(), frame_axis(0), frame_axis(1)].concat(),
+        FrameWord::Csys => (0..3)
+            .flat_map(|row| {
+                [
+                    Role::FrameAxis(0, row),
+                    Role::FrameAxis(1, row),
+                    Role::FrameAxis(2, row),
+                    Role::FrameOrigin(row),
+                ]
+            })
+            .collect(),
+        FrameWord::Trans | FrameWord::Origin => vec![Role::Length; 3],
+        FrameWord::Rotary => Vec::new(),
+    }
+}
+
+fn origin() -> Vec<Role> {
+    vec![Role::FrameOrigin(0), Role::FrameOrigin(1), Role::FrameOrigin(2)]
+}
+
+fn frame_axis(axis: u8) -> Vec<Role> {
+    (0..3).map(|component| Role::FrameAxis(axis, component)).collect()
+}

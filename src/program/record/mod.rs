@@ -1,0 +1,245 @@
+//! Records: what a statement means, read from its [`Syntax`].
+//!
+//! One file per family. Each family reads its records and says, number by number, what role a number plays
+//! ([`Role`]), so that geometric and unit transforms need no list of records of their own. A record that stands here is
+//! well formed; a known word with wrong arguments is a [`BadRecord`].
+
+mod cycle;
+mod feed;
+mod frame;
+mod path;
+mod role;
+mod structure;
+mod tool;
+
+pub use cycle::{Cycle, CycleKind};
+pub use feed::{CutterCompensation, Side, Spindle, SpindleDirection, SpindleUnit};
+pub use frame::{FrameRecord, FrameWord};
+pub use path::{ArcSense, Circle, DriveArc, Goto, MoveArc};
+pub(crate) use path::{is_contact, is_poses};
+pub use role::Role;
+pub use structure::{MarkedMotion, StructureName};
+pub use tool::{ToolCall, ToolData, ToolWord};
+
+use super::syntax::{Form, Syntax};
+use super::units::{Feed, LengthUnit};
+use nalgebra::{Point3, Vector3};
+use std::ops::Range;
+
+/// What a statement means. Kept small (see the test): a file has a record for each of its statements.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Record {
+    /// The UTF-8 byte order mark in front of the first statement.
+    ByteOrderMark,
+    /// Nothing.
+    Blank,
+    /// `$$ ...` with no meaning for the tool path.
+    Comment,
+
+    /// `GOTO/` one point, with or without a tool axis.
+    Goto(Goto),
+    /// `GOTO/` several points or a point with axis and contact normal, and lines of bare numbers that continue it.
+    Points(Box<[f64]>),
+    /// `FROM/`: where the tool is.
+    From(Box<Goto>),
+    /// `GOHOME`, with or without a point.
+    GoHome(Option<Box<Goto>>),
+    /// `GODLTA/`: a step from where the tool is (one number steps along the tool axis).
+    GoDelta(Box<[f64]>),
+    /// `CIRCLE/`: the next GOTO is the end of an arc.
+    Circle(Box<Circle>),
+    /// `MOVARC/`: the next GOTO is the end of a right-hand arc of a given angle.
+    MoveArc(Box<MoveArc>),
+    /// `INDIRV/`: the direction in which the next drive motion starts.
+    StartDirection(Box<Vector3<f64>>),
+    /// CATIA's `TLON,GOFWD/(CIRCLE/...),ON,(LINE/...)`: an arc with its end in the record.
+    DriveArc(Box<DriveArc>),
+    /// `NURBS/`: a spline follows.
+    Nurbs,
+    /// `KNOT/`: knots of the spline.
+    Knot(Box<[f64]>),
+    /// `CNTRL/`: a control point; the last one is where the tool ends.
+    Control(Box<Point3<f64>>),
+    /// `RAPID`: the next motion, and only that, is a rapid.
+    Rapid,
+
+    /// `FEDRAT/`.
+    Feed(Feed),
+    /// `SPINDL/`.
+    Spindle(Box<Spindle>),
+    /// `CUTCOM/`.
+    CutterCompensation(CutterCompensation),
+
+    /// `LOAD/TOOL`, `LOADTL/`, `TOOLNO/`: a tool by number.
+    ToolCall(ToolCall),
+    /// `TLDATA/`, `CUTTER/`, Creo's `$$-> CUTTER`: the shape of the tool.
+    ToolData(Box<ToolData>),
+    /// `TLAXIS/`.
+    ToolAxis(Box<Vector3<f64>>),
+    /// `MULTAX`, `MULTAX/ON`, `MULTAX/OFF`.
+    MultiAxis(bool),
+
+    /// `MSYS/`, `CSYS/`, `CAMERA/`, `TRANS/`, `ORIGIN/`, `ROTABL/`: a frame or a turn of one.
+    Frame(Box<FrameRecord>),
+    /// CATIA's `$$*CATIA0`: a matrix follows in comments.
+    FrameMark,
+    /// `$$` and four numbers: a row of that matrix, where one is expected.
+    MatrixRow(Box<[f64; 4]>),
+
+    /// `CYCLE/DRILL,...`: each following GOTO is a hole.
+    Cycle(Box<Cycle>),
+    /// `CYCLE/ON`: the cycle goes on.
+    CycleOn,
+    /// `CYCLE/OFF`.
+    CycleOff,
+
+    /// A word that says what kind of motion follows (`PAINT/COLOR`, FF's `PPRINT/MOTION`, CLT's `MOVE_ATTRIB`).
+    Marked(MarkedMotion),
+    /// An operation starts; its name is in the text.
+    OperationStart(StructureName),
+    /// An operation ends.
+    OperationEnd,
+    /// `UNITS/`, `UNIT/`.
+    Units(LengthUnit),
+    /// `FINI`, `END`: the program ends.
+    ProgramEnd,
+    /// Text for people: `PPRINT`, `PARTNO`, `INSERT`, `TPRINT`, `REMARK`.
+    Text,
+
+    /// A known word without effect on the tool path (`COOLNT`, `PAINT/PATH`, `INTOL`, ...).
+    Known,
+    /// A word clsmith does not know; kept and passed on.
+    Other,
+    /// A statement of an APT part program.
+    Definition,
+    /// What the grammar refused, or a known word with wrong arguments; kept and passed on.
+    Unparsed,
+}
+
+/// Why a known word cannot be read as its record: which bytes of the statement, and what is wrong there.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BadRecord {
+    /// Place in the statement's text.
+    pub at: Range<usize>,
+    /// What is wrong, for a person.
+    pub problem: String,
+    /// Whether a number was expected and something else was found.
+    pub is_number: bool,
+}
+
+impl Record {
+    /// Reads the meaning of a statement.
+    ///
+    /// # Errors
+    /// [`BadRecord`] for a known word whose arguments do not fit. Refused text is no error here: it is [`Record::Unparsed`].
+    pub fn read(syntax: &Syntax<'_>) -> Result<Self, BadRecord> {
+        match syntax.form {
+            Form::Blank => return Ok(Self::Blank),
+            Form::Comment => return Ok(structure::comment(syntax)),
+            Form::FrameMark => return Ok(Self::FrameMark),
+            Form::MatrixRow => return frame::matrix_row(syntax),
+            Form::Definition => return Ok(Self::Definition),
+            Form::Refused => return Ok(Self::Unparsed),
+            Form::OperationStart => return Ok(structure::tool_path(syntax)),
+            Form::FreeText => return Ok(structure::free_text(syntax)),
+            Form::Numbers => return path::numbers(syntax),
+            Form::Structured | Form::Words => {}
+        }
+        let major = syntax.major();
+        let families = [path::read, feed::read, tool::read, frame::read, cycle::read, structure::read];
+        for family in families {
+            if let Some(record) = family(&major, syntax) {
+                return record;
+            }
+        }
+        Ok(Self::Other)
+    }
+
+    /// What each number of a statement is, in the order of [`Syntax::numbers`].
+    ///
+    /// A number whose role is not known is [`Role::Plain`]; transforms never touch those.
+    pub fn roles(&self, syntax: &Syntax<'_>) -> Vec<Role> {
+        let count = syntax.numbers().len();
+        let mut roles = match self {
+            Self::Goto(_)
+            | Self::Points(_)
+            | Self::From(_)
+            | Self::GoHome(_)
+            | Self::GoDelta(_)
+            | Self::Circle(_)
+            | Self::MoveArc(_)
+            | Self::StartDirection(_)
+            | Self::DriveArc(_)
+            | Self::Knot(_)
+            | Self::Control(_) => path::roles(self, count),
+            Self::Feed(_) | Self::Spindle(_) => feed::roles(self, syntax),
+            Self::ToolData(_) | Self::ToolAxis(_) | Self::ToolCall(_) => tool::roles(self, syntax),
+            Self::Frame(_) | Self::MatrixRow(_) => frame::roles(self),
+            Self::Cycle(_) => cycle::roles(syntax),
+            Self::Known => structure::roles(syntax),
+            _ => Vec::new(),
+        };
+        roles.resize(count, Role::Plain);
+        roles
+    }
+
+    /// Whether the statement moves the tool, or is the end of a motion that statements before it describe.
+    pub fn is_motion(&self) -> bool {
+        matches!(
+            self,
+            Self::Goto(_)
+                | Self::Points(_)
+                | Self::GoHome(_)
+                | Self::GoDelta(_)
+                | Self::DriveArc(_)
+                | Self::Control(_)
+        )
+    }
+}
+
+/// What a family's reader gives: `None` when the word is not of the family.
+type Reading = Option<Result<Record, BadRecord>>;
+
+fn bad(at: Range<usize>, problem: impl Into<String>) -> BadRecord {
+    BadRecord { at, problem: problem.into(), is_number: false }
+}
+
+/// All fields as numbers, ignoring one trailing empty field (CLT ends its lists with a comma).
+///
+/// # Errors
+/// The first field that is no number.
+fn all_numbers(syntax: &Syntax<'_>) -> Result<Vec<f64>, BadRecord> {
+    let mut fields = syntax.fields.as_slice();
+    if let Some((last, rest)) = fields.split_last()
+        && last.kind == super::syntax::FieldKind::Empty
+    {
+        fields = rest;
+    }
+    fields.iter().map(|field| number(syntax, field)).collect()
+}
+
+fn number(syntax: &Syntax<'_>, field: &super::syntax::Field) -> Result<f64, BadRecord> {
+    field.number().ok_or_else(|| {
+        let text = String::from_utf8_lossy(syntax.bytes(&field.at)).into_owned();
+        let problem =
+            if text.is_empty() { "a number is missing".into() } else { format!("`{text}` is not a number") };
+        BadRecord { at: field.at.clone(), problem, is_number: true }
+    })
+}
+
+fn wrong_count(major: &str, syntax: &Syntax<'_>, takes: &str, found: usize) -> BadRecord {
+    let start = syntax.word.start;
+    let end = syntax.fields.last().map_or(syntax.word.end, |field| field.at.end.max(syntax.word.end));
+    bad(start..end, format!("{major} takes {takes}, this has {found}"))
+}
+
+fn point(numbers: &[f64]) -> Option<Point3<f64>> {
+    match numbers {
+        [x, y, z, ..] => Some(Point3::new(*x, *y, *z)),
+        _ => None,
+    }
+}
+
+fn vector(numbers: &[f64]) -> Option<Vector3<f64>> {
+    point(numbers).map(|point| point.coords)
+}

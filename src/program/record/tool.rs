@@ -1,0 +1,155 @@
+//! Tools: their numbers, shapes and axis.
+
+use super::{BadRecord, Reading, Record, Role, all_numbers, path, wrong_count};
+use crate::program::syntax::{FieldKind, Form, Syntax};
+
+/// Which word described a tool's shape; the meaning of its numbers hangs on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ToolWord {
+    /// NX `TLDATA/MILL,D,corner radius,length,taper,tip`.
+    TlDataMill,
+    /// NX `TLDATA/DRILL[,MILL],D,corner radius,length,point angle,flute length`.
+    TlDataDrill,
+    /// NX `TLDATA/` of another kind (TURN, WEDM, ...): kept, no shape known.
+    TlDataOther,
+    /// `CUTTER/d[,r,e,f,a,b,h]`, the standard's seven parameters.
+    Cutter,
+    /// `CUTTER/d` in a comment of Creo: the diameter.
+    CreoCutter,
+}
+
+/// Shape of a tool as far as the CL data says. Lengths in the file's unit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ToolData {
+    /// The record's word.
+    pub word: ToolWord,
+    /// Diameter (of a lathe tool: of its nose).
+    pub diameter: Option<f64>,
+    /// Corner radius.
+    pub corner_radius: Option<f64>,
+    /// Length below the holder.
+    pub length: Option<f64>,
+    /// Flank taper against the axis in degrees.
+    pub taper_degrees: Option<f64>,
+    /// Angle of the tip: of a drill the full point angle, of a mill the angle of its bottom against the plane.
+    pub tip_degrees: Option<f64>,
+    /// Length of the flutes.
+    pub flute_length: Option<f64>,
+}
+
+/// A tool by number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ToolCall {
+    /// Number of the tool.
+    pub number: u32,
+    /// Whether the record loads it (`LOAD/TOOL`, `LOADTL`), or only names it (`TOOLNO`).
+    pub loads: bool,
+}
+
+pub(super) fn read(major: &str, syntax: &Syntax<'_>) -> Reading {
+    Some(match major {
+        "TLDATA" => tl_data(syntax),
+        "CUTTER" => cutter(syntax),
+        "LOADTL" => call(major, syntax, 0, true),
+        "TOOLNO" => call(major, syntax, 0, false),
+        "LOAD" if syntax.word_at(0).as_deref() == Some("TOOL") => call(major, syntax, 1, true),
+        "TLAXIS" => axis(major, syntax),
+        "MULTAX" => Ok(Record::MultiAxis(syntax.word_at(0).as_deref() != Some("OFF"))),
+        _ => return None,
+    })
+}
+
+fn call(major: &str, syntax: &Syntax<'_>, at: usize, loads: bool) -> Result<Record, BadRecord> {
+    match syntax.number_at(at) {
+        Some(number) if number.fract() == 0.0 && (0.0..1e9).contains(&number) => {
+            Ok(Record::ToolCall(ToolCall { number: number as u32, loads }))
+        }
+        Some(_) => Err(wrong_count(major, syntax, "a whole tool number", 1)),
+        // LOADTL/NOMORE, TOOLNO/'name': a name, or a post's own word.
+        None => Ok(Record::Known),
+    }
+}
+
+fn tl_data(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
+    let words = syntax.fields.iter().take_while(|field| matches!(field.kind, FieldKind::Text)).count();
+    let rest: Option<Vec<f64>> = syntax.fields.iter().skip(words).map(|field| field.number()).collect();
+    let word = match (syntax.word_at(0).as_deref(), &rest) {
+        (Some("MILL"), Some(rest)) if rest.len() >= 3 => ToolWord::TlDataMill,
+        (Some("DRILL"), Some(rest)) if rest.len() >= 3 => ToolWord::TlDataDrill,
+        (Some("MILL" | "DRILL"), Some(rest)) => {
+            return Err(wrong_count(
+                "TLDATA",
+                syntax,
+                "a diameter, a corner radius and a length at least",
+                rest.len(),
+            ));
+        }
+        _ => ToolWord::TlDataOther,
+    };
+    let rest = rest.unwrap_or_default();
+    let at = |index: usize| rest.get(index).copied();
+    let known = word != ToolWord::TlDataOther;
+    let drill = word == ToolWord::TlDataDrill;
+    Ok(Record::ToolData(Box::new(ToolData {
+        word,
+        diameter: at(0).filter(|_| known),
+        corner_radius: at(1).filter(|_| known),
+        length: at(2).filter(|_| known),
+        taper_degrees: at(3).filter(|_| word == ToolWord::TlDataMill),
+        tip_degrees: if drill { at(3) } else { at(4).filter(|_| known) },
+        flute_length: at(4).filter(|_| drill),
+    })))
+}
+
+fn cutter(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
+    // CUTTER/OPTION,... and the like set no shape.
+    if syntax.word_at(0).is_some_and(|word| !word.starts_with(|first: char| first.is_ascii_digit())) {
+        return Ok(Record::Known);
+    }
+    let numbers = all_numbers(syntax)?;
+    let at = |index: usize| numbers.get(index).copied();
+    if at(0).is_none() {
+        return Err(wrong_count("CUTTER", syntax, "a diameter, or seven numbers", 0));
+    }
+    let word = if syntax.form == Form::Structured { ToolWord::CreoCutter } else { ToolWord::Cutter };
+    Ok(Record::ToolData(Box::new(ToolData {
+        word,
+        diameter: at(0),
+        corner_radius: at(1),
+        length: at(6),
+        taper_degrees: at(5),
+        // The standard's alpha is the angle of the bottom against the plane, 31 for a 118 degree drill.
+        tip_degrees: at(4),
+        flute_length: None,
+    })))
+}
+
+fn axis(major: &str, syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
+    // TLAXIS/NORMPS, TLAXIS/OFF: words of part programs and posts.
+    if syntax.word_at(0).is_some_and(|word| word.starts_with(|first: char| first.is_ascii_alphabetic())) {
+        return Ok(Record::Known);
+    }
+    path::one_vector(major, syntax).map(|axis| Record::ToolAxis(Box::new(axis)))
+}
+
+pub(super) fn roles(record: &Record, syntax: &Syntax<'_>) -> Vec<Role> {
+    let count = syntax.numbers().len();
+    match record {
+        Record::ToolAxis(_) => vec![Role::Direction(0), Role::Direction(1), Role::Direction(2)],
+        Record::ToolData(data) => (0..count).map(|index| length_or_plain(data.word, index)).collect(),
+        // TOOLNO/2,10.0 (CATIA): number, then the diameter; the long forms mix angles, feeds and lengths.
+        Record::ToolCall(call) if !call.loads && count == 2 => vec![Role::Plain, Role::Length],
+        _ => vec![Role::Plain; count],
+    }
+}
+
+fn length_or_plain(word: ToolWord, index: usize) -> Role {
+    let length = match word {
+        ToolWord::TlDataMill => index <= 2,
+        ToolWord::TlDataDrill => index != 3,
+        ToolWord::Cutter => matches!(index, 0..=3 | 6),
+        ToolWord::CreoCutter => true,
+        ToolWord::TlDataOther => false,
+    };
+    if length { Role::Length } else { Role::Plain }
+}

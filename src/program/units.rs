@@ -1,0 +1,122 @@
+//! Units of length, feed and spindle speed.
+
+use serde::{Deserialize, Serialize};
+
+/// Millimetres in an inch.
+pub const MM_PER_INCH: f64 = 25.4;
+
+/// Unit of lengths.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum LengthUnit {
+    /// Millimetres.
+    #[default]
+    Mm,
+    /// Inches.
+    Inch,
+}
+
+impl LengthUnit {
+    /// Millimetres in one unit.
+    pub fn in_mm(self) -> f64 {
+        match self {
+            Self::Mm => 1.0,
+            Self::Inch => MM_PER_INCH,
+        }
+    }
+}
+
+/// Unit of a feed, as the record's word says it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum FeedUnit {
+    /// `MMPM`: mm/min.
+    MmPerMinute,
+    /// `MMPR`: mm/rev.
+    MmPerRevolution,
+    /// `IPM`: inch/min.
+    InchPerMinute,
+    /// `IPR`: inch/rev.
+    InchPerRevolution,
+    /// `PERMIN`: units of the file per minute.
+    PerMinute,
+    /// `PERREV`: units of the file per revolution.
+    PerRevolution,
+    /// `INVERS`, `INVTIM`: moves per minute (1/min).
+    InverseTime,
+}
+
+impl FeedUnit {
+    /// The unit that a word of the standard names.
+    pub fn of_word(word: &str) -> Option<Self> {
+        Some(match word {
+            "MMPM" => Self::MmPerMinute,
+            "MMPR" => Self::MmPerRevolution,
+            "IPM" => Self::InchPerMinute,
+            "IPR" => Self::InchPerRevolution,
+            "PERMIN" | "UPM" => Self::PerMinute,
+            "PERREV" | "UPR" => Self::PerRevolution,
+            "INVERS" | "INVERSE" | "INVTIM" => Self::InverseTime,
+            _ => return None,
+        })
+    }
+
+    /// The standard's word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::MmPerMinute => "MMPM",
+            Self::MmPerRevolution => "MMPR",
+            Self::InchPerMinute => "IPM",
+            Self::InchPerRevolution => "IPR",
+            Self::PerMinute => "PERMIN",
+            Self::PerRevolution => "PERREV",
+            Self::InverseTime => "INVERS",
+        }
+    }
+
+    /// Whether the feed is per revolution of the spindle.
+    pub fn per_revolution(self) -> bool {
+        matches!(self, Self::MmPerRevolution | Self::InchPerRevolution | Self::PerRevolution)
+    }
+
+    /// The unit of length in the feed: what its word says, else the file's; `None` for inverse time.
+    pub fn length(self, file: LengthUnit) -> Option<LengthUnit> {
+        match self {
+            Self::MmPerMinute | Self::MmPerRevolution => Some(LengthUnit::Mm),
+            Self::InchPerMinute | Self::InchPerRevolution => Some(LengthUnit::Inch),
+            Self::PerMinute | Self::PerRevolution => Some(file),
+            Self::InverseTime => None,
+        }
+    }
+}
+
+/// A feed in force: its value and its unit, where the file says one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Feed {
+    /// The programmed value, in `unit`.
+    pub value: f64,
+    /// The unit the file states; `None` when no FEDRAT has named one yet (then units of the file per minute).
+    pub unit: Option<FeedUnit>,
+}
+
+impl Feed {
+    /// The unit, with the default of the standard where the file names none.
+    pub fn unit_or_default(self) -> FeedUnit {
+        self.unit.unwrap_or(FeedUnit::PerMinute)
+    }
+
+    /// In millimetres per minute. `spindle_rpm` (rev/min) is needed for feeds per revolution; `length` is the path's
+    /// length in the file's unit, needed for inverse time. `None` when what is needed is not known.
+    pub fn mm_per_minute(
+        self,
+        file: LengthUnit,
+        spindle_rpm: Option<f64>,
+        length: Option<f64>,
+    ) -> Option<f64> {
+        let unit = self.unit_or_default();
+        let Some(length_unit) = unit.length(file) else {
+            return length.map(|length| self.value * length * file.in_mm());
+        };
+        let per_minute = if unit.per_revolution() { self.value * spindle_rpm? } else { self.value };
+        Some(per_minute * length_unit.in_mm())
+    }
+}

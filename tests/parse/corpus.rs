@@ -1,0 +1,41 @@
+//! Every real file is read whole, and written back byte for byte.
+
+use crate::support;
+use clsmith::diagnostic::codes;
+use clsmith::parse::parse;
+
+#[test]
+fn real_files_are_read_without_an_error_and_written_back_byte_for_byte() {
+    for path in support::corpus() {
+        let source = support::source(&path);
+        let parsed = parse(&source, None);
+        let mut end = 0;
+        for statement in parsed.program.statements() {
+            assert_eq!(statement.origin().start, end, "{}", path.display());
+            end = statement.origin().end;
+        }
+        assert_eq!(end as usize, source.bytes().len());
+        assert_eq!(parsed.program.to_bytes(), source.bytes(), "{}", path.display());
+        let found: Vec<_> = parsed
+            .diagnostics
+            .iter()
+            .map(|found| (found.code, found.message.clone(), source.line_column(found.labels[0].span.start)))
+            .collect();
+        assert!(found.is_empty(), "{}: {:?}", path.display(), found.first());
+        let mut motions = parsed.program.motions();
+        while motions.next().is_some() {}
+        let problems = motions.take_problems();
+        assert!(problems.is_empty(), "{}: {} {:?}", path.display(), problems.len(), problems.first());
+    }
+}
+
+#[test]
+fn part_programs_are_refused_with_one_diagnostic() {
+    for path in support::corpus_all().iter().filter(|path| path.to_string_lossy().contains("apt360")) {
+        let source = support::source(path);
+        let parsed = parse(&source, None);
+        let found: Vec<_> = parsed.diagnostics.iter().map(|found| found.code).collect();
+        assert_eq!(found, [codes::APT_PART_PROGRAM], "{}", path.display());
+        assert_eq!(parsed.program.to_bytes(), source.bytes());
+    }
+}

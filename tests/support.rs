@@ -1,0 +1,48 @@
+//! What the areas share: the corpus, where it is present, and snapshots.
+
+use clsmith::program::Program;
+use clsmith::source::Source;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Files of the corpus beside the project, APT part programs left out; empty where the corpus is absent.
+pub fn corpus() -> Vec<PathBuf> {
+    let mut files = corpus_all();
+    files.retain(|path| !path.to_string_lossy().contains("apt360"));
+    files
+}
+
+/// All files of the corpus.
+pub fn corpus_all() -> Vec<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/corpus");
+    let mut files = Vec::new();
+    for folder in std::fs::read_dir(root).into_iter().flatten().flatten() {
+        files.extend(
+            std::fs::read_dir(folder.path()).into_iter().flatten().flatten().map(|entry| entry.path()),
+        );
+    }
+    files.sort();
+    files
+}
+
+/// A file of the corpus by the end of its path.
+pub fn corpus_file(end: &str) -> Option<PathBuf> {
+    corpus_all().into_iter().find(|path| path.to_string_lossy().ends_with(end))
+}
+
+/// A source read from a file.
+pub fn source(path: &Path) -> Arc<Source> {
+    Source::new(path.file_name().unwrap().to_string_lossy(), std::fs::read(path).unwrap()).unwrap()
+}
+
+/// A source from text.
+pub fn text(text: impl AsRef<[u8]>) -> Arc<Source> {
+    Source::new("part.cls", text.as_ref().to_vec()).unwrap()
+}
+
+/// A program parsed from text, which must be free of errors.
+pub fn program(source: impl AsRef<[u8]>) -> Program {
+    let parsed = clsmith::parse::parse(&text(source), None);
+    assert!(parsed.diagnostics.iter().all(|found| !found.is_error()), "{:?}", parsed.diagnostics);
+    parsed.program
+}
