@@ -1,1 +1,6 @@
-fn main(){}
+//! All integration tests, in one binary so that the library is linked once.
+
+// In a test a panic is the message; clippy's own exception covers `#[test]` functions but not their helpers.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::indexing_slicing)]
+
+mod write_files;
