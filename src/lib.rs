@@ -6,5 +6,6 @@
 
 pub mod diagnostic;
 pub mod number;
+pub mod report;
 pub mod source;
 pub mod write;

@@ -3,4 +3,6 @@
 // In a test a panic is the message; clippy's own exception covers `#[test]` functions but not their helpers.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::indexing_slicing)]
 
+mod report;
+mod support;
 mod write_files;
