@@ -1,5 +1,10 @@
-//! One test binary; a folder for each area.
+//! All integration tests, in one binary so that the library is linked once; a folder for each area.
+
+// In a test a panic is the message; clippy's own exception covers `#[test]` functions but not their helpers.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::indexing_slicing)]
 
 mod motion;
 mod parse;
+mod report;
 mod support;
+mod write_files;

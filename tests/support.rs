@@ -46,3 +46,12 @@ pub fn program(source: impl AsRef<[u8]>) -> Program {
     assert!(parsed.diagnostics.iter().all(|found| !found.is_error()), "{:?}", parsed.diagnostics);
     parsed.program
 }
+
+/// Snapshots of an area, all kept in the top-level `snapshots/`.
+pub fn snapshots(area: &str) -> insta::Settings {
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path(format!("{}/snapshots/{area}", env!("CARGO_MANIFEST_DIR")));
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings
+}

@@ -1,0 +1,54 @@
+//! What a code means, at length.
+
+use crate::diagnostic::{CATALOGUE, Code};
+use std::fmt::Write;
+
+const WIDTH: usize = 80;
+
+/// Everything the catalogue knows of a code, wrapped at 80 columns.
+pub fn explain(code: Code) -> String {
+    let mut text = format!("{code}: {} ({})\n", code.meaning(), code.severity());
+    for part in [code.explanation(), code.help()] {
+        if !part.is_empty() {
+            text.push('\n');
+            text.push_str(&wrap(part));
+        }
+    }
+    text
+}
+
+/// All codes, one line each: code, severity, meaning.
+pub fn list() -> String {
+    let mut text = String::new();
+    for code in CATALOGUE.iter().flat_map(|rows| rows.iter()) {
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "{code}  {:<7}  {}", code.severity().to_string(), code.meaning());
+    }
+    text
+}
+
+/// Wraps paragraphs; lines that start with a blank are a table or an example and stay as they are.
+fn wrap(text: &str) -> String {
+    let mut wrapped = String::new();
+    for line in text.lines() {
+        if line.starts_with(' ') {
+            wrapped.push_str(line);
+        } else {
+            let mut column = 0;
+            for word in line.split(' ') {
+                let length = word.chars().count();
+                if column > 0 && column + 1 + length > WIDTH {
+                    wrapped.push('\n');
+                    column = 0;
+                } else if column > 0 {
+                    wrapped.push(' ');
+                    column += 1;
+                }
+                wrapped.push_str(word);
+                column += length;
+            }
+        }
+        wrapped.push('\n');
+    }
+    wrapped
+}

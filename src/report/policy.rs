@@ -1,0 +1,125 @@
+//! Which findings stand, and how bad they are: `--deny`, `--allow`, `--notes`.
+
+use crate::diagnostic::codes::{OUTPUT_IS_INPUT, TOO_LARGE, UNREADABLE, UNWRITABLE};
+use crate::diagnostic::{CATALOGUE, Code, Diagnostic, Label, Severity, code};
+use crate::source::Span;
+use std::cmp::Ordering;
+
+/// What the user wants of findings.
+#[derive(Debug, Clone, Default)]
+pub struct Policy {
+    /// Codes that are errors, whatever the catalogue says.
+    pub deny: Vec<Code>,
+    /// Codes that are dropped: not shown, and no reason not to write.
+    pub allow: Vec<Code>,
+    /// Whether every remaining warning is an error.
+    pub deny_warnings: bool,
+    /// Whether notes are shown.
+    pub notes: bool,
+}
+
+/// Findings that end a run; dropping them would end it without a word.
+const NEVER_ALLOWED: &[Code] = &[UNREADABLE, UNWRITABLE, TOO_LARGE, OUTPUT_IS_INPUT];
+
+impl Policy {
+    /// Reads what `--deny` and `--allow` were given: codes in any case, and `warnings` to deny every warning.
+    ///
+    /// # Errors
+    /// A sentence about the first word that is no code, a code that is both denied and allowed, or one that cannot be
+    /// allowed because it ends the run.
+    pub fn parse<'a>(
+        deny: impl IntoIterator<Item = &'a str>,
+        allow: impl IntoIterator<Item = &'a str>,
+        notes: bool,
+    ) -> Result<Self, String> {
+        let mut policy = Self { notes, ..Self::default() };
+        for word in deny {
+            if word.trim().eq_ignore_ascii_case("warnings") {
+                policy.deny_warnings = true;
+            } else {
+                policy.deny.push(parse_code(word)?);
+            }
+        }
+        for word in allow {
+            if word.trim().eq_ignore_ascii_case("warnings") {
+                return Err(
+                    "`warnings` can be denied but not allowed; name the codes you know to be harmless".into(),
+                );
+            }
+            let code = parse_code(word)?;
+            if NEVER_ALLOWED.contains(&code) {
+                return Err(format!("{code} cannot be allowed: {} ends the run", code.meaning()));
+            }
+            if policy.deny.contains(&code) {
+                return Err(format!("{code} is both denied and allowed"));
+            }
+            policy.allow.push(code);
+        }
+        Ok(policy)
+    }
+
+    /// The findings that stand, with their severities, sorted by file, place and code and each only once.
+    ///
+    /// A denied note is shown even if notes are not. A code named in `allow` is dropped even if warnings are denied.
+    pub fn apply(&self, mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
+        diagnostics.retain(|found| !self.allow.contains(&found.code));
+        for found in &mut diagnostics {
+            let warning = self.deny_warnings && found.severity == Severity::Warning;
+            if warning || self.deny.contains(&found.code) {
+                found.severity = Severity::Error;
+            }
+        }
+        diagnostics.retain(|found| self.notes || found.severity != Severity::Note);
+        sort(&mut diagnostics);
+        diagnostics
+    }
+}
+
+/// Sorts findings by file, place and code, and removes exact duplicates. Findings without a place come first.
+pub fn sort(diagnostics: &mut Vec<Diagnostic>) {
+    diagnostics.sort_by(compare);
+    diagnostics.dedup_by(|a, b| compare(a, b) == Ordering::Equal);
+}
+
+/// Compares all there is, so that equal means duplicate and the order does not depend on who found it first.
+fn compare(a: &Diagnostic, b: &Diagnostic) -> Ordering {
+    place(a)
+        .cmp(&place(b))
+        .then_with(|| a.code.cmp(&b.code))
+        .then_with(|| b.severity.cmp(&a.severity))
+        .then_with(|| a.message.cmp(&b.message))
+        .then_with(|| a.help.cmp(&b.help))
+        .then_with(|| a.labels.iter().map(parts).cmp(b.labels.iter().map(parts)))
+}
+
+fn place(found: &Diagnostic) -> Option<(&str, Span)> {
+    found.labels.first().map(|label| (label.source.name(), label.span))
+}
+
+fn parts(label: &Label) -> (&str, Span, &str) {
+    (label.source.name(), label.span, &label.message)
+}
+
+/// Looks up a code that a user typed, in any case.
+///
+/// # Errors
+/// A sentence that says so and proposes the nearest code.
+pub fn parse_code(text: &str) -> Result<Code, String> {
+    let text = text.trim();
+    code(text).ok_or_else(|| match nearest(text) {
+        Some(near) => format!("`{text}` is not a code; did you mean {near} ({})?", near.meaning()),
+        None => format!("`{text}` is not a code; codes look like CL0001"),
+    })
+}
+
+fn nearest(text: &str) -> Option<Code> {
+    let upper = text.to_ascii_uppercase();
+    // `CL1`, `1` and `0001` mean CL0001.
+    let digits = upper.trim_start_matches("CL").trim_start_matches(['-', '_', ' ']);
+    if let Some(found) = digits.parse::<u16>().ok().and_then(|number| code(&format!("CL{number:04}"))) {
+        return Some(found);
+    }
+    let all = CATALOGUE.iter().flat_map(|rows| rows.iter()).copied();
+    let near = all.map(|code| (strsim::damerau_levenshtein(code.id(), &upper), code));
+    near.filter(|(distance, _)| *distance <= 2).min().map(|(_, code)| code)
+}

@@ -1,0 +1,294 @@
+//! The few lines of a large file that a finding is about.
+//!
+//! miette finds lines by scanning a source from its start, which takes a second per finding in a file of 100 MB. So it is
+//! given an excerpt instead: the labelled lines and their neighbours, decoded, in one text with offsets of its own. Lines
+//! of several files can stand in it, each under its own name, which is how one finding points into a CL file and a recipe.
+
+use super::text;
+use crate::diagnostic::Label;
+use crate::source::{Source, Span};
+use miette::{MietteError, SourceCode, SourceSpan, SpanContents};
+use std::collections::BTreeSet;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Labels over more lines than this are shown by their first and last line.
+const WHOLE_LABEL: usize = 8;
+
+/// How an excerpt is cut.
+pub(super) struct View {
+    /// Lines before and after a labelled one.
+    pub context: usize,
+    /// Lines up to this many bytes are shown whole.
+    pub whole_line: usize,
+    /// Bytes kept on either side of a label's ends in a longer line.
+    pub margin: usize,
+    /// Whether stand-ins may be other than ASCII.
+    pub unicode: bool,
+}
+
+/// Lines of one or more files, as miette wants to read them.
+#[derive(Debug)]
+pub(super) struct Excerpt {
+    text: String,
+    lines: Vec<Line>,
+    /// Where marks start, with their column in the file.
+    columns: Vec<(usize, usize)>,
+}
+
+/// A label in the excerpt's own offsets.
+#[derive(Debug)]
+pub(super) struct Mark {
+    pub range: Range<usize>,
+    pub message: String,
+    pub primary: bool,
+}
+
+#[derive(Debug)]
+struct Line {
+    /// Where it starts in the excerpt.
+    at: usize,
+    /// 1-based, in its file.
+    number: usize,
+    /// Lines of one block follow each other in one file.
+    block: usize,
+    file: String,
+    /// Offsets in the file and where they ended up in the excerpt, both ascending.
+    places: Vec<(usize, usize)>,
+}
+
+/// A label, or one end of a long one.
+struct Piece<'a> {
+    source: &'a Arc<Source>,
+    span: Span,
+    lines: (usize, usize),
+    message: String,
+    primary: bool,
+}
+
+impl Excerpt {
+    /// The lines around the labels, and the labels as marks on them.
+    pub(super) fn new(labels: &[Label], view: &View) -> (Self, Vec<Mark>) {
+        let pieces: Vec<Piece<'_>> =
+            labels.iter().enumerate().flat_map(|(index, label)| pieces(label, index == 0)).collect();
+        let mut excerpt = Self { text: String::new(), lines: Vec::new(), columns: Vec::new() };
+        let mut marks = Vec::new();
+        let mut files: Vec<&Arc<Source>> = Vec::new();
+        for piece in &pieces {
+            if files.iter().any(|file| Arc::ptr_eq(file, piece.source)) {
+                continue;
+            }
+            files.push(piece.source);
+            let here: Vec<&Piece<'_>> =
+                pieces.iter().filter(|other| Arc::ptr_eq(other.source, piece.source)).collect();
+            excerpt.add_file(piece.source, &here, view, &mut marks);
+        }
+        (excerpt, marks)
+    }
+
+    fn add_file(&mut self, source: &Source, pieces: &[&Piece<'_>], view: &View, marks: &mut Vec<Mark>) {
+        let first = self.lines.len();
+        let mut before = None;
+        for number in wanted(source, pieces, view.context) {
+            let block =
+                self.lines.last().map_or(0, |line| line.block + usize::from(before != Some(number - 1)));
+            self.add_line(source, number, block, pieces, view);
+            before = Some(number);
+        }
+        let lines = self.lines.get(first..).unwrap_or_default();
+        for piece in pieces {
+            let range = piece.span.range();
+            let on = |number| lines.iter().find(|line| line.number == number);
+            let (Some(start), Some(end)) = (on(piece.lines.0), on(piece.lines.1)) else { continue };
+            let start = start.place_before(range.start);
+            let end = if range.is_empty() { start } else { end.place_after(range.end) };
+            self.columns.push((start, source.line_column(piece.span.start).1));
+            marks.push(Mark {
+                range: start..end.max(start),
+                message: text::paragraph(&piece.message, view.unicode),
+                primary: piece.primary,
+            });
+        }
+    }
+
+    fn add_line(&mut self, source: &Source, number: usize, block: usize, pieces: &[&Piece<'_>], view: &View) {
+        let Some(line) = source.line(number).map(Span::range) else { return };
+        let at = self.text.len();
+        let mut places = Vec::new();
+        let mut shown = line.start;
+        let dots = if view.unicode { "…" } else { "..." };
+        for part in parts(source, line.clone(), pieces, view) {
+            if part.start > shown {
+                self.text.push_str(dots);
+            }
+            shown = part.start;
+            for (c, length) in text::decode(source.bytes().get(part.clone()).unwrap_or_default()) {
+                places.push((shown, self.text.len()));
+                self.text.push(text::visible(c, view.unicode));
+                shown += length;
+            }
+            places.push((part.end, self.text.len()));
+        }
+        if shown < line.end {
+            self.text.push_str(dots);
+        }
+        self.text.push('\n');
+        let file = text::paragraph(source.name(), view.unicode).replace('\n', " ");
+        self.lines.push(Line { at, number, block, file, places });
+    }
+
+    fn line_at(&self, offset: usize) -> Option<usize> {
+        self.lines.partition_point(|line| line.at <= offset).checked_sub(1)
+    }
+}
+
+impl Line {
+    /// Where the character that holds this byte starts.
+    fn place_before(&self, offset: usize) -> usize {
+        let after = self.places.partition_point(|&(from, _)| from <= offset);
+        after.checked_sub(1).and_then(|index| self.places.get(index)).map_or(self.at, |&(_, to)| to)
+    }
+
+    /// Where the first character at or after this byte starts; the end of the line beyond its last.
+    fn place_after(&self, offset: usize) -> usize {
+        let index = self.places.partition_point(|&(from, _)| from < offset);
+        self.places.get(index).or(self.places.last()).map_or(self.at, |&(_, to)| to)
+    }
+}
+
+fn pieces(label: &Label, primary: bool) -> Vec<Piece<'_>> {
+    let source = &label.source;
+    let span = text::trimmed(source, label.span);
+    let first = source.line_column(span.start).0;
+    let last = if span.is_empty() { first } else { source.line_column(span.end - 1).0 };
+    let piece = |span, lines, message: &str, primary| Piece {
+        source,
+        span,
+        lines,
+        message: message.to_owned(),
+        primary,
+    };
+    match (source.line(first), source.line(last)) {
+        (Some(head), Some(tail)) if last - first >= WHOLE_LABEL => vec![
+            piece(
+                Span { start: span.start, end: head.end.max(span.start) },
+                (first, first),
+                &label.message,
+                primary,
+            ),
+            piece(Span { start: tail.start, end: span.end }, (last, last), "up to here", false),
+        ],
+        _ => vec![piece(span, (first, last), &label.message, primary)],
+    }
+}
+
+fn wanted(source: &Source, pieces: &[&Piece<'_>], context: usize) -> BTreeSet<usize> {
+    let labelled = |number| pieces.iter().any(|piece| (piece.lines.0..=piece.lines.1).contains(&number));
+    // A file that ends in a line end has an empty line after it, which is worth showing only to point at it.
+    let shown = |number: &usize| {
+        labelled(*number)
+            || source.line(*number).is_some_and(|line| !line.is_empty() || source.line(*number + 1).is_some())
+    };
+    pieces
+        .iter()
+        .flat_map(|piece| {
+            piece.lines.0.saturating_sub(context).max(1)..=piece.lines.1.saturating_add(context)
+        })
+        .filter(shown)
+        .collect()
+}
+
+/// The parts of a line worth showing: all of a short one, the surroundings of the labels' ends in a long one.
+fn parts(source: &Source, line: Range<usize>, pieces: &[&Piece<'_>], view: &View) -> Vec<Range<usize>> {
+    if line.len() <= view.whole_line {
+        return vec![line];
+    }
+    let ends = pieces.iter().flat_map(|piece| [piece.span.range().start, piece.span.range().end]);
+    let mut ends: Vec<usize> = ends.filter(|end| (line.start..=line.end).contains(end)).collect();
+    ends.sort_unstable();
+    if ends.is_empty() {
+        ends.push(line.start);
+    }
+    let mut parts: Vec<Range<usize>> = Vec::new();
+    for end in ends {
+        let from = whole_character(source, end.saturating_sub(view.margin).max(line.start), line.start);
+        let to = (end + view.margin).min(line.end);
+        match parts.last_mut() {
+            Some(last) if from <= last.end => last.end = last.end.max(to),
+            _ => parts.push(from..to),
+        }
+    }
+    for part in &mut parts {
+        part.end = whole_character(source, part.end, part.start);
+    }
+    parts
+}
+
+/// Moves a cut back from inside a UTF-8 character to its start.
+fn whole_character(source: &Source, at: usize, lowest: usize) -> usize {
+    let inside = |at: usize| source.bytes().get(at).is_some_and(|byte| (0x80..0xc0).contains(byte));
+    (0..4).map(|back| at.saturating_sub(back)).find(|&at| !inside(at)).map_or(at, |start| start.max(lowest))
+}
+
+impl SourceCode for Excerpt {
+    fn read_span<'a>(
+        &'a self,
+        span: &SourceSpan,
+        before: usize,
+        after: usize,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        let lines = self.line_at(span.offset()).zip(self.line_at(span.offset() + span.len()));
+        let (mut first, mut last) = lines.ok_or(MietteError::OutOfBounds)?;
+        let block = |index: usize| self.lines.get(index).map(|line| line.block);
+        // miette asks for two labels at once to see whether they share a snippet.
+        if block(first) != block(last) {
+            return Err(MietteError::OutOfBounds);
+        }
+        for _ in 0..before {
+            first -= usize::from(first > 0 && block(first - 1) == block(first));
+        }
+        for _ in 0..after {
+            last += usize::from(block(last + 1) == block(last));
+        }
+        let start = self.lines.get(first).ok_or(MietteError::OutOfBounds)?;
+        let end = self.lines.get(last + 1).map_or(self.text.len(), |next| next.at);
+        let column =
+            self.columns.iter().find(|(at, _)| *at == span.offset()).map_or(0, |(_, column)| column - 1);
+        Ok(Box::new(Contents {
+            data: self.text.as_bytes().get(start.at..end).ok_or(MietteError::OutOfBounds)?,
+            span: (start.at, end - start.at).into(),
+            line: start,
+            column,
+            lines: last + 1 - first,
+        }))
+    }
+}
+
+struct Contents<'a> {
+    data: &'a [u8],
+    span: SourceSpan,
+    line: &'a Line,
+    column: usize,
+    lines: usize,
+}
+
+impl<'a> SpanContents<'a> for Contents<'a> {
+    fn data(&self) -> &'a [u8] {
+        self.data
+    }
+    fn span(&self) -> &SourceSpan {
+        &self.span
+    }
+    fn name(&self) -> Option<&str> {
+        Some(&self.line.file)
+    }
+    fn line(&self) -> usize {
+        self.line.number - 1
+    }
+    fn column(&self) -> usize {
+        self.column
+    }
+    fn line_count(&self) -> usize {
+        self.lines
+    }
+}

@@ -1,0 +1,168 @@
+//! Findings for people, drawn by miette.
+
+use super::excerpt::{Excerpt, Mark, View};
+use super::{Counts, NO_FILE, line, text};
+use crate::diagnostic::{Code, Diagnostic, Severity};
+use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
+use std::collections::BTreeMap;
+use std::fmt;
+use std::io::{self, Write};
+
+/// How findings are drawn. The caller knows the terminal; this module does not ask it.
+#[derive(Debug, Clone, Copy)]
+pub struct HumanOptions {
+    /// Whether to write ANSI colours.
+    pub color: bool,
+    /// Whether lines and arrows may be other than ASCII.
+    pub unicode: bool,
+    /// Columns of the terminal.
+    pub width: usize,
+    /// How many findings of one code are shown; 0 shows all.
+    pub per_code: usize,
+    /// Lines shown before and after a labelled one.
+    pub context_lines: usize,
+}
+
+impl Default for HumanOptions {
+    fn default() -> Self {
+        Self { color: false, unicode: true, width: 100, per_code: 10, context_lines: 1 }
+    }
+}
+
+/// Writes each finding with the lines it is about, then what was left out, then a summary line.
+///
+/// `file` is the run's file, which the summary names.
+///
+/// # Errors
+/// What the writer returns.
+pub fn render(
+    out: &mut dyn Write,
+    diagnostics: &[Diagnostic],
+    file: Option<&str>,
+    options: &HumanOptions,
+) -> io::Result<()> {
+    let handler = handler(options);
+    let mut seen: BTreeMap<Code, usize> = BTreeMap::new();
+    for found in diagnostics {
+        let count = seen.entry(found.code).or_default();
+        *count += 1;
+        if options.per_code > 0 && *count > options.per_code {
+            continue;
+        }
+        let mut drawn = String::new();
+        match handler.render_report(&mut drawn, &Drawing::new(found, options)) {
+            Ok(()) => writeln!(out, "{drawn}")?,
+            Err(fmt::Error) => writeln!(out, "{}\n", line::one(found, file))?,
+        }
+    }
+    for (code, count) in seen {
+        if let Some(note) = not_shown(code, count, options.per_code) {
+            writeln!(out, "{note}")?;
+        }
+    }
+    writeln!(out, "{}", summary(diagnostics, file, options.color))
+}
+
+/// What to say about the findings of a code beyond the cap; `None` when all were shown.
+pub fn not_shown(code: Code, count: usize, per_code: usize) -> Option<String> {
+    let hidden = count.checked_sub(per_code).filter(|&hidden| hidden > 0 && per_code > 0)?;
+    Some(format!("{hidden} more of {code} not shown (--max-per-code 0 shows all)"))
+}
+
+fn summary(diagnostics: &[Diagnostic], file: Option<&str>, color: bool) -> String {
+    let counts = Counts::of(diagnostics);
+    let name = text::one_line(file.unwrap_or(NO_FILE));
+    let paint = match counts {
+        _ if !color => return format!("{name}: {counts}"),
+        Counts { errors: 1.., .. } => 31,
+        Counts { warnings: 1.., .. } => 33,
+        Counts { notes: 1.., .. } => 36,
+        _ => 32,
+    };
+    format!("{name}: \u{1b}[{paint}m{counts}\u{1b}[0m")
+}
+
+fn handler(options: &HumanOptions) -> GraphicalReportHandler {
+    let theme = match (options.unicode, options.color) {
+        (true, true) => GraphicalTheme::unicode(),
+        (true, false) => GraphicalTheme::unicode_nocolor(),
+        (false, true) => GraphicalTheme::ascii(),
+        (false, false) => GraphicalTheme::none(),
+    };
+    GraphicalReportHandler::new_themed(theme)
+        .with_width(width(options))
+        .with_context_lines(options.context_lines)
+        .without_syntax_highlighting()
+}
+
+/// Columns that line numbers and frame take, and a little room.
+const LINE_NUMBERS: usize = 16;
+
+/// Narrower than this, text would be broken after every word.
+fn width(options: &HumanOptions) -> usize {
+    options.width.max(40)
+}
+
+/// A finding as miette knows it.
+#[derive(Debug)]
+struct Drawing<'a> {
+    found: &'a Diagnostic,
+    unicode: bool,
+    excerpt: Excerpt,
+    marks: Vec<Mark>,
+}
+
+impl<'a> Drawing<'a> {
+    fn new(found: &'a Diagnostic, options: &HumanOptions) -> Self {
+        // What the terminal would wrap is cut instead: an underline only points at a line that stayed one.
+        let columns = width(options).saturating_sub(LINE_NUMBERS);
+        let margin = (columns / 2).min(120);
+        let view =
+            View { context: options.context_lines, whole_line: columns, margin, unicode: options.unicode };
+        let (excerpt, marks) = Excerpt::new(&found.labels, &view);
+        Self { found, unicode: options.unicode, excerpt, marks }
+    }
+}
+
+impl fmt::Display for Drawing<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&text::paragraph(&self.found.message, self.unicode))
+    }
+}
+
+impl std::error::Error for Drawing<'_> {}
+
+impl miette::Diagnostic for Drawing<'_> {
+    fn code<'b>(&'b self) -> Option<Box<dyn fmt::Display + 'b>> {
+        Some(Box::new(format!("{}[{}]", self.found.severity, self.found.code)))
+    }
+
+    fn severity(&self) -> Option<miette::Severity> {
+        Some(match self.found.severity {
+            Severity::Error => miette::Severity::Error,
+            Severity::Warning => miette::Severity::Warning,
+            Severity::Note => miette::Severity::Advice,
+        })
+    }
+
+    fn help<'b>(&'b self) -> Option<Box<dyn fmt::Display + 'b>> {
+        let help = self.found.help.as_deref()?;
+        Some(Box::new(text::paragraph(help, self.unicode)))
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        (!self.marks.is_empty()).then_some(&self.excerpt as &dyn SourceCode)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        Some(Box::new(self.marks.iter().map(|mark| {
+            let message = (!mark.message.is_empty()).then(|| mark.message.clone());
+            let span = (mark.range.start, mark.range.len());
+            if mark.primary {
+                LabeledSpan::new_primary_with_span(message, span)
+            } else {
+                LabeledSpan::new_with_span(message, span)
+            }
+        })))
+    }
+}

@@ -1,0 +1,125 @@
+//! Findings as JSON, for programs.
+//!
+//! ```json
+//! {
+//!   "version": 1,
+//!   "diagnostics": [
+//!     {
+//!       "code": "CL0003",
+//!       "severity": "error",
+//!       "message": "`1.2.3` is not a number",
+//!       "help": "Numbers are digits with at most one decimal point.",
+//!       "labels": [
+//!         {
+//!           "file": "part.cls",
+//!           "start": { "line": 7, "column": 6, "offset": 112 },
+//!           "end": { "line": 7, "column": 11, "offset": 117 },
+//!           "message": "two decimal points",
+//!           "text": "1.2.3"
+//!         }
+//!       ]
+//!     }
+//!   ],
+//!   "counts": { "errors": 1, "warnings": 0, "notes": 0 }
+//! }
+//! ```
+//!
+//! `severity` is `error`, `warning` or `note`. Lines and columns count from 1, offsets from 0; columns and offsets count
+//! bytes; `end` is one past the last byte. The first label is the primary one; `labels` is empty for findings about a whole
+//! file or run. `help` is `null` when there is none, a label's `message` may be empty. `text` is what stands at the place,
+//! `null` when it is longer than 1000 bytes; bytes that are no UTF-8 are read as Latin-1. `version` changes when a reader of
+//! this structure would have to; new keys may be added without.
+
+use super::{Counts, text};
+use crate::diagnostic::{Diagnostic, Label};
+use crate::source::Source;
+use serde::Serialize;
+use std::io::{self, Write};
+
+const LONGEST_TEXT: usize = 1000;
+
+/// Writes all findings as one JSON document, indented and with a line end.
+///
+/// # Errors
+/// What the writer returns.
+pub fn render(out: &mut dyn Write, diagnostics: &[Diagnostic]) -> io::Result<()> {
+    let report = Report {
+        version: 1,
+        diagnostics: diagnostics.iter().map(finding).collect(),
+        counts: Counts::of(diagnostics).into(),
+    };
+    serde_json::to_writer_pretty(&mut *out, &report)?;
+    writeln!(out)
+}
+
+#[derive(Serialize)]
+struct Report<'a> {
+    version: u32,
+    diagnostics: Vec<Finding<'a>>,
+    counts: Tally,
+}
+
+#[derive(Serialize)]
+struct Finding<'a> {
+    code: &'static str,
+    severity: String,
+    message: &'a str,
+    help: Option<&'a str>,
+    labels: Vec<Place<'a>>,
+}
+
+#[derive(Serialize)]
+struct Place<'a> {
+    file: &'a str,
+    start: Position,
+    end: Position,
+    message: &'a str,
+    text: Option<String>,
+}
+
+#[derive(Serialize)]
+struct Position {
+    line: usize,
+    column: usize,
+    offset: u32,
+}
+
+#[derive(Serialize)]
+struct Tally {
+    errors: usize,
+    warnings: usize,
+    notes: usize,
+}
+
+impl From<Counts> for Tally {
+    fn from(Counts { errors, warnings, notes }: Counts) -> Self {
+        Self { errors, warnings, notes }
+    }
+}
+
+fn finding(found: &Diagnostic) -> Finding<'_> {
+    Finding {
+        code: found.code.id(),
+        severity: found.severity.to_string(),
+        message: &found.message,
+        help: found.help.as_deref(),
+        labels: found.labels.iter().map(place).collect(),
+    }
+}
+
+fn place(label: &Label) -> Place<'_> {
+    let bytes = label.source.slice(label.span);
+    let text = (bytes.len() <= LONGEST_TEXT).then(|| text::decode(bytes).map(|(c, _)| c).collect());
+    Place {
+        file: label.source.name(),
+        start: position(&label.source, label.span.start),
+        end: position(&label.source, label.span.end),
+        message: &label.message,
+        text,
+    }
+}
+
+fn position(source: &Source, offset: u32) -> Position {
+    let (line, column) = source.line_column(offset);
+    Position { line, column, offset }
+}

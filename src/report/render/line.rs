@@ -1,0 +1,27 @@
+//! One line per finding, for editors, `grep` and logs.
+
+use super::{NO_FILE, text};
+use crate::diagnostic::Diagnostic;
+use std::io::{self, Write};
+
+/// Writes `file:line:column: CODE: message` for each finding, and `file: CODE: message` for one without a place.
+///
+/// The place is the first label's. Columns count bytes from 1. Line breaks in messages become blanks, so a line is a
+/// finding; `file` names the run's file for findings that have no place of their own.
+///
+/// # Errors
+/// What the writer returns.
+pub fn render(out: &mut dyn Write, diagnostics: &[Diagnostic], file: Option<&str>) -> io::Result<()> {
+    diagnostics.iter().try_for_each(|found| writeln!(out, "{}", one(found, file)))
+}
+
+pub(super) fn one(found: &Diagnostic, file: Option<&str>) -> String {
+    let place = match found.labels.first() {
+        Some(label) => {
+            let (line, column) = label.source.line_column(label.span.start);
+            format!("{}:{line}:{column}", label.source.name())
+        }
+        None => file.unwrap_or(NO_FILE).to_owned(),
+    };
+    format!("{}: {}: {}", text::one_line(&place), found.code, text::one_line(&found.message))
+}

@@ -1,0 +1,50 @@
+//! Findings as text: one format, one file.
+
+mod excerpt;
+pub mod human;
+pub mod json;
+pub mod line;
+pub mod sarif;
+mod text;
+
+use crate::diagnostic::{Diagnostic, Severity};
+use std::fmt;
+
+/// How many findings of each severity there are.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Findings that forbid writing.
+    pub errors: usize,
+    /// Findings that deserve a look.
+    pub warnings: usize,
+    /// Findings that were asked for.
+    pub notes: usize,
+}
+
+impl Counts {
+    /// Counts findings.
+    pub fn of(diagnostics: &[Diagnostic]) -> Self {
+        let count = |severity| diagnostics.iter().filter(|found| found.severity == severity).count();
+        Self {
+            errors: count(Severity::Error),
+            warnings: count(Severity::Warning),
+            notes: count(Severity::Note),
+        }
+    }
+}
+
+impl fmt::Display for Counts {
+    /// "2 errors, 1 warning"; "no problems found" when there is nothing.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let all = [(self.errors, "error"), (self.warnings, "warning"), (self.notes, "note")];
+        let mut separator = "";
+        for (count, name) in all.into_iter().filter(|(count, _)| *count > 0) {
+            write!(f, "{separator}{count} {name}{}", if count == 1 { "" } else { "s" })?;
+            separator = ", ";
+        }
+        if separator.is_empty() { f.write_str("no problems found") } else { Ok(()) }
+    }
+}
+
+/// What findings without a place are filed under when the run has no file.
+const NO_FILE: &str = "clsmith";

@@ -1,0 +1,153 @@
+//! Findings as SARIF 2.1.0, for code hosts and review tools.
+//!
+//! SARIF counts columns in characters where [`line`](super::line) and [`json`](super::json) count bytes; the byte offsets
+//! stand beside them.
+
+use super::text;
+use crate::diagnostic::{Code, Diagnostic, Label, Severity};
+use crate::source::Source;
+use serde_sarif::sarif::{
+    ArtifactLocation, Location, Message, MultiformatMessageString, PhysicalLocation, Region,
+    ReportingConfiguration, ReportingDescriptor, Result as Finding, ResultLevel, Run, Sarif, Tool,
+    ToolComponent,
+};
+use std::collections::BTreeSet;
+use std::io::{self, Write};
+
+const SCHEMA: &str = "https://json.schemastore.org/sarif-2.1.0.json";
+
+/// Writes all findings as one SARIF log with one run, indented and with a line end.
+///
+/// `file` is the run's file; findings without a place are filed under it.
+///
+/// # Errors
+/// What the writer returns.
+pub fn render(out: &mut dyn Write, diagnostics: &[Diagnostic], file: Option<&str>) -> io::Result<()> {
+    let codes: Vec<Code> =
+        diagnostics.iter().map(|found| found.code).collect::<BTreeSet<_>>().into_iter().collect();
+    let driver = ToolComponent::builder()
+        .name("clsmith")
+        .version(env!("CARGO_PKG_VERSION"))
+        .semantic_version(env!("CARGO_PKG_VERSION"))
+        .rules(codes.iter().copied().map(rule).collect::<Vec<_>>())
+        .build();
+    let run = Run::builder()
+        .tool(Tool::builder().driver(driver).build())
+        .column_kind("unicodeCodePoints")
+        .results(diagnostics.iter().map(|found| finding(found, &codes, file)).collect::<Vec<_>>())
+        .build();
+    let log = Sarif::builder().schema(SCHEMA).version("2.1.0").runs(vec![run]).build();
+    serde_json::to_writer_pretty(&mut *out, &log)?;
+    writeln!(out)
+}
+
+fn rule(code: Code) -> ReportingDescriptor {
+    let mut rule = ReportingDescriptor::builder()
+        .id(code.id())
+        .short_description(string(code.meaning()))
+        .full_description(string(code.explanation()))
+        .default_configuration(ReportingConfiguration::builder().level(code.severity().to_string()).build())
+        .build();
+    rule.help = (!code.help().is_empty()).then(|| string(code.help()));
+    rule
+}
+
+fn finding(found: &Diagnostic, codes: &[Code], file: Option<&str>) -> Finding {
+    let mut labels = found.labels.iter();
+    let primary = labels.next().map(location).or_else(|| file.map(whole_file));
+    let related: Vec<Location> = labels.map(location).collect();
+    let mut finding = Finding::builder()
+        .rule_id(found.code.id())
+        .level(level(found.severity))
+        .message(message(&told(found)))
+        .locations(primary.into_iter().collect::<Vec<_>>())
+        .build();
+    finding.rule_index = codes.binary_search(&found.code).ok().map(|index| index as i64);
+    finding.related_locations = (!related.is_empty()).then_some(related);
+    finding
+}
+
+/// The message, with the help where it says more than the rule's.
+fn told(found: &Diagnostic) -> String {
+    match &found.help {
+        Some(help) if help != found.code.help() => format!("{}\nhelp: {help}", found.message),
+        _ => found.message.clone(),
+    }
+}
+
+fn level(severity: Severity) -> ResultLevel {
+    match severity {
+        Severity::Error => ResultLevel::Error,
+        Severity::Warning => ResultLevel::Warning,
+        Severity::Note => ResultLevel::Note,
+    }
+}
+
+fn location(label: &Label) -> Location {
+    let place = PhysicalLocation::builder()
+        .artifact_location(artifact(label.source.name()))
+        .region(region(label))
+        .build();
+    let mut location = Location::builder().physical_location(place).build();
+    location.message = (!label.message.is_empty()).then(|| message(&label.message));
+    location
+}
+
+fn whole_file(name: &str) -> Location {
+    let place = PhysicalLocation::builder().artifact_location(artifact(name)).build();
+    Location::builder().physical_location(place).build()
+}
+
+fn region(label: &Label) -> Region {
+    let span = text::trimmed(&label.source, label.span);
+    let (start_line, start_column) = characters(&label.source, span.start);
+    let (end_line, end_column) = characters(&label.source, span.end);
+    Region::builder()
+        .start_line(start_line)
+        .start_column(start_column)
+        .end_line(end_line)
+        .end_column(end_column)
+        .byte_offset(i64::from(span.start))
+        .byte_length(span.len() as i64)
+        .build()
+}
+
+/// 1-based line, and column in characters.
+fn characters(source: &Source, offset: u32) -> (i64, i64) {
+    let (line, column) = source.line_column(offset);
+    let before = source.bytes().get(offset as usize + 1 - column..offset as usize).unwrap_or_default();
+    (line as i64, text::decode(before).count() as i64 + 1)
+}
+
+fn artifact(name: &str) -> ArtifactLocation {
+    ArtifactLocation::builder().uri(uri(name)).build()
+}
+
+/// A file name as a URI: relative as it is, absolute as `file:`.
+fn uri(name: &str) -> String {
+    let drive = matches!(name.as_bytes(), [letter, b':', b'\\' | b'/', ..] if letter.is_ascii_alphabetic());
+    let name = if drive || cfg!(windows) { name.replace('\\', "/") } else { name.to_owned() };
+    let mut uri = String::from(match (drive, name.starts_with('/')) {
+        (true, _) => "file:///",
+        (_, true) => "file://",
+        _ => "",
+    });
+    for (at, byte) in name.bytes().enumerate() {
+        match byte {
+            b'/' | b'-' | b'.' | b'_' | b'~' | b'0'..=b'9' | b'a'..=b'z' | b'A'..=b'Z' => {
+                uri.push(char::from(byte));
+            }
+            b':' if drive && at == 1 => uri.push(':'),
+            _ => uri.push_str(&format!("%{byte:02X}")),
+        }
+    }
+    uri
+}
+
+fn message(text: &str) -> Message {
+    Message::builder().text(text).build()
+}
+
+fn string(text: &str) -> MultiformatMessageString {
+    MultiformatMessageString::builder().text(text).build()
+}

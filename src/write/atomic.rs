@@ -1,0 +1,120 @@
+//! An output appears whole or not at all.
+
+use super::interrupt::{Guarded, Interrupt};
+use std::fs::{self, File, Metadata};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+const CHUNK: usize = 256 * 1024;
+
+/// Writes a file so that every reader sees either all of the old one or all of the new one.
+///
+/// The bytes go to a temporary file in the target's folder, which is flushed, synced and renamed. The permissions of an
+/// existing target are kept; its owner and the other names of a hard-linked file are not: those go on naming the old bytes.
+/// A symbolic link stays, and the file it points at is replaced. What is no file (a pipe, `/dev/stdout`) has no old content
+/// to protect and is written directly.
+///
+/// # Errors
+/// What `write` returns, or what the operating system says. The target is then as it was, and the temporary file is gone.
+/// A write-protected target is refused, although a rename could replace it.
+pub fn write_atomically(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    write_atomically_unless(path, &Interrupt::new(), write)
+}
+
+/// [`write_atomically`], which gives up between two chunks once `interrupt` is raised.
+///
+/// # Errors
+/// As [`write_atomically`]; after an interrupt, one that [`is_interrupt`](super::is_interrupt) recognizes.
+pub fn write_atomically_unless(
+    path: &Path,
+    interrupt: &Interrupt,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let old = match fs::metadata(path) {
+        Ok(old) if old.is_dir() => return Err(io::Error::from(io::ErrorKind::IsADirectory)),
+        Ok(old) if !old.is_file() => {
+            let file = File::options().write(true).open(path)?;
+            return fill(&file, interrupt, write);
+        }
+        Ok(old) if old.permissions().readonly() => {
+            return Err(io::Error::new(io::ErrorKind::PermissionDenied, "the file is write-protected"));
+        }
+        Ok(old) => Some(old),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+        Err(error) => return Err(error),
+    };
+    replace(&follow_links(path)?, old.as_ref(), interrupt, write)
+}
+
+fn replace(
+    target: &Path,
+    old: Option<&Metadata>,
+    interrupt: &Interrupt,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    // The same folder, because a rename is only atomic within one file system.
+    let folder = folder_of(target);
+    let temporary = create_in(folder)?;
+    fill(temporary.as_file(), interrupt, write)?;
+    if let Some(old) = old {
+        temporary.as_file().set_permissions(old.permissions())?;
+    }
+    temporary.as_file().sync_all()?;
+    interrupt.check()?;
+    temporary.persist(target).map_err(|failed| failed.error)?;
+    sync_folder(folder);
+    Ok(())
+}
+
+fn fill(
+    file: &File,
+    interrupt: &Interrupt,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut out = BufWriter::with_capacity(CHUNK, Guarded { inner: file, interrupt });
+    write(&mut out)?;
+    out.flush()
+}
+
+fn create_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    // A fixed prefix: the target's own name in front could pass the length a file name may have.
+    builder.prefix(".clsmith-").suffix(".tmp");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        // What any new file asks for; the user's umask takes away what they do not want to share. The default of
+        // tempfile, 0600, would hide the output from the colleague at the machine.
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder)
+}
+
+/// Follows symbolic links at the end of a path, also to a file that does not exist yet.
+pub(super) fn follow_links(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_path_buf();
+    // As many as Linux follows.
+    for _ in 0..40 {
+        let Ok(next) = fs::read_link(&path) else { return Ok(path) };
+        path = folder_of(&path).join(next);
+    }
+    Err(io::Error::other("too many symbolic links"))
+}
+
+pub(super) fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+// After the rename the new file stands; some file systems cannot sync a folder, and "failed" would now be wrong.
+#[cfg(unix)]
+fn sync_folder(folder: &Path) {
+    if let Ok(folder) = File::open(folder) {
+        let _ = folder.sync_all();
+    }
+}
+
+#[cfg(not(unix))]
+fn sync_folder(_: &Path) {}
