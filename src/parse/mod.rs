@@ -6,9 +6,10 @@ mod shortcut;
 pub use grammar::statement as syntax;
 
 use crate::diagnostic::{Diagnostic, codes};
-use crate::program::record::BadRecord;
-use crate::program::{Detector, Dialect, Form, Program, Record, Syntax};
+use crate::program::record::{self, BadRecord};
+use crate::program::{Detector, Dialect, Form, Program, Record, Role, Syntax};
 use crate::source::{Source, Span};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// What came out of reading a file: a program, always, and what was wrong on the way.
@@ -62,6 +63,38 @@ pub fn parse(source: &Arc<Source>, dialect: Option<Dialect>) -> Parsed {
     let dialect = dialect.unwrap_or_else(|| reader.detector.dialect());
     reader.program.set_dialect(dialect);
     Parsed { program: reader.program, diagnostics: reader.diagnostics }
+}
+
+/// All numbers of a statement with their places in its text, in the order they stand.
+pub fn numbers(text: &[u8]) -> Vec<(Range<usize>, f64)> {
+    shortcut::goto_numbers(text).unwrap_or_else(|| statement_of(text).0.numbers())
+}
+
+/// What each of those numbers is, `record` being what the text means.
+pub fn roles(record: &Record, text: &[u8]) -> Vec<Role> {
+    match record {
+        Record::Goto(goto) => record::path_roles(goto.axis.is_some()),
+        _ => record.roles(&statement_of(text).0),
+    }
+}
+
+/// The meaning of a text that is to be one whole statement.
+///
+/// # Errors
+/// As [`record`]; also when the text holds more than the statement.
+pub fn whole(text: &[u8]) -> Result<Record, BadRecord> {
+    if let Some((goto, length)) = shortcut::goto(text)
+        && length == text.len()
+    {
+        return Ok(Record::Goto(goto));
+    }
+    let (record, syntax) = record(text)?;
+    let length = syntax.text.len();
+    if length == text.len() && !syntax.open {
+        return Ok(record);
+    }
+    let problem = "a statement ends before the text does, or goes on after it".to_owned();
+    Err(BadRecord { at: length..text.len(), problem, is_number: false })
 }
 
 /// Takes one statement text (from an edit or a rewrite rule) apart and reads its meaning.

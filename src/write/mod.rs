@@ -1,9 +1,15 @@
-//! Writing outputs: never half a file, never over an input.
+//! Writing: patching statements in the file's own style, and files that appear whole or not at all.
 
 mod atomic;
+mod editor;
 mod interrupt;
+mod patch;
 mod same;
+mod style;
 
 pub use atomic::{write_atomically, write_atomically_unless};
+pub use editor::{Editor, syntax};
 pub use interrupt::{Interrupt, is_interrupt};
+pub use patch::numbers as patch_numbers;
 pub use same::same_file;
+pub use style::Style;

@@ -1,3 +1,27 @@
-//! Codes of running.
+//! Codes of running recipe steps (`CL03xx`).
 
-super::area! {}
+super::area! {
+    UNREADABLE_EDIT = "CL0301", Error, "a step would write something that is no CL statement",
+        "Look at the step's parameters; for `rewrite`, at the text of its rules.",
+        "Every text that a step makes is read back by the same grammar that read the file, before anything is written. This \
+         one is not a well-formed statement: a rule of `rewrite` builds a broken record, or a number became too large to \
+         print. The run stops here and nothing is written.";
+    STEP_FAILED = "CL0302", Error, "a step cannot do what it is asked on this program",
+        "The message names the place in the recipe and in the CL file that do not fit together.",
+        "The recipe is well formed, but this program does not allow the step: a parameter is missing that the CL data does not \
+         tell either (a tool's diameter, say), a selection is ambiguous, or a record stands in the way that the step cannot \
+         change and must not ignore. Steps take programs whole: when one fails nothing of it is written.";
+    NOTHING_SELECTED = "CL0303", Warning, "a step's `where` selects nothing in this program",
+        "Check names with `clsmith stats`; globs are case-sensitive and `*` matches anything.",
+        "The step ran, but no motion of this program is selected by its `where`: no operation, tool, motion class or feed fits. \
+         In a batch over many programs that may be meant; for one program it is most often a misspelt operation name.";
+    STALE_RECORD = "CL0304", Warning, "a record still describes the program as it was before a step",
+        "Change or remove it with a `rewrite` step, or export the program anew from the place it now has.",
+        "The step moved, turned or rescaled the path. This record states a place, height or size in words that only the CAM \
+         system or the post understands (a matrix in a comment, an escape height, a stock size in a text for the operator); \
+         clsmith does not guess a new one. If the post reads it, it now contradicts the path.";
+    NOT_CHANGED = "CL0305", Warning, "a record that the step should have changed was left as it is",
+        "Handle it by hand or by a `rewrite` rule, and check the result.",
+        "The step changes records of this kind, but this one has a form it does not understand well enough to change safely. \
+         It stands as it was, so it may contradict the records around it.";
+}

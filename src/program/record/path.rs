@@ -295,7 +295,8 @@ fn is_unit(numbers: &[f64]) -> bool {
     vector(numbers).is_some_and(|vector| (vector.norm() - 1.0).abs() < 1e-3)
 }
 
-fn with_axis(axis: bool) -> Vec<Role> {
+/// Roles of a point with or without its tool axis.
+pub(crate) fn with_axis(axis: bool) -> Vec<Role> {
     let mut roles = vec![Role::Point(0), Role::Point(1), Role::Point(2)];
     if axis {
         roles.extend(directions());

@@ -1,0 +1,51 @@
+//! Patching numbers in a statement's text, each in its own style.
+
+use super::style::Style;
+use crate::parse;
+use crate::program::{Record, Role};
+
+/// A change below this share of the value is the noise of arithmetic, not an edit.
+const NOISE: f64 = 1e-13;
+
+/// The text with new values for some of its numbers; `None` when nothing changes.
+///
+/// `edits` are pairs of a number's index (in the order the numbers stand) and its new value. Numbers keep their decimals, or
+/// get more when fewer would lose the edit; in column dialects they keep their column. Everything else stays as it is.
+pub fn numbers(text: &[u8], record: &Record, edits: &[(usize, f64)], style: &Style) -> Option<Vec<u8>> {
+    let places = parse::numbers(text);
+    let roles = parse::roles(record, text);
+    let mut out = Vec::with_capacity(text.len() + 16);
+    let mut copied = 0;
+    for (index, (at, old)) in places.iter().enumerate() {
+        let Some(&(_, wanted)) = edits.iter().find(|(edited, _)| *edited == index) else { continue };
+        if !wanted.is_finite() || (wanted - old).abs() <= NOISE * old.abs().max(1.0) {
+            continue;
+        }
+        let role = roles.get(index).copied().unwrap_or(Role::Plain);
+        let original = text.get(at.clone()).unwrap_or_default();
+        let printed = style.changed(role, original).print(wanted, wanted - old);
+        let before = text.get(copied..at.start).unwrap_or_default();
+        if style.columns {
+            push_in_column(&mut out, before, at.len(), &printed);
+        } else {
+            out.extend_from_slice(before);
+            out.extend_from_slice(printed.as_bytes());
+        }
+        copied = at.end;
+    }
+    if copied == 0 {
+        return None;
+    }
+    out.extend_from_slice(text.get(copied..).unwrap_or_default());
+    (out != text).then_some(out)
+}
+
+/// Ends the number where the old one ended, taking blanks from before it, or adding some.
+fn push_in_column(out: &mut Vec<u8>, before: &[u8], old_length: usize, printed: &str) {
+    let blanks = before.iter().rev().take_while(|&&byte| byte == b' ').count();
+    let kept = before.get(..before.len() - blanks).unwrap_or_default();
+    let width = blanks + old_length;
+    out.extend_from_slice(kept);
+    out.extend(std::iter::repeat_n(b' ', width.saturating_sub(printed.len())));
+    out.extend_from_slice(printed.as_bytes());
+}

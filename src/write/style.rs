@@ -1,0 +1,124 @@
+//! How a file writes its numbers and lines, measured on the file itself.
+
+use crate::number::{self, Form, Zeros};
+use crate::parse;
+use crate::program::{Change, Program, Record, Role};
+
+/// How many statements of a kind are looked at; files are uniform.
+const SAMPLE: usize = 200;
+
+/// The style of a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Style {
+    /// Zero style.
+    pub zeros: Zeros,
+    /// Most decimals seen in coordinates and lengths.
+    pub length_decimals: usize,
+    /// Most decimals seen in unit vectors.
+    pub direction_decimals: usize,
+    /// Most decimals seen in feeds.
+    pub feed_decimals: usize,
+    /// Numbers stand right-aligned in columns.
+    pub columns: bool,
+    /// `\n` or `\r\n`: what most of the sampled lines end in.
+    pub line_end: &'static str,
+}
+
+impl Style {
+    /// Measures a program. Defaults, where nothing is there to measure: 4, 7 and 4 decimals as NX has them.
+    pub fn of(program: &Program) -> Self {
+        let mut seen = Seen::default();
+        for statement in
+            program.statements().iter().filter(|statement| statement.change() == Change::Untouched)
+        {
+            let kind = match statement.record() {
+                Record::Goto(_) | Record::Circle(_) | Record::DriveArc(_) => &mut seen.points,
+                Record::Feed(_) => &mut seen.feeds,
+                Record::ToolAxis(_) => &mut seen.axes,
+                _ => continue,
+            };
+            *kind += 1;
+            if *kind <= SAMPLE {
+                seen.measure(statement.record(), program.text(statement));
+            } else if seen.points > 50 * SAMPLE {
+                break;
+            }
+        }
+        let solidworks = program.dialect() == crate::program::Dialect::SolidWorks;
+        Self {
+            zeros: if solidworks || seen.cut_zeros { Zeros::Cut } else { Zeros::Kept },
+            length_decimals: seen.lengths.unwrap_or(4),
+            direction_decimals: seen.directions.unwrap_or(7).max(6),
+            feed_decimals: seen.feed.unwrap_or(4),
+            columns: program.dialect().has_columns(),
+            line_end: if seen.crlf * 2 > seen.lines { "\r\n" } else { "\n" },
+        }
+    }
+
+    /// Decimals that the file has for a role.
+    pub fn decimals(&self, role: Role) -> usize {
+        match role {
+            Role::Direction(_) | Role::ArcAxis(_) | Role::FrameAxis(..) => self.direction_decimals,
+            Role::Feed | Role::SurfaceSpeed => self.feed_decimals,
+            Role::Point(_) | Role::Step(_) | Role::FrameOrigin(_) | Role::Length => self.length_decimals,
+            Role::Plain => 0,
+        }
+    }
+
+    /// The form of a changed number: its own decimals at least, or the file's where the file cuts zeros.
+    pub fn changed(&self, role: Role, original: &[u8]) -> Form {
+        let own = number::decimals(original);
+        let decimals = match self.zeros {
+            Zeros::Kept => own,
+            Zeros::Cut => own.max(self.decimals(role)),
+        };
+        let point = original.contains(&b'.') || !matches!(role, Role::Plain | Role::SurfaceSpeed);
+        Form { decimals, tolerance: tolerance(role), zeros: self.zeros, point }
+    }
+
+    /// The form of a new number.
+    pub fn fresh(&self, role: Role) -> Form {
+        let point = role != Role::Plain;
+        Form { decimals: self.decimals(role), tolerance: tolerance(role), zeros: self.zeros, point }
+    }
+}
+
+/// Half of the coarsest last decimal that measured dialects print: 4 for lengths and feeds, 6 for unit vectors.
+fn tolerance(role: Role) -> f64 {
+    match role {
+        Role::Direction(_) | Role::ArcAxis(_) | Role::FrameAxis(..) => 5e-7,
+        _ => 5e-5,
+    }
+}
+
+#[derive(Default)]
+struct Seen {
+    points: usize,
+    feeds: usize,
+    axes: usize,
+    lines: usize,
+    crlf: usize,
+    lengths: Option<usize>,
+    directions: Option<usize>,
+    feed: Option<usize>,
+    cut_zeros: bool,
+}
+
+impl Seen {
+    fn measure(&mut self, record: &Record, text: &[u8]) {
+        self.lines += 1;
+        self.crlf += usize::from(text.ends_with(b"\r\n"));
+        for ((at, _), role) in parse::numbers(text).into_iter().zip(parse::roles(record, text)) {
+            let number = text.get(at).unwrap_or_default();
+            let decimals = number::decimals(number);
+            let most = match role {
+                Role::Point(_) => &mut self.lengths,
+                Role::Direction(_) | Role::ArcAxis(_) => &mut self.directions,
+                Role::Feed => &mut self.feed,
+                _ => continue,
+            };
+            *most = Some(most.map_or(decimals, |most| most.max(decimals)));
+            self.cut_zeros |= number.ends_with(b".") || number.starts_with(b".") || number.starts_with(b"-.");
+        }
+    }
+}
