@@ -7,3 +7,4 @@
 pub mod diagnostic;
 pub mod number;
 pub mod source;
+pub mod values;
