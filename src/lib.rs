@@ -8,3 +8,4 @@ pub mod diagnostic;
 pub mod number;
 pub mod source;
 pub mod values;
+mod yaml;
