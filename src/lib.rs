@@ -6,6 +6,7 @@
 
 pub mod diagnostic;
 pub mod number;
+pub mod setup;
 pub mod source;
 pub mod values;
 mod yaml;
