@@ -6,6 +6,7 @@
 
 pub mod diagnostic;
 pub mod number;
+pub mod recipe;
 pub mod setup;
 pub mod source;
 pub mod values;
