@@ -5,6 +5,7 @@
 
 mod motion;
 mod parse;
+mod recipe;
 mod report;
 mod support;
 mod write_files;

@@ -1,0 +1,54 @@
+//! Faults that mean something particular in a recipe: its version, and the names of its steps.
+
+use crate::diagnostic::{Code, codes};
+use crate::yaml::{Finding, Kind, Segment, suggestion};
+
+pub(super) fn special(finding: &Finding<'_>) -> Option<(Code, String, String)> {
+    match (finding.kind, finding.path) {
+        (Kind::Missing { name: "version" }, []) => {
+            let message = "the recipe does not say its version".to_owned();
+            Some((codes::RECIPE_VERSION, message, codes::RECIPE_VERSION.help().to_owned()))
+        }
+        (Kind::Missing { name: "steps" }, []) => {
+            let message = "the recipe has no `steps`".to_owned();
+            let help = "Add `steps:` with one `- name: { … }` per step; `steps: []` for a recipe that changes nothing.";
+            Some((codes::MISSING_KEY, message, help.to_owned()))
+        }
+        (Kind::Type { found, .. }, [Segment::Key("version")]) => {
+            let message = format!("the version is a whole number, found {found}");
+            Some((codes::RECIPE_VERSION, message, codes::RECIPE_VERSION.help().to_owned()))
+        }
+        (Kind::Value { message, .. }, [Segment::Key("version")]) => {
+            let help = "This clsmith knows version 1; a recipe with a higher one needs a newer clsmith.";
+            Some((codes::RECIPE_VERSION, message.clone(), help.to_owned()))
+        }
+        (Kind::Type { found, .. }, []) => {
+            let message = format!("a recipe is a map of keys (`version:`, `steps:`), found {found}");
+            let help = "A recipe starts with `version: 1`. Was another file given in its place?";
+            Some((codes::WRONG_TYPE, message, help.to_owned()))
+        }
+        (Kind::Type { found, .. }, [Segment::Key("steps"), Segment::Index(_)]) => {
+            let message = format!("a step is a name with its settings, found {found}");
+            Some((codes::WRONG_TYPE, message, "Write `- name: { key: value }`.".to_owned()))
+        }
+        (Kind::UnknownChoice { name, expected }, [Segment::Key("steps"), Segment::Index(_), ..])
+            if finding.path.len() <= 3 && is_step(finding.path, name) =>
+        {
+            Some((
+                codes::UNKNOWN_STEP,
+                format!("there is no step `{name}`"),
+                suggestion(name, expected, "The steps:"),
+            ))
+        }
+        _ => None,
+    }
+}
+
+/// Whether an unknown choice is the step itself, by its key or as a bare word, and not one of its settings.
+fn is_step(path: &[Segment<'_>], name: &str) -> bool {
+    match path.get(2) {
+        None => true,
+        Some(Segment::Key(key)) => *key == name,
+        Some(Segment::Index(_)) => false,
+    }
+}

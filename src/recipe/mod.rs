@@ -1,0 +1,147 @@
+//! Recipes: which transforms to apply, with which parameters, written in YAML.
+//!
+//! A [`Recipe`] is generic over its steps, which are the transforms' business; this module knows the frame around them, and
+//! where in the file each of them stands.
+
+mod explain;
+mod select;
+mod text;
+
+pub use crate::values;
+pub use crate::yaml::Segment;
+pub use select::{Facts, FeedRange, Where};
+pub use text::schema;
+
+use crate::diagnostic::{Diagnostic, codes};
+use crate::setup::Setup;
+use crate::source::{Source, Span};
+use crate::yaml::Document;
+use serde::de::DeserializeOwned;
+use std::sync::{Arc, OnceLock};
+use text::RecipeText;
+use values::LengthUnit;
+
+/// A recipe that was read and checked.
+///
+/// `S` is a serde enum with one variant per transform, tagged externally: `- scale_feed: { factor: 0.8 }`.
+#[derive(Debug)]
+pub struct Recipe<S> {
+    /// The file it was read from, for diagnostics that point into it.
+    pub source: Arc<Source>,
+    /// The version of the rules it was written by.
+    pub version: u32,
+    /// The unit of every length in it; feeds are in this unit per minute.
+    pub units: LengthUnit,
+    /// A setup file, relative to the recipe's folder; see [`Recipe::load_setup_file`].
+    pub setup_file: Option<String>,
+    /// The recipe's own `setup:`, in millimetres; see [`Recipe::setup_with`].
+    pub setup: Setup,
+    /// The steps in the order in which they are applied.
+    pub steps: Vec<S>,
+    document: Document,
+    step_places: Vec<OnceLock<Span>>,
+}
+
+impl<S: DeserializeOwned> Recipe<S> {
+    /// Reads a recipe.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, in the order of the text, each at its exact key or value; at most 20 findings.
+    pub fn load(source: &Arc<Source>) -> Result<Self, Vec<Diagnostic>> {
+        let document = Document::read(source).map_err(|diagnostic| vec![*diagnostic])?;
+        let text: RecipeText<S> =
+            document.check(explain::special).map_err(|found| foreign(&document, found))?;
+        Ok(Self {
+            source: Arc::clone(source),
+            version: text.version.get(),
+            units: text.units,
+            setup_file: text.setup_file,
+            setup: text.setup.checked(text.units),
+            step_places: text.steps.iter().map(|_| OnceLock::new()).collect(),
+            steps: text.steps,
+            document,
+        })
+    }
+}
+
+/// In a recipe of another version, the version is all that is wrong: the rest was written by rules unknown here.
+fn foreign(document: &Document, mut found: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    if document.place(&[Segment::Key("version")]).is_some()
+        && found.iter().any(|diagnostic| diagnostic.code == codes::RECIPE_VERSION)
+    {
+        found.retain(|diagnostic| diagnostic.code == codes::RECIPE_VERSION);
+    }
+    found
+}
+
+impl<S> Recipe<S> {
+    /// Where a value stands; a key without a value stands for it. `None` if the recipe does not say it.
+    pub fn place(&self, path: &[Segment<'_>]) -> Option<Span> {
+        self.document.place(path)
+    }
+
+    /// Where the key of a value stands. `None` if the recipe does not say it.
+    pub fn key_place(&self, path: &[Segment<'_>]) -> Option<Span> {
+        self.document.key_place(path)
+    }
+
+    /// The name of a step, as written: `scale_feed`. Looked up once and then remembered.
+    ///
+    /// A step that does not exist stands at the start of the file, so that a diagnostic is never lost for want of a place.
+    pub fn step_place(&self, index: usize) -> Span {
+        let find = || self.find_step(index).unwrap_or_default();
+        self.step_places.get(index).map_or_else(find, |place| *place.get_or_init(find))
+    }
+
+    /// A parameter of a step: the keys below the step's name, elements of lists by number (`"0"`). What the recipe does not
+    /// say stands where the nearest thing it does say stands, in the end at the step's name.
+    ///
+    /// Each call reads the recipe's text again: ask once per step, not once per finding.
+    pub fn step_value_place(&self, index: usize, keys: &[&str]) -> Span {
+        let step = [Segment::Key("steps"), Segment::Index(index)];
+        let Some(name) = self.document.keys(&step).first().copied() else { return self.step_place(index) };
+        let below: Vec<Segment<'_>> =
+            keys.iter().map(|key| key.parse().map_or(Segment::Key(key), Segment::Index)).collect();
+        (1..=below.len())
+            .rev()
+            .filter_map(|count| {
+                let mut path = vec![step[0], step[1], Segment::Key(name)];
+                path.extend_from_slice(below.get(..count)?);
+                self.document.place(&path)
+            })
+            .next()
+            .unwrap_or_else(|| self.step_place(index))
+    }
+
+    fn find_step(&self, index: usize) -> Option<Span> {
+        let step = [Segment::Key("steps"), Segment::Index(index)];
+        match self.document.keys(&step).first() {
+            Some(name) => self.document.key_place(&[step[0], step[1], Segment::Key(name)]),
+            None => self.document.place(&step),
+        }
+    }
+
+    /// Reads the setup file that the recipe names; an empty setup if it names none.
+    ///
+    /// `read` gets the path as written and returns the file, or why it cannot be read.
+    ///
+    /// # Errors
+    /// [`codes::SETUP_FILE`] at the path in the recipe, or what is wrong in the setup file.
+    pub fn load_setup_file(
+        &self,
+        read: impl FnOnce(&str) -> Result<Arc<Source>, String>,
+    ) -> Result<Setup, Vec<Diagnostic>> {
+        let Some(path) = &self.setup_file else { return Ok(Setup::default()) };
+        let source = read(path).map_err(|reason| {
+            let span = self.place(&[Segment::Key("setup_file")]).unwrap_or_default();
+            let message = format!("the setup file `{path}` cannot be read: {reason}");
+            vec![Diagnostic::new(codes::SETUP_FILE, message).label(&self.source, span, "named here")]
+        })?;
+        Setup::load(&source)
+    }
+
+    /// The setup that counts: field by field, the command line's, else the recipe's, else the setup file's.
+    pub fn setup_with(&self, setup_file: Setup, command_line: Setup) -> Setup {
+        command_line.over(self.setup.clone()).over(setup_file)
+    }
+}

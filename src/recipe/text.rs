@@ -1,0 +1,78 @@
+//! A recipe as it is written: what serde reads, and what the JSON schema tells editors.
+
+use super::values::LengthUnit;
+use crate::setup::SetupText;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{self, Deserialize, Deserializer, Unexpected, Visitor};
+use std::borrow::Cow;
+use std::fmt;
+
+/// A recipe: the transforms to apply to CL data, in order, with their parameters.
+#[derive(Debug, serde::Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "clsmith recipe", rename = "Recipe")]
+pub(super) struct RecipeText<S> {
+    /// The version of the rules this recipe is written by: 1.
+    pub version: Version,
+    /// The unit of every length in this recipe; feeds are in this unit per minute.
+    #[serde(default)]
+    pub units: LengthUnit,
+    /// A file with the keys of `setup`, relative to this recipe's folder; what `setup` says overrides it.
+    pub setup_file: Option<String>,
+    /// What stands around the program: the machine and its limits.
+    #[serde(default)]
+    pub setup: SetupText,
+    /// The transforms, applied one after the other.
+    pub steps: Vec<S>,
+}
+
+/// JSON schema of a recipe with steps of type `S`, for editors.
+pub fn schema<S: JsonSchema>() -> serde_json::Value {
+    schemars::schema_for!(RecipeText<S>).to_value()
+}
+
+/// A version of the recipe's rules that this clsmith knows.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Version(u32);
+
+impl Version {
+    /// The only one so far.
+    const KNOWN: u32 = 1;
+
+    pub fn get(self) -> u32 {
+        self.0
+    }
+}
+
+impl<'de> Deserialize<'de> for Version {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(VersionVisitor)
+    }
+}
+
+struct VersionVisitor;
+
+impl Visitor<'_> for VersionVisitor {
+    type Value = Version;
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "version {}", Version::KNOWN)
+    }
+    fn visit_u64<E: de::Error>(self, value: u64) -> Result<Version, E> {
+        if value == u64::from(Version::KNOWN) {
+            return Ok(Version(Version::KNOWN));
+        }
+        Err(E::invalid_value(Unexpected::Unsigned(value), &self))
+    }
+}
+
+impl JsonSchema for Version {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        "Version".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "const": Version::KNOWN })
+    }
+}

@@ -1,0 +1,11 @@
+//! Values that are right once they are read: numbers with a range, units, name patterns.
+//!
+//! A parameter of type [`Positive`] needs no check in the transform that uses it. The check happens while the YAML is read,
+//! so the error points at the number itself; the JSON schema tells editors the same range.
+
+mod numbers;
+mod patterns;
+
+pub use crate::program::LengthUnit;
+pub use numbers::{Count, Degrees, Factor, Finite, Fraction, NonNegative, Positive};
+pub use patterns::{BadGlob, Glob, ToolPattern};
