@@ -1,3 +1,9 @@
+//! Reads, checks, corrects and writes cutter-location data without losing a byte of what it does not change.
+//!
+//! The pipeline is the order of the modules: bytes ([`source`]) are parsed ([`parse`]) into a [`program`] of statements,
+//! whose motions are a view; a [`recipe`] lists [`transform`]s; [`mod@write`] copies untouched bytes and patches changed
+//! numbers; [`report`] says what changed. ARCHITECTURE.md follows one GOTO through all of it.
+
 pub mod diagnostic;
 pub mod number;
 pub mod parse;
@@ -6,6 +12,7 @@ pub mod recipe;
 pub mod report;
 pub mod setup;
 pub mod source;
+pub mod transform;
 pub mod values;
 pub mod write;
 mod yaml;

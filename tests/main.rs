@@ -8,4 +8,5 @@ mod parse;
 mod recipe;
 mod report;
 mod support;
+mod transform;
 mod write_files;

@@ -1,0 +1,72 @@
+//! `clamp_feed`: programmed feeds within limits.
+
+use super::feed_plan::FeedPlan;
+use super::{Context, Selection, Transform};
+use crate::diagnostic::Diagnostic;
+use crate::program::Program;
+use crate::recipe::Where;
+use crate::values::Positive;
+use crate::write::Editor;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Keeps programmed feeds between a lowest and a highest.
+///
+/// Limits are in the recipe's unit per minute. A feed per revolution is compared at the spindle speed in force, an inverse-time
+/// feed at the length of its motion, and both are written back in their own unit; where the speed is not known the feed stays
+/// and is reported. Without `max`, the machine's `max_feed` from the setup is the highest. Rapids are not touched.
+///
+/// Idempotent: a second run changes nothing.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ClampFeed {
+    /// Lowest feed, in the recipe's unit per minute.
+    pub min: Option<Positive>,
+    /// Highest feed, in the recipe's unit per minute; else the machine's `max_feed`.
+    pub max: Option<Positive>,
+    /// Which motions; all when it is left out.
+    #[serde(default)]
+    pub r#where: Where,
+}
+
+impl Transform for ClampFeed {
+    fn apply(&self, program: Program, context: &mut Context<'_>) -> Result<Program, Box<Diagnostic>> {
+        let units = context.recipe.units.in_mm();
+        let machine = context.setup.machine.max_feed.map(|feed| feed.get() / units);
+        let min = self.min.map_or(0.0, Positive::get);
+        let max = self.max.map(Positive::get).or(machine).unwrap_or(f64::INFINITY);
+        if self.min.is_none() && max.is_infinite() {
+            return Err(context.fail(
+                "neither `min` nor `max` is given, and the setup has no `machine: { max_feed: ... }`",
+                &[],
+            ));
+        }
+        if min > max {
+            return Err(context.fail(format!("the lowest feed {min} is above the highest {max}"), &["min"]));
+        }
+        let file = context.file_units(&program);
+        let mut selection = Selection::new(&self.r#where, &program, context);
+        let mut unknown = Vec::new();
+        let plan = FeedPlan::of(&program, |motion| {
+            let feed = motion.feed?.value;
+            if !selection.contains(motion, context) {
+                return None;
+            }
+            let Some(actual) = context.feed_per_minute(motion, file).filter(|actual| *actual > 0.0) else {
+                unknown.extend(motion.feed_from.filter(|statement| unknown.last() != Some(statement)));
+                return None;
+            };
+            let wanted = actual.clamp(min, max);
+            // Only a feed outside the limits changes: a ratio of equal numbers could still move its last bit.
+            (wanted != actual).then(|| feed * (wanted / actual))
+        });
+        selection.report(context);
+        for statement in unknown {
+            let message = "this feed cannot be compared with the limits: it is zero, or per revolution with no spindle speed in rev/min";
+            context.not_changed(message, &program, statement);
+        }
+        let mut editor = Editor::new(program, context.step);
+        plan.write(&mut editor, &mut context.findings)?;
+        editor.finish()
+    }
+}

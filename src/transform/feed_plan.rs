@@ -1,0 +1,169 @@
+//! Writing feeds: which FEDRATs to change and where to put new ones, when motions want other feeds than the programmed.
+//!
+//! A FEDRAT governs the feed motions up to the next one. It takes the feed that its first motion wants; where a later motion
+//! wants another, a FEDRAT in the form of the governing one goes in front of the first statement of that motion. The next
+//! FEDRAT of the file sets its own feed anyway, so programmed feeds come back by themselves.
+
+use crate::diagnostic::{Diagnostic, codes};
+use crate::parse;
+use crate::program::motion::Motion;
+use crate::program::{FieldKind, Form, Program, Record, Role};
+use crate::source::Span;
+use crate::write::Editor;
+
+/// What a motion wants: the place it starts at, what governs its feed, and the feed in the governing record's unit.
+#[derive(Debug, Clone, Copy)]
+struct Wish {
+    /// First statement of the motion.
+    first: u32,
+    /// Last statement of the motion: motions of one multi-point GOTO share it.
+    last: u32,
+    /// The FEDRAT or CYCLE in force.
+    governor: u32,
+    feed: f64,
+}
+
+/// The feeds that the motions of a program want.
+#[derive(Debug, Default)]
+pub struct FeedPlan {
+    wishes: Vec<Wish>,
+}
+
+impl FeedPlan {
+    /// Asks every feed motion of a program. `want` gives the feed in the motion's own unit, `None` for the programmed one.
+    pub fn of(program: &Program, mut want: impl FnMut(&Motion) -> Option<f64>) -> Self {
+        let mut wishes = Vec::new();
+        for motion in program.motions().filter(|motion| !motion.rapid) {
+            let (Some(feed), Some(governor)) = (motion.feed, motion.feed_from) else { continue };
+            let wanted = want(&motion).unwrap_or(feed.value);
+            wishes.push(Wish {
+                first: motion.statements.start as u32,
+                last: motion.last_statement() as u32,
+                governor: governor as u32,
+                feed: wanted,
+            });
+        }
+        Self { wishes }
+    }
+
+    /// The statements that govern a feed motion.
+    pub fn governors(&self) -> std::collections::BTreeSet<usize> {
+        self.wishes.iter().map(|wish| wish.governor as usize).collect()
+    }
+
+    /// Writes the feeds.
+    ///
+    /// # Errors
+    /// When a feed cannot be printed as a record that reads back.
+    pub fn write(
+        mut self,
+        editor: &mut Editor,
+        findings: &mut Vec<Diagnostic>,
+    ) -> Result<(), Box<Diagnostic>> {
+        self.one_feed_a_statement(editor.program(), findings);
+        let mut in_force: Vec<(u32, f64)> = Vec::new();
+        let mut templates: Vec<(u32, Option<Template>)> = Vec::new();
+        for wish in &self.wishes {
+            match in_force.iter_mut().find(|(governor, _)| *governor == wish.governor) {
+                None => {
+                    // Only the newest governors can come back (a FEDRAT around cycles); older ones are over.
+                    if in_force.len() > 8 {
+                        in_force.remove(0);
+                        templates.remove(0);
+                    }
+                    templates.push((wish.governor, Template::of(editor, wish.governor as usize)));
+                    set_feed(editor, wish.governor as usize, wish.feed)?;
+                    in_force.push((wish.governor, wish.feed));
+                }
+                Some((_, feed)) if *feed == wish.feed => {}
+                Some((governor, feed)) => {
+                    let template =
+                        templates.iter().find(|(of, _)| of == governor).and_then(|(_, text)| text.as_ref());
+                    match template {
+                        Some(template) => {
+                            editor.insert_before(wish.first as usize, &template.with(wish.feed, editor))?;
+                            *feed = wish.feed;
+                        }
+                        None => findings.push(cycle_keeps_feed(editor.program(), wish.governor as usize)),
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Points of one GOTO cannot have feeds of their own: the lowest holds for all.
+    fn one_feed_a_statement(&mut self, program: &Program, findings: &mut Vec<Diagnostic>) {
+        let mut start = 0;
+        while let Some(wish) = self.wishes.get(start).copied() {
+            let rest = self.wishes.get_mut(start..).unwrap_or_default();
+            let count = rest.iter().take_while(|other| other.last == wish.last).count().max(1);
+            let group = rest.get_mut(..count).unwrap_or_default();
+            let lowest = group.iter().map(|wish| wish.feed).fold(f64::INFINITY, f64::min);
+            if group.iter().any(|wish| wish.feed != lowest) {
+                group.iter_mut().for_each(|wish| wish.feed = lowest);
+                findings.push(shared_statement(program, wish.last as usize));
+            }
+            start += count;
+        }
+    }
+}
+
+/// Gives a FEDRAT or CYCLE another feed.
+///
+/// # Errors
+/// When it cannot be printed as a record that reads back.
+pub fn set_feed(editor: &mut Editor, statement: usize, feed: f64) -> Result<(), Box<Diagnostic>> {
+    let Some(found) = editor.program().statement(statement) else { return Ok(()) };
+    let roles = parse::roles(found.record(), editor.program().text(found));
+    match roles.iter().position(|role| *role == Role::Feed) {
+        Some(number) => editor.set_numbers(statement, &[(number, feed)]),
+        None => Ok(()),
+    }
+}
+
+/// A FEDRAT of the file as a form for new ones: its bytes without comment and line end, and where its number stands.
+struct Template {
+    text: Vec<u8>,
+}
+
+impl Template {
+    fn of(editor: &Editor, statement: usize) -> Option<Self> {
+        let program = editor.program();
+        let found = program.statement(statement).filter(|found| matches!(found.record(), Record::Feed(_)))?;
+        let syntax = parse::syntax(program.text(found));
+        debug_assert!(matches!(syntax.form, Form::Words | Form::Structured));
+        let end = match (&syntax.remark, syntax.fields.last()) {
+            (None, _) => syntax.text.len(),
+            (Some(_), Some(field)) if field.kind != FieldKind::Empty => field.at.end,
+            (Some(remark), _) => remark.start,
+        };
+        Some(Self { text: syntax.text.get(..end)?.to_vec() })
+    }
+
+    fn with(&self, feed: f64, editor: &Editor) -> Vec<u8> {
+        let record = Record::Feed(crate::program::Feed { value: feed, unit: None });
+        let patched = crate::write::patch_numbers(&self.text, &record, &[(0, feed)], editor.style());
+        patched.unwrap_or_else(|| self.text.clone())
+    }
+}
+
+fn place(program: &Program, statement: usize) -> Span {
+    program.statement(statement).map(crate::program::Statement::origin).unwrap_or_default()
+}
+
+fn shared_statement(program: &Program, statement: usize) -> Diagnostic {
+    Diagnostic::new(
+        codes::NOT_CHANGED,
+        "the points of this GOTO want different feeds; the lowest is used for all of them",
+    )
+    .label(program.source(), place(program, statement), "several points in one statement")
+}
+
+fn cycle_keeps_feed(program: &Program, statement: usize) -> Diagnostic {
+    Diagnostic::new(
+        codes::NOT_CHANGED,
+        "holes of one CYCLE want different feeds; those of the first hole are kept",
+    )
+    .label(program.source(), place(program, statement), "one feed for all holes of the cycle")
+}

@@ -1,0 +1,81 @@
+//! Transforms: what recipe steps do to a program.
+//!
+//! A transform is one file, one line in the list below, and one fixture folder. It takes the program by value, so a step
+//! that fails leaves nothing half-edited to write.
+
+mod clamp_feed;
+mod context;
+pub mod feed_plan;
+mod run;
+mod scale_feed;
+mod selection;
+
+pub use clamp_feed::ClampFeed;
+pub use context::Context;
+pub use run::{Outcome, run};
+pub use scale_feed::ScaleFeed;
+pub use selection::Selection;
+
+use crate::diagnostic::Diagnostic;
+use crate::program::Program;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// A recipe of clsmith's own steps.
+pub type Recipe = crate::recipe::Recipe<Step>;
+
+/// What a step does.
+pub trait Transform {
+    /// Changes the program.
+    ///
+    /// # Errors
+    /// A diagnostic with its places in the recipe and in the CL file. The program is gone with it.
+    fn apply(&self, program: Program, context: &mut Context<'_>) -> Result<Program, Box<Diagnostic>>;
+}
+
+/// Writes the list of transforms as the step enum of recipes and a table of names.
+macro_rules! transforms {
+    ($($name:literal => $step:ident,)*) => {
+        /// A step of a recipe: its name and its parameters.
+        #[derive(Debug, Clone, Deserialize, JsonSchema)]
+        #[serde(rename_all = "snake_case")]
+        pub enum Step {
+            $(
+                #[doc = concat!("`", $name, "`.")]
+                $step($step),
+            )*
+        }
+
+        /// Names of all transforms, in the order of the list.
+        pub const NAMES: &[&str] = &[$($name),*];
+
+        impl Step {
+            /// The step's name in a recipe.
+            pub fn name(&self) -> &'static str {
+                match self {
+                    $(Self::$step(_) => $name,)*
+                }
+            }
+
+            /// What it does.
+            pub fn transform(&self) -> &dyn Transform {
+                match self {
+                    $(Self::$step(step) => step,)*
+                }
+            }
+        }
+
+        /// The JSON schema of a transform's parameters; its descriptions are the doc comments.
+        pub fn schema_of(name: &str) -> Option<schemars::Schema> {
+            match name {
+                $($name => Some(schemars::schema_for!($step)),)*
+                _ => None,
+            }
+        }
+    };
+}
+
+transforms! {
+    "scale_feed" => ScaleFeed,
+    "clamp_feed" => ClampFeed,
+}

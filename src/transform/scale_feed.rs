@@ -1,0 +1,63 @@
+//! `scale_feed`: programmed feeds times a factor.
+
+use super::feed_plan::{self, FeedPlan};
+use super::{Context, Selection, Transform};
+use crate::diagnostic::Diagnostic;
+use crate::program::{Program, Record};
+use crate::recipe::Where;
+use crate::values::Factor;
+use crate::write::Editor;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Multiplies programmed feeds by a factor.
+///
+/// Every feed unit is scaled in its own: mm/min, inch/min, per revolution, inverse time. Feeds of drilling cycles
+/// (`CYCLE/...,MMPM,250`) are scaled like others; rapids are not. With `where`, only the selected motions change: a FEDRAT in the
+/// file's own form goes in front of a motion whose feed differs from the one before it, and the programmed feed comes back after.
+///
+/// Not idempotent: a second run multiplies again.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ScaleFeed {
+    /// What feeds are multiplied by; above 0. 0.8 makes them a fifth slower.
+    pub factor: Factor,
+    /// Which motions; all when it is left out.
+    #[serde(default)]
+    pub r#where: Where,
+}
+
+impl Transform for ScaleFeed {
+    fn apply(&self, program: Program, context: &mut Context<'_>) -> Result<Program, Box<Diagnostic>> {
+        let factor = self.factor.get();
+        let mut selection = Selection::new(&self.r#where, &program, context);
+        let plan = FeedPlan::of(&program, |motion| {
+            let feed = motion.feed?.value;
+            selection.contains(motion, context).then_some(feed * factor)
+        });
+        selection.report(context);
+        let governors = plan.governors();
+        let mut editor = Editor::new(program, context.step);
+        plan.write(&mut editor, &mut context.findings)?;
+        if selection.is_everything() {
+            // A FEDRAT that no motion uses still sets the machine's feed; left behind it would surprise.
+            for index in 0..editor.program().statements().len() {
+                if let Some(feed) =
+                    unused_feed(editor.program(), index).filter(|_| !governors.contains(&index))
+                {
+                    feed_plan::set_feed(&mut editor, index, feed * factor)?;
+                }
+            }
+        }
+        editor.finish()
+    }
+}
+
+fn unused_feed(program: &Program, index: usize) -> Option<f64> {
+    let statement = program.statement(index).filter(|statement| statement.is_live())?;
+    match statement.record() {
+        Record::Feed(feed) => Some(feed.value),
+        Record::Cycle(cycle) => cycle.feed.map(|feed| feed.value),
+        _ => None,
+    }
+}

@@ -1,0 +1,48 @@
+//! scale_feed and clamp_feed.
+
+use super::{apply, try_apply};
+
+const NX: &str = "TOOL PATH/A,TOOL,T1
+PAINT/COLOR,42
+FEDRAT/MMPM,1000.0000
+GOTO/0.0000,0.0000,0.0000,0.0000000,0.0000000,1.0000000
+GOTO/0.0000,0.0000,-1.0000
+PAINT/COLOR,31
+CIRCLE/5.0000,0.0000,-1.0000,0.0000000,0.0000000,1.0000000,5.0000,0.0600,0.5000,10.0000,0.0000
+GOTO/10.0000,0.0000,-1.0000
+RAPID
+GOTO/10.0000,0.0000,5.0000
+GOTO/20.0000,0.0000,5.0000
+END-OF-PATH
+";
+
+#[test]
+fn the_whole_program_is_scaled_in_place() {
+    let (text, findings) = apply("  - scale_feed: { factor: 0.8 }", NX);
+    assert_eq!(text, NX.replace("1000.0000", "800.0000"));
+    assert!(findings.is_empty());
+}
+
+#[test]
+fn a_selected_class_gets_its_own_feedrats_and_the_programmed_feed_comes_back() {
+    let (text, _) = apply("  - scale_feed: { factor: 0.5, where: { motions: [engage] } }", NX);
+    let expected =
+        NX.replace("MMPM,1000.0000", "MMPM,500.0000").replace("CIRCLE/", "FEDRAT/MMPM,1000.0000\nCIRCLE/");
+    assert_eq!(text, expected);
+}
+
+#[test]
+fn clamping_twice_changes_nothing_more() {
+    let step = "  - clamp_feed: { min: 100, max: 640.5 }";
+    let (once, _) = apply(step, NX);
+    assert_eq!(once, NX.replace("1000.0000", "640.5000"));
+    assert_eq!(apply(step, &once).0, once);
+}
+
+#[test]
+fn a_limit_must_come_from_somewhere() {
+    let found = try_apply("version: 1\nsteps:\n  - clamp_feed: {}", NX).unwrap_err();
+    assert_eq!(found[0].code.id(), "CL0302");
+    let machine = "version: 1\nsetup: { machine: { max_feed: 700 } }\nsteps:\n  - clamp_feed: {}";
+    assert!(try_apply(machine, NX).unwrap().0.contains("FEDRAT/MMPM,700.0000"));
+}

@@ -1,0 +1,26 @@
+//! Transforms, through one door: a recipe's steps applied to a text.
+
+mod feed;
+
+use crate::support;
+use clsmith::diagnostic::Diagnostic;
+use clsmith::setup::Setup;
+use clsmith::source::Source;
+use clsmith::transform::{Recipe, run};
+
+/// Applies `steps` (the YAML below `steps:`) to a program's text; gives the new text and the findings.
+pub fn apply(steps: &str, text: impl AsRef<[u8]>) -> (String, Vec<Diagnostic>) {
+    match try_apply(&format!("version: 1\nsteps:\n{steps}"), text) {
+        Ok(done) => done,
+        Err(found) => panic!("{found:?}"),
+    }
+}
+
+/// Applies a whole recipe; the error is what stopped it.
+pub fn try_apply(recipe: &str, text: impl AsRef<[u8]>) -> Result<(String, Vec<Diagnostic>), Vec<Diagnostic>> {
+    let recipe = Source::new("recipe.yaml", recipe.as_bytes().to_vec()).unwrap();
+    let recipe = Recipe::load(&recipe)?;
+    let setup = recipe.setup_with(Setup::default(), Setup::default());
+    let outcome = run(&recipe, &setup, support::program(text))?;
+    Ok((String::from_utf8_lossy(&outcome.program.to_bytes()).into_owned(), outcome.findings))
+}
