@@ -6,3 +6,4 @@
 pub mod explain;
 pub mod policy;
 pub mod render;
+pub mod steps;
