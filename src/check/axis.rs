@@ -104,10 +104,20 @@ const JUMP_COSINE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// Axes that turn far within one feed motion.
 #[derive(Default)]
-pub(super) struct Jump;
+pub(super) struct Jump {
+    /// The axis was set by a record of its own, or an operation begins: the next motion does not interpolate it.
+    set: bool,
+}
 
 impl Lint for Jump {
+    fn statement(&mut self, _index: usize, statement: &Statement, _found: &mut Findings<'_>) {
+        self.set |= matches!(statement.record(), Record::ToolAxis(_) | Record::OperationStart(_));
+    }
+
     fn motion(&mut self, motion: &Motion, found: &mut Findings<'_>) {
+        if std::mem::take(&mut self.set) {
+            return;
+        }
         let (from, to) = (motion.from.axis, motion.to.axis);
         let cosine = from.dot(&to);
         // Axes that are no axes have their own finding.

@@ -45,11 +45,12 @@ impl Facts {
     }
 }
 
-/// Whether a statement switches coolant on or off; `None` when it is no COOLNT.
+/// Whether a statement switches coolant on or off; `None` when it is no COOLNT, or one with an empty list (CATIA through
+/// ICAM), of which only the post knows what it means.
 pub(crate) fn coolant(text: &[u8]) -> Option<bool> {
     let rest = text.trim_ascii_start().strip_prefix(b"COOLNT")?;
     let word = rest.trim_ascii_start().strip_prefix(b"/").unwrap_or_default().trim_ascii();
-    Some(word != b"OFF")
+    (!word.is_empty()).then_some(word != b"OFF")
 }
 
 /// The findings so far, and how to point at statements.
@@ -139,10 +140,12 @@ impl<'p> Findings<'p> {
 
     /// The numbers of a statement from the first to the last of a range, as one place.
     pub(crate) fn numbers(&self, index: usize, range: Range<usize>) -> Span {
-        let numbers = self.syntax(index).numbers();
+        let plain = plain_numbers(self.text(index));
+        let numbers =
+            plain.unwrap_or_else(|| self.syntax(index).numbers().into_iter().map(|(at, _)| at).collect());
         let last = range.end.min(numbers.len()).checked_sub(1);
         match (numbers.get(range.start), last.and_then(|last| numbers.get(last))) {
-            (Some((first, _)), Some((last, _))) => self.place(index, &(first.start..last.end)),
+            (Some(first), Some(last)) => self.place(index, &(first.start..last.end)),
             _ => self.whole(index),
         }
     }
@@ -197,5 +200,42 @@ impl<'p> Findings<'p> {
     /// A length in the file's unit from one in millimetres.
     pub(crate) fn millimetres(&self, value: f64) -> f64 {
         value / self.facts.units.unwrap_or_default().in_mm()
+    }
+}
+
+/// Where the numbers of a plain GOTO stand, without the grammar: a file may have a finding in each of a million. `None` for
+/// anything that is not digits, commas and blanks after the slash, continued lines included.
+fn plain_numbers(text: &[u8]) -> Option<Vec<Range<usize>>> {
+    let slash = memchr::memchr(b'/', text)?;
+    let rest = text.get(slash + 1..)?.trim_ascii_end();
+    let mut numbers = Vec::with_capacity(6);
+    let mut start = slash + 1;
+    for field in rest.split(|byte| *byte == b',') {
+        let number = field.trim_ascii();
+        let plain = |byte: &u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'-');
+        if number.is_empty() || !number.iter().all(plain) {
+            return None;
+        }
+        let blank = field.len() - field.trim_ascii_start().len();
+        numbers.push(start + blank..start + blank + number.len());
+        start += field.len() + 1;
+    }
+    Some(numbers)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain_numbers;
+
+    #[test]
+    fn plain_numbers_stand_where_the_grammar_finds_them() {
+        for text in ["GOTO/1.5,-2,3\n", "GOTO  /    1.0,  2.0 , -.5  \r\n", "CIRCLE/ 1,2,3,0,0,1,5\n"] {
+            let grammar: Vec<_> =
+                crate::parse::syntax(text.as_bytes()).numbers().into_iter().map(|(at, _)| at).collect();
+            assert_eq!(plain_numbers(text.as_bytes()), Some(grammar), "{text}");
+        }
+        for text in ["GOTO/1.0,$\n2.0,3.0\n", "SPINDL/RPM,1\n", "GOTO/1 2,3\n", "GOTO/1,,3\n", "RAPID\n"] {
+            assert_eq!(plain_numbers(text.as_bytes()), None, "{text}");
+        }
     }
 }

@@ -30,17 +30,24 @@ pub(super) struct Shapes {
     used: bool,
     /// Whether the shape in force is that of an earlier tool.
     outdated: bool,
+    /// Whether a turret has turned since the last tool number.
+    turret: bool,
     shapes: HashMap<u32, (ToolData, usize)>,
     without_shape: HashSet<Option<u32>>,
 }
 
 impl Lint for Shapes {
-    fn statement(&mut self, index: usize, statement: &Statement, _found: &mut Findings<'_>) {
+    fn statement(&mut self, index: usize, statement: &Statement, found: &mut Findings<'_>) {
         match statement.record() {
             Record::ToolData(_) => (self.data, self.used, self.outdated) = (Some(index), false, false),
             Record::ToolCall(call) => {
                 let other = self.last.as_ref().is_none_or(|tool| tool.number != Some(call.number));
                 self.outdated |= self.used && other;
+                self.turret = false;
+            }
+            // A lathe's turret turns to a tool that has no number of its own here: the number in force is another tool's.
+            Record::Known if found.program.text(statement).trim_ascii_start().starts_with(b"TURRET") => {
+                self.turret = true;
             }
             _ => {}
         }
@@ -90,7 +97,7 @@ impl Shapes {
     }
 
     fn compare(&mut self, tool: &Tool, data: &ToolData, at: usize, found: &mut Findings<'_>) {
-        let Some(number) = tool.number else { return };
+        let Some(number) = tool.number.filter(|_| !self.turret) else { return };
         let Some((before, place)) = self.shapes.get(&number) else {
             self.shapes.insert(number, (data.clone(), at));
             return;

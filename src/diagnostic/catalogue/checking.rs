@@ -184,7 +184,8 @@ super::area! {
          some systems write it, this post convention has to be known.";
     CYCLE_WITHOUT_DEPTH = "CL0146", Warning, "a drilling cycle without a depth",
         "Add the depth (FEDTO, DEPTH, or the first number).",
-        "The cycle names no depth. The post takes the last one, or zero.";
+        "The cycle names no depth, neither by a word nor as its first number. A post takes the depth of the cycle before, or \
+         zero: the holes are too deep, or missing.";
     CYCLE_CUTS_NOTHING = "CL0147", Note, "a drilling cycle that does not go down",
         "Right for centre marks programmed at the bottom; otherwise correct the depth.",
         "The depth is 0, or in NX (which prints the depth as a coordinate, negative is down) above the point. The tool stops \
