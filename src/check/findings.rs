@@ -162,9 +162,12 @@ impl<'p> Findings<'p> {
 
     /// The point that a motion ends with.
     pub(crate) fn end_point(&self, motion: &Motion) -> Span {
-        match self.program.statement(motion.last_statement()).map(|statement| statement.record()) {
-            Some(Record::DriveArc(_)) => self.numbers(motion.last_statement(), 7..10),
-            _ => self.numbers(motion.last_statement(), 0..3),
+        let at = motion.last_statement();
+        match self.program.statement(at).map(|statement| statement.record()) {
+            // Centre, radius, the 2 of `2,INTOF` where it stands, and the two ends of the LINE.
+            Some(Record::DriveArc(arc)) if arc.beyond_half => self.numbers(at, 8..11),
+            Some(Record::DriveArc(_)) => self.numbers(at, 7..10),
+            _ => self.numbers(at, 0..3),
         }
     }
 

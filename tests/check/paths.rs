@@ -41,6 +41,16 @@ fn arcs() -> Vec<Case> {
             "10.0000,10.5000,0.0000",
             arc("10.0000", "10.0000,10.0015,0.0000"),
         ),
+        case(
+            codes::ARC_END_OFF_CIRCLE,
+            catia(
+                "INDIRV/ 0.0, -1.0, 0.0\nTLON,GOFWD/ (CIRCLE/ 10.0, 0.0, 0.0, 10.0),ON,2,INTOF,(LINE/ 10.0, 0.0, 0.0, 10.0, 10.5, 0.0)\n",
+            ),
+            "10.0, 10.5, 0.0",
+            catia(
+                "INDIRV/ 0.0, -1.0, 0.0\nTLON,GOFWD/ (CIRCLE/ 10.0, 0.0, 0.0, 10.0),ON,2,INTOF,(LINE/ 10.0, 0.0, 0.0, 10.0, 10.0, 0.0)\n",
+            ),
+        ),
         case(codes::ARC_RADIUS_DIFFERS, arc("10.5000", "10.0000,10.0000,0.0000"), "10.5000", quarter()),
         case(codes::ARC_ROUGH, arc("10.0050", "10.0000,10.0000,0.0000"), "10.0050", quarter()),
         case(
