@@ -268,7 +268,10 @@ pub(super) fn roles(record: &Record, count: usize) -> Vec<Role> {
         Record::GoDelta(numbers) if numbers.len() == 3 => vec![Role::Step(0), Role::Step(1), Role::Step(2)],
         Record::GoDelta(_) => vec![Role::Length],
         Record::StartDirection(_) => directions(),
-        Record::DriveArc(_) => [points(3), vec![Role::Length], points(6)].concat(),
+        // The 2 of `2,INTOF` chooses an intersection; it is no coordinate.
+        Record::DriveArc(_) => {
+            [points(3), vec![Role::Length], vec![Role::Plain; count.saturating_sub(10)], points(6)].concat()
+        }
         Record::Circle(circle) => {
             let lengths = count.saturating_sub(6 + usize::from(circle.times > 1));
             let mut roles = [points(3), arc_axis()].concat();
@@ -310,4 +313,21 @@ fn directions() -> Vec<Role> {
 
 fn arc_axis() -> Vec<Role> {
     vec![Role::ArcAxis(0), Role::ArcAxis(1), Role::ArcAxis(2)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_number_of_an_intersection_is_no_coordinate() {
+        for (on, plain) in [("ON", 0), ("ON,2,INTOF", 1)] {
+            let text = format!("TLON,GOFWD/(CIRCLE/1.,2.,3.,4.),{on},(LINE/1.,2.,3.,5.,2.,3.)\n");
+            let (record, syntax) = crate::parse::record(text.as_bytes()).unwrap();
+            let roles = record.roles(&syntax);
+            assert_eq!(roles.iter().filter(|role| **role == Role::Plain).count(), plain, "{roles:?}");
+            assert_eq!(roles.last(), Some(&Role::Point(2)));
+            assert_eq!(roles.len(), 10 + plain);
+        }
+    }
 }

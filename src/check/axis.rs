@@ -1,0 +1,135 @@
+//! Tool axes and axes of arcs: unit length, MULTAX, and jumps.
+
+use super::{Findings, Lint};
+use crate::diagnostic::codes;
+use crate::program::geometry::Path;
+use crate::program::motion::Motion;
+use crate::program::{Dialect, Record, Statement};
+use nalgebra::Vector3;
+use std::ops::Range;
+
+/// Rounding to three decimals, the coarsest that hand-written axes have, stays below this.
+const UNIT_TOLERANCE: f64 = 1e-3;
+
+/// Beyond this the numbers are no axis that was rounded or mistyped in its last digits, but something else.
+const NO_AXIS_FROM: f64 = 0.1;
+
+/// Axes that are no unit vectors.
+#[derive(Default)]
+pub(super) struct UnitAxis;
+
+impl Lint for UnitAxis {
+    fn statement(&mut self, index: usize, statement: &Statement, found: &mut Findings<'_>) {
+        let (axis, place) = match statement.record() {
+            Record::Goto(goto) => match &goto.axis {
+                Some(axis) => (axis, 3..6),
+                None => return,
+            },
+            Record::From(goto) | Record::GoHome(Some(goto)) => match &goto.axis {
+                Some(axis) => (axis, 3..6),
+                None => return,
+            },
+            Record::ToolAxis(axis) => (axis.as_ref(), 0..3),
+            Record::Circle(circle) => (&circle.axis, 3..6),
+            Record::MoveArc(arc) => (&arc.axis, 3..6),
+            _ => return,
+        };
+        // Squares first: 1.6 million roots are saved in a large file.
+        if (axis.norm_squared() - 1.0).abs() > UNIT_TOLERANCE {
+            report(index, axis, place, found);
+        }
+    }
+}
+
+fn report(index: usize, axis: &Vector3<f64>, place: Range<usize>, found: &mut Findings<'_>) {
+    let length = axis.norm();
+    let off = (length - 1.0).abs();
+    if off <= UNIT_TOLERANCE {
+        return;
+    }
+    let span = found.numbers(index, place);
+    if off > NO_AXIS_FROM {
+        let message = format!("these numbers are no axis: their length is {length:.4}, not 1");
+        found.report(codes::NO_AXIS, span, message, "not a direction");
+    } else {
+        let message = format!("this axis has the length {length:.6}, not 1");
+        found.report(codes::AXIS_NOT_UNIT, span, message, "");
+    }
+}
+
+/// Axes closer than this (the sine of the angle, squared) are one axis: half a hundredth of a degree.
+const SAME_AXIS: f64 = 1e-8;
+
+/// An axis that changes without MULTAX, in the dialects that write it.
+#[derive(Default)]
+pub(super) struct WithoutMultax {
+    on: bool,
+    axis: Option<Vector3<f64>>,
+    reported: bool,
+}
+
+impl Lint for WithoutMultax {
+    fn statement(&mut self, index: usize, statement: &Statement, found: &mut Findings<'_>) {
+        match statement.record() {
+            Record::MultiAxis(on) => (self.on, self.reported) = (*on, false),
+            Record::ToolAxis(axis) => self.axis = Some(**axis),
+            Record::Goto(goto) => {
+                let Some(axis) = goto.axis else { return };
+                let before = self.axis.replace(axis);
+                if self.on || self.reported || !writes_multax(found.program.dialect()) {
+                    return;
+                }
+                if before.is_some_and(|before| (axis - before).norm_squared() > SAME_AXIS) {
+                    self.reported = true;
+                    let message = "the tool axis changes here, but MULTAX is not on";
+                    found.report(
+                        codes::AXIS_WITHOUT_MULTAX,
+                        found.numbers(index, 3..6),
+                        message,
+                        "another axis",
+                    );
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+fn writes_multax(dialect: Dialect) -> bool {
+    matches!(dialect, Dialect::Catia | Dialect::CatiaIcam | Dialect::Creo | Dialect::CreoGpost)
+}
+
+/// Cosine of 45 degrees: a feed motion that turns the axis farther is asked about.
+const JUMP_COSINE: f64 = std::f64::consts::FRAC_1_SQRT_2;
+
+/// Axes that turn far within one feed motion.
+#[derive(Default)]
+pub(super) struct Jump {
+    /// The axis was set by a record of its own, or an operation begins: the next motion does not interpolate it.
+    set: bool,
+}
+
+impl Lint for Jump {
+    fn statement(&mut self, _index: usize, statement: &Statement, _found: &mut Findings<'_>) {
+        self.set |= matches!(statement.record(), Record::ToolAxis(_) | Record::OperationStart(_));
+    }
+
+    fn motion(&mut self, motion: &Motion, found: &mut Findings<'_>) {
+        if std::mem::take(&mut self.set) {
+            return;
+        }
+        let (from, to) = (motion.from.axis, motion.to.axis);
+        let cosine = from.dot(&to);
+        // Axes that are no axes have their own finding.
+        if cosine >= JUMP_COSINE || matches!(motion.path, Path::Start) || from.norm() < 0.9 || to.norm() < 0.9
+        {
+            return;
+        }
+        if found.cuts(motion) {
+            let degrees = (cosine / (from.norm() * to.norm())).clamp(-1.0, 1.0).acos().to_degrees();
+            let message = format!("the tool axis turns by {degrees:.1} degrees in this feed motion");
+            let span = found.numbers(motion.last_statement(), 3..6);
+            found.report(codes::AXIS_JUMP, span, message, "");
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! Frames whose axes are not perpendicular unit vectors, or mirror.
+
+use super::{Findings, Lint};
+use crate::diagnostic::codes;
+use crate::number::decimals;
+use crate::program::record::FrameWord;
+use crate::program::{Record, Statement};
+use crate::source::Span;
+use nalgebra::Matrix3;
+
+/// Frames of records, and CATIA's in comments.
+#[derive(Default)]
+pub(super) struct Frames {
+    /// Rows of a CATIA0 matrix: their statements and numbers.
+    rows: Option<Vec<(usize, [f64; 4])>>,
+}
+
+impl Lint for Frames {
+    fn statement(&mut self, index: usize, statement: &Statement, found: &mut Findings<'_>) {
+        match statement.record() {
+            Record::Frame(frame) => {
+                let axes = match (frame.word, frame.numbers.as_slice()) {
+                    (FrameWord::Msys, [_, _, _, a, b, c, d, e, f]) => {
+                        // The third axis is the product of the others: two unit vectors at right angles make a frame.
+                        let (x, y) = (nalgebra::Vector3::new(*a, *b, *c), nalgebra::Vector3::new(*d, *e, *f));
+                        Matrix3::from_columns(&[x, y, x.cross(&y)])
+                    }
+                    (FrameWord::Csys, [a, b, c, _, d, e, f, _, g, h, i, _]) => {
+                        Matrix3::new(*a, *b, *c, *d, *e, *f, *g, *h, *i)
+                    }
+                    _ => return,
+                };
+                look(&axes, &[index], found);
+            }
+            Record::FrameMark => self.rows = Some(Vec::new()),
+            Record::MatrixRow(row) => {
+                let Some(rows) = &mut self.rows else { return };
+                rows.push((index, **row));
+                if let [(first, a), (second, b), (third, c)] = rows.as_slice() {
+                    let axes = Matrix3::new(a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]);
+                    let places = [*first, *second, *third];
+                    self.rows = None;
+                    look(&axes, &places, found);
+                }
+            }
+            Record::Comment => {}
+            _ => self.rows = None,
+        }
+    }
+}
+
+fn look(axes: &Matrix3<f64>, places: &[usize], found: &mut Findings<'_>) {
+    let off = (axes.transpose() * axes - Matrix3::identity()).abs().max();
+    // The grammar is asked for the decimals only where they matter.
+    if off > 1e-12 && off > tolerance(places, found) {
+        let message = format!("the axes of this frame are off perpendicular unit vectors by {off:.6}");
+        found.report(codes::FRAME_SKEWED, span(places, found), message, "");
+    } else if axes.determinant() < 0.0 {
+        found.report(
+            codes::FRAME_LEFT_HANDED,
+            span(places, found),
+            "the axes of this frame are left-handed",
+            "",
+        );
+    }
+}
+
+/// What rounding explains: each component is off by half its last decimal, and a product of two axes by twice the root of
+/// three of that. Three decimals are granted to files that cut their zeros.
+fn tolerance(places: &[usize], found: &Findings<'_>) -> f64 {
+    let of = |index: &usize| {
+        let syntax = found.syntax(*index);
+        syntax.numbers().iter().map(|(at, _)| decimals(syntax.bytes(at))).max().unwrap_or(0)
+    };
+    let printed = places.iter().map(of).max().unwrap_or(0).clamp(3, 12);
+    2.0 * 10f64.powi(-(printed as i32))
+}
+
+fn span(places: &[usize], found: &Findings<'_>) -> Span {
+    match (places.first(), places.last()) {
+        (Some(first), Some(last)) => Span { start: found.whole(*first).start, end: found.whole(*last).end },
+        _ => Span::default(),
+    }
+}

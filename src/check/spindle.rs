@@ -1,0 +1,112 @@
+//! Spindle and coolant: cuts without them.
+
+use super::findings::coolant;
+use super::{Findings, Lint};
+use crate::diagnostic::{Code, codes};
+use crate::program::motion::Motion;
+use crate::program::{Record, Statement};
+
+pub(super) const CODES: &[Code] =
+    &[codes::CUT_WITHOUT_SPINDLE, codes::NO_SPINDLE, codes::ZERO_SPEED, codes::SPINDLE_NOT_RESTARTED];
+
+/// Cuts while the spindle stands.
+#[derive(Default)]
+pub(super) struct Spindles {
+    /// The last SPINDL/OFF, while it is in force.
+    off: Option<usize>,
+    /// Whether the stop in force was reported.
+    reported: bool,
+    tool: Option<u32>,
+    /// A tool change, until SPINDL comes after it.
+    changed: Option<usize>,
+}
+
+impl Lint for Spindles {
+    fn statement(&mut self, index: usize, statement: &Statement, found: &mut Findings<'_>) {
+        match statement.record() {
+            Record::Spindle(spindle) => {
+                self.off = (!spindle.on).then_some(index);
+                self.reported = false;
+                self.changed = None;
+                if spindle.on && spindle.speed == Some(0.0) {
+                    let span = found.numbers(index, 0..1);
+                    found.report(codes::ZERO_SPEED, span, "the spindle is started with speed 0", "");
+                }
+            }
+            Record::ToolCall(call) if call.loads => {
+                if self.tool.is_some_and(|tool| tool != call.number) {
+                    self.changed = Some(index);
+                }
+                self.tool = Some(call.number);
+            }
+            _ => {}
+        }
+    }
+
+    fn motion(&mut self, motion: &Motion, found: &mut Findings<'_>) {
+        let turns = motion.spindle.as_ref().is_some_and(|spindle| spindle.on);
+        if turns && self.changed.is_none() || self.reported || found.facts.wire || !found.cuts(motion) {
+            return;
+        }
+        let span = found.end_point(motion);
+        if let (true, Some(changed)) = (turns, self.changed.take()) {
+            let message = "the tool was changed, and no SPINDL comes before this cut";
+            let change = (found.numbers(changed, 0..1), "the tool change");
+            return found.report_two(
+                codes::SPINDLE_NOT_RESTARTED,
+                message,
+                (span, "the first cut after it"),
+                change,
+            );
+        }
+        self.reported = true;
+        let message = "the spindle stands at this feed motion";
+        match self.off {
+            _ if !found.facts.spindle => {
+                found.report(
+                    codes::NO_SPINDLE,
+                    span,
+                    "the program cuts, but never starts a spindle",
+                    "the first cut",
+                );
+            }
+            None => found.report(codes::CUT_WITHOUT_SPINDLE, span, message, "it is started later"),
+            Some(off) => {
+                let off = (found.whole(off), "switched off here");
+                found.report_two(codes::CUT_WITHOUT_SPINDLE, message, (span, "the first cut after it"), off);
+            }
+        }
+    }
+}
+
+/// Cuts without the coolant that the file uses elsewhere.
+#[derive(Default)]
+pub(super) struct Coolant {
+    on: bool,
+    reported: bool,
+}
+
+impl Lint for Coolant {
+    fn statement(&mut self, _index: usize, statement: &Statement, found: &mut Findings<'_>) {
+        if let Record::Known = statement.record()
+            && let Some(on) = coolant(found.program.text(statement))
+        {
+            self.reported &= self.on == on;
+            self.on = on;
+        }
+    }
+
+    fn motion(&mut self, motion: &Motion, found: &mut Findings<'_>) {
+        if self.on || self.reported || !found.facts.coolant || !found.cuts(motion) {
+            return;
+        }
+        self.reported = true;
+        let span = found.end_point(motion);
+        found.report(
+            codes::NO_COOLANT,
+            span,
+            "coolant is off at this cut, but used elsewhere",
+            "the first such cut",
+        );
+    }
+}
