@@ -75,7 +75,8 @@ fn measure(stage: &str, path: &Path) -> Duration {
             start.elapsed()
         }
         "parse" => {
-            let source = Source::new("part.cls", std::fs::read(path).expect("the file")).expect("below 4 GiB");
+            let source =
+                Source::new("part.cls", std::fs::read(path).expect("the file")).expect("below 4 GiB");
             let start = Instant::now();
             black_box(parse(&source, None).program.statements().len());
             start.elapsed()
@@ -83,7 +84,8 @@ fn measure(stage: &str, path: &Path) -> Duration {
         _ => {
             // What `clsmith apply` does with an empty recipe, from opening the file to the renamed output on the disk.
             let start = Instant::now();
-            let source = Source::new("part.cls", std::fs::read(path).expect("the file")).expect("below 4 GiB");
+            let source =
+                Source::new("part.cls", std::fs::read(path).expect("the file")).expect("below 4 GiB");
             let parsed = parse(&source, None);
             clsmith::write::write_atomically(&path.with_extension("out"), |out| {
                 parsed.program.pieces().try_for_each(|piece| out.write_all(piece))
@@ -129,5 +131,6 @@ fn program(bytes: usize) -> String {
 fn peak_bytes() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap_or_default();
-    line.split_whitespace().next().and_then(|kilobytes| kilobytes.parse::<u64>().ok()).unwrap_or_default() * 1024
+    line.split_whitespace().next().and_then(|kilobytes| kilobytes.parse::<u64>().ok()).unwrap_or_default()
+        * 1024
 }

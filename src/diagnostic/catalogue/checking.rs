@@ -239,7 +239,8 @@ super::area! {
          change is off by a factor of 25.4.";
     UNITS_LATE = "CL0161", Warning, "the unit of lengths comes after motions",
         "Move UNITS to the head of the program.",
-        "The first UNITS stands behind motions. A post may read those in its own default unit.";
+        "The first UNITS stands behind motions. clsmith reads the whole program in that unit, but a post that goes line by line \
+         reads the motions before it in its own default unit, off by a factor of 25.4 when that is the other one.";
     FEED_UNITS_MIXED = "CL0162", Warning, "feeds and lengths in different units",
         "Give all feeds in the unit of the lengths.",
         "A feed in inches (IPM, IPR) stands in a metric program, a metric one in an inch program, or both kinds in one \

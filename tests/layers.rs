@@ -1,0 +1,133 @@
+//! Imports run one way. The table is the one in ARCHITECTURE.md.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+/// What each module of the library may import, besides itself.
+const MAY_IMPORT: &[(&str, &[&str])] = &[
+    ("source", &[]),
+    ("number", &[]),
+    ("diagnostic", &["source"]),
+    ("program", &["source", "number", "diagnostic"]),
+    ("parse", &["source", "number", "diagnostic", "program"]),
+    ("write", &["source", "number", "diagnostic", "program", "parse"]),
+    ("values", &["source", "diagnostic", "program"]),
+    ("yaml", &["source", "diagnostic", "values"]),
+    ("setup", &["source", "diagnostic", "program", "values", "yaml"]),
+    ("recipe", &["source", "diagnostic", "program", "values", "yaml", "setup"]),
+    ("check", &["source", "number", "diagnostic", "program", "parse"]),
+    (
+        "transform",
+        &[
+            "source",
+            "number",
+            "diagnostic",
+            "program",
+            "parse",
+            "write",
+            "values",
+            "setup",
+            "recipe",
+            "check",
+        ],
+    ),
+    (
+        "report",
+        &[
+            "source",
+            "number",
+            "diagnostic",
+            "program",
+            "parse",
+            "write",
+            "values",
+            "setup",
+            "recipe",
+            "check",
+            "transform",
+        ],
+    ),
+    (
+        "job",
+        &[
+            "source",
+            "diagnostic",
+            "program",
+            "parse",
+            "write",
+            "setup",
+            "recipe",
+            "check",
+            "transform",
+            "report",
+        ],
+    ),
+];
+
+/// What no module of the library may use: the command line, the terminal, printing and exiting.
+const FORBIDDEN: &[&str] =
+    &["clap", "println!(", "eprintln!(", "print!(", "process::exit", "is_terminal", "std::env::var"];
+
+#[test]
+fn imports_run_one_way() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut imports: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for path in library_files(&root) {
+        let text = std::fs::read_to_string(&path).unwrap();
+        // Unit tests may look at the whole crate.
+        let text = text.split("#[cfg(test)]").next().unwrap();
+        let module = module(&root, &path);
+        for line in text.lines().filter(|line| !line.trim_start().starts_with("//")) {
+            for part in line.split("crate::").skip(1) {
+                let name: String = part.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+                imports.entry(module.clone()).or_default().insert(name);
+            }
+        }
+    }
+    let known: BTreeSet<&str> = MAY_IMPORT.iter().map(|(module, _)| *module).collect();
+    for (module, imported) in &imports {
+        let allowed = MAY_IMPORT.iter().find(|(name, _)| name == module);
+        let (_, allowed) = allowed.unwrap_or_else(|| panic!("{module} has no place in the table"));
+        for name in imported.iter().filter(|name| *name != module && known.contains(name.as_str())) {
+            assert!(allowed.contains(&name.as_str()), "{module} must not import {name}");
+        }
+    }
+    assert!(imports.len() > 8, "the sources were found");
+}
+
+#[test]
+fn the_library_knows_no_terminal() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    for path in library_files(&root) {
+        let text = std::fs::read_to_string(&path).unwrap();
+        for line in text.lines().filter(|line| !line.trim_start().starts_with("//")) {
+            for word in FORBIDDEN {
+                assert!(!line.contains(word), "{}: {line}", path.display());
+            }
+        }
+    }
+}
+
+fn library_files(root: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut folders = vec![root.to_path_buf()];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap().flatten() {
+            let path = entry.path();
+            if path.is_dir() && !path.ends_with("cli") {
+                folders.push(path);
+            } else if path.extension().is_some_and(|end| end == "rs")
+                && !path.ends_with("main.rs")
+                && !path.ends_with("lib.rs")
+            {
+                found.push(path);
+            }
+        }
+    }
+    found
+}
+
+fn module(root: &Path, path: &Path) -> String {
+    let first = path.strip_prefix(root).unwrap().components().next().unwrap();
+    first.as_os_str().to_string_lossy().trim_end_matches(".rs").to_owned()
+}
