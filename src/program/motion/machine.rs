@@ -162,13 +162,20 @@ impl<'p> Motions<'p> {
             Record::Spindle(spindle) => state.spindle = Some(Arc::new(spindle.as_ref().clone())),
             Record::CutterCompensation(compensation) => state.compensation = Some((*compensation, index)),
             Record::ToolCall(call) => state.change_tool(|tool| {
-                if tool.number.is_some_and(|number| number != call.number) && tool.loaded && call.loads {
+                let another = tool.number.is_some_and(|number| number != call.number);
+                if another && tool.loaded && call.loads {
                     tool.name = None;
+                    // A tool that nothing describes must not pass for the one before it.
+                    tool.data = tool.data.take().filter(|_| tool.shape_is_new);
                 }
                 tool.number = Some(call.number);
                 tool.loaded |= call.loads;
+                tool.shape_is_new &= !call.loads;
             }),
-            Record::ToolData(data) => state.change_tool(|tool| tool.data = Some(data.as_ref().clone())),
+            Record::ToolData(data) => state.change_tool(|tool| {
+                tool.data = Some(data.as_ref().clone());
+                tool.shape_is_new = true;
+            }),
             Record::ToolAxis(axis) if !self.program.dialect().axis_is_of_setup() => state.axis = **axis,
             Record::MultiAxis(on) => state.multi_axis = *on,
             Record::Frame(frame) => self.frame(index, frame),

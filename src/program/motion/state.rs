@@ -18,6 +18,8 @@ pub struct Tool {
     pub data: Option<ToolData>,
     /// Whether a record loaded it (an NX path without LOAD/TOOL only describes it).
     pub loaded: bool,
+    /// Whether the shape was told after the last load: it then is of the tool that comes next (CUTTER stands before LOADTL).
+    pub(super) shape_is_new: bool,
 }
 
 /// Where the printed coordinates stand: `outside = origin + axes * printed`.

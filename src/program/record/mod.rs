@@ -70,7 +70,7 @@ pub enum Record {
     /// `CUTCOM/`.
     CutterCompensation(CutterCompensation),
 
-    /// `LOAD/TOOL`, `LOADTL/`, `TOOLNO/`: a tool by number.
+    /// `LOAD/TOOL`, `LOADTL/`, `TURRET/`, `TOOLNO/`: a tool by number.
     ToolCall(ToolCall),
     /// `TLDATA/`, `CUTTER/`, Creo's `$$-> CUTTER`: the shape of the tool.
     ToolData(Box<ToolData>),

@@ -42,7 +42,7 @@ pub struct ToolData {
 pub struct ToolCall {
     /// Number of the tool.
     pub number: u32,
-    /// Whether the record loads it (`LOAD/TOOL`, `LOADTL`), or only names it (`TOOLNO`).
+    /// Whether the record loads it (`LOAD/TOOL`, `LOADTL`, `TURRET`), or only names it (`TOOLNO`).
     pub loads: bool,
 }
 
@@ -52,6 +52,8 @@ pub(super) fn read(major: &str, syntax: &Syntax<'_>) -> Reading {
         "CUTTER" => cutter(syntax),
         "LOADTL" => call(major, syntax, 0, true),
         "TOOLNO" => call(major, syntax, 0, false),
+        // CATIA's lathe tools: TURRET/1,OSETNO,1,SETOOL,...
+        "TURRET" => call(major, syntax, 0, true),
         "LOAD" if syntax.word_at(0).as_deref() == Some("TOOL") => call(major, syntax, 1, true),
         "TLAXIS" => axis(major, syntax),
         "MULTAX" => Ok(Record::MultiAxis(syntax.word_at(0).as_deref() != Some("OFF"))),
