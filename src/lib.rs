@@ -6,6 +6,7 @@
 
 pub mod check;
 pub mod diagnostic;
+pub mod job;
 pub mod number;
 pub mod parse;
 pub mod program;

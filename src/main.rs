@@ -1,1 +1,7 @@
-fn main() {}
+//! The `clsmith` command. Everything is in `cli`; here is only the exit code.
+
+mod cli;
+
+fn main() -> std::process::ExitCode {
+    cli::main()
+}

@@ -1,0 +1,229 @@
+//! `clsmith apply`.
+
+use super::exit::Exit;
+use super::files::{self, Loaded, STANDARD};
+use super::findings::FindingArgs;
+use super::terminal;
+use clap::Args;
+use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::job::{Done, Job, is_changed};
+use clsmith::parse::parse;
+use clsmith::program::{Dialect, Program};
+use clsmith::report::changes::Changes;
+use clsmith::report::unified;
+use clsmith::source::Source;
+use clsmith::write::{Interrupt, is_interrupt, same_file, write_atomically_unless};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+const EXAMPLES: &str = "\
+Examples:
+  clsmith apply recipe.yaml part.cls -o out.cls
+  clsmith apply recipe.yaml part.cls --diff          show the changed lines, write nothing
+  clsmith apply recipe.yaml part.cls --dry-run       run, report, write nothing
+  clsmith apply recipe.yaml - -o - < part.cls        from standard input to standard output
+  clsmith apply recipe.yaml programs/*.cls -o done/  several files into a folder
+
+Every output appears whole or not at all, and never over an input. With several inputs each stands for
+itself: those with errors are not written, the others are, and the exit code is 1.";
+
+/// Corrects programs by a recipe
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Apply {
+    /// The recipe (YAML)
+    recipe: PathBuf,
+    /// The programs; `-` is standard input
+    #[arg(required = true, value_name = "INPUT")]
+    inputs: Vec<PathBuf>,
+    /// Where to write: a file, `-` for standard output, or with several inputs a folder
+    #[arg(short, long, value_name = "PATH", required_unless_present_any = ["dry_run", "diff"])]
+    output: Option<PathBuf>,
+    /// Run and report, write nothing
+    #[arg(long)]
+    dry_run: bool,
+    /// Show the changed lines on standard output as a patch; writes nothing unless -o is given
+    #[arg(long)]
+    diff: bool,
+    /// A setup file; overrides the recipe's setup
+    #[arg(long, value_name = "FILE")]
+    setup: Option<PathBuf>,
+    /// The dialect, instead of finding it from the text
+    #[arg(long, value_parser = files::dialect, value_name = "NAME")]
+    dialect: Option<Dialect>,
+    /// Say nothing but findings
+    #[arg(short, long)]
+    quiet: bool,
+    #[command(flatten)]
+    findings: FindingArgs,
+}
+
+impl Apply {
+    pub fn run(&self) -> io::Result<Exit> {
+        if let Some(problem) = self.problem() {
+            eprintln!("clsmith apply: {problem}");
+            return Ok(Exit::Usage);
+        }
+        let policy = match self.findings.policy() {
+            Ok(policy) => policy,
+            Err(problem) => {
+                eprintln!("clsmith apply: {problem}");
+                return Ok(Exit::Usage);
+            }
+        };
+        let Loaded { recipe, setup } = match files::recipe(&self.recipe, self.setup.as_deref()) {
+            Ok(loaded) => loaded,
+            Err(found) => {
+                self.show(&found, Some(&self.recipe.to_string_lossy()))?;
+                return Ok(Exit::Errors);
+            }
+        };
+        let interrupt = Interrupt::new();
+        let raised = interrupt.clone();
+        ctrlc::set_handler(move || raised.raise()).map_err(io::Error::other)?;
+        let job = Job { recipe: &recipe, setup: &setup, policy: &policy, dialect: self.dialect };
+        let mut worst = Exit::Done;
+        for input in &self.inputs {
+            if interrupt.is_raised() {
+                return Ok(Exit::Interrupted);
+            }
+            match self.one(&job, input, &interrupt) {
+                Ok(exit) => worst = worst.max(exit),
+                Err(error) if is_interrupt(&error) => return Ok(Exit::Interrupted),
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(worst)
+    }
+
+    /// What is wrong with the command line beyond what clap can say.
+    fn problem(&self) -> Option<String> {
+        let standard = |path: &PathBuf| path == Path::new(STANDARD);
+        if self.inputs.iter().filter(|path| standard(path)).count() > 1 {
+            return Some("standard input can be read only once".into());
+        }
+        if self.diff && self.output.as_ref().is_some_and(|path| standard(path)) {
+            return Some("--diff and -o - both write to standard output".into());
+        }
+        let several = self.inputs.len() > 1;
+        let folder = self.output.as_deref().filter(|path| !path.as_os_str().is_empty());
+        if several && folder.is_some_and(|folder| !folder.is_dir()) {
+            return Some("with several inputs, -o names a folder that exists".into());
+        }
+        if several && self.output.is_some() {
+            let mut names: Vec<_> = self.inputs.iter().map(|input| input.file_name()).collect();
+            names.sort();
+            if let Some(name) =
+                names.windows(2).find_map(|pair| (pair.first() == pair.last()).then(|| pair.first()))
+            {
+                let name = name.copied().flatten().unwrap_or_default().to_string_lossy().into_owned();
+                return Some(format!("two inputs are called {name}; their outputs would be one file"));
+            }
+        }
+        None
+    }
+
+    fn one(&self, job: &Job<'_>, input: &Path, interrupt: &Interrupt) -> io::Result<Exit> {
+        let target = self.target(input);
+        if let Some(found) = target.as_deref().and_then(|target| self.overwrites(target)) {
+            self.show(&[found], Some(&input.to_string_lossy()))?;
+            return Ok(Exit::Errors);
+        }
+        let source = match files::read(input) {
+            Ok(source) => source,
+            Err(found) => {
+                self.show(&[*found], Some(&input.to_string_lossy()))?;
+                return Ok(Exit::Errors);
+            }
+        };
+        let Done { program, findings } = job.run(&source);
+        if !findings.is_empty() {
+            self.show(&findings, Some(source.name()))?;
+        }
+        let Some(program) = program else {
+            if !self.quiet {
+                eprintln!("{}: nothing was written", source.name());
+            }
+            return Ok(Exit::Errors);
+        };
+        if self.diff {
+            let mut out = io::stdout().lock();
+            unified::write(&mut out, &program, self.findings.color.wanted(terminal::output_is_seen()))?;
+            out.flush()?;
+        }
+        if !self.dry_run
+            && let Some(target) = &target
+            && let Some(found) = write(&program, target, interrupt)?
+        {
+            self.show(&[found], Some(source.name()))?;
+            return Ok(Exit::Errors);
+        }
+        if !self.quiet {
+            self.summary(job, &source, &program, target.as_deref().filter(|_| !self.dry_run))?;
+        }
+        Ok(Exit::Done)
+    }
+
+    /// The output of an input; `None` when nothing is to be written.
+    fn target(&self, input: &Path) -> Option<PathBuf> {
+        let output = self.output.as_ref()?;
+        if output != Path::new(STANDARD) && output.is_dir() {
+            return Some(output.join(input.file_name().unwrap_or(input.as_os_str())));
+        }
+        Some(output.clone())
+    }
+
+    /// No output may be any of the inputs, the recipe or the setup.
+    fn overwrites(&self, target: &Path) -> Option<Diagnostic> {
+        let all = self.inputs.iter().chain([&self.recipe]).chain(&self.setup);
+        let hit = all.filter(|path| *path != Path::new(STANDARD)).find(|path| same_file(path, target))?;
+        let message = format!("writing {} would overwrite the input {}", target.display(), hit.display());
+        Some(Diagnostic::new(codes::OUTPUT_IS_INPUT, message))
+    }
+
+    fn show(&self, findings: &[Diagnostic], file: Option<&str>) -> io::Result<()> {
+        self.findings.show(&mut io::stderr().lock(), terminal::errors_are_seen(), findings, file)
+    }
+
+    fn summary(
+        &self,
+        job: &Job<'_>,
+        source: &Arc<Source>,
+        program: &Program,
+        target: Option<&Path>,
+    ) -> io::Result<()> {
+        let mut err = io::stderr().lock();
+        let to = match target {
+            Some(path) if path == Path::new(STANDARD) => " -> standard output".to_owned(),
+            Some(path) => format!(" -> {}", path.display()),
+            None => String::new(),
+        };
+        if !is_changed(program) {
+            return writeln!(err, "{}{to}: nothing to change, every byte as it was", source.name());
+        }
+        let before = parse(source, Some(program.dialect())).program;
+        let steps: Vec<&str> = job.recipe.steps.iter().map(|step| step.name()).collect();
+        writeln!(err, "{}{to}", source.name())?;
+        write!(err, "{}", Changes::of(&before, program, &steps).to_text())
+    }
+}
+
+/// Writes the program; a finding when that fails for another reason than Ctrl-C.
+fn write(program: &Program, target: &Path, interrupt: &Interrupt) -> io::Result<Option<Diagnostic>> {
+    let write_all = |out: &mut dyn Write| program.pieces().try_for_each(|piece| out.write_all(piece));
+    let done = if target == Path::new(STANDARD) {
+        let mut out = io::BufWriter::new(io::stdout().lock());
+        write_all(&mut out).and_then(|()| out.flush())
+    } else {
+        write_atomically_unless(target, interrupt, write_all)
+    };
+    match done {
+        Ok(()) => Ok(None),
+        Err(error) if is_interrupt(&error) || error.kind() == io::ErrorKind::BrokenPipe => Err(error),
+        Err(error) => {
+            let message = format!("{} cannot be written: {error}", target.display());
+            Ok(Some(Diagnostic::new(codes::UNWRITABLE, message)))
+        }
+    }
+}

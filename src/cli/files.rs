@@ -1,0 +1,62 @@
+//! Reading inputs: CL files, recipes and setups, from files and from standard input.
+
+use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::program::Dialect;
+use clsmith::setup::Setup;
+use clsmith::source::Source;
+use clsmith::transform::Recipe;
+use std::io::Read;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The path that stands for standard input or output.
+pub const STANDARD: &str = "-";
+
+/// Reads a file; `-` is standard input.
+pub fn read(path: &Path) -> Result<Arc<Source>, Box<Diagnostic>> {
+    let standard = path == Path::new(STANDARD);
+    let name = if standard { "standard input".to_owned() } else { path.to_string_lossy().into_owned() };
+    let bytes = if standard {
+        let mut bytes = Vec::new();
+        std::io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)
+    } else {
+        std::fs::read(path)
+    };
+    let bytes = bytes.map_err(|error| {
+        Box::new(Diagnostic::new(codes::UNREADABLE, format!("{name} cannot be read: {error}")))
+    })?;
+    Source::new(name, bytes).map_err(|error| Box::new(Diagnostic::new(codes::TOO_LARGE, error.to_string())))
+}
+
+/// Reads a setup file.
+pub fn setup(path: &Path) -> Result<Setup, Vec<Diagnostic>> {
+    Setup::load(&read(path).map_err(|found| vec![*found])?)
+}
+
+/// A recipe and the setup that counts for it.
+pub struct Loaded {
+    pub recipe: Recipe,
+    pub setup: Setup,
+}
+
+/// Reads a recipe, the setup file it names (beside it), and the one of the command line.
+pub fn recipe(path: &Path, setup: Option<&Path>) -> Result<Loaded, Vec<Diagnostic>> {
+    let source = read(path).map_err(|found| vec![*found])?;
+    let recipe = Recipe::load(&source)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let named = recipe.load_setup_file(|name| read(&folder.join(name)).map_err(|found| found.message))?;
+    let given = match setup {
+        Some(path) => self::setup(path)?,
+        None => Setup::default(),
+    };
+    let setup = recipe.setup_with(named, given);
+    Ok(Loaded { recipe, setup })
+}
+
+/// Reads `--dialect`.
+pub fn dialect(name: &str) -> Result<Dialect, String> {
+    Dialect::of_name(name).ok_or_else(|| {
+        let names: Vec<&str> = Dialect::ALL.iter().map(|dialect| dialect.name()).collect();
+        format!("the dialects are {}", names.join(", "))
+    })
+}

@@ -1,0 +1,80 @@
+//! The command line: one file for each command, over a library that knows nothing of it.
+
+mod apply;
+mod check;
+mod diff;
+mod exit;
+mod files;
+mod findings;
+mod reference;
+mod stats;
+mod terminal;
+
+use clap::{CommandFactory, Parser, Subcommand};
+use exit::Exit;
+use std::process::ExitCode;
+
+const EXAMPLES: &str = "\
+Examples:
+  clsmith apply recipe.yaml part.cls -o out.cls    correct a program by a recipe
+  clsmith apply recipe.yaml part.cls --diff        see what would change
+  clsmith check part.cls                           what is wrong with a program
+  clsmith stats part.cls                           what is in it
+  clsmith diff part.cls out.cls                    what changed, by meaning
+  clsmith transforms scale_feed                    what a recipe step does
+
+Exit codes:
+  0  done, nothing stands in the way (warnings may have been shown)
+  1  errors were found; nothing was written for the file they are in
+  2  the command line is wrong
+  3  `diff`: the programs differ in meaning
+  130  stopped by Ctrl-C; no half file is left";
+
+/// Reads, checks, corrects and writes cutter-location data: Siemens NX CLSF, CATIA APT, Creo NCL and kin.
+///
+/// Stands between the CAM system's export and the post-processor. What a recipe does not change is written byte for byte;
+/// nothing is written while an error stands.
+#[derive(Debug, Parser)]
+#[command(name = "clsmith", version, after_help = EXAMPLES, max_term_width = 100)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Apply(apply::Apply),
+    Check(check::Check),
+    Stats(stats::Stats),
+    Diff(diff::Diff),
+    Transforms(reference::Transforms),
+    Schema(reference::Schema),
+    Explain(reference::Explain),
+    Completions(reference::Completions),
+    Man(reference::Man),
+}
+
+/// Runs the command of the process's arguments.
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let done = match &cli.command {
+        Command::Apply(command) => command.run(),
+        Command::Check(command) => command.run(),
+        Command::Stats(command) => command.run(),
+        Command::Diff(command) => command.run(),
+        Command::Transforms(command) => command.run(),
+        Command::Schema(command) => command.run(),
+        Command::Explain(command) => command.run(),
+        Command::Completions(command) => command.run(&mut Cli::command()),
+        Command::Man(command) => command.run(Cli::command()),
+    };
+    match done {
+        Ok(exit) => exit.into(),
+        // A reader that has seen enough (`clsmith ... | head`) is no error of ours.
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Exit::Done.into(),
+        Err(error) => {
+            eprintln!("clsmith: {error}");
+            Exit::Errors.into()
+        }
+    }
+}

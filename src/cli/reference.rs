@@ -1,0 +1,125 @@
+//! Commands that print what clsmith knows about itself: `transforms`, `schema`, `explain`, `completions`, `man`.
+
+use super::exit::Exit;
+use clap::Args;
+use clsmith::report::{explain, policy, steps};
+use clsmith::setup::Setup;
+use clsmith::transform;
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+fn print(text: &str) -> io::Result<Exit> {
+    let mut out = io::stdout().lock();
+    out.write_all(text.as_bytes())?;
+    if !text.ends_with('\n') {
+        out.write_all(b"\n")?;
+    }
+    Ok(Exit::Done)
+}
+
+/// Lists the steps of recipes, or describes one
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  clsmith transforms\n  clsmith transforms move_origin")]
+pub struct Transforms {
+    /// The step to describe
+    name: Option<String>,
+}
+
+impl Transforms {
+    pub fn run(&self) -> io::Result<Exit> {
+        let Some(name) = &self.name else { return print(&steps::list()) };
+        match steps::describe(name) {
+            Some(text) => print(&text),
+            None => {
+                eprintln!(
+                    "clsmith transforms: `{name}` is no step; the steps are {}",
+                    transform::NAMES.join(", ")
+                );
+                Ok(Exit::Usage)
+            }
+        }
+    }
+}
+
+/// Prints the JSON Schema of recipes, for editors to complete and check from
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  clsmith schema > clsmith-recipe.schema.json\n  clsmith schema --setup > clsmith-setup.schema.json"
+)]
+pub struct Schema {
+    /// The schema of setup files instead
+    #[arg(long)]
+    setup: bool,
+}
+
+impl Schema {
+    pub fn run(&self) -> io::Result<Exit> {
+        let schema = if self.setup { Setup::schema() } else { clsmith::recipe::schema::<transform::Step>() };
+        print(&serde_json::to_string_pretty(&schema)?)
+    }
+}
+
+/// Explains a code of a finding, or lists all codes
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  clsmith explain CL0001\n  clsmith explain")]
+pub struct Explain {
+    /// The code
+    code: Option<String>,
+}
+
+impl Explain {
+    pub fn run(&self) -> io::Result<Exit> {
+        let Some(code) = &self.code else { return print(&explain::list()) };
+        match policy::parse_code(code) {
+            Ok(code) => print(&explain::explain(code)),
+            Err(problem) => {
+                eprintln!("clsmith explain: {problem}");
+                Ok(Exit::Usage)
+            }
+        }
+    }
+}
+
+/// Prints a completion script for a shell
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  clsmith completions bash > /etc/bash_completion.d/clsmith\n  clsmith completions powershell >> $PROFILE"
+)]
+pub struct Completions {
+    /// The shell
+    #[arg(value_enum)]
+    shell: clap_complete::Shell,
+}
+
+impl Completions {
+    pub fn run(&self, command: &mut clap::Command) -> io::Result<Exit> {
+        // Into memory first: clap_complete takes a closed pipe for a bug.
+        let mut script = Vec::new();
+        clap_complete::generate(self.shell, command, "clsmith", &mut script);
+        io::stdout().lock().write_all(&script)?;
+        Ok(Exit::Done)
+    }
+}
+
+/// Prints the manual page, or writes one for each command into a folder
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  clsmith man | man -l -\n  clsmith man --out man1/")]
+pub struct Man {
+    /// A folder for the pages of all commands
+    #[arg(long, value_name = "FOLDER")]
+    out: Option<PathBuf>,
+}
+
+impl Man {
+    pub fn run(&self, command: clap::Command) -> io::Result<Exit> {
+        match &self.out {
+            Some(folder) => clap_mangen::generate_to(command, folder)?,
+            None => {
+                let mut page = Vec::new();
+                clap_mangen::Man::new(command).render(&mut page)?;
+                io::stdout().lock().write_all(&page)?;
+            }
+        }
+        Ok(Exit::Done)
+    }
+}

@@ -1,0 +1,54 @@
+//! What the terminal can do.
+
+use clap::ValueEnum;
+use std::io::IsTerminal;
+
+/// When to use colours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Color {
+    /// On a terminal, unless NO_COLOR is set.
+    Auto,
+    /// Always.
+    Always,
+    /// Never.
+    Never,
+}
+
+impl Color {
+    /// Whether to write colours to a stream that is a terminal or not.
+    pub fn wanted(self, is_terminal: bool) -> bool {
+        match self {
+            Self::Always => true,
+            Self::Never => false,
+            Self::Auto => is_terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
+        }
+    }
+}
+
+/// Whether standard error is a terminal.
+pub fn errors_are_seen() -> bool {
+    std::io::stderr().is_terminal()
+}
+
+/// Whether standard output is a terminal.
+pub fn output_is_seen() -> bool {
+    std::io::stdout().is_terminal()
+}
+
+/// Columns to draw in: those COLUMNS says, else 100.
+pub fn width() -> usize {
+    std::env::var("COLUMNS")
+        .ok()
+        .and_then(|columns| columns.parse().ok())
+        .filter(|&width| width >= 40)
+        .unwrap_or(100)
+}
+
+/// Whether lines and arrows may be other than ASCII: the locale says UTF-8, or nothing at all.
+pub fn unicode() -> bool {
+    let locale = ["LC_ALL", "LC_CTYPE", "LANG"]
+        .into_iter()
+        .filter_map(|name| std::env::var(name).ok())
+        .find(|value| !value.is_empty());
+    locale.is_none_or(|value| value.to_ascii_uppercase().replace('-', "").contains("UTF8"))
+}

@@ -1,0 +1,103 @@
+//! One file through one recipe: read, correct, read back, compare. What `apply`, hooks and batches share.
+
+use crate::check;
+use crate::diagnostic::Diagnostic;
+use crate::parse::{self, parse};
+use crate::program::{Change, Dialect, Program};
+use crate::report::policy::Policy;
+use crate::setup::Setup;
+use crate::source::{Source, TooLarge};
+use crate::transform::{self, Recipe};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// A recipe with everything it needs, ready for any number of files.
+#[derive(Debug)]
+pub struct Job<'r> {
+    /// The recipe.
+    pub recipe: &'r Recipe,
+    /// The setup that counts.
+    pub setup: &'r Setup,
+    /// Which findings stop the job.
+    pub policy: &'r Policy,
+    /// The dialect, where it is forced.
+    pub dialect: Option<Dialect>,
+}
+
+/// What came of a file.
+#[derive(Debug)]
+pub struct Done {
+    /// The corrected program; `None` when an error stands, and then nothing may be written.
+    pub program: Option<Program>,
+    /// What was found, as the policy leaves it.
+    pub findings: Vec<Diagnostic>,
+}
+
+impl Job<'_> {
+    /// Corrects one file.
+    ///
+    /// A changed program is printed, read back and checked; what is worse in it than in the original counts as a finding,
+    /// so no step can break a program and say nothing.
+    pub fn run(&self, source: &Arc<Source>) -> Done {
+        let parsed = parse(source, self.dialect);
+        let findings = self.policy.apply(parsed.diagnostics);
+        if findings.iter().any(Diagnostic::is_error) {
+            return Done { program: None, findings };
+        }
+        let outcome = match transform::run(self.recipe, self.setup, parsed.program) {
+            Ok(outcome) => outcome,
+            Err(stopped) => return self.done(None, findings, stopped),
+        };
+        let mut new = outcome.findings;
+        if is_changed(&outcome.program) {
+            match self.worse(source, &outcome.program) {
+                Ok(worse) => new.extend(worse),
+                Err(too_large) => {
+                    new.push(Diagnostic::new(crate::diagnostic::codes::TOO_LARGE, too_large.to_string()));
+                }
+            }
+        }
+        self.done(Some(outcome.program), findings, new)
+    }
+
+    fn done(&self, program: Option<Program>, mut findings: Vec<Diagnostic>, new: Vec<Diagnostic>) -> Done {
+        findings.extend(self.policy.apply(new));
+        let stopped = findings.iter().any(Diagnostic::is_error);
+        Done { program: program.filter(|_| !stopped), findings }
+    }
+
+    /// Findings of the corrected text that the original did not have. Their places are in the corrected text.
+    fn worse(&self, source: &Arc<Source>, program: &Program) -> Result<Vec<Diagnostic>, TooLarge> {
+        let name = format!("{} (corrected)", source.name());
+        let corrected = all_findings(&Source::new(name, program.to_bytes())?, program.dialect());
+        if corrected.is_empty() {
+            return Ok(corrected);
+        }
+        let mut known: BTreeMap<(String, String), usize> = BTreeMap::new();
+        for found in all_findings(source, program.dialect()) {
+            *known.entry((found.code.id().to_owned(), found.message)).or_default() += 1;
+        }
+        let is_new =
+            |found: &Diagnostic| match known.get_mut(&(found.code.id().to_owned(), found.message.clone())) {
+                Some(count) if *count > 0 => {
+                    *count -= 1;
+                    false
+                }
+                _ => true,
+            };
+        Ok(corrected.into_iter().filter(is_new).collect())
+    }
+}
+
+/// Everything that reading and checking finds in a file.
+pub fn all_findings(source: &Arc<Source>, dialect: Dialect) -> Vec<Diagnostic> {
+    let parsed = parse::parse(source, Some(dialect));
+    let mut findings = parsed.diagnostics;
+    findings.extend(check::check(&parsed.program));
+    findings
+}
+
+/// Whether any statement differs from the source.
+pub fn is_changed(program: &Program) -> bool {
+    program.statements().iter().any(|statement| statement.change() != Change::Untouched)
+}

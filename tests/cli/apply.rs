@@ -1,0 +1,130 @@
+//! `clsmith apply`.
+
+use super::{clsmith, example, names};
+use crate::support;
+
+const EMPTY: &str = "version: 1\nsteps: []\n";
+
+#[test]
+fn the_first_example_is_corrected() {
+    let folder = example("pocket");
+    let done =
+        clsmith(folder.path()).args(["apply", "recipe.yaml", "part.cls", "-o", "out.cls"]).assert().success();
+    let before = std::fs::read_to_string(folder.path().join("part.cls")).unwrap();
+    let after = std::fs::read_to_string(folder.path().join("out.cls")).unwrap();
+    let added: Vec<&str> = after.lines().filter(|line| !before.contains(line)).collect();
+    assert_eq!(
+        added,
+        ["FEDRAT/MMPM,600.0000", "COOLNT/THRU", "CYCLE/DRILL,RAPTO,3.0000,FEDTO,-12.0000,MMPM,400.0000"]
+    );
+    let text = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+    support::snapshots("cli").bind(|| insta::assert_snapshot!("apply_summary", text));
+}
+
+#[test]
+fn an_empty_recipe_gives_every_byte_back() {
+    for path in support::corpus() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("empty.yaml"), EMPTY).unwrap();
+        clsmith(folder.path())
+            .args(["apply", "empty.yaml"])
+            .arg(&path)
+            .args(["-o", "out", "-q"])
+            .assert()
+            .success();
+        let same = std::fs::read(folder.path().join("out")).unwrap() == std::fs::read(&path).unwrap();
+        assert!(same, "{}", path.display());
+    }
+}
+
+#[test]
+fn an_error_is_shown_and_nothing_is_written() {
+    let folder = example("pocket");
+    let broken = std::fs::read_to_string(folder.path().join("part.cls"))
+        .unwrap()
+        .replace("-10.0000,-4", "-1O.0000,-4");
+    std::fs::write(folder.path().join("part.cls"), broken).unwrap();
+    let before = names(folder.path());
+    let done =
+        clsmith(folder.path()).args(["apply", "recipe.yaml", "part.cls", "-o", "out.cls"]).assert().code(1);
+    assert_eq!(names(folder.path()), before);
+    let text = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+    support::snapshots("cli").bind(|| insta::assert_snapshot!("apply_broken_program", text));
+}
+
+#[test]
+fn a_wrong_recipe_is_underlined() {
+    let folder = example("pocket");
+    std::fs::write(
+        folder.path().join("recipe.yaml"),
+        "version: 1\nsteps:\n  - scale_feed: { facter: 0.5 }\n",
+    )
+    .unwrap();
+    let done =
+        clsmith(folder.path()).args(["apply", "recipe.yaml", "part.cls", "-o", "out.cls"]).assert().code(1);
+    let text = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+    assert!(text.contains("did you mean `factor`"), "{text}");
+    assert!(!folder.path().join("out.cls").exists());
+}
+
+#[test]
+fn an_input_is_never_overwritten() {
+    let folder = example("pocket");
+    for target in ["part.cls", "./part.cls", "recipe.yaml", "."] {
+        let before = std::fs::read(folder.path().join("part.cls")).unwrap();
+        clsmith(folder.path()).args(["apply", "recipe.yaml", "part.cls", "-o", target]).assert().code(1);
+        assert_eq!(std::fs::read(folder.path().join("part.cls")).unwrap(), before);
+    }
+}
+
+#[test]
+fn standard_input_and_output_work_as_a_pipe() {
+    let folder = example("pocket");
+    let part = std::fs::read(folder.path().join("part.cls")).unwrap();
+    let done = clsmith(folder.path())
+        .args(["apply", "recipe.yaml", "-", "-o", "-"])
+        .write_stdin(part)
+        .assert()
+        .success();
+    clsmith(folder.path()).args(["apply", "recipe.yaml", "part.cls", "-o", "out.cls"]).assert().success();
+    assert_eq!(done.get_output().stdout, std::fs::read(folder.path().join("out.cls")).unwrap());
+}
+
+#[test]
+fn several_inputs_go_into_a_folder_and_a_bad_one_does_not_stop_the_others() {
+    let folder = example("pocket");
+    std::fs::write(folder.path().join("bad.cls"), "GOTO/1,2,'\n").unwrap();
+    std::fs::create_dir(folder.path().join("out")).unwrap();
+    clsmith(folder.path())
+        .args(["apply", "recipe.yaml", "bad.cls", "part.cls", "-o", "out"])
+        .assert()
+        .code(1);
+    assert_eq!(names(&folder.path().join("out")), ["part.cls"].map(std::path::PathBuf::from));
+}
+
+#[test]
+fn the_command_line_is_checked() {
+    let folder = example("pocket");
+    let run = |args: &[&str]| clsmith(folder.path()).args(args).assert().code(2);
+    run(&["apply", "recipe.yaml", "part.cls"]);
+    run(&["apply", "recipe.yaml", "part.cls", "part.cls", "-o", "nowhere"]);
+    run(&["apply", "recipe.yaml", "-", "-", "-o", "out"]);
+    run(&["apply", "recipe.yaml", "part.cls", "--diff", "-o", "-"]);
+    run(&["apply", "recipe.yaml", "part.cls", "-o", "out", "--deny", "CL9999"]);
+    assert!(!folder.path().join("out").exists());
+}
+
+#[test]
+fn a_diff_is_shown_and_a_dry_run_writes_nothing() {
+    let folder = example("pocket");
+    let before = names(folder.path());
+    let done =
+        clsmith(folder.path()).args(["apply", "recipe.yaml", "part.cls", "--diff", "-q"]).assert().success();
+    let text = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
+    support::snapshots("cli").bind(|| insta::assert_snapshot!("apply_diff", text));
+    clsmith(folder.path())
+        .args(["apply", "recipe.yaml", "part.cls", "-o", "x", "--dry-run"])
+        .assert()
+        .success();
+    assert_eq!(names(folder.path()), before);
+}

@@ -1,0 +1,32 @@
+//! The command as people run it.
+
+mod apply;
+mod other;
+
+use assert_cmd::Command;
+use std::path::{Path, PathBuf};
+
+/// The command, in a folder.
+pub fn clsmith(folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_clsmith"));
+    command.current_dir(folder).env("NO_COLOR", "1").env("COLUMNS", "100").env("LC_ALL", "C.UTF-8");
+    command
+}
+
+/// A folder with an example's recipe and program.
+pub fn example(name: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples").join(name);
+    for entry in std::fs::read_dir(from).unwrap().flatten() {
+        std::fs::copy(entry.path(), folder.path().join(entry.file_name())).unwrap();
+    }
+    folder
+}
+
+/// Names of the files in a folder, sorted.
+pub fn names(folder: &Path) -> Vec<PathBuf> {
+    let mut names: Vec<PathBuf> =
+        std::fs::read_dir(folder).unwrap().flatten().map(|entry| entry.file_name().into()).collect();
+    names.sort();
+    names
+}

@@ -1,0 +1,81 @@
+//! Every example and every shipped configuration works.
+
+use crate::support;
+use clsmith::diagnostic::Diagnostic;
+use clsmith::job::Job;
+use clsmith::report::policy::Policy;
+use clsmith::setup::Setup;
+use clsmith::source::Source;
+use clsmith::transform::Recipe;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+fn folder(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
+}
+
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let mut found: Vec<PathBuf> =
+        std::fs::read_dir(folder).unwrap().flatten().map(|entry| entry.path()).collect();
+    found.sort();
+    found
+}
+
+fn recipe(path: &Path) -> (Recipe, Setup) {
+    let recipe =
+        Recipe::load(&support::source(path)).unwrap_or_else(|found| panic!("{}: {found:?}", path.display()));
+    let read = |name: &str| Ok(support::source(&path.parent().unwrap().join(name)));
+    let named = recipe.load_setup_file(read).unwrap();
+    let setup = recipe.setup_with(named, Setup::default());
+    (recipe, setup)
+}
+
+fn run(recipe: &Recipe, setup: &Setup, source: &Arc<Source>) -> String {
+    let done = Job { recipe, setup, policy: &Policy::default(), dialect: None }.run(source);
+    assert!(!done.findings.iter().any(Diagnostic::is_error), "{:?}", done.findings);
+    let mut patch = Vec::new();
+    clsmith::report::unified::write(&mut patch, &done.program.unwrap(), false).unwrap();
+    String::from_utf8_lossy(&patch).into_owned()
+}
+
+#[test]
+fn examples_do_what_their_pages_show() {
+    for example in files(&folder("examples")) {
+        let name = example.file_name().unwrap().to_string_lossy().into_owned();
+        let page = std::fs::read_to_string(example.join("README.md")).unwrap();
+        assert!(
+            page.contains(&format!("examples/{name}/recipe.yaml")),
+            "{name}: the page shows how to run it"
+        );
+        let (recipe, setup) = recipe(&example.join("recipe.yaml"));
+        let part = files(&example)
+            .into_iter()
+            .find(|path| path.file_stem().is_some_and(|stem| stem == "part"))
+            .unwrap();
+        let patch = run(&recipe, &setup, &support::source(&part));
+        support::snapshots("examples").bind(|| insta::assert_snapshot!(name, patch));
+    }
+}
+
+#[test]
+fn shipped_recipes_and_machines_load_and_run() {
+    let part = support::source(&folder("examples/pocket/part.cls"));
+    for path in files(&folder("configs/recipes")) {
+        let (recipe, setup) = recipe(&path);
+        run(&recipe, &setup, &part);
+    }
+    for path in files(&folder("configs/machines")) {
+        Setup::load(&support::source(&path)).unwrap();
+    }
+}
+
+#[test]
+fn the_readme_shows_what_happens() {
+    let readme = std::fs::read_to_string(folder("README.md")).unwrap();
+    let (recipe, setup) = recipe(&folder("examples/pocket/recipe.yaml"));
+    let patch = run(&recipe, &setup, &support::source(&folder("examples/pocket/part.cls")));
+    let shown = readme.split("```diff\n").nth(1).unwrap().split("```").next().unwrap();
+    for line in shown.lines() {
+        assert!(patch.lines().any(|found| found == line), "{line}\n{patch}");
+    }
+}
