@@ -7,6 +7,7 @@ mod json;
 mod line;
 mod policy;
 mod sarif;
+mod stats;
 
 use clsmith::diagnostic::{Code, Diagnostic};
 use clsmith::source::{Source, Span};
