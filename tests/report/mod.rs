@@ -1,5 +1,6 @@
 //! Rendering of findings, and the choice of those that are rendered.
 
+mod diff;
 mod explain;
 mod human;
 mod human_lines;
