@@ -11,6 +11,7 @@ pub mod policy;
 pub mod render;
 pub mod stats;
 mod table;
+pub mod unified;
 
 use crate::program::{Change, Program, Statement};
 use serde::Serialize;

@@ -9,6 +9,7 @@ mod line;
 mod policy;
 mod sarif;
 mod stats;
+mod unified;
 
 use clsmith::diagnostic::{Code, Diagnostic};
 use clsmith::source::{Source, Span};
