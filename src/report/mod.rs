@@ -4,6 +4,7 @@
 //! questions about a code. [`stats`] measures a program, [`diff`] compares two by meaning, [`unified`] shows what steps made
 //! of one as a patch, and [`changes`] counts it. Everything is written into a writer that the caller hands in, or returned.
 
+pub mod changes;
 pub mod diff;
 pub mod explain;
 pub mod kind;
