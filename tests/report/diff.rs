@@ -133,3 +133,21 @@ fn operations_stand_apart() {
     );
     snapshots("report").bind(|| insta::assert_snapshot!("diff_operations", to_text(&found, 1)));
 }
+
+#[test]
+fn a_hole_written_out_is_the_same_way() {
+    let cycle = "FROM/0,0,50\nCYCLE/DRILL,RAPTO,3,FEDTO,-20,MMPM,250\nGOTO/10,0,0\nCYCLE/OFF\n$$ x\nTLDATA/DRILL,8,0,80,118,60\n";
+    let written = "FROM/0,0,50\nRAPID\nGOTO/10,0,50\nRAPID\nGOTO/10,0,3\nFEDRAT/MMPM,250\nGOTO/10,0,-20\nRAPID\nGOTO/10,0,3\n$$ x\nTLDATA/DRILL,8,0,80,118,60\n";
+    let found = diff(cycle, written);
+    assert!(found.geometry.same, "{}", to_text(&found, 10));
+    assert_eq!(found.a.totals, found.b.totals);
+}
+
+#[test]
+fn the_order_of_two_programs_does_not_change_what_is_counted() {
+    let other = POCKET.replace("GOTO/60.0000,0.0000,-5.0000\n", "").replace("2000.0000", "2500.0000");
+    let (there, back) = (diff(POCKET, &other), diff(&other, POCKET));
+    assert_eq!(there.counts.removed, back.counts.added);
+    assert_eq!(there.counts.changed, back.counts.changed);
+    assert_eq!(there.counts.changed[&Kind::Spindle], 1);
+}

@@ -41,9 +41,6 @@ pub(super) fn align(a: &Keys, b: &Keys, shifted: impl Fn(Range<usize>, Range<usi
     }
     let (mut at_a, mut at_b) = (middle_a.start, middle_b.start);
     for (anchor_a, anchor_b) in anchors {
-        if anchor_a < at_a || anchor_b < at_b {
-            continue;
-        }
         out.gap(at_a..anchor_a, at_b..anchor_b);
         out.pairs(anchor_a..anchor_a + 1, anchor_b..anchor_b + 1);
         (at_a, at_b) = (anchor_a + 1, anchor_b + 1);

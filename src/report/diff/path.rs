@@ -16,7 +16,7 @@ const SAME_AXIS: f64 = SAME_POINT;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Geometry {
     /// Whether every point is where it was, within half of the fourth decimal, the tool axis and rapids included. A line cut
-    /// into several is the same path.
+    /// into several is the same path, and so is a hole written out; an arc cut into several is not recognized.
     pub same: bool,
     /// Where the paths part first: lines in both files.
     pub parts_at: Option<(Option<usize>, Option<usize>)>,
@@ -60,7 +60,6 @@ struct Step {
     middle: Point3<f64>,
     length: f64,
     rapid: bool,
-    hole: bool,
     statement: usize,
 }
 
@@ -71,7 +70,7 @@ struct Together {
 }
 
 fn together(a: &Step, b: &Step) -> Option<Together> {
-    if a.rapid != b.rapid || a.hole != b.hole || !same_point(&a.from.point, &b.from.point) {
+    if a.rapid != b.rapid || !same_point(&a.from.point, &b.from.point) {
         return None;
     }
     let ends = same_pose(&a.to, &b.to);
@@ -196,7 +195,6 @@ fn step(motion: &Motion, scale: f64, length: f64) -> Step {
         middle: middle * scale,
         length: length * scale,
         rapid: motion.rapid,
-        hole: motion.hole.is_some(),
         statement: motion.last_statement(),
     }
 }

@@ -5,11 +5,9 @@
 //! byte for byte, whatever the encoding and the line ends.
 
 mod hunk;
-mod lines;
 
 use crate::program::{Change, Program};
 use hunk::Hunks;
-use lines::split;
 use std::io::{self, Write};
 
 /// How a unified diff is written.
@@ -90,4 +88,9 @@ fn block(hunks: &mut Hunks<'_>, old: &[u8], new: &[u8]) -> io::Result<()> {
         hunks.same(line)?;
     }
     Ok(())
+}
+
+/// Lines as `patch` sees them, each with its LF; the last one perhaps without.
+fn split(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    text.split_inclusive(|byte| *byte == b'\n')
 }
