@@ -34,7 +34,7 @@ fn run(recipe: &Recipe, setup: &Setup, source: &Arc<Source>) -> String {
     let done = Job { recipe, setup, policy: &Policy::default(), dialect: None }.run(source);
     assert!(!done.findings.iter().any(Diagnostic::is_error), "{:?}", done.findings);
     let mut patch = Vec::new();
-    clsmith::report::unified::write(&mut patch, &done.program.unwrap(), false).unwrap();
+    clsmith::report::unified::write(&mut patch, &done.program.unwrap(), &Default::default()).unwrap();
     String::from_utf8_lossy(&patch).into_owned()
 }
 

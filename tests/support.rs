@@ -55,3 +55,10 @@ pub fn snapshots(area: &str) -> insta::Settings {
     settings.set_omit_expression(true);
     settings
 }
+
+/// As [`snapshots`], with numbers cut to six decimals: the last digits of sines differ between platforms.
+pub fn rounded_snapshots(area: &str) -> insta::Settings {
+    let mut settings = snapshots(area);
+    settings.add_filter(r"(\d\.\d{6})\d+", "$1");
+    settings
+}

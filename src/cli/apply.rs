@@ -9,7 +9,7 @@ use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::job::{Done, Job, is_changed};
 use clsmith::parse::parse;
 use clsmith::program::{Dialect, Program};
-use clsmith::report::changes::Changes;
+use clsmith::report::changes::{self, Changes};
 use clsmith::report::unified;
 use clsmith::source::Source;
 use clsmith::write::{Interrupt, is_interrupt, same_file, write_atomically_unless};
@@ -149,7 +149,13 @@ impl Apply {
         };
         if self.diff {
             let mut out = io::stdout().lock();
-            unified::write(&mut out, &program, self.findings.color.wanted(terminal::output_is_seen()))?;
+            let seen = terminal::output_is_seen();
+            let color = self.findings.color.wanted(seen);
+            unified::write(
+                &mut out,
+                &program,
+                &unified::Options { color, display: seen, ..Default::default() },
+            )?;
             out.flush()?;
         }
         if !self.dry_run
@@ -204,8 +210,9 @@ impl Apply {
         }
         let before = parse(source, Some(program.dialect())).program;
         let steps: Vec<&str> = job.recipe.steps.iter().map(|step| step.name()).collect();
-        writeln!(err, "{}{to}", source.name())?;
-        write!(err, "{}", Changes::of(&before, program, &steps).to_text())
+        let found = Changes::of(&before, program, &steps, Some(job.recipe.units));
+        err.write_all(changes::to_text(&found).as_bytes())?;
+        if to.is_empty() { Ok(()) } else { writeln!(err, "{to}", to = to.trim_start()) }
     }
 }
 

@@ -84,7 +84,7 @@ impl Diff {
             out.write_all(b"\n")?;
         }
         out.flush()?;
-        Ok(if found.same_meaning() { Exit::Done } else { Exit::Differ })
+        Ok(if found.same_meaning { Exit::Done } else { Exit::Differ })
     }
 
     fn program(&self, path: &Path) -> (Option<Program>, Vec<Diagnostic>) {

@@ -101,6 +101,27 @@ impl Program {
         })
     }
 
+    /// The unit that the words of the feeds name (MMPM, IPM, ...); `None` where none does, or where they disagree.
+    pub fn units_of_feeds(&self) -> Option<LengthUnit> {
+        let mut found: Option<LengthUnit> = None;
+        for (_, statement) in self.live() {
+            let feed = match statement.record() {
+                Record::Feed(feed) => Some(*feed),
+                Record::Cycle(cycle) => cycle.feed,
+                _ => None,
+            };
+            // A feed in the file's own unit says nothing; the two defaults tell it from one that does.
+            let Some(word) = feed.and_then(|feed| feed.unit) else { continue };
+            let (mm, inch) = (word.length(LengthUnit::Mm), word.length(LengthUnit::Inch));
+            match (found, mm) {
+                _ if mm != inch => {}
+                (Some(before), Some(unit)) if before != unit => return None,
+                (_, unit) => found = unit.or(found),
+            }
+        }
+        found
+    }
+
     /// The bytes of the whole program as it stands, piece by piece, in order. Pieces that were not touched are slices of the
     /// source, joined as far as they reach.
     pub fn pieces(&self) -> impl Iterator<Item = &[u8]> {

@@ -1,9 +1,33 @@
 //! What a run has to say: findings filtered, sorted and rendered.
 //!
 //! [`policy`] decides which findings stand and how bad they are, [`render`] turns them into text, and [`explain`] answers
-//! questions about a code. Everything is written into a writer that the caller hands in, or returned.
+//! questions about a code. [`stats`] measures a program, [`diff`] compares two by meaning, [`unified`] shows what steps made
+//! of one as a patch, and [`changes`] counts it. Everything is written into a writer that the caller hands in, or returned.
 
+pub mod changes;
+pub mod diff;
 pub mod explain;
+pub mod kind;
 pub mod policy;
 pub mod render;
+pub mod stats;
 pub mod steps;
+mod table;
+pub mod unified;
+
+use crate::program::{Change, Program, Statement};
+use serde::Serialize;
+
+/// A report as one JSON document, indented and with a line end.
+fn json_text(report: &impl Serialize) -> String {
+    // Strings, numbers and lists always serialize; only a writer or a map with odd keys could fail.
+    let mut text = serde_json::to_string_pretty(report).unwrap_or_default();
+    text.push('\n');
+    text
+}
+
+/// The 1-based line a statement stands on in its file; `None` for one that was not in the file.
+fn line_of(program: &Program, statement: &Statement) -> Option<usize> {
+    let in_file = !matches!(statement.change(), Change::Inserted(_));
+    in_file.then(|| program.source().line_column(statement.origin().start).0)
+}

@@ -56,9 +56,9 @@ impl Context<'_> {
         );
     }
 
-    /// The unit of the program's lengths: what it says, else the recipe's.
+    /// The unit of the program's lengths: what it says, what its feeds are in, else the recipe's.
     pub fn file_units(&self, program: &Program) -> LengthUnit {
-        program.stated_units().unwrap_or(self.recipe.units)
+        program.stated_units().or_else(|| program.units_of_feeds()).unwrap_or(self.recipe.units)
     }
 
     /// The feed of a motion in the recipe's unit per minute; `None` when the spindle speed it needs is not known.

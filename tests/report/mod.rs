@@ -1,5 +1,8 @@
 //! Rendering of findings, and the choice of those that are rendered.
 
+mod changes;
+mod corpus;
+mod diff;
 mod explain;
 mod human;
 mod human_lines;
@@ -7,6 +10,8 @@ mod json;
 mod line;
 mod policy;
 mod sarif;
+mod stats;
+mod unified;
 
 use clsmith::diagnostic::{Code, Diagnostic};
 use clsmith::source::{Source, Span};

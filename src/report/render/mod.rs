@@ -5,7 +5,7 @@ pub mod human;
 pub mod json;
 pub mod line;
 pub mod sarif;
-mod text;
+pub(super) mod text;
 
 use crate::diagnostic::{Diagnostic, Severity};
 use std::fmt;

@@ -6,7 +6,7 @@
 use crate::source::{Source, Span};
 
 /// The characters of a text in an unknown encoding, each with its number of bytes.
-pub(super) fn decode(bytes: &[u8]) -> impl Iterator<Item = (char, usize)> + '_ {
+pub(in crate::report) fn decode(bytes: &[u8]) -> impl Iterator<Item = (char, usize)> + '_ {
     bytes.utf8_chunks().flat_map(|chunk| {
         let valid = chunk.valid().chars().map(|c| (c, c.len_utf8()));
         valid.chain(chunk.invalid().iter().map(|&byte| (char::from(byte), 1)))
@@ -16,7 +16,7 @@ pub(super) fn decode(bytes: &[u8]) -> impl Iterator<Item = (char, usize)> + '_ {
 /// A stand-in for characters that would be invisible, move the cursor or reverse the line.
 ///
 /// A comment in a CL file must not be able to talk to the terminal.
-pub(super) fn visible(c: char, unicode: bool) -> char {
+pub(in crate::report) fn visible(c: char, unicode: bool) -> char {
     let hidden = c.is_control()
         || matches!(c, '\u{ad}' | '\u{61c}' | '\u{feff}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}')
         || matches!(c, '\u{2060}'..='\u{206f}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}');
@@ -31,18 +31,18 @@ pub(super) fn visible(c: char, unicode: bool) -> char {
 }
 
 /// A message made safe, its line breaks kept.
-pub(super) fn paragraph(text: &str, unicode: bool) -> String {
+pub(in crate::report) fn paragraph(text: &str, unicode: bool) -> String {
     text.replace("\r\n", "\n").chars().map(|c| if c == '\n' { c } else { visible(c, unicode) }).collect()
 }
 
 /// A message made safe and folded into one line.
-pub(super) fn one_line(text: &str) -> String {
+pub(in crate::report) fn one_line(text: &str) -> String {
     let words: Vec<&str> = text.split(['\n', '\r']).map(str::trim).filter(|part| !part.is_empty()).collect();
     words.join(" ").chars().map(|c| visible(c, true)).collect()
 }
 
 /// The span inside its file and without the line end it closes with, which nobody needs underlined.
-pub(super) fn trimmed(source: &Source, span: Span) -> Span {
+pub(in crate::report) fn trimmed(source: &Source, span: Span) -> Span {
     let length = source.bytes().len();
     let (start, end) = (span.range().start.min(length), span.range().end.min(length));
     let text = source.bytes().get(start..end).unwrap_or_default();

@@ -1,0 +1,225 @@
+//! What a program holds: lengths, times, tools, operations.
+//!
+//! One pass over the motions. The JSON ([`to_json`]) is [`Stats`] as it stands, with `"version": 1`; `version` changes when a
+//! reader of the structure would have to, new keys may be added without. Lengths are in `units.unit`, feeds in that unit per
+//! minute except in `feeds`, where they are as programmed; times are in seconds. What is not known is `null`, never guessed.
+
+mod bounds;
+mod feeds;
+mod gather;
+mod text;
+mod totals;
+
+pub use bounds::Bounds;
+pub use feeds::FeedRow;
+pub use text::to_text;
+pub(crate) use totals::Measured;
+pub use totals::{Totals, UnknownTime};
+
+use crate::program::{Dialect, LengthUnit, MotionClass, Program};
+use crate::setup::Setup;
+use serde::Serialize;
+
+/// The statistics of a program.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Stats {
+    /// Version of the JSON structure: 1.
+    pub version: u32,
+    /// The file's name.
+    pub file: String,
+    /// Bytes of the program as it stands.
+    pub bytes: u64,
+    /// Lines.
+    pub lines: u64,
+    /// The dialect.
+    pub dialect: DialectName,
+    /// The unit of all lengths here, and how it is known.
+    pub units: Units,
+    /// Statements, comments and empty lines included.
+    pub statements: usize,
+    /// Statements that could not be read.
+    pub unreadable: usize,
+    /// Lengths and times of the whole program.
+    pub totals: Totals,
+    /// Motions of each class that occurs.
+    pub classes: Vec<ClassStats>,
+    /// Lengths and times of each programmed feed, as [`FeedRow`] says.
+    pub feeds: Vec<FeedRow>,
+    /// Slowest and fastest feed, in the file's unit per minute.
+    pub feed: Option<Range>,
+    /// Slowest and fastest spindle at feed, in rev/min (surface speeds are not converted).
+    pub spindle_rpm: Option<Range>,
+    /// Paths by shape.
+    pub paths: Paths,
+    /// Box of the motions at feed, in the program's coordinates.
+    pub box_of_feed: Option<Bounds>,
+    /// Box of all motions, in the program's coordinates.
+    pub box_of_all: Option<Bounds>,
+    /// Frames that motions stand in.
+    pub frames: Vec<FrameStats>,
+    /// Tools that move.
+    pub tools: Vec<ToolStats>,
+    /// The operations in order.
+    pub operations: Vec<OperationStats>,
+}
+
+/// A dialect by name and title.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct DialectName {
+    /// The name on the command line.
+    pub name: &'static str,
+    /// The name people know.
+    pub title: &'static str,
+}
+
+impl From<Dialect> for DialectName {
+    fn from(dialect: Dialect) -> Self {
+        Self { name: dialect.name(), title: dialect.title() }
+    }
+}
+
+/// A unit of length and how it is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Units {
+    /// The unit.
+    pub unit: LengthUnit,
+    /// How it is known.
+    pub from: UnitsFrom,
+}
+
+/// How a file's unit is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum UnitsFrom {
+    /// A UNITS record.
+    File,
+    /// The caller (a recipe, an option) said it.
+    Caller,
+    /// No record; every feed unit in the file is of this unit (`IPM`, `MMPM`).
+    Feeds,
+    /// Nothing says it; millimetres are assumed.
+    Assumed,
+}
+
+/// The motions of one class.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ClassStats {
+    /// The class.
+    pub class: MotionClass,
+    /// Lengths and times.
+    pub totals: Totals,
+}
+
+/// A closed interval.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Range {
+    /// Lowest.
+    pub min: f64,
+    /// Highest.
+    pub max: f64,
+}
+
+impl Range {
+    pub(crate) fn extend(range: &mut Option<Self>, value: f64) {
+        let range = range.get_or_insert(Self { min: value, max: value });
+        range.min = range.min.min(value);
+        range.max = range.max.max(value);
+    }
+}
+
+/// Motions by the shape of their path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub struct Paths {
+    /// Straight.
+    pub lines: usize,
+    /// Arcs in a plane.
+    pub arcs: usize,
+    /// Arcs that rise along their axis.
+    pub helices: usize,
+    /// Splines.
+    pub splines: usize,
+    /// Holes of drilling cycles; their moves count as lines.
+    pub holes: usize,
+}
+
+/// A frame.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FrameStats {
+    /// The line that sets it first; `null` when a step put it in.
+    pub line: Option<usize>,
+    /// Origin, in the file's unit.
+    pub origin: [f64; 3],
+    /// Its z axis.
+    pub z_axis: [f64; 3],
+    /// Motions in it.
+    pub motions: usize,
+}
+
+/// A tool, as far as the file says.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ToolStats {
+    /// Number.
+    pub number: Option<u32>,
+    /// Name.
+    pub name: Option<String>,
+    /// Diameter.
+    pub diameter: Option<f64>,
+    /// Corner radius.
+    pub corner_radius: Option<f64>,
+    /// Length below the holder.
+    pub length: Option<f64>,
+    /// Length of the flutes.
+    pub flute_length: Option<f64>,
+    /// Taper of the flank in degrees.
+    pub taper_degrees: Option<f64>,
+    /// Angle of the tip in degrees.
+    pub tip_degrees: Option<f64>,
+    /// Lengths and times.
+    pub totals: Totals,
+}
+
+/// An operation.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct OperationStats {
+    /// Name; empty where the file has none.
+    pub name: String,
+    /// Index in `tools` of the first tool that moves in it.
+    pub tool: Option<usize>,
+    /// Lengths and times.
+    pub totals: Totals,
+    /// Slowest and fastest feed, in the file's unit per minute.
+    pub feed: Option<Range>,
+}
+
+impl Stats {
+    /// The statistics of a program as it stands; rapids get a time when the machine's rapid feed is known.
+    pub fn of(program: &Program, setup: &Setup) -> Self {
+        Self::assuming(program, setup, None)
+    }
+
+    /// As [`Stats::of`]; `units` is what lengths are in when the file does not say.
+    pub fn assuming(program: &Program, setup: &Setup, units: Option<LengthUnit>) -> Self {
+        gather::gather(program, setup, Units::of(program, units))
+    }
+}
+
+impl Units {
+    /// The unit of a program: what it says, what the caller says, what its feeds are in, millimetres.
+    pub fn of(program: &Program, caller: Option<LengthUnit>) -> Self {
+        if let Some(unit) = program.stated_units() {
+            return Self { unit, from: UnitsFrom::File };
+        }
+        if let Some(unit) = caller {
+            return Self { unit, from: UnitsFrom::Caller };
+        }
+        match program.units_of_feeds() {
+            Some(unit) => Self { unit, from: UnitsFrom::Feeds },
+            None => Self { unit: LengthUnit::Mm, from: UnitsFrom::Assumed },
+        }
+    }
+}
+
+/// The statistics as one JSON document, indented and with a line end.
+pub fn to_json(stats: &Stats) -> String {
+    super::json_text(stats)
+}

@@ -1,0 +1,126 @@
+//! Lengths and times, summed motion by motion.
+
+use crate::program::geometry::Path;
+use crate::program::motion::Motion;
+use crate::program::{FeedUnit, LengthUnit};
+use serde::Serialize;
+
+/// Sums over motions. Lengths in the file's unit, times in seconds.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Totals {
+    /// Motions; a first point, which comes from nowhere, is none.
+    pub motions: usize,
+    /// Length at feed.
+    pub feed_length: f64,
+    /// Length at rapid.
+    pub rapid_length: f64,
+    /// Time at feed, where the feed is known; without acceleration and dwells.
+    pub feed_seconds: f64,
+    /// Time at rapid; `null` when the machine's rapid feed is not known.
+    pub rapid_seconds: Option<f64>,
+    /// Motions at feed whose time is not known, and why.
+    pub unknown_time: UnknownTime,
+}
+
+/// Motions at feed whose time is not known.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct UnknownTime {
+    /// Motions.
+    pub motions: usize,
+    /// Their length.
+    pub length: f64,
+    /// Of the motions: no feed was programmed before them.
+    pub no_feed: usize,
+    /// Of the motions: the feed is per revolution, and no speed in rev/min is in force.
+    pub no_spindle_speed: usize,
+    /// Of the motions: the feed is 0.
+    pub zero_feed: usize,
+}
+
+/// Why a time is not known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Unknown {
+    NoFeed,
+    NoSpindleSpeed,
+    ZeroFeed,
+}
+
+/// One motion, measured.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Measured {
+    pub(super) rapid: bool,
+    pub(super) moves: bool,
+    pub(super) length: f64,
+    pub(super) seconds: Result<f64, Unknown>,
+}
+
+impl Measured {
+    /// Length and time of a motion. `rapid` is the time of one unit of length at rapid, in seconds.
+    pub(crate) fn of(motion: &Motion, unit: LengthUnit, rapid: Option<f64>) -> Self {
+        let length = motion.length();
+        let moves = motion.path != Path::Start;
+        let seconds = match (moves, motion.rapid) {
+            (false, _) => Ok(0.0),
+            (true, true) => Ok(rapid.unwrap_or(0.0) * length),
+            (true, false) => seconds(motion, length, unit),
+        };
+        Self { rapid: motion.rapid, moves, length, seconds }
+    }
+
+    /// Length in the file's unit.
+    pub(crate) fn length(&self) -> f64 {
+        self.length
+    }
+}
+
+fn seconds(motion: &Motion, length: f64, unit: LengthUnit) -> Result<f64, Unknown> {
+    let feed = motion.feed.ok_or(Unknown::NoFeed)?;
+    if feed.value <= 0.0 {
+        return Err(Unknown::ZeroFeed);
+    }
+    if feed.unit_or_default() == FeedUnit::InverseTime {
+        return Ok(60.0 / feed.value);
+    }
+    let rate = feed.mm_per_minute(unit, motion.spindle_rpm(), None).filter(|rate| *rate > 0.0);
+    Ok(length * unit.in_mm() / rate.ok_or(Unknown::NoSpindleSpeed)? * 60.0)
+}
+
+impl Totals {
+    /// Nothing yet. `rapid_known`: whether rapids have a time.
+    pub(crate) fn new(rapid_known: bool) -> Self {
+        Self { rapid_seconds: rapid_known.then_some(0.0), ..Self::default() }
+    }
+
+    /// Adds a motion.
+    pub(crate) fn add(&mut self, motion: &Measured) {
+        if !motion.moves {
+            return;
+        }
+        self.motions += 1;
+        if motion.rapid {
+            self.rapid_length += motion.length;
+            if let (Some(sum), Ok(seconds)) = (&mut self.rapid_seconds, motion.seconds) {
+                *sum += seconds;
+            }
+            return;
+        }
+        self.feed_length += motion.length;
+        let unknown = &mut self.unknown_time;
+        match motion.seconds {
+            Ok(seconds) => {
+                self.feed_seconds += seconds;
+                return;
+            }
+            Err(Unknown::NoFeed) => unknown.no_feed += 1,
+            Err(Unknown::NoSpindleSpeed) => unknown.no_spindle_speed += 1,
+            Err(Unknown::ZeroFeed) => unknown.zero_feed += 1,
+        }
+        unknown.motions += 1;
+        unknown.length += motion.length;
+    }
+
+    /// Length of the whole path.
+    pub fn length(&self) -> f64 {
+        self.feed_length + self.rapid_length
+    }
+}

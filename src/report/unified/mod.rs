@@ -1,0 +1,96 @@
+//! What steps made of a program, as a unified diff.
+//!
+//! A program carries its changes: each statement knows its place in the file and its text now. So the diff needs no search;
+//! it is written statement by statement, in time linear in the file. It is a patch: applied to the file it gives the program
+//! byte for byte, whatever the encoding and the line ends.
+
+mod hunk;
+
+use crate::program::{Change, Program};
+use hunk::Hunks;
+use std::io::{self, Write};
+
+/// How a unified diff is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Options {
+    /// Unchanged lines around a change.
+    pub context: usize,
+    /// ANSI colours.
+    pub color: bool,
+    /// For a terminal: a CR before a line's end is left out and control characters are replaced, since text in a CL file
+    /// must not talk to the terminal. What is written is no patch any more.
+    pub display: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { context: 3, color: false, display: false }
+    }
+}
+
+/// Writes the changes that a program carries as a unified diff; nothing when it carries none.
+///
+/// Lines end at LF, as `patch` has it.
+///
+/// # Errors
+/// What the writer returns.
+pub fn write(out: &mut dyn Write, program: &Program, options: &Options) -> io::Result<()> {
+    let mut hunks = Hunks::new(out, program.source().name(), options);
+    let (mut old, mut new) = (Vec::new(), Vec::new());
+    for statement in program.statements() {
+        let origin = program.source().slice(statement.origin());
+        // An untouched statement is whole lines, unless lone CRs put several on one line.
+        let untouched = statement.change() == Change::Untouched && origin.ends_with(b"\n");
+        if untouched && old.is_empty() && new.is_empty() {
+            split(origin).try_for_each(|line| hunks.same(line))?;
+            continue;
+        }
+        old.extend_from_slice(origin);
+        if statement.is_live() {
+            new.extend_from_slice(program.text(statement));
+        }
+        if closed(&old) && closed(&new) {
+            block(&mut hunks, &old, &new)?;
+            old.clear();
+            new.clear();
+        }
+    }
+    block(&mut hunks, &old, &new)?;
+    hunks.finish()
+}
+
+/// The diff as bytes, for callers that keep it.
+pub fn to_bytes(program: &Program, options: &Options) -> Vec<u8> {
+    let mut out = Vec::new();
+    // Writing to memory cannot fail.
+    let _ = write(&mut out, program, options);
+    out
+}
+
+fn closed(text: &[u8]) -> bool {
+    text.is_empty() || text.ends_with(b"\n")
+}
+
+/// Lines that became others, those at both ends that did not taken out.
+fn block(hunks: &mut Hunks<'_>, old: &[u8], new: &[u8]) -> io::Result<()> {
+    let old: Vec<&[u8]> = split(old).collect();
+    let new: Vec<&[u8]> = split(new).collect();
+    let head = old.iter().zip(&new).take_while(|(old, new)| old == new).count();
+    let rest = old.len().min(new.len()) - head;
+    let ends = old.iter().rev().zip(new.iter().rev()).take(rest);
+    let tail = ends.take_while(|(old, new)| old == new).count();
+    for line in old.iter().take(head) {
+        hunks.same(line)?;
+    }
+    old.iter().take(old.len() - tail).skip(head).for_each(|line| hunks.removed(line));
+    new.iter().take(new.len() - tail).skip(head).for_each(|line| hunks.added(line));
+    for line in old.iter().skip(old.len() - tail) {
+        hunks.same(line)?;
+    }
+    Ok(())
+}
+
+/// Lines as `patch` sees them, each with its LF; the last one perhaps without.
+fn split(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    text.split_inclusive(|byte| *byte == b'\n')
+}

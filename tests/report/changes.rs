@@ -1,0 +1,40 @@
+//! What a recipe made of a program.
+
+use super::stats::POCKET;
+use crate::support::{program, rounded_snapshots, snapshots};
+use clsmith::report::changes::{Changes, to_json, to_text};
+use clsmith::report::kind::Kind;
+use clsmith::setup::Setup;
+use clsmith::source::Source;
+use clsmith::transform::{Recipe, run};
+
+const RECIPE: &str = "version: 1
+steps:
+  - scale_feed: { factor: 0.5, where: { motions: [engage] } }
+  - clamp_feed: { max: 500 }
+  - clamp_feed: { max: 9000 }
+";
+
+fn changes() -> Changes {
+    let recipe = Recipe::load(&Source::new("recipe.yaml", RECIPE.into()).unwrap()).unwrap();
+    let outcome = run(&recipe, &Setup::default(), program(POCKET)).unwrap();
+    let names: Vec<&str> = recipe.steps.iter().map(|step| step.name()).collect();
+    Changes::of(&program(POCKET), &outcome.program, &names, None)
+}
+
+#[test]
+fn a_recipe_as_text_and_json() {
+    let found = changes();
+    assert_eq!(found.steps[0].edited[&Kind::Feed], 1);
+    assert!(found.steps[2].is_empty() && !found.is_empty());
+    assert!(found.after.feed_seconds > found.before.feed_seconds);
+    snapshots("report").bind(|| insta::assert_snapshot!("changes", to_text(&found)));
+    rounded_snapshots("report").bind(|| insta::assert_snapshot!("changes_json", to_json(&found)));
+}
+
+#[test]
+fn an_untouched_program_has_no_changes() {
+    let found = Changes::of(&program(POCKET), &program(POCKET), &["scale_feed"], None);
+    assert!(found.is_empty());
+    assert_eq!(found.untouched, program(POCKET).statements().len());
+}
