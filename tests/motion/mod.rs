@@ -1,1 +1,7 @@
-
+mod catia_arcs;
+mod corpus;
+mod fixtures;
+mod geometry;
+mod operations;
+mod splines;
+mod tools;

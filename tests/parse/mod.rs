@@ -1,1 +1,10 @@
 mod corpus;
+mod dialects;
+mod encodings;
+mod fields;
+mod free_text;
+mod line_ends;
+mod numbers;
+mod points;
+mod roundtrip;
+mod structured;
