@@ -7,4 +7,5 @@ mod line_ends;
 mod numbers;
 mod points;
 mod roundtrip;
+mod sizes;
 mod structured;
