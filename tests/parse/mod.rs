@@ -1,3 +1,4 @@
+mod continuation;
 mod corpus;
 mod dialects;
 mod encodings;
