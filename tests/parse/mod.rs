@@ -1,3 +1,4 @@
+mod apt_part_programs;
 mod continuation;
 mod corpus;
 mod dialects;
