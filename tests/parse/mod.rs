@@ -1,4 +1,5 @@
 mod apt_part_programs;
+mod comments;
 mod continuation;
 mod corpus;
 mod dialects;

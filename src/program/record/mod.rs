@@ -137,7 +137,7 @@ impl Record {
             Form::Blank => return Ok(Self::Blank),
             Form::Comment => return Ok(structure::comment(syntax)),
             Form::FrameMark => return Ok(Self::FrameMark),
-            Form::MatrixRow => return frame::matrix_row(syntax),
+            Form::MatrixRow => return Ok(frame::matrix_row(syntax)),
             Form::Definition => return Ok(Self::Definition),
             Form::Refused => return Ok(Self::Unparsed),
             Form::OperationStart => return Ok(structure::tool_path(syntax)),
