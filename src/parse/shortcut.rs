@@ -3,7 +3,7 @@
 //! It may only agree with the grammar or decline: the property test `shortcut_agrees_with_the_grammar` holds it to that.
 
 use crate::number::plain_decimal;
-use crate::program::record::Goto;
+use crate::program::record::{Goto, has_direction};
 use nalgebra::{Point3, Vector3};
 
 /// Reads `GOTO/x,y,z[,i,j,k]` with blanks and a `$` continuation where CATIA and Creo write them.
@@ -40,7 +40,8 @@ pub(super) fn goto(text: &[u8]) -> Option<(Goto, usize)> {
     let point = Point3::new(x, y, z);
     let axis = match count {
         3 => None,
-        6 => Some(Vector3::new(i, j, k)),
+        // Without a direction it is an error, which the grammar's way reports.
+        6 => Some(Vector3::new(i, j, k)).filter(has_direction).map(Some)?,
         _ => return None,
     };
     Some((Goto { point, axis }, end))

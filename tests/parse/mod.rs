@@ -7,6 +7,7 @@ mod encodings;
 mod fields;
 mod free_text;
 mod line_ends;
+mod malformed;
 mod numbers;
 mod points;
 mod roundtrip;

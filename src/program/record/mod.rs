@@ -16,7 +16,7 @@ pub use cycle::{Cycle, CycleKind};
 pub use feed::{CutterCompensation, Side, Spindle, SpindleDirection, SpindleUnit};
 pub use frame::{FrameRecord, FrameWord};
 pub use path::{ArcSense, Circle, DriveArc, Goto, MoveArc};
-pub(crate) use path::{is_contact, is_poses};
+pub(crate) use path::{has_direction, is_contact, is_poses};
 pub use role::Role;
 pub use structure::{MarkedMotion, StructureName};
 pub use tool::{ToolCall, ToolData, ToolWord};
