@@ -169,7 +169,7 @@ impl<'p> Motions<'p> {
                 tool.loaded |= call.loads;
             }),
             Record::ToolData(data) => state.change_tool(|tool| tool.data = Some(data.as_ref().clone())),
-            Record::ToolAxis(axis) if !self.program.dialect().axis_is_of_setup() => state.axis = **axis,
+            Record::ToolAxis(axis) if !self.program.dialect().axis_is_of_setup() => state.axis = unit(**axis),
             Record::MultiAxis(on) => state.multi_axis = *on,
             Record::Frame(frame) => self.frame(index, frame),
             Record::FrameMark => self.pending.matrix = Some((index, Vec::new())),
@@ -256,33 +256,35 @@ impl<'p> Motions<'p> {
     }
 
     fn goto(&mut self, index: usize, goto: &Goto) {
-        let axis = goto.axis.unwrap_or(self.state.axis);
+        let axis = goto.axis.map_or(self.state.axis, unit);
         self.move_to(Target { pose: Pose { point: goto.point, axis }, normal: None, statement: index });
     }
 
     fn points(&mut self, index: usize, numbers: &[f64]) {
         let at = |index: usize| Vector3::from_iterator(numbers.iter().skip(index).take(3).copied());
         if is_contact(numbers) {
-            let pose = Pose { point: at(0).into(), axis: at(3) };
+            let pose = Pose { point: at(0).into(), axis: unit(at(3)) };
             return self.move_to(Target { pose, normal: Some(at(6)), statement: index });
         }
         let with_axes = self.state.multi_axis && is_poses(numbers);
         let step = if with_axes { 6 } else { 3 };
         for start in (0..numbers.len()).step_by(step) {
-            let axis = if with_axes { at(start + 3) } else { self.state.axis };
+            let axis = if with_axes { unit(at(start + 3)) } else { self.state.axis };
             let pose = Pose { point: at(start).into(), axis };
             self.move_to(Target { pose, normal: None, statement: index });
         }
     }
 
     fn from(&mut self, index: usize, goto: &Goto) {
-        let axis = goto.axis.unwrap_or(self.state.axis);
+        let axis = goto.axis.map_or(self.state.axis, unit);
         let pose = Pose { point: goto.point, axis };
         self.state.axis = axis;
         self.state.pose = Some(pose);
         self.last_tangent = None;
-        self.pending.first.get_or_insert(index);
+        // The tool does not move: what RAPID or CIRCLE announced is for the motion after it.
+        let announced = std::mem::take(&mut self.pending);
         let motion = self.motion(pose, pose, Path::Start, index);
+        self.pending = announced;
         self.queue.push_back(motion);
     }
 
@@ -461,6 +463,11 @@ impl<'p> Motions<'p> {
             self.end_matrix();
         }
     }
+}
+
+/// A printed axis as it is, unless it is more than its rounding away from a unit vector.
+fn unit(axis: Vector3<f64>) -> Vector3<f64> {
+    if (axis.norm_squared() - 1.0).abs() < 2e-3 { axis } else { axis.try_normalize(1e-6).unwrap_or(axis) }
 }
 
 impl Iterator for Motions<'_> {
