@@ -1,6 +1,7 @@
 mod catia_arcs;
 mod corpus;
 mod fixtures;
+mod frames;
 mod geometry;
 mod modal;
 mod operations;

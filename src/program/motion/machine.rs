@@ -224,7 +224,9 @@ impl<'p> Motions<'p> {
             FrameWord::Msys => {
                 let (x, y) = (three(3), three(6));
                 let axes = Matrix3::from_columns(&[x, y, x.cross(&y)]);
-                self.state.frame = Some(Arc::new(Frame { statement: index, origin: three(0), axes }));
+                let frame = Frame { statement: index, origin: three(0), axes };
+                self.see_from(&frame);
+                self.state.frame = Some(Arc::new(frame));
             }
             FrameWord::Csys => {
                 let axes = Matrix3::new(at(0), at(1), at(2), at(4), at(5), at(6), at(8), at(9), at(10));
@@ -235,6 +237,19 @@ impl<'p> Motions<'p> {
             FrameWord::Origin => self.state.shift = -three(0),
             FrameWord::Rotary => {}
         }
+    }
+
+    /// NX prints points in MSYS: in a new one the tool stands where it stood, with other coordinates.
+    fn see_from(&mut self, new: &Frame) {
+        let (Some(pose), Some(old)) = (self.state.pose, self.state.frame.as_deref()) else { return };
+        if (old.origin, old.axes) == (new.origin, new.axes) {
+            return;
+        }
+        self.last_tangent = None;
+        self.state.pose = new.axes.try_inverse().map(|inverse| Pose {
+            point: (inverse * (old.origin + old.axes * pose.point.coords - new.origin)).into(),
+            axis: unit(inverse * (old.axes * pose.axis)),
+        });
     }
 
     fn end_matrix(&mut self) {
