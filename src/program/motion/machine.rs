@@ -159,7 +159,10 @@ impl<'p> Motions<'p> {
                     self.problem(rapid, ProblemKind::RapidWithoutMotion);
                 }
             }
-            Record::Spindle(spindle) => state.spindle = Some(Arc::new(spindle.as_ref().clone())),
+            Record::Spindle(spindle) => {
+                let spindle = spindle.after(state.spindle.as_deref());
+                state.spindle = Some(Arc::new(spindle));
+            }
             Record::CutterCompensation(compensation) => state.compensation = Some((*compensation, index)),
             Record::ToolCall(call) => state.change_tool(|tool| {
                 if tool.number.is_some_and(|number| number != call.number) && tool.loaded && call.loads {
