@@ -1,5 +1,6 @@
 mod catia_arcs;
 mod corpus;
+mod cycles;
 mod feed_and_spindle;
 mod fixtures;
 mod frames;

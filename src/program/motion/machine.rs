@@ -5,7 +5,7 @@ use super::state::{Frame, Problem, ProblemKind, State};
 use super::{Motion, cycles};
 use crate::program::class::MotionClass;
 use crate::program::geometry::{Path, Pose, SAME_POINT, Spline};
-use crate::program::record::{FrameRecord, FrameWord, Goto, is_contact, is_poses};
+use crate::program::record::{Cycle, FrameRecord, FrameWord, Goto, is_contact, is_poses};
 use crate::program::{Program, Record, operation};
 use nalgebra::{Matrix3, Point3, Vector3};
 use std::collections::VecDeque;
@@ -23,6 +23,8 @@ pub struct Motions<'p> {
     last_tangent: Option<Vector3<f64>>,
     operations_seen: bool,
     holes: usize,
+    /// The cycle that CYCLE/ON switches on again.
+    last_cycle: Option<(Arc<Cycle>, usize)>,
 }
 
 /// What statements have announced for the next motion.
@@ -69,6 +71,7 @@ impl<'p> Motions<'p> {
             last_tangent: None,
             operations_seen: false,
             holes: 0,
+            last_cycle: None,
         }
     }
 
@@ -102,7 +105,12 @@ impl<'p> Motions<'p> {
             Record::Goto(goto) => self.goto(index, goto),
             Record::Points(numbers) => self.points(index, numbers),
             Record::From(goto) => self.from(index, goto),
-            Record::GoHome(Some(goto)) => self.goto(index, goto),
+            Record::GoHome(Some(goto)) => {
+                // Whatever cycle is in force, there is no hole at home.
+                let cycle = self.state.cycle.take();
+                self.goto(index, goto);
+                self.state.cycle = cycle;
+            }
             Record::GoHome(None) => self.forget_place(),
             Record::GoDelta(step) => self.step(index, step),
             Record::Circle(circle) => self.announce_arc(index, PendingArc::Circle(circle.as_ref().clone())),
@@ -186,8 +194,12 @@ impl<'p> Motions<'p> {
                     }
                 }
             }
-            Record::Cycle(cycle) => state.cycle = Some((Arc::new(cycle.as_ref().clone()), index)),
-            Record::CycleOff => state.cycle = None,
+            Record::Cycle(cycle) => {
+                let before = state.cycle.as_ref().map(|(before, _)| before.as_ref());
+                state.cycle = Some((Arc::new(cycle.after(before)), index));
+            }
+            Record::CycleOff => self.last_cycle = state.cycle.take().or(self.last_cycle.take()),
+            Record::CycleOn => state.cycle = state.cycle.take().or_else(|| self.last_cycle.clone()),
             Record::Marked(mark) => state.marked = mark.class,
             Record::OperationStart(_) => self.start_operation(index),
             Record::OperationEnd => state.marked = None,
