@@ -1,4 +1,5 @@
 mod catia_arcs;
+mod classes;
 mod corpus;
 mod cycles;
 mod feed_and_spindle;

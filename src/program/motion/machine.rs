@@ -451,12 +451,14 @@ impl<'p> Motions<'p> {
     }
 
     /// The marked class; without a mark: rapids are rapid, a straight feed move down the tool axis engages, one up it
-    /// retracts, everything else cuts. A rapid is never a cut, whatever the mark says (NX colour 37 holds both).
+    /// retracts, everything else cuts. A rapid is never a cut and a feed move never rapid, whatever the
+    /// mark says (NX colour 37 holds both).
     fn class(&self, rapid: bool, from: &Pose, to: &Pose, path: &Path) -> (MotionClass, bool) {
-        let told = self
-            .state
-            .marked
-            .filter(|class| !rapid || !matches!(class, MotionClass::Cut | MotionClass::Engage));
+        let told = self.state.marked.filter(|class| match class {
+            MotionClass::Cut | MotionClass::Engage => !rapid,
+            MotionClass::Rapid => rapid,
+            _ => true,
+        });
         if let Some(class) = told {
             return (class, true);
         }
