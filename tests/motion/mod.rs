@@ -1,3 +1,4 @@
+mod arcs_of_dialects;
 mod catia_arcs;
 mod classes;
 mod corpus;
