@@ -1,9 +1,10 @@
 //! What the areas share: the corpus, where it is present, and snapshots.
 
-use clsmith::program::Program;
+use clsmith::program::geometry::{Arc, Path as ClPath};
+use clsmith::program::motion::{Motion, ProblemKind};
+use clsmith::program::{Dialect, Program};
 use clsmith::source::Source;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 /// Files of the corpus beside the project, APT part programs left out; empty where the corpus is absent.
 pub fn corpus() -> Vec<PathBuf> {
@@ -31,12 +32,12 @@ pub fn corpus_file(end: &str) -> Option<PathBuf> {
 }
 
 /// A source read from a file.
-pub fn source(path: &Path) -> Arc<Source> {
+pub fn source(path: &Path) -> std::sync::Arc<Source> {
     Source::new(path.file_name().unwrap().to_string_lossy(), std::fs::read(path).unwrap()).unwrap()
 }
 
 /// A source from text.
-pub fn text(text: impl AsRef<[u8]>) -> Arc<Source> {
+pub fn text(text: impl AsRef<[u8]>) -> std::sync::Arc<Source> {
     Source::new("part.cls", text.as_ref().to_vec()).unwrap()
 }
 
@@ -61,4 +62,53 @@ pub fn rounded_snapshots(area: &str) -> insta::Settings {
     let mut settings = snapshots(area);
     settings.add_filter(r"(\d\.\d{6})\d+", "$1");
     settings
+}
+
+/// All fixtures of the project with the dialect that their folder names.
+pub fn fixtures() -> Vec<(Dialect, PathBuf)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures");
+    let mut files = Vec::new();
+    for dialect in Dialect::ALL {
+        let folder = std::fs::read_dir(root.join(dialect.name())).unwrap();
+        files.extend(folder.flatten().map(|entry| (dialect, entry.path())));
+    }
+    files.sort_by(|(_, a), (_, b)| a.cmp(b));
+    files
+}
+
+/// A fixture by its path below `tests/fixtures`, parsed; it must be free of errors.
+pub fn fixture(path: &str) -> Program {
+    program(std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures").join(path)).unwrap())
+}
+
+/// A program parsed from text of a given dialect, which must be free of errors.
+pub fn program_of(dialect: Dialect, source: impl AsRef<[u8]>) -> Program {
+    let parsed = clsmith::parse::parse(&text(source), Some(dialect));
+    assert!(parsed.diagnostics.iter().all(|found| !found.is_error()), "{:?}", parsed.diagnostics);
+    parsed.program
+}
+
+/// All motions of a program, and the problems met on the way.
+pub fn motions(program: &Program) -> (Vec<Motion>, Vec<ProblemKind>) {
+    let mut motions = program.motions();
+    let found = motions.by_ref().collect();
+    (found, motions.take_problems().into_iter().map(|problem| problem.kind).collect())
+}
+
+/// The motions of a program that has no problem.
+pub fn clean_motions(program: &Program) -> Vec<Motion> {
+    let (found, problems) = motions(program);
+    assert!(problems.is_empty(), "{problems:?}");
+    found
+}
+
+/// The only arc among motions that hold just one.
+pub fn only_arc(motions: &[Motion]) -> &Arc {
+    let mut arcs = motions.iter().filter_map(|motion| match &motion.path {
+        ClPath::Arc(arc) => Some(arc.as_ref()),
+        _ => None,
+    });
+    let arc = arcs.next().unwrap();
+    assert!(arcs.next().is_none());
+    arc
 }

@@ -93,7 +93,7 @@ fn field(part: Pair<'_, Rule>) -> Option<Field> {
         | Rule::listed
         | Rule::operation_name
         | Rule::tool_name => FieldKind::Text,
-        Rule::group => FieldKind::Group(Box::new(group(part))),
+        Rule::group | Rule::group_2 | Rule::group_3 => FieldKind::Group(Box::new(group(part))),
         _ => return None,
     };
     Some(Field { at, kind })

@@ -126,7 +126,8 @@ impl Reader<'_> {
         let span = Span::new(at, at + length);
         let record = self.record(&syntax, span);
         if record == Record::Definition {
-            let shown = Span::new(at, at + trimmed(rest.get(..length).unwrap_or_default()));
+            let text = rest.get(..length).unwrap_or_default();
+            let shown = span.part(length - text.trim_ascii_start().len(), trimmed(text));
             return Err(Box::new(
                 Diagnostic::new(
                     codes::APT_PART_PROGRAM,

@@ -3,7 +3,7 @@
 //! It may only agree with the grammar or decline: the property test `shortcut_agrees_with_the_grammar` holds it to that.
 
 use crate::number::plain_decimal;
-use crate::program::record::Goto;
+use crate::program::record::{Goto, has_direction};
 use nalgebra::{Point3, Vector3};
 use std::ops::Range;
 
@@ -14,7 +14,11 @@ use std::ops::Range;
 pub(super) fn goto(text: &[u8]) -> Option<(Goto, usize)> {
     let scan = scan(text)?;
     let [x, y, z, i, j, k] = scan.values;
-    let axis = (scan.count == 6).then(|| Vector3::new(i, j, k));
+    let axis = match scan.count {
+        3 => None,
+        // Without a direction it is an error, which the grammar's way reports.
+        _ => Some(Vector3::new(i, j, k)).filter(has_direction).map(Some)?,
+    };
     Some((Goto { point: Point3::new(x, y, z), axis }, scan.end))
 }
 
@@ -50,6 +54,10 @@ fn scan(text: &[u8]) -> Option<Scan> {
         at = blanks(text, at + length);
         if text.get(at) != Some(&b',') {
             break;
+        }
+        // Six values and a comma: more of them, or a `$` that may continue past the end of the file.
+        if scan.count == 6 {
+            return None;
         }
         at = continuation(text, at + 1)?;
     }
@@ -89,5 +97,127 @@ fn line_end(text: &[u8], at: usize) -> Option<usize> {
         [b'\r', b'\n', ..] => Some(at + 2),
         // A lone CR ends a line as well, but only the grammar decides what follows it.
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::goto;
+    use crate::parse::statement_of;
+    use crate::program::Record;
+    use proptest::prelude::*;
+
+    /// Either the shortcut declines, or it gives what the grammar gives: same record bit for bit, same length, no finding.
+    fn agrees(text: &[u8]) -> Result<bool, TestCaseError> {
+        let Some((short, length)) = goto(text) else { return Ok(false) };
+        let (syntax, full_length) = statement_of(text);
+        prop_assert!(!syntax.open, "open: {:?}", String::from_utf8_lossy(text));
+        prop_assert_eq!(length, full_length, "{:?}", String::from_utf8_lossy(text));
+        let Ok(Record::Goto(full)) = Record::read(&syntax) else {
+            return Err(TestCaseError::fail(format!("{:?} {syntax:?}", String::from_utf8_lossy(text))));
+        };
+        let bits = |goto: &crate::program::record::Goto| {
+            (goto.point.coords.map(f64::to_bits), goto.axis.map(|axis| axis.map(f64::to_bits)))
+        };
+        prop_assert_eq!(bits(&short), bits(&full));
+        Ok(true)
+    }
+
+    /// Mostly plain, so that most lines have one odd thing or none: those come near the edge.
+    fn value() -> impl Strategy<Value = String> {
+        prop_oneof![
+            40 => "-?[0-9]{1,4}\\.[0-9]{0,10}",
+            2 => "-?[0-9]{0,3}\\.?[0-9]{0,3}",
+            1 => "[+-]{0,2}[0-9]{1,2}([eEdD][+-]?[0-9]{1,3})?",
+            1 => "[0-9]{14,22}\\.[0-9]{0,22}",
+            1 => "-?0(\\.0{0,12})?",
+            1 => "[0-9A-Z.]{0,6}",
+        ]
+    }
+
+    /// Between two values.
+    fn between() -> impl Strategy<Value = String> {
+        prop_oneof![
+            40 => " {0,3}, {0,3}",
+            8 => Just(",  $\n".to_owned()),
+            1 => Just(",$\r\n ".to_owned()),
+            1 => "[ ,\t]{0,3}\\$[ x$]{0,2}(\n|\r\n|\r|)[ $,]{0,2}",
+            1 => "[ ,/$\t'(]{0,3}",
+        ]
+    }
+
+    /// After the last value.
+    fn tail() -> impl Strategy<Value = String> {
+        prop_oneof![
+            6 => prop::sample::select(vec!["\n", "\r\n", "", " \n", "  \r\n"]).prop_map(str::to_owned),
+            2 => "[ ,$]{0,4}(\n|\r\n|\r|)",
+            1 => " {0,2}\\$\\$ ?[a-z]{0,3}\n",
+            1 => ",?  ?\\$(\n|\r\n|)(0|1,2|[$])?\n?",
+            1 => "\r?\r?\n?",
+            1 => "[A-Z0-9.,/]{1,3}\n",
+        ]
+    }
+
+    fn near_goto() -> impl Strategy<Value = String> {
+        let head = prop_oneof![
+            6 => Just("GOTO/".to_owned()), 2 => "GOTO {0,3}/ {0,4}", 1 => "[ \t]?(GOTO|goto|GOTOX|GO TO|GOT)[ $\t]?/?",
+        ];
+        let count = prop_oneof![4 => Just(3usize), 4 => Just(6usize), 1 => 0usize..10];
+        let values = count.prop_flat_map(|count| prop::collection::vec((value(), between()), count));
+        (head, values, tail(), "(GOTO/1,2,3\n)?").prop_map(|(head, values, tail, next)| {
+            let last = values.len().saturating_sub(1);
+            let mut text = head;
+            for (index, (value, between)) in values.into_iter().enumerate() {
+                text += &value;
+                text += if index == last { "" } else { &between };
+            }
+            text + &tail + &next
+        })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn shortcut_agrees_with_the_grammar(text in near_goto()) {
+            agrees(text.as_bytes())?;
+        }
+
+        #[test]
+        fn shortcut_agrees_after_any_byte_was_changed(text in near_goto(), at in any::<usize>(), byte in any::<u8>()) {
+            let mut bytes = text.into_bytes();
+            if let Some(length) = Some(bytes.len()).filter(|&length| length > 0) {
+                bytes[at % length] = byte;
+            }
+            agrees(&bytes)?;
+        }
+    }
+
+    #[test]
+    fn shortcut_takes_the_plain_lines_of_every_dialect() {
+        for text in [
+            "GOTO/1.0000,-2.0000,0.0000\n",
+            "GOTO/1.0000,2.0000,3.0000,0.0000000,0.6000000,0.8000000\r\n",
+            "GOTO  /   17.00000,    0.00000,    2.00000\n",
+            "GOTO / 351.7389525618, 98.4998561102, 144.0966038928,  $\n0.9997838891, -0.0000009626, 0.0207888211\n",
+            "GOTO/120.,.5,-0.1",
+            "GOTO/ 1.000000,-0.000000,3.000000 \n",
+        ] {
+            assert!(agrees(text.as_bytes()).unwrap(), "declined: {text}");
+        }
+    }
+
+    #[test]
+    fn shortcut_declines_what_it_does_not_know() {
+        for text in [
+            "GOTO/1,2,3$$c\n",
+            "GOTO/1,2,1E3\n",
+            "GOTO/1,2,3,0,0,1,$\n",
+            "GOTO/1,2\n",
+            "goto/1,2,3\n",
+            "GOTO/1,2,3\r",
+        ] {
+            assert!(!agrees(text.as_bytes()).unwrap(), "{text}");
+        }
     }
 }

@@ -129,8 +129,11 @@ impl Spline {
     pub fn point(&self, t: f64) -> Point3<f64> {
         let count = self.controls.len();
         let knot = |index: usize| self.knots.get(index).copied().unwrap_or_default();
-        let u = t.clamp(0.0, 1.0) * knot(self.knots.len().saturating_sub(1));
-        let span = (3..count).rev().find(|&span| knot(span) <= u && knot(span) < knot(span + 1)).unwrap_or(3);
+        let last = knot(self.knots.len().saturating_sub(1));
+        let u = t.clamp(0.0, 1.0) * last;
+        // The span that holds u; the end belongs to the last span that has a length.
+        let after = self.knots.partition_point(|&knot| if u < last { knot <= u } else { knot < last });
+        let span = after.saturating_sub(1).clamp(3, count.saturating_sub(1).max(3));
         let mut points: Vec<Vector3<f64>> =
             self.controls.iter().skip(span - 3).take(4).map(|point| point.coords).collect();
         for level in 1..=3 {

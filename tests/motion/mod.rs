@@ -1,1 +1,14 @@
+mod arcs_of_dialects;
+mod catia_arcs;
+mod classes;
+mod corpus;
+mod cycles;
+mod feed_and_spindle;
+mod fixtures;
+mod frames;
+mod geometry;
+mod modal;
+mod operations;
+mod splines;
+mod tool_shapes;
 mod tools;

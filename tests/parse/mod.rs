@@ -1,1 +1,15 @@
+mod apt_part_programs;
+mod comments;
+mod continuation;
 mod corpus;
+mod dialects;
+mod encodings;
+mod fields;
+mod free_text;
+mod line_ends;
+mod malformed;
+mod numbers;
+mod points;
+mod roundtrip;
+mod sizes;
+mod structured;

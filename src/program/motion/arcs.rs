@@ -5,9 +5,13 @@ use crate::program::dialect::ArcRule;
 use crate::program::geometry::{Arc, SAME_POINT};
 use crate::program::record::{ArcSense, Circle, DriveArc, MoveArc};
 use nalgebra::{Point3, Unit, Vector3};
+use std::f64::consts::{PI, TAU};
 
 /// Radii may differ by the rounding of both points and the centre (measured: at most 0.0001 in every NX arc).
 const RADIUS_TOLERANCE: f64 = 2e-3;
+
+/// Angles of MOVARC are printed with three decimals of a degree; twice their rounding, in radians.
+const ANGLE_TOLERANCE: f64 = 2e-5;
 
 /// An arc that waits for its end point.
 #[derive(Debug, Clone)]
@@ -83,9 +87,17 @@ fn of_move_arc(record: &MoveArc, start: Point3<f64>, end: Point3<f64>) -> Resolv
     let mut arc = Arc::between(start, end, record.center, Unit::new_normalize(record.axis), 0);
     if let Some(degrees) = record.sweep_degrees {
         let told = degrees.to_radians();
-        // The end point and the angle both say where the arc ends; whole turns only the angle can say.
-        let turns = ((told - arc.sweep) / std::f64::consts::TAU).round().clamp(0.0, 10_000.0);
-        arc.sweep += turns * std::f64::consts::TAU;
+        // The end point and the angle both say where the arc ends; whole turns only the angle can say. Ends that fall
+        // together (or change places by their rounding) are a full circle or an arc too short to show in the decimals.
+        let missing = TAU - (arc.sweep - told);
+        if (0.0..PI).contains(&told) && missing.abs() * arc.radius < RADIUS_TOLERANCE {
+            arc.sweep = told;
+        }
+        arc.sweep += ((told - arc.sweep) / TAU).round().clamp(0.0, 10_000.0) * TAU;
+        let off = 2.0 * arc.radius * ((told - arc.sweep) / 2.0).sin().abs();
+        if off > RADIUS_TOLERANCE + ANGLE_TOLERANCE * arc.radius {
+            problems.push(ProblemKind::ArcEndOffCircle(off));
+        }
     }
     let off = (record.radius - arc.radius).abs();
     if off > RADIUS_TOLERANCE {
@@ -124,9 +136,7 @@ fn of_drive(
         problems.push(ProblemKind::ArcStartOffCircle(off));
     }
     check_end(&arc, end, &mut problems);
-    if record.beyond_half != (arc.sweep > std::f64::consts::PI + 1e-4)
-        && (arc.sweep - std::f64::consts::PI).abs() > 1e-3
-    {
+    if record.beyond_half != (arc.sweep > PI + 1e-4) && (arc.sweep - PI).abs() > 1e-3 {
         problems.push(ProblemKind::TangentMismatch);
     }
     Resolved { arc: Some(arc), problems }

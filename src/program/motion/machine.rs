@@ -5,7 +5,7 @@ use super::state::{Frame, Problem, ProblemKind, State};
 use super::{Motion, cycles};
 use crate::program::class::MotionClass;
 use crate::program::geometry::{Path, Pose, SAME_POINT, Spline};
-use crate::program::record::{FrameRecord, FrameWord, Goto, is_contact, is_poses};
+use crate::program::record::{Cycle, FrameRecord, FrameWord, Goto, is_contact, is_poses};
 use crate::program::{Program, Record, operation};
 use nalgebra::{Matrix3, Point3, Vector3};
 use std::collections::VecDeque;
@@ -23,6 +23,8 @@ pub struct Motions<'p> {
     last_tangent: Option<Vector3<f64>>,
     operations_seen: bool,
     holes: usize,
+    /// The cycle that CYCLE/ON switches on again.
+    last_cycle: Option<(Arc<Cycle>, usize)>,
 }
 
 /// What statements have announced for the next motion.
@@ -69,6 +71,7 @@ impl<'p> Motions<'p> {
             last_tangent: None,
             operations_seen: false,
             holes: 0,
+            last_cycle: None,
         }
     }
 
@@ -102,7 +105,12 @@ impl<'p> Motions<'p> {
             Record::Goto(goto) => self.goto(index, goto),
             Record::Points(numbers) => self.points(index, numbers),
             Record::From(goto) => self.from(index, goto),
-            Record::GoHome(Some(goto)) => self.goto(index, goto),
+            Record::GoHome(Some(goto)) => {
+                // Whatever cycle is in force, there is no hole at home.
+                let cycle = self.state.cycle.take();
+                self.goto(index, goto);
+                self.state.cycle = cycle;
+            }
             Record::GoHome(None) => self.forget_place(),
             Record::GoDelta(step) => self.step(index, step),
             Record::Circle(circle) => self.announce_arc(index, PendingArc::Circle(circle.as_ref().clone())),
@@ -159,7 +167,10 @@ impl<'p> Motions<'p> {
                     self.problem(rapid, ProblemKind::RapidWithoutMotion);
                 }
             }
-            Record::Spindle(spindle) => state.spindle = Some(Arc::new(spindle.as_ref().clone())),
+            Record::Spindle(spindle) => {
+                let spindle = spindle.after(state.spindle.as_deref());
+                state.spindle = Some(Arc::new(spindle));
+            }
             Record::CutterCompensation(compensation) => state.compensation = Some((*compensation, index)),
             Record::ToolCall(call) => state.change_tool(|tool| {
                 let another = tool.number.is_some_and(|number| number != call.number);
@@ -176,7 +187,7 @@ impl<'p> Motions<'p> {
                 tool.data = Some(data.as_ref().clone());
                 tool.shape_is_new = true;
             }),
-            Record::ToolAxis(axis) if !self.program.dialect().axis_is_of_setup() => state.axis = **axis,
+            Record::ToolAxis(axis) if !self.program.dialect().axis_is_of_setup() => state.axis = unit(**axis),
             Record::MultiAxis(on) => state.multi_axis = *on,
             Record::Frame(frame) => self.frame(index, frame),
             Record::FrameMark => self.pending.matrix = Some((index, Vec::new())),
@@ -190,8 +201,12 @@ impl<'p> Motions<'p> {
                     }
                 }
             }
-            Record::Cycle(cycle) => state.cycle = Some((Arc::new(cycle.as_ref().clone()), index)),
-            Record::CycleOff => state.cycle = None,
+            Record::Cycle(cycle) => {
+                let before = state.cycle.as_ref().map(|(before, _)| before.as_ref());
+                state.cycle = Some((Arc::new(cycle.after(before)), index));
+            }
+            Record::CycleOff => self.last_cycle = state.cycle.take().or(self.last_cycle.take()),
+            Record::CycleOn => state.cycle = state.cycle.take().or_else(|| self.last_cycle.clone()),
             Record::Marked(mark) => state.marked = mark.class,
             Record::OperationStart(_) => self.start_operation(index),
             Record::OperationEnd => state.marked = None,
@@ -231,7 +246,9 @@ impl<'p> Motions<'p> {
             FrameWord::Msys => {
                 let (x, y) = (three(3), three(6));
                 let axes = Matrix3::from_columns(&[x, y, x.cross(&y)]);
-                self.state.frame = Some(Arc::new(Frame { statement: index, origin: three(0), axes }));
+                let frame = Frame { statement: index, origin: three(0), axes };
+                self.see_from(&frame);
+                self.state.frame = Some(Arc::new(frame));
             }
             FrameWord::Csys => {
                 let axes = Matrix3::new(at(0), at(1), at(2), at(4), at(5), at(6), at(8), at(9), at(10));
@@ -242,6 +259,19 @@ impl<'p> Motions<'p> {
             FrameWord::Origin => self.state.shift = -three(0),
             FrameWord::Rotary => {}
         }
+    }
+
+    /// NX prints points in MSYS: in a new one the tool stands where it stood, with other coordinates.
+    fn see_from(&mut self, new: &Frame) {
+        let (Some(pose), Some(old)) = (self.state.pose, self.state.frame.as_deref()) else { return };
+        if (old.origin, old.axes) == (new.origin, new.axes) {
+            return;
+        }
+        self.last_tangent = None;
+        self.state.pose = new.axes.try_inverse().map(|inverse| Pose {
+            point: (inverse * (old.origin + old.axes * pose.point.coords - new.origin)).into(),
+            axis: unit(inverse * (old.axes * pose.axis)),
+        });
     }
 
     fn end_matrix(&mut self) {
@@ -263,33 +293,35 @@ impl<'p> Motions<'p> {
     }
 
     fn goto(&mut self, index: usize, goto: &Goto) {
-        let axis = goto.axis.unwrap_or(self.state.axis);
+        let axis = goto.axis.map_or(self.state.axis, unit);
         self.move_to(Target { pose: Pose { point: goto.point, axis }, normal: None, statement: index });
     }
 
     fn points(&mut self, index: usize, numbers: &[f64]) {
         let at = |index: usize| Vector3::from_iterator(numbers.iter().skip(index).take(3).copied());
         if is_contact(numbers) {
-            let pose = Pose { point: at(0).into(), axis: at(3) };
+            let pose = Pose { point: at(0).into(), axis: unit(at(3)) };
             return self.move_to(Target { pose, normal: Some(at(6)), statement: index });
         }
         let with_axes = self.state.multi_axis && is_poses(numbers);
         let step = if with_axes { 6 } else { 3 };
         for start in (0..numbers.len()).step_by(step) {
-            let axis = if with_axes { at(start + 3) } else { self.state.axis };
+            let axis = if with_axes { unit(at(start + 3)) } else { self.state.axis };
             let pose = Pose { point: at(start).into(), axis };
             self.move_to(Target { pose, normal: None, statement: index });
         }
     }
 
     fn from(&mut self, index: usize, goto: &Goto) {
-        let axis = goto.axis.unwrap_or(self.state.axis);
+        let axis = goto.axis.map_or(self.state.axis, unit);
         let pose = Pose { point: goto.point, axis };
         self.state.axis = axis;
         self.state.pose = Some(pose);
         self.last_tangent = None;
-        self.pending.first.get_or_insert(index);
+        // The tool does not move: what RAPID or CIRCLE announced is for the motion after it.
+        let announced = std::mem::take(&mut self.pending);
         let motion = self.motion(pose, pose, Path::Start, index);
+        self.pending = announced;
         self.queue.push_back(motion);
     }
 
@@ -426,12 +458,14 @@ impl<'p> Motions<'p> {
     }
 
     /// The marked class; without a mark: rapids are rapid, a straight feed move down the tool axis engages, one up it
-    /// retracts, everything else cuts. A rapid is never a cut, whatever the mark says (NX colour 37 holds both).
+    /// retracts, everything else cuts. A rapid is never a cut and a feed move never rapid, whatever the
+    /// mark says (NX colour 37 holds both).
     fn class(&self, rapid: bool, from: &Pose, to: &Pose, path: &Path) -> (MotionClass, bool) {
-        let told = self
-            .state
-            .marked
-            .filter(|class| !rapid || !matches!(class, MotionClass::Cut | MotionClass::Engage));
+        let told = self.state.marked.filter(|class| match class {
+            MotionClass::Cut | MotionClass::Engage => !rapid,
+            MotionClass::Rapid => rapid,
+            _ => true,
+        });
         if let Some(class) = told {
             return (class, true);
         }
@@ -468,6 +502,11 @@ impl<'p> Motions<'p> {
             self.end_matrix();
         }
     }
+}
+
+/// A printed axis as it is, unless it is more than its rounding away from a unit vector.
+fn unit(axis: Vector3<f64>) -> Vector3<f64> {
+    if (axis.norm_squared() - 1.0).abs() < 2e-3 { axis } else { axis.try_normalize(1e-6).unwrap_or(axis) }
 }
 
 impl Iterator for Motions<'_> {

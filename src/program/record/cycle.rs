@@ -26,6 +26,10 @@ pub struct Cycle {
     pub clearance: Option<f64>,
     /// `RTRCTO`, `RETURN`; `AUTO` is `None`.
     pub retract: Option<f64>,
+    /// Whether `RTRCTO,AUTO` stands there: back to the clearance.
+    pub retract_is_auto: bool,
+    /// `CYCLE/ON,...` (NX): what the record does not say stays as in the cycle in force.
+    pub changes: bool,
     /// Feed, where the record has one.
     pub feed: Option<Feed>,
 }
@@ -37,9 +41,10 @@ pub(super) fn read(major: &str, syntax: &Syntax<'_>) -> Reading {
     let first = syntax.word_at(0).unwrap_or_default();
     Some(match first.as_str() {
         "OFF" | "NOMORE" => Ok(Record::CycleOff),
-        // CLT's CYCLE/ ON and SolidWorks' CYCLE/INIT announce a cycle; NX's CYCLE/ON,FEDTO,... changes the one in force.
-        "ON" | "INIT" if syntax.fields.len() == 1 => Ok(Record::CycleOn),
-        "" => Ok(Record::CycleOn),
+        // CYCLE/ON switches the last cycle on again; CLT announces each cycle so, SolidWorks with CYCLE/INIT. NX's
+        // CYCLE/ON,FEDTO,... changes the one in force.
+        "ON" if syntax.fields.len() == 1 => Ok(Record::CycleOn),
+        "INIT" | "" => Ok(Record::Known),
         _ => cycle(&first, syntax).map(|cycle| Record::Cycle(Box::new(cycle))),
     })
 }
@@ -68,13 +73,23 @@ fn cycle(first: &str, syntax: &Syntax<'_>) -> Result<Cycle, BadRecord> {
         "TAP" | "BORE" | "REAM" | "THREAD" | "MILL" | "BORE1" | "BORE2" | "RTAP" => CycleKind::FeedOut,
         _ => CycleKind::Drill,
     };
-    let mut cycle =
-        Cycle { kind, depth: None, depth_is_fedto: false, clearance: None, retract: None, feed: None };
+    let mut cycle = Cycle {
+        kind,
+        depth: None,
+        depth_is_fedto: false,
+        clearance: None,
+        retract: None,
+        retract_is_auto: false,
+        changes: first == "ON",
+        feed: None,
+    };
+    let mut rapid_to = None;
     let mut bare = Vec::new();
     let mut word = String::new();
     for item in items(syntax) {
         let value = match item {
             Item::Word(next) => {
+                cycle.retract_is_auto |= word == "RTRCTO" && next == "AUTO";
                 word = next;
                 continue;
             }
@@ -83,7 +98,8 @@ fn cycle(first: &str, syntax: &Syntax<'_>) -> Result<Cycle, BadRecord> {
         match word.as_str() {
             "FEDTO" => (cycle.depth, cycle.depth_is_fedto) = (Some(value), true),
             "DEPTH" => cycle.depth = Some(value),
-            "RAPTO" | "CLEAR" => cycle.clearance = Some(value),
+            "RAPTO" => rapid_to = Some(value),
+            "CLEAR" => cycle.clearance = Some(value),
             "RTRCTO" | "RETURN" => cycle.retract = Some(value),
             unit if FeedUnit::of_word(unit).is_some() && cycle.feed.is_none() => {
                 cycle.feed = Some(Feed { value, unit: FeedUnit::of_word(unit) });
@@ -91,7 +107,7 @@ fn cycle(first: &str, syntax: &Syntax<'_>) -> Result<Cycle, BadRecord> {
                 word = "AFTER-FEED".to_owned();
                 continue;
             }
-            "STEP" | "INCR" | "1STPECK" | "SUBPECK" | "PECKING" | "DWELL" | "RTRCTO-STEP" => {}
+            "STEP" | "INCR" | "1STPECK" | "SUBPECK" | "PECKING" | "DWELL" | "REV" | "ORIENT" | "TIMES" => {}
             _ => bare.push(value),
         }
         if !keeps_governing(&word) {
@@ -100,10 +116,40 @@ fn cycle(first: &str, syntax: &Syntax<'_>) -> Result<Cycle, BadRecord> {
     }
     // Positional forms: CATIA depth,clearance; ISO depth,feed,clearance; CLT depth ... feed,clearance,retract,retract.
     let mut bare = bare.into_iter();
+    let positional = cycle.depth.is_none();
     cycle.depth = cycle.depth.or_else(|| bare.next());
+    if let Some(rapid) = rapid_to {
+        match bare.next().filter(|_| positional) {
+            // ISO: RAPTO counts down from the clearance, where the tool also returns to.
+            Some(clearance) => {
+                cycle.clearance = Some((clearance - rapid).max(0.0));
+                cycle.retract = cycle.retract.or(Some(clearance));
+            }
+            None => cycle.clearance = Some(rapid),
+        }
+    }
     cycle.clearance = cycle.clearance.or_else(|| bare.next());
     cycle.retract = cycle.retract.or_else(|| bare.next());
     Ok(cycle)
+}
+
+impl Cycle {
+    /// The cycle in force after this record, given the one before.
+    pub(crate) fn after(&self, before: Option<&Self>) -> Self {
+        let Some(before) = before.filter(|_| self.changes) else { return self.clone() };
+        let new_depth = self.depth.is_some();
+        let old_retract = before.retract.filter(|_| !self.retract_is_auto);
+        Self {
+            kind: before.kind,
+            depth: self.depth.or(before.depth),
+            depth_is_fedto: if new_depth { self.depth_is_fedto } else { before.depth_is_fedto },
+            clearance: self.clearance.or(before.clearance),
+            retract: self.retract.or(old_retract),
+            retract_is_auto: self.retract_is_auto || (self.retract.is_none() && before.retract_is_auto),
+            feed: self.feed.or(before.feed),
+            changes: false,
+        }
+    }
 }
 
 /// CLT writes two numbers after PECKING.
@@ -120,7 +166,7 @@ pub(super) fn roles(syntax: &Syntax<'_>) -> Vec<Role> {
             Item::Number(_) => {
                 roles.push(match word.as_str() {
                     unit if FeedUnit::of_word(unit).is_some() => Role::Feed,
-                    "DWELL" | "TIMES" | "REV" | "SPINDL" | "RPM" => Role::Plain,
+                    "DWELL" | "TIMES" | "REV" | "ORIENT" | "SPINDL" | "RPM" => Role::Plain,
                     _ => Role::Length,
                 });
                 if !keeps_governing(&word) {

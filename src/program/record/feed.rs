@@ -37,6 +37,19 @@ pub struct Spindle {
     pub direction: Option<SpindleDirection>,
 }
 
+impl Spindle {
+    /// The spindle in force after this record: what it does not say (`SPINDL/ON`, `SPINDL/CCLW`) stays as it was before.
+    pub(crate) fn after(&self, before: Option<&Self>) -> Self {
+        let mut spindle = self.clone();
+        let Some(before) = before else { return spindle };
+        if spindle.speed.is_none() {
+            (spindle.speed, spindle.unit) = (before.speed, before.unit);
+        }
+        spindle.direction = spindle.direction.or(before.direction);
+        spindle
+    }
+}
+
 /// Side of cutter compensation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {

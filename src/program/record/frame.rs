@@ -53,11 +53,12 @@ pub(super) fn read(major: &str, syntax: &Syntax<'_>) -> Reading {
     }))
 }
 
-pub(super) fn matrix_row(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
+pub(super) fn matrix_row(syntax: &Syntax<'_>) -> Record {
     debug_assert_eq!(syntax.form, Form::MatrixRow);
-    match all_numbers(syntax)?.as_slice() {
-        [a, b, c, d] => Ok(Record::MatrixRow(Box::new([*a, *b, *c, *d]))),
-        other => Err(wrong_count("a matrix row", syntax, "4 numbers", other.len())),
+    // It is a comment first of all: one that holds a number too large to read is no row, and no error.
+    match all_numbers(syntax).as_deref() {
+        Ok([a, b, c, d]) => Record::MatrixRow(Box::new([*a, *b, *c, *d])),
+        _ => Record::Comment,
     }
 }
 

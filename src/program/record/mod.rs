@@ -16,7 +16,7 @@ pub use cycle::{Cycle, CycleKind};
 pub use feed::{CutterCompensation, Side, Spindle, SpindleDirection, SpindleUnit};
 pub use frame::{FrameRecord, FrameWord};
 pub use path::{ArcSense, Circle, DriveArc, Goto, MoveArc};
-pub(crate) use path::{is_contact, is_poses, with_axis as path_roles};
+pub(crate) use path::{has_direction, is_contact, is_poses, with_axis as path_roles};
 pub use role::Role;
 pub use structure::{MarkedMotion, StructureName};
 pub use tool::{ToolCall, ToolData, ToolWord};
@@ -137,7 +137,7 @@ impl Record {
             Form::Blank => return Ok(Self::Blank),
             Form::Comment => return Ok(structure::comment(syntax)),
             Form::FrameMark => return Ok(Self::FrameMark),
-            Form::MatrixRow => return frame::matrix_row(syntax),
+            Form::MatrixRow => return Ok(frame::matrix_row(syntax)),
             Form::Definition => return Ok(Self::Definition),
             Form::Refused => return Ok(Self::Unparsed),
             Form::OperationStart => return Ok(structure::tool_path(syntax)),

@@ -99,7 +99,7 @@ pub(super) fn numbers(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
 fn goto(major: &str, syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
     let numbers = all_numbers(syntax)?;
     match (numbers.len(), single_of(&numbers)) {
-        (_, Some(goto)) => Ok(Record::Goto(goto)),
+        (_, Some(goto)) => with_direction(goto, syntax).map(Record::Goto),
         (count, None) if count > 6 && count % 3 == 0 => Ok(Record::Points(numbers.into())),
         (count, None) => Err(wrong_count(major, syntax, "3 or 6 numbers (or several points)", count)),
     }
@@ -107,7 +107,25 @@ fn goto(major: &str, syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
 
 fn single(major: &str, syntax: &Syntax<'_>) -> Result<Goto, BadRecord> {
     let numbers = all_numbers(syntax)?;
-    single_of(&numbers).ok_or_else(|| wrong_count(major, syntax, "3 or 6 numbers", numbers.len()))
+    let goto =
+        single_of(&numbers).ok_or_else(|| wrong_count(major, syntax, "3 or 6 numbers", numbers.len()))?;
+    with_direction(goto, syntax)
+}
+
+/// A tool axis of no length tells no post how the tool stands.
+fn with_direction(goto: Goto, syntax: &Syntax<'_>) -> Result<Goto, BadRecord> {
+    match goto.axis {
+        Some(axis) if !has_direction(&axis) => {
+            Err(bad(vector_place(syntax, 3), "the tool axis has no direction"))
+        }
+        _ => Ok(goto),
+    }
+}
+
+/// Whether a printed vector is long enough to have a direction.
+pub(crate) fn has_direction(vector: &Vector3<f64>) -> bool {
+    let length = vector.norm();
+    length > 1e-6 && length.is_finite()
 }
 
 fn single_of(numbers: &[f64]) -> Option<Goto> {
@@ -163,8 +181,8 @@ fn circle(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
             numbers.len(),
         ));
     };
-    if axis.norm() < 1e-6 {
-        return Err(bad(axis_place(syntax), "the axis of the arc has no direction"));
+    if !has_direction(&axis) {
+        return Err(bad(vector_place(syntax, 3), "the axis of the arc has no direction"));
     }
     let radius = numbers.get(6).copied();
     Ok(Record::Circle(Box::new(Circle { center, axis, radius, sense, times })))
@@ -185,8 +203,9 @@ fn times_of(
     Ok(turns as u32)
 }
 
-fn axis_place(syntax: &Syntax<'_>) -> std::ops::Range<usize> {
-    match (syntax.fields.get(3), syntax.fields.get(5)) {
+/// The place of the three fields from `at` on.
+pub(super) fn vector_place(syntax: &Syntax<'_>, at: usize) -> std::ops::Range<usize> {
+    match (syntax.fields.get(at), syntax.fields.get(at + 2)) {
         (Some(first), Some(last)) => first.at.start..last.at.end,
         _ => syntax.word.clone(),
     }
@@ -219,7 +238,7 @@ fn move_arc(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
         }
     }
     match (point(&numbers), numbers.get(3..).and_then(vector), numbers.get(6)) {
-        (Some(center), Some(axis), Some(&radius)) if axis.norm() > 1e-6 => {
+        (Some(center), Some(axis), Some(&radius)) if has_direction(&axis) => {
             Ok(Record::MoveArc(Box::new(MoveArc { center, axis, radius, sweep_degrees })))
         }
         _ => Err(wrong_count("MOVARC", syntax, "a centre, an axis and a radius (7 numbers)", numbers.len())),

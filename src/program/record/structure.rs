@@ -79,6 +79,7 @@ fn makino_motion(text: &str) -> Record {
     let class = match (words.next(), words.next()) {
         (Some("CUTIN"), Some("TYPE")) => MotionClass::Engage,
         (Some("CUT"), Some("TYPE")) => MotionClass::Cut,
+        (Some("PICK"), Some("TYPE")) => MotionClass::StepOver,
         (Some("CUTOUT"), Some("TYPE")) => MotionClass::Retract,
         (Some("RAPID"), Some("TYPE")) => MotionClass::Rapid,
         _ => return Record::Text,

@@ -131,7 +131,10 @@ fn axis(major: &str, syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
     if syntax.word_at(0).is_some_and(|word| word.starts_with(|first: char| first.is_ascii_alphabetic())) {
         return Ok(Record::Known);
     }
-    path::one_vector(major, syntax).map(|axis| Record::ToolAxis(Box::new(axis)))
+    match path::one_vector(major, syntax)? {
+        axis if path::has_direction(&axis) => Ok(Record::ToolAxis(Box::new(axis))),
+        _ => Err(super::bad(path::vector_place(syntax, 0), "the tool axis has no direction")),
+    }
 }
 
 pub(super) fn roles(record: &Record, syntax: &Syntax<'_>) -> Vec<Role> {

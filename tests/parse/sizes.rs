@@ -1,0 +1,98 @@
+//! Nothing, and very much of it: time and stack stay in bounds whatever a file holds.
+
+use crate::support::text;
+use clsmith::parse::parse;
+use clsmith::program::Record;
+use std::time::{Duration, Instant};
+
+/// Reads and writes back a text and takes its motions; gives the records.
+#[track_caller]
+fn read(bytes: impl AsRef<[u8]>) -> Vec<Record> {
+    let start = Instant::now();
+    let source = text(bytes);
+    let parsed = parse(&source, None);
+    assert_eq!(parsed.program.to_bytes(), source.bytes());
+    parsed.program.motions().for_each(drop);
+    // Linear work takes well under a second in a debug build; quadratic work on a megabyte takes minutes.
+    assert!(start.elapsed() < Duration::from_secs(20), "{:?}", start.elapsed());
+    parsed.program.statements().iter().map(|statement| statement.record().clone()).collect()
+}
+
+#[test]
+fn an_empty_file_is_an_empty_program() {
+    assert!(read("").is_empty());
+    assert_eq!(read("\n"), [Record::Blank]);
+    assert_eq!(read(" "), [Record::Blank]);
+    assert_eq!(read("\r"), [Record::Blank]);
+    assert_eq!(read(b"\xEF\xBB\xBF"), [Record::ByteOrderMark]);
+    assert_eq!(read("\0"), [Record::Unparsed]);
+}
+
+const MEGABYTE: usize = 1 << 20;
+
+#[test]
+fn a_line_of_a_megabyte_is_one_statement() {
+    for (line, unit) in [
+        ("PPRINT ", "x"),
+        ("$$ ", "x y "),
+        ("KNOT/0", ",1"),
+        ("MACHIN/A", " B"),
+        ("X/", ","),
+        ("", "x"),
+        ("", " "),
+    ] {
+        let found = read(format!("{line}{}\nRAPID\n", unit.repeat(MEGABYTE / unit.len())));
+        assert_eq!(found.len(), 2, "{line}{unit}");
+        assert_eq!(found[1], Record::Rapid);
+    }
+}
+
+#[test]
+fn fields_without_commas_are_read_however_many_there_are() {
+    // Not refused either: what a statement means must not hang on the stack of the thread that reads it.
+    for unit in ["1 ", "'a' ", "(A/1) "] {
+        let found = read(format!("MACHIN/{}\nRAPID\n", unit.repeat(MEGABYTE / unit.len())));
+        assert_eq!(found, [Record::Known, Record::Rapid], "{unit}");
+    }
+}
+
+#[test]
+fn parentheses_without_end_do_not_exhaust_the_stack() {
+    for unit in ["(", "(A/", "(A/(", "TLON,GOFWD/(", "((1)"] {
+        assert_eq!(
+            read(format!("TLON/{}\nRAPID\n", unit.repeat(MEGABYTE / unit.len())))[1],
+            Record::Rapid,
+            "{unit}"
+        );
+    }
+    let nested = |depth: usize| read(format!("TLON/{}1{}\nRAPID\n", "(A/".repeat(depth), ")".repeat(depth)));
+    assert_eq!(nested(3), [Record::Other, Record::Rapid]);
+    for depth in [4, 1000, 100_000] {
+        assert_eq!(nested(depth), [Record::Unparsed, Record::Rapid], "{depth}");
+    }
+}
+
+#[test]
+fn a_statement_of_a_hundred_thousand_lines_is_read_in_time() {
+    assert_eq!(read(format!("KNOT/1{}\nRAPID\n", ",$\n1".repeat(100_000))).len(), 2);
+    assert_eq!(read(format!("?{}\nRAPID\n", "$\n1".repeat(100_000))).len(), 2);
+}
+
+#[test]
+fn many_broken_lines_are_read_in_time() {
+    assert_eq!(read("?(\n".repeat(50_000)).len(), 50_000);
+    assert_eq!(read("GOTO/1,2\n".repeat(50_000)).len(), 50_000);
+    assert_eq!(read("\r".repeat(200_000)).len(), 200_000);
+}
+
+#[test]
+fn a_spline_of_very_many_points_is_measured_in_time() {
+    let knots: String = (1..=20_000).map(|knot| format!("KNOT/{knot}\n")).collect();
+    let controls: String = (0..20_002).map(|x| format!("CNTRL/{x},0,0\n")).collect();
+    let source = text(format!("GOTO/0,0,0\nNURBS/\n{knots}{controls}"));
+    let program = parse(&source, None).program;
+    let start = Instant::now();
+    let last = program.motions().last().unwrap();
+    assert!((last.length() - 20_001.0).abs() < 1.0, "{}", last.length());
+    assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
+}
