@@ -121,7 +121,6 @@ fn axes() -> Vec<Case> {
             "10.0000,20.0000,1.0000",
             axis("0.00,0.71,0.71"),
         ),
-        case(codes::NO_AXIS, axis("0.0,0.0,0.0"), "0.0,0.0,0.0", axis("0.0,0.0,-1.0")),
         case(codes::AXIS_WITHOUT_MULTAX, multax(""), "0.0, 0.6, 0.8", multax("MULTAX\n")),
         case(codes::AXIS_JUMP, axis("1.0,0.0,0.0"), "1.0,0.0,0.0", axis("0.0,0.6,0.8")),
     ]
