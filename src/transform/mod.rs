@@ -6,12 +6,14 @@
 mod clamp_feed;
 mod context;
 pub mod feed_plan;
+mod rewrite;
 mod run;
 mod scale_feed;
 mod selection;
 
 pub use clamp_feed::ClampFeed;
 pub use context::Context;
+pub use rewrite::{Region, Rewrite, RewriteRule};
 pub use run::{Outcome, run};
 pub use scale_feed::ScaleFeed;
 pub use selection::Selection;
@@ -78,4 +80,5 @@ macro_rules! transforms {
 transforms! {
     "scale_feed" => ScaleFeed,
     "clamp_feed" => ClampFeed,
+    "rewrite" => Rewrite,
 }

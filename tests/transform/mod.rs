@@ -1,6 +1,7 @@
 //! Transforms, through one door: a recipe's steps applied to a text.
 
 mod feed;
+mod rewrite;
 
 use crate::support;
 use clsmith::diagnostic::Diagnostic;

@@ -24,4 +24,10 @@ super::area! {
         "Handle it by hand or by a `rewrite` rule, and check the result.",
         "The step changes records of this kind, but this one has a form it does not understand well enough to change safely. \
          It stands as it was, so it may contradict the records around it.";
+    RULE_UNUSED = "CL0310", Warning, "a rule of `rewrite` applies to no statement",
+        "Compare it with a statement of the file; a statement that an earlier rule takes does not reach this one.",
+        "No statement of this program fits the rule's `match` where the step's `where` selects one. Spacing, case of letters and \
+         the spelling of numbers do not matter, but the arguments and their number do: `COOLNT/ON` is not `COOLNT/ON,FLOOD`, \
+         which `COOLNT/ON,$...` matches too. In a batch over many programs this may be meant. A rule whose `if` was false \
+         everywhere is not reported: it found its statements, and nothing to correct.";
 }

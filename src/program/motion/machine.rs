@@ -85,6 +85,20 @@ impl<'p> Motions<'p> {
         std::mem::take(&mut self.problems)
     }
 
+    /// Reads one statement and gives its index; motions that it ends are left out. For who asks [`Motions::state`] at every
+    /// statement instead of for motions.
+    pub fn read_statement(&mut self) -> Option<usize> {
+        let index = self.next;
+        let statement = self.program.statement(index)?;
+        self.next += 1;
+        if statement.is_live() {
+            self.read(index, statement.record());
+        }
+        self.queue.clear();
+        self.problems.clear();
+        Some(index)
+    }
+
     fn problem(&mut self, statement: usize, kind: ProblemKind) {
         self.problems.push(Problem { statement, kind });
     }

@@ -1,0 +1,91 @@
+//! What a pattern bound in a statement.
+
+use super::expression::Value;
+use crate::number;
+use crate::program::operation;
+use std::ops::Range;
+
+/// A name that a pattern binds.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Name {
+    /// Without the `$`.
+    pub text: String,
+    /// Whether it binds all remaining arguments.
+    pub rest: bool,
+}
+
+/// Places of bound arguments in a statement's text.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Bindings<'t> {
+    text: &'t [u8],
+    found: Vec<(&'t str, Range<usize>)>,
+}
+
+impl<'t> Bindings<'t> {
+    /// Nothing bound yet.
+    pub fn new(text: &'t [u8]) -> Self {
+        Self { text, found: Vec::new() }
+    }
+
+    /// Binds a name; `None` and `_` bind nothing.
+    pub fn bind(&mut self, name: Option<&'t str>, at: Range<usize>) {
+        if let Some(name) = name.filter(|name| *name != "_") {
+            self.found.push((name, at));
+        }
+    }
+
+    /// Whether a name that is bound several times is bound to one value: equal numbers, or the same word.
+    pub fn agree(&self) -> bool {
+        self.found.iter().enumerate().all(|(index, (name, at))| {
+            let earlier = self.found.iter().take(index).find(|(other, _)| other == name);
+            earlier.is_none_or(|(_, other)| value(self.bytes(other)) == value(self.bytes(at)))
+        })
+    }
+
+    /// Where the argument of a name stands in the statement's text.
+    pub fn place(&self, name: &str) -> Option<Range<usize>> {
+        self.found.iter().find(|(bound, _)| *bound == name).map(|(_, at)| at.clone())
+    }
+
+    /// The bytes of the argument of a name, as they stand; nothing when it is not bound.
+    pub fn text(&self, name: &str) -> &'t [u8] {
+        self.place(name).map(|at| self.bytes(&at)).unwrap_or_default()
+    }
+
+    /// Its value.
+    pub fn value(&self, name: &str) -> Value {
+        value(self.text(name))
+    }
+
+    fn bytes(&self, at: &Range<usize>) -> &'t [u8] {
+        self.text.get(at.clone()).unwrap_or_default()
+    }
+}
+
+fn value(bytes: &[u8]) -> Value {
+    if let Some(number) = number::parse(bytes) {
+        return Value::Number(number);
+    }
+    let inner = bytes.strip_prefix(b"'").and_then(|bytes| bytes.strip_suffix(b"'")).unwrap_or(bytes);
+    let words: Vec<String> = operation::text(inner).split_whitespace().map(str::to_ascii_uppercase).collect();
+    Value::Word(words.join(" "))
+}
+
+/// What is said about a name that no argument is bound to.
+pub(super) fn unbound(name: &str, names: &[Name]) -> String {
+    let known: Vec<String> = names
+        .iter()
+        .map(|name| if name.rest { format!("$...{}", name.text) } else { format!("${}", name.text) })
+        .collect();
+    let bound = match known.as_slice() {
+        [] => "`match` binds nothing.".to_owned(),
+        known => format!("Bound there: {}.", known.join(", ")),
+    };
+    let longer =
+        names.iter().filter(|known| name.starts_with(&known.text)).max_by_key(|known| known.text.len());
+    let help = match longer {
+        Some(known) => format!("Where letters follow a name, write ${{{}}}.", known.text),
+        None => "A word to compare with stands in quotes: 'MMPM'.".to_owned(),
+    };
+    format!("`${name}` is not bound by `match`\n{bound} {help}")
+}

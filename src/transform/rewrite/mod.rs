@@ -1,0 +1,114 @@
+//! `rewrite`: rules on statements, for what posts' macros and hands do otherwise.
+
+mod bindings;
+mod charset;
+mod expression;
+mod look;
+mod pattern;
+mod region;
+mod reshape;
+mod rule;
+mod search;
+mod subject;
+mod template;
+mod text;
+mod wild;
+mod work;
+
+pub use region::Region;
+pub use rule::RewriteRule;
+
+use super::{Context, Transform};
+use crate::diagnostic::{Diagnostic, codes};
+use crate::program::Program;
+use charset::Charset;
+use schemars::JsonSchema;
+use search::Active;
+use serde::Deserialize;
+use serde::de::{Deserializer, Error as _};
+use work::Work;
+
+/// Replaces, deletes and inserts statements by rules.
+///
+/// A rule's `match` is a statement as it stands in the file. Spacing, continuation, case of letters, comments behind the statement
+/// and the spelling of numbers (`5.` or `5.0000`) do not matter. In it,
+///
+/// - `$NAME` stands for one argument (number, word, quoted text, group in parentheses) or for a word (`$WORD/ON`); within text it
+///   stands for at least one character (`PPRINT TOOL $N`, `LOAD/TOOL,T$N`). The same name twice wants equal values; `$_` binds nothing.
+/// - `$...NAME`, or `$...`, comes last and stands for all that is left, perhaps nothing: `LOAD/TOOL,$N,$...REST`.
+/// - `$$` always is a comment's mark: `$$ Start of $...REST` matches comments as text, `$$-> CUTTER / $D` Creo's records.
+///
+/// `if` is true or false: `$F > 1000 and not ($U == 'IPM' or $U == 'IPR')`, with + - * / and parentheses. In `replace` and `insert_...`,
+/// `$NAME` is written byte for byte as it stands in the file, and `${F * 0.8}` is computed and written with the decimals of `$F`.
+///
+/// The rules are tried in their order on each statement; the first that fits is applied, and what it writes is not looked at again
+/// in this step. A replacement with the same word and as many arguments changes only the arguments that differ, in the file's own
+/// decimals and columns; any other is spaced as the file spaces its statements. Changes of motions are not followed up: a GOTO that
+/// ends an arc, or the feed of what comes after, is the rule's business, and `check` looks at the result.
+///
+/// Idempotent where a statement no longer fits once it is replaced. Statements are not inserted where they already stand, in the
+/// same order right beside the matched one, nor beside one that says the same itself; so running twice inserts once.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Rewrite {
+    /// Which statements; all when it is left out.
+    #[serde(default)]
+    pub r#where: Region,
+    /// The rules, in the order in which they are tried.
+    #[serde(deserialize_with = "at_least_one")]
+    #[schemars(length(min = 1))]
+    pub rules: Vec<RewriteRule>,
+}
+
+impl Transform for Rewrite {
+    fn apply(&self, program: Program, context: &mut Context<'_>) -> Result<Program, Box<Diagnostic>> {
+        let is_ascii = self.rules.iter().all(RewriteRule::is_ascii);
+        let charset = if is_ascii { Charset::Utf8 } else { Charset::of(&program) };
+        let mut rules = Active::all(self, charset);
+        let hits = match search::hits(self, &mut rules, &program) {
+            Ok(hits) => hits,
+            Err(stuck) => return Err(work::stuck(&stuck.trouble, stuck.hit, "if", &program, context)),
+        };
+        if hits.is_empty() && self.selects_nothing(&program) {
+            let message = "`where` selects no statement of this program";
+            let finding = context.at(codes::NOTHING_SELECTED, message, &["where"], "selects nothing");
+            context.findings.push(finding);
+            return Ok(program);
+        }
+        report_unused(&rules, context);
+        if hits.is_empty() {
+            return Ok(program);
+        }
+        Work::new(&rules, &hits, charset, context).done(program)
+    }
+}
+
+impl Rewrite {
+    fn selects_nothing(&self, program: &Program) -> bool {
+        let mut region = self.r#where.over(program);
+        !self.r#where.is_everything() && !program.live().any(|(index, _)| region.contains(index))
+    }
+}
+
+fn report_unused(rules: &[Active<'_>], context: &mut Context<'_>) {
+    for rule in rules {
+        // A rule whose `if` was never true has found its statements, and nothing to correct.
+        if rule.has_fitted() {
+            continue;
+        }
+        let index = rule.index.to_string();
+        let message = format!("rule {} of this `rewrite` applies to no statement", rule.index + 1);
+        let finding = context.at(codes::RULE_UNUSED, message, &["rules", &index, "match"], "matches nothing");
+        context.findings.push(finding);
+    }
+}
+
+fn at_least_one<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<RewriteRule>, D::Error> {
+    let rules = Vec::<RewriteRule>::deserialize(deserializer)?;
+    if rules.is_empty() {
+        return Err(D::Error::custom(
+            "an empty list of rules does nothing\nAdd a rule: `- match: …` with `replace: …`.",
+        ));
+    }
+    Ok(rules)
+}

@@ -1,0 +1,84 @@
+//! `where:` for statements: the operations and tools they stand under.
+
+use crate::program::Program;
+use crate::program::motion::Motions;
+use crate::program::operation::{self, Operation};
+use crate::values::{Glob, ToolPattern};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde::de::{Deserializer, Error as _};
+
+/// Where in the program a rule applies. What is given must all fit; of a list, one has to. Kinds of motion and feeds belong to
+/// motions, not to statements, so they cannot be asked for here; a feed is asked for by `if`.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Region {
+    /// Names of operations; `*` and `?` are wildcards. What stands before the first operation belongs to it.
+    #[serde(default, deserialize_with = "not_empty")]
+    #[schemars(length(min = 1))]
+    operations: Option<Vec<Glob>>,
+    /// Numbers or names of tools: the tool in force behind the statement, so a LOAD/TOOL belongs to the tool that it loads.
+    #[serde(default, deserialize_with = "not_empty")]
+    #[schemars(length(min = 1))]
+    tools: Option<Vec<ToolPattern>>,
+}
+
+impl Region {
+    /// Whether it leaves anything out.
+    pub(super) fn is_everything(&self) -> bool {
+        self.operations.is_none() && self.tools.is_none()
+    }
+
+    /// The region in a program, to be asked for statements in their order.
+    pub(super) fn over<'p>(&'p self, program: &'p Program) -> Walk<'p> {
+        let operations = match self.operations {
+            Some(_) => operation::operations(program),
+            None => Vec::new(),
+        };
+        Walk { region: self, operations, operation: 0, motions: program.motions(), read: 0 }
+    }
+}
+
+/// A region on its way through a program.
+pub(super) struct Walk<'p> {
+    region: &'p Region,
+    operations: Vec<Operation>,
+    operation: usize,
+    motions: Motions<'p>,
+    read: usize,
+}
+
+impl Walk<'_> {
+    /// Whether a statement stands in the region. Statements are asked for in order, each at most once.
+    pub fn contains(&mut self, index: usize) -> bool {
+        self.operation_fits(index) && self.tool_fits(index)
+    }
+
+    fn operation_fits(&mut self, index: usize) -> bool {
+        let Some(wanted) = &self.region.operations else { return true };
+        while self.operations.get(self.operation).is_some_and(|operation| operation.statements.end <= index) {
+            self.operation += 1;
+        }
+        let name = self.operations.get(self.operation).map(|operation| operation.name.as_str());
+        name.is_some_and(|name| wanted.iter().any(|glob| glob.matches(name)))
+    }
+
+    fn tool_fits(&mut self, index: usize) -> bool {
+        let Some(wanted) = &self.region.tools else { return true };
+        while self.read <= index && self.motions.read_statement().is_some() {
+            self.read += 1;
+        }
+        let Some(tool) = self.motions.state().tool.as_deref() else { return false };
+        wanted.iter().any(|pattern| pattern.matches(tool.number, tool.name.as_deref()))
+    }
+}
+
+fn not_empty<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<Vec<T>>, D::Error> {
+    let list = Option::<Vec<T>>::deserialize(deserializer)?;
+    if list.as_ref().is_some_and(Vec::is_empty) {
+        return Err(D::Error::custom("an empty list selects nothing\nRemove the key to select everything."));
+    }
+    Ok(list)
+}

@@ -1,0 +1,278 @@
+//! One rule: read from the recipe, every fault at its own text.
+
+use super::bindings::Name;
+use super::expression::{Expression, Kind};
+use super::pattern::Pattern;
+use super::template::Template;
+use super::text::condition;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Deserialize;
+use serde::de::{DeserializeSeed, Deserializer, Error as _, MapAccess, SeqAccess, Visitor};
+use std::borrow::Cow;
+use std::fmt;
+
+/// One rule: which statements it is about, and what is done with them.
+#[derive(Debug, Clone, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct RewriteRule {
+    /// The statement as it stands in the file, with `$NAME` for an argument and `$...NAME` for all remaining ones.
+    #[schemars(with = "Statement")]
+    pub(super) r#match: Pattern,
+    /// Only statements for which this is true: `$F > 1000 and $U == 'MMPM'`.
+    #[schemars(with = "Option<String>")]
+    pub(super) r#if: Option<Condition>,
+    /// What to write in its place.
+    #[schemars(with = "Option<Statement>")]
+    pub(super) replace: Option<Template>,
+    /// Takes the statement out.
+    #[schemars(default)]
+    pub(super) delete: bool,
+    /// A statement, or a list of them, to put in front of it.
+    #[schemars(with = "Option<Statements>")]
+    pub(super) insert_before: Vec<Template>,
+    /// A statement, or a list of them, to put behind it.
+    #[schemars(with = "Option<Statements>")]
+    pub(super) insert_after: Vec<Template>,
+}
+
+impl RewriteRule {
+    /// Whether its texts are the same in every character set.
+    pub(super) fn is_ascii(&self) -> bool {
+        let mut templates = self.replace.iter().chain(&self.insert_before).chain(&self.insert_after);
+        self.r#match.is_ascii() && templates.all(Template::is_ascii)
+    }
+}
+
+/// The expression of an `if`.
+#[derive(Debug, Clone)]
+pub(super) struct Condition(pub Expression);
+
+impl<'de> Deserialize<'de> for RewriteRule {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        const KEYS: &[&str] = &["match", "if", "replace", "delete", "insert_before", "insert_after"];
+        deserializer.deserialize_struct("RewriteRule", KEYS, RuleVisitor)
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(field_identifier, rename_all = "snake_case")]
+enum Key {
+    Match,
+    If,
+    Replace,
+    Delete,
+    InsertBefore,
+    InsertAfter,
+}
+
+/// What has been read so far. Names are checked as soon as both sides are known, whichever comes first.
+#[derive(Default)]
+struct Draft {
+    pattern: Option<Pattern>,
+    condition: Option<Condition>,
+    replace: Option<Template>,
+    delete: bool,
+    before: Vec<Template>,
+    after: Vec<Template>,
+}
+
+impl Draft {
+    fn check_condition(&self, condition: &Condition) -> Result<(), String> {
+        self.names().map_or(Ok(()), |names| condition.0.check_names(names))
+    }
+
+    fn check_template(&self, template: &Template) -> Result<(), String> {
+        self.names().map_or(Ok(()), |names| template.check_names(names))
+    }
+
+    fn check_replace(&self, template: &Template) -> Result<(), String> {
+        match self.delete {
+            true => Err(BOTH.to_owned()),
+            false => self.check_template(template),
+        }
+    }
+
+    fn check_pattern(&self, pattern: &Pattern) -> Result<(), String> {
+        let templates = self.replace.iter().chain(&self.before).chain(&self.after);
+        templates.map(|template| template.check_names(pattern.names())).collect::<Result<(), _>>()?;
+        self.condition.iter().try_for_each(|condition| condition.0.check_names(pattern.names()))
+    }
+
+    fn names(&self) -> Option<&[Name]> {
+        self.pattern.as_ref().map(Pattern::names)
+    }
+}
+
+const BOTH: &str = "a statement cannot be replaced and deleted\nKeep one of the two.";
+const NO_ACTION: &str =
+    "the rule does nothing\nAdd `replace: …`, `delete: true`, `insert_before: …` or `insert_after: …`.";
+
+struct RuleVisitor;
+
+impl<'de> Visitor<'de> for RuleVisitor {
+    type Value = RewriteRule;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a rule (`match:` and what to do)")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<RewriteRule, A::Error> {
+        let mut draft = Draft::default();
+        let mut acts = false;
+        while let Some(key) = map.next_key()? {
+            match key {
+                Key::Match => {
+                    let seed =
+                        Text { read: Pattern::new, check: |found: &Pattern| draft.check_pattern(found) };
+                    draft.pattern = Some(map.next_value_seed(seed)?);
+                }
+                Key::If => {
+                    let seed = Text { read: read_condition, check: |found: &_| draft.check_condition(found) };
+                    draft.condition = Some(map.next_value_seed(seed)?);
+                }
+                Key::Replace => {
+                    let seed = Text { read: Template::new, check: |found: &_| draft.check_replace(found) };
+                    draft.replace = Some(map.next_value_seed(seed)?);
+                    acts = true;
+                }
+                Key::Delete => {
+                    draft.delete = map.next_value_seed(Delete { replaces: draft.replace.is_some() })?;
+                    acts |= draft.delete;
+                }
+                Key::InsertBefore => {
+                    draft.before = map.next_value_seed(Templates(&draft))?;
+                    acts = true;
+                }
+                Key::InsertAfter => {
+                    draft.after = map.next_value_seed(Templates(&draft))?;
+                    acts = true;
+                }
+            }
+        }
+        let pattern = draft.pattern.ok_or_else(|| A::Error::missing_field("match"))?;
+        if !acts {
+            return Err(A::Error::custom(NO_ACTION));
+        }
+        Ok(RewriteRule {
+            r#match: pattern,
+            r#if: draft.condition,
+            replace: draft.replace,
+            delete: draft.delete,
+            insert_before: draft.before,
+            insert_after: draft.after,
+        })
+    }
+}
+
+fn read_condition(text: &str) -> Result<Condition, String> {
+    let expression = condition(text)?;
+    match expression.kind()? {
+        Kind::Truth => Ok(Condition(expression)),
+        _ => Err(format!("`{text}` is neither true nor false\nCompare it: {text} > 0.")),
+    }
+}
+
+/// A text that becomes a `T`, and is checked against the rest of its rule where it stands.
+struct Text<R, C> {
+    read: R,
+    check: C,
+}
+
+impl<'de, T, R, C> DeserializeSeed<'de> for Text<R, C>
+where
+    R: Fn(&str) -> Result<T, String>,
+    C: Fn(&T) -> Result<(), String>,
+{
+    type Value = T;
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<T, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        let value = (self.read)(&text).map_err(D::Error::custom)?;
+        (self.check)(&value).map_err(D::Error::custom)?;
+        Ok(value)
+    }
+}
+
+struct Delete {
+    replaces: bool,
+}
+
+impl<'de> DeserializeSeed<'de> for Delete {
+    type Value = bool;
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<bool, D::Error> {
+        match bool::deserialize(deserializer)? {
+            true if self.replaces => Err(D::Error::custom(BOTH)),
+            delete => Ok(delete),
+        }
+    }
+}
+
+/// One statement, or a list of them.
+struct Templates<'d>(&'d Draft);
+
+impl<'de> DeserializeSeed<'de> for Templates<'_> {
+    type Value = Vec<Template>;
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Vec<Template>, D::Error> {
+        deserializer.deserialize_any(self)
+    }
+}
+
+impl<'de> Visitor<'de> for Templates<'_> {
+    type Value = Vec<Template>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a statement or a list of statements")
+    }
+
+    fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Vec<Template>, E> {
+        let template = Template::new(text).map_err(E::custom)?;
+        self.0.check_template(&template).map_err(E::custom)?;
+        Ok(vec![template])
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<Template>, A::Error> {
+        let mut templates = Vec::new();
+        let seed = || Text { read: Template::new, check: |found: &_| self.0.check_template(found) };
+        while let Some(template) = list.next_element_seed(seed())? {
+            templates.push(template);
+        }
+        if templates.is_empty() {
+            return Err(A::Error::custom("an empty list inserts nothing\nRemove the key."));
+        }
+        Ok(templates)
+    }
+}
+
+/// Schema of one statement.
+struct Statement;
+
+impl JsonSchema for Statement {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        "Statement".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "string", "minLength": 1, "examples": ["FEDRAT/MMPM,$F"] })
+    }
+}
+
+/// Schema of one or several statements.
+struct Statements;
+
+impl JsonSchema for Statements {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        "Statements".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "anyOf": [
+                { "type": "string", "minLength": 1 },
+                { "type": "array", "items": { "type": "string", "minLength": 1 }, "minItems": 1 },
+            ],
+        })
+    }
+}

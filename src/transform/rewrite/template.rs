@@ -1,0 +1,170 @@
+//! What a rule writes: a statement with `$NAME` and `${...}` in it.
+
+use super::bindings::{Bindings, Name, unbound};
+use super::charset::Charset;
+use super::expression::{Expression, Kind, Trouble, Value};
+use super::subject::{Class, Subject};
+use super::text::{Piece, pieces};
+use crate::parse;
+use crate::program::{Record, Role};
+use crate::write::Style;
+
+/// A statement to write.
+#[derive(Debug, Clone)]
+pub(super) struct Template {
+    pieces: Vec<Piece>,
+    is_ascii: bool,
+}
+
+/// What a template is filled in with.
+pub(super) struct Filling<'f> {
+    /// What the pattern bound.
+    pub bindings: &'f Bindings<'f>,
+    /// The matched statement.
+    pub text: &'f [u8],
+    /// What it means.
+    pub record: &'f Record,
+    /// How the file writes numbers.
+    pub style: &'f Style,
+    /// What the file is written in.
+    pub charset: Charset,
+}
+
+impl Template {
+    /// Reads a template.
+    ///
+    /// # Errors
+    /// A message, with help after a line break.
+    pub fn new(text: &str) -> Result<Self, String> {
+        let pieces = pieces(text)?;
+        let mut tried = String::new();
+        let mut is_plain = true;
+        for piece in &pieces {
+            is_plain &= matches!(piece, Piece::Plain(_));
+            match piece {
+                Piece::Plain(plain) => tried.push_str(plain),
+                Piece::Bound(_) | Piece::Rest(Some(_)) => tried.push('\u{7F}'),
+                Piece::Rest(None) => {
+                    return Err("`$...` needs the name of what is to be written: `$...REST`".to_owned());
+                }
+                Piece::Computed(expression) => {
+                    if expression.kind()? == Kind::Truth {
+                        return Err("`${...}` writes a number, not a comparison".to_owned());
+                    }
+                    tried.push('1');
+                }
+            }
+        }
+        let subject = Subject::of(tried.as_bytes());
+        if !subject.is_whole(tried.as_bytes()) {
+            let help =
+                "Give several statements as a list; a statement goes on in a new line only behind a `$`.";
+            return Err(format!("this is not one statement\n{help}"));
+        }
+        // Arguments are known only when the rule runs; then the whole statement is read back again.
+        let problem = match parse::whole(tried.as_bytes()) {
+            Err(problem) if is_plain => Some(problem.problem),
+            _ if subject.class == Class::Other => Some("it starts with no word".to_owned()),
+            _ => None,
+        };
+        match problem {
+            Some(problem) => Err(format!("`{}` is no CL statement: {problem}", text.trim_end())),
+            None => Ok(Self { pieces, is_ascii: text.is_ascii() }),
+        }
+    }
+
+    /// Whether it is the same in every character set.
+    pub fn is_ascii(&self) -> bool {
+        self.is_ascii
+    }
+
+    /// Checks that every name is bound.
+    ///
+    /// # Errors
+    /// A message, with help after a line break.
+    pub fn check_names(&self, names: &[Name]) -> Result<(), String> {
+        self.pieces.iter().try_for_each(|piece| match piece {
+            Piece::Bound(name) | Piece::Rest(Some(name))
+                if !names.iter().any(|known| known.text == *name) =>
+            {
+                Err(unbound(name, names))
+            }
+            // `${REST}` names; only what calculates needs one argument.
+            Piece::Computed(Expression::Name(name)) if names.iter().any(|known| known.text == *name) => {
+                Ok(())
+            }
+            Piece::Computed(expression) => expression.check_names(names),
+            _ => Ok(()),
+        })
+    }
+
+    /// The statement's text, without line end.
+    ///
+    /// # Errors
+    /// When an expression has no value here, or the file cannot hold a letter of the template.
+    pub fn fill(&self, filling: &Filling<'_>) -> Result<Vec<u8>, Trouble> {
+        let mut out = Vec::new();
+        let mut comma_goes = false;
+        for (index, piece) in self.pieces.iter().enumerate() {
+            match piece {
+                Piece::Plain(plain) => {
+                    let plain = match std::mem::take(&mut comma_goes) {
+                        true => plain.trim_start().trim_start_matches(','),
+                        false => plain,
+                    };
+                    let bytes = filling.charset.encode(plain);
+                    out.extend(bytes.map_err(|message| Trouble { message, at: None })?);
+                }
+                Piece::Rest(None) => {}
+                Piece::Bound(name) | Piece::Rest(Some(name)) | Piece::Computed(Expression::Name(name)) => {
+                    let argument = filling.bindings.text(name);
+                    if argument.is_empty() {
+                        comma_goes = self.comma_follows(index);
+                        if !comma_goes {
+                            drop_separator(&mut out);
+                        }
+                    }
+                    out.extend_from_slice(argument);
+                }
+                Piece::Computed(expression) => out.extend(computed(expression, filling)?),
+            }
+        }
+        Ok(out)
+    }
+
+    fn comma_follows(&self, index: usize) -> bool {
+        let next = self.pieces.get(index + 1);
+        matches!(next, Some(Piece::Plain(plain)) if plain.trim_start().starts_with(','))
+    }
+}
+
+/// Nothing is left to write behind this comma or slash.
+fn drop_separator(out: &mut Vec<u8>) {
+    out.truncate(out.trim_ascii_end().len());
+    if matches!(out.last(), Some(b',' | b'/')) {
+        out.pop();
+        out.truncate(out.trim_ascii_end().len());
+    }
+}
+
+fn computed(expression: &Expression, filling: &Filling<'_>) -> Result<Vec<u8>, Trouble> {
+    let number = match expression.value(filling.bindings)? {
+        Value::Number(number) => number,
+        Value::Word(word) => {
+            return filling.charset.encode(&word).map_err(|message| Trouble { message, at: None });
+        }
+        Value::Truth(_) => return Err(Trouble { message: "this is not a number".to_owned(), at: None }),
+    };
+    // In the style of the first number that it is made of.
+    let model = expression.names().into_iter().find_map(|name| match filling.bindings.value(name) {
+        Value::Number(value) => filling.bindings.place(name).map(|at| (at, value)),
+        _ => None,
+    });
+    let Some((at, old)) = model else { return Ok(number.to_string().into_bytes()) };
+    let places = parse::numbers(filling.text);
+    let roles = parse::roles(filling.record, filling.text);
+    let role =
+        places.iter().zip(roles).find(|((place, _), _)| *place == at).map_or(Role::Plain, |(_, role)| role);
+    let original = filling.text.get(at).unwrap_or_default();
+    Ok(filling.style.changed(role, original).print(number, number - old).into_bytes())
+}

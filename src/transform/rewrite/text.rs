@@ -1,0 +1,175 @@
+//! Texts of a rule taken apart at their `$`: the only place of `rewrite` that knows pest.
+
+use super::expression::{Expression, Operator};
+use pest::Parser;
+use pest::iterators::{Pair, Pairs};
+use pest::pratt_parser::{Assoc, Op, PrattParser};
+use std::sync::LazyLock;
+
+#[derive(pest_derive::Parser)]
+#[grammar = "grammar/rewrite.pest"]
+struct Grammar;
+
+/// Longer texts are no statements; the limit also keeps recursion shallow, whatever a recipe holds.
+const MOST_BYTES: usize = 2000;
+const MOST_NESTED: usize = 30;
+
+/// A piece of a text.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Piece {
+    /// As it stands.
+    Plain(String),
+    /// `$NAME`.
+    Bound(String),
+    /// `$...NAME`, `$...`.
+    Rest(Option<String>),
+    /// `${F * 0.8}`.
+    Computed(Expression),
+}
+
+/// The pieces of a pattern or template.
+///
+/// # Errors
+/// A message, with help after a line break.
+pub(super) fn pieces(text: &str) -> Result<Vec<Piece>, String> {
+    let text = text.trim_end_matches(['\r', '\n']);
+    bounded(text)?;
+    if text.trim().is_empty() {
+        return Err("an empty text is no statement".to_owned());
+    }
+    if text.chars().any(|c| c.is_control() && !matches!(c, '\t' | '\r' | '\n')) {
+        return Err("the text holds a control character".to_owned());
+    }
+    let mut parsed = Grammar::parse(Rule::text, text).map_err(|error| unread(text, &error))?;
+    let inner = parsed.next().map(Pair::into_inner).into_iter().flatten();
+    inner.filter(|pair| pair.as_rule() != Rule::EOI).map(piece).collect()
+}
+
+/// The expression of an `if`.
+///
+/// # Errors
+/// A message, with help after a line break.
+pub(super) fn condition(text: &str) -> Result<Expression, String> {
+    bounded(text)?;
+    let parsed = Grammar::parse(Rule::condition, text).map_err(|error| unread(text, &error))?;
+    let inner = parsed.flat_map(Pair::into_inner).find(|pair| pair.as_rule() == Rule::expression);
+    expression(inner.map(Pair::into_inner).ok_or("there is no expression")?)
+}
+
+fn bounded(text: &str) -> Result<(), String> {
+    if text.len() > MOST_BYTES {
+        return Err(format!("the text has {} bytes; {MOST_BYTES} are the most", text.len()));
+    }
+    let mut open = 0_usize;
+    for c in text.chars() {
+        match c {
+            '(' => open += 1,
+            ')' => open = open.saturating_sub(1),
+            _ => {}
+        }
+        if open > MOST_NESTED {
+            return Err(format!("more than {MOST_NESTED} parentheses are open at once"));
+        }
+    }
+    Ok(())
+}
+
+fn unread(text: &str, error: &pest::error::Error<Rule>) -> String {
+    let at = match error.location {
+        pest::error::InputLocation::Pos(at) | pest::error::InputLocation::Span((at, _)) => at,
+    };
+    let rest = text.get(at..).unwrap_or_default().trim();
+    let help = if rest.starts_with('=') && !rest.starts_with("==") {
+        "Two values are compared by `==`."
+    } else if rest.starts_with('"') {
+        "A word stands between single quotes: 'MMPM'."
+    } else if text.starts_with('$') || text.contains("${") {
+        "`$NAME` is a bound argument, `$...NAME` the remaining ones, `${F * 0.8}` a computed number."
+    } else {
+        "Compare by < <= > >= == !=, join by and, or, not; calculate by + - * /; words stand in 'quotes'."
+    };
+    match rest {
+        "" => format!("`{text}` ends too early\n{help}"),
+        rest => format!("`{text}` cannot be read from `{rest}` on\n{help}"),
+    }
+}
+
+fn piece(pair: Pair<'_, Rule>) -> Result<Piece, String> {
+    let plain = pair.as_str().to_owned();
+    let rule = pair.as_rule();
+    let mut inner = pair.into_inner();
+    let name = |inner: Option<Pair<'_, Rule>>| inner.map(|name| name.as_str().to_owned());
+    Ok(match rule {
+        Rule::bound => Piece::Bound(name(inner.next()).unwrap_or_default()),
+        Rule::rest => Piece::Rest(name(inner.next())),
+        Rule::computed => {
+            let inner = inner.find(|pair| pair.as_rule() == Rule::expression);
+            Piece::Computed(expression(inner.map(Pair::into_inner).ok_or("`${}` is empty")?)?)
+        }
+        _ => Piece::Plain(plain),
+    })
+}
+
+static PRECEDENCE: LazyLock<PrattParser<Rule>> = LazyLock::new(|| {
+    let left = |rule| Op::infix(rule, Assoc::Left);
+    PrattParser::new()
+        .op(left(Rule::or))
+        .op(left(Rule::and))
+        .op(Op::prefix(Rule::not))
+        .op(left(Rule::equal)
+            | left(Rule::unequal)
+            | left(Rule::at_most)
+            | left(Rule::at_least)
+            | left(Rule::less)
+            | left(Rule::greater))
+        .op(left(Rule::add) | left(Rule::subtract))
+        .op(left(Rule::multiply) | left(Rule::divide))
+        .op(Op::prefix(Rule::minus))
+});
+
+fn expression(pairs: Pairs<'_, Rule>) -> Result<Expression, String> {
+    PRECEDENCE
+        .map_primary(operand)
+        .map_prefix(|operator, value| {
+            let value = Box::new(value?);
+            Ok(match operator.as_rule() {
+                Rule::not => Expression::Not(value),
+                _ => Expression::Minus(value),
+            })
+        })
+        .map_infix(|left, operator, right| {
+            Ok(Expression::Binary(Box::new(left?), infix(operator.as_rule())?, Box::new(right?)))
+        })
+        .parse(pairs)
+}
+
+fn operand(pair: Pair<'_, Rule>) -> Result<Expression, String> {
+    let text = pair.as_str();
+    match pair.as_rule() {
+        Rule::number => match text.parse::<f64>().ok().filter(|value| value.is_finite()) {
+            Some(value) => Ok(Expression::Number(value)),
+            None => Err(format!("`{text}` is not a number")),
+        },
+        Rule::word => Ok(Expression::Word(text.trim_matches('\'').to_owned())),
+        Rule::variable => Ok(Expression::Name(text.trim_start_matches('$').to_owned())),
+        _ => expression(pair.into_inner()),
+    }
+}
+
+fn infix(rule: Rule) -> Result<Operator, String> {
+    Ok(match rule {
+        Rule::or => Operator::Or,
+        Rule::and => Operator::And,
+        Rule::equal => Operator::Equal,
+        Rule::unequal => Operator::Unequal,
+        Rule::at_most => Operator::AtMost,
+        Rule::at_least => Operator::AtLeast,
+        Rule::less => Operator::Less,
+        Rule::greater => Operator::Greater,
+        Rule::add => Operator::Add,
+        Rule::subtract => Operator::Subtract,
+        Rule::multiply => Operator::Multiply,
+        Rule::divide => Operator::Divide,
+        other => return Err(format!("{other:?} is no operator")),
+    })
+}
