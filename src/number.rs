@@ -104,10 +104,10 @@ impl Form {
     /// a tenth of `edit` (how far the number moved; 0 for a new number), so that no edit is rounded away.
     pub fn print(&self, wanted: f64, edit: f64) -> String {
         let allowed = if edit == 0.0 { self.tolerance } else { self.tolerance.min(edit.abs() * 0.1) };
-        let mut text = format!("{wanted:.*}", self.decimals);
+        let mut text = String::new();
         for decimals in self.decimals..=MOST_DECIMALS.max(self.decimals) {
             text = format!("{wanted:.decimals$}");
-            let error = text.parse::<f64>().map_or(f64::INFINITY, |printed| (printed - wanted).abs());
+            let error = parse(text.as_bytes()).map_or(f64::INFINITY, |printed| (printed - wanted).abs());
             // Half an ulp of slack: 0.00005 is not exactly half of 0.0001.
             if error <= allowed * (1.0 + 1e-9) {
                 break;

@@ -9,6 +9,7 @@ mod text;
 
 pub use crate::values;
 pub use crate::yaml::Segment;
+pub(crate) use select::not_empty;
 pub use select::{Facts, FeedRange, Where};
 pub use text::schema;
 

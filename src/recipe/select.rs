@@ -74,7 +74,7 @@ impl FeedRange {
 }
 
 /// Lists that must select something if they are given.
-fn not_empty<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
+pub(crate) fn not_empty<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<Option<Vec<T>>, D::Error> {
     let list = Option::<Vec<T>>::deserialize(deserializer)?;

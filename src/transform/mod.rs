@@ -3,16 +3,25 @@
 //! A transform is one file, one line in the list below, and one fixture folder. It takes the program by value, so a step
 //! that fails leaves nothing half-edited to write.
 
+mod affine;
 mod clamp_feed;
 mod context;
+mod convert_units;
 pub mod feed_plan;
+mod move_origin;
+mod numbers;
 mod rewrite;
 mod run;
 mod scale_feed;
 mod selection;
+mod stale;
+mod unchanged;
 
+pub use affine::Affine;
 pub use clamp_feed::ClampFeed;
 pub use context::Context;
+pub use convert_units::ConvertUnits;
+pub use move_origin::MoveOrigin;
 pub use rewrite::{Region, Rewrite, RewriteRule};
 pub use run::{Outcome, run};
 pub use scale_feed::ScaleFeed;
@@ -81,4 +90,6 @@ transforms! {
     "scale_feed" => ScaleFeed,
     "clamp_feed" => ClampFeed,
     "rewrite" => Rewrite,
+    "move_origin" => MoveOrigin,
+    "convert_units" => ConvertUnits,
 }

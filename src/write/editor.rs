@@ -36,6 +36,11 @@ impl Editor {
         &self.style
     }
 
+    /// Lets changed lengths and feeds have more decimals than their own, where a step needs them (see [`Style::finer`]).
+    pub fn set_finer(&mut self, decimals: usize) {
+        self.style.finer = decimals;
+    }
+
     /// Gives numbers of a statement new values: pairs of the number's index and its value.
     ///
     /// # Errors

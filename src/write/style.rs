@@ -22,7 +22,12 @@ pub struct Style {
     pub columns: bool,
     /// `\n` or `\r\n`: what most of the sampled lines end in.
     pub line_end: &'static str,
+    /// Decimals that changed lengths and feeds get beyond their own; 0 unless a step converts to a larger unit.
+    pub finer: usize,
 }
+
+/// No number gets more decimals than this by [`Style::finer`]: a hundred-millionth of an inch is below any file's own.
+const FINEST: usize = 8;
 
 impl Style {
     /// Measures a program. Defaults, where nothing is there to measure: 4, 7 and 4 decimals as NX has them.
@@ -52,6 +57,7 @@ impl Style {
             feed_decimals: seen.feed.unwrap_or(4),
             columns: program.dialect().has_columns(),
             line_end: if seen.crlf * 2 > seen.lines { "\r\n" } else { "\n" },
+            finer: 0,
         }
     }
 
@@ -72,8 +78,14 @@ impl Style {
             Zeros::Kept => own,
             Zeros::Cut => own.max(self.decimals(role)),
         };
+        let finer = match role {
+            Role::Direction(_) | Role::ArcAxis(_) | Role::FrameAxis(..) | Role::Plain => 0,
+            _ => self.finer,
+        };
+        let decimals = decimals.max((decimals + finer).min(FINEST));
+        let tolerance = tolerance(role) * 0.1f64.powi(finer as i32);
         let point = original.contains(&b'.') || !matches!(role, Role::Plain | Role::SurfaceSpeed);
-        Form { decimals, tolerance: tolerance(role), zeros: self.zeros, point }
+        Form { decimals, tolerance, zeros: self.zeros, point }
     }
 
     /// The form of a new number.
@@ -83,10 +95,12 @@ impl Style {
     }
 }
 
-/// Half of the coarsest last decimal that measured dialects print: 4 for lengths and feeds, 6 for unit vectors.
+/// Half of the coarsest last decimal that measured dialects print: 4 for lengths and feeds, 6 for unit vectors. The axes of a
+/// frame carry whole parts: 7 decimals, as NX prints them, keep a metre within the fourth decimal.
 fn tolerance(role: Role) -> f64 {
     match role {
-        Role::Direction(_) | Role::ArcAxis(_) | Role::FrameAxis(..) => 5e-7,
+        Role::FrameAxis(..) => 5e-8,
+        Role::Direction(_) | Role::ArcAxis(_) => 5e-7,
         _ => 5e-5,
     }
 }

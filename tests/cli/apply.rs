@@ -63,7 +63,7 @@ fn a_wrong_recipe_is_underlined() {
     let done =
         clsmith(folder.path()).args(["apply", "recipe.yaml", "part.cls", "-o", "out.cls"]).assert().code(1);
     let text = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
-    assert!(text.contains("did you mean `factor`"), "{text}");
+    assert!(text.contains("Did you mean `factor`"), "{text}");
     assert!(!folder.path().join("out.cls").exists());
 }
 

@@ -1,6 +1,9 @@
 //! Transforms, through one door: a recipe's steps applied to a text.
 
+mod convert_units;
 mod feed;
+mod move_origin;
+mod moved;
 mod rewrite;
 
 use crate::support;

@@ -166,7 +166,8 @@ pub(super) fn roles(syntax: &Syntax<'_>) -> Vec<Role> {
             Item::Number(_) => {
                 roles.push(match word.as_str() {
                     unit if FeedUnit::of_word(unit).is_some() => Role::Feed,
-                    "DWELL" | "TIMES" | "REV" | "ORIENT" | "SPINDL" | "RPM" => Role::Plain,
+                    // Times, counts, speeds, angles; threads per inch are the same in every unit of length.
+                    "DWELL" | "TIMES" | "REV" | "SPINDL" | "RPM" | "TPI" | "TLANGL" | "ORIENT" => Role::Plain,
                     _ => Role::Length,
                 });
                 if !keeps_governing(&word) {

@@ -171,7 +171,7 @@ impl Record {
             | Self::StartDirection(_)
             | Self::DriveArc(_)
             | Self::Knot(_)
-            | Self::Control(_) => path::roles(self, count),
+            | Self::Control(_) => path::roles(self, syntax),
             Self::Feed(_) | Self::Spindle(_) => feed::roles(self, syntax),
             Self::ToolData(_) | Self::ToolAxis(_) | Self::ToolCall(_) => tool::roles(self, syntax),
             Self::Frame(_) | Self::MatrixRow(_) => frame::roles(self),

@@ -276,7 +276,8 @@ fn group_numbers(syntax: &Syntax<'_>, group: &Group) -> Result<Vec<f64>, BadReco
     group.fields.iter().map(|field| number(syntax, field)).collect()
 }
 
-pub(super) fn roles(record: &Record, count: usize) -> Vec<Role> {
+pub(super) fn roles(record: &Record, syntax: &Syntax<'_>) -> Vec<Role> {
+    let count = syntax.numbers().len();
     let points = |count: usize| (0..count).map(|index| Role::Point((index % 3) as u8)).collect::<Vec<_>>();
     match record {
         Record::Goto(goto) => with_axis(goto.axis.is_some()),
@@ -287,10 +288,7 @@ pub(super) fn roles(record: &Record, count: usize) -> Vec<Role> {
         Record::GoDelta(numbers) if numbers.len() == 3 => vec![Role::Step(0), Role::Step(1), Role::Step(2)],
         Record::GoDelta(_) => vec![Role::Length],
         Record::StartDirection(_) => directions(),
-        // The 2 of `2,INTOF` chooses an intersection; it is no coordinate.
-        Record::DriveArc(_) => {
-            [points(3), vec![Role::Length], vec![Role::Plain; count.saturating_sub(10)], points(6)].concat()
-        }
+        Record::DriveArc(_) => syntax.fields.iter().flat_map(|field| drive_roles(syntax, field)).collect(),
         Record::Circle(circle) => {
             let lengths = count.saturating_sub(6 + usize::from(circle.times > 1));
             let mut roles = [points(3), arc_axis()].concat();
@@ -303,6 +301,20 @@ pub(super) fn roles(record: &Record, count: usize) -> Vec<Role> {
     }
 }
 
+/// CATIA's drive arc: centre and radius in one group, centre and end in the other, and between them perhaps the 2 of
+/// `ON,2,INTOF`, which is a count.
+fn drive_roles(syntax: &Syntax<'_>, field: &crate::program::syntax::Field) -> Vec<Role> {
+    let points = |count: usize| (0..count).map(|index| Role::Point((index % 3) as u8));
+    match &field.kind {
+        FieldKind::Number(_) => vec![Role::Plain],
+        FieldKind::Group(group) if syntax.bytes(&group.word).eq_ignore_ascii_case(b"CIRCLE") => {
+            points(3).chain([Role::Length]).collect()
+        }
+        FieldKind::Group(_) => points(6).collect(),
+        _ => Vec::new(),
+    }
+}
+
 /// Whether the numbers of a long GOTO are a point, a tool axis and a contact normal: two unit vectors after the point.
 pub(crate) fn is_contact(numbers: &[f64]) -> bool {
     numbers.len() == 9 && [3, 6].iter().all(|&at| numbers.get(at..).is_some_and(is_unit))
@@ -310,7 +322,7 @@ pub(crate) fn is_contact(numbers: &[f64]) -> bool {
 
 /// Whether the numbers are points with axes: every second triple is a unit vector.
 pub(crate) fn is_poses(numbers: &[f64]) -> bool {
-    numbers.len() % 6 == 0 && numbers.chunks(6).all(|pose| pose.get(3..).is_some_and(is_unit))
+    numbers.len().is_multiple_of(6) && numbers.chunks(6).all(|pose| pose.get(3..).is_some_and(is_unit))
 }
 
 fn is_unit(numbers: &[f64]) -> bool {

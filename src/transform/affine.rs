@@ -1,0 +1,126 @@
+//! Rigid transforms with or without a mirror: what `move_origin` does to points, vectors and the axes of arcs.
+
+use nalgebra::{Matrix3, Point3, Unit, Vector3};
+
+/// Vectors closer than this are one: far below the last decimal that any dialect prints of an axis.
+const SAME_VECTOR: f64 = 1e-9;
+
+/// `p -> linear * p + offset`, where `linear` turns or mirrors but never scales.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Affine {
+    /// Rotation, or rotation and mirror.
+    pub linear: Matrix3<f64>,
+    /// What is added after it.
+    pub offset: Vector3<f64>,
+}
+
+impl Affine {
+    /// Nothing moves.
+    pub fn identity() -> Self {
+        Self { linear: Matrix3::identity(), offset: Vector3::zeros() }
+    }
+
+    /// Every point moves by the same step.
+    pub fn translation(offset: Vector3<f64>) -> Self {
+        Self { linear: Matrix3::identity(), offset }
+    }
+
+    /// A turn, right-hand about an axis through a point. Quarter turns about x, y or z are exact: their matrix holds only
+    /// 0, 1 and -1.
+    pub fn rotation(axis: Unit<Vector3<f64>>, degrees: f64, about: Vector3<f64>) -> Self {
+        let (sine, cosine) = sine_cosine(degrees);
+        let outer = axis.into_inner() * axis.transpose();
+        let linear = Matrix3::identity() * cosine + axis.cross_matrix() * sine + outer * (1.0 - cosine);
+        Self { linear, offset: about - linear * about }
+    }
+
+    /// A mirror in the plane through a point.
+    pub fn mirror(normal: Unit<Vector3<f64>>, through: Vector3<f64>) -> Self {
+        let linear = Matrix3::identity() - normal.into_inner() * normal.transpose() * 2.0;
+        Self { linear, offset: through - linear * through }
+    }
+
+    /// This, and then another.
+    #[must_use]
+    pub fn then(self, next: Self) -> Self {
+        Self { linear: next.linear * self.linear, offset: next.linear * self.offset + next.offset }
+    }
+
+    /// A point.
+    pub fn point(&self, point: Point3<f64>) -> Point3<f64> {
+        Point3::from(self.linear * point.coords + self.offset)
+    }
+
+    /// A step or a direction: it does not move.
+    pub fn vector(&self, vector: Vector3<f64>) -> Vector3<f64> {
+        self.linear * vector
+    }
+
+    /// The axis of an arc. It is a pseudo-vector: a mirror turns it over, so that the arc runs the other way round.
+    pub fn arc_axis(&self, axis: Vector3<f64>) -> Vector3<f64> {
+        let turned = self.linear * axis;
+        if self.mirrors() { -turned } else { turned }
+    }
+
+    /// Whether left and right change places.
+    pub fn mirrors(&self) -> bool {
+        self.linear.determinant() < 0.0
+    }
+
+    /// Whether directions change at all.
+    pub fn turns(&self) -> bool {
+        self.linear != Matrix3::identity()
+    }
+
+    /// Whether nothing changes at all.
+    pub fn is_identity(&self) -> bool {
+        *self == Self::identity()
+    }
+
+    /// Whether a direction stays as it is.
+    pub fn keeps(&self, direction: Vector3<f64>) -> bool {
+        same_vector(self.vector(direction), direction)
+    }
+}
+
+/// Whether two vectors are one, up to the noise of arithmetic.
+pub fn same_vector(a: Vector3<f64>, b: Vector3<f64>) -> bool {
+    (a - b).norm() <= SAME_VECTOR
+}
+
+/// Sine and cosine; exact for quarter turns, where `f64::sin_cos` leaves 6e-17.
+fn sine_cosine(degrees: f64) -> (f64, f64) {
+    let turn = degrees.rem_euclid(360.0);
+    if turn == 0.0 {
+        (0.0, 1.0)
+    } else if turn == 90.0 {
+        (1.0, 0.0)
+    } else if turn == 180.0 {
+        (0.0, -1.0)
+    } else if turn == 270.0 {
+        (-1.0, 0.0)
+    } else {
+        turn.to_radians().sin_cos()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quarter_turns_are_exact() {
+        let turn = Affine::rotation(Vector3::z_axis(), -270.0, Vector3::new(1.0, 0.0, 0.0));
+        assert_eq!(turn.point(Point3::new(3.0, 0.0, 7.0)), Point3::new(1.0, 2.0, 7.0));
+        assert_eq!(Affine::rotation(Vector3::x_axis(), 360.0, Vector3::zeros()), Affine::identity());
+    }
+
+    #[test]
+    fn a_mirror_turns_the_axis_of_an_arc_in_its_plane_over_and_keeps_the_normal() {
+        let mirror = Affine::mirror(Vector3::x_axis(), Vector3::zeros());
+        assert!(mirror.mirrors());
+        assert_eq!(mirror.arc_axis(Vector3::z()), -Vector3::z());
+        assert_eq!(mirror.arc_axis(Vector3::x()), Vector3::x());
+        assert_eq!(mirror.vector(Vector3::z()), Vector3::z());
+    }
+}

@@ -1,0 +1,166 @@
+//! The pass over the statements: each number by its role.
+
+use super::factor::Conversion;
+use super::words;
+use crate::diagnostic::Diagnostic;
+use crate::parse;
+use crate::program::record::{SpindleUnit, ToolWord};
+use crate::program::{FeedUnit, LengthUnit, Record, Role};
+use crate::transform::Context;
+use crate::transform::numbers::{self, MatrixRows, set_matrix_row, word};
+use crate::write::{self, Editor};
+
+/// Known words whose numbers are lengths only their post understands; a zero is the same in every unit.
+const LENGTHS_OF_POSTS: &[&str] = &[
+    "CLRSRF", "FACEMILL", "GOCLER", "LEADER", "MCHTOL", "PIVOTZ", "PLUNGE", "PSIS", "RETRCT", "SAFETY",
+    "SHIFT", "SMOOTH", "THREAD", "TRACUT", "TURRET", "WCORN",
+];
+
+/// Converts every statement.
+///
+/// # Errors
+/// When a statement does not read back.
+pub fn convert(
+    editor: &mut Editor,
+    conversion: Conversion,
+    context: &mut Context<'_>,
+) -> Result<(), Box<Diagnostic>> {
+    let mut rows = MatrixRows::default();
+    let mut multi_axis = false;
+    let mut unit_in_force = None;
+    let mut reported = Vec::new();
+    for index in 0..editor.program().statements().len() {
+        let Some(statement) = editor.program().statement(index).filter(|statement| statement.is_live())
+        else {
+            continue;
+        };
+        let record = statement.record();
+        let row = rows.read(record);
+        match record {
+            Record::Goto(goto) => {
+                let point = goto.point.coords.map(|value| conversion.length(value));
+                editor.set_numbers(index, &[(0, point.x), (1, point.y), (2, point.z)])?;
+                continue;
+            }
+            Record::Comment | Record::Blank | Record::Rapid | Record::Text | Record::Marked(_) => continue,
+            Record::Units(_) => {
+                words::swap_units(editor, index, conversion.to)?;
+                continue;
+            }
+            Record::MatrixRow(numbers) => {
+                let [_, _, _, shift] = **numbers;
+                if row.is_some() {
+                    let shift = conversion.length(shift);
+                    set_matrix_row(editor, index, &[(3, shift)])?;
+                }
+                continue;
+            }
+            Record::MultiAxis(on) => multi_axis = *on,
+            Record::Feed(feed) => unit_in_force = feed.unit.or(unit_in_force),
+            _ => {}
+        }
+        report(editor, index, conversion, context, &mut reported);
+        let edits = edits(editor, index, conversion, multi_axis, unit_in_force);
+        let Some(statement) = editor.program().statement(index) else { continue };
+        match statement.record() {
+            Record::Feed(_) | Record::Cycle(_) => words::swap_feed_words(editor, index, conversion)?,
+            Record::Spindle(_) if !edits.is_empty() => {
+                words::swap_speed_word(editor, index, conversion.to)?;
+            }
+            _ => {}
+        }
+        if !edits.is_empty() {
+            editor.set_numbers(index, &edits)?;
+        }
+    }
+    Ok(())
+}
+
+/// The new values of a statement's numbers.
+fn edits(
+    editor: &Editor,
+    index: usize,
+    conversion: Conversion,
+    multi_axis: bool,
+    unit_in_force: Option<FeedUnit>,
+) -> Vec<(usize, f64)> {
+    let program = editor.program();
+    let Some(statement) = program.statement(index) else { return Vec::new() };
+    let (record, text) = (statement.record(), program.text(statement));
+    let roles = numbers::roles(record, text, multi_axis);
+    if roles.iter().all(|role| *role == Role::Plain) {
+        return Vec::new();
+    }
+    let feeds = match record {
+        Record::Feed(_) | Record::Cycle(_) => {
+            write::syntax(program, index).map(|syntax| words::feeds(&syntax)).unwrap_or_default()
+        }
+        _ => Vec::new(),
+    };
+    let metric_speed =
+        matches!(record, Record::Spindle(spindle) if spindle.unit == SpindleUnit::SurfaceMetres);
+    let speed_changes = metric_speed == (conversion.from == LengthUnit::Mm);
+    let mut edits = Vec::new();
+    for (number, ((_, value), role)) in parse::numbers(text).into_iter().zip(roles).enumerate() {
+        let new = match role {
+            Role::Point(_) | Role::Step(_) | Role::FrameOrigin(_) | Role::Length => conversion.length(value),
+            Role::Feed => {
+                let unit = feeds.get(number).and_then(|(_, unit)| *unit).or(unit_in_force);
+                if !conversion.feed(unit).1 {
+                    continue;
+                }
+                conversion.length(value)
+            }
+            Role::SurfaceSpeed if speed_changes => conversion.surface_speed(value),
+            Role::SurfaceSpeed
+            | Role::Direction(_)
+            | Role::ArcAxis(_)
+            | Role::FrameAxis(..)
+            | Role::Plain => {
+                continue;
+            }
+        };
+        edits.push((number, new));
+    }
+    edits
+}
+
+/// Reports what holds lengths in a form that is not understood, once for each word.
+fn report(
+    editor: &Editor,
+    index: usize,
+    conversion: Conversion,
+    context: &mut Context<'_>,
+    reported: &mut Vec<String>,
+) {
+    let program = editor.program();
+    let Some(statement) = program.statement(index) else { return };
+    let text = program.text(statement);
+    let message = match statement.record() {
+        Record::ToolCall(call) if !call.loads && parse::numbers(text).len() > 2 => {
+            "this TOOLNO mixes lengths, angles, feeds and speeds in an order of its own: none of them is converted"
+        }
+        Record::ToolData(data) if data.word == ToolWord::TlDataOther => {
+            "the numbers of this kind of tool are not understood: none of them is converted"
+        }
+        Record::Spindle(spindle)
+            if spindle.unit == SpindleUnit::SurfaceFeet && conversion.from == LengthUnit::Mm =>
+        {
+            "SFM in a program in millimetres may mean feet or metres of surface per minute: it is left as it is"
+        }
+        Record::Known
+            if LENGTHS_OF_POSTS.contains(&word(text).as_str())
+                && parse::numbers(text).iter().any(|(at, value)| {
+                    *value != 0.0 && text.get(at.clone()).is_some_and(|it| it.contains(&b'.'))
+                }) =>
+        {
+            "the numbers of this word are its post's business and may be lengths: they are not converted"
+        }
+        _ => return,
+    };
+    let word = word(text);
+    if !reported.contains(&word) {
+        context.not_changed(message, program, index);
+        reported.push(word);
+    }
+}

@@ -1,0 +1,102 @@
+//! `convert_units`: a program in millimetres or inches, in the other unit.
+
+mod factor;
+mod lengths;
+mod words;
+
+use super::{Context, Transform, stale, unchanged};
+use crate::diagnostic::{Diagnostic, codes};
+use crate::program::{LengthUnit, Program, Record};
+use crate::write::Editor;
+use factor::Conversion;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Converts a program to millimetres or inches.
+///
+/// All that has a length is converted: points, radii, tool shapes, cycle distances, tolerances, boxes, the origins of frames.
+/// Angles, directions, knots, counts and times stay. Feeds change with their words (`MMPM` and `IPM`, `MMPR` and `IPR`; PERMIN
+/// and feeds without a word in value, inverse time not at all), surface speeds with theirs (`SMM`, `SFM`), and the unit record is
+/// rewritten in the file's own spelling. From millimetres to inches, numbers get two decimals more (up to eight), so that
+/// converting back gives the same places within 0.0001 mm.
+///
+/// The old unit is the one that the file states; a file that states none needs `from`. No unit record is put into such a file.
+///
+/// Idempotent where the file states its unit: a program that already has the unit is left as it is.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ConvertUnits {
+    /// The unit that the program is to have.
+    pub to: LengthUnit,
+    /// The unit that it has; only needed where the file does not say it (NX, CATIA), and an error where it says another.
+    pub from: Option<LengthUnit>,
+}
+
+impl Transform for ConvertUnits {
+    fn apply(&self, program: Program, context: &mut Context<'_>) -> Result<Program, Box<Diagnostic>> {
+        let stated = self.stated(&program, context)?;
+        let Some(from) = stated.or(self.from) else {
+            let finding = context.at(
+                codes::STEP_FAILED,
+                "the file does not say what unit its lengths have, and neither does the step",
+                &[],
+                "asked for here",
+            );
+            return Err(Box::new(finding.help(
+                "Add `from: mm` or `from: inch`. Feeds in MMPM or IPM and the sizes of the tools tell which.",
+            )));
+        };
+        if from == self.to {
+            return Ok(program);
+        }
+        let mut found = Context { findings: Vec::new(), ..*context };
+        if stated.is_none() {
+            found.findings.push(unit_still_unsaid(&found, self.to));
+        }
+        stale::after_conversion(&program, &mut found);
+        unchanged::report(&program, |_| true, "converted", &mut found);
+        let found = found.findings;
+        let conversion = Conversion { from, to: self.to };
+        let mut editor = Editor::new(program, context.step);
+        editor.set_finer(conversion.more_decimals());
+        lengths::convert(&mut editor, conversion, context)?;
+        context.findings.extend(found);
+        editor.finish()
+    }
+}
+
+impl ConvertUnits {
+    /// The unit that the file states, if all its records and the step agree.
+    fn stated(
+        &self,
+        program: &Program,
+        context: &Context<'_>,
+    ) -> Result<Option<LengthUnit>, Box<Diagnostic>> {
+        let mut stated = None;
+        for (index, statement) in program.live() {
+            let Record::Units(unit) = statement.record() else { continue };
+            if stated.is_some_and(|before| before != *unit) {
+                let message = "the file changes its unit on the way; which of its lengths have which unit is not clear enough";
+                return Err(context.fail_at(message, program, index, "another unit than before"));
+            }
+            if self.from.is_some_and(|from| from != *unit) {
+                let message = "`from` says another unit than the file itself";
+                return Err(context.fail_at(message, program, index, "the file's unit"));
+            }
+            stated = Some(*unit);
+        }
+        Ok(stated)
+    }
+}
+
+fn unit_still_unsaid(context: &Context<'_>, to: LengthUnit) -> Diagnostic {
+    let name = match to {
+        LengthUnit::Mm => "millimetres",
+        LengthUnit::Inch => "inches",
+    };
+    let message =
+        format!("the file has no unit record, so nothing in it says that its lengths are {name} now");
+    context
+        .at(codes::NOT_CHANGED, message, &["to"], "converted here")
+        .help("Tell the post, or check that it takes the unit from the words of the feeds (MMPM, IPM).")
+}

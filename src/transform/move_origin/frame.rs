@@ -1,0 +1,188 @@
+//! `change: frame`: the points stay, and the frame they are printed in moves them.
+//!
+//! The transform `T` is given in printed coordinates. A frame that maps printed coordinates outside, `F`, becomes `F * T`; one
+//! that has already mapped outside coordinates to the printed ones (Creo), `M`, becomes `T^-1 * M`.
+
+use super::scope::Scope;
+use crate::diagnostic::{Diagnostic, codes};
+use crate::program::record::{FrameRecord, FrameWord};
+use crate::program::{Dialect, Program, Record};
+use crate::transform::numbers::{MatrixRows, set_matrix_row};
+use crate::transform::{Affine, Context};
+use crate::write::Editor;
+use nalgebra::{Matrix3, Vector3};
+
+/// Moves the frames of the operations in scope.
+///
+/// # Errors
+/// Where no frame stands, or one that cannot take the transform.
+pub fn change(
+    program: Program,
+    place: &Affine,
+    scope: &Scope,
+    context: &mut Context<'_>,
+) -> Result<Program, Box<Diagnostic>> {
+    if place.mirrors() {
+        return Err(context.fail(
+            "a frame is right-handed and cannot hold a mirror; mirror the points (`change: points`)",
+            &["mirror"],
+        ));
+    }
+    check(&program, place, scope, context)?;
+    let mut editor = Editor::new(program, context.step);
+    let mut rows = MatrixRows::default();
+    let mut comment_frame = None;
+    for index in 0..editor.program().statements().len() {
+        let Some(statement) = editor.program().statement(index).filter(|statement| statement.is_live())
+        else {
+            continue;
+        };
+        let row = rows.read(statement.record());
+        if !scope.contains(index) {
+            continue;
+        }
+        match (statement.record(), row) {
+            (Record::Frame(frame), _) => {
+                let edits = edits(frame, place);
+                editor.set_numbers(index, &edits)?;
+            }
+            (Record::MatrixRow(numbers), Some(_)) => {
+                let edits = row_edits(numbers, place);
+                set_matrix_row(&mut editor, index, &edits)?;
+                comment_frame.get_or_insert(index);
+            }
+            _ => {}
+        }
+    }
+    if let Some(index) = comment_frame {
+        let message =
+            "the matrix stands in comments: a post that does not read them moves the tool as before";
+        context.not_changed(message, editor.program(), index);
+    }
+    editor.finish()
+}
+
+/// Every selected motion has to stand in a frame that changes, and no other may.
+fn check(
+    program: &Program,
+    place: &Affine,
+    scope: &Scope,
+    context: &Context<'_>,
+) -> Result<(), Box<Diagnostic>> {
+    if program.dialect() == Dialect::SolidWorks {
+        return Err(context.fail(
+            "SolidWorks CAM prints its points in world coordinates (TRNTYP/WORLD): its CSYS says how the setup stands and does \
+             not map the points; use `change: points`",
+            &["change"],
+        ));
+    }
+    let mut rows = MatrixRows::default();
+    let mut frame = None;
+    for (index, statement) in program.live() {
+        let record = statement.record();
+        let row = rows.read(record);
+        if let (Record::Frame(found), true) = (record, scope.contains(index)) {
+            check_frame(found, place, program, index, context)?;
+        }
+        match record {
+            Record::Frame(found) if matches!(found.word, FrameWord::Msys | FrameWord::Csys) => {
+                frame = Some(index);
+            }
+            _ if row == Some(2) => frame = Some(index),
+            _ if record.is_motion() || matches!(record, Record::From(_)) => {
+                let moved = scope.contains(index);
+                match frame {
+                    None if moved => return Err(without_frame(program, index, context)),
+                    Some(frame) if scope.contains(frame) != moved => {
+                        let message = "one frame holds for operations that are selected and for others; select all of them, or use \
+                                       `change: points`";
+                        return Err(context.fail_at(message, program, index, "stands in the same frame"));
+                    }
+                    _ => {}
+                }
+            }
+            _ => {}
+        }
+    }
+    if frame.is_none() {
+        let finding = context.at(codes::STEP_FAILED, NO_FRAME, &["change"], "asked for here");
+        return Err(Box::new(finding.help(HELP)));
+    }
+    Ok(())
+}
+
+const NO_FRAME: &str =
+    "there is no frame record (MSYS, CSYS, CAMERA, `$$*CATIA0`) that could move the points";
+const HELP: &str = "Use `change: points`, which is also the default.";
+
+fn without_frame(program: &Program, index: usize, context: &Context<'_>) -> Box<Diagnostic> {
+    let diagnostic = *context.fail_at(NO_FRAME, program, index, "stands in no frame");
+    Box::new(diagnostic.help(HELP))
+}
+
+fn check_frame(
+    frame: &FrameRecord,
+    place: &Affine,
+    program: &Program,
+    index: usize,
+    context: &Context<'_>,
+) -> Result<(), Box<Diagnostic>> {
+    let message = match (frame.word, program.dialect()) {
+        (FrameWord::Csys, Dialect::Creo | Dialect::CreoGpost) if place.turns() => {
+            "which way the rotation of this matrix turns is not known for Creo (measured is only that its translation is \
+             already in the points): only `translate` can be put into it; use `change: points`"
+        }
+        (FrameWord::Csys, Dialect::Creo | Dialect::CreoGpost) if !is_identity(frame) => {
+            "this matrix turns, and which way is not known for Creo, so a translation cannot be put into it; use `change: points`"
+        }
+        (FrameWord::Csys, Dialect::Creo | Dialect::CreoGpost) => return Ok(()),
+        (FrameWord::Trans | FrameWord::Origin, _)
+            if place.turns() && frame.numbers.iter().any(|number| *number != 0.0) =>
+        {
+            "the post shifts the points by this before the frame turns them; a turn cannot be put into the frame then"
+        }
+        (FrameWord::Csys, _) => {
+            "which way this matrix maps the points is not known for this dialect; use `change: points`"
+        }
+        _ => return Ok(()),
+    };
+    Err(context.fail_at(message, program, index, "the frame"))
+}
+
+fn is_identity(frame: &FrameRecord) -> bool {
+    matches!(frame.numbers.as_slice(), [a, b, c, _, d, e, f, _, g, h, i, _]
+        if Matrix3::new(*a, *b, *c, *d, *e, *f, *g, *h, *i) == Matrix3::identity())
+}
+
+fn edits(frame: &FrameRecord, place: &Affine) -> Vec<(usize, f64)> {
+    match (frame.word, frame.numbers.as_slice()) {
+        (FrameWord::Msys, [ox, oy, oz, xi, xj, xk, yi, yj, yk]) => {
+            let (x, y) = (Vector3::new(*xi, *xj, *xk), Vector3::new(*yi, *yj, *yk));
+            let axes = Matrix3::from_columns(&[x, y, x.cross(&y)]);
+            let origin = Vector3::new(*ox, *oy, *oz) + axes * place.offset;
+            let mut edits: Vec<_> = origin.iter().copied().enumerate().collect();
+            if place.turns() {
+                let turned = axes * place.linear;
+                // Two columns of three: nalgebra keeps them one after the other.
+                edits.extend(turned.iter().take(6).enumerate().map(|(index, value)| (index + 3, *value)));
+            }
+            edits
+        }
+        // Already applied, and its own rotation is none: the translation takes the step back.
+        (FrameWord::Csys, [_, _, _, x, _, _, _, y, _, _, _, z]) => {
+            vec![(3, x - place.offset.x), (7, y - place.offset.y), (11, z - place.offset.z)]
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// A row of a CATIA matrix: three of the rotation, one of the translation.
+fn row_edits(row: &[f64; 4], place: &Affine) -> Vec<(usize, f64)> {
+    let [a, b, c, d] = *row;
+    let axes = nalgebra::RowVector3::new(a, b, c);
+    let mut edits = vec![(3, d + (axes * place.offset).x)];
+    if place.turns() {
+        edits.extend((axes * place.linear).iter().copied().enumerate());
+    }
+    edits
+}

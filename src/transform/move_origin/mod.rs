@@ -1,0 +1,100 @@
+//! `move_origin`: the path moved, turned or mirrored, by its points or by its frame.
+
+mod axes;
+mod frame;
+mod place;
+mod points;
+mod scope;
+mod sides;
+mod walk;
+
+use super::{Context, Transform, stale, unchanged};
+use crate::diagnostic::{Diagnostic, codes};
+use crate::program::Program;
+pub use place::{Mirror, Rotate};
+use schemars::JsonSchema;
+pub use scope::Operations;
+use scope::Scope;
+use serde::Deserialize;
+
+/// Moves, turns or mirrors the path: first `mirror`, then `rotate`, then `translate`, each in the coordinates that the program
+/// prints. At least one of them has to be given.
+///
+/// With `change: points` (the default) every point, direction and arc axis gets new numbers: GOTO, FROM, GOHOME, GODLTA, CIRCLE,
+/// MOVARC, INDIRV and TLON, TLAXIS, spline control points. Cycle depths are relative to their holes and stay. With `change:
+/// frame` the points stay and the frame record changes instead, so that the path lands in the same place outside: NX `MSYS`,
+/// Creo `CSYS` and `CAMERA` (translation only), CATIA's matrix in comments. Never both.
+///
+/// A tool axis that the file leaves at its default (0,0,1) is written out where the transform turns it. A mirror swaps the sense
+/// of arcs and the sides of CUTCOM; the spindle keeps its sense, so climb milling becomes conventional, which is reported.
+/// Records that still describe the old place are reported, not guessed.
+///
+/// Not idempotent: a second run moves again. A transform that moves nothing changes no byte.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MoveOrigin {
+    /// The plane to mirror in: `x`, `y` or `z` (the plane normal to it, through the origin), or `{ normal: [1, 1, 0], through: [0, 0, 0] }`.
+    pub mirror: Option<Mirror>,
+    /// The turn: `{ axis: z, degrees: 90, about: [0, 0, 0] }`.
+    pub rotate: Option<Rotate>,
+    /// What is added to every point: `[x, y, z]`, in the recipe's unit.
+    pub translate: Option<place::Triple>,
+    /// What gets new numbers: the points, or the frame they are printed in.
+    #[serde(default)]
+    pub change: Changes,
+    /// Which operations; all when it is left out.
+    #[serde(default)]
+    pub r#where: Operations,
+}
+
+/// What `move_origin` changes.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Changes {
+    /// The points, directions and axes.
+    #[default]
+    Points,
+    /// The frame record (MSYS, CSYS, CAMERA, CATIA's matrix).
+    Frame,
+}
+
+impl Transform for MoveOrigin {
+    fn apply(&self, program: Program, context: &mut Context<'_>) -> Result<Program, Box<Diagnostic>> {
+        if self.mirror.is_none() && self.rotate.is_none() && self.translate.is_none() {
+            return Err(context.fail("none of `mirror`, `rotate` and `translate` is given", &[]));
+        }
+        let file = context.file_units(&program);
+        let place = place::affine(
+            self.mirror.as_ref(),
+            self.rotate.as_ref(),
+            self.translate.as_ref(),
+            context.recipe.units,
+            file,
+        );
+        let scope = Scope::of(&self.r#where, &program, context);
+        if scope.is_empty() || place.is_identity() {
+            return Ok(program);
+        }
+        if self.change == Changes::Frame {
+            return frame::change(program, &place, &scope, context);
+        }
+        let mut found = Context { findings: Vec::new(), ..*context };
+        if place.mirrors() {
+            found.findings.push(spindle_keeps_its_sense(&found));
+        }
+        stale::after_move(&program, &place, &mut found);
+        unchanged::report(&program, |statement| scope.contains(statement), "moved", &mut found);
+        let found = found.findings;
+        let program = points::change(program, &place, &scope, context)?;
+        context.findings.extend(found);
+        Ok(program)
+    }
+}
+
+fn spindle_keeps_its_sense(context: &Context<'_>) -> Diagnostic {
+    let message =
+        "the spindle keeps its sense, so climb milling becomes conventional milling in the mirrored path";
+    context.at(codes::NOT_CHANGED, message, &["mirror"], "mirrored here").help(
+        "Check feeds, finish and thread sense; mirror the model in the CAM system to get a path that climbs.",
+    )
+}

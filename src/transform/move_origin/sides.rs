@@ -1,0 +1,63 @@
+//! Words of left and right: the sides of CUTCOM, and the sense of arcs that say it in words.
+
+use crate::diagnostic::Diagnostic;
+use crate::program::{FieldKind, Syntax, folded};
+use crate::transform::Affine;
+use crate::write::{self, Editor};
+use nalgebra::Vector3;
+use std::ops::Range;
+
+const SIDES: &[[&str; 2]] = &[["LEFT", "RIGHT"]];
+const SENSES: &[[&str; 2]] = &[["CLOCKWISE", "COUNTERCLOCKWISE"], ["CLW", "CCLW"]];
+
+/// Swaps LEFT and RIGHT in a CUTCOM.
+///
+/// # Errors
+/// When the new text does not read back.
+pub fn swap_sides(editor: &mut Editor, index: usize) -> Result<(), Box<Diagnostic>> {
+    swap(editor, index, SIDES)
+}
+
+/// Swaps the words of an arc's sense.
+///
+/// # Errors
+/// When the new text does not read back.
+pub fn swap_senses(editor: &mut Editor, index: usize) -> Result<(), Box<Diagnostic>> {
+    swap(editor, index, SENSES)
+}
+
+/// The normal of the plane that a CUTCOM names; `None` when it names none.
+pub fn plane_normal(syntax: &Syntax<'_>) -> Option<Vector3<f64>> {
+    (0..syntax.fields.len()).find_map(|field| match syntax.word_at(field)?.as_str() {
+        "XYPLAN" => Some(Vector3::z()),
+        "YZPLAN" => Some(Vector3::x()),
+        "ZXPLAN" => Some(Vector3::y()),
+        _ => None,
+    })
+}
+
+/// Whether a plane, seen from the side that its word means, stays where it is.
+pub fn keeps_plane(place: &Affine, normal: Vector3<f64>) -> bool {
+    place.keeps(normal)
+}
+
+fn swap(editor: &mut Editor, index: usize, pairs: &[[&'static str; 2]]) -> Result<(), Box<Diagnostic>> {
+    let Some(syntax) = write::syntax(editor.program(), index) else { return Ok(()) };
+    let parts: Vec<(Range<usize>, Vec<u8>)> = syntax
+        .fields
+        .iter()
+        .filter(|field| field.kind == FieldKind::Text)
+        .filter_map(|field| {
+            let bytes = syntax.bytes(&field.at);
+            let word = folded(bytes);
+            let other = pairs
+                .iter()
+                .find_map(|[a, b]| if word == *a { Some(*b) } else { (word == *b).then_some(*a) })?;
+            let lower = bytes.iter().any(u8::is_ascii_lowercase);
+            let other = if lower { other.to_ascii_lowercase() } else { other.to_owned() };
+            Some((field.at.clone(), other.into_bytes()))
+        })
+        .collect();
+    let parts: Vec<_> = parts.iter().map(|(at, bytes)| (at.clone(), bytes.as_slice())).collect();
+    if parts.is_empty() { Ok(()) } else { editor.replace_parts(index, &parts) }
+}

@@ -1,0 +1,114 @@
+//! The numbers of a statement with what they are, for transforms that change geometry.
+//!
+//! Roles come from the records ([`crate::program::Role`]). Two of them hang on what stands before the statement: whether a
+//! long GOTO holds axes (MULTAX), and which row of a CATIA matrix a comment is.
+
+use crate::diagnostic::Diagnostic;
+use crate::number::{self, Form};
+use crate::parse;
+use crate::program::record::{is_contact, is_poses};
+use crate::program::{Record, Role};
+use crate::write::Editor;
+use nalgebra::Vector3;
+
+/// A matrix in the comments of a CATIA file prints unit vectors with 5 decimals; turned ones need as many as an NX frame.
+const MATRIX_TOLERANCE: f64 = 5e-8;
+
+/// The roles of a statement's numbers. A GOTO of several points holds axes only under MULTAX, as motions read it.
+pub fn roles(record: &Record, text: &[u8], multi_axis: bool) -> Vec<Role> {
+    match record {
+        Record::Points(numbers) if !is_contact(numbers) && is_poses(numbers) && !multi_axis => {
+            (0..numbers.len()).map(|index| Role::Point((index % 3) as u8)).collect()
+        }
+        _ => parse::roles(record, text),
+    }
+}
+
+/// Gives every point and vector among the numbers a new value: `change` gets the role of its first component, and gives
+/// `None` for what stays. The result is what [`Editor::set_numbers`] takes.
+pub fn change_triples(
+    values: &[f64],
+    roles: &[Role],
+    change: impl Fn(Role, Vector3<f64>) -> Option<Vector3<f64>>,
+) -> Vec<(usize, f64)> {
+    let mut edits = Vec::with_capacity(values.len());
+    for (index, role) in roles.iter().enumerate() {
+        if !matches!(role, Role::Point(0) | Role::Step(0) | Role::Direction(0) | Role::ArcAxis(0)) {
+            continue;
+        }
+        let Some([x, y, z]) = values.get(index..index + 3) else { continue };
+        if let Some(new) = change(*role, Vector3::new(*x, *y, *z)) {
+            edits.extend([(index, new.x), (index + 1, new.y), (index + 2, new.z)]);
+        }
+    }
+    edits
+}
+
+/// Counts the rows of CATIA's matrix: three after each `$$*CATIA0`, with nothing but comments between.
+#[derive(Debug, Default)]
+pub struct MatrixRows {
+    open: bool,
+    next: u8,
+}
+
+impl MatrixRows {
+    /// Takes notice of a record; the number of the row (0 to 2) when it is one.
+    pub fn read(&mut self, record: &Record) -> Option<u8> {
+        match record {
+            Record::FrameMark => *self = Self { open: true, next: 0 },
+            Record::MatrixRow(_) if self.open => {
+                let row = self.next;
+                self.next += 1;
+                self.open = self.next < 3;
+                return Some(row);
+            }
+            Record::Comment | Record::MatrixRow(_) => {}
+            _ => self.open = false,
+        }
+        None
+    }
+}
+
+/// Gives numbers of a matrix row in a comment new values, in their columns: only blanks separate them, so at least one
+/// stays.
+///
+/// # Errors
+/// When the row does not read back.
+pub fn set_matrix_row(
+    editor: &mut Editor,
+    index: usize,
+    edits: &[(usize, f64)],
+) -> Result<(), Box<Diagnostic>> {
+    let Some(statement) = editor.program().statement(index) else { return Ok(()) };
+    let text = editor.program().text(statement).to_vec();
+    let numbers = parse::numbers(&text);
+    let mut parts: Vec<(std::ops::Range<usize>, String)> = Vec::new();
+    for (place, (at, old)) in numbers.iter().enumerate() {
+        let before = text.get(..at.start).unwrap_or_default();
+        let start = before.trim_ascii_end().len();
+        let Some((_, wanted)) = edits.iter().find(|(edited, _)| *edited == place) else { continue };
+        if (wanted - old).abs() <= 1e-13 * old.abs().max(1.0) {
+            continue;
+        }
+        let own = number::decimals(text.get(at.clone()).unwrap_or_default());
+        let tolerance = if place < 3 { MATRIX_TOLERANCE } else { 5e-5 };
+        let form = Form {
+            decimals: own + if place < 3 { 0 } else { editor.style().finer },
+            tolerance,
+            zeros: Default::default(),
+            point: true,
+        };
+        let printed = form.print(*wanted, wanted - old);
+        let width = at.end - start;
+        parts.push((start..at.end, format!(" {printed:>0$}", width.saturating_sub(1))));
+    }
+    let parts: Vec<_> = parts.iter().map(|(at, text)| (at.clone(), text.as_bytes())).collect();
+    if parts.is_empty() { Ok(()) } else { editor.replace_parts(index, &parts) }
+}
+
+/// The major word of a statement in upper case, without asking the grammar: for lists of words.
+pub fn word(text: &[u8]) -> String {
+    let text = text.trim_ascii_start();
+    let end = text.iter().position(|byte| matches!(byte, b'/' | b'$' | b'\r' | b'\n')).unwrap_or(text.len());
+    crate::program::folded(text.get(..end).unwrap_or_default().trim_ascii_end())
+}
