@@ -38,3 +38,11 @@ fn an_untouched_program_has_no_changes() {
     assert!(found.is_empty());
     assert_eq!(found.untouched, program(POCKET).statements().len());
 }
+
+#[test]
+fn lengths_before_and_after_are_in_one_unit() {
+    let inch = program("UNITS/INCHES\nFEDRAT/10,IPM\nGOTO/0,0,0\nGOTO/2,0,0\n");
+    let mm = program("UNITS/MM\nFEDRAT/254,MMPM\nGOTO/0,0,0\nGOTO/50.8,0,0\n");
+    let found = Changes::of(&inch, &mm, &[], None);
+    assert!((found.before.feed_length - found.after.feed_length).abs() < 1e-9);
+}

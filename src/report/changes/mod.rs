@@ -22,7 +22,7 @@ pub struct Changes {
     pub version: u32,
     /// The file's name.
     pub file: String,
-    /// The unit of lengths.
+    /// The unit of lengths, before and after: that of the program after.
     pub units: Units,
     /// The steps in order, those without a change included.
     pub steps: Vec<StepChanges>,
@@ -59,7 +59,9 @@ impl Changes {
     /// that `steps` does not name gets a step of its own, without a name.
     /// `caller` is the unit of lengths where the program does not tell it.
     pub fn of(before: &Program, after: &Program, steps: &[&str], caller: Option<LengthUnit>) -> Self {
-        let units = Units::of(after, caller);
+        let (units_before, units) = (Units::of(before, caller), Units::of(after, caller));
+        // A step may have changed the unit; numbers that stand side by side must not.
+        let scale = units_before.unit.in_mm() / units.unit.in_mm();
         let named = |name: &&str| StepChanges { name: (*name).to_owned(), ..StepChanges::default() };
         let mut found: Vec<StepChanges> = steps.iter().map(named).collect();
         let mut untouched = 0;
@@ -88,7 +90,7 @@ impl Changes {
             units,
             steps: found,
             untouched,
-            before: totals(before, Units::of(before, caller)),
+            before: totals(before, units_before).scaled(scale),
             after: totals(after, units),
         }
     }

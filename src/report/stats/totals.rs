@@ -119,6 +119,15 @@ impl Totals {
         unknown.length += motion.length;
     }
 
+    /// The same in a unit of which `factor` make one of this.
+    #[must_use]
+    pub(crate) fn scaled(mut self, factor: f64) -> Self {
+        self.feed_length *= factor;
+        self.rapid_length *= factor;
+        self.unknown_time.length *= factor;
+        self
+    }
+
     /// Length of the whole path.
     pub fn length(&self) -> f64 {
         self.feed_length + self.rapid_length
