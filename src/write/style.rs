@@ -32,22 +32,10 @@ const FINEST: usize = 8;
 impl Style {
     /// Measures a program. Defaults, where nothing is there to measure: 4, 7 and 4 decimals as NX has them.
     pub fn of(program: &Program) -> Self {
-        let mut seen = Seen::default();
-        for statement in
-            program.statements().iter().filter(|statement| statement.change() == Change::Untouched)
-        {
-            let kind = match statement.record() {
-                Record::Goto(_) | Record::Circle(_) | Record::DriveArc(_) => &mut seen.points,
-                Record::Feed(_) => &mut seen.feeds,
-                Record::ToolAxis(_) => &mut seen.axes,
-                _ => continue,
-            };
-            *kind += 1;
-            if *kind <= SAMPLE {
-                seen.measure(statement.record(), program.text(statement));
-            } else if seen.points > 50 * SAMPLE {
-                break;
-            }
+        let mut seen = Seen::of(program, |change| change == Change::Untouched);
+        if seen.points == 0 {
+            // A step before may have changed every one of them; its numbers still show the style.
+            seen = Seen::of(program, |change| !matches!(change, Change::Deleted(_)));
         }
         let solidworks = program.dialect() == crate::program::Dialect::SolidWorks;
         Self {
@@ -119,6 +107,25 @@ struct Seen {
 }
 
 impl Seen {
+    fn of(program: &Program, counts: impl Fn(Change) -> bool) -> Self {
+        let mut seen = Self::default();
+        for statement in program.statements().iter().filter(|statement| counts(statement.change())) {
+            let kind = match statement.record() {
+                Record::Goto(_) | Record::Circle(_) | Record::DriveArc(_) => &mut seen.points,
+                Record::Feed(_) => &mut seen.feeds,
+                Record::ToolAxis(_) => &mut seen.axes,
+                _ => continue,
+            };
+            *kind += 1;
+            if *kind <= SAMPLE {
+                seen.measure(statement.record(), program.text(statement));
+            } else if seen.points > 50 * SAMPLE {
+                break;
+            }
+        }
+        seen
+    }
+
     fn measure(&mut self, record: &Record, text: &[u8]) {
         self.lines += 1;
         self.crlf += usize::from(text.ends_with(b"\r\n"));

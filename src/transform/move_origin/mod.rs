@@ -1,5 +1,6 @@
 //! `move_origin`: the path moved, turned or mirrored, by its points or by its frame.
 
+mod arcs;
 mod axes;
 mod frame;
 mod place;
@@ -85,7 +86,11 @@ impl Transform for MoveOrigin {
         stale::after_move(&program, &place, &mut found);
         unchanged::report(&program, |statement| scope.contains(statement), "moved", &mut found);
         let found = found.findings;
+        let sweeps = arcs::sweeps(&program);
         let program = points::change(program, &place, &scope, context)?;
+        arcs::check(&program, &sweeps).map_err(|refusal| {
+            context.fail_at(refusal.message, &program, refusal.statement, refusal.label)
+        })?;
         context.findings.extend(found);
         Ok(program)
     }

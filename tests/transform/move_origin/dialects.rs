@@ -110,6 +110,20 @@ fn crlf_and_trailing_blanks_survive() {
     assert_eq!(after.matches('\n').count(), after.matches(" \r\n").count());
 }
 
+#[test]
+fn a_second_step_still_knows_the_style_of_the_file() {
+    let text = CATIA.replace('\n', "\r\n");
+    let steps = "  - move_origin: { translate: [1, 1, 1] }
+  - move_origin: { rotate: { axis: x, degrees: 90 } }";
+    let (after, _) = apply(steps, text.replace("FEDRAT/  300.0000,MMPM\r\n", ""));
+    assert_eq!(after.matches('\n').count(), after.matches("\r\n").count());
+    let steps = "  - move_origin: { translate: [1, 1, 1] }
+  - move_origin: { rotate: { axis: z, degrees: 30 } }";
+    let text = SOLIDWORKS.replace("GOTO/10.,0,0", "GOTO/10.123456,0,0").replace("CIRCLE/0,0,0,0,0,1.\n", "");
+    let (after, _) = apply(steps, text);
+    assert!(after.contains("GOTO/9.133195,6.427753,1."), "{after}");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(40))]
 

@@ -62,3 +62,28 @@ fn camworks_setups_do_not_move_together() {
         .replace("FINI", "TLAXIS/ 0.000000,0.000000,1.000000 \nGOTO/ 1.000000,1.000000,1.000000 \nFINI");
     assert!(refused("{ translate: [1, 0, 0] }", &second).contains("frame of its own"));
 }
+
+#[test]
+fn an_arc_whose_ends_would_round_together() {
+    let text = "TOOL PATH/A,TOOL,T
+GOTO/3.3333,0.0000,0.0000,0.0000000,0.0000000,1.0000000
+CIRCLE/3.3333,5.0000,0.0000,0.0000000,0.0000000,-1.0000000,5.0000,0.0600,0.5000,0.0000,0.0000
+GOTO/3.3334,0.0000,0.0000
+END-OF-PATH
+";
+    let mut rounded_away = 0;
+    for degrees in 1..90 {
+        let step = format!("{{ rotate: {{ axis: z, degrees: {degrees} }} }}");
+        match try_apply(&format!("version: 1\nsteps:\n  - move_origin: {step}"), text) {
+            Ok((after, _)) => {
+                let length: f64 = support::program(after).motions().map(|motion| motion.length()).sum();
+                assert!(length < 0.01, "{degrees}: {length}");
+            }
+            Err(found) => {
+                assert!(found[0].message.contains("full turn"), "{}", found[0].message);
+                rounded_away += 1;
+            }
+        }
+    }
+    assert!(rounded_away > 0);
+}
