@@ -1,6 +1,6 @@
 //! Frames: where the program's coordinates stand in the part, and shifts and turns of them.
 
-use super::{BadRecord, Reading, Record, Role, all_numbers, wrong_count};
+use super::{Reading, Record, Role, all_numbers, wrong_count};
 use crate::program::syntax::{Form, Syntax};
 
 /// The word of a frame record; the meaning of its numbers hangs on it.

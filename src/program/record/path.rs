@@ -307,7 +307,7 @@ pub(crate) fn is_contact(numbers: &[f64]) -> bool {
 
 /// Whether the numbers are points with axes: every second triple is a unit vector.
 pub(crate) fn is_poses(numbers: &[f64]) -> bool {
-    numbers.len() % 6 == 0 && numbers.chunks(6).all(|pose| pose.get(3..).is_some_and(is_unit))
+    numbers.len().is_multiple_of(6) && numbers.chunks(6).all(|pose| pose.get(3..).is_some_and(is_unit))
 }
 
 fn is_unit(numbers: &[f64]) -> bool {
