@@ -99,7 +99,7 @@ fn compensation_is_in_force_until_off() {
     let mut motions = program.motions();
     let mut found = Vec::new();
     while motions.next().is_some() {
-        found.push(motions.state().compensation.map(|(compensation, statement)| (compensation, statement)));
+        found.push(motions.state().compensation);
     }
     use CutterCompensation::{Off, On};
     assert_eq!(found, [Some((On(Side::Left), 0)), Some((On(Side::Right), 2)), Some((Off, 4))]);
