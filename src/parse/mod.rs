@@ -70,6 +70,12 @@ pub fn numbers(text: &[u8]) -> Vec<(Range<usize>, f64)> {
     shortcut::goto_numbers(text).unwrap_or_else(|| statement_of(text).0.numbers())
 }
 
+/// The same for a text that is one plain GOTO line, of which files are full; `None` for anything else, which only the grammar
+/// can take apart.
+pub fn plain_goto(text: &[u8]) -> Option<Vec<(Range<usize>, f64)>> {
+    shortcut::goto_numbers(text)
+}
+
 /// What each of those numbers is, `record` being what the text means.
 pub fn roles(record: &Record, text: &[u8]) -> Vec<Role> {
     match record {

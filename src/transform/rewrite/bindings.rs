@@ -67,25 +67,30 @@ fn value(bytes: &[u8]) -> Value {
         return Value::Number(number);
     }
     let inner = bytes.strip_prefix(b"'").and_then(|bytes| bytes.strip_suffix(b"'")).unwrap_or(bytes);
-    let words: Vec<String> = operation::text(inner).split_whitespace().map(str::to_ascii_uppercase).collect();
-    Value::Word(words.join(" "))
+    Value::Word(folded(&operation::text(inner)))
+}
+
+/// A word as words are compared: in upper case, runs of blanks as one.
+pub(super) fn folded(word: &str) -> String {
+    let words: Vec<String> = word.split_whitespace().map(str::to_ascii_uppercase).collect();
+    words.join(" ")
 }
 
 /// What is said about a name that no argument is bound to.
-pub(super) fn unbound(name: &str, names: &[Name]) -> String {
+pub(super) fn unbound(name: &str, names: &[Name], usual: &str) -> String {
     let known: Vec<String> = names
         .iter()
         .map(|name| if name.rest { format!("$...{}", name.text) } else { format!("${}", name.text) })
         .collect();
     let bound = match known.as_slice() {
-        [] => "`match` binds nothing.".to_owned(),
+        [] => "Nothing is bound there.".to_owned(),
         known => format!("Bound there: {}.", known.join(", ")),
     };
     let longer =
         names.iter().filter(|known| name.starts_with(&known.text)).max_by_key(|known| known.text.len());
     let help = match longer {
         Some(known) => format!("Where letters follow a name, write ${{{}}}.", known.text),
-        None => "A word to compare with stands in quotes: 'MMPM'.".to_owned(),
+        None => usual.to_owned(),
     };
-    format!("`${name}` is not bound by `match`\n{bound} {help}")
+    format!("`{name}` is not bound by `match`\n{}", format!("{bound} {help}").trim_end())
 }

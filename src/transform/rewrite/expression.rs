@@ -1,6 +1,6 @@
 //! Expressions of `if` and `${...}`: their types, checked when the recipe is read, and their values.
 
-use super::bindings::{Bindings, Name};
+use super::bindings::{self, Bindings, Name};
 use std::ops::Range;
 
 /// An expression on bound numbers and words.
@@ -113,10 +113,10 @@ impl Expression {
     /// A message, with help after a line break.
     pub fn check_names(&self, names: &[Name]) -> Result<(), String> {
         self.names().into_iter().try_for_each(|name| match names.iter().find(|known| known.text == *name) {
-            None => Err(super::bindings::unbound(name, names)),
-            Some(known) if known.rest => {
-                Err(format!("`$...{name}` are several arguments, of which none can be calculated with"))
-            }
+            None => Err(bindings::unbound(name, names, "A word to compare with stands in quotes: 'MMPM'.")),
+            Some(known) if known.rest => Err(format!(
+                "`$...{name}` is not one value but several arguments\nBind the one that is meant: $NAME."
+            )),
             Some(_) => Ok(()),
         })
     }
@@ -138,7 +138,7 @@ impl Expression {
     pub fn value(&self, bindings: &Bindings<'_>) -> Result<Value, Trouble> {
         match self {
             Self::Number(value) => Ok(Value::Number(*value)),
-            Self::Word(word) => Ok(Value::Word(word.trim().to_ascii_uppercase())),
+            Self::Word(word) => Ok(Value::Word(bindings::folded(word))),
             Self::Name(name) => Ok(bindings.value(name)),
             Self::Not(value) => Ok(Value::Truth(!value.truth(bindings)?)),
             Self::Minus(value) => Ok(Value::Number(-value.number(bindings)?)),
@@ -225,7 +225,8 @@ fn truth(value: &Expression, sign: &str) -> Result<(), String> {
     match value.kind()? {
         Kind::Truth => Ok(()),
         _ => {
-            Err(format!("`{sign}` stands with comparisons only\nFor example: $F > 1000 {sign} $U == 'MMPM'."))
+            let left = if sign == "not" { "" } else { "$F > 1000 " };
+            Err(format!("`{sign}` stands with comparisons only\nFor example: {left}{sign} $U == 'MMPM'."))
         }
     }
 }
@@ -233,7 +234,7 @@ fn truth(value: &Expression, sign: &str) -> Result<(), String> {
 fn number(value: &Expression, sign: &str) -> Result<(), String> {
     match value.kind()? {
         Kind::Number | Kind::Argument => Ok(()),
-        Kind::Word => Err(format!("`{sign}` stands with numbers only; words are compared by == and !=")),
+        Kind::Word => Err(format!("`{sign}` stands with numbers only\nWords are compared by == and !=.")),
         Kind::Truth => {
             Err(format!("`{sign}` stands with numbers, not with a comparison\nJoin comparisons by `and`."))
         }

@@ -30,21 +30,23 @@ use work::Work;
 
 /// Replaces, deletes and inserts statements by rules.
 ///
-/// A rule's `match` is a statement as it stands in the file. Spacing, continuation, case of letters, comments behind the statement
-/// and the spelling of numbers (`5.` or `5.0000`) do not matter. In it,
+/// A rule's `match` is a statement as it stands in the file. Spacing, continuation, case of letters, comments behind the
+/// statement and the spelling of numbers (`5.` or `5.0000`) do not matter. In it,
 ///
-/// - `$NAME` stands for one argument (number, word, quoted text, group in parentheses) or for a word (`$WORD/ON`); within text it
-///   stands for at least one character (`PPRINT TOOL $N`, `LOAD/TOOL,T$N`). The same name twice wants equal values; `$_` binds nothing.
+/// - `$NAME` stands for one argument (number, word, quoted text, group in parentheses) or for a word (`$WORD/ON`); within text
+///   it stands for at least one character (`PPRINT TOOL $N`, `LOADTL/T$N`). The same name twice wants equal values; `$_` binds
+///   nothing.
 /// - `$...NAME`, or `$...`, comes last and stands for all that is left, perhaps nothing: `LOAD/TOOL,$N,$...REST`.
 /// - `$$` always is a comment's mark: `$$ Start of $...REST` matches comments as text, `$$-> CUTTER / $D` Creo's records.
 ///
-/// `if` is true or false: `$F > 1000 and not ($U == 'IPM' or $U == 'IPR')`, with + - * / and parentheses. In `replace` and `insert_...`,
-/// `$NAME` is written byte for byte as it stands in the file, and `${F * 0.8}` is computed and written with the decimals of `$F`.
+/// `if` is true or false: `$F > 1000 and not ($U == 'IPM' or $U == 'IPR')`, with + - * / and parentheses. In `replace`,
+/// `insert_before` and `insert_after`, `$NAME` is written byte for byte as it stands in the file (`${NAME}` where letters
+/// follow), and `${F * 0.8}` is computed and written with the decimals of `$F`, or more where fewer would lose the change.
 ///
-/// The rules are tried in their order on each statement; the first that fits is applied, and what it writes is not looked at again
-/// in this step. A replacement with the same word and as many arguments changes only the arguments that differ, in the file's own
-/// decimals and columns; any other is spaced as the file spaces its statements. Changes of motions are not followed up: a GOTO that
-/// ends an arc, or the feed of what comes after, is the rule's business, and `check` looks at the result.
+/// The rules are tried in their order on each statement; the first that fits is applied, and what it writes is not looked at
+/// again in this step. A replacement with the same word and as many arguments changes only the arguments that differ, numbers in
+/// the file's own decimals and columns; any other is spaced as the file spaces its statements. What a change means for the
+/// motions around it (the GOTO that ends an arc, the feed of what follows) is the rule's business: `check` looks at the result.
 ///
 /// Idempotent where a statement no longer fits once it is replaced. Statements are not inserted where they already stand, in the
 /// same order right beside the matched one, nor beside one that says the same itself; so running twice inserts once.

@@ -5,7 +5,7 @@
 use super::bindings::{Bindings, Name};
 use super::charset::Charset;
 use super::subject::{Class, Subject};
-use super::text::{Piece, pieces};
+use super::text::{Piece, pieces, quoted};
 use super::wild::{self, Hole, MARK, Wild};
 use crate::number;
 use crate::program::{Field, FieldKind, Group};
@@ -77,9 +77,11 @@ impl Pattern {
             holes.push(hole);
         }
         let subject = Subject::of(&marked);
-        if subject.class == Class::Other || !subject.is_whole(&marked) {
+        let first = subject.bytes(&subject.word).split(|&byte| byte == b',').next().unwrap_or_default();
+        let is_bare = number::parse(first.trim_ascii()).is_some();
+        if subject.class == Class::Other || is_bare || !subject.is_whole(&marked) {
             let help = "A pattern is one statement as it stands in the file, with $NAME for arguments.";
-            return Err(format!("`{text}` is no CL statement that a rule can match\n{help}"));
+            return Err(format!("{} is no CL statement that a rule can match\n{help}", quoted(text)));
         }
         if subject.remark.is_some() && subject.class != Class::Comment {
             let help = "Leave the comment out; statements match with and without one.";
@@ -165,7 +167,9 @@ fn names(holes: &[Hole]) -> Result<Vec<Name>, String> {
         let Some(text) = hole.name.as_deref().filter(|name| *name != "_") else { continue };
         match names.iter().find(|name| name.text == text) {
             Some(known) if known.rest != hole.rest => {
-                return Err(format!("`${text}` and `$...{text}` cannot both be bound"));
+                return Err(format!(
+                    "`${text}` and `$...{text}` cannot both be bound\nGive one of them another name."
+                ));
             }
             Some(_) => {}
             None => names.push(Name { text: text.to_owned(), rest: hole.rest }),

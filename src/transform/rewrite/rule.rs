@@ -93,8 +93,8 @@ impl Draft {
     }
 
     fn check_pattern(&self, pattern: &Pattern) -> Result<(), String> {
-        let templates = self.replace.iter().chain(&self.before).chain(&self.after);
-        templates.map(|template| template.check_names(pattern.names())).collect::<Result<(), _>>()?;
+        let mut templates = self.replace.iter().chain(&self.before).chain(&self.after);
+        templates.try_for_each(|template| template.check_names(pattern.names()))?;
         self.condition.iter().try_for_each(|condition| condition.0.check_names(pattern.names()))
     }
 

@@ -4,6 +4,9 @@ use crate::parse;
 use crate::program::{Field, FieldKind, Form};
 use std::ops::Range;
 
+/// Length of the word of a plain GOTO line, which starts with it.
+const GOTO: usize = 4;
+
 /// What kinds of statement a rule tells apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Class {
@@ -30,12 +33,19 @@ pub(super) struct Subject<'t> {
     pub fields: Vec<Field>,
     /// Place of a trailing comment.
     pub remark: Option<Range<usize>>,
+    open: bool,
 }
 
 impl<'t> Subject<'t> {
     /// Takes a statement's text apart. Text behind the first statement is not looked at; see [`Subject::is_whole`].
     pub fn of(text: &'t [u8]) -> Self {
+        if let Some(numbers) = parse::plain_goto(text) {
+            let number = |(at, value)| Field { at, kind: FieldKind::Number(value) };
+            let fields = numbers.into_iter().map(number).collect();
+            return Self { text, class: Class::Words, word: 0..GOTO, fields, remark: None, open: false };
+        }
         let syntax = parse::syntax(text);
+        let open = syntax.open;
         let class = match syntax.form {
             Form::Words | Form::FreeText | Form::OperationStart => Class::Words,
             Form::Structured => Class::Structured,
@@ -48,6 +58,7 @@ impl<'t> Subject<'t> {
             word: syntax.word,
             fields: syntax.fields,
             remark: syntax.remark,
+            open,
         };
         match syntax.form {
             Form::OperationStart => subject.show_tool_word(),
@@ -64,7 +75,7 @@ impl<'t> Subject<'t> {
 
     /// Whether a text is this one statement and nothing more.
     pub fn is_whole(&self, text: &[u8]) -> bool {
-        self.text.len() == text.len() && !parse::syntax(text).open
+        self.text.len() == text.len() && !self.open
     }
 
     /// The bytes at a place.

@@ -4,7 +4,7 @@ use super::bindings::{Bindings, Name, unbound};
 use super::charset::Charset;
 use super::expression::{Expression, Kind, Trouble, Value};
 use super::subject::{Class, Subject};
-use super::text::{Piece, pieces};
+use super::text::{Piece, pieces, quoted};
 use crate::parse;
 use crate::program::{Record, Role};
 use crate::write::Style;
@@ -45,11 +45,16 @@ impl Template {
                 Piece::Plain(plain) => tried.push_str(plain),
                 Piece::Bound(_) | Piece::Rest(Some(_)) => tried.push('\u{7F}'),
                 Piece::Rest(None) => {
-                    return Err("`$...` needs the name of what is to be written: `$...REST`".to_owned());
+                    return Err(
+                        "`$...` does not say what is to be written\nName it here and in `match`: $...REST."
+                            .to_owned(),
+                    );
                 }
                 Piece::Computed(expression) => {
                     if expression.kind()? == Kind::Truth {
-                        return Err("`${...}` writes a number, not a comparison".to_owned());
+                        return Err(
+                            "`${...}` writes a number or a word\nA condition stands in `if`.".to_owned()
+                        );
                     }
                     tried.push('1');
                 }
@@ -68,7 +73,10 @@ impl Template {
             _ => None,
         };
         match problem {
-            Some(problem) => Err(format!("`{}` is no CL statement: {problem}", text.trim_end())),
+            Some(problem) => Err(format!(
+                "{} is no CL statement: {problem}\nWrite a statement as it stands in the file.",
+                quoted(text)
+            )),
             None => Ok(Self { pieces, is_ascii: text.is_ascii() }),
         }
     }
@@ -87,7 +95,7 @@ impl Template {
             Piece::Bound(name) | Piece::Rest(Some(name))
                 if !names.iter().any(|known| known.text == *name) =>
             {
-                Err(unbound(name, names))
+                Err(unbound(name, names, ""))
             }
             // `${REST}` names; only what calculates needs one argument.
             Piece::Computed(Expression::Name(name)) if names.iter().any(|known| known.text == *name) => {

@@ -35,12 +35,12 @@ pub(super) fn pieces(text: &str) -> Result<Vec<Piece>, String> {
     let text = text.trim_end_matches(['\r', '\n']);
     bounded(text)?;
     if text.trim().is_empty() {
-        return Err("an empty text is no statement".to_owned());
+        return Err("an empty text is no statement\nWrite a statement as it stands in the file.".to_owned());
     }
     if text.chars().any(|c| c.is_control() && !matches!(c, '\t' | '\r' | '\n')) {
-        return Err("the text holds a control character".to_owned());
+        return Err("the text holds a control character\nCL statements are plain text; remove it.".to_owned());
     }
-    let mut parsed = Grammar::parse(Rule::text, text).map_err(|error| unread(text, &error))?;
+    let mut parsed = Grammar::parse(Rule::text, text).map_err(|error| unread(text, &error, TEXT_HELP))?;
     let inner = parsed.next().map(Pair::into_inner).into_iter().flatten();
     inner.filter(|pair| pair.as_rule() != Rule::EOI).map(piece).collect()
 }
@@ -51,14 +51,16 @@ pub(super) fn pieces(text: &str) -> Result<Vec<Piece>, String> {
 /// A message, with help after a line break.
 pub(super) fn condition(text: &str) -> Result<Expression, String> {
     bounded(text)?;
-    let parsed = Grammar::parse(Rule::condition, text).map_err(|error| unread(text, &error))?;
+    let parsed =
+        Grammar::parse(Rule::condition, text).map_err(|error| unread(text, &error, CONDITION_HELP))?;
     let inner = parsed.flat_map(Pair::into_inner).find(|pair| pair.as_rule() == Rule::expression);
     expression(inner.map(Pair::into_inner).ok_or("there is no expression")?)
 }
 
 fn bounded(text: &str) -> Result<(), String> {
     if text.len() > MOST_BYTES {
-        return Err(format!("the text has {} bytes; {MOST_BYTES} are the most", text.len()));
+        let help = "Statements are a few lines at most; give several as a list.";
+        return Err(format!("the text has {} bytes; {MOST_BYTES} are the most\n{help}", text.len()));
     }
     let mut open = 0_usize;
     for c in text.chars() {
@@ -68,13 +70,27 @@ fn bounded(text: &str) -> Result<(), String> {
             _ => {}
         }
         if open > MOST_NESTED {
-            return Err(format!("more than {MOST_NESTED} parentheses are open at once"));
+            return Err(format!("more than {MOST_NESTED} parentheses are open at once\nIs one not closed?"));
         }
     }
     Ok(())
 }
 
-fn unread(text: &str, error: &pest::error::Error<Rule>) -> String {
+const TEXT_HELP: &str =
+    "`$NAME` is a bound argument, `$...NAME` the remaining ones, `${F * 0.8}` a computed number.";
+const CONDITION_HELP: &str =
+    "Compare by < <= > >= == !=, join by and, or, not, calculate by + - * /; words stand in 'quotes'.";
+
+/// A text on one line, between backticks, shortened.
+pub(super) fn quoted(text: &str) -> String {
+    const MOST: usize = 60;
+    let line: String =
+        text.trim_end().chars().take(MOST).map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let more = if text.trim_end().chars().nth(MOST).is_some() { "…" } else { "" };
+    format!("`{line}{more}`")
+}
+
+fn unread(text: &str, error: &pest::error::Error<Rule>, usual: &str) -> String {
     let at = match error.location {
         pest::error::InputLocation::Pos(at) | pest::error::InputLocation::Span((at, _)) => at,
     };
@@ -83,14 +99,12 @@ fn unread(text: &str, error: &pest::error::Error<Rule>) -> String {
         "Two values are compared by `==`."
     } else if rest.starts_with('"') {
         "A word stands between single quotes: 'MMPM'."
-    } else if text.starts_with('$') || text.contains("${") {
-        "`$NAME` is a bound argument, `$...NAME` the remaining ones, `${F * 0.8}` a computed number."
     } else {
-        "Compare by < <= > >= == !=, join by and, or, not; calculate by + - * /; words stand in 'quotes'."
+        usual
     };
     match rest {
-        "" => format!("`{text}` ends too early\n{help}"),
-        rest => format!("`{text}` cannot be read from `{rest}` on\n{help}"),
+        "" => format!("{} ends too early\n{help}", quoted(text)),
+        rest => format!("{} cannot be read from {} on\n{help}", quoted(text), quoted(rest)),
     }
 }
 

@@ -148,7 +148,7 @@ impl Wild {
 }
 
 pub(super) fn not_last() -> String {
-    "`$...` takes all that is left, so it comes last".to_owned()
+    "`$...` takes all that is left, so it comes last\n`$NAME` stands for one argument.".to_owned()
 }
 
 /// The hole of a marked number.

@@ -79,7 +79,7 @@ impl<'w> Work<'w> {
         let new = rule.replace.as_ref().map(|template| filled(template, "replace")).transpose()?;
         if let Some(new) = new {
             let text = reshaped(program, statement, &new, style, look);
-            editor.set_text(hit.statement, &text).map_err(|error| self.at_rule(error, hit, &["replace"]))?;
+            editor.set_text(hit.statement, &text).map_err(|error| self.at_rule(*error, hit, &["replace"]))?;
         }
         if rule.delete {
             editor.delete(hit.statement);
@@ -91,21 +91,34 @@ impl<'w> Work<'w> {
     fn insert(&self, insertion: Insertion, editor: &mut Editor) -> Result<(), Box<Diagnostic>> {
         let Insertion { hit, before, after } = insertion;
         if !stands(&before, editor.program(), hit.statement, true) {
-            for (number, text) in before.iter().enumerate() {
-                editor
-                    .insert_before(hit.statement, text)
-                    .map_err(|error| self.at_rule(error, hit, &["insert_before", &number.to_string()]))?;
-            }
+            self.put(&before, hit.statement, hit, "insert_before", editor)?;
         }
         let inserts = !stands(&after, editor.program(), hit.statement, false);
         if inserts {
-            for (number, text) in after.iter().enumerate() {
-                editor
-                    .insert_after(hit.statement, text)
-                    .map_err(|error| self.at_rule(error, hit, &["insert_after", &number.to_string()]))?;
-            }
+            self.put(&after, hit.statement + 1, hit, "insert_after", editor)?;
         }
         self.check_points(hit, editor.program(), inserts)
+    }
+
+    fn put(
+        &self,
+        texts: &[Vec<u8>],
+        before: usize,
+        hit: Hit,
+        key: &str,
+        editor: &mut Editor,
+    ) -> Result<(), Box<Diagnostic>> {
+        for (number, text) in texts.iter().enumerate() {
+            if let Err(mut error) = editor.insert_before(before, text) {
+                // The editor knows what it was to insert before, not for which statement.
+                error.labels.clear();
+                let program = editor.program();
+                let span = program.statement(hit.statement).map(Statement::origin).unwrap_or_default();
+                let error = error.label(program.source(), span, "beside this statement");
+                return Err(self.at_rule(error, hit, &[key, &number.to_string()]));
+            }
+        }
+        Ok(())
     }
 
     /// Lines of bare numbers go on with the GOTO before them and mean nothing without it.
@@ -124,10 +137,10 @@ impl<'w> Work<'w> {
         }
         let message = "the rule would part a GOTO from the lines of numbers that go on with it";
         let error = self.context.fail_at(message, program, index, "these numbers would stand alone");
-        Err(self.at_rule(error, hit, &[]))
+        Err(self.at_rule(*error, hit, &[]))
     }
 
-    fn at_rule(&self, error: Box<Diagnostic>, hit: Hit, keys: &[&str]) -> Box<Diagnostic> {
+    fn at_rule(&self, error: Diagnostic, hit: Hit, keys: &[&str]) -> Box<Diagnostic> {
         at_rule(error, hit, keys, "by this rule", self.context)
     }
 }
@@ -162,7 +175,7 @@ fn neighbours(program: &Program, statement: usize, before: bool, count: usize) -
 }
 
 fn at_rule(
-    error: Box<Diagnostic>,
+    error: Diagnostic,
     hit: Hit,
     keys: &[&str],
     label: &str,
@@ -190,5 +203,5 @@ pub(super) fn stuck(
     }
     let message = format!("rule {} of this `rewrite` cannot be applied: {}", hit.rule + 1, trouble.message);
     let error = Diagnostic::new(codes::STEP_FAILED, message).label(program.source(), span, "on this");
-    at_rule(Box::new(error), hit, &[key], "asked for here", context)
+    at_rule(error, hit, &[key], "asked for here", context)
 }

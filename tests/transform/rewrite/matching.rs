@@ -22,9 +22,13 @@ fn spelling_does_not_matter() {
 
 #[test]
 fn words_numbers_and_their_count_do() {
-    for statement in
-        ["FEDRAT/MMPM", "FEDRAT/MMPM,1000.5", "FEDRAT/IPM,1000", "FEDRAT/1000,MMPM", "SPINDL/MMPM,1000"]
-    {
+    for statement in [
+        "FEDRAT/MMPM,1000,X",
+        "FEDRAT/MMPM,1000.5",
+        "FEDRAT/IPM,1000",
+        "FEDRAT/1000,MMPM",
+        "SPINDL/MMPM,1000",
+    ] {
         assert!(!fits("FEDRAT/MMPM,1000", statement), "{statement}");
     }
     assert!(!fits("COOLNT/ON", "COOLNT/ON,FLOOD"));

@@ -79,7 +79,7 @@ fn untouched(program: &Program) -> Vec<(usize, Vec<u8>)> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(3000))]
+    #![proptest_config(ProptestConfig::with_cases(800))]
 
     #[test]
     fn any_rule_leaves_the_rest_alone(

@@ -22,10 +22,10 @@ fn only_the_argument_that_differs_changes() {
 
 #[test]
 fn bound_arguments_are_written_byte_for_byte() {
-    let text = "LOAD/TOOL,05.50,ADJUST,+2\n";
-    assert_eq!(by("match: 'LOAD/TOOL,$N,ADJUST,$A', replace: 'LOADTL/$N,$A'", text), "LOADTL/05.50,+2\n");
+    let text = "SELECT/TOOL,05.50,ADJUST,+2\n";
+    assert_eq!(by("match: 'SELECT/TOOL,$N,ADJUST,$A', replace: 'DELAY/$N,$A'", text), "DELAY/05.50,+2\n");
     assert_eq!(
-        by("match: 'LOAD/TOOL,$N,$...R', replace: 'PPRINT T${N}x ($...R) ${R}'", text),
+        by("match: 'SELECT/TOOL,$N,$...R', replace: 'PPRINT T${N}x ($...R) ${R}'", text),
         "PPRINT T05.50x (ADJUST,+2) ADJUST,+2\n"
     );
 }
