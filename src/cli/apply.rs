@@ -103,7 +103,7 @@ impl Apply {
         if self.inputs.iter().filter(|path| standard(path)).count() > 1 {
             return Some("standard input can be read only once".into());
         }
-        if self.diff && self.output.as_ref().is_some_and(|path| standard(path)) {
+        if self.diff && self.output.as_ref().is_some_and(standard) {
             return Some("--diff and -o - both write to standard output".into());
         }
         let several = self.inputs.len() > 1;

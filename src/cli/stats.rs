@@ -61,7 +61,7 @@ impl Stats {
                 return Ok(Exit::Usage);
             }
         };
-        let setup = match self.setup.as_deref().map(|path| files::setup(path)).transpose() {
+        let setup = match self.setup.as_deref().map(files::setup).transpose() {
             Ok(setup) => setup.unwrap_or_else(Setup::default),
             Err(found) => {
                 self.show(&found, None)?;
