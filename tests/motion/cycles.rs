@@ -50,7 +50,7 @@ fn nx_changes_the_cycle_in_force_and_keeps_the_rest_of_it() {
 
 #[test]
 fn solidworks_feeds_to_a_depth() {
-    let text = "GOTO/44.,32.5,25.\nCYCLE/INIT\nCYCLE/DRILL,FEDTO,5.4,MMPM,125.37,RAPTO,3.,RTRCTO,27.5,DWELL,0\nGOTO/44.,32.5,-2.5\nGOTO/74.,17.5,-2.5\nCYCLE/OFF\n";
+    let text = "GOTO/42.,31.5,25.\nCYCLE/INIT\nCYCLE/DRILL,FEDTO,5.4,MMPM,125.37,RAPTO,3.,RTRCTO,27.5,DWELL,0\nGOTO/42.,31.5,-2.5\nGOTO/74.,17.5,-2.5\nCYCLE/OFF\n";
     assert_holes(Dialect::SolidWorks, text, &[("R0.5 F-7.9 R25", 125.37), ("R25 R0.5 F-7.9 R25", 125.37)]);
 }
 
@@ -71,19 +71,19 @@ fn catia_puts_depth_and_clearance_by_position() {
 
 #[test]
 fn icam_says_depth_clear_and_return() {
-    let text = "GOTO/0,0,2\nCYCLE/DRILL,DEPTH,    4.600000,MMPR,    0.080000,CLEAR,    2.000000,$\nRETURN,    5.000000\nGOTO/0,0,0\nCYCLE/OFF\n";
-    assert_holes(Dialect::CatiaIcam, text, &[("F-4.6 R5", 0.08)]);
+    let text = "GOTO/0,0,2\nCYCLE/DRILL,DEPTH,    5.200000,MMPR,    0.080000,CLEAR,    2.000000,$\nRETURN,    5.000000\nGOTO/0,0,0\nCYCLE/OFF\n";
+    assert_holes(Dialect::CatiaIcam, text, &[("F-5.2 R5", 0.08)]);
     let found = clean_motions(&program_of(Dialect::CatiaIcam, text));
     assert_eq!(found[1].feed.unwrap().unit, Some(FeedUnit::MmPerRevolution));
 }
 
 #[test]
 fn clt_leaves_commas_out() {
-    let text = "GOTO/ 0,0,25 \nCYCLE/ ON \nCYCLE/ DRILL,G98,12.373300,PECKING,5.000000,2.000000,MMPM,187.165839,3.000000,46.927686 46.927686 DWELL,0.000000 \nGOTO/ 0,0,-21.927686 \nCYCLE/ OFF \nCYCLE/ ON \nCYCLE/ CDRILL G98,2.000000,MMPM,150.000000,3.000000,46.927686 46.927686 DWELL,0.000000 \nGOTO/ 0,0,-21.927686 \nCYCLE/ OFF \n";
+    let text = "GOTO/ 0,0,25 \nCYCLE/ ON \nCYCLE/ DRILL,G98,11.846500,PECKING,5.000000,2.000000,MMPM,203.471650,3.000000,43.518204 43.518204 DWELL,0.000000 \nGOTO/ 0,0,-18.518204 \nCYCLE/ OFF \nCYCLE/ ON \nCYCLE/ CDRILL G98,2.000000,MMPM,150.000000,3.000000,43.518204 43.518204 DWELL,0.000000 \nGOTO/ 0,0,-18.518204 \nCYCLE/ OFF \n";
     assert_holes(
         Dialect::CamWorks,
         text,
-        &[("R-18.9277 F-34.301 R25", 187.165839), ("R-18.9277 F-23.9277 R25", 150.0)],
+        &[("R-15.5182 F-30.3647 R25", 203.47165), ("R-15.5182 F-20.5182 R25", 150.0)],
     );
 }
 

@@ -26,12 +26,12 @@ fn nx_describes_the_tool_and_then_loads_it() {
 #[test]
 fn an_nx_drill_has_a_point_angle_and_flutes() {
     let text =
-        "TOOL PATH/A,TOOL,D63\nTLDATA/DRILL,MILL,63.0000,0.0000,239.0000,178.0000,35.0000\nGOTO/0,0,0\n";
+        "TOOL PATH/A,TOOL,D40\nTLDATA/DRILL,MILL,40.0000,0.0000,210.0000,150.0000,30.0000\nGOTO/0,0,0\n";
     let found = clean_motions(&program(text));
     let tool = found[0].tool.as_deref().unwrap();
     let data = tool.data.as_ref().unwrap();
-    assert_eq!((data.word, data.diameter, data.length), (ToolWord::TlDataDrill, Some(63.0), Some(239.0)));
-    assert_eq!((data.tip_degrees, data.flute_length, tool.loaded), (Some(178.0), Some(35.0), false));
+    assert_eq!((data.word, data.diameter, data.length), (ToolWord::TlDataDrill, Some(40.0), Some(210.0)));
+    assert_eq!((data.tip_degrees, data.flute_length, tool.loaded), (Some(150.0), Some(30.0), false));
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn creo_keeps_a_tool_over_features_that_do_not_load_it() {
 
 #[test]
 fn solidworks_describes_then_loads_and_selects_the_next() {
-    let text = "TRNTYP/WORLD,0,0,0\nCUTTER/16.,0,8.,8.,45.,0,73.\nLOAD/TOOL,15\nSELECT/TOOL,16\nGOTO/0,0,0\nCUTTER/12.,0,6.,3.605164,31.,0,149.\nLOAD/TOOL,16\nGOTO/1,0,0\n";
+    let text = "TRNTYP/WORLD,0,0,0\nCUTTER/16.,0,8.,8.,45.,0,71.\nLOAD/TOOL,15\nSELECT/TOOL,16\nGOTO/0,0,0\nCUTTER/12.,0,6.,3.605164,31.,0,141.\nLOAD/TOOL,16\nGOTO/1,0,0\n";
     let found = clean_motions(&program(text));
     assert_eq!(numbers(&found), [Some(15), Some(16)]);
     let diameters: Vec<_> =
@@ -91,9 +91,9 @@ fn select_alone_loads_nothing() {
 
 #[test]
 fn a_clt_cutter_ends_in_a_comma() {
-    let text = "CUTTER/ 6.000000,0.000000,3.000000,1.802582,31.000000,0.000000,102.000000,\nGOTO/ 0,0,0 \n";
+    let text = "CUTTER/ 6.000000,0.000000,3.000000,1.802582,31.000000,0.000000,118.000000,\nGOTO/ 0,0,0 \n";
     let found = clean_motions(&program_of(Dialect::CamWorks, text));
-    assert_eq!(found[0].tool.as_ref().unwrap().data.as_ref().unwrap().length, Some(102.0));
+    assert_eq!(found[0].tool.as_ref().unwrap().data.as_ref().unwrap().length, Some(118.0));
 }
 
 #[test]

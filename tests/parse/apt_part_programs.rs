@@ -52,7 +52,7 @@ fn errors_before_the_definition_do_not_add_to_it() {
 #[test]
 fn an_equals_sign_in_text_defines_nothing() {
     let program = program(
-        "PPRINT X=5\nREMARK MACHID=MACHIN / UNCX01, 1\nINSERT/[HOLDER=C40]\nMACHIN/OPT=3\n$$ a = b\nTOOL PATH/A=B,TOOL,C=D\n",
+        "PPRINT X=5\nREMARK MACHID=MACHIN / UNCX05, 1\nINSERT/[HOLDER=C40]\nMACHIN/OPT=3\n$$ a = b\nTOOL PATH/A=B,TOOL,C=D\n",
     );
     assert!(!program.statements().iter().any(|statement| statement.record() == &Record::Definition));
 }

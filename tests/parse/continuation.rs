@@ -15,9 +15,9 @@ fn only(text: &str) -> Record {
 
 #[test]
 fn creo_breaks_every_five_axis_goto_in_two_lines() {
-    let record = only("GOTO / 351.7389525618, 98.4998561102, 144.0966038928,  $\n0.6, -0.0000009626, 0.8\n");
-    let point = Point3::new(351.7389525618, 98.4998561102, 144.0966038928);
-    assert_eq!(record, Record::Goto(Goto { point, axis: Some(Vector3::new(0.6, -0.0000009626, 0.8)) }));
+    let record = only("GOTO / 288.1640937215, 71.2503418896, 133.5817460029,  $\n0.6, -0.0000004711, 0.8\n");
+    let point = Point3::new(288.1640937215, 71.2503418896, 133.5817460029);
+    assert_eq!(record, Record::Goto(Goto { point, axis: Some(Vector3::new(0.6, -0.0000004711, 0.8)) }));
 }
 
 #[test]

@@ -72,21 +72,21 @@ fn words_may_hold_blanks_dashes_and_underscores() {
 
 #[test]
 fn a_missing_comma_leaves_the_fields_apart() {
-    // CAMWorks: one field `46.927686 46.927686 DWELL` would lose two lengths.
+    // CAMWorks: one field `43.518204 43.518204 DWELL` would lose two lengths.
     assert_fields(
-        "CYCLE/ DRILL,G98,12.373300,MMPM,187.165839,3.000000,46.927686 46.927686 DWELL,0.000000 ",
+        "CYCLE/ DRILL,G98,11.846500,MMPM,203.471650,3.000000,43.518204 43.518204 DWELL,0.000000 ",
         "CYCLE",
-        &["DRILL", "G98", "#12.3733", "MMPM", "#187.165839", "#3", "#46.927686", "#46.927686", "DWELL", "#0"],
+        &["DRILL", "G98", "#11.8465", "MMPM", "#203.47165", "#3", "#43.518204", "#43.518204", "DWELL", "#0"],
     );
     assert_fields("CYCLE/ CDRILL G98,2.0", "CYCLE", &["CDRILL G98", "#2"]);
 }
 
 #[test]
 fn catia_nests_records_in_a_drive_record() {
-    let tlon = "TLON,GOFWD/      (CIRCLE/      0.00000,      0.00000,     -0.20000,$\n      47.53674),ON,2,INTOF,$\n                   (LINE/      0.00000,      0.00000,     -0.20000,$\n                             -46.11019,    -11.55819,     -0.20000)\n";
+    let tlon = "TLON,GOFWD/      (CIRCLE/      0.00000,      0.00000,     -0.20000,$\n      43.20718),ON,2,INTOF,$\n                   (LINE/      0.00000,      0.00000,     -0.20000,$\n                             -41.91057,    -10.50548,     -0.20000)\n";
     assert_fields(tlon, "TLON,GOFWD", &["(CIRCLE)", "ON", "#2", "INTOF", "(LINE)"]);
     let numbers: Vec<f64> = syntax(tlon.as_bytes()).numbers().into_iter().map(|(_, value)| value).collect();
-    assert_eq!(numbers, [0.0, 0.0, -0.2, 47.53674, 2.0, 0.0, 0.0, -0.2, -46.11019, -11.55819, -0.2]);
+    assert_eq!(numbers, [0.0, 0.0, -0.2, 43.20718, 2.0, 0.0, 0.0, -0.2, -41.91057, -10.50548, -0.2]);
 }
 
 #[test]

@@ -19,7 +19,7 @@ fn a_frame_goes_on_over_three_comment_lines() {
 
 #[test]
 fn the_tool_and_the_features_stand_nowhere_else() {
-    let text = "$$-> MFGNO / MFG0001\n$$-> FEATNO / 1014\n$$-> CUTTER / 0.500000\n$$-> CUTCOM_GEOMETRY_TYPE / OUTPUT_ON_CENTER\n$$-> END / \n$$-> FEATNO / 1111\n$$-> END / \n";
+    let text = "$$-> MFGNO / MFG0031\n$$-> FEATNO / 2021\n$$-> CUTTER / 0.500000\n$$-> CUTCOM_GEOMETRY_TYPE / OUTPUT_ON_CENTER\n$$-> END / \n$$-> FEATNO / 2044\n$$-> END / \n";
     let program = program(text);
     let records: Vec<_> = program.statements().iter().map(Statement::record).collect();
     assert_eq!(records[0], &Record::Known);
@@ -28,16 +28,16 @@ fn the_tool_and_the_features_stand_nowhere_else() {
     );
     assert_eq!((records[3], records[4]), (&Record::Known, &Record::OperationEnd));
     let names: Vec<_> = operations(&program).into_iter().map(|found| found.name).collect();
-    assert_eq!(names, ["1014", "1111"]);
+    assert_eq!(names, ["2021", "2044"]);
 }
 
 #[test]
 fn gpost_writes_the_same_records_as_remarks() {
     let program = program(
-        "REMARK -> FEATNO / 1014\nREMARK -> CUTTER / 6.000000\nREMARK -> END /\nREMARK -> hand text\n",
+        "REMARK -> FEATNO / 2021\nREMARK -> CUTTER / 6.000000\nREMARK -> END /\nREMARK -> hand text\n",
     );
     let records: Vec<_> = program.statements().iter().map(Statement::record).collect();
-    assert_eq!(name(&program, &program.statements()[0]).unwrap(), "1014");
+    assert_eq!(name(&program, &program.statements()[0]).unwrap(), "2021");
     assert!(matches!(records[1], Record::ToolData(data) if data.diameter == Some(6.0)));
     assert_eq!((records[2], records[3]), (&Record::OperationEnd, &Record::Comment));
 }

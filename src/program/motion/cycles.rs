@@ -30,8 +30,8 @@ pub(super) fn legs(cycle: &Cycle, nx: bool, at: Option<Pose>, hole: Pose) -> Vec
         let path = if position.is_some() { Path::Line } else { Path::Start };
         if position.is_none() || (to.point - from.point).norm() > SAME_POINT {
             legs.push(Leg { from, to, path, rapid });
+            position = Some(to);
         }
-        position = Some(to);
     };
     // The approach crosses at the height the tool is at, when that is above the clearance.
     let height = at.map_or(clearance_height, |pose| (pose.point - hole.point).dot(&hole.axis));

@@ -116,7 +116,7 @@ TURRET/1,OSETNO,1,SETOOL,    1.500000,    0.000000,    0.000000
 WIDGET/1.5
 PPRINT/ESCAPE-HEIGHT,50.0000000
 PPRINT/PART-LEAST,0.0000001
-INSERT/Stock Size X45. Y30. Z37.75
+INSERT/Stock Size X55. Y35. Z32.25
 DELAY/   50.000000
 ";
     let (after, findings) = apply("  - convert_units: { to: inch }", text);

@@ -16,7 +16,7 @@ fn stale_records_are_reported_once_for_each_kind() {
     let (_, findings) = moved("{ translate: [1, 0, 0] }", NX, &Place::identity().translated([1.0, 0.0, 0.0]));
     assert!(findings.is_empty(), "{:?}", shown(&findings));
     let text = CAMWORKS
-        .replace("TLAXIS", "BOX/ 0.000000,76.401492,0.000000,115.000000,20.000000,115.000000 \nTLAXIS");
+        .replace("TLAXIS", "BOX/ 0.000000,81.250000,0.000000,115.000000,20.000000,115.000000 \nTLAXIS");
     let (_, findings) =
         moved("{ translate: [1, 0, 0] }", &text, &Place::identity().translated([1.0, 0.0, 0.0]));
     assert_eq!(findings.len(), 2, "{:?}", shown(&findings));

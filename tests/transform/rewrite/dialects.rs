@@ -6,7 +6,7 @@ use crate::transform::apply;
 const CATIA: &str = "$$     CATIA APT VERSION 1.0\n$$*CATIA0\nMULTAX\nINTOL /    0.01000\nFEDRAT/ 1200.0000,MMPM\n\
     GOTO  /   10.00000,   20.00000,  -30.00000\n";
 const CREO: &str = "$$*          Pro/CLfile  Version 9.0 - 9.0.3.0\n$$-> CUTTER / 6.000000\nUNITS / INCHES\n\
-    FEDRAT / 10.000000,  IPM\nGOTO / 1.7389525618, 98.4998561102, 144.0966038928,  $\n0.9997838891, -0.0000009626, 0.0207888211\n";
+    FEDRAT / 10.000000,  IPM\nGOTO / 1.7389525618, 71.2503418896, 133.5817460029,  $\n0.9992386202, -0.0000004711, 0.0390151234\n";
 
 #[test]
 fn catia_keeps_columns_and_padding() {
@@ -31,7 +31,7 @@ fn creo_is_spaced_and_continued() {
     let shift = "match: 'GOTO/$X,$Y,$Z,$...A', replace: 'GOTO/${X + 1},$Y,$Z,$...A'";
     assert_eq!(by(shift, CREO), CREO.replace("GOTO / 1.7389525618", "GOTO / 2.7389525618"));
     let drop = "match: 'GOTO/$X,$Y,$Z,$...A', replace: 'GOTO/$X,$Y,$Z'";
-    assert!(by(drop, CREO).ends_with("GOTO / 1.7389525618, 98.4998561102, 144.0966038928\n"));
+    assert!(by(drop, CREO).ends_with("GOTO / 1.7389525618, 71.2503418896, 133.5817460029\n"));
     assert_eq!(
         by("match: '$$-> CUTTER/$D', replace: '$$-> CUTTER/${D * 2}'", CREO),
         CREO.replace("/ 6.000000", "/ 12.000000")

@@ -109,8 +109,8 @@ fn text_has_wildcards() {
         "PPRINT face: it;OP 1\n"
     );
     assert_eq!(
-        by("match: 'TPRINT/$A,$...', replace: 'PPRINT [$A]'", "TPRINT/SDJCL 1210 D07,B\n"),
-        "PPRINT [SDJCL 1210 D07]\n"
+        by("match: 'TPRINT/$A,$...', replace: 'PPRINT [$A]'", "TPRINT/SVJBL 2020 K16,B\n"),
+        "PPRINT [SVJBL 2020 K16]\n"
     );
 }
 
