@@ -61,31 +61,28 @@ impl FeedPlan {
         findings: &mut Vec<Diagnostic>,
     ) -> Result<(), Box<Diagnostic>> {
         self.one_feed_a_statement(editor.program(), findings);
-        let mut in_force: Vec<(u32, f64)> = Vec::new();
-        let mut templates: Vec<(u32, Option<Template>)> = Vec::new();
+        // A FEDRAT comes back after any number of cycles with feeds of their own, and a cycle after FEDRATs; of each kind only
+        // the newest can.
+        let (mut fedrat, mut cycle): (Option<InForce>, Option<InForce>) = (None, None);
         for wish in &self.wishes {
-            match in_force.iter_mut().find(|(governor, _)| *governor == wish.governor) {
-                None => {
-                    // Only the newest governors can come back (a FEDRAT around cycles); older ones are over.
-                    if in_force.len() > 8 {
-                        in_force.remove(0);
-                        templates.remove(0);
+            let governor = wish.governor as usize;
+            let slot = if is_cycle(editor.program(), governor) { &mut cycle } else { &mut fedrat };
+            match slot {
+                Some(in_force) if in_force.governor == wish.governor => {
+                    if in_force.feed == wish.feed {
+                        continue;
                     }
-                    templates.push((wish.governor, Template::of(editor, wish.governor as usize)));
-                    set_feed(editor, wish.governor as usize, wish.feed)?;
-                    in_force.push((wish.governor, wish.feed));
+                    let Some(template) = &in_force.template else {
+                        findings.push(cycle_keeps_feed(editor.program(), governor));
+                        continue;
+                    };
+                    editor.insert_before(wish.first as usize, &template.with(wish.feed, editor))?;
+                    in_force.feed = wish.feed;
                 }
-                Some((_, feed)) if *feed == wish.feed => {}
-                Some((governor, feed)) => {
-                    let template =
-                        templates.iter().find(|(of, _)| of == governor).and_then(|(_, text)| text.as_ref());
-                    match template {
-                        Some(template) => {
-                            editor.insert_before(wish.first as usize, &template.with(wish.feed, editor))?;
-                            *feed = wish.feed;
-                        }
-                        None => findings.push(cycle_keeps_feed(editor.program(), wish.governor as usize)),
-                    }
+                _ => {
+                    let template = Template::of(editor, governor);
+                    set_feed(editor, governor, wish.feed)?;
+                    *slot = Some(InForce { governor: wish.governor, feed: wish.feed, template });
                 }
             }
         }
@@ -107,6 +104,18 @@ impl FeedPlan {
             start += count;
         }
     }
+}
+
+/// A FEDRAT or CYCLE that was given its feed, and the feed that was written last in its place.
+struct InForce {
+    governor: u32,
+    feed: f64,
+    /// `None` for a CYCLE, of which no second one can be put between holes.
+    template: Option<Template>,
+}
+
+fn is_cycle(program: &Program, statement: usize) -> bool {
+    program.statement(statement).is_some_and(|found| matches!(found.record(), Record::Cycle(_)))
 }
 
 /// Gives a FEDRAT or CYCLE another feed.

@@ -2,6 +2,8 @@
 
 use super::apply;
 
+const SCALE_FIRST: &str = "  - scale_feed: { factor: 0.5, where: { operations: [A] } }\n";
+
 #[test]
 fn a_cycle_that_only_changes_the_depth_leaves_its_feed_where_it_stands() {
     let text = "TOOL PATH/A,TOOL,T\nCYCLE/DRILL,RAPTO,3.0000,FEDTO,-10.0000,MMPM,9000.0000\nCYCLE/ON,FEDTO,-20.0000\n\
@@ -9,4 +11,19 @@ fn a_cycle_that_only_changes_the_depth_leaves_its_feed_where_it_stands() {
     let (after, found) = apply("  - clamp_feed: { max: 1000 }\n", text);
     assert!(found.is_empty(), "{found:?}");
     assert_eq!(after, text.replace("MMPM,9000.0000", "MMPM,1000.0000"));
+}
+
+#[test]
+fn a_feed_that_comes_back_after_many_cycles_is_not_set_anew() {
+    let mut text = "TOOL PATH/A,TOOL,T\nFEDRAT/MMPM,1000.0000\nGOTO/0.0000,0.0000,0.0000\n".to_owned();
+    for hole in 0..12 {
+        text += &format!("CYCLE/DRILL,RAPTO,3.0000,FEDTO,-5.0000,MMPM,200.0000\nGOTO/{hole}.0000,0.0000,0.0000\nCYCLE/OFF\n");
+    }
+    text += "END-OF-PATH\nTOOL PATH/B,TOOL,T\nGOTO/0.0000,9.0000,0.0000\nEND-OF-PATH\n";
+    let (after, _) = apply(SCALE_FIRST, &text);
+    let wanted = text
+        .replace("MMPM,1000.0000", "MMPM,500.0000")
+        .replace("MMPM,200.0000", "MMPM,100.0000")
+        .replace("GOTO/0.0000,9.0000,0.0000", "FEDRAT/MMPM,1000.0000\nGOTO/0.0000,9.0000,0.0000");
+    assert_eq!(after, wanted);
 }
