@@ -14,7 +14,7 @@ use crate::write::Editor;
 /// What a motion wants: the place it starts at, what governs its feed, and the feed in the governing record's unit.
 #[derive(Debug, Clone, Copy)]
 struct Wish {
-    /// First statement of the motion.
+    /// First statement of the motion, or of the first of several that share a statement.
     first: u32,
     /// Last statement of the motion: motions of one multi-point GOTO share it.
     last: u32,
@@ -33,11 +33,19 @@ impl FeedPlan {
     /// Asks every feed motion of a program. `want` gives the feed in the motion's own unit, `None` for the programmed one.
     pub fn of(program: &Program, mut want: impl FnMut(&Motion) -> Option<f64>) -> Self {
         let mut wishes = Vec::new();
-        for motion in program.motions().filter(|motion| !motion.rapid) {
+        let (mut first, mut last) = (0, None);
+        for motion in program.motions() {
+            // Points of one GOTO share what announces the first of them: a RAPID must not be parted from it.
+            if last != Some(motion.last_statement()) {
+                (first, last) = (motion.statements.start, Some(motion.last_statement()));
+            }
+            if motion.rapid {
+                continue;
+            }
             let (Some(feed), Some(governor)) = (motion.feed, motion.feed_from) else { continue };
             let wanted = want(&motion).unwrap_or(feed.value);
             wishes.push(Wish {
-                first: motion.statements.start as u32,
+                first: first as u32,
                 last: motion.last_statement() as u32,
                 governor: governor as u32,
                 feed: wanted,
