@@ -89,6 +89,9 @@ impl FeedPlan {
                 }
                 _ => {
                     let template = Template::of(editor, governor);
+                    if feeds_of(editor.program(), governor).nth(1).is_some() {
+                        findings.push(further_feeds(editor.program(), governor));
+                    }
                     set_feed(editor, governor, wish.feed)?;
                     *slot = Some(InForce { governor: wish.governor, feed: wish.feed, template });
                 }
@@ -131,12 +134,18 @@ fn is_cycle(program: &Program, statement: usize) -> bool {
 /// # Errors
 /// When it cannot be printed as a record that reads back.
 pub fn set_feed(editor: &mut Editor, statement: usize, feed: f64) -> Result<(), Box<Diagnostic>> {
-    let Some(found) = editor.program().statement(statement) else { return Ok(()) };
-    let roles = parse::roles(found.record(), editor.program().text(found));
-    match roles.iter().position(|role| *role == Role::Feed) {
+    let first = feeds_of(editor.program(), statement).next();
+    match first {
         Some(number) => editor.set_numbers(statement, &[(number, feed)]),
         None => Ok(()),
     }
+}
+
+/// Which numbers of a statement are feeds.
+fn feeds_of(program: &Program, statement: usize) -> impl Iterator<Item = usize> {
+    let found = program.statement(statement);
+    let roles = found.map(|found| parse::roles(found.record(), program.text(found))).unwrap_or_default();
+    roles.into_iter().enumerate().filter(|(_, role)| *role == Role::Feed).map(|(number, _)| number)
 }
 
 /// A FEDRAT of the file as a form for new ones: its bytes without comment and line end, and where its number stands.
@@ -175,6 +184,14 @@ fn shared_statement(program: &Program, statement: usize) -> Diagnostic {
         "the points of this GOTO want different feeds; the lowest is used for all of them",
     )
     .label(program.source(), place(program, statement), "several points in one statement")
+}
+
+fn further_feeds(program: &Program, statement: usize) -> Diagnostic {
+    Diagnostic::new(
+        codes::NOT_CHANGED,
+        "this record has several feeds; only the first, at which the tool goes in, is changed",
+    )
+    .label(program.source(), place(program, statement), "more than one feed")
 }
 
 fn cycle_keeps_feed(program: &Program, statement: usize) -> Diagnostic {

@@ -38,3 +38,10 @@ fn a_new_feed_does_not_part_rapid_from_its_goto() {
         .replace("RAPID", "FEDRAT/MMPM,1000.0000\nRAPID");
     assert_eq!(after, wanted);
 }
+
+#[test]
+fn a_second_feed_of_a_cycle_is_not_passed_over() {
+    let text = "CYCLE/BORE,FEDTO,-10.0000,MMPM,100.0000,RTRCTO,5.0000,MMPM,9000.0000\nGOTO/0.0000,0.0000,0.0000\nCYCLE/OFF\n";
+    let (_, found) = apply("  - clamp_feed: { max: 1000 }\n", text);
+    assert!(!found.is_empty());
+}
