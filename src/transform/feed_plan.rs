@@ -4,6 +4,7 @@
 //! wants another, a FEDRAT in the form of the governing one goes in front of the first statement of that motion. The next
 //! FEDRAT of the file sets its own feed anyway, so programmed feeds come back by themselves.
 
+use super::numbers::word;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::parse;
 use crate::program::motion::Motion;
@@ -68,6 +69,7 @@ impl FeedPlan {
         editor: &mut Editor,
         findings: &mut Vec<Diagnostic>,
     ) -> Result<(), Box<Diagnostic>> {
+        findings.extend(unknown_feeds(editor.program()));
         self.one_feed_a_statement(editor.program(), findings);
         // A FEDRAT comes back after any number of cycles with feeds of their own, and a cycle after FEDRATs; of each kind only
         // the newest can.
@@ -176,6 +178,20 @@ impl Template {
 
 fn place(program: &Program, statement: usize) -> Span {
     program.statement(statement).map(crate::program::Statement::origin).unwrap_or_default()
+}
+
+/// FEDRATs in words of a post (`FEDRAT/9000,FPM`, `FEDRAT/RAPID`): what they set is not known, so no step can change it.
+fn unknown_feeds(program: &Program) -> Option<Diagnostic> {
+    let mut unknown = program.live().filter(|(_, statement)| {
+        matches!(statement.record(), Record::Known) && word(program.text(statement)) == "FEDRAT"
+    });
+    let (first, _) = unknown.next()?;
+    let message = match unknown.count() {
+        0 => "the feed that this FEDRAT sets is not understood; it is not changed".to_owned(),
+        more => format!("the feeds that {} FEDRATs set are not understood; they are not changed", more + 1),
+    };
+    let found = Diagnostic::new(codes::NOT_CHANGED, message);
+    Some(found.label(program.source(), place(program, first), "left as it is"))
 }
 
 fn shared_statement(program: &Program, statement: usize) -> Diagnostic {

@@ -45,3 +45,18 @@ fn a_second_feed_of_a_cycle_is_not_passed_over() {
     let (_, found) = apply("  - clamp_feed: { max: 1000 }\n", text);
     assert!(!found.is_empty());
 }
+
+#[test]
+fn a_feed_with_a_word_of_the_post_is_changed_or_reported() {
+    let text = "FEDRAT/MMPM,9000.0000,LOCK\nGOTO/0.0000,0.0000,0.0000\nGOTO/1.0000,0.0000,0.0000\n";
+    for step in ["clamp_feed: { max: 1000 }", "scale_feed: { factor: 0.5 }"] {
+        let (after, _) = apply(&format!("  - {step}\n"), text);
+        assert!(after.starts_with("FEDRAT/MMPM,1000.0000,LOCK") || after.starts_with("FEDRAT/MMPM,4500.0000,LOCK"));
+        for unknown in ["FEDRAT/9000.0000,FPM", "FEDRAT/RAPID"] {
+            let text = text.replace("FEDRAT/MMPM,9000.0000,LOCK", unknown);
+            let (after, found) = apply(&format!("  - {step}\n"), &text);
+            assert_eq!(after, text);
+            assert_eq!(found.len(), 1, "{step} {unknown} {found:?}");
+        }
+    }
+}
