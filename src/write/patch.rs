@@ -7,6 +7,9 @@ use crate::program::{Record, Role};
 /// A change below this share of the value is the noise of arithmetic, not an edit.
 const NOISE: f64 = 1e-13;
 
+/// A feed is printed to a thousandth of itself at least.
+pub const FEED_SHARE: f64 = 1e-3;
+
 /// The text with new values for some of its numbers; `None` when nothing changes.
 ///
 /// `edits` are pairs of a number's index (in the order the numbers stand) and its new value. Numbers keep their decimals, or
@@ -23,7 +26,12 @@ pub fn numbers(text: &[u8], record: &Record, edits: &[(usize, f64)], style: &Sty
         }
         let role = roles.get(index).copied().unwrap_or(Role::Plain);
         let original = text.get(at.clone()).unwrap_or_default();
-        let printed = style.changed(role, original).print(wanted, wanted - old);
+        let mut form = style.changed(role, original);
+        if role == Role::Feed {
+            // Feeds span four powers of ten (0.002 inch/rev, 9000 mm/min): what counts is the proportion.
+            form.tolerance = form.tolerance.min(wanted.abs() * FEED_SHARE);
+        }
+        let printed = form.print(wanted, wanted - old);
         let before = text.get(copied..at.start).unwrap_or_default();
         if style.columns {
             push_in_column(&mut out, before, at.len(), &printed);

@@ -60,3 +60,10 @@ fn a_feed_with_a_word_of_the_post_is_changed_or_reported() {
         }
     }
 }
+
+#[test]
+fn a_small_feed_keeps_its_proportion() {
+    let text = "SPINDL/RPM,9000,CLW\nFEDRAT/IPR,0.0020\nGOTO/0.0000,0.0000,0.0000\nGOTO/1.0000,0.0000,0.0000\n";
+    let (after, _) = apply("  - scale_feed: { factor: 0.01 }\n", text);
+    assert!(after.contains("FEDRAT/IPR,0.00002\n"), "{after}");
+}
