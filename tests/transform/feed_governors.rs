@@ -67,3 +67,23 @@ fn a_small_feed_keeps_its_proportion() {
     let (after, _) = apply("  - scale_feed: { factor: 0.01 }\n", text);
     assert!(after.contains("FEDRAT/IPR,0.00002\n"), "{after}");
 }
+
+#[test]
+fn a_clamped_feed_is_never_above_the_limit_and_stays() {
+    for (text, max) in [
+        ("SPINDL/RPM,3000,CLW\nFEDRAT/MMPR,0.2500\nGOTO/0.0000,0.0000,0.0000\nGOTO/1.0000,0.0000,0.0000\n", 500.0),
+        ("SPINDL/RPM,9000,CLW\nFEDRAT/MMPR,0.0020\nGOTO/0.0000,0.0000,0.0000\nGOTO/1.0000,0.0000,0.0000\n", 10.0),
+        ("FEDRAT/IPM,100.0\nGOTO/0.0000,0.0000,0.0000\nGOTO/1.0000,0.0000,0.0000\n", 1001.0),
+        ("FEDRAT/IPM,100.0\nGOTO/0.0000,0.0000,0.0000\nGOTO/1.0000,0.0000,0.0000\n", 999.9999),
+    ] {
+        let step = format!("  - clamp_feed: {{ max: {max} }}\n");
+        let (once, _) = apply(&step, text);
+        let program = crate::support::program(&once);
+        for motion in program.motions() {
+            let feed = motion.feed.unwrap().mm_per_minute(clsmith::program::LengthUnit::Mm, motion.spindle_rpm(), None);
+            let feed = feed.unwrap();
+            assert!(feed <= max * (1.0 + 1e-9) && feed > max * 0.99, "{once}: {feed}");
+        }
+        assert_eq!(apply(&step, &once).0, once);
+    }
+}
