@@ -86,6 +86,9 @@ impl FeedPlan {
                         findings.push(cycle_keeps_feed(editor.program(), governor));
                         continue;
                     };
+                    if !wish.feed.is_finite() {
+                        return set_feed(editor, governor, wish.feed);
+                    }
                     editor.insert_before(wish.first as usize, &template.with(wish.feed, editor))?;
                     in_force.feed = wish.feed;
                 }

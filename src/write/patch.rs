@@ -14,6 +14,7 @@ pub const FEED_SHARE: f64 = 1e-3;
 ///
 /// `edits` are pairs of a number's index (in the order the numbers stand) and its new value. Numbers keep their decimals, or
 /// get more when fewer would lose the edit; in column dialects they keep their column. Everything else stays as it is.
+/// A value that is no number is left out; [`super::Editor`] refuses it.
 pub fn numbers(text: &[u8], record: &Record, edits: &[(usize, f64)], style: &Style) -> Option<Vec<u8>> {
     let places = parse::numbers(text);
     let roles = parse::roles(record, text);
