@@ -3,10 +3,12 @@
 use super::feed_plan::FeedPlan;
 use super::{Context, Selection, Transform};
 use crate::diagnostic::Diagnostic;
-use crate::program::Program;
+use crate::number;
+use crate::parse;
+use crate::program::{Program, Role};
 use crate::recipe::Where;
 use crate::values::Positive;
-use crate::write::Editor;
+use crate::write::{Editor, FEED_SHARE};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -16,7 +18,7 @@ use serde::Deserialize;
 /// feed at the length of its motion, and both are written back in their own unit; where the speed is not known the feed stays
 /// and is reported. Without `max`, the machine's `max_feed` from the setup is the highest. Rapids are not touched.
 ///
-/// Idempotent: a second run changes nothing.
+/// A changed feed is rounded to the side of the limit that is allowed. Idempotent: a second run changes nothing.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ClampFeed {
@@ -56,9 +58,8 @@ impl Transform for ClampFeed {
                 unknown.extend(motion.feed_from.filter(|statement| unknown.last() != Some(statement)));
                 return None;
             };
-            let wanted = actual.clamp(min, max);
-            // Only a feed outside the limits changes: a ratio of equal numbers could still move its last bit.
-            (wanted != actual).then(|| feed * (wanted / actual))
+            let decimals = motion.feed_from.map_or(0, |statement| decimals_of_feed(&program, statement));
+            within(feed, actual, (min, max), decimals)
         });
         selection.report(context);
         for statement in unknown {
@@ -69,4 +70,49 @@ impl Transform for ClampFeed {
         plan.write(&mut editor, &mut context.findings)?;
         editor.finish()
     }
+}
+
+/// Limits may be passed by this share: what arithmetic makes of equal numbers.
+const NOISE: f64 = 1e-9;
+
+/// The feed that keeps the limits and can be printed as it is; `None` when the programmed one does.
+///
+/// `actual` is the feed in the limits' unit. A limit falls between two printed feeds when the units differ (0.25 mm/rev, 500
+/// mm/min at 3000 rev/min): then the lower one is taken at the highest limit and the upper one at the lowest, so that no limit is
+/// passed and a second run finds nothing to change.
+fn within(feed: f64, actual: f64, (min, max): (f64, f64), decimals: usize) -> Option<f64> {
+    let rate = actual / feed;
+    let (too_low, too_high) = (min * (1.0 - NOISE), max * (1.0 + NOISE));
+    if (too_low..=too_high).contains(&actual) {
+        return None;
+    }
+    let limit = if actual > max { max } else { min } / rate;
+    let power = 10f64.powi(printed_decimals(limit, decimals));
+    let nearest = (limit * power).round();
+    let passes = |steps: f64| steps / power * rate > too_high || steps / power * rate < too_low;
+    let inside = if actual > max { nearest - 1.0 } else { nearest + 1.0 };
+    let steps = match passes(nearest) {
+        false => nearest,
+        // Between two limits so close together that no printed feed lies between them, the highest counts.
+        true if inside / power * rate > too_high => nearest - 1.0,
+        true => inside,
+    };
+    let wanted = steps / power;
+    (wanted != feed).then_some(wanted)
+}
+
+/// How many decimals a feed must have so that it is printed exactly: its own, or so many that the writer's tolerance is below
+/// the last of them.
+fn printed_decimals(feed: f64, own: usize) -> i32 {
+    let tolerance = (feed * FEED_SHARE).min(5e-5);
+    (own as i32).max((-tolerance.log10()).floor() as i32).min(15)
+}
+
+fn decimals_of_feed(program: &Program, statement: usize) -> usize {
+    let Some(found) = program.statement(statement) else { return 0 };
+    let text = program.text(found);
+    let roles = parse::roles(found.record(), text);
+    let numbers = parse::numbers(text).into_iter().zip(roles);
+    let feed = numbers.filter(|(_, role)| *role == Role::Feed).map(|((at, _), _)| at).next();
+    feed.and_then(|at| text.get(at)).map_or(0, number::decimals)
 }

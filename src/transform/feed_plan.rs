@@ -4,6 +4,7 @@
 //! wants another, a FEDRAT in the form of the governing one goes in front of the first statement of that motion. The next
 //! FEDRAT of the file sets its own feed anyway, so programmed feeds come back by themselves.
 
+use super::numbers::word;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::parse;
 use crate::program::motion::Motion;
@@ -14,7 +15,7 @@ use crate::write::Editor;
 /// What a motion wants: the place it starts at, what governs its feed, and the feed in the governing record's unit.
 #[derive(Debug, Clone, Copy)]
 struct Wish {
-    /// First statement of the motion.
+    /// First statement of the motion, or of the first of several that share a statement.
     first: u32,
     /// Last statement of the motion: motions of one multi-point GOTO share it.
     last: u32,
@@ -33,11 +34,19 @@ impl FeedPlan {
     /// Asks every feed motion of a program. `want` gives the feed in the motion's own unit, `None` for the programmed one.
     pub fn of(program: &Program, mut want: impl FnMut(&Motion) -> Option<f64>) -> Self {
         let mut wishes = Vec::new();
-        for motion in program.motions().filter(|motion| !motion.rapid) {
+        let (mut first, mut last) = (0, None);
+        for motion in program.motions() {
+            // Points of one GOTO share what announces the first of them: a RAPID must not be parted from it.
+            if last != Some(motion.last_statement()) {
+                (first, last) = (motion.statements.start, Some(motion.last_statement()));
+            }
+            if motion.rapid {
+                continue;
+            }
             let (Some(feed), Some(governor)) = (motion.feed, motion.feed_from) else { continue };
             let wanted = want(&motion).unwrap_or(feed.value);
             wishes.push(Wish {
-                first: motion.statements.start as u32,
+                first: first as u32,
                 last: motion.last_statement() as u32,
                 governor: governor as u32,
                 feed: wanted,
@@ -60,32 +69,36 @@ impl FeedPlan {
         editor: &mut Editor,
         findings: &mut Vec<Diagnostic>,
     ) -> Result<(), Box<Diagnostic>> {
+        findings.extend(unknown_feeds(editor.program()));
         self.one_feed_a_statement(editor.program(), findings);
-        let mut in_force: Vec<(u32, f64)> = Vec::new();
-        let mut templates: Vec<(u32, Option<Template>)> = Vec::new();
+        // A FEDRAT comes back after any number of cycles with feeds of their own, and a cycle after FEDRATs; of each kind only
+        // the newest can.
+        let (mut fedrat, mut cycle): (Option<InForce>, Option<InForce>) = (None, None);
         for wish in &self.wishes {
-            match in_force.iter_mut().find(|(governor, _)| *governor == wish.governor) {
-                None => {
-                    // Only the newest governors can come back (a FEDRAT around cycles); older ones are over.
-                    if in_force.len() > 8 {
-                        in_force.remove(0);
-                        templates.remove(0);
+            let governor = wish.governor as usize;
+            let slot = if is_cycle(editor.program(), governor) { &mut cycle } else { &mut fedrat };
+            match slot {
+                Some(in_force) if in_force.governor == wish.governor => {
+                    if in_force.feed == wish.feed {
+                        continue;
                     }
-                    templates.push((wish.governor, Template::of(editor, wish.governor as usize)));
-                    set_feed(editor, wish.governor as usize, wish.feed)?;
-                    in_force.push((wish.governor, wish.feed));
+                    let Some(template) = &in_force.template else {
+                        findings.push(cycle_keeps_feed(editor.program(), governor));
+                        continue;
+                    };
+                    if !wish.feed.is_finite() {
+                        return set_feed(editor, governor, wish.feed);
+                    }
+                    editor.insert_before(wish.first as usize, &template.with(wish.feed, editor))?;
+                    in_force.feed = wish.feed;
                 }
-                Some((_, feed)) if *feed == wish.feed => {}
-                Some((governor, feed)) => {
-                    let template =
-                        templates.iter().find(|(of, _)| of == governor).and_then(|(_, text)| text.as_ref());
-                    match template {
-                        Some(template) => {
-                            editor.insert_before(wish.first as usize, &template.with(wish.feed, editor))?;
-                            *feed = wish.feed;
-                        }
-                        None => findings.push(cycle_keeps_feed(editor.program(), wish.governor as usize)),
+                _ => {
+                    let template = Template::of(editor, governor);
+                    if feeds_of(editor.program(), governor).nth(1).is_some() {
+                        findings.push(further_feeds(editor.program(), governor));
                     }
+                    set_feed(editor, governor, wish.feed)?;
+                    *slot = Some(InForce { governor: wish.governor, feed: wish.feed, template });
                 }
             }
         }
@@ -109,17 +122,35 @@ impl FeedPlan {
     }
 }
 
+/// A FEDRAT or CYCLE that was given its feed, and the feed that was written last in its place.
+struct InForce {
+    governor: u32,
+    feed: f64,
+    /// `None` for a CYCLE, of which no second one can be put between holes.
+    template: Option<Template>,
+}
+
+fn is_cycle(program: &Program, statement: usize) -> bool {
+    program.statement(statement).is_some_and(|found| matches!(found.record(), Record::Cycle(_)))
+}
+
 /// Gives a FEDRAT or CYCLE another feed.
 ///
 /// # Errors
 /// When it cannot be printed as a record that reads back.
 pub fn set_feed(editor: &mut Editor, statement: usize, feed: f64) -> Result<(), Box<Diagnostic>> {
-    let Some(found) = editor.program().statement(statement) else { return Ok(()) };
-    let roles = parse::roles(found.record(), editor.program().text(found));
-    match roles.iter().position(|role| *role == Role::Feed) {
+    let first = feeds_of(editor.program(), statement).next();
+    match first {
         Some(number) => editor.set_numbers(statement, &[(number, feed)]),
         None => Ok(()),
     }
+}
+
+/// Which numbers of a statement are feeds.
+fn feeds_of(program: &Program, statement: usize) -> impl Iterator<Item = usize> {
+    let found = program.statement(statement);
+    let roles = found.map(|found| parse::roles(found.record(), program.text(found))).unwrap_or_default();
+    roles.into_iter().enumerate().filter(|(_, role)| *role == Role::Feed).map(|(number, _)| number)
 }
 
 /// A FEDRAT of the file as a form for new ones: its bytes without comment and line end, and where its number stands.
@@ -152,12 +183,34 @@ fn place(program: &Program, statement: usize) -> Span {
     program.statement(statement).map(crate::program::Statement::origin).unwrap_or_default()
 }
 
+/// FEDRATs in words of a post (`FEDRAT/9000,FPM`, `FEDRAT/RAPID`): what they set is not known, so no step can change it.
+fn unknown_feeds(program: &Program) -> Option<Diagnostic> {
+    let mut unknown = program.live().filter(|(_, statement)| {
+        matches!(statement.record(), Record::Known) && word(program.text(statement)) == "FEDRAT"
+    });
+    let (first, _) = unknown.next()?;
+    let message = match unknown.count() {
+        0 => "the feed that this FEDRAT sets is not understood; it is not changed".to_owned(),
+        more => format!("the feeds that {} FEDRATs set are not understood; they are not changed", more + 1),
+    };
+    let found = Diagnostic::new(codes::NOT_CHANGED, message);
+    Some(found.label(program.source(), place(program, first), "left as it is"))
+}
+
 fn shared_statement(program: &Program, statement: usize) -> Diagnostic {
     Diagnostic::new(
         codes::NOT_CHANGED,
         "the points of this GOTO want different feeds; the lowest is used for all of them",
     )
     .label(program.source(), place(program, statement), "several points in one statement")
+}
+
+fn further_feeds(program: &Program, statement: usize) -> Diagnostic {
+    Diagnostic::new(
+        codes::NOT_CHANGED,
+        "this record has several feeds; only the first, at which the tool goes in, is changed",
+    )
+    .label(program.source(), place(program, statement), "more than one feed")
 }
 
 fn cycle_keeps_feed(program: &Program, statement: usize) -> Diagnostic {

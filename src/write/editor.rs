@@ -48,6 +48,10 @@ impl Editor {
     pub fn set_numbers(&mut self, index: usize, edits: &[(usize, f64)]) -> Result<(), Box<Diagnostic>> {
         let Some(statement) = self.program.statement(index) else { return Ok(()) };
         let text = self.program.text(statement);
+        if let Some((_, value)) = edits.iter().find(|(_, value)| !value.is_finite()) {
+            let message = format!("the step would write the value {value}, which no CL number can be");
+            return Err(self.unwritable(index, &message));
+        }
         match patch::numbers(text, statement.record(), edits, &self.style) {
             Some(patched) => self.set_text(index, &patched),
             None => Ok(()),
@@ -138,11 +142,15 @@ impl Editor {
         let shown = String::from_utf8_lossy(text.trim_ascii()).into_owned();
         let message =
             format!("the step would write `{shown}`, which is no CL statement: {}", problem.problem);
+        Err(self.unwritable(index, &message))
+    }
+
+    fn unwritable(&self, index: usize, message: &str) -> Box<Diagnostic> {
         let mut diagnostic = Diagnostic::new(codes::UNREADABLE_EDIT, message);
         if let Some(statement) = self.program.statement(index) {
             diagnostic = diagnostic.label(self.program.source(), statement.origin(), "for this statement");
         }
-        Err(Box::new(diagnostic))
+        Box::new(diagnostic)
     }
 }
 

@@ -7,10 +7,14 @@ use crate::program::{Record, Role};
 /// A change below this share of the value is the noise of arithmetic, not an edit.
 const NOISE: f64 = 1e-13;
 
+/// A feed is printed to a thousandth of itself at least.
+pub const FEED_SHARE: f64 = 1e-3;
+
 /// The text with new values for some of its numbers; `None` when nothing changes.
 ///
 /// `edits` are pairs of a number's index (in the order the numbers stand) and its new value. Numbers keep their decimals, or
 /// get more when fewer would lose the edit; in column dialects they keep their column. Everything else stays as it is.
+/// A value that is no number is left out; [`super::Editor`] refuses it.
 pub fn numbers(text: &[u8], record: &Record, edits: &[(usize, f64)], style: &Style) -> Option<Vec<u8>> {
     let places = parse::numbers(text);
     let roles = parse::roles(record, text);
@@ -23,7 +27,12 @@ pub fn numbers(text: &[u8], record: &Record, edits: &[(usize, f64)], style: &Sty
         }
         let role = roles.get(index).copied().unwrap_or(Role::Plain);
         let original = text.get(at.clone()).unwrap_or_default();
-        let printed = style.changed(role, original).print(wanted, wanted - old);
+        let mut form = style.changed(role, original);
+        if role == Role::Feed {
+            // Feeds span four powers of ten (0.002 inch/rev, 9000 mm/min): what counts is the proportion.
+            form.tolerance = form.tolerance.min(wanted.abs() * FEED_SHARE);
+        }
+        let printed = form.print(wanted, wanted - old);
         let before = text.get(copied..at.start).unwrap_or_default();
         if style.columns {
             push_in_column(&mut out, before, at.len(), &printed);
@@ -45,7 +54,9 @@ fn push_in_column(out: &mut Vec<u8>, before: &[u8], old_length: usize, printed: 
     let blanks = before.iter().rev().take_while(|&&byte| byte == b' ').count();
     let kept = before.get(..before.len() - blanks).unwrap_or_default();
     let width = blanks + old_length;
+    // Where no comma but blanks part a number from what stands before it, one of them stays.
+    let least = usize::from(blanks > 0 && !matches!(kept.last(), None | Some(b',' | b'/' | b'(' | b'\n' | b'\r')));
     out.extend_from_slice(kept);
-    out.extend(std::iter::repeat_n(b' ', width.saturating_sub(printed.len())));
+    out.extend(std::iter::repeat_n(b' ', width.saturating_sub(printed.len()).max(least)));
     out.extend_from_slice(printed.as_bytes());
 }

@@ -2,6 +2,7 @@
 
 mod convert_units;
 mod feed;
+mod feed_governors;
 mod move_origin;
 mod moved;
 mod rewrite;

@@ -3,6 +3,7 @@
 mod same;
 #[cfg(unix)]
 mod unix;
+mod values;
 
 use clsmith::write::{Interrupt, is_interrupt, write_atomically, write_atomically_unless};
 use std::fs;

@@ -25,6 +25,8 @@ pub struct Motions<'p> {
     holes: usize,
     /// The cycle that CYCLE/ON switches on again.
     last_cycle: Option<(Arc<Cycle>, usize)>,
+    /// The CYCLE that holds the feed of the cycle in force: CYCLE/ON,FEDTO,... takes it over without printing it.
+    cycle_feed: Option<usize>,
 }
 
 /// What statements have announced for the next motion.
@@ -72,6 +74,7 @@ impl<'p> Motions<'p> {
             operations_seen: false,
             holes: 0,
             last_cycle: None,
+            cycle_feed: None,
         }
     }
 
@@ -217,7 +220,10 @@ impl<'p> Motions<'p> {
             }
             Record::Cycle(cycle) => {
                 let before = state.cycle.as_ref().map(|(before, _)| before.as_ref());
-                state.cycle = Some((Arc::new(cycle.after(before)), index));
+                let cycle_in_force = cycle.after(before);
+                let own = cycle.feed.map(|_| index);
+                self.cycle_feed = own.or(self.cycle_feed.filter(|_| cycle_in_force.feed.is_some()));
+                state.cycle = Some((Arc::new(cycle_in_force), index));
             }
             Record::CycleOff => self.last_cycle = state.cycle.take().or(self.last_cycle.take()),
             Record::CycleOn => state.cycle = state.cycle.take().or_else(|| self.last_cycle.clone()),
@@ -406,7 +412,7 @@ impl<'p> Motions<'p> {
     }
 
     fn drill(&mut self, target: &Target) {
-        let Some((cycle, statement)) = self.state.cycle.clone() else { return };
+        let Some((cycle, _)) = self.state.cycle.clone() else { return };
         let hole = self.holes;
         self.holes += 1;
         let first = self.pending.first.take().unwrap_or(target.statement);
@@ -418,7 +424,7 @@ impl<'p> Motions<'p> {
             motion.class = MotionClass::Drill;
             if let Some(feed) = cycle.feed {
                 motion.feed = Some(feed);
-                motion.feed_from = Some(statement);
+                motion.feed_from = self.cycle_feed;
             }
             motion.hole = Some((hole, Arc::clone(&cycle)));
             self.state.pose = Some(motion.to);

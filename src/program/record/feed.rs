@@ -82,13 +82,14 @@ pub(super) fn read(major: &str, syntax: &Syntax<'_>) -> Reading {
 fn feed(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
     let mut value = None;
     let mut unit = None;
+    let mut other = false;
     for field in &syntax.fields {
         match &field.kind {
             FieldKind::Number(number) => value = value.or(Some(*number)),
             FieldKind::Text => {
                 let word = folded(syntax.bytes(&field.at));
                 match FeedUnit::of_word(&word) {
-                    Some(found) => unit = Some(found),
+                    Some(found) => unit = unit.or(Some(found)),
                     None if looks_numeric(&word) => {
                         return Err(BadRecord {
                             at: field.at.clone(),
@@ -96,12 +97,16 @@ fn feed(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
                             is_number: true,
                         });
                     }
-                    // FEDRAT/RAPID, FEDRAT/AUTO and the like belong to a post; they set no feed we know.
-                    None => return Ok(Record::Known),
+                    None => other = true,
                 }
             }
             _ => {}
         }
+    }
+    // FEDRAT/RAPID, FEDRAT/AUTO, FEDRAT/100,FPM and the like belong to a post; they set no feed we know. Beside a unit we know,
+    // a further word (FEDRAT/100,MMPM,LOCK) does not make it another feed.
+    if other && (value.is_none() || unit.is_none()) {
+        return Ok(Record::Known);
     }
     let Some(value) = value else {
         return Err(wrong_count("FEDRAT", syntax, "a number, with or without a unit", 0));

@@ -148,6 +148,9 @@ fn report(
         {
             "SFM in a program in millimetres may mean feet or metres of surface per minute: it is left as it is"
         }
+        Record::Known if word(text) == "FEDRAT" && !parse::numbers(text).is_empty() => {
+            "the unit of this feed is not understood: it is not converted"
+        }
         Record::Known
             if LENGTHS_OF_POSTS.contains(&word(text).as_str())
                 && parse::numbers(text).iter().any(|(at, value)| {
