@@ -6,6 +6,8 @@
 mod arcs;
 mod cycles;
 mod machine;
+mod modal;
+mod moves;
 mod state;
 
 pub use machine::Motions;
