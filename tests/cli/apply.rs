@@ -128,3 +128,15 @@ fn a_diff_is_shown_and_a_dry_run_writes_nothing() {
         .success();
     assert_eq!(names(folder.path()), before);
 }
+
+#[test]
+fn the_setup_file_that_the_recipe_names_is_not_overwritten() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write("r.yaml", "version: 1\nsetup_file: shop.yaml\nsteps: []\n");
+    write("shop.yaml", "machine: { max_feed: 8000 }\n");
+    write("part.cls", "GOTO/0.0000,0.0000,0.0000\n");
+    clsmith(folder.path()).args(["apply", "r.yaml", "part.cls", "-o", "shop.yaml"]).assert().code(1);
+    let kept = std::fs::read_to_string(folder.path().join("shop.yaml")).unwrap();
+    assert_eq!(kept, "machine: { max_feed: 8000 }\n");
+}
