@@ -127,7 +127,9 @@ impl Apply {
     fn one(&self, job: &Job<'_>, input: &Path, interrupt: &Interrupt) -> io::Result<Exit> {
         let target = self.target(input);
         let setup_file = job.recipe.setup_file.as_deref().map(|name| files::beside(&self.recipe, name));
-        if let Some(found) = target.as_deref().and_then(|target| self.overwrites(target, setup_file.as_deref())) {
+        if let Some(found) =
+            target.as_deref().and_then(|target| self.overwrites(target, setup_file.as_deref()))
+        {
             self.show(&[found], Some(&input.to_string_lossy()))?;
             return Ok(Exit::Errors);
         }

@@ -55,7 +55,8 @@ fn push_in_column(out: &mut Vec<u8>, before: &[u8], old_length: usize, printed: 
     let kept = before.get(..before.len() - blanks).unwrap_or_default();
     let width = blanks + old_length;
     // Where no comma but blanks part a number from what stands before it, one of them stays.
-    let least = usize::from(blanks > 0 && !matches!(kept.last(), None | Some(b',' | b'/' | b'(' | b'\n' | b'\r')));
+    let least =
+        usize::from(blanks > 0 && !matches!(kept.last(), None | Some(b',' | b'/' | b'(' | b'\n' | b'\r')));
     out.extend_from_slice(kept);
     out.extend(std::iter::repeat_n(b' ', width.saturating_sub(printed.len()).max(least)));
     out.extend_from_slice(printed.as_bytes());
