@@ -140,3 +140,21 @@ fn the_setup_file_that_the_recipe_names_is_not_overwritten() {
     let kept = std::fs::read_to_string(folder.path().join("shop.yaml")).unwrap();
     assert_eq!(kept, "machine: { max_feed: 8000 }\n");
 }
+
+#[test]
+fn an_error_that_a_step_makes_is_not_excused_by_the_same_one_elsewhere() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write(
+        "r.yaml",
+        "version: 1\nsteps:\n- rewrite:\n    rules:\n    - match: \"CIRCLE/1.0,0.0,0.0,0.0,0.0,1.0,5.0\"\n      delete: true\n    \
+         - match: \"GOTO/9.0,9.0,9.0\"\n      insert_after: [\"CIRCLE/0.0,0.0,0.0,0.0,0.0,1.0,5.0\"]\n",
+    );
+    write(
+        "part.cls",
+        "TOOL PATH/A,TOOL,T\nFEDRAT/MMPM,100.0\nGOTO/5.0,0.0,0.0\nCIRCLE/1.0,0.0,0.0,0.0,0.0,1.0,5.0\n\
+         CIRCLE/0.0,0.0,0.0,0.0,0.0,1.0,5.0\nGOTO/0.0,5.0,0.0\nGOTO/9.0,9.0,9.0\nEND-OF-PATH\n",
+    );
+    clsmith(folder.path()).args(["apply", "r.yaml", "part.cls", "-o", "out.cls"]).assert().code(1);
+    assert!(!folder.path().join("out.cls").exists());
+}
