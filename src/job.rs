@@ -3,7 +3,7 @@
 use crate::check;
 use crate::diagnostic::Diagnostic;
 use crate::parse::{self, parse};
-use crate::program::{Change, Dialect, Program};
+use crate::program::{Change, Dialect, Program, Statement};
 use crate::report::policy::Policy;
 use crate::setup::Setup;
 use crate::source::{Source, TooLarge};
@@ -69,32 +69,60 @@ impl Job<'_> {
     /// Findings of the corrected text that the original did not have. Their places are in the corrected text.
     fn worse(&self, source: &Arc<Source>, program: &Program) -> Result<Vec<Diagnostic>, TooLarge> {
         let name = format!("{} (corrected)", source.name());
-        let corrected = all_findings(&Source::new(name, program.to_bytes())?, program.dialect());
-        if corrected.is_empty() {
-            return Ok(corrected);
+        let corrected_source = Source::new(name, program.to_bytes())?;
+        let (corrected, found) = read_and_check(&corrected_source, program.dialect());
+        if found.is_empty() {
+            return Ok(found);
         }
-        let mut known: BTreeMap<(String, String), usize> = BTreeMap::new();
-        for found in all_findings(source, program.dialect()) {
-            *known.entry((found.code.id().to_owned(), found.message)).or_default() += 1;
+        // Statement by statement the corrected text is the program: so each of its findings has a place in the original.
+        let origins: Vec<Place> = program.live().map(|(_, statement)| Place::of(statement)).collect();
+        let (original, known_findings) = read_and_check(source, program.dialect());
+        let mut known: BTreeMap<(&str, String, Option<Place>), usize> = BTreeMap::new();
+        for found in known_findings {
+            let place =
+                statement_of(&original, &found).and_then(|index| original.statement(index)).map(Place::of);
+            *known.entry((found.code.id(), found.message, place)).or_default() += 1;
         }
-        let is_new =
-            |found: &Diagnostic| match known.get_mut(&(found.code.id().to_owned(), found.message.clone())) {
+        let is_new = |found: &Diagnostic| {
+            let place = statement_of(&corrected, found).and_then(|index| origins.get(index)).copied();
+            match known.get_mut(&(found.code.id(), found.message.clone(), place)) {
                 Some(count) if *count > 0 => {
                     *count -= 1;
                     false
                 }
                 _ => true,
-            };
-        Ok(corrected.into_iter().filter(is_new).collect())
+            }
+        };
+        Ok(found.into_iter().filter(is_new).collect())
     }
 }
 
-/// Everything that reading and checking finds in a file.
-pub fn all_findings(source: &Arc<Source>, dialect: Dialect) -> Vec<Diagnostic> {
+/// Where a statement comes from: its place in the original, and whether it stood there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Place {
+    start: u32,
+    inserted: bool,
+}
+
+impl Place {
+    fn of(statement: &Statement) -> Self {
+        let inserted = matches!(statement.change(), Change::Inserted(_));
+        Self { start: statement.origin().start, inserted }
+    }
+}
+
+/// The statement that a finding in a freshly read program is about; `None` for the whole file.
+fn statement_of(program: &Program, found: &Diagnostic) -> Option<usize> {
+    let at = found.labels.first()?.span.start;
+    program.statements().partition_point(|statement| statement.origin().start <= at).checked_sub(1)
+}
+
+/// A file, and everything that reading and checking finds in it.
+fn read_and_check(source: &Arc<Source>, dialect: Dialect) -> (Program, Vec<Diagnostic>) {
     let parsed = parse::parse(source, Some(dialect));
     let mut findings = parsed.diagnostics;
     findings.extend(check::check(&parsed.program));
-    findings
+    (parsed.program, findings)
 }
 
 /// Whether any statement differs from the source.

@@ -126,7 +126,10 @@ impl Apply {
 
     fn one(&self, job: &Job<'_>, input: &Path, interrupt: &Interrupt) -> io::Result<Exit> {
         let target = self.target(input);
-        if let Some(found) = target.as_deref().and_then(|target| self.overwrites(target)) {
+        let setup_file = job.recipe.setup_file.as_deref().map(|name| files::beside(&self.recipe, name));
+        if let Some(found) =
+            target.as_deref().and_then(|target| self.overwrites(target, setup_file.as_deref()))
+        {
             self.show(&[found], Some(&input.to_string_lossy()))?;
             return Ok(Exit::Errors);
         }
@@ -181,8 +184,9 @@ impl Apply {
     }
 
     /// No output may be any of the inputs, the recipe or the setup.
-    fn overwrites(&self, target: &Path) -> Option<Diagnostic> {
-        let all = self.inputs.iter().chain([&self.recipe]).chain(&self.setup);
+    fn overwrites(&self, target: &Path, setup_file: Option<&Path>) -> Option<Diagnostic> {
+        let given = self.inputs.iter().chain([&self.recipe]).chain(&self.setup).map(PathBuf::as_path);
+        let all = given.chain(setup_file);
         let hit = all.filter(|path| *path != Path::new(STANDARD)).find(|path| same_file(path, target))?;
         let message = format!("writing {} would overwrite the input {}", target.display(), hit.display());
         Some(Diagnostic::new(codes::OUTPUT_IS_INPUT, message))

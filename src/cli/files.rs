@@ -6,7 +6,7 @@ use clsmith::setup::Setup;
 use clsmith::source::Source;
 use clsmith::transform::Recipe;
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The path that stands for standard input or output.
@@ -43,14 +43,18 @@ pub struct Loaded {
 pub fn recipe(path: &Path, setup: Option<&Path>) -> Result<Loaded, Vec<Diagnostic>> {
     let source = read(path).map_err(|found| vec![*found])?;
     let recipe = Recipe::load(&source)?;
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let named = recipe.load_setup_file(|name| read(&folder.join(name)).map_err(|found| found.message))?;
+    let named = recipe.load_setup_file(|name| read(&beside(path, name)).map_err(|found| found.message))?;
     let given = match setup {
         Some(path) => self::setup(path)?,
         None => Setup::default(),
     };
     let setup = recipe.setup_with(named, given);
     Ok(Loaded { recipe, setup })
+}
+
+/// The path of a file that a recipe names: relative to the recipe's folder.
+pub fn beside(recipe: &Path, name: &str) -> PathBuf {
+    recipe.parent().unwrap_or(Path::new("")).join(name)
 }
 
 /// Reads `--dialect`.

@@ -17,7 +17,7 @@ use crate::write::Editor;
 struct Wish {
     /// First statement of the motion, or of the first of several that share a statement.
     first: u32,
-    /// Last statement of the motion: motions of one multi-point GOTO share it.
+    /// Last statement of the motion; the GOTO of a point in a line of bare numbers. Points of one GOTO share it.
     last: u32,
     /// The FEDRAT or CYCLE in force.
     governor: u32,
@@ -36,9 +36,11 @@ impl FeedPlan {
         let mut wishes = Vec::new();
         let (mut first, mut last) = (0, None);
         for motion in program.motions() {
-            // Points of one GOTO share what announces the first of them: a RAPID must not be parted from it.
-            if last != Some(motion.last_statement()) {
-                (first, last) = (motion.statements.start, Some(motion.last_statement()));
+            // Points of one GOTO share what announces the first of them: a RAPID must not be parted from it, nor lines of bare
+            // numbers from their GOTO.
+            let end = motion.last_statement();
+            if last != Some(end) && !continues(program, end) {
+                (first, last) = (motion.statements.start, Some(end));
             }
             if motion.rapid {
                 continue;
@@ -47,7 +49,7 @@ impl FeedPlan {
             let wanted = want(&motion).unwrap_or(feed.value);
             wishes.push(Wish {
                 first: first as u32,
-                last: motion.last_statement() as u32,
+                last: last.unwrap_or(end) as u32,
                 governor: governor as u32,
                 feed: wanted,
             });
@@ -132,6 +134,16 @@ struct InForce {
 
 fn is_cycle(program: &Program, statement: usize) -> bool {
     program.statement(statement).is_some_and(|found| matches!(found.record(), Record::Cycle(_)))
+}
+
+/// Whether a statement is a line of bare numbers, which goes on with the GOTO before it.
+fn continues(program: &Program, statement: usize) -> bool {
+    let points = |found: &&crate::program::Statement| matches!(found.record(), Record::Points(_));
+    let first = program
+        .statement(statement)
+        .filter(points)
+        .and_then(|found| program.text(found).trim_ascii_start().first());
+    first.is_some_and(|byte| !byte.is_ascii_alphabetic())
 }
 
 /// Gives a FEDRAT or CYCLE another feed.

@@ -128,3 +128,33 @@ fn a_diff_is_shown_and_a_dry_run_writes_nothing() {
         .success();
     assert_eq!(names(folder.path()), before);
 }
+
+#[test]
+fn the_setup_file_that_the_recipe_names_is_not_overwritten() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write("r.yaml", "version: 1\nsetup_file: shop.yaml\nsteps: []\n");
+    write("shop.yaml", "machine: { max_feed: 8000 }\n");
+    write("part.cls", "GOTO/0.0000,0.0000,0.0000\n");
+    clsmith(folder.path()).args(["apply", "r.yaml", "part.cls", "-o", "shop.yaml"]).assert().code(1);
+    let kept = std::fs::read_to_string(folder.path().join("shop.yaml")).unwrap();
+    assert_eq!(kept, "machine: { max_feed: 8000 }\n");
+}
+
+#[test]
+fn an_error_that_a_step_makes_is_not_excused_by_the_same_one_elsewhere() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write(
+        "r.yaml",
+        "version: 1\nsteps:\n- rewrite:\n    rules:\n    - match: \"CIRCLE/1.0,0.0,0.0,0.0,0.0,1.0,5.0\"\n      delete: true\n    \
+         - match: \"GOTO/9.0,9.0,9.0\"\n      insert_after: [\"CIRCLE/0.0,0.0,0.0,0.0,0.0,1.0,5.0\"]\n",
+    );
+    write(
+        "part.cls",
+        "TOOL PATH/A,TOOL,T\nFEDRAT/MMPM,100.0\nGOTO/5.0,0.0,0.0\nCIRCLE/1.0,0.0,0.0,0.0,0.0,1.0,5.0\n\
+         CIRCLE/0.0,0.0,0.0,0.0,0.0,1.0,5.0\nGOTO/0.0,5.0,0.0\nGOTO/9.0,9.0,9.0\nEND-OF-PATH\n",
+    );
+    clsmith(folder.path()).args(["apply", "r.yaml", "part.cls", "-o", "out.cls"]).assert().code(1);
+    assert!(!folder.path().join("out.cls").exists());
+}

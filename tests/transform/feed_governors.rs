@@ -102,3 +102,11 @@ fn a_clamped_feed_is_never_above_the_limit_and_stays() {
         assert_eq!(apply(&step, &once).0, once);
     }
 }
+
+#[test]
+fn a_new_feed_does_not_part_a_goto_from_its_lines_of_numbers() {
+    let text = "TOOL PATH/A,TOOL,T\nFEDRAT/MMPM,100.0\nGOTO/0.0,0.0,10.0\nGOTO/0.0,0.0,0.0\n2.0,0.0,0.0\nEND-OF-PATH\n";
+    let (after, found) = apply("  - scale_feed: { factor: 0.5, where: { motions: [engage] } }\n", text);
+    assert!(after.contains("FEDRAT/MMPM,50.0\nGOTO/0.0,0.0,0.0\n2.0,0.0,0.0\n"), "{after}");
+    assert_eq!(found.len(), 1, "the points want different feeds: {found:?}");
+}
