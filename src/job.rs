@@ -2,7 +2,7 @@
 
 use crate::check;
 use crate::diagnostic::Diagnostic;
-use crate::parse::{self, parse};
+use crate::parse::parse;
 use crate::program::{Change, Dialect, Program, Statement};
 use crate::report::policy::Policy;
 use crate::setup::Setup;
@@ -70,13 +70,13 @@ impl Job<'_> {
     fn worse(&self, source: &Arc<Source>, program: &Program) -> Result<Vec<Diagnostic>, TooLarge> {
         let name = format!("{} (corrected)", source.name());
         let corrected_source = Source::new(name, program.to_bytes())?;
-        let (corrected, found) = read_and_check(&corrected_source, program.dialect());
+        let (corrected, found) = check::read_and_check(&corrected_source, Some(program.dialect()));
         if found.is_empty() {
             return Ok(found);
         }
         // Statement by statement the corrected text is the program: so each of its findings has a place in the original.
         let origins: Vec<Place> = program.live().map(|(_, statement)| Place::of(statement)).collect();
-        let (original, known_findings) = read_and_check(source, program.dialect());
+        let (original, known_findings) = check::read_and_check(source, Some(program.dialect()));
         let mut known: BTreeMap<(&str, String, Option<Place>), usize> = BTreeMap::new();
         for found in known_findings {
             let place =
@@ -115,14 +115,6 @@ impl Place {
 fn statement_of(program: &Program, found: &Diagnostic) -> Option<usize> {
     let at = found.labels.first()?.span.start;
     program.statements().partition_point(|statement| statement.origin().start <= at).checked_sub(1)
-}
-
-/// A file, and everything that reading and checking finds in it.
-fn read_and_check(source: &Arc<Source>, dialect: Dialect) -> (Program, Vec<Diagnostic>) {
-    let parsed = parse::parse(source, Some(dialect));
-    let mut findings = parsed.diagnostics;
-    findings.extend(check::check(&parsed.program));
-    (parsed.program, findings)
 }
 
 /// Whether any statement differs from the source.

@@ -24,9 +24,23 @@ mod words;
 pub use stale::{STALE_CODES, stale};
 
 use crate::diagnostic::{Code, Diagnostic, codes};
+use crate::parse::{self, Parsed};
 use crate::program::motion::{Motion, Problem};
-use crate::program::{Program, Statement};
+use crate::program::{Dialect, Program, Statement};
+use crate::source::Source;
 use findings::Findings;
+use std::sync::Arc;
+
+/// Reads a file and checks it: the program, and everything that reading and checking find, reading first.
+///
+/// A file that is no CL data has the one finding that says so.
+pub fn read_and_check(source: &Arc<Source>, dialect: Option<Dialect>) -> (Program, Vec<Diagnostic>) {
+    let Parsed { program, mut diagnostics, refused } = parse::parse(source, dialect);
+    if !refused {
+        diagnostics.extend(check(&program));
+    }
+    (program, diagnostics)
+}
 
 /// One check, with what it has to remember of the program so far.
 trait Lint {

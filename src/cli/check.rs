@@ -5,8 +5,8 @@ use super::files;
 use super::findings::{FindingArgs, Format};
 use super::terminal;
 use clap::Args;
+use clsmith::check::read_and_check;
 use clsmith::diagnostic::Diagnostic;
-use clsmith::parse::parse;
 use clsmith::program::Dialect;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -48,9 +48,7 @@ impl Check {
         for path in &self.files {
             let (name, found) = match files::read(path) {
                 Ok(source) => {
-                    let parsed = parse(&source, self.dialect);
-                    let mut found = parsed.diagnostics;
-                    found.extend(clsmith::check::check(&parsed.program));
+                    let (_, found) = read_and_check(&source, self.dialect);
                     (source.name().to_owned(), found)
                 }
                 Err(found) => (path.to_string_lossy().into_owned(), vec![*found]),

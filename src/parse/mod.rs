@@ -19,6 +19,8 @@ pub struct Parsed {
     pub program: Program,
     /// Findings, in the order of the file.
     pub diagnostics: Vec<Diagnostic>,
+    /// Whether the file is no CL data at all: then the one finding says so, and nothing else about it is worth saying.
+    pub refused: bool,
 }
 
 /// Reads a whole file. `dialect` forces one; otherwise it is detected.
@@ -62,7 +64,7 @@ pub fn parse(source: &Arc<Source>, dialect: Option<Dialect>) -> Parsed {
     }
     let dialect = dialect.unwrap_or_else(|| reader.detector.dialect());
     reader.program.set_dialect(dialect);
-    Parsed { program: reader.program, diagnostics: reader.diagnostics }
+    Parsed { program: reader.program, diagnostics: reader.diagnostics, refused: false }
 }
 
 /// All numbers of a statement with their places in its text, in the order they stand.
@@ -182,7 +184,7 @@ impl Reader<'_> {
         if bytes > 0 {
             program.push(Record::Unparsed, Span::new(0, bytes));
         }
-        Parsed { program, diagnostics: vec![diagnostic] }
+        Parsed { program, diagnostics: vec![diagnostic], refused: true }
     }
 }
 

@@ -141,3 +141,10 @@ fn findings_come_in_the_order_of_the_file() {
     assert_eq!(codes(&found), ["CL0114", "CL0150", "CL0110"]);
     assert!(places.is_sorted(), "{places:?}");
 }
+
+#[test]
+fn a_file_that_is_no_cl_data_has_one_finding() {
+    let source = crate::support::text("d=.5\ncutter/d\ngoto/0,0,0\n");
+    let (_, found) = clsmith::check::read_and_check(&source, None);
+    assert_eq!(found.iter().map(|found| found.code.id()).collect::<Vec<_>>(), ["CL0010"]);
+}

@@ -1,8 +1,8 @@
 //! The state machine that turns statements into motions.
 
+use super::Motion;
 use super::arcs::PendingArc;
 use super::state::{Problem, ProblemKind, State};
-use super::Motion;
 use crate::program::geometry::Pose;
 use crate::program::record::Cycle;
 use crate::program::{Program, Record};

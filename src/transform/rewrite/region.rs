@@ -6,7 +6,6 @@ use crate::program::operation::{self, Operation};
 use crate::values::{Glob, ToolPattern};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use serde::de::{Deserializer, Error as _};
 
 /// Where in the program a rule applies. What is given must all fit; of a list, one has to. Kinds of motion and feeds belong to
 /// motions, not to statements, so they cannot be asked for here; a feed is asked for by `if`.
@@ -14,11 +13,11 @@ use serde::de::{Deserializer, Error as _};
 #[serde(deny_unknown_fields)]
 pub struct Region {
     /// Names of operations; `*` and `?` are wildcards. What stands before the first operation belongs to it.
-    #[serde(default, deserialize_with = "not_empty")]
+    #[serde(default, deserialize_with = "crate::recipe::not_empty")]
     #[schemars(length(min = 1))]
     operations: Option<Vec<Glob>>,
     /// Numbers or names of tools: the tool in force behind the statement, so a LOAD/TOOL belongs to the tool that it loads.
-    #[serde(default, deserialize_with = "not_empty")]
+    #[serde(default, deserialize_with = "crate::recipe::not_empty")]
     #[schemars(length(min = 1))]
     tools: Option<Vec<ToolPattern>>,
 }
@@ -71,14 +70,4 @@ impl Walk<'_> {
         let Some(tool) = self.motions.state().tool.as_deref() else { return false };
         wanted.iter().any(|pattern| pattern.matches(tool.number, tool.name.as_deref()))
     }
-}
-
-fn not_empty<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
-    deserializer: D,
-) -> Result<Option<Vec<T>>, D::Error> {
-    let list = Option::<Vec<T>>::deserialize(deserializer)?;
-    if list.as_ref().is_some_and(Vec::is_empty) {
-        return Err(D::Error::custom("an empty list selects nothing\nRemove the key to select everything."));
-    }
-    Ok(list)
 }
