@@ -1,7 +1,7 @@
 //! One file through one recipe: read, correct, read back, compare. What `apply`, hooks and batches share.
 
 use crate::check;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, codes};
 use crate::parse::parse;
 use crate::program::{Change, Dialect, Program, Statement};
 use crate::report::policy::Policy;
@@ -53,7 +53,7 @@ impl Job<'_> {
             match self.worse(source, &outcome.program) {
                 Ok(worse) => new.extend(worse),
                 Err(too_large) => {
-                    new.push(Diagnostic::new(crate::diagnostic::codes::TOO_LARGE, too_large.to_string()));
+                    new.push(Diagnostic::new(codes::TOO_LARGE, too_large.to_string()));
                 }
             }
         }
@@ -71,6 +71,12 @@ impl Job<'_> {
         let name = format!("{} (corrected)", source.name());
         let corrected_source = Source::new(name, program.to_bytes())?;
         let (corrected, found) = check::read_and_check(&corrected_source, Some(program.dialect()));
+        if let Some(differs) = first_difference(program, &corrected) {
+            let span = corrected.statement(differs).map(Statement::origin).unwrap_or_default();
+            let message = "the corrected program does not read back as what the steps made";
+            let finding = Diagnostic::new(codes::UNREADABLE_EDIT, message);
+            return Ok(vec![finding.label(&corrected_source, span, "from here")]);
+        }
         if found.is_empty() {
             return Ok(found);
         }
@@ -109,6 +115,17 @@ impl Place {
         let inserted = matches!(statement.change(), Change::Inserted(_));
         Self { start: statement.origin().start, inserted }
     }
+}
+
+/// The first statement of the text read back that does not mean what the program's statement means; the writer's proof.
+fn first_difference(program: &Program, read_back: &Program) -> Option<usize> {
+    let mut live = program.live();
+    for (index, statement) in read_back.statements().iter().enumerate() {
+        if live.next().is_none_or(|(_, before)| before.record() != statement.record()) {
+            return Some(index);
+        }
+    }
+    live.next().map(|_| read_back.statements().len())
 }
 
 /// The statement that a finding in a freshly read program is about; `None` for the whole file.

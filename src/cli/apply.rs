@@ -112,12 +112,14 @@ impl Apply {
             return Some("with several inputs, -o names a folder that exists".into());
         }
         if several && self.output.is_some() {
-            let mut names: Vec<_> = self.inputs.iter().map(|input| input.file_name()).collect();
+            // Case aside: on some disks `A.cls` and `a.cls` are one file.
+            let name = |input: &PathBuf| {
+                input.file_name().map(|name| name.to_string_lossy().to_lowercase()).unwrap_or_default()
+            };
+            let mut names: Vec<String> = self.inputs.iter().map(name).collect();
             names.sort();
-            if let Some(name) =
-                names.windows(2).find_map(|pair| (pair.first() == pair.last()).then(|| pair.first()))
-            {
-                let name = name.copied().flatten().unwrap_or_default().to_string_lossy().into_owned();
+            let twice = names.iter().zip(names.iter().skip(1)).find(|(one, next)| one == next);
+            if let Some((name, _)) = twice {
                 return Some(format!("two inputs are called {name}; their outputs would be one file"));
             }
         }

@@ -10,11 +10,18 @@ use std::borrow::Cow;
 #[grammar = "grammar/cl.pest"]
 struct Grammar;
 
+/// No statement is longer (in bytes). pest takes some 250 times a text of short fields in memory, so a file that is one line
+/// would take the machine down; the longest measured line has 124 characters.
+const LONGEST: usize = 2 << 20;
+
 /// The statement at the start of `window`, and the number of bytes it takes.
 ///
 /// `window` holds whole lines. `Syntax::open` says that the statement goes on past its end; give a longer window, unless the
 /// file ends there. Never fails: what no form of the grammar fits has [`Form::Refused`].
 pub fn statement(window: &[u8]) -> Syntax<'_> {
+    if window.len() > LONGEST {
+        return bare(window, Form::Refused);
+    }
     let readable = readable(window);
     let Some(statement) = Grammar::parse(Rule::statement, &readable).ok().and_then(|mut pairs| pairs.next())
     else {
@@ -33,6 +40,9 @@ pub fn statement(window: &[u8]) -> Syntax<'_> {
 
 /// Where a refused line stopped making sense: the furthest byte the strict forms reached.
 pub fn refusal_place(text: &[u8]) -> usize {
+    if text.len() > LONGEST {
+        return 0;
+    }
     match Grammar::parse(Rule::words, &readable(text)) {
         Ok(_) => 0,
         Err(error) => match error.location {

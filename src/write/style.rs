@@ -39,7 +39,7 @@ impl Style {
         }
         let solidworks = program.dialect() == crate::program::Dialect::SolidWorks;
         Self {
-            zeros: if solidworks || seen.cut_zeros { Zeros::Cut } else { Zeros::Kept },
+            zeros: if solidworks || seen.cut_zeros > seen.padded { Zeros::Cut } else { Zeros::Kept },
             length_decimals: seen.lengths.unwrap_or(4),
             direction_decimals: seen.directions.unwrap_or(7).max(6),
             feed_decimals: seen.feed.unwrap_or(4),
@@ -103,7 +103,9 @@ struct Seen {
     lengths: Option<usize>,
     directions: Option<usize>,
     feed: Option<usize>,
-    cut_zeros: bool,
+    /// Numbers that only a writer without padding writes, and those that only one with padding does.
+    cut_zeros: usize,
+    padded: usize,
 }
 
 impl Seen {
@@ -139,7 +141,9 @@ impl Seen {
                 _ => continue,
             };
             *most = Some(most.map_or(decimals, |most| most.max(decimals)));
-            self.cut_zeros |= number.ends_with(b".") || number.starts_with(b".") || number.starts_with(b"-.");
+            let cut = number.ends_with(b".") || number.starts_with(b".") || number.starts_with(b"-.");
+            self.cut_zeros += usize::from(cut);
+            self.padded += usize::from(decimals > 0 && number.ends_with(b"0"));
         }
     }
 }

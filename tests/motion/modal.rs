@@ -111,10 +111,10 @@ fn several_points_are_several_motions_of_one_statement() {
     let found = clean_motions(&program("GOTO/0,0,0\n1,0,0\n2,0,0, 3,0,0\nRAPID\nGOTO/4,0,0, 5,0,0, 6,0,0\n"));
     let ends: Vec<_> = found.iter().map(|motion| motion.to.point.x).collect();
     assert_eq!(ends, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
-    // RAPID is good for one of them.
+    // RAPID is for the next record, and that has three points.
     assert_eq!(
         found.iter().map(|motion| motion.rapid).collect::<Vec<_>>(),
-        [false, false, false, false, true, false, false]
+        [false, false, false, false, true, true, true]
     );
 }
 
@@ -131,4 +131,12 @@ fn under_multax_every_line_of_points_holds_axes() {
     let found = clean_motions(&program(text));
     assert_eq!(found.iter().map(|motion| motion.to.point.x).collect::<Vec<_>>(), [0.0, 5.0, 6.0, 7.0]);
     assert_eq!(found[1].to.axis, Vector3::new(0.0, 0.6, 0.8));
+}
+
+#[test]
+fn a_rapid_is_for_every_point_of_its_goto() {
+    let found = crate::support::clean_motions(&crate::support::program(
+        "FEDRAT/100\nGOTO/0,0,0\nRAPID\nGOTO/1,0,0,2,0,0,3,0,0\nGOTO/4,0,0\n",
+    ));
+    assert_eq!(found.iter().map(|motion| motion.rapid).collect::<Vec<_>>(), [false, true, true, true, false]);
 }

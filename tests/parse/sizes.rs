@@ -96,3 +96,11 @@ fn a_spline_of_very_many_points_is_measured_in_time() {
     assert!((last.length() - 20_001.0).abs() < 1.0, "{}", last.length());
     assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
 }
+
+#[test]
+fn a_statement_beyond_all_measure_is_refused_before_it_fills_the_memory() {
+    let line = format!("FOO/{}\n", "1 ".repeat(1_500_000));
+    let parsed = clsmith::parse::parse(&crate::support::text(format!("RAPID\n{line}GOTO/1,2,3\n")), None);
+    assert_eq!(parsed.diagnostics.iter().map(|found| found.code.id()).collect::<Vec<_>>(), ["CL0001"]);
+    assert_eq!(parsed.program.statements().len(), 3);
+}

@@ -107,7 +107,7 @@ impl<'p> Motions<'p> {
 
     pub(super) fn read(&mut self, index: usize, record: &Record) {
         if self.pending.spline.is_some()
-            && !matches!(record, Record::Knot(_) | Record::Control(_) | Record::Comment)
+            && !matches!(record, Record::Knot(_) | Record::Control(_) | Record::Comment | Record::Blank)
         {
             self.end_spline();
         }

@@ -32,7 +32,10 @@ impl Motions<'_> {
         }
         let with_axes = self.state.multi_axis && is_poses(numbers);
         let step = if with_axes { 6 } else { 3 };
+        // RAPID is for the next record, however many points it has.
+        let rapid = self.pending.rapid;
         for start in (0..numbers.len()).step_by(step) {
+            self.pending.rapid = rapid;
             let axis = if with_axes { unit(at(start + 3)) } else { self.state.axis };
             let pose = Pose { point: at(start).into(), axis };
             self.move_to(Target { pose, normal: None, statement: index });
