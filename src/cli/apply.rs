@@ -108,8 +108,9 @@ impl Apply {
         }
         let several = self.inputs.len() > 1;
         let folder = self.output.as_deref().filter(|path| !path.as_os_str().is_empty());
-        if several && folder.is_some_and(|folder| !folder.is_dir()) {
-            return Some("with several inputs, -o names a folder that exists".into());
+        if let Some(folder) = folder.filter(|folder| several && !folder.is_dir()) {
+            let folder = folder.display();
+            return Some(format!("with several inputs, -o names a folder that exists; `{folder}` is none"));
         }
         if several && self.output.is_some() {
             // Case aside: on some disks `A.cls` and `a.cls` are one file.

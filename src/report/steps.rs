@@ -114,7 +114,7 @@ fn kind_of_items(items: &Value, definitions: &Map<String, Value>) -> String {
     kind(&resolved(items, definitions), definitions)
 }
 
-/// Paragraphs wrapped to 96 columns; indented lines (examples) stay as they are.
+/// Paragraphs and items of lists wrapped to 96 columns; indented lines (examples) stay as they are.
 fn wrapped(text: &str, depth: usize) -> String {
     let indent = "  ".repeat(depth);
     let mut lines: Vec<String> = Vec::new();
@@ -127,8 +127,9 @@ fn wrapped(text: &str, depth: usize) -> String {
             continue;
         }
         let mut line = indent.clone();
-        for word in paragraph.split_whitespace() {
-            if line.len() > indent.len() && line.chars().count() + 1 + word.chars().count() > 96 {
+        for (word, starts_item) in words(paragraph) {
+            let full = line.chars().count() + 1 + word.chars().count() > 96;
+            if line.len() > indent.len() && (starts_item || full) {
                 lines.push(std::mem::replace(&mut line, indent.clone()));
             }
             if line.len() > indent.len() {
@@ -139,4 +140,12 @@ fn wrapped(text: &str, depth: usize) -> String {
         lines.push(line);
     }
     lines.join("\n")
+}
+
+/// The words of a paragraph, each with whether it is the dash that starts an item of a list.
+fn words(paragraph: &str) -> impl Iterator<Item = (&str, bool)> {
+    paragraph.lines().flat_map(|line| {
+        let dash = line.trim_start().starts_with("- ");
+        line.split_whitespace().enumerate().map(move |(index, word)| (word, dash && index == 0))
+    })
 }

@@ -57,9 +57,11 @@ impl StepChanges {
 impl Changes {
     /// Counts what `steps` (their names in the recipe's order) made of `before`. `after` carries the signatures; one of a step
     /// that `steps` does not name gets a step of its own, without a name.
-    /// `caller` is the unit of lengths where the program does not tell it.
+    /// `caller` is the unit of lengths where neither the program nor its feeds tell it, as for the steps.
     pub fn of(before: &Program, after: &Program, steps: &[&str], caller: Option<LengthUnit>) -> Self {
-        let (units_before, units) = (Units::of(before, caller), Units::of(after, caller));
+        let told =
+            |program: &Program| Units::of(program, caller.filter(|_| program.units_of_feeds().is_none()));
+        let (units_before, units) = (told(before), told(after));
         // A step may have changed the unit; numbers that stand side by side must not.
         let scale = units_before.unit.in_mm() / units.unit.in_mm();
         let named = |name: &&str| StepChanges { name: (*name).to_owned(), ..StepChanges::default() };

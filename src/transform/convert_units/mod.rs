@@ -22,7 +22,8 @@ use serde::Deserialize;
 ///
 /// The old unit is the one that the file states; a file that states none needs `from`. No unit record is put into such a file.
 ///
-/// Idempotent where the file states its unit: a program that already has the unit is left as it is.
+/// Idempotent where the file states its unit: a program that already has the unit is left as it is. A file that states none is
+/// refused when its feeds name the new unit already.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ConvertUnits {
@@ -48,6 +49,18 @@ impl Transform for ConvertUnits {
         };
         if from == self.to {
             return Ok(program);
+        }
+        if stated.is_none() && program.units_of_feeds() == Some(self.to) {
+            let finding = context.at(
+                codes::STEP_FAILED,
+                "the feeds of this file name the new unit already, so the file seems to be converted",
+                &["from"],
+                "says that it is not",
+            );
+            return Err(Box::new(finding.help(
+                "A second conversion would put every point off by a factor of 25.4. If the lengths really are in the old unit, give the feeds \
+                 its words first, by a `rewrite` step.",
+            )));
         }
         let mut found = Context { findings: Vec::new(), ..*context };
         if stated.is_none() {

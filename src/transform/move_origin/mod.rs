@@ -18,8 +18,10 @@ pub use scope::Operations;
 use scope::Scope;
 use serde::Deserialize;
 
-/// Moves, turns or mirrors the path: first `mirror`, then `rotate`, then `translate`, each in the coordinates that the program
-/// prints. At least one of them has to be given.
+/// Moves, turns or mirrors the path.
+///
+/// First comes `mirror`, then `rotate`, then `translate`, each in the coordinates that the program prints. At least one of them has
+/// to be given.
 ///
 /// With `change: points` (the default) every point, direction and arc axis gets new numbers: GOTO, FROM, GOHOME, GODLTA, CIRCLE,
 /// MOVARC, INDIRV and TLON, TLAXIS, spline control points. Cycle depths are relative to their holes and stay. With `change:

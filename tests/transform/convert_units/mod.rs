@@ -123,3 +123,11 @@ DELAY/   50.000000
     assert_eq!(after, text.replace("UNITS/MM", "UNITS/INCHES"));
     snapshots("convert_units").bind(|| insta::assert_snapshot!("reported", shown(&findings).join("\n")));
 }
+
+#[test]
+fn a_converted_file_that_states_no_unit_is_not_converted_again() {
+    let step = "  - convert_units: { from: mm, to: inch }";
+    let (once, _) = apply(step, NX);
+    let found = try_apply(&format!("version: 1\nsteps:\n{step}"), &once).unwrap_err();
+    assert_eq!(found.last().unwrap().code.id(), "CL0302");
+}
