@@ -15,7 +15,7 @@ use clsmith::source::Source;
 use clsmith::write::{Interrupt, is_interrupt, same_file, write_atomically_unless};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -80,15 +80,15 @@ impl Apply {
             }
         };
         let interrupt = Interrupt::new();
-        let raised = interrupt.clone();
-        ctrlc::set_handler(move || raised.raise()).map_err(io::Error::other)?;
+        let writing = Arc::new(Mutex::new(()));
+        stop_on_ctrl_c(&interrupt, &writing)?;
         let job = Job { recipe: &recipe, setup: &setup, policy: &policy, dialect: self.dialect };
         let mut worst = Exit::Done;
         for input in &self.inputs {
             if interrupt.is_raised() {
                 return Ok(Exit::Interrupted);
             }
-            match self.one(&job, input, &interrupt) {
+            match self.one(&job, input, &interrupt, &writing) {
                 Ok(exit) => worst = worst.max(exit),
                 Err(error) if is_interrupt(&error) => return Ok(Exit::Interrupted),
                 Err(error) => return Err(error),
@@ -127,7 +127,13 @@ impl Apply {
         None
     }
 
-    fn one(&self, job: &Job<'_>, input: &Path, interrupt: &Interrupt) -> io::Result<Exit> {
+    fn one(
+        &self,
+        job: &Job<'_>,
+        input: &Path,
+        interrupt: &Interrupt,
+        writing: &Mutex<()>,
+    ) -> io::Result<Exit> {
         let target = self.target(input);
         let setup_file = job.recipe.setup_file.as_deref().map(|name| files::beside(&self.recipe, name));
         if let Some(found) =
@@ -166,13 +172,14 @@ impl Apply {
         }
         if !self.dry_run
             && let Some(target) = &target
-            && let Some(found) = write(&program, target, interrupt)?
+            && let Some(found) = write(&program, target, interrupt, writing)?
         {
             self.show(&[found], Some(source.name()))?;
             return Ok(Exit::Errors);
         }
         if !self.quiet {
-            self.summary(job, &source, &program, target.as_deref().filter(|_| !self.dry_run))?;
+            let target = target.as_deref().filter(|_| !self.dry_run);
+            unless_nobody_reads(self.summary(job, &source, &program, target))?;
         }
         Ok(Exit::Done)
     }
@@ -196,7 +203,8 @@ impl Apply {
     }
 
     fn show(&self, findings: &[Diagnostic], file: Option<&str>) -> io::Result<()> {
-        self.findings.show(&mut io::stderr().lock(), terminal::errors_are_seen(), findings, file)
+        let mut err = io::stderr().lock();
+        unless_nobody_reads(self.findings.show(&mut err, terminal::errors_are_seen(), findings, file))
     }
 
     fn summary(
@@ -223,8 +231,36 @@ impl Apply {
     }
 }
 
+/// Ctrl-C ends the process at once, but while an output is written: then the writer stops between two chunks and takes its
+/// temporary file along.
+fn stop_on_ctrl_c(interrupt: &Interrupt, writing: &Arc<Mutex<()>>) -> io::Result<()> {
+    let (interrupt, writing) = (interrupt.clone(), Arc::clone(writing));
+    ctrlc::set_handler(move || {
+        interrupt.raise();
+        if let Ok(_nobody_writes) = writing.try_lock() {
+            eprintln!("clsmith: stopped");
+            std::process::exit(130);
+        }
+    })
+    .map_err(io::Error::other)
+}
+
+/// What only people see may fail: with `clsmith apply ... 2>&1 | head` the outputs are still written.
+fn unless_nobody_reads(shown: io::Result<()>) -> io::Result<()> {
+    match shown {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        shown => shown,
+    }
+}
+
 /// Writes the program; a finding when that fails for another reason than Ctrl-C.
-fn write(program: &Program, target: &Path, interrupt: &Interrupt) -> io::Result<Option<Diagnostic>> {
+fn write(
+    program: &Program,
+    target: &Path,
+    interrupt: &Interrupt,
+    writing: &Mutex<()>,
+) -> io::Result<Option<Diagnostic>> {
+    let _held = writing.lock();
     let write_all = |out: &mut dyn Write| program.pieces().try_for_each(|piece| out.write_all(piece));
     let done = if target == Path::new(STANDARD) {
         let mut out = io::BufWriter::new(io::stdout().lock());

@@ -54,6 +54,10 @@ impl Diff {
                 return Ok(Exit::Usage);
             }
         };
+        if self.a == self.b && self.a == Path::new(files::STANDARD) {
+            eprintln!("clsmith diff: standard input can be read only once");
+            return Ok(Exit::Usage);
+        }
         let mut programs = Vec::new();
         for path in [&self.a, &self.b] {
             let (program, found) = self.program(path);

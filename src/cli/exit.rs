@@ -15,6 +15,8 @@ pub enum Exit {
     Usage,
     /// Ctrl-C.
     Interrupted,
+    /// Whoever read the output went away before it was all written.
+    NobodyReads,
 }
 
 impl From<Exit> for ExitCode {
@@ -25,6 +27,7 @@ impl From<Exit> for ExitCode {
             Exit::Usage => 2,
             Exit::Differ => 3,
             Exit::Interrupted => 130,
+            Exit::NobodyReads => 141,
         })
     }
 }

@@ -28,7 +28,8 @@ Exit codes:
   1  errors were found; nothing was written for the file they are in
   2  the command line is wrong
   3  `diff`: the programs differ in meaning
-  130  stopped by Ctrl-C; no half file is left";
+  130  stopped by Ctrl-C; no half file is left
+  141  the reader of the output went away (`| head`)";
 
 /// Reads, checks, corrects and writes cutter-location data: Siemens NX CLSF, CATIA APT, Creo NCL and kin.
 ///
@@ -70,8 +71,8 @@ pub fn main() -> ExitCode {
     };
     match done {
         Ok(exit) => exit.into(),
-        // A reader that has seen enough (`clsmith ... | head`) is no error of ours.
-        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Exit::Done.into(),
+        // A reader that has seen enough (`clsmith ... | head`) is no error of ours, but the work was not done either.
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Exit::NobodyReads.into(),
         Err(error) => {
             eprintln!("clsmith: {error}");
             Exit::Errors.into()

@@ -89,7 +89,7 @@ pub fn roles(record: &Record, text: &[u8]) -> Vec<Role> {
 /// The meaning of a text that is to be one whole statement.
 ///
 /// # Errors
-/// As [`record`]; also when the text holds more than the statement.
+/// As [`record()`]; also when the text holds more than the statement.
 pub fn whole(text: &[u8]) -> Result<Record, BadRecord> {
     if let Some((goto, length)) = shortcut::goto(text)
         && length == text.len()

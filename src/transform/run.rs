@@ -1,8 +1,9 @@
 //! Running a recipe on a program.
 
-use super::{Context, Recipe};
-use crate::diagnostic::Diagnostic;
-use crate::program::{Program, StepId};
+use super::{Context, Recipe, Step};
+use crate::diagnostic::{Diagnostic, codes};
+use crate::program::{LengthUnit, Program, StepId};
+use crate::recipe::Segment;
 use crate::setup::Setup;
 
 /// What a recipe made of a program.
@@ -19,7 +20,7 @@ pub struct Outcome {
 /// # Errors
 /// What stopped a step, after the findings of the steps before it.
 pub fn run(recipe: &Recipe, setup: &Setup, mut program: Program) -> Result<Outcome, Vec<Diagnostic>> {
-    let mut findings = Vec::new();
+    let mut findings: Vec<Diagnostic> = unsaid_units(recipe, &program).into_iter().collect();
     for (index, step) in recipe.steps.iter().enumerate() {
         let id = StepId(u16::try_from(index).unwrap_or(u16::MAX));
         let mut context = Context { step: id, recipe, setup, findings: std::mem::take(&mut findings) };
@@ -33,4 +34,22 @@ pub fn run(recipe: &Recipe, setup: &Setup, mut program: Program) -> Result<Outco
         findings = context.findings;
     }
     Ok(Outcome { program, findings })
+}
+
+/// A recipe that says no unit, has lengths or feeds, and meets a program in inches.
+fn unsaid_units(recipe: &Recipe, program: &Program) -> Option<Diagnostic> {
+    let said = recipe.place(&[Segment::Key("units")]).is_some();
+    let measures = |step: &Step| match step {
+        Step::ClampFeed(_) => true,
+        Step::MoveOrigin(step) => step.has_lengths(),
+        _ => false,
+    };
+    let index = recipe.steps.iter().position(measures)?;
+    let inches = || program.stated_units().or_else(|| program.units_of_feeds()) == Some(LengthUnit::Inch);
+    if said || recipe.units == LengthUnit::Inch || !inches() {
+        return None;
+    }
+    let message = "the program is in inches, the recipe says no `units` and is taken to be in millimetres";
+    let finding = Diagnostic::new(codes::UNITS_DIFFER_FROM_RECIPE, message);
+    Some(finding.label(&recipe.source, recipe.step_place(index), "its lengths and feeds are in mm"))
 }

@@ -46,3 +46,16 @@ fn a_limit_must_come_from_somewhere() {
     let machine = "version: 1\nsetup: { machine: { max_feed: 700 } }\nsteps:\n  - clamp_feed: {}";
     assert!(try_apply(machine, NX).unwrap().0.contains("FEDRAT/MMPM,700.0000"));
 }
+
+#[test]
+fn a_recipe_without_units_and_a_program_in_inches_are_brought_together_aloud() {
+    let part = "UNITS/INCHES\nFEDRAT/100.0,IPM\nGOTO/0,0,0\nGOTO/1,0,0\n";
+    let codes = |recipe: &str| {
+        let (_, found) = try_apply(recipe, part).unwrap();
+        found.iter().map(|found| found.code.id()).collect::<Vec<_>>()
+    };
+    assert_eq!(codes("version: 1\nsteps:\n  - clamp_feed: { max: 9000 }\n"), ["CL0307"]);
+    assert!(codes("version: 1\nunits: mm\nsteps:\n  - clamp_feed: { max: 9000 }\n").is_empty());
+    assert!(codes("version: 1\nunits: inch\nsteps:\n  - clamp_feed: { max: 9000 }\n").is_empty());
+    assert!(codes("version: 1\nsteps:\n  - scale_feed: { factor: 1 }\n").is_empty());
+}

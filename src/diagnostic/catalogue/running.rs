@@ -24,6 +24,16 @@ super::area! {
         "Handle it by hand or by a `rewrite` rule, and check the result.",
         "The step changes records of this kind, but this one has a form it does not understand well enough to change safely. \
          It stands as it was, so it may contradict the records around it.";
+    COMMENT_FRAME = "CL0306", Warning, "a frame that only comments state was changed",
+        "Make sure that the post reads the matrix in the comments; else change the points: `change: points`.",
+        "CATIA writes the frame of a program in comments (`$$*CATIA0`). The step moved that frame and left the points as they \
+         are. A post that reads the matrix machines the part in the new place; one that skips comments machines it in the old \
+         one, and nothing at the machine tells the difference until the tool is in the vise.";
+    UNITS_DIFFER_FROM_RECIPE = "CL0307", Warning, "a recipe without `units` and a program in inches",
+        "Write `units: inch` or `units: mm` into the recipe, whichever its numbers are meant in.",
+        "The recipe says no `units`, so its lengths and feeds are in millimetres, but the program is in inches. clsmith converts: \
+         `translate: [1, 0, 0]` moves such a program by 0.0394 inches. That is right if the recipe was written in millimetres, \
+         and off by a factor of 25.4 if its author thought in inches like the program. Saying the unit settles it.";
     RULE_UNUSED = "CL0310", Warning, "a rule of `rewrite` applies to no statement",
         "Compare it with a statement of the file; a statement that an earlier rule takes does not reach this one.",
         "No statement of this program fits the rule's `match` where the step's `where` selects one. Spacing, case of letters and \

@@ -1,6 +1,6 @@
 //! What differs between two programs, by meaning.
 //!
-//! Statements are aligned ([`align`]) and every pair is told apart: the same bytes, the same said differently, a point moved,
+//! Statements are aligned (`align`) and every pair is told apart: the same bytes, the same said differently, a point moved,
 //! a feed changed. Whether the tool takes the same way is found from the motions ([`Geometry`]), so two dialects can be
 //! compared. The JSON ([`to_json`]) is [`Diff`] as it stands, with `"version": 1`; `version` changes when a reader of the
 //! structure would have to, new keys may be added without.

@@ -57,7 +57,10 @@ pub fn change(
     if let Some(index) = comment_frame {
         let message =
             "the matrix stands in comments: a post that does not read them moves the tool as before";
-        context.not_changed(message, editor.program(), index);
+        let span =
+            editor.program().statement(index).map(crate::program::Statement::origin).unwrap_or_default();
+        let finding = Diagnostic::new(codes::COMMENT_FRAME, message);
+        context.findings.push(finding.label(editor.program().source(), span, "changed here"));
     }
     editor.finish()
 }

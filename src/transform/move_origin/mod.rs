@@ -61,6 +61,16 @@ pub enum Changes {
     Frame,
 }
 
+impl MoveOrigin {
+    /// Whether the step says a length, so that it matters in which unit it is meant.
+    pub(in crate::transform) fn has_lengths(&self) -> bool {
+        let triple = |triple: &place::Triple| triple.iter().any(|value| value.get() != 0.0);
+        self.translate.as_ref().is_some_and(triple)
+            || self.rotate.as_ref().and_then(|rotate| rotate.about.as_ref()).is_some_and(triple)
+            || self.mirror.as_ref().is_some_and(|mirror| mirror.through.norm() > 0.0)
+    }
+}
+
 impl Transform for MoveOrigin {
     fn apply(&self, program: Program, context: &mut Context<'_>) -> Result<Program, Box<Diagnostic>> {
         if self.mirror.is_none() && self.rotate.is_none() && self.translate.is_none() {
