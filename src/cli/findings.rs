@@ -46,9 +46,7 @@ pub struct FindingArgs {
 impl FindingArgs {
     /// The policy that the options ask for.
     pub fn policy(&self) -> Result<Policy, String> {
-        let texts = |codes: &'_ [String]| codes.to_vec();
-        let (deny, allow) = (texts(&self.deny), texts(&self.allow));
-        Policy::parse(deny.iter().map(String::as_str), allow.iter().map(String::as_str), self.notes)
+        Policy::parse(self.deny.iter().map(String::as_str), self.allow.iter().map(String::as_str), self.notes)
     }
 
     /// Writes findings in the form asked for. `file` is the run's one file, if it has one.
