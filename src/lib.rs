@@ -13,6 +13,7 @@ pub mod program;
 pub mod recipe;
 pub mod report;
 pub mod setup;
+pub mod sim;
 pub mod source;
 pub mod transform;
 pub mod values;

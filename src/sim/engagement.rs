@@ -1,0 +1,99 @@
+//! What a piece of the path engages: where on the cutter material was removed, and how the surface advances there.
+//!
+//! It does not depend on feed, spindle or teeth; chip thickness, removal rate and forces are computed from it for any of
+//! them.
+
+/// Angular bins around the cutter; 3 degrees each.
+pub const BINS: usize = 120;
+
+/// What one angular bin of the cutter engaged.
+///
+/// Contacts lie on the cutter's meridian; `low..=high` is the hull of the engaged lengths along it, measured from the tip
+/// ([`super::Profile::point`]).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bin {
+    /// Lowest engaged length along the meridian, mm.
+    pub low: f32,
+    /// Highest engaged length along the meridian, mm.
+    pub high: f32,
+    /// Largest `v.n / |v|` of the contacts: the share of the feed with which the surface advances along its normal.
+    pub share: f32,
+    /// As `share`, with everything that the grid may have missed: never below the true share.
+    pub share_bound: f32,
+    /// Radial part of the normal (1 on the flank, 0 on the bottom) where `share` is.
+    pub radial: f32,
+    /// Largest thickness of the removed material along the normal, mm; a chip is never thicker.
+    pub thickness: f32,
+}
+
+impl Bin {
+    /// A bin without contact.
+    pub const EMPTY: Self = Self {
+        low: f32::INFINITY,
+        high: f32::NEG_INFINITY,
+        share: 0.0,
+        share_bound: 0.0,
+        radial: 1.0,
+        thickness: 0.0,
+    };
+
+    /// Whether anything was engaged.
+    pub fn is_engaged(&self) -> bool {
+        self.low <= self.high
+    }
+}
+
+/// What a piece of the path engaged.
+///
+/// Angles are about the tool axis from the feed's direction in the plane across the axis (0 is ahead, positive to the left
+/// seen from the holder down on the work, so counter-clockwise); bin `i` covers `-180 + 3 i ..= -180 + 3 (i + 1)` degrees. A motion
+/// straight along the axis has no such direction; its angles count from the frame's x axis, or y where the axis is along x.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Engagement {
+    /// Volume removed in mm3.
+    pub removed_mm3: f64,
+    /// Part of the direction of travel across the tool axis, 0..=1.
+    pub across: f64,
+    /// Part of the direction of travel along the tool axis, -1 (plunge) ..= 1.
+    pub along: f64,
+    /// Length of the tip's path in mm.
+    pub length_mm: f64,
+    /// Lateral extent of the removed ground, mm to the left (positive) of the path: least and greatest.
+    pub lateral: [f64; 2],
+    /// Height on the cutter at which material was removed, mm above the tip along the axis: least and greatest.
+    pub height: [f64; 2],
+    /// The bins; empty when nothing was removed.
+    pub bins: Vec<Bin>,
+    /// Largest share that a sliver thinner than a cell, which the grid cannot see, may have had beside the removed ground: where
+    /// the flank passes by material closer than a cell. 0 where it does not.
+    pub graze: f64,
+    /// Largest depth to which a collar (index into the cutter's list) stood in material; `None` when free.
+    pub contact: Option<(usize, f64)>,
+}
+
+impl Engagement {
+    /// Nothing engaged.
+    pub fn none(across: f64, along: f64, length_mm: f64) -> Self {
+        Self {
+            removed_mm3: 0.0,
+            across,
+            along,
+            length_mm,
+            lateral: [f64::INFINITY, f64::NEG_INFINITY],
+            height: [f64::INFINITY, f64::NEG_INFINITY],
+            bins: Vec::new(),
+            graze: 0.0,
+            contact: None,
+        }
+    }
+
+    /// Whether material was removed.
+    pub fn cuts(&self) -> bool {
+        self.removed_mm3 > 0.0
+    }
+
+    /// Largest share `v.n / |v|` over all contacts.
+    pub fn share(&self) -> f64 {
+        self.bins.iter().map(|bin| f64::from(bin.share)).fold(0.0, f64::max)
+    }
+}

@@ -1,0 +1,17 @@
+//! Simulation: stock as dexels, cutters as convex profiles, sweeps that remove material, and what each piece of the path
+//! engages.
+//!
+//! Everything here is in millimetres, radians and the workpiece frame, in which dexels stand along z. The simulation never
+//! sees text; [`crate::setup`] makes cutters and stock, [`crate::transform`] and [`crate::report`] ask it.
+
+pub mod cutter;
+pub mod engagement;
+pub mod material;
+pub mod profile;
+pub mod teeth;
+
+pub use cutter::{Collar, Cutter};
+pub use engagement::{Bin, Engagement};
+pub use material::Material;
+pub use profile::{Profile, ProfileError, ProfilePoint};
+pub use teeth::Teeth;
