@@ -5,12 +5,14 @@
 //! sees text; [`crate::setup`] makes cutters and stock, [`crate::transform`] and [`crate::report`] ask it.
 
 pub mod cutter;
+pub mod dexel;
 pub mod engagement;
 pub mod material;
 pub mod profile;
 pub mod teeth;
 
-pub use cutter::{Collar, Cutter};
+pub use cutter::{Collar, CollarKind, Cutter};
+pub use dexel::{Band, Dexels, Interval, Layout};
 pub use engagement::{Bin, Engagement};
 pub use material::Material;
 pub use profile::{Profile, ProfileError, ProfilePoint};
