@@ -9,6 +9,8 @@ pub mod dexel;
 pub mod engagement;
 pub mod material;
 pub mod profile;
+pub mod run;
+mod sweep;
 pub mod teeth;
 
 pub use cutter::{Collar, CollarKind, Cutter};
@@ -16,4 +18,5 @@ pub use dexel::{Band, Dexels, Interval, Layout};
 pub use engagement::{Bin, Engagement};
 pub use material::Material;
 pub use profile::{Profile, ProfileError, ProfilePoint};
+pub use run::{Piece, Place, Simulation};
 pub use teeth::Teeth;

@@ -195,6 +195,47 @@ impl Profile {
         ((self.corner_center[1] - z) / self.corner_radius).clamp(-1.0, 1.0).acos()
     }
 
+    /// Sine and cosine of the normal's angle from straight down, at a distance from the axis (a cylinder's flank counts only beyond
+    /// its own radius).
+    pub fn normal_at_radius(&self, r: f64) -> [f64; 2] {
+        if r < self.bottom_radius || (self.corner_radius <= 0.0 && r <= self.flank_start[0]) {
+            let (sin, cos) = self.bottom_angle.sin_cos();
+            return [sin, cos];
+        }
+        if r <= self.flank_start[0] {
+            let sin = ((r - self.corner_center[0]) / self.corner_radius).clamp(0.0, 1.0);
+            return [sin, (1.0 - sin * sin).sqrt()];
+        }
+        let (sin, cos) = self.taper.sin_cos();
+        [cos, sin]
+    }
+
+    /// Sine and cosine of the normal's angle from straight down, at a height above the tip; of a flat end's edge, the flank's.
+    pub fn normal_at(&self, z: f64) -> [f64; 2] {
+        if z >= self.flank_start[1] {
+            let (sin, cos) = self.taper.sin_cos();
+            return [cos, sin];
+        }
+        if z < self.bottom_radius * self.bottom_angle.tan() || self.corner_radius <= 0.0 {
+            let (sin, cos) = self.bottom_angle.sin_cos();
+            return [sin, cos];
+        }
+        let cos = ((self.corner_center[1] - z) / self.corner_radius).clamp(0.0, 1.0);
+        [(1.0 - cos * cos).sqrt(), cos]
+    }
+
+    /// Length along the meridian from the tip to the place of a normal, given its height and radius.
+    pub(super) fn length_of(&self, r: f64, z: f64, sin: f64) -> f64 {
+        if r < self.bottom_radius && z < self.flank_start[1] {
+            return r / self.bottom_angle.cos();
+        }
+        if z >= self.flank_start[1] {
+            return self.flank_length_start() + (z - self.flank_start[1]) / self.taper.cos();
+        }
+        self.bottom_length()
+            + self.corner_radius * (f64::from((sin as f32).min(1.0).asin()) - self.bottom_angle).max(0.0)
+    }
+
     /// Length of the whole meridian from the tip.
     pub fn length(&self) -> f64 {
         self.flank_length_start() + (self.height - self.flank_start[1]) / self.taper.cos()

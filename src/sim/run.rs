@@ -1,0 +1,103 @@
+//! Running pieces of a path over the stock.
+//!
+//! Columns do not know of each other, so bands of rows are worked on in parallel, each by all pieces of a batch in order; what
+//! the bands found is put together in the order of the bands. So the result is the same whatever the number of threads.
+
+use super::Cutter;
+use super::dexel::Dexels;
+use super::engagement::Engagement;
+use super::sweep::{Circumstances, Partial, Straight, Sweep};
+use nalgebra::Vector3;
+use rayon::prelude::*;
+
+/// A place of the cutter: its tip, and its axis as a unit vector from the tip into the holder.
+pub type Place = crate::program::geometry::Pose;
+
+/// A straight piece of the path; between its ends the tip goes straight and the axis turns evenly.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Piece {
+    /// Where it begins.
+    pub from: Place,
+    /// Where it ends.
+    pub to: Place,
+    /// Index of the cutter.
+    pub cutter: usize,
+}
+
+/// The stock under the cutter.
+#[derive(Debug)]
+pub struct Simulation {
+    stock: Dexels,
+    highest: f64,
+    last: Option<(Place, usize)>,
+    detail: bool,
+}
+
+impl Simulation {
+    /// Begins with a stock. `detail` fills the engagement finely enough for forces, which takes several times as long.
+    pub fn new(stock: Dexels, detail: bool) -> Self {
+        let highest = stock.highest().unwrap_or(f64::NEG_INFINITY);
+        Self { stock, highest, last: None, detail }
+    }
+
+    /// What is left.
+    pub fn stock(&self) -> &Dexels {
+        &self.stock
+    }
+
+    /// What is left, for keeps.
+    pub fn into_stock(self) -> Dexels {
+        self.stock
+    }
+
+    /// Moves cutters along pieces; one engagement for each. Pieces of an unknown cutter engage nothing.
+    pub fn run(&mut self, pieces: &[Piece], cutters: &[Cutter]) -> Vec<Engagement> {
+        let sweeps: Vec<Option<Sweep>> = pieces.iter().map(|piece| self.sweep(piece, cutters)).collect();
+        let found: Vec<Vec<(usize, Partial)>> = self
+            .stock
+            .bands_mut()
+            .par_iter_mut()
+            .map(|band| {
+                let mut scratch = Vec::new();
+                let mut found = Vec::new();
+                let rows = band.first_row..band.first_row + band.rows();
+                for (index, sweep) in sweeps.iter().enumerate() {
+                    let Some(sweep) = sweep else { continue };
+                    let reach = sweep.rows();
+                    if reach.start < rows.end && rows.start < reach.end {
+                        let partial = sweep.sweep(band, &mut scratch);
+                        if !partial.is_empty() {
+                            found.push((index, partial));
+                        }
+                    }
+                }
+                found
+            })
+            .collect();
+        let mut engagements: Vec<Engagement> = pieces.iter().map(nothing).collect();
+        let cell = self.stock.layout().cell;
+        for (index, partial) in found.iter().flatten() {
+            if let Some(engagement) = engagements.get_mut(*index) {
+                partial.give(engagement, cell * cell, cell / 2.0);
+            }
+        }
+        engagements
+    }
+
+    fn sweep(&mut self, piece: &Piece, cutters: &[Cutter]) -> Option<Sweep> {
+        let cutter = cutters.get(piece.cutter)?;
+        let continues = self.last == Some((piece.from, piece.cutter));
+        self.last = Some((piece.to, piece.cutter));
+        let around = Circumstances { continues, highest: self.highest, detail: self.detail };
+        let [from, to] = [piece.from.point, piece.to.point].map(|point| [point.x, point.y, point.z]);
+        Some(Sweep::Straight(Box::new(Straight::new(from, to, cutter, self.stock.layout(), around))))
+    }
+}
+
+fn nothing(piece: &Piece) -> Engagement {
+    let travel = piece.to.point - piece.from.point;
+    let length = travel.norm();
+    let axis: Vector3<f64> = piece.from.axis;
+    let along = if length > 0.0 { travel.dot(&axis) / length } else { 0.0 };
+    Engagement::none((1.0 - along * along).max(0.0).sqrt(), along, length)
+}

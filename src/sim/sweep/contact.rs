@@ -1,0 +1,199 @@
+//! Contacts: where on the cutter a point of a column was reached first, and how fast the surface advances there.
+
+use super::partial::{Contact, Partial};
+use super::surface::Surface;
+use crate::sim::Profile;
+
+/// Samples of a column's height when forces are asked for.
+const SAMPLES: usize = 4;
+
+/// A straight piece as its contacts see it. Heights count from the grid's base.
+#[derive(Debug, Clone)]
+pub(super) struct Motion {
+    pub profile: Profile,
+    /// Direction of travel: part across the axis, and along it (up is positive).
+    pub across: f64,
+    pub along: f64,
+    /// Height of the tip at the start.
+    pub start: f64,
+    /// Length across.
+    pub length: f64,
+    /// Distance of columns.
+    pub cell: f64,
+    /// Whether the bins must be filled finely enough for forces.
+    pub detail: bool,
+}
+
+/// A column from which `low..top` was removed: its place along the path and to the left of it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Column {
+    pub along: f64,
+    pub left: f64,
+    pub low: f64,
+    pub top: f64,
+}
+
+/// A point of the cutter in contact.
+#[derive(Debug, Clone, Copy)]
+struct Touch {
+    /// Ahead of the axis.
+    ahead: f64,
+    /// From the axis.
+    rho: f64,
+    /// Above the tip.
+    height: f64,
+    /// Sine and cosine of the normal's angle from straight down.
+    sin: f64,
+    cos: f64,
+}
+
+impl Motion {
+    /// Adds a column's contacts.
+    pub fn add(&self, column: Column, surface: &Surface, partial: &mut Partial) {
+        let Column { along, left, low, top } = column;
+        let bottom = self.lowest(along, left, surface);
+        let upper = self.entry(along, left, top, bottom);
+        let thickness = if upper.cos > 1e-3 { (top - low) / upper.cos } else { f64::INFINITY };
+        let heights = [bottom.height.min(upper.height), upper.height.max(bottom.height)];
+        partial.add_column((top - low) as f32, left as f32, heights.map(|height| height as f32));
+        let mut give = |touch: &Touch, cap: f64| partial.add(&self.contact(touch, left, thickness, cap));
+        let mut cap = 0.0;
+        if self.along < 0.0 {
+            cap = self.steepest(&bottom, &upper);
+            give(&bottom, 0.0);
+        }
+        give(&upper, cap);
+        if self.detail {
+            for sample in 0..SAMPLES {
+                let height = low + (top - low) * (sample as f64 + 0.5) / SAMPLES as f64;
+                give(&self.entry(along, left, height, bottom), 0.0);
+            }
+            give(&bottom, 0.0);
+        }
+    }
+
+    /// A contact as the bins take it. `cap` is a share that is reached between this touch and another.
+    fn contact(&self, touch: &Touch, left: f64, thickness: f64, cap: f64) -> Contact {
+        // The border of the ground lies half a cell further in than the last column on average, and at most a whole one.
+        let share = |shift: f64| {
+            let q = (left.abs() - shift).max(0.0);
+            let ahead = (touch.rho * touch.rho - q * q).max(0.0).sqrt();
+            let ahead = if touch.ahead < 0.0 { -ahead } else { ahead };
+            let turned = if touch.rho > 0.0 { ahead / touch.rho } else { 1.0 };
+            (self.across * turned * touch.sin - self.along * touch.cos).max(cap).clamp(0.0, 1.0) as f32
+        };
+        let angle = (left as f32).atan2(touch.ahead as f32);
+        Contact {
+            angle,
+            length: self.profile.length_of(touch.rho, touch.height, touch.sin) as f32,
+            share: share(self.cell / 2.0),
+            share_bound: share(self.cell),
+            radial: touch.sin as f32,
+            thickness: thickness as f32,
+        }
+    }
+
+    /// The largest share between two touches of one column on a descent: there the corner's normal may point straight ahead
+    /// along the path.
+    fn steepest(&self, bottom: &Touch, upper: &Touch) -> f64 {
+        if self.profile.corner_radius() <= 0.0 || upper.rho <= 0.0 {
+            return 0.0;
+        }
+        let forward = self.across * upper.ahead / upper.rho;
+        let down = -self.along;
+        // Angles from straight down; the bottom's is negative where the contact lies behind the axis.
+        let best = forward.atan2(down);
+        let from = bottom.sin.atan2(bottom.cos) * if bottom.ahead < 0.0 { -1.0 } else { 1.0 };
+        let to = upper.sin.atan2(upper.cos);
+        if (from..=to).contains(&best) { forward.hypot(down) } else { 0.0 }
+    }
+
+    /// The contact that leaves the surface over a column.
+    fn lowest(&self, along: f64, left: f64, surface: &Surface) -> Touch {
+        let at = if self.across > 0.0 {
+            (along - f64::from(surface.ahead(left.abs() as f32))).clamp(0.0, self.length)
+        } else {
+            0.0
+        };
+        let ahead = along - at;
+        let rho = ahead.hypot(left).min(self.profile.radius());
+        let [sin, cos] = self.profile.normal_at_radius(rho);
+        Touch { ahead, rho, height: self.profile.height_at(rho), sin, cos }
+    }
+
+    /// The contact with which the cutter first reaches a point of a column at height `z`; `lowest` is its last.
+    fn entry(&self, along: f64, left: f64, z: f64, lowest: Touch) -> Touch {
+        if self.across <= 1e-9 {
+            return lowest;
+        }
+        let slope = self.along / self.across;
+        let [flank_radius, flank_height] = self.profile.flank_start();
+        let tip = |at: f64| self.start + slope * at;
+        let on = |at: f64, height: f64| {
+            let ahead = along - at;
+            let [sin, cos] = self.profile.normal_at(height);
+            Touch { ahead, rho: ahead.hypot(left), height, sin, cos }
+        };
+        if self.profile.taper() <= 0.0 {
+            // The cylinder comes first wherever the point is above the corner when it arrives.
+            let at = along - (flank_radius * flank_radius - left * left).max(0.0).sqrt();
+            let height = z - tip(at);
+            if at >= -1e-4 && height >= flank_height {
+                return on(at, height);
+            }
+            if self.profile.corner_radius() <= 0.0 {
+                return lowest;
+            }
+            let center = self.profile.corner_center();
+            if center[0] == 0.0 && self.profile.bottom_angle() == 0.0 {
+                let at = self.ball_entry(along, left, z - self.start - center[1], center[1]).max(0.0);
+                return on(at, z - tip(at));
+            }
+        }
+        if slope == 0.0 {
+            let height = z - self.start;
+            let radius = self.profile.radius_at(height);
+            return on((along - (radius * radius - left * left).max(0.0).sqrt()).max(0.0), height);
+        }
+        let at = self.first_time(along, left, z, slope, along - lowest.ahead);
+        on(at, (z - tip(at)).max(0.0))
+    }
+
+    /// Distance across at which a ball reaches a point, given relative to its centre at the start.
+    fn ball_entry(&self, along: f64, left: f64, up: f64, radius: f64) -> f64 {
+        let travelled = along * self.across + up * self.along;
+        let apart2 = along * along + left * left + up * up - radius * radius;
+        (travelled - (travelled * travelled - apart2).max(0.0).sqrt()) * self.across
+    }
+
+    /// First distance across at which the point is inside: the height of the point over the profile is concave along the path,
+    /// so its first zero lies between the cutter's arrival and the lowest contact; found by false position (Illinois).
+    fn first_time(&self, along: f64, left: f64, z: f64, slope: f64, until: f64) -> f64 {
+        let radius = self.profile.radius();
+        let over = |at: f64| {
+            let rho = (along - at).hypot(left);
+            z - self.start - slope * at - self.profile.height_at(rho.min(radius))
+        };
+        let mut low = (along - (radius * radius - left * left).max(0.0).sqrt()).clamp(0.0, until.max(0.0));
+        let mut high = until.max(low);
+        let (mut below, mut above) = (over(low), over(high));
+        if below >= 0.0 || above <= 0.0 {
+            return if below >= 0.0 { low } else { high };
+        }
+        for _ in 0..6 {
+            let at = low + (high - low) * (below / (below - above));
+            let value = over(at);
+            if value.abs() < 1e-4 {
+                return at;
+            }
+            if value < 0.0 {
+                (low, below) = (at, value);
+                above *= 0.5;
+            } else {
+                (high, above) = (at, value);
+                below *= 0.5;
+            }
+        }
+        high
+    }
+}

@@ -1,0 +1,86 @@
+//! Which columns of a row a straight piece can change.
+
+/// The ground that a disc of some radius covers on a straight piece, seen from the start of the piece.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Extent {
+    /// Unit direction across, zero for a piece straight along the axis.
+    pub direction: [f64; 2],
+    /// Horizontal length.
+    pub length: f64,
+    /// Radius of the disc.
+    pub radius: f64,
+    /// Ground before this distance along the path was cleared by the piece before; negative infinity if it was not.
+    pub cleared_before: f64,
+    /// Radius of the disc at the start that was cleared already, 0 for none.
+    pub cleared_disc: f64,
+}
+
+impl Extent {
+    /// Least and greatest y.
+    pub fn rows(&self) -> [f64; 2] {
+        let end = self.direction[1] * self.length;
+        [end.min(0.0) - self.radius, end.max(0.0) + self.radius]
+    }
+
+    /// At most two stretches of x in a row at `y`; an empty one has its ends in the wrong order.
+    pub fn stretches(&self, y: f64) -> [[f64; 2]; 2] {
+        let none = [f64::INFINITY, f64::NEG_INFINITY];
+        let Some(mut whole) = self.covered(y) else { return [none; 2] };
+        let [ux, uy] = self.direction;
+        if self.cleared_before > f64::NEG_INFINITY {
+            whole = half_plane(whole, ux, self.cleared_before - y * uy);
+        }
+        let half = (self.cleared_disc * self.cleared_disc - y * y).max(0.0).sqrt();
+        if self.cleared_disc > y.abs() && half > 0.0 {
+            return [[whole[0], whole[1].min(-half)], [whole[0].max(half), whole[1]]];
+        }
+        [whole, none]
+    }
+
+    /// The stretch of a row that the disc covers on its way: the start's and end's chords, and where the row crosses the borders
+    /// between them.
+    fn covered(&self, y: f64) -> Option<[f64; 2]> {
+        let [ux, uy] = self.direction;
+        let mut found = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut add = |a: f64, b: f64| found = [found[0].min(a), found[1].max(b)];
+        for at in [0.0, self.length] {
+            let (cx, dy) = (ux * at, y - uy * at);
+            if dy.abs() <= self.radius {
+                let half = (self.radius * self.radius - dy * dy).sqrt();
+                add(cx - half, cx + half);
+            }
+        }
+        if uy != 0.0 {
+            for side in [-self.radius, self.radius] {
+                let x = (ux * y - side) / uy;
+                if (0.0..=self.length).contains(&(x * ux + y * uy)) {
+                    add(x, x);
+                }
+            }
+        }
+        (found[0] <= found[1]).then_some(found)
+    }
+
+    /// The stretch of a row beside the path, between two lateral distances on one side and the ends of the path.
+    pub fn beside(&self, y: f64, lateral: [f64; 2]) -> [f64; 2] {
+        let [ux, uy] = self.direction;
+        let all = [f64::NEG_INFINITY, f64::INFINITY];
+        let stretch = half_plane(all, ux, -y * uy);
+        let stretch = half_plane(stretch, -ux, y * uy - self.length);
+        let stretch = half_plane(stretch, -uy, lateral[0] - y * ux);
+        half_plane(stretch, uy, y * ux - lateral[1])
+    }
+}
+
+/// The part of a stretch where `slope * x >= least`.
+fn half_plane([from, to]: [f64; 2], slope: f64, least: f64) -> [f64; 2] {
+    if slope > 1e-12 {
+        [from.max(least / slope), to]
+    } else if slope < -1e-12 {
+        [from, to.min(least / slope)]
+    } else if least <= 1e-9 {
+        [from, to]
+    } else {
+        [f64::INFINITY, f64::NEG_INFINITY]
+    }
+}

@@ -1,0 +1,270 @@
+//! Straight pieces of a three-axis path.
+
+use super::contact::{Column, Motion};
+use super::extent::Extent;
+use super::partial::Partial;
+use super::surface::{Path, Row, Surface};
+use crate::sim::dexel::{Band, Layout};
+use crate::sim::{Collar, Cutter};
+
+/// A straight piece, made ready for any band of columns.
+#[derive(Debug, Clone)]
+pub(in crate::sim) struct Straight {
+    /// x and y of the tip at the start.
+    from: [f64; 2],
+    path: Path,
+    surface: Surface,
+    motion: Motion,
+    extent: Extent,
+    /// Height of the flutes' upper end above the grid's base at the start; infinite where nothing stands above it.
+    flutes_end: f32,
+    flank_height: f64,
+    collars: Vec<(usize, Collar)>,
+    layout: Layout,
+}
+
+/// What is known about a piece before its columns are looked at.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::sim) struct Circumstances {
+    /// Whether the piece before it ended here with the same cutter, and removed what it found.
+    pub continues: bool,
+    /// Highest material there ever was.
+    pub highest: f64,
+    /// Whether forces are asked for.
+    pub detail: bool,
+}
+
+impl Straight {
+    /// A piece from tip to tip, the axis along z.
+    pub fn new(
+        from: [f64; 3],
+        to: [f64; 3],
+        cutter: &Cutter,
+        layout: &Layout,
+        around: Circumstances,
+    ) -> Self {
+        let [dx, dy, dz] = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
+        let horizontal = dx.hypot(dy);
+        let length = horizontal.hypot(dz);
+        // Steeper than this, the lateral offset over the grid's depth is below a cell's share, and the piece is taken as a plunge.
+        let vertical = horizontal < 1e-6;
+        let profile = &cutter.profile;
+        let slope = if vertical { 0.0 } else { dz / horizontal };
+        let direction = if vertical { [0.0, 0.0] } else { [dx / horizontal, dy / horizontal] };
+        let start = from[2].min(if vertical { to[2] } else { from[2] }) - layout.base;
+        let radius = profile.radius();
+        let margin = layout.cell * 1e-2;
+        let descends = dz < 0.0;
+        let (cleared_before, cleared_disc) = match around.continues {
+            false => (f64::NEG_INFINITY, 0.0),
+            true if vertical && dz >= 0.0 => (f64::INFINITY, 0.0),
+            true if vertical => (f64::NEG_INFINITY, 0.0),
+            true if descends => {
+                // Behind the contact that leaves the surface, the start's own surface is the lower one.
+                let sin = -slope / slope.hypot(1.0);
+                let plain = profile.taper() == 0.0 && profile.bottom_angle() == 0.0;
+                let reach = profile.corner_center()[0] + profile.corner_radius() * sin;
+                (-(if plain { reach } else { radius }) - margin, 0.0)
+            }
+            true => {
+                let disc = if profile.bottom_angle() == 0.0 { profile.bottom_radius() } else { 0.0 };
+                (-margin, (disc - margin).max(0.0))
+            }
+        };
+        let extent = Extent {
+            direction,
+            length: if vertical { 0.0 } else { horizontal },
+            radius,
+            cleared_before,
+            cleared_disc,
+        };
+        let lowest_tip = from[2].min(to[2]);
+        let reaches = |height: f64| around.highest > lowest_tip + height;
+        let flutes_end = if reaches(cutter.flute_length()) {
+            (from[2].max(if vertical { to[2] } else { from[2] }) + cutter.flute_length() - layout.base) as f32
+        } else {
+            f32::INFINITY
+        };
+        let collars =
+            cutter.collars.iter().copied().enumerate().filter(|(_, collar)| reaches(collar.from)).collect();
+        Self {
+            from: [from[0], from[1]],
+            path: Path {
+                ux: if vertical { 1.0 } else { direction[0] as f32 },
+                uy: direction[1] as f32,
+                length: extent.length as f32,
+                slope: slope as f32,
+                start: start as f32,
+            },
+            surface: Surface::new(profile, slope),
+            motion: Motion {
+                profile: profile.clone(),
+                across: if length > 0.0 && !vertical { horizontal / length } else { 0.0 },
+                along: if length > 0.0 { dz / length } else { 0.0 },
+                start,
+                length: extent.length,
+                cell: layout.cell,
+                detail: around.detail,
+            },
+            extent,
+            flutes_end,
+            flank_height: profile.flank_start()[1],
+            collars,
+            layout: *layout,
+        }
+    }
+
+    /// Rows that the piece can change, as a range.
+    pub fn rows(&self) -> std::ops::Range<usize> {
+        let [low, high] = self.extent.rows();
+        let reach = self
+            .collars
+            .iter()
+            .map(|(_, collar)| collar.radius - self.extent.radius)
+            .fold(self.layout.cell, f64::max);
+        let row = |y: f64| (self.from[1] + y - self.layout.origin[1]) / self.layout.cell;
+        let first = row(low - reach).ceil().max(0.0) as usize;
+        let end = (row(high + reach).floor() + 1.0).max(0.0) as usize;
+        first..end.min(self.layout.rows)
+    }
+
+    /// Columns of a stretch of x seen from the start.
+    fn columns(&self, [from, to]: [f64; 2]) -> std::ops::Range<usize> {
+        let Layout { origin: [x0, _], cell, columns, .. } = self.layout;
+        let column = |x: f64| (self.from[0] + x - x0) / cell;
+        let first = column(from).ceil().clamp(0.0, columns as f64) as usize;
+        let end = (column(to).floor() + 1.0).clamp(0.0, columns as f64) as usize;
+        first..end.max(first)
+    }
+
+    /// Removes what the piece sweeps from a band.
+    pub fn sweep(&self, band: &mut Band, scratch: &mut Vec<f32>) -> Partial {
+        let mut partial = Partial::new();
+        let rows = self.rows();
+        let (first, end) = (rows.start.max(band.first_row), rows.end.min(band.first_row + band.rows()));
+        for row in first..end {
+            let y = self.layout.center(0, row)[1] - self.from[1];
+            for (index, collar) in &self.collars {
+                self.touch(band, row, y, *index, collar, &mut partial);
+            }
+            for stretch in self.extent.stretches(y) {
+                self.cut(band, row, y, self.columns(stretch), scratch, &mut partial);
+            }
+            if self.motion.across > 0.0
+                && y.abs() <= self.extent.length + self.extent.radius + self.layout.cell
+            {
+                self.graze(band, row, y, &mut partial);
+            }
+        }
+        partial
+    }
+
+    fn cut(
+        &self,
+        band: &mut Band,
+        row: usize,
+        y: f64,
+        columns: std::ops::Range<usize>,
+        scratch: &mut Vec<f32>,
+        partial: &mut Partial,
+    ) {
+        if columns.is_empty() {
+            return;
+        }
+        let x = self.layout.center(columns.start, row)[0] - self.from[0];
+        let offset = (row - band.first_row) * band.columns;
+        scratch.resize(columns.len(), 0.0);
+        let seen = Row { x: x as f32, y: y as f32, cell: self.layout.cell as f32 };
+        self.surface.heights(scratch, seen, self.path);
+        let range = offset + columns.start..offset + columns.end;
+        let mut from = 0;
+        while let Some(hit) = first_hit(band.top.get(range.clone()).unwrap_or_default(), scratch, from) {
+            from = hit + 1;
+            let lowest = scratch.get(hit).copied().unwrap_or(f32::INFINITY);
+            let x = x + hit as f64 * self.layout.cell;
+            let [ux, uy] = [f64::from(self.path.ux), f64::from(self.path.uy)];
+            let (along, left) = (x * ux + y * uy, y * ux - x * uy);
+            let upper = if self.flutes_end.is_finite() { self.upper(along, left) } else { f32::INFINITY };
+            band.cut(range.start + hit, lowest, upper, |low, top| {
+                let column = Column { along, left, low: f64::from(low), top: f64::from(top) };
+                self.motion.add(column, &self.surface, partial);
+            });
+        }
+    }
+
+    /// Upper end of the flutes' sweep over a column.
+    fn upper(&self, along: f64, left: f64) -> f32 {
+        let radius = self.extent.radius;
+        let half = (radius * radius - left * left).max(0.0).sqrt();
+        let slope = self.path.slope;
+        let at = |at: f64| slope * at.clamp(0.0, self.extent.length) as f32;
+        self.flutes_end + at(along - half).max(at(along + half))
+    }
+
+    /// Material closer beside the flank than a cell: a sliver of it may be in the cutter's way unseen.
+    fn graze(&self, band: &Band, row: usize, y: f64, partial: &mut Partial) {
+        let (radius, cell) = (self.extent.radius, self.layout.cell);
+        let inner = (radius - cell).max(0.0);
+        let share = self.motion.across * (1.0 - (inner / radius).powi(2)).max(0.0).sqrt();
+        if f64::from(partial.graze) >= share {
+            return;
+        }
+        let slope = f64::from(self.path.slope);
+        let highest_tip = self.motion.start + (slope * self.extent.length).max(0.0);
+        let level = (highest_tip + self.flank_height) as f32 + 1e-3;
+        let offset = (row - band.first_row) * band.columns;
+        for lateral in [[radius, radius + cell], [-radius - cell, -radius]] {
+            let columns = self.columns(self.extent.beside(y, lateral));
+            let tops = band.top.get(offset + columns.start..offset + columns.end).unwrap_or_default();
+            if tops.iter().any(|top| *top > level) {
+                partial.graze = share as f32;
+            }
+        }
+    }
+
+    /// Whether a collar stands in material in a row.
+    fn touch(&self, band: &Band, row: usize, y: f64, index: usize, collar: &Collar, partial: &mut Partial) {
+        let extent = Extent {
+            radius: collar.radius,
+            cleared_before: f64::NEG_INFINITY,
+            cleared_disc: 0.0,
+            ..self.extent
+        };
+        let slope = f64::from(self.path.slope);
+        let lowest = self.motion.start + (slope * self.extent.length).min(0.0) + collar.from;
+        let offset = (row - band.first_row) * band.columns;
+        for stretch in extent.stretches(y) {
+            let columns = self.columns(stretch);
+            let tops = band.top.get(offset + columns.start..offset + columns.end).unwrap_or_default();
+            let depth = tops.iter().copied().fold(f32::NEG_INFINITY, f32::max) - lowest as f32;
+            // On a slope the collar is higher at one end; the least height is taken, and only more than a cell counts.
+            if f64::from(depth) > self.layout.cell.min(0.05) + (slope * self.extent.length).abs() {
+                partial.touch(index, f64::from(depth));
+            }
+        }
+    }
+}
+
+/// The first column from an index on whose top is above the sweep.
+fn first_hit(tops: &[f32], heights: &[f32], from: usize) -> Option<usize> {
+    const STEP: usize = 16;
+    let mut index = from;
+    loop {
+        let (Some(top), Some(height)) = (tops.get(index..), heights.get(index..)) else { return None };
+        if top.is_empty() {
+            return None;
+        }
+        if let (Some(top), Some(height)) = (top.first_chunk::<STEP>(), height.first_chunk::<STEP>()) {
+            let any = top.iter().zip(height).fold(false, |any, (top, height)| any | (top > height));
+            if !any {
+                index += STEP;
+                continue;
+            }
+        }
+        let found = top.iter().zip(height).take(STEP).position(|(top, height)| top > height);
+        if let Some(found) = found {
+            return Some(index + found);
+        }
+        index += STEP.min(top.len());
+    }
+}

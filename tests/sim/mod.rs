@@ -1,0 +1,48 @@
+//! Simulation, through one door: a cutter along a path over a block.
+
+mod cuts;
+
+use clsmith::sim::{Cutter, Dexels, Engagement, Layout, Piece, Place, Profile, Simulation};
+use nalgebra::{Point3, Vector3};
+
+/// A block of stock.
+pub fn block(from: [f64; 3], to: [f64; 3], cell: f64) -> Dexels {
+    let layout = Layout::covering(from, to, cell);
+    let mut dexels = Dexels::empty(layout);
+    for row in 0..layout.rows {
+        for column in 0..layout.columns {
+            dexels.set_column(column, row, &[[0.0, (to[2] - from[2]) as f32]]);
+        }
+    }
+    dexels
+}
+
+/// A cutter without teeth or collars, with 50 mm of flutes; angles in degrees.
+pub fn cutter(diameter: f64, corner: f64, taper: f64, tip: f64) -> Cutter {
+    let profile = Profile::new(diameter, corner, taper.to_radians(), tip.to_radians(), 50.0).unwrap();
+    Cutter { profile, collars: Vec::new(), teeth: None }
+}
+
+/// A tip with the axis along z.
+pub fn at(x: f64, y: f64, z: f64) -> Place {
+    Place { point: Point3::new(x, y, z), axis: Vector3::z() }
+}
+
+/// Straight pieces through points.
+pub fn path(points: &[[f64; 3]]) -> Vec<Piece> {
+    points
+        .windows(2)
+        .map(|pair| Piece {
+            from: at(pair[0][0], pair[0][1], pair[0][2]),
+            to: at(pair[1][0], pair[1][1], pair[1][2]),
+            cutter: 0,
+        })
+        .collect()
+}
+
+/// Runs a path over a stock.
+pub fn run(stock: Dexels, cutter: &Cutter, points: &[[f64; 3]]) -> (Dexels, Vec<Engagement>) {
+    let mut simulation = Simulation::new(stock, true);
+    let found = simulation.run(&path(points), std::slice::from_ref(cutter));
+    (simulation.into_stock(), found)
+}
