@@ -37,6 +37,18 @@ impl Bin {
         thickness: 0.0,
     };
 
+    /// Adds what another piece, or another part of the ground, engaged in the same direction.
+    pub fn absorb(&mut self, other: &Self) {
+        self.low = self.low.min(other.low);
+        self.high = self.high.max(other.high);
+        self.thickness = self.thickness.max(other.thickness);
+        self.share_bound = self.share_bound.max(other.share_bound);
+        if other.share > self.share {
+            self.share = other.share;
+            self.radial = other.radial;
+        }
+    }
+
     /// Whether anything was engaged.
     pub fn is_engaged(&self) -> bool {
         self.low <= self.high
@@ -87,6 +99,33 @@ impl Engagement {
         }
     }
 
+    /// Adds what a following piece of the same motion engaged.
+    pub fn absorb(&mut self, other: &Self) {
+        let whole = self.length_mm + other.length_mm;
+        if whole > 0.0 {
+            let share = other.length_mm / whole;
+            self.across += (other.across - self.across) * share;
+            self.along += (other.along - self.along) * share;
+        }
+        self.length_mm = whole;
+        self.removed_mm3 += other.removed_mm3;
+        self.lateral = hull(self.lateral, other.lateral);
+        self.height = hull(self.height, other.height);
+        self.graze = self.graze.max(other.graze);
+        if let Some((_, depth)) = other.contact
+            && self.contact.is_none_or(|(_, known)| depth > known)
+        {
+            self.contact = other.contact;
+        }
+        if self.bins.is_empty() {
+            self.bins.clone_from(&other.bins);
+        } else {
+            for (bin, other) in self.bins.iter_mut().zip(&other.bins) {
+                bin.absorb(other);
+            }
+        }
+    }
+
     /// Whether material was removed.
     pub fn cuts(&self) -> bool {
         self.removed_mm3 > 0.0
@@ -96,4 +135,9 @@ impl Engagement {
     pub fn share(&self) -> f64 {
         self.bins.iter().map(|bin| f64::from(bin.share)).fold(0.0, f64::max)
     }
+}
+
+/// The smallest interval that holds both.
+pub(super) fn hull<T: PartialOrd + Copy>([a, b]: [T; 2], [c, d]: [T; 2]) -> [T; 2] {
+    [if c < a { c } else { a }, if d > b { d } else { b }]
 }

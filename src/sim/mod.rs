@@ -12,6 +12,7 @@ pub mod profile;
 pub mod run;
 mod sweep;
 pub mod teeth;
+pub mod trace;
 
 pub use cutter::{Collar, CollarKind, Cutter};
 pub use dexel::{Band, Dexels, Interval, Layout};
@@ -20,3 +21,4 @@ pub use material::Material;
 pub use profile::{Profile, ProfileError, ProfilePoint};
 pub use run::{Piece, Place, Simulation};
 pub use teeth::Teeth;
+pub use trace::{Step, Trace};

@@ -1,7 +1,7 @@
 //! What one band of columns contributes to the engagement of one piece.
 
 use crate::sim::Engagement;
-use crate::sim::engagement::{BINS, Bin};
+use crate::sim::engagement::{BINS, Bin, hull};
 use std::f64::consts::{PI, TAU};
 
 /// A contact of the cutter with removed material.
@@ -96,18 +96,7 @@ impl Partial {
             return;
         }
         for (bin, mine) in engagement.bins.iter_mut().zip(mine.iter()) {
-            bin.low = bin.low.min(mine.low);
-            bin.high = bin.high.max(mine.high);
-            bin.thickness = bin.thickness.max(mine.thickness);
-            bin.share_bound = bin.share_bound.max(mine.share_bound);
-            if mine.share > bin.share {
-                bin.share = mine.share;
-                bin.radial = mine.radial;
-            }
+            bin.absorb(mine);
         }
     }
-}
-
-fn hull<T: PartialOrd + Copy>([a, b]: [T; 2], [c, d]: [T; 2]) -> [T; 2] {
-    [if c < a { c } else { a }, if d > b { d } else { b }]
 }

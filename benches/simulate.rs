@@ -1,0 +1,81 @@
+//! How many moves a second the simulation does: `cargo bench --bench simulate`.
+//!
+//! A block of 100 x 100 x 25, a cutter of 10 mm, moves of 0.5 mm in a zigzag 1 mm apart, depth sinusoidal from 2 to 8 mm, chip
+//! thickness computed. Single thread, then all. `CLSMITH_BENCH_CELLS=0.25` limits the cells.
+
+use clsmith::sim::{Cutter, Dexels, Layout, Piece, Place, Profile, Simulation, Teeth};
+use nalgebra::{Point3, Vector3};
+use std::hint::black_box;
+use std::time::Instant;
+
+fn block(cell: f64) -> Dexels {
+    let layout = Layout::covering([0.0, 0.0, -25.0], [100.0, 100.0, 0.0], cell);
+    let mut stock = Dexels::empty(layout);
+    for row in 0..layout.rows {
+        for column in 0..layout.columns {
+            stock.set_column(column, row, &[[0.0, 25.0]]);
+        }
+    }
+    stock
+}
+
+/// 82 passes of 200 moves with a step-over between them.
+fn zigzag(lean: f64) -> Vec<Piece> {
+    let depth = |x: f64, y: f64| -5.0 - 3.0 * (x / 8.0 + y / 5.0).sin();
+    let mut points = Vec::new();
+    for pass in 0..82 {
+        let y = 9.5 + f64::from(pass);
+        for step in 0..=200 {
+            let x = 0.5 * f64::from(if pass % 2 == 0 { step } else { 200 - step });
+            points.push(Point3::new(x, y, depth(x, y)));
+        }
+    }
+    let axis = |point: &Point3<f64>| {
+        let (a, b) = (lean * (point.x / 11.0).sin(), lean * (point.y / 13.0).cos());
+        Vector3::new(a.sin(), b.sin(), 1.0).normalize()
+    };
+    let place = |point: &Point3<f64>| Place { point: *point, axis: if lean > 0.0 { axis(point) } else { Vector3::z() } };
+    points.windows(2).map(|pair| Piece { from: place(&pair[0]), to: place(&pair[1]), cutter: 0 }).collect()
+}
+
+/// Moves per second; the best of some runs.
+fn rate(cutter: &Cutter, pieces: &[Piece], cell: f64, runs: u32) -> f64 {
+    let mut best = 0.0_f64;
+    for _ in 0..runs {
+        let mut simulation = Simulation::new(block(cell), false);
+        let teeth = Teeth::even(4, 0.0).expect("four teeth");
+        let start = Instant::now();
+        let mut largest = 0.0_f64;
+        for batch in pieces.chunks(1024) {
+            for found in simulation.run(batch, std::slice::from_ref(cutter)) {
+                largest = largest.max(found.share() * 1000.0 / 5000.0 / teeth.count() as f64);
+            }
+        }
+        black_box(largest);
+        best = best.max(pieces.len() as f64 / start.elapsed().as_secs_f64());
+    }
+    best
+}
+
+fn main() {
+    let cells: Vec<f64> = std::env::var("CLSMITH_BENCH_CELLS")
+        .ok()
+        .map(|cells| cells.split(',').filter_map(|cell| cell.parse().ok()).collect())
+        .unwrap_or_else(|| vec![0.25, 0.1]);
+    let cutter = |corner: f64| Cutter {
+        profile: Profile::new(10.0, corner, 0.0, 0.0, 40.0).expect("a cutter"),
+        collars: Vec::new(),
+        teeth: None,
+    };
+    let single = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    println!("{:<16}{:>6}{:>16}{:>16}", "cutter", "cell", "1 thread /s", "all threads /s");
+    for (name, corner, lean) in [("flat", 0.0, 0.0), ("ball", 5.0, 0.0), ("bull R1", 1.0, 0.0), ("five-axis ball", 5.0, 0.2)] {
+        let pieces = zigzag(lean);
+        for cell in &cells {
+            let cutter = cutter(corner);
+            let one = single.install(|| rate(&cutter, &pieces, *cell, 2));
+            let all = rate(&cutter, &pieces, *cell, 2);
+            println!("{name:<16}{cell:>6}{one:>16.0}{all:>16.0}");
+        }
+    }
+}

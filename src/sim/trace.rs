@@ -1,0 +1,173 @@
+//! Motions as straight pieces in the workpiece frame, in millimetres.
+
+use super::{Piece, Place};
+use crate::program::geometry::{Arc, Path, Spline};
+use crate::program::motion::{Frame, Motion};
+use nalgebra::{Point3, Vector3};
+
+/// A piece of a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step {
+    /// Where the cutter goes.
+    pub piece: Piece,
+    /// Share of the motion's length at which the piece begins.
+    pub from: f64,
+    /// Share at which it ends.
+    pub to: f64,
+}
+
+/// Turns motions into pieces.
+///
+/// The workpiece frame is the frame of the program's first motion; motions in another frame (NX's MSYS, a CSYS) are expressed in
+/// it. Arcs and splines become chords no further from the curve than `sagitta`.
+#[derive(Debug, Clone)]
+pub struct Trace {
+    unit: f64,
+    home: Option<Option<Frame>>,
+    /// Largest distance of a chord from its curve, mm.
+    pub sagitta: f64,
+    /// Longest piece, mm.
+    pub longest: f64,
+}
+
+impl Trace {
+    /// For a file whose lengths are `unit` millimetres.
+    pub fn new(unit: f64, sagitta: f64, longest: f64) -> Self {
+        Self { unit, home: None, sagitta, longest }
+    }
+
+    /// A pose of a motion in the workpiece frame.
+    fn place(&self, frame: Option<&Frame>, pose: Place) -> Place {
+        let home = self.home.as_ref().and_then(Option::as_ref);
+        let same = match (frame, home) {
+            (None, None) => true,
+            (Some(frame), Some(home)) => (frame.origin, frame.axes) == (home.origin, home.axes),
+            _ => false,
+        };
+        let pose = if same { pose } else { seen_from(home, outside(frame, pose)) };
+        let axis = pose.axis.try_normalize(1e-9).unwrap_or_else(Vector3::z);
+        Place { point: pose.point * self.unit, axis }
+    }
+
+    /// Adds the pieces of a motion; none for one that stays where it is.
+    pub fn pieces(&mut self, motion: &Motion, cutter: usize, out: &mut Vec<Step>) {
+        self.home.get_or_insert_with(|| motion.frame.as_deref().cloned());
+        let shares = match &motion.path {
+            Path::Start => return,
+            Path::Line => even(1),
+            Path::Arc(arc) => even(self.chords(arc)),
+            Path::Spline(spline) => self.spline(spline),
+        };
+        let point = |share: f64| match &motion.path {
+            Path::Arc(arc) => arc.point(share),
+            Path::Spline(spline) => spline.point(share),
+            Path::Line | Path::Start => motion.from.point + (motion.to.point - motion.from.point) * share,
+        };
+        let turn = motion.from.axis.angle(&motion.to.axis);
+        let place = |share: f64| {
+            let point = match share {
+                0.0 => motion.from.point,
+                1.0 => motion.to.point,
+                _ => point(share),
+            };
+            let axis = turned(&motion.from.axis, &motion.to.axis, turn, share);
+            self.place(motion.frame.as_deref(), Place { point, axis })
+        };
+        let mut places: Vec<Place> = Vec::with_capacity(shares.len());
+        for share in shares {
+            let next = place(share);
+            if let Some(last) = places.last().copied() {
+                let parts = ((next.point - last.point).norm() / self.longest).ceil().clamp(1.0, 1e6);
+                let turn = last.axis.angle(&next.axis);
+                for part in 1..parts as usize {
+                    let share = part as f64 / parts;
+                    let point: Point3<f64> = last.point + (next.point - last.point) * share;
+                    places.push(Place { point, axis: turned(&last.axis, &next.axis, turn, share) });
+                }
+            }
+            places.push(next);
+        }
+        let lengths = places.windows(2).map(|pair| match pair {
+            [from, to] => (to.point - from.point).norm(),
+            _ => 0.0,
+        });
+        let whole: f64 = lengths.clone().sum();
+        let count = places.len().saturating_sub(1).max(1) as f64;
+        let mut at = 0.0;
+        for (index, (pair, length)) in places.windows(2).zip(lengths).enumerate() {
+            let [from, to] = pair else { continue };
+            let end = if whole > 0.0 { at + length / whole } else { (index + 1) as f64 / count };
+            let end = if index + 2 == places.len() { 1.0 } else { end };
+            out.push(Step { piece: Piece { from: *from, to: *to, cutter }, from: at, to: end });
+            at = end;
+        }
+    }
+
+    fn chords(&self, arc: &Arc) -> usize {
+        let radius = arc.radius * self.unit;
+        let step = 2.0 * (1.0 - (self.sagitta / radius).min(1.0)).acos();
+        // A helix's chords are no further from it than those of its circle.
+        (arc.sweep / step.max(1e-4)).ceil().clamp(1.0, 1e6) as usize
+    }
+
+    /// Shares of a spline's parameter range between which chords are close enough, by halving.
+    fn spline(&self, spline: &Spline) -> Vec<f64> {
+        let spans = spline.controls.len().saturating_sub(3).max(1);
+        let mut shares = vec![0.0];
+        for span in 0..spans {
+            let (from, to) = (span as f64 / spans as f64, (span + 1) as f64 / spans as f64);
+            self.halve(spline, from, to, 8, &mut shares);
+        }
+        shares
+    }
+
+    fn halve(&self, spline: &Spline, from: f64, to: f64, depth: u32, shares: &mut Vec<f64>) {
+        let [a, b] = [spline.point(from), spline.point(to)];
+        let off = |share: f64| {
+            let point = spline.point(from + (to - from) * share);
+            let chord = b - a;
+            let along = (point - a).dot(&chord) / chord.norm_squared().max(1e-300);
+            (point - a - chord * along.clamp(0.0, 1.0)).norm() * self.unit
+        };
+        if depth > 0 && [0.25, 0.5, 0.75].into_iter().any(|share| off(share) > self.sagitta) {
+            let middle = (from + to) / 2.0;
+            self.halve(spline, from, middle, depth - 1, shares);
+            self.halve(spline, middle, to, depth - 1, shares);
+        } else {
+            shares.push(to);
+        }
+    }
+}
+
+fn even(count: usize) -> Vec<f64> {
+    (0..=count).map(|index| index as f64 / count as f64).collect()
+}
+
+/// Slerp between two unit axes that are `turn` apart.
+fn turned(from: &Vector3<f64>, to: &Vector3<f64>, turn: f64, share: f64) -> Vector3<f64> {
+    if share <= 0.0 || turn == 0.0 {
+        return *from;
+    }
+    if share >= 1.0 {
+        return *to;
+    }
+    if turn < 1e-9 {
+        return from.lerp(to, share);
+    }
+    (from * ((1.0 - share) * turn).sin() + to * (share * turn).sin()) / turn.sin()
+}
+
+fn outside(frame: Option<&Frame>, pose: Place) -> Place {
+    frame.map_or(pose, |frame| Place {
+        point: (frame.origin + frame.axes * pose.point.coords).into(),
+        axis: frame.axes * pose.axis,
+    })
+}
+
+fn seen_from(frame: Option<&Frame>, pose: Place) -> Place {
+    let seen = frame.and_then(|frame| {
+        let inverse = frame.axes.try_inverse()?;
+        Some(Place { point: (inverse * (pose.point.coords - frame.origin)).into(), axis: inverse * pose.axis })
+    });
+    seen.unwrap_or(pose)
+}
