@@ -35,8 +35,8 @@ pub(super) struct MachineText {
     max_feed: Option<Positive>,
     /// Speed of rapid motions, in the file's unit per minute.
     rapid_feed: Option<Positive>,
-    /// How fast the feed can change along the path: in the file's unit per minute, each second. 1000 takes 3 s from a standstill to a feed
-    /// of 3000.
+    /// How fast the feed can change along the path: in the file's unit per minute, each second. 1000 takes 3 s from a
+    /// standstill to a feed of 3000.
     max_acceleration: Option<Positive>,
 }
 

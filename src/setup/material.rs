@@ -75,7 +75,8 @@ impl Setup {
     /// The material.
     ///
     /// # Errors
-    /// [`codes::MATERIAL_MISSING`] when the setup says none, [`codes::MATERIAL_FILE`] when it names a file that nobody has read.
+    /// [`codes::MATERIAL_MISSING`] when the setup says none, [`codes::MATERIAL_FILE`] when it names a file that nobody
+    /// has read.
     pub fn material(&self) -> Result<&Material, Box<Diagnostic>> {
         match &self.material {
             Some(MaterialChoice::Given(material)) => Ok(material),
@@ -93,8 +94,9 @@ impl Setup {
     }
 }
 
-/// A material file: cutting coefficients of the mechanistic force model. An edge element of length dl that cuts a chip of thickness h takes
-/// the tangential force (k_tc h + k_te) dl, and radial and axial alike. N and mm, whatever `units:` is elsewhere.
+/// A material file: cutting coefficients of the mechanistic force model. An edge element of length dl that cuts a chip
+/// of thickness h takes the tangential force (k_tc h + k_te) dl, and radial and axial alike. N and mm, whatever
+/// `units:` is elsewhere.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "clsmith material file", rename = "MaterialFile")]
@@ -131,8 +133,8 @@ impl MaterialFileText {
     }
 }
 
-/// The material that is cut: a `file` with cutting coefficients, or the coefficients themselves, of which only `k_tc` is required. N and mm,
-/// whatever `units` is.
+/// The material that is cut: a `file` with cutting coefficients, or the coefficients themselves, of which only `k_tc`
+/// is required. N and mm, whatever `units` is.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Material", extend("oneOf" = [{ "required": ["file"] }, { "required": ["k_tc"] }]))]

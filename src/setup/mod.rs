@@ -1,8 +1,8 @@
 //! What stands around the program: machine, stock, tools, material.
 //!
-//! The same keys come from the recipe's `setup:`, from a setup file, or both; whoever is closer to the job wins, field by
-//! field ([`Setup::over`]). A setup is a description: lengths in millimetres, files by their paths, everything with its
-//! [`Place`]. [`Setup::cutter`] makes a tool that can be simulated of what the CL file and the setup say together.
+//! The same keys come from the recipe's `setup:`, from a setup file, or both; whoever is closer to the job wins, field
+//! by field ([`Setup::over`]). A setup is a description: lengths in millimetres, files by their paths, everything with
+//! its [`Place`]. [`Setup::cutter`] makes a tool that can be simulated of what the CL file and the setup say together.
 
 mod machine;
 mod material;
@@ -46,8 +46,8 @@ impl Setup {
         text::load(source)
     }
 
-    /// This setup where it says something, `base` where it does not. Stock and material go as a whole; of tools, the entries of this setup
-    /// come first.
+    /// This setup where it says something, `base` where it does not. Stock and material go as a whole; of tools, the
+    /// entries of this setup come first.
     #[must_use]
     pub fn over(self, base: Self) -> Self {
         let mut tools = self.tools;

@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 /// The place of a value in the recipe or setup file that says it.
 ///
-/// Found when it is asked for, by reading the file's text again: ask for diagnostics only. Two places are always equal, so that two setups
-/// that say the same are, wherever they say it.
+/// Found when it is asked for, by reading the file's text again: ask for diagnostics only. Two places are always equal,
+/// so that two setups that say the same are, wherever they say it.
 #[derive(Debug, Clone)]
 pub struct Place {
     document: Arc<Document>,
@@ -24,7 +24,8 @@ impl Place {
         self.document.source()
     }
 
-    /// The bytes of the value; of a block of lines, the first. A value that is not said stands where the nearest thing around it does.
+    /// The bytes of the value; of a block of lines, the first. A value that is not said stands where the nearest thing
+    /// around it does.
     pub fn span(&self) -> Span {
         self.nearest(|path| self.document.place(path))
     }

@@ -2,13 +2,16 @@
 
 use super::Place;
 use crate::diagnostic::{Code, Diagnostic, codes};
-use crate::values::LengthUnit;
+use crate::values::{LengthUnit, Positive};
 
 /// Who made more mistakes than this fixes the first ones first; each costs a reading of the file.
 const MOST: usize = 20;
 
 /// A kilometre in millimetres: whoever writes more has mixed up something, and the simulation need not cope with it.
 const LARGEST: f64 = 1e6;
+
+/// A micrometre in millimetres: no tool and no stock is smaller.
+pub(super) const SMALLEST: f64 = 1e-3;
 
 /// Reads one recipe's or setup file's `setup`.
 pub(super) struct Reader {
@@ -28,7 +31,21 @@ impl Reader {
             return mm;
         }
         self.fault(place, "this is more than a kilometre", "too large", "Compare it with `units:`.");
-        0.0
+        LARGEST.copysign(mm)
+    }
+
+    /// The size of something in millimetres.
+    pub fn size(&mut self, value: Positive, place: impl Fn() -> Place) -> f64 {
+        let mm = self.mm(value.get(), &place);
+        if value.get() * self.units.in_mm() < SMALLEST {
+            self.fault(place, "this is less than a micrometre", "too small", "Compare it with `units:`.");
+        }
+        mm
+    }
+
+    /// A size that may be missing, in millimetres; it stands at `key` of `place`.
+    pub fn size_at(&mut self, value: Option<Positive>, place: &Place, key: &'static str) -> Option<f64> {
+        value.map(|value| self.size(value, || place.key(key)))
     }
 
     /// A length that may be missing, in millimetres; it stands at `key` of `place`.

@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 pub struct Stock {
     /// Its bodies; the stock is all of them together. Never empty.
     pub bodies: Vec<Body>,
-    /// How much thicker than described it may be, in mm, 0 or more: the skin of a casting. The simulation grows the stock by it, so that
-    /// skin is not taken for air.
+    /// How much thicker than described it may be, in mm, 0 or more: the skin of a casting. The simulation grows the
+    /// stock by it, so that skin is not taken for air.
     pub allowance_mm: f64,
     /// Where the setup says it.
     pub place: Place,

@@ -1,17 +1,15 @@
 //! The stock as it is written.
 
 use super::Place;
-use super::reader::Reader;
+use super::reader::{Reader, SMALLEST};
 use super::stock::{Body, BodyShape, FileRef, Stock};
 use crate::diagnostic::codes;
 use crate::values::{FilePath, Finite, NonNegative, Positive};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// A body thinner than this in mm is none: a thousandth of what any grid can see.
-const THINNEST: f64 = 1e-6;
-
-/// What there is before the first cut, in the coordinates of the CL file: exactly one of `block`, `cylinder`, `stl`, `file`, or `bodies`.
+/// What there is before the first cut, in the coordinates of the CL file: exactly one of `block`, `cylinder`, `stl`,
+/// `file`, or `bodies`.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(
@@ -159,7 +157,7 @@ impl BlockText {
             if *low > *high {
                 std::mem::swap(low, high);
             }
-            if *high - *low < THINNEST {
+            if *high - *low < SMALLEST {
                 let message =
                     format!("the block has no size in {name}: `from` and `to` have the same {name}");
                 let help = "`from` and `to` are opposite corners; they differ in x, y and z.";
@@ -172,17 +170,13 @@ impl BlockText {
 
 impl CylinderText {
     fn checked(self, reader: &mut Reader, place: &Place) -> BodyShape {
-        let diameter = reader.mm(self.diameter.get(), || place.key("diameter"));
+        let diameter = reader.size(self.diameter, || place.key("diameter"));
         let (from, to) = (point(self.from, reader, place, "from"), point(self.to, reader, place, "to"));
         let length = from.iter().zip(&to).map(|(from, to)| (to - from).powi(2)).sum::<f64>().sqrt();
-        if length < THINNEST {
+        if length < SMALLEST {
             let message = "the cylinder has no length: `from` and `to` are the same point";
             let help = "`from` and `to` are the centres of its two ends.";
             reader.fault(|| place.key("to"), message, "as `from`", help);
-        }
-        if diameter < THINNEST {
-            let help = "Compare it with `units:`.";
-            reader.fault(|| place.key("diameter"), "the cylinder has no thickness", "too small", help);
         }
         BodyShape::Cylinder { diameter, from, to }
     }

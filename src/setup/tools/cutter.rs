@@ -13,7 +13,8 @@ use crate::sim::{Collar, Cutter, Profile};
 use crate::source::{Source, Span};
 use std::sync::Arc;
 
-/// Flutes of unknown length are this many diameters long: more than those of any cutter whose flutes would matter to the path.
+/// Flutes of unknown length are this many diameters long: more than those of any cutter whose flutes would matter to
+/// the path.
 const FLUTE_DIAMETERS: f64 = 4.0;
 
 /// A cutter, and what had to be assumed about it.
@@ -21,12 +22,14 @@ const FLUTE_DIAMETERS: f64 = 4.0;
 pub struct Resolved {
     /// The cutter.
     pub cutter: Cutter,
-    /// What neither the CL file nor the setup says, each as `corner radius 0: neither the CL file nor setup.tools says one`.
+    /// What neither the CL file nor the setup says, each as `corner radius 0: neither the CL file nor setup.tools says
+    /// one`.
     pub assumptions: Vec<String>,
 }
 
 impl Resolved {
-    /// One note ([`codes::ASSUMPTION`]) about everything assumed of a tool, at a place of the CL file that uses it; `None` when nothing was.
+    /// One note ([`codes::ASSUMPTION`]) about everything assumed of a tool, at a place of the CL file that uses it;
+    /// `None` when nothing was.
     pub fn note(&self, tool: &Tool, source: &Arc<Source>, span: Span) -> Option<Diagnostic> {
         if self.assumptions.is_empty() {
             return None;
@@ -37,8 +40,8 @@ impl Resolved {
 }
 
 impl Setup {
-    /// The cutter that a tool of the CL file is, in millimetres; `units` are the CL file's. Teeth are `None` where the setup does not say
-    /// how many ([`Setup::teeth_gap`]).
+    /// The cutter that a tool of the CL file is, in millimetres; `units` are the CL file's. Teeth are `None` where the
+    /// setup does not say how many ([`Setup::teeth_gap`]).
     ///
     /// Worth calling once for each distinct tool, not for each motion.
     ///
@@ -76,7 +79,8 @@ impl Resolver<'_> {
         let taper = taper.or(self.told.taper).unwrap_or_else(|| self.assume("taper 0", "one"));
         let flute_length = self.flute_length(diameter, tip);
         let profile = Profile::new(diameter, corner, taper, tip, flute_length).map_err(|error| {
-            self.gap(ToolGapKind::Shape { error, diameter, corner_radius: corner, flute_length })
+            let (taper, tip) = (taper.to_degrees(), tip.to_degrees());
+            self.gap(ToolGapKind::Shape { error, diameter, corner_radius: corner, flute_length, taper, tip })
         })?;
         let collars = self.collars(&profile)?;
         let teeth = self.entry.and_then(|entry| entry.teeth.clone());

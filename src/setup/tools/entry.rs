@@ -5,7 +5,8 @@ use crate::setup::{Place, Setup};
 use crate::sim::Teeth;
 use crate::values::Glob;
 
-/// What a setup says about the tools that it fits; what is `None` is left to the CL file. Lengths in mm, angles in radians.
+/// What a setup says about the tools that it fits; what is `None` is left to the CL file. Lengths in mm, angles in
+/// radians.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToolEntry {
     /// The number that a tool must have to fit.
@@ -45,7 +46,8 @@ pub struct Bar {
     pub length: f64,
 }
 
-/// The inserts of an indexable cutter, as its ramping limits need them: the cutter does not cut within `diameter - 2 radius`.
+/// The inserts of an indexable cutter, as its ramping limits need them: the cutter does not cut within `diameter - 2
+/// radius`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Insert {
     /// Cutting height of an insert in mm.

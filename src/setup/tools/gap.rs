@@ -15,7 +15,7 @@ use std::sync::Arc;
 pub struct ToolGap {
     /// What is missing or wrong.
     pub kind: ToolGapKind,
-    tool: Subject,
+    tool: Box<Subject>,
 }
 
 /// The tool that a finding is about.
@@ -36,7 +36,7 @@ pub enum ToolGapKind {
     Diameter,
     /// The CL file describes a lathe tool, a wire or the like.
     NoMillingCutter,
-    /// The numbers make no cutter; lengths in mm.
+    /// The numbers make no cutter; lengths in mm, angles in degrees.
     Shape {
         /// Why.
         error: ProfileError,
@@ -46,6 +46,10 @@ pub enum ToolGapKind {
         corner_radius: f64,
         /// The length of the flutes.
         flute_length: f64,
+        /// The flank's angle against the axis.
+        taper: f64,
+        /// The bottom's angle against the plane.
+        tip: f64,
     },
     /// The shank ends below the end of the flutes; lengths in mm from the tip.
     Shank {
@@ -58,10 +62,11 @@ pub enum ToolGapKind {
 
 impl ToolGap {
     pub(super) fn new(tool: &Tool, entry: Option<&ToolEntry>, kind: ToolGapKind) -> Self {
-        Self { kind, tool: Subject::new(tool, entry) }
+        Self { kind, tool: Box::new(Subject::new(tool, entry)) }
     }
 
-    /// The gap as a finding ([`codes::TOOL_SHAPE`]) at the statement of the CL file that needs the tool, and at the setup's entry for it.
+    /// The gap as a finding ([`codes::TOOL_SHAPE`]) at the statement of the CL file that needs the tool, and at the
+    /// setup's entry for it.
     pub fn diagnostic(&self, source: &Arc<Source>, span: Span) -> Diagnostic {
         let called = &self.tool.called;
         let (message, keys) = match self.kind {
@@ -72,18 +77,20 @@ impl ToolGap {
                 let message = format!("{called} is no milling cutter, and only those can be simulated");
                 (message, "diameter: …".to_owned())
             }
-            ToolGapKind::Shape { error, diameter, corner_radius, flute_length } => {
-                let numbers = format!(
-                    "diameter {} mm, corner radius {} mm, flutes {} mm",
-                    short(diameter),
-                    short(corner_radius),
-                    short(flute_length)
-                );
-                let key = match error {
-                    ProfileError::Diameter => "diameter: …",
-                    ProfileError::Corner => "corner_radius: …",
-                    ProfileError::Angle => "taper: …, tip: …",
-                    ProfileError::Height => "flute_length: …",
+            ToolGapKind::Shape { error, diameter, corner_radius, flute_length, taper, tip } => {
+                let (key, numbers) = match error {
+                    ProfileError::Diameter => ("diameter: …", format!("diameter {} mm", short(diameter))),
+                    ProfileError::Corner => (
+                        "corner_radius: …",
+                        format!("corner radius {} mm, diameter {} mm", short(corner_radius), short(diameter)),
+                    ),
+                    ProfileError::Angle => {
+                        ("taper: …, tip: …", format!("taper {}, tip {} degrees", short(taper), short(tip)))
+                    }
+                    ProfileError::Height => (
+                        "flute_length: …",
+                        format!("flutes {} mm, diameter {} mm", short(flute_length), short(diameter)),
+                    ),
                 };
                 (format!("no cutter is like {called}: {error} ({numbers})"), key.to_owned())
             }
@@ -137,7 +144,8 @@ impl Subject {
 }
 
 impl Setup {
-    /// That chip thickness or forces need the number of teeth of a tool ([`codes::TEETH_MISSING`]), at the statement of the CL file that uses it.
+    /// That chip thickness or forces need the number of teeth of a tool ([`codes::TEETH_MISSING`]), at the statement of
+    /// the CL file that uses it.
     pub fn teeth_gap(&self, tool: &Tool, source: &Arc<Source>, span: Span) -> Diagnostic {
         let tool = Subject::new(tool, self.tool_entry(tool));
         let message = format!("chip thickness needs the number of teeth of {}", tool.called);

@@ -10,7 +10,8 @@ use serde::de::{self, Deserialize, Deserializer, SeqAccess, Unexpected, Visitor}
 use std::borrow::Cow;
 use std::fmt;
 
-/// How far in degrees pitch angles may miss the full turn: catalogues print them to a tenth, and a cutter has few teeth.
+/// How far in degrees pitch angles may miss the full turn: catalogues print them to a tenth, and a cutter has few
+/// teeth.
 const TURN_TOLERANCE: f64 = 0.5;
 
 /// No cutter has more teeth; a larger number is a mistake.
@@ -24,6 +25,9 @@ impl<'de> Deserialize<'de> for Pitch {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let angles: Vec<f64> =
             Vec::<Positive>::deserialize(deserializer)?.into_iter().map(Positive::get).collect();
+        if angles.is_empty() {
+            return Err(de::Error::invalid_length(0, &"an angle for each tooth"));
+        }
         let sum: f64 = angles.iter().sum();
         if (sum - 360.0).abs() > TURN_TOLERANCE {
             let message = format!("the angles between the teeth make {sum:.1} degrees together\n");

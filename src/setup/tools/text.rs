@@ -105,23 +105,23 @@ impl ToolText {
         }
         let point = self.point.map(|point| (FRAC_PI_2 - point.radians() / 2.0).max(0.0));
         let mut bar = |diameter: Positive, length: Positive, key: &'static str| Bar {
-            diameter: reader.mm(diameter.get(), || place.key(key).key("diameter")),
-            length: reader.mm(length.get(), || place.key(key).key("length")),
+            diameter: reader.size(diameter, || place.key(key).key("diameter")),
+            length: reader.size(length, || place.key(key).key("length")),
         };
         let shank = self.shank.map(|shank| bar(shank.diameter, shank.length, "shank"));
         let holder = self.holder.map(|holder| bar(holder.diameter, holder.length, "holder"));
         let insert = self.insert.map(|insert| Insert {
-            height: reader.mm(insert.height.get(), || place.key("insert").key("height")),
-            radius: reader.mm(insert.radius.get(), || place.key("insert").key("radius")),
+            height: reader.size(insert.height, || place.key("insert").key("height")),
+            radius: reader.size(insert.radius, || place.key("insert").key("radius")),
         });
         let entry = ToolEntry {
             number: self.matches.number,
             name: self.matches.name,
-            diameter: reader.mm_at(self.diameter.map(Positive::get), &place, "diameter"),
+            diameter: reader.size_at(self.diameter, &place, "diameter"),
             corner_radius: reader.mm_at(self.corner_radius.map(NonNegative::get), &place, "corner_radius"),
             taper: self.taper.map(Slope::radians),
             tip: self.tip.map(Slope::radians).or(point),
-            flute_length: reader.mm_at(self.flute_length.map(Positive::get), &place, "flute_length"),
+            flute_length: reader.size_at(self.flute_length, &place, "flute_length"),
             shank,
             holder,
             teeth,

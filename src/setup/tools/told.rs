@@ -2,9 +2,11 @@
 
 use crate::program::LengthUnit;
 use crate::program::record::{ToolData, ToolWord};
+use crate::setup::reader::SMALLEST;
 use std::f64::consts::FRAC_PI_2;
 
-/// Numbers of CL files have four decimals or more, so a ball's corner radius may miss half its diameter by this, in the file's unit.
+/// Numbers of CL files have four decimals or more, so a ball's corner radius may miss half its diameter by this, in the
+/// file's unit.
 const ROUNDING: f64 = 1e-4;
 
 /// What the CL file tells, in mm and radians.
@@ -29,8 +31,8 @@ impl Told {
         let rounding = ROUNDING * units.in_mm();
         let Some(data) = data else { return Self { rounding, ..Self::default() } };
         let mm = |value: Option<f64>| value.map(|value| value * units.in_mm());
-        // CAM systems write 0 for a length that nobody has filled in.
-        let length = |value: Option<f64>| mm(value.filter(|value| *value > 0.0));
+        // CAM systems write 0 for a length that nobody has filled in; what is rounded away is as good as 0.
+        let length = |value: Option<f64>| mm(value).filter(|value| *value >= SMALLEST);
         let drill = data.word == ToolWord::TlDataDrill;
         let tip = match data.tip_degrees {
             // A point angle of 0 is a field that nobody has filled in: reamers, taps.
