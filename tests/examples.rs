@@ -3,8 +3,9 @@
 use crate::support;
 use clsmith::diagnostic::Diagnostic;
 use clsmith::job::Job;
+use clsmith::program::LengthUnit;
 use clsmith::report::policy::Policy;
-use clsmith::setup::Setup;
+use clsmith::setup::{Material, Setup};
 use clsmith::source::Source;
 use clsmith::transform::Recipe;
 use std::path::{Path, PathBuf};
@@ -58,14 +59,43 @@ fn examples_do_what_their_pages_show() {
 }
 
 #[test]
-fn shipped_recipes_and_machines_load_and_run() {
+fn shipped_configurations_load_and_run() {
     let part = support::source(&folder("examples/pocket/part.cls"));
     for path in files(&folder("configs/recipes")) {
         let (recipe, setup) = recipe(&path);
         run(&recipe, &setup, &part);
     }
     for path in files(&folder("configs/machines")) {
-        Setup::load(&support::source(&path)).unwrap();
+        let setup = Setup::load(&support::source(&path)).unwrap();
+        assert!(setup.machine.max_acceleration.is_some(), "{}", path.display());
+    }
+    for path in files(&folder("configs/tools")) {
+        let setup = Setup::load(&support::source(&path)).unwrap();
+        assert!(!setup.tools.is_empty(), "{}", path.display());
+        for entry in setup.tools.iter().filter(|entry| entry.number.is_some()) {
+            let tool = support::named_tool(entry.number, None);
+            let cutter = setup.cutter(&tool, LengthUnit::Mm).unwrap().cutter;
+            assert!(cutter.teeth.is_some(), "{}: tool {:?}", path.display(), entry.number);
+        }
+    }
+    for path in files(&folder("configs/materials")) {
+        let material = Material::load(&support::source(&path)).unwrap();
+        assert!(material.name.is_some(), "{}", path.display());
+    }
+}
+
+#[test]
+fn the_page_about_the_setup_shows_one_that_loads() {
+    let page = std::fs::read_to_string(folder("configs/README.md")).unwrap();
+    let shown = page.split("```yaml\n").nth(1).unwrap().split("```").next().unwrap();
+    let setup = Setup::load(&support::text(shown)).unwrap();
+    assert_eq!((setup.stock.unwrap().bodies.len(), setup.tools.len()), (4, 2));
+    let schema = Setup::schema().to_string();
+    for line in shown.lines() {
+        let key = line.trim_start_matches([' ', '-', '#']).split(':').next().unwrap();
+        let is_key =
+            !key.is_empty() && line.contains(':') && key.chars().all(|c| c.is_ascii_lowercase() || c == '_');
+        assert!(!is_key || schema.contains(&format!("\"{key}\"")), "{key}");
     }
 }
 

@@ -11,6 +11,7 @@ mod motion;
 mod parse;
 mod recipe;
 mod report;
+mod setup;
 mod sim;
 mod support;
 mod transform;

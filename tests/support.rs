@@ -1,7 +1,7 @@
 //! What the areas share: the corpus, where it is present, and snapshots.
 
 use clsmith::program::geometry::{Arc, Path as ClPath};
-use clsmith::program::motion::{Motion, ProblemKind};
+use clsmith::program::motion::{Motion, ProblemKind, Tool};
 use clsmith::program::{Dialect, Program};
 use clsmith::source::Source;
 use std::path::{Path, PathBuf};
@@ -111,4 +111,12 @@ pub fn only_arc(motions: &[Motion]) -> &Arc {
     let arc = arcs.next().unwrap();
     assert!(arcs.next().is_none());
     arc
+}
+
+/// A tool of which only number and name are known.
+pub fn named_tool(number: Option<u32>, name: Option<&str>) -> Tool {
+    let mut tool = Tool::default();
+    tool.number = number;
+    tool.name = name.map(str::to_owned);
+    tool
 }

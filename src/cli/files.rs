@@ -49,6 +49,7 @@ pub fn recipe(path: &Path, setup: Option<&Path>) -> Result<Loaded, Vec<Diagnosti
         None => Setup::default(),
     };
     let setup = recipe.setup_with(named, given);
+    let setup = setup.with_material_file(|path| read(path).map_err(|found| found.message))?;
     Ok(Loaded { recipe, setup })
 }
 

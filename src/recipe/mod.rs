@@ -14,7 +14,7 @@ pub use select::{Facts, FeedRange, Where};
 pub use text::schema;
 
 use crate::diagnostic::{Diagnostic, codes};
-use crate::setup::Setup;
+use crate::setup::{Place, Setup};
 use crate::source::{Source, Span};
 use crate::yaml::Document;
 use serde::de::DeserializeOwned;
@@ -39,7 +39,7 @@ pub struct Recipe<S> {
     pub setup: Setup,
     /// The steps in the order in which they are applied.
     pub steps: Vec<S>,
-    document: Document,
+    document: Arc<Document>,
     step_places: Vec<OnceLock<Span>>,
 }
 
@@ -52,12 +52,14 @@ impl<S: DeserializeOwned> Recipe<S> {
         let document = Document::read(source).map_err(|diagnostic| vec![*diagnostic])?;
         let text: RecipeText<S> =
             document.check(explain::special).map_err(|found| foreign(&document, found))?;
+        let document = Arc::new(document);
+        let setup = text.setup.checked(text.units, Place::new(&document, &[Segment::Key("setup")]))?;
         Ok(Self {
             source: Arc::clone(source),
             version: text.version.get(),
             units: text.units,
             setup_file: text.setup_file,
-            setup: text.setup.checked(text.units),
+            setup,
             step_places: text.steps.iter().map(|_| OnceLock::new()).collect(),
             steps: text.steps,
             document,

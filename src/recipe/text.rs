@@ -19,7 +19,7 @@ pub(super) struct RecipeText<S> {
     pub units: LengthUnit,
     /// A file with the keys of `setup`, relative to this recipe's folder; what `setup` says overrides it.
     pub setup_file: Option<String>,
-    /// What stands around the program: the machine and its limits.
+    /// What stands around the program: machine, stock, tools, material.
     #[serde(default)]
     pub setup: SetupText,
     /// The transforms, applied one after the other.

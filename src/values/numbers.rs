@@ -82,12 +82,34 @@ number! {
     Factor, "a factor greater than 0", |value| value > 0.0, { "exclusiveMinimum": 0 }
 }
 
-impl Degrees {
-    /// The angle in radians.
-    pub fn radians(self) -> f64 {
-        self.0.to_radians()
-    }
+number! {
+    /// An angle in degrees against a plane or an axis that it never becomes square to: a taper, a cutter's bottom.
+    Slope, "an angle from 0 to below 90 degrees", |value| (0.0..90.0).contains(&value),
+    { "minimum": 0, "exclusiveMaximum": 90 }
 }
+number! {
+    /// The full point angle of a drill in degrees; 180 is flat.
+    PointAngle, "an angle above 0 and up to 180 degrees", |value| value > 0.0 && value <= 180.0,
+    { "exclusiveMinimum": 0, "maximum": 180 }
+}
+number! {
+    /// The helix angle of teeth in degrees; negative for a left-hand helix.
+    HelixAngle, "an angle between -90 and 90 degrees", |value| value.abs() < 90.0,
+    { "exclusiveMinimum": -90, "exclusiveMaximum": 90 }
+}
+
+/// What angles in degrees have in common.
+macro_rules! radians {
+    ($($name:ident)*) => {
+        $(impl $name {
+            /// The angle in radians.
+            pub fn radians(self) -> f64 {
+                self.0.to_radians()
+            }
+        })*
+    };
+}
+radians! { Degrees Slope PointAngle HelixAngle }
 
 /// Reads a number and checks its range where the number stands: an error made later points at the whole map.
 struct Number<T> {

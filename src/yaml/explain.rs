@@ -58,7 +58,12 @@ fn usual(kind: &Kind, path: &[Segment<'_>], owner: Option<String>) -> (Code, Str
         }
         Kind::UnknownChoice { name, expected } => {
             let help = suggestion(name, expected, "Choose");
-            let message = match name_of(path) {
+            let owner = match path.split_last() {
+                // As a key, the name is the end of its own way.
+                Some((Segment::Key(key), parent)) if key == name => parent,
+                _ => path,
+            };
+            let message = match name_of(owner) {
                 Some(owner) => format!("{} is no choice for `{owner}`", quoted(name)),
                 None => format!("{} is no choice here", quoted(name)),
             };

@@ -52,6 +52,11 @@ impl Document {
         Ok(Self { source: Arc::clone(source), base, root })
     }
 
+    /// The file it was read from.
+    pub fn source(&self) -> &Arc<Source> {
+        &self.source
+    }
+
     /// Where a value stands; an empty value stands at its key. `None` if there is no such value.
     pub fn place(&self, path: &[Segment<'_>]) -> Option<Span> {
         self.span(&self.numbers(path)?, Part::Value)

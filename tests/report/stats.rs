@@ -86,7 +86,7 @@ fn time_is_length_by_feed() {
 fn rapids_have_a_time_when_the_machine_is_known() {
     let machine = Machine { rapid_feed: Positive::new(6000.0), ..Machine::default() };
     let program = program("UNITS/INCHES\nGOTO/0,0,0\nRAPID\nGOTO/0,0,10\n");
-    let found = Stats::of(&program, &Setup { machine });
+    let found = Stats::of(&program, &Setup { machine, ..Setup::default() });
     close(found.totals.rapid_seconds.unwrap(), 254.0 / 100.0);
     assert_eq!((found.units.unit, found.units.from), (LengthUnit::Inch, UnitsFrom::File));
 }

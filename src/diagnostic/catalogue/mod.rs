@@ -7,6 +7,7 @@ mod files;
 mod reading;
 mod recipe;
 mod running;
+mod simulating;
 
 use super::Severity;
 use std::fmt;
@@ -114,10 +115,12 @@ pub mod codes {
     pub use super::reading::*;
     pub use super::recipe::*;
     pub use super::running::*;
+    pub use super::simulating::*;
 }
 
 /// Every code, area by area, in the order of their ids.
-pub const CATALOGUE: &[&[Code]] = &[reading::ROWS, checking::ROWS, recipe::ROWS, running::ROWS, files::ROWS];
+pub const CATALOGUE: &[&[Code]] =
+    &[reading::ROWS, checking::ROWS, recipe::ROWS, running::ROWS, files::ROWS, simulating::ROWS];
 
 /// Looks a code up by its id, in any case.
 pub fn code(id: &str) -> Option<Code> {

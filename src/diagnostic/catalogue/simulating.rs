@@ -1,0 +1,55 @@
+//! Codes of simulation (`CL05xx`): what it needs to know, and what it found.
+
+super::area! {
+    TOOL_SHAPE = "CL0501", Error, "a tool whose shape is not known, or cannot be",
+        "Describe the tool under `tools:` in the recipe's `setup:`, or in a setup file.",
+        "A simulation needs the shape of every tool that cuts. It takes what the CL file says (NX `TLDATA`, `CUTTER`), \
+         and an entry of `setup.tools` completes or overrides it:\n\n\
+         \x20 setup:\n\
+         \x20   tools:\n\
+         \x20     - { match: { number: 3 }, diameter: 10, corner_radius: 1, flute_length: 22 }\n\n\
+         A diameter is never guessed. Corner radius, taper and angle of the bottom count as 0 when nobody says them, \
+         and a note (CL0505) says so. A shape that cannot be is nearly always a typing mistake or a wrong unit: a \
+         corner radius larger than half the diameter, flutes that end below the corner. Lathe tools and wires are no \
+         milling cutters; leave their operations to another program.";
+    TEETH_MISSING = "CL0502", Error, "the number of teeth of a tool is not known",
+        "Add `teeth:` to the tool's entry under `setup.tools`.",
+        "Chip thickness and cutting forces are per tooth, and CL data never says how many teeth a cutter has:\n\n\
+         \x20 setup:\n\
+         \x20   tools:\n\
+         \x20     - { match: { number: 3 }, teeth: 4, helix: 30 }\n\n\
+         The shape of the tool may still come from the CL file: an entry says only what it wants to add.";
+    STOCK_MISSING = "CL0503", Error, "a simulation without stock",
+        "Add `stock:` to the recipe's `setup:`, or to a setup file.",
+        "What a tool cuts depends on what is there to be cut, and CL data says nothing about it. The stock is a block, \
+         a cylinder, an STL file, what an earlier run has left, or several of them together, in the coordinates of the \
+         program:\n\n\
+         \x20 stock: { block: { from: [0, 0, -30], to: [120, 80, 0] } }\n\
+         \x20 stock: { cylinder: { diameter: 60, from: [0, 0, 0], to: [0, 0, 70] } }\n\
+         \x20 stock: { stl: casting.stl, allowance: 1.5 }\n\
+         \x20 stock: { file: after-op10.clstock }";
+    STOCK_FILE = "CL0504", Error, "a stock file that cannot be used",
+        "The path is relative to the folder of the file that names it.",
+        "The file that `stock:` names cannot be read, or it is no closed solid. An STL file must be watertight: a \
+         missing or turned triangle lets the material run out, and a stock with a hole would show air where there is \
+         steel. Its numbers are in the unit (`units:`) of the file that names it, for STL itself has none. A .clstock \
+         file is one that clsmith has saved.";
+    ASSUMPTION = "CL0505", Note, "a simulation that had to assume something",
+        "Say it under `setup:` if the assumption is wrong.",
+        "Neither the CL file nor the setup says something that the simulation needs, so it takes the usual value: no \
+         corner radius, no taper, a flat bottom, flutes as long as the tool, a shank as thick as the cutter, no \
+         holder. Most of the time that is right for the path and wrong for collisions. The message lists what was \
+         assumed for which tool.";
+    MATERIAL_MISSING = "CL0506", Error, "cutting forces without a material",
+        "Add `material:` to the recipe's `setup:`, or to a setup file.",
+        "Forces are computed from cutting coefficients of the material, and nobody says which it is:\n\n\
+         \x20 material: { file: steel-c45.yaml }\n\
+         \x20 material: { k_tc: 1900 }\n\n\
+         Files for common materials are in `configs/materials`. Their numbers are typical ones from the literature; \
+         measured with your own cutter and spindle they may be a third higher or lower.";
+    MATERIAL_FILE = "CL0507", Error, "a material file that cannot be read",
+        "The path is relative to the folder of the file that names it.",
+        "The recipe or setup file names a file with cutting coefficients under `material:`, and this file cannot be \
+         read. Relative paths start at the folder of the file that names them, not at the folder that clsmith was \
+         started in.";
+}

@@ -1,0 +1,188 @@
+//! Teeth as they are written: how many, how far apart, how true they run.
+
+use super::text::ToolText;
+use crate::setup::Place;
+use crate::setup::reader::Reader;
+use crate::sim::Teeth;
+use crate::values::{Finite, NonNegative, Positive};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{self, Deserialize, Deserializer, SeqAccess, Unexpected, Visitor};
+use std::borrow::Cow;
+use std::fmt;
+
+/// How far in degrees pitch angles may miss the full turn: catalogues print them to a tenth, and a cutter has few
+/// teeth.
+const TURN_TOLERANCE: f64 = 0.5;
+
+/// No cutter has more teeth; a larger number is a mistake.
+const MOST_TEETH: usize = 1000;
+
+/// Angles in degrees from each tooth to the next; they make a full turn.
+#[derive(Debug, Clone)]
+pub(super) struct Pitch(Vec<f64>);
+
+impl<'de> Deserialize<'de> for Pitch {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let angles: Vec<f64> =
+            Vec::<Positive>::deserialize(deserializer)?.into_iter().map(Positive::get).collect();
+        if angles.is_empty() {
+            return Err(de::Error::invalid_length(0, &"an angle for each tooth"));
+        }
+        let sum: f64 = angles.iter().sum();
+        if (sum - 360.0).abs() > TURN_TOLERANCE {
+            let message = format!("the angles between the teeth make {sum:.1} degrees together\n");
+            let help = "From each tooth to the next, and from the last to the first, they make 360.";
+            return Err(de::Error::custom(message + help));
+        }
+        Ok(Self(angles))
+    }
+}
+
+impl JsonSchema for Pitch {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        "Pitch".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "array", "items": { "type": "number", "exclusiveMinimum": 0 }, "minItems": 1 })
+    }
+}
+
+/// How true the teeth run, in the file's unit.
+#[derive(Debug, Clone)]
+pub(super) enum Runout {
+    /// The cutter runs this far off the axis, towards its first tooth.
+    Eccentric(f64),
+    /// How far each tooth stands out.
+    EachTooth(Vec<f64>),
+}
+
+impl<'de> Deserialize<'de> for Runout {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(RunoutVisitor)
+    }
+}
+
+const RUNOUT: &str = "a number, 0 or more, or a list with one for each tooth";
+
+struct RunoutVisitor;
+
+impl RunoutVisitor {
+    fn eccentric<E: de::Error>(value: f64, found: Unexpected<'_>) -> Result<Runout, E> {
+        let value = NonNegative::new(value).ok_or_else(|| E::invalid_value(found, &RUNOUT))?;
+        Ok(Runout::Eccentric(value.get()))
+    }
+}
+
+impl<'de> Visitor<'de> for RunoutVisitor {
+    type Value = Runout;
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(RUNOUT)
+    }
+    fn visit_f64<E: de::Error>(self, value: f64) -> Result<Runout, E> {
+        Self::eccentric(value, Unexpected::Float(value))
+    }
+    fn visit_u64<E: de::Error>(self, value: u64) -> Result<Runout, E> {
+        Self::eccentric(value as f64, Unexpected::Unsigned(value))
+    }
+    fn visit_i64<E: de::Error>(self, value: i64) -> Result<Runout, E> {
+        Self::eccentric(value as f64, Unexpected::Signed(value))
+    }
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Runout, A::Error> {
+        let mut offsets = Vec::new();
+        while let Some(offset) = list.next_element::<Finite>()? {
+            offsets.push(offset.get());
+        }
+        if offsets.is_empty() {
+            return Err(de::Error::invalid_length(0, &RUNOUT));
+        }
+        Ok(Runout::EachTooth(offsets))
+    }
+}
+
+impl JsonSchema for Runout {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        "Runout".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "anyOf": [
+                { "type": "number", "minimum": 0 },
+                { "type": "array", "items": { "type": "number" }, "minItems": 1 },
+            ],
+        })
+    }
+}
+
+/// The teeth of an entry; `None` when it does not say how many, or says it wrongly, which the reader then knows.
+pub(super) fn checked(text: &ToolText, reader: &mut Reader, place: &Place) -> Option<Teeth> {
+    let offsets = match &text.runout {
+        Some(Runout::EachTooth(offsets)) => Some(offsets),
+        _ => None,
+    };
+    let said = [
+        (text.teeth.and_then(|count| usize::try_from(count.get()).ok()), "teeth"),
+        (text.pitch.as_ref().map(|pitch| pitch.0.len()), "pitch"),
+        (offsets.map(Vec::len), "runout"),
+    ];
+    let mut said = said.into_iter().filter_map(|(count, key)| count.map(|count| (count, key)));
+    let (count, first) = said.next()?;
+    if count > MOST_TEETH {
+        let message = format!("no cutter has {count} teeth");
+        reader.fault(
+            || place.key(first),
+            message,
+            "too many",
+            "Write how many cutting edges go around the tool.",
+        );
+        return None;
+    }
+    if let Some((other, key)) = said.find(|(other, _)| *other != count) {
+        let message = format!("`{first}` is for {count} teeth, but `{key}` is for {other}");
+        let help = format!("Write one number for each tooth into `{key}`.");
+        reader.fault(|| place.key(key), message, &format!("{other} here"), help);
+        return None;
+    }
+    let pitch = match &text.pitch {
+        Some(pitch) => {
+            // Written from each tooth to the next; the simulation counts from each to the one before.
+            let mut angles: Vec<f64> = pitch.0.iter().map(|angle| angle.to_radians()).collect();
+            angles.rotate_right(1);
+            angles
+        }
+        None => Teeth::even(u32::try_from(count).ok()?, 0.0)?.pitch().to_vec(),
+    };
+    let runout = match &text.runout {
+        None => vec![0.0; count],
+        Some(Runout::EachTooth(offsets)) => offsets
+            .iter()
+            .enumerate()
+            .map(|(index, offset)| reader.mm(*offset, || place.key("runout").index(index)))
+            .collect(),
+        Some(Runout::Eccentric(offset)) => {
+            let offset = reader.mm(*offset, || place.key("runout"));
+            eccentric(offset, &pitch)
+        }
+    };
+    Teeth::uneven(pitch, runout, text.helix.map_or(0.0, |helix| helix.radians()))
+}
+
+/// Radial offsets of the teeth of a cutter that runs off the axis by `offset`, towards its first tooth.
+fn eccentric(offset: f64, pitch: &[f64]) -> Vec<f64> {
+    let mut angle = 0.0;
+    pitch
+        .iter()
+        .enumerate()
+        .map(|(index, to_the_one_before)| {
+            if index > 0 {
+                angle += to_the_one_before;
+            }
+            offset * f64::cos(angle)
+        })
+        .collect()
+}
