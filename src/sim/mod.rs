@@ -4,14 +4,21 @@
 //! Everything here is in millimetres, radians and the workpiece frame, in which dexels stand along z. The simulation never
 //! sees text; [`crate::setup`] makes cutters and stock, [`crate::transform`] and [`crate::report`] ask it.
 
+pub mod angles;
+pub mod chip;
+pub mod chip_load;
 pub mod cutter;
+mod edges;
 pub mod engagement;
+pub mod force;
+pub mod load_feed;
 pub mod material;
 pub mod profile;
 pub mod teeth;
 
 pub use cutter::{Collar, Cutter};
 pub use engagement::{Bin, Engagement};
+pub use force::{LoadModel, Loads};
 pub use material::Material;
 pub use profile::{Profile, ProfileError, ProfilePoint};
 pub use teeth::Teeth;
