@@ -41,7 +41,7 @@ impl Teeth {
         // No earlier tooth stands further out than the highest: once even that one would have left more, none leaves less.
         let least = (self.runout().get(edge).copied().unwrap_or(0.0) - highest) * radial;
         let mut thinnest = f64::INFINITY;
-        for (turns, further) in self.passes_before(edge) {
+        for [turns, further] in self.passes_before(edge) {
             if advance * turns + least >= thinnest {
                 break;
             }
@@ -64,7 +64,8 @@ impl Teeth {
             Run::Runout(_) => (0..self.count())
                 .map(|edge| {
                     self.passes_before(edge)
-                        .map(|(turns, further)| (thickness - further * radial) / turns)
+                        .iter()
+                        .map(|[turns, further]| (thickness - further * radial) / turns)
                         .fold(f64::NEG_INFINITY, f64::max)
                 })
                 .fold(f64::INFINITY, f64::min)

@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 use super::engagement::BINS;
 use super::{Profile, Teeth};
 
-/// Greatest turn of the normal, and of the helix, within an element; and the rotation from one look to the next: half a bin.
-const STEP: f64 = PI / BINS as f64;
+/// Greatest turn of the normal, and of the helix, within an element; and the rotation from one look to the next: a bin.
+const STEP: f64 = TAU / BINS as f64;
 
 /// Most elements of one piece of the meridian; only an absurdly long and thin cutter has more.
 const MOST: f64 = 4000.0;
@@ -41,6 +41,8 @@ pub(super) struct Part {
     pub sin: f64,
     /// Cosine of the normal's angle.
     pub cos: f64,
+    /// Turn of the normal per length, 1/mm.
+    pub curvature: f64,
 }
 
 impl Element {
@@ -58,6 +60,7 @@ impl Element {
             r: self.r + cos * shift,
             sin: sin + cos * turn,
             cos: cos - sin * turn,
+            curvature: self.curvature,
         })
     }
 }
@@ -122,7 +125,7 @@ pub(super) fn looks(teeth: &Teeth, left: f64) -> Vec<Look> {
     let steps = (round / STEP).ceil().max(1.0);
     let trail = teeth.trail();
     let at = |step: usize| {
-        // Between the bins' ends and middles, where rounding decides nothing.
+        // In the middle of a bin for the first tooth, where rounding decides nothing.
         let turned = (step as f64 + 0.5) * round / steps;
         trail.iter().enumerate().map(move |(tooth, trail)| {
             let angle = left * (trail - turned);

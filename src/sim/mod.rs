@@ -10,6 +10,7 @@ pub mod chip_load;
 pub mod cutter;
 mod edges;
 pub mod engagement;
+pub mod exact;
 pub mod force;
 pub mod load_feed;
 pub mod material;
@@ -18,6 +19,7 @@ pub mod teeth;
 
 pub use cutter::{Collar, Cutter};
 pub use engagement::{Bin, Engagement};
+pub use exact::{ExactChips, Fineness, ToothMotion, exact_chips};
 pub use force::{LoadModel, Loads};
 pub use material::Material;
 pub use profile::{Profile, ProfileError, ProfilePoint};

@@ -20,6 +20,8 @@ pub struct Teeth {
     pub helix: f64,
     /// How far the spacing and the offsets go from even: told once, since the chip formula asks for it at every point.
     run: Run,
+    /// With runout, the passes before each tooth; see [`Teeth::passes_before`].
+    passes: Vec<[f64; 2]>,
 }
 
 /// What the teeth spare the chip formula.
@@ -38,7 +40,13 @@ impl Teeth {
     pub fn even(count: u32, helix: f64) -> Option<Self> {
         let count = usize::try_from(count).ok().filter(|count| (1..=MOST).contains(count))?;
         let pitch = vec![TAU / count as f64; count];
-        helix.is_finite().then(|| Self { pitch, runout: vec![0.0; count], helix, run: Run::Even })
+        helix.is_finite().then(|| Self {
+            pitch,
+            runout: vec![0.0; count],
+            helix,
+            run: Run::Even,
+            passes: Vec::new(),
+        })
     }
 
     /// Teeth with pitch angles (radians, each the angle to the tooth before, scaled to sum to a full turn) and radial offsets (mm).
@@ -67,7 +75,8 @@ impl Teeth {
         } else {
             Run::Pitch
         };
-        Some(Self { pitch, runout, helix, run })
+        let passes = if matches!(run, Run::Runout(_)) { passes(&pitch, &runout) } else { Vec::new() };
+        Some(Self { pitch, runout, helix, run, passes })
     }
 
     /// Teeth with pitch angles as in [`Teeth::uneven`], ground true on a cutter whose axis runs `eccentricity` mm beside the
@@ -117,17 +126,27 @@ impl Teeth {
     }
 
     /// The passes before tooth `edge`'s, up to its own one turn ago: how much of a turn ago, and how much further out `edge` is (mm).
-    /// Nothing for a tooth that does not exist.
-    pub(super) fn passes_before(&self, edge: usize) -> impl Iterator<Item = (f64, f64)> + '_ {
+    /// Nothing for a tooth that does not exist, nor for teeth at one radius.
+    pub(super) fn passes_before(&self, edge: usize) -> &[[f64; 2]] {
         let count = self.count();
-        let own = self.runout.get(edge).copied();
-        (1..=count).scan(0.0, move |angle, back| {
-            // Tooth i - back comes before; its follower's pitch angle is the way between the two.
-            let follower = (edge + count + 1 - back) % count;
-            let earlier = (edge + count - back) % count;
-            *angle += self.pitch.get(follower)?;
-            let turns = if back == count { 1.0 } else { *angle / TAU };
-            Some((turns, own? - self.runout.get(earlier)?))
-        })
+        self.passes.get(edge * count..(edge + 1) * count).unwrap_or_default()
     }
+}
+
+/// The passes before each tooth, as [`Teeth::passes_before`] gives them, one tooth after the other.
+fn passes(pitch: &[f64], runout: &[f64]) -> Vec<[f64; 2]> {
+    let count = pitch.len();
+    let of_edge = |edge: usize| {
+        // Backwards from the edge, once round: each pitch angle, and the tooth that it leads back to.
+        let angles = pitch.iter().rev().cycle().skip(count - 1 - edge).take(count);
+        let earlier = runout.iter().rev().cycle().skip(count - edge).take(count);
+        let own = runout.get(edge).copied().unwrap_or(0.0);
+        let mut angle = 0.0;
+        angles.zip(earlier).enumerate().map(move |(back, (pitch, offset))| {
+            angle += pitch;
+            // The last is the tooth itself, exactly a turn ago.
+            [if back + 1 == count { 1.0 } else { angle / TAU }, own - offset]
+        })
+    };
+    (0..count).flat_map(of_edge).collect()
 }

@@ -24,12 +24,12 @@ fn a_straight_tooth_in_a_slot() {
     let (profile, teeth) = (cutter(10.0, 0.0), Teeth::even(1, 0.0).unwrap());
     let slot = milling(&profile, 3.0, -90.0, 90.0);
     let found = loads(&profile, &teeth, STEEL, &slot, 0.1);
-    // Straight ahead the chip is the feed per tooth; the looks stand up to 0.75 degrees beside it.
+    // Straight ahead the chip is the feed per tooth; the looks stand up to 1.5 degrees beside it.
     let forces =
         [STEEL.k_tc * 0.1 + STEEL.k_te, STEEL.k_rc * 0.1 + STEEL.k_re, STEEL.k_ac * 0.1 + STEEL.k_ae];
     let [tangential, radial, axial] = forces.map(|force| force * 3.0);
-    close(found.force_n, (tangential * tangential + radial * radial + axial * axial).sqrt(), 1e-4);
-    close(found.torque_nm, tangential * 5.0 * 1e-3, 1e-4);
+    close(found.force_n, (tangential * tangential + radial * radial + axial * axial).sqrt(), 4e-4);
+    close(found.torque_nm, tangential * 5.0 * 1e-3, 4e-4);
     // Mean torque a_p R / (2 pi) (2 k_tc f_z + pi k_te).
     let mean = 3.0 * 5.0 / TAU * (2.0 * STEEL.k_tc * 0.1 + PI * STEEL.k_te) * 1e-3;
     close(found.power_kw, mean * TAU * RPM / 60.0 * 1e-3, 1e-6);
@@ -40,7 +40,7 @@ fn two_opposite_teeth_in_a_half_slot_take_turns() {
     let (profile, teeth) = (cutter(10.0, 0.0), Teeth::even(2, 0.0).unwrap());
     let half = milling(&profile, 3.0, -90.0, 0.0);
     let found = loads(&profile, &teeth, STEEL, &half, 0.1);
-    close(found.torque_nm, (STEEL.k_tc * 0.1 + STEEL.k_te) * 3.0 * 5.0 * 1e-3, 1e-4);
+    close(found.torque_nm, (STEEL.k_tc * 0.1 + STEEL.k_te) * 3.0 * 5.0 * 1e-3, 4e-4);
     let mean = 2.0 * 3.0 * 5.0 / TAU * (STEEL.k_tc * 0.1 + FRAC_PI_2 * STEEL.k_te) * 1e-3;
     close(found.power_kw, mean * TAU * RPM / 60.0 * 1e-3, 1e-6);
 }
@@ -53,7 +53,7 @@ fn a_long_helix_evens_the_torque() {
     let teeth = Teeth::even(4, helix).unwrap();
     let found = loads(&profile, &teeth, STEEL, &milling(&profile, depth, -90.0, 90.0), 0.1);
     let mean = found.power_kw * 1e3 / (TAU * RPM / 60.0);
-    close(found.torque_nm, mean, 2e-3);
+    close(found.torque_nm, mean, 4e-3);
 }
 
 #[test]
@@ -68,11 +68,11 @@ fn power_is_coefficient_times_removal_rate() {
         (&flat, milling(&flat, 4.0, 0.0, 90.0), 1e-6),
         (&flat, milling(&flat, 4.0, -90.0, -45.0), 1e-6),
         (&flat, plunge(&flat), 1e-6),
-        (&ball, milling(&ball, 0.2, -90.0, 90.0), 1e-4),
-        (&ball, milling(&ball, 5.0, -90.0, 90.0), 1e-4),
-        (&ball, milling(&ball, 7.0, -90.0, 30.0), 1e-4),
-        (&bull, milling(&bull, 1.0, -90.0, 90.0), 1e-4),
-        (&bull, milling(&bull, 5.0, -30.0, 90.0), 1e-4),
+        (&ball, milling(&ball, 0.2, -90.0, 90.0), 3e-4),
+        (&ball, milling(&ball, 5.0, -90.0, 90.0), 3e-4),
+        (&ball, milling(&ball, 7.0, -90.0, 30.0), 3e-4),
+        (&bull, milling(&bull, 1.0, -90.0, 90.0), 3e-4),
+        (&bull, milling(&bull, 5.0, -30.0, 90.0), 3e-4),
     ];
     for (profile, engagement, tolerance) in cases {
         for teeth in [Teeth::even(1, 0.0), Teeth::even(5, 0.7)] {
