@@ -34,7 +34,10 @@ fn zigzag(lean: f64) -> Vec<Piece> {
         let (a, b) = (lean * (point.x / 11.0).sin(), lean * (point.y / 13.0).cos());
         Vector3::new(a.sin(), b.sin(), 1.0).normalize()
     };
-    let place = |point: &Point3<f64>| Place { point: *point, axis: if lean > 0.0 { axis(point) } else { Vector3::z() } };
+    let place = |point: &Point3<f64>| Place {
+        point: *point,
+        axis: if lean > 0.0 { axis(point) } else { Vector3::z() },
+    };
     points.windows(2).map(|pair| Piece { from: place(&pair[0]), to: place(&pair[1]), cutter: 0 }).collect()
 }
 
@@ -69,7 +72,9 @@ fn main() {
     };
     let single = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     println!("{:<16}{:>6}{:>16}{:>16}", "cutter", "cell", "1 thread /s", "all threads /s");
-    for (name, corner, lean) in [("flat", 0.0, 0.0), ("ball", 5.0, 0.0), ("bull R1", 1.0, 0.0), ("five-axis ball", 5.0, 0.2)] {
+    for (name, corner, lean) in
+        [("flat", 0.0, 0.0), ("ball", 5.0, 0.0), ("bull R1", 1.0, 0.0), ("five-axis ball", 5.0, 0.2)]
+    {
         let pieces = zigzag(lean);
         for cell in &cells {
             let cutter = cutter(corner);

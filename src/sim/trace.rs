@@ -167,7 +167,10 @@ fn outside(frame: Option<&Frame>, pose: Place) -> Place {
 fn seen_from(frame: Option<&Frame>, pose: Place) -> Place {
     let seen = frame.and_then(|frame| {
         let inverse = frame.axes.try_inverse()?;
-        Some(Place { point: (inverse * (pose.point.coords - frame.origin)).into(), axis: inverse * pose.axis })
+        Some(Place {
+            point: (inverse * (pose.point.coords - frame.origin)).into(),
+            axis: inverse * pose.axis,
+        })
     });
     seen.unwrap_or(pose)
 }

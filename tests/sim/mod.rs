@@ -1,5 +1,6 @@
 //! Simulation, through one door: a cutter along a path over a block.
 
+mod chips;
 mod cuts;
 
 use clsmith::sim::{Cutter, Dexels, Engagement, Layout, Piece, Place, Profile, Simulation};

@@ -1,0 +1,64 @@
+//! What an engagement means for a feed: the thickest chip and the removal rate, and the feeds that keep them to a target.
+//!
+//! Formula (1) and (2) of I. Kiselev, N. Jukov, K. Deev, Automated block-by-block correction of milling parameters by means of
+//! numerical simulation, for one piece of the path: C_k is [`Engagement::chip_thickness`], F_k [`Engagement::feed_for_chip`].
+
+use super::{Engagement, Teeth};
+
+impl Engagement {
+    /// The thickest chip in mm at a feed (mm/min) and a spindle speed (rev/min, above 0): the largest over the bins of what the
+    /// teeth make of the surface's advance, nowhere more than the material is thick. 0 in air.
+    ///
+    /// It is the classic thickness, f_z sin(phi) on a flank: along the edge's normal to the surface that the tooth before left
+    /// the chip is some 4 to 9 % thinner where that surface meets the free one.
+    pub fn chip_thickness(&self, teeth: &Teeth, feed_mm_min: f64, rpm: f64) -> f64 {
+        let per_turn = feed_mm_min / rpm;
+        let of = |bin: &super::Bin| {
+            let chip = teeth.thickness(per_turn * f64::from(bin.share), f64::from(bin.radial));
+            chip.min(f64::from(bin.thickness))
+        };
+        self.bins.iter().map(of).fold(0.0, f64::max)
+    }
+
+    /// As [`Engagement::chip_thickness`], with everything that the grid may have missed: the shares' bounds, and slivers that
+    /// the flank passes by, whose thickness is unknown. Never below the classic thickness of the true engagement.
+    pub fn chip_thickness_bound(&self, teeth: &Teeth, feed_mm_min: f64, rpm: f64) -> f64 {
+        let per_turn = feed_mm_min / rpm;
+        let of = |bin: &super::Bin| {
+            let chip = teeth.thickness(per_turn * f64::from(bin.share_bound), f64::from(bin.radial));
+            chip.min(f64::from(bin.thickness))
+        };
+        let graze = if self.graze > 0.0 { teeth.thickness(per_turn * self.graze, 1.0) } else { 0.0 };
+        self.bins.iter().map(of).fold(graze, f64::max)
+    }
+
+    /// The largest feed in mm/min at which no chip is thicker than `target` (mm), at a spindle speed in rev/min: formula (2) in
+    /// closed form. Infinite where nothing limits it, as in air and where all material is thinner than the target; 0 for a
+    /// target of 0 or less.
+    ///
+    /// Bounded as [`Engagement::chip_thickness_bound`] is, so that the grid's uncertainty lowers the feed and never raises it.
+    pub fn feed_for_chip(&self, teeth: &Teeth, rpm: f64, target: f64) -> f64 {
+        let limit = |share: f64, radial: f64| {
+            if share > 0.0 { teeth.advance_for(target, radial) * rpm / share } else { f64::INFINITY }
+        };
+        self.bins
+            .iter()
+            .filter(|bin| f64::from(bin.thickness) > target)
+            .map(|bin| limit(f64::from(bin.share_bound), f64::from(bin.radial)))
+            .fold(limit(self.graze, 1.0), f64::min)
+    }
+
+    /// Removal rate in mm3/min at a feed in mm/min, the mean over the piece of the path; 0 for a piece without length.
+    pub fn removal_rate_mm3_min(&self, feed_mm_min: f64) -> f64 {
+        if self.length_mm > 0.0 { self.removed_mm3 / self.length_mm * feed_mm_min } else { 0.0 }
+    }
+
+    /// The feed in mm/min at which the removal rate is `rate` mm3/min; infinite in air.
+    pub fn feed_for_removal_rate(&self, rate: f64) -> f64 {
+        if self.cuts() && self.length_mm > 0.0 {
+            rate.max(0.0) * self.length_mm / self.removed_mm3
+        } else {
+            f64::INFINITY
+        }
+    }
+}
