@@ -15,7 +15,7 @@ impl Engagement {
         let per_turn = feed_mm_min / rpm;
         let of = |bin: &super::Bin| {
             let chip = teeth.thickness(per_turn * f64::from(bin.share), f64::from(bin.radial));
-            chip.min(f64::from(bin.thickness))
+            chip.min(self.thickness(bin, per_turn))
         };
         self.bins.iter().map(of).fold(0.0, f64::max)
     }
@@ -26,7 +26,7 @@ impl Engagement {
         let per_turn = feed_mm_min / rpm;
         let of = |bin: &super::Bin| {
             let chip = teeth.thickness(per_turn * f64::from(bin.share_bound), f64::from(bin.radial));
-            chip.min(f64::from(bin.thickness))
+            chip.min(self.thickness(bin, per_turn))
         };
         let graze = if self.graze > 0.0 { teeth.thickness(per_turn * self.graze, 1.0) } else { 0.0 };
         self.bins.iter().map(of).fold(graze, f64::max)
@@ -41,11 +41,21 @@ impl Engagement {
         let limit = |share: f64, radial: f64| {
             if share > 0.0 { teeth.advance_for(target, radial) * rpm / share } else { f64::INFINITY }
         };
-        self.bins
-            .iter()
-            .filter(|bin| f64::from(bin.thickness) > target)
-            .map(|bin| limit(f64::from(bin.share_bound), f64::from(bin.radial)))
-            .fold(limit(self.graze, 1.0), f64::min)
+        let (mut all, mut thick) = (limit(self.graze, 1.0), limit(self.graze, 1.0));
+        for bin in &self.bins {
+            let feed = limit(f64::from(bin.share_bound), f64::from(bin.radial));
+            all = all.min(feed);
+            if f64::from(bin.thickness) > target {
+                thick = thick.min(feed);
+            }
+        }
+        // What is thin limits only as long as its thickness is known.
+        all.max(thick.min(self.shortest_mm * rpm))
+    }
+
+    /// Thickness of a bin's material for teeth that go `per_turn` mm in a revolution; infinite where it is not known.
+    fn thickness(&self, bin: &super::Bin, per_turn: f64) -> f64 {
+        if self.shortest_mm >= per_turn { f64::from(bin.thickness) } else { f64::INFINITY }
     }
 
     /// Removal rate in mm3/min at a feed in mm/min, the mean over the piece of the path; 0 for a piece without length.

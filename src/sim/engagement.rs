@@ -70,6 +70,9 @@ pub struct Engagement {
     pub along: f64,
     /// Length of the tip's path in mm.
     pub length_mm: f64,
+    /// Length of the shortest piece that this was put together from, mm. A tooth that goes further in a revolution meets
+    /// material that earlier pieces have thinned, so that [`Bin::thickness`] tells nothing.
+    pub shortest_mm: f64,
     /// Lateral extent of the removed ground, mm to the left (positive) of the path: least and greatest.
     pub lateral: [f64; 2],
     /// Height on the cutter at which material was removed, mm above the tip along the axis: least and greatest.
@@ -91,6 +94,7 @@ impl Engagement {
             across,
             along,
             length_mm,
+            shortest_mm: length_mm,
             lateral: [f64::INFINITY, f64::NEG_INFINITY],
             height: [f64::INFINITY, f64::NEG_INFINITY],
             bins: Vec::new(),
@@ -108,6 +112,7 @@ impl Engagement {
             self.along += (other.along - self.along) * share;
         }
         self.length_mm = whole;
+        self.shortest_mm = self.shortest_mm.min(other.shortest_mm);
         self.removed_mm3 += other.removed_mm3;
         self.lateral = hull(self.lateral, other.lateral);
         self.height = hull(self.height, other.height);
