@@ -11,6 +11,7 @@ mod motion;
 mod parse;
 mod recipe;
 mod report;
+mod sim;
 mod support;
 mod transform;
 mod write_files;

@@ -47,7 +47,10 @@ pub enum MeshError {
         triangle: usize,
     },
     /// It has holes, so nothing is inside.
-    #[error("the surface is not closed: {edges} edges have a triangle on one side only, one of them at {}", place(at))]
+    #[error(
+        "the surface is not closed: {edges} edges have a triangle on one side only, one of them at {}",
+        place(at)
+    )]
     Open {
         /// How many edges.
         edges: usize,

@@ -18,6 +18,9 @@ impl Mesh {
     /// sampled in x and y. What stands beside the grid is left out. Takes time for the triangles, and for each the columns below.
     pub fn columns(&self, layout: Layout) -> Dexels {
         let mut dexels = Dexels::empty(layout);
+        if layout.columns == 0 {
+            return dexels;
+        }
         let mut per_band: Vec<Vec<u32>> = vec![Vec::new(); dexels.bands().len()];
         for (index, triangle) in self.corners().enumerate() {
             let ys = triangle.map(|[_, y, _]| y);

@@ -1,0 +1,8 @@
+//! The simulation.
+
+mod compare;
+mod export;
+mod mesh;
+mod remains;
+mod shapes;
+mod stock;
