@@ -1,7 +1,13 @@
 //! Simulation, through one door: a cutter along a path over a block.
 
 mod chips;
+mod compare;
 mod cuts;
+mod export;
+mod mesh;
+mod remains;
+mod shapes;
+mod stock;
 
 use clsmith::sim::{Cutter, Dexels, Engagement, Layout, Piece, Place, Profile, Simulation};
 use nalgebra::{Point3, Vector3};

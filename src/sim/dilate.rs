@@ -1,0 +1,64 @@
+//! Columns grown by a ball: an allowance on a body that has no closed form.
+
+use super::dexel::BAND_ROWS;
+use super::{Dexels, Interval, interval};
+use rayon::prelude::*;
+
+/// Every interval grown by `sqrt(radius^2 - d^2)` mm at both ends over the columns at a lateral distance d up to the radius. On the
+/// same grid, so what grows past its border is lost. Exact for the columns given; a wall moves by whole cells.
+pub(super) fn by_ball(dexels: &Dexels, radius: f64) -> Dexels {
+    let layout = *dexels.layout();
+    // From the middle outwards: the column itself covers most of what its neighbours add.
+    let reach = (radius / layout.cell).ceil().min(layout.columns.max(layout.rows) as f64) as i64;
+    let mut steps: Vec<(i64, i64, i64, f32)> = Vec::new();
+    for up in -reach..=reach {
+        for right in -reach..=reach {
+            let squared = right * right + up * up;
+            let rest = radius * radius - squared as f64 * layout.cell * layout.cell;
+            // A radius of whole cells reaches its last column, whatever its square is rounded to.
+            if rest >= -1e-9 * radius * radius {
+                steps.push((squared, up, right, rest.max(0.0).sqrt() as f32));
+            }
+        }
+    }
+    steps.sort_unstable_by_key(|(squared, up, right, _)| (*squared, *up, *right));
+    let mut grown = Dexels::empty(layout);
+    grown.bands_mut().par_iter_mut().for_each(|band| {
+        let mut intervals: Vec<Interval> = Vec::new();
+        for index in 0..band.rows() * band.columns {
+            intervals.clear();
+            let (column, row) = (index % band.columns, band.first_row + index / band.columns);
+            for (_, up, right, growth) in &steps {
+                let place =
+                    column.checked_add_signed(*right as isize).zip(row.checked_add_signed(*up as isize));
+                let Some((column, row)) = place.filter(|(column, _)| *column < layout.columns) else {
+                    continue;
+                };
+                let Some(from) = dexels.bands().get(row / BAND_ROWS) else { continue };
+                for [low, top] in from.intervals((row - from.first_row) * layout.columns + column) {
+                    add(&mut intervals, [low - growth, top + growth]);
+                }
+            }
+            interval::join(&mut intervals);
+            if !intervals.is_empty() {
+                band.set(index, &intervals);
+            }
+        }
+    });
+    grown
+}
+
+/// Adds an interval to some that do not overlap, in no order.
+fn add(intervals: &mut Vec<Interval>, [mut low, mut top]: Interval) {
+    if intervals.iter().any(|[a, b]| *a <= low && top <= *b) {
+        return;
+    }
+    intervals.retain(|[a, b]| {
+        let overlaps = *a <= top && low <= *b;
+        if overlaps {
+            (low, top) = (low.min(*a), top.max(*b));
+        }
+        !overlaps
+    });
+    intervals.push([low, top]);
+}
