@@ -67,6 +67,13 @@ pub struct SplitRule {
     pub at_most: usize,
 }
 
+impl SplitRule {
+    /// Whether a block may be split.
+    pub(super) fn applies_to(&self, block: &Block) -> bool {
+        block.touched && block.splittable && block.length > self.above && !block.pieces.is_empty()
+    }
+}
+
 /// What feeds have to satisfy; feeds in mm/min, lengths in mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rules {
@@ -161,12 +168,12 @@ impl Feeds {
 ///   short blocks, where no step up is as large as a rounding step.) The machine, which changes feed no faster than `a`, stays
 ///   below the unrounded feeds all the same;
 /// - the result fed back as programmed feeds comes out unchanged, unless ratios of the programmed feed are limits. Parts
-///   that are blocks the second time may be split again, when `at_most` held them back the first time.
+///   that are blocks the second time may fall apart further where `shortest` or `at_most` had held them together.
 ///
 /// A part that nothing limits (no material, no air feed; or an infinite limit and no highest feed) keeps its programmed feed.
 pub fn feeds(blocks: &[Block], rules: &Rules) -> Feeds {
     let chains = chains(blocks);
-    let atoms = margin::atoms(blocks, &chains, rules.margin);
+    let atoms = margin::atoms(blocks, &chains, rules);
     let mut spans = parts::spans(blocks, &chains, &atoms, rules);
     let mut below_minimum: Vec<usize> =
         spans.iter().filter(|span| span.below).map(|span| span.block).collect();

@@ -1,10 +1,13 @@
 //! Pieces on one line: each block's pieces scaled to its length, and air cut where the margin around material ends.
 
-use super::feeds::{Block, Load, has_feed, has_length};
+use super::feeds::{Block, Load, Rules, has_feed, has_length};
 use std::ops::Range;
 
 /// A border this close to another (mm) is the same border.
 const SAME_PLACE: f64 = 1e-9;
+
+/// Most bits that one atom is cut into.
+const MOST_BITS: f64 = 1000.0;
 
 /// A stretch of constant load.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,14 +28,39 @@ pub(super) enum Kind {
 }
 
 /// All atoms, in order. A block with a length and a known feed has at least one.
-pub(super) fn atoms(blocks: &[Block], chains: &[usize], margin: f64) -> Vec<Atom> {
+pub(super) fn atoms(blocks: &[Block], chains: &[usize], rules: &Rules) -> Vec<Atom> {
     let mut plain = Vec::new();
     for (index, block) in blocks.iter().enumerate() {
         if has_length(block) && has_feed(block) {
             plain.extend(of_block(index, block));
         }
     }
-    if margin > 0.0 { with_margins(&plain, blocks, chains, margin) } else { plain }
+    let cut = if rules.margin > 0.0 { with_margins(&plain, blocks, chains, rules.margin) } else { plain };
+    match rules.split {
+        Some(rule) if rule.shortest > 0.0 => {
+            let longest = |atom: &Atom| {
+                let splits = blocks.get(atom.block).is_some_and(|block| rule.applies_to(block));
+                if splits { rule.shortest / 2.0 } else { f64::INFINITY }
+            };
+            in_bits(cut, longest)
+        }
+        _ => cut,
+    }
+}
+
+/// Long atoms of one load cut into equal bits, so that a too short neighbour can grow by as little as it needs.
+fn in_bits(atoms: Vec<Atom>, longest: impl Fn(&Atom) -> f64) -> Vec<Atom> {
+    let bits = |atom: &Atom| (atom.length / longest(atom)).ceil().clamp(1.0, MOST_BITS) as usize;
+    let mut new_index = Vec::with_capacity(atoms.len());
+    let mut found: Vec<Atom> = Vec::with_capacity(atoms.len());
+    for atom in &atoms {
+        new_index.push(found.len());
+        let count = bits(atom);
+        let bit = Atom { length: atom.length / count as f64, ..*atom };
+        found.extend(std::iter::repeat_n(bit, count));
+    }
+    renumber(&mut found, &new_index);
+    found
 }
 
 /// The range of atoms of each block that has any, in order.
@@ -101,13 +129,20 @@ fn with_margins(plain: &[Atom], blocks: &[Block], chains: &[usize], margin: f64)
             found.push(Atom { length: end - start, kind, ..*atom });
         }
     }
-    let renumbered = |cut: Option<usize>| cut.and_then(|cut| new_index.get(cut).copied());
-    for atom in &mut found {
+    renumber(&mut found, &new_index);
+    found
+}
+
+/// Lets margins name the atoms that they lie beside by their new indices: of a cut in bits the nearest.
+fn renumber(atoms: &mut [Atom], new_index: &[usize]) {
+    let count = atoms.len();
+    let first = |cut: usize| new_index.get(cut).copied();
+    let last = |cut: usize| Some(first(cut + 1).unwrap_or(count).saturating_sub(1));
+    for atom in atoms {
         if let Kind::Margin(left, right) = &mut atom.kind {
-            (*left, *right) = (renumbered(*left), renumbered(*right));
+            (*left, *right) = (left.and_then(last), right.and_then(first));
         }
     }
-    found
 }
 
 /// For each atom in the order given: the nearest cutting atom met before it in the same chain, and the path between them.

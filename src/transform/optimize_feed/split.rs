@@ -168,8 +168,8 @@ fn written(program: &Program, motion: &Motion, shared: bool) -> Result<Written, 
     let last = motion.last_statement();
     let record = program.statement(last).map_or(&Record::Other, |found| found.record());
     match (record, &motion.path) {
-        _ if motion.rapid => return Err(Whole::Rapid),
         _ if motion.hole.is_some() => return Err(Whole::Hole),
+        _ if motion.rapid => return Err(Whole::Rapid),
         _ if motion.normal.is_some() => return Err(Whole::ContactNormal),
         (_, Path::Spline(_)) => return Err(Whole::Spline),
         (_, Path::Start) => return Err(Whole::OtherStatement),

@@ -111,10 +111,12 @@ fn a_block_falls_apart_where_its_load_changes() {
     let blocks = [block(0.1, &[[2000.0; 30].as_slice(), &[500.0; 10], &[2000.0; 40]].concat())];
     let found = feeds(&blocks, &splitting());
     assert_eq!(parts(&found, &blocks, 0), [(3.0, 2000.0), (4.0, 500.0), (8.0, 2000.0)]);
-    // A dip shorter than the shortest part takes its neighbourhood along.
+    // A dip shorter than the shortest part takes as much of its neighbourhood along as it needs.
     let blocks = [block(0.1, &[[2000.0; 30].as_slice(), &[500.0; 2], &[2000.0; 40]].concat())];
     let found = feeds(&blocks, &splitting());
-    assert!(found.parts[0].iter().all(|part| part.feed == 500.0), "{found:?}");
+    let dip = parts(&found, &blocks, 0);
+    assert_eq!(dip.iter().map(|(_, feed)| *feed).collect::<Vec<_>>(), [2000.0, 500.0, 2000.0]);
+    assert!((dip[1].0 - dip[0].0 - 0.5).abs() < 1e-6 && dip[0].0 < 3.01 && dip[1].0 > 3.19, "{dip:?}");
     let found = feeds(&blocks, &Rules { split: Some(SplitRule { shortest: 0.1, ..SPLIT }), ..splitting() });
     assert_eq!(parts(&found, &blocks, 0), [(3.0, 2000.0), (3.2, 500.0), (7.2, 2000.0)]);
     // Too short a block, and one whose load hardly changes.
