@@ -170,7 +170,8 @@ impl Feeds {
 /// - the result fed back as programmed feeds comes out unchanged, unless ratios of the programmed feed are limits. Parts
 ///   that are blocks the second time may fall apart further where `shortest` or `at_most` had held them together.
 ///
-/// A part that nothing limits (no material, no air feed; or an infinite limit and no highest feed) keeps its programmed feed.
+/// A part that nothing limits (no material, no air feed; or an infinite limit and no highest feed) keeps its programmed feed
+/// whatever it is, and is a wall for acceleration like a block that is not touched.
 pub fn feeds(blocks: &[Block], rules: &Rules) -> Feeds {
     let chains = chains(blocks);
     let atoms = margin::atoms(blocks, &chains, rules);

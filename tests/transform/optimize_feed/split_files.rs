@@ -154,7 +154,6 @@ fn real_files_split_in_three_read_back_as_they_were() {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         let before = clsmith::parse::parse(&support::source(&path), None).program;
         let (splits, why) = split_all(&name, &before);
-        println!("{name}: {splits} split, {why:?}");
         let lost = why.get(&Whole::NotReadBack).copied().unwrap_or_default();
         assert!(lost * 20 <= splits.max(20), "{name}: {lost} of {splits} do not read back");
     }
