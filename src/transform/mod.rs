@@ -10,6 +10,7 @@ mod convert_units;
 pub mod feed_plan;
 mod move_origin;
 mod numbers;
+pub mod optimize_feed;
 mod rewrite;
 mod run;
 mod scale_feed;

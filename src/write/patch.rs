@@ -10,12 +10,55 @@ const NOISE: f64 = 1e-13;
 /// A feed is printed to a thousandth of itself at least.
 pub const FEED_SHARE: f64 = 1e-3;
 
+/// Fewest decimals of a unit vector in a new statement: CATIA prints its start tangents with five.
+const DIRECTION_DECIMALS: usize = 5;
+
+/// Fewest decimals of other numbers in a new statement.
+const LENGTH_DECIMALS: usize = 4;
+
 /// The text with new values for some of its numbers; `None` when nothing changes.
 ///
 /// `edits` are pairs of a number's index (in the order the numbers stand) and its new value. Numbers keep their decimals, or
 /// get more when fewer would lose the edit; in column dialects they keep their column. Everything else stays as it is.
 /// A value that is no number is left out; [`super::Editor`] refuses it.
 pub fn numbers(text: &[u8], record: &Record, edits: &[(usize, f64)], style: &Style) -> Option<Vec<u8>> {
+    let out = patched(text, record, edits, style, |role, original, old, wanted| {
+        let mut form = style.changed(role, original);
+        if role == Role::Feed {
+            // Feeds span four powers of ten (0.002 inch/rev, 9000 mm/min): what counts is the proportion.
+            form.tolerance = form.tolerance.min(wanted.abs() * FEED_SHARE);
+        }
+        form.print(wanted, wanted - old)
+    })?;
+    (out != text).then_some(out)
+}
+
+/// A statement's text with other values for some of its numbers, for a new statement in the form of an old one.
+///
+/// The numbers are rounded to the decimals of the old ones, or of the file where that has more, but to no fewer than four (unit
+/// vectors: five): half of the last one is all they are off.
+pub fn copy(text: &[u8], record: &Record, values: &[(usize, f64)], style: &Style) -> Vec<u8> {
+    let out = patched(text, record, values, style, |role, original, _, wanted| {
+        let (least, of_file) = match role {
+            Role::Direction(_) | Role::ArcAxis(_) | Role::FrameAxis(..) => (DIRECTION_DECIMALS, 0),
+            _ => (LENGTH_DECIMALS, style.decimals(role)),
+        };
+        let mut form = style.changed(role, original);
+        form.decimals = form.decimals.max(of_file).max(least);
+        form.tolerance = f64::INFINITY;
+        form.print(wanted, 0.0)
+    });
+    out.unwrap_or_else(|| text.to_vec())
+}
+
+/// The text with the numbers of `edits` printed anew, those left out that do not change; `None` when none does.
+fn patched(
+    text: &[u8],
+    record: &Record,
+    edits: &[(usize, f64)],
+    style: &Style,
+    print: impl Fn(Role, &[u8], f64, f64) -> String,
+) -> Option<Vec<u8>> {
     let places = parse::numbers(text);
     let roles = parse::roles(record, text);
     let mut out = Vec::with_capacity(text.len() + 16);
@@ -27,12 +70,7 @@ pub fn numbers(text: &[u8], record: &Record, edits: &[(usize, f64)], style: &Sty
         }
         let role = roles.get(index).copied().unwrap_or(Role::Plain);
         let original = text.get(at.clone()).unwrap_or_default();
-        let mut form = style.changed(role, original);
-        if role == Role::Feed {
-            // Feeds span four powers of ten (0.002 inch/rev, 9000 mm/min): what counts is the proportion.
-            form.tolerance = form.tolerance.min(wanted.abs() * FEED_SHARE);
-        }
-        let printed = form.print(wanted, wanted - old);
+        let printed = print(role, original, *old, wanted);
         let before = text.get(copied..at.start).unwrap_or_default();
         if style.columns {
             push_in_column(&mut out, before, at.len(), &printed);
@@ -46,7 +84,7 @@ pub fn numbers(text: &[u8], record: &Record, edits: &[(usize, f64)], style: &Sty
         return None;
     }
     out.extend_from_slice(text.get(copied..).unwrap_or_default());
-    (out != text).then_some(out)
+    Some(out)
 }
 
 /// Ends the number where the old one ended, taking blanks from before it, or adding some.

@@ -5,6 +5,7 @@ mod feed;
 mod feed_governors;
 mod move_origin;
 mod moved;
+mod optimize_feed;
 mod rewrite;
 
 use crate::support;

@@ -1,0 +1,7 @@
+//! What `optimize_feed` is made of: feeds from loads, and motions split in the text.
+
+mod acceleration;
+mod feeds;
+mod properties;
+mod split;
+mod split_files;
