@@ -7,6 +7,7 @@
 pub mod check;
 pub mod diagnostic;
 pub mod job;
+pub mod machining;
 pub mod number;
 pub mod parse;
 pub mod program;

@@ -52,4 +52,40 @@ super::area! {
         "The recipe or setup file names a file with cutting coefficients under `material:`, and this file cannot be \
          read. Relative paths start at the folder of the file that names them, not at the folder that clsmith was \
          started in.";
+    RAPID_THROUGH_STOCK = "CL0510", Error, "a rapid goes through material",
+        "Lift the rapid or make it a feed move; or correct the stock, if there is nothing there.",
+        "In the simulation a rapid motion removes material: on the machine that is a crash at full speed. Where the stock in the          setup is larger than the part in the vise, say it as it is (an earlier operation's result can be saved with \
+         `--save-stock` and given as `stock: { file: ... }`). Less than a cell's cube is not reported.";
+    COLLISION = "CL0511", Error, "shank or holder in material",
+        "Take a longer tool, or describe flutes, shank and holder as they are under `setup.tools`.",
+        "What stands above the flutes does not cut. On this motion it stands in material that is still there at that moment, so it \
+         would be pushed into it. Depth is measured along the tool, and less than half a tenth or a cell does not count. \
+         Flutes whose length nobody says are taken from the CL data's tool length, or as four diameters.";
+    SPINDLE_STANDS = "CL0512", Error, "cutting while the spindle stands",
+        "Put a SPINDL record before the first cut, or a `rewrite` step that does.",
+        "The tool removes material, and no SPINDL with a speed and a sense is in force, or the last one switched it off. A milling \
+         cutter that does not turn breaks. It is also what a speed in metres a minute looks like to a simulation: chip thickness \
+         needs revolutions a minute.";
+    CELL_TOO_COARSE = "CL0513", Error, "a cell that is too coarse for a cutter",
+        "Take the cell that the message names, or none: then clsmith chooses.",
+        "The simulation knows where material ends to half a cell. With fewer than ten cells across a cutter the thickness of its \
+         chips would be a guess, and a feed made from it a gamble.";
+    TOO_MUCH = "CL0514", Error, "a simulation that takes too much memory or time",
+        "Take the coarser cell that the message names, or a stock that is no larger than the part.",
+        "Before it begins, the simulation knows how many columns the stock has (8 bytes each) and about how often they are looked \
+         at. Halving the cell makes both four times as much.";
+    BELOW_MINIMUM = "CL0515", Warning, "a target that the lowest feed allowed does not keep",
+        "Lower `min_feed`, or change the path so that less is cut at once.",
+        "On this motion the load passes the target even at the lowest feed that the step may write. The lowest feed is written, \
+         because a cutter that rubs at a crawl is not better off; the report shows by how much the target is passed.";
+    FEED_UNKNOWN = "CL0516", Error, "a cut whose feed or spindle speed cannot be known",
+        "Say the feed in mm/min or inch/min, and the spindle speed in rev/min.",
+        "Chip thickness is feed over revolutions. This motion cuts, but no FEDRAT is in force before it, its feed is per revolution \
+         and the spindle speed is not in rev/min, or the speed is a cutting speed in metres a minute, which the machine turns into \
+         revolutions by a diameter that CL data does not say.";
+    TARGET_EXCEEDED = "CL0517", Error, "the corrected program passes the target",
+        "Look at the motions that the message names; a finer `cell` or a `split` may help.",
+        "After the feeds were written, the corrected program was simulated again, and a motion that the step may change loads the \
+         cutter more than the target by more than the simulation's own uncertainty. Nothing is written. With `window: half_blocks` the first half \
+         of a block runs at the feed of the block before it, so this is to be expected where loads jump.";
 }
