@@ -113,7 +113,7 @@ fn nonsense_is_refused() {
     }
     assert_eq!(stock.columns(1e-300), usize::MAX);
     assert!(matches!(stock.dexels(1e-300, MOST), Err(StockError::TooMany { .. })));
-    let thread = Stock::new(vec![block([0.0; 3], [1e-11, 1e12, 1.0])], 0.0).unwrap();
+    let thread = Stock::new(vec![block([0.0; 3], [1e-11, 1e8, 1.0])], 0.0).unwrap();
     assert_eq!(thread.dexels(1.0, MOST), Err(StockError::Empty));
 }
 
