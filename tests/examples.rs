@@ -32,7 +32,14 @@ fn recipe(path: &Path) -> (Recipe, Setup) {
 }
 
 fn run(recipe: &Recipe, setup: &Setup, source: &Arc<Source>) -> String {
-    let done = Job { recipe, setup, policy: &Policy::default(), dialect: None, watch: &clsmith::machining::Unwatched }.run(source);
+    let done = Job {
+        recipe,
+        setup,
+        policy: &Policy::default(),
+        dialect: None,
+        watch: &clsmith::machining::Unwatched,
+    }
+    .run(source);
     assert!(!done.findings.iter().any(Diagnostic::is_error), "{:?}", done.findings);
     let mut patch = Vec::new();
     clsmith::report::unified::write(&mut patch, &done.program.unwrap(), &Default::default()).unwrap();

@@ -7,11 +7,13 @@ use super::terminal;
 use clap::Args;
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::job::{Done, Job, is_changed};
+use clsmith::machining::Unwatched;
 use clsmith::parse::parse;
 use clsmith::program::{Dialect, Program};
 use clsmith::report::changes::{self, Changes};
-use clsmith::report::unified;
+use clsmith::report::{step_report, unified};
 use clsmith::source::Source;
+use clsmith::transform::StepReport;
 use clsmith::write::{Interrupt, is_interrupt, same_file, write_atomically_unless};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -82,7 +84,8 @@ impl Apply {
         let interrupt = Interrupt::new();
         let writing = Arc::new(Mutex::new(()));
         stop_on_ctrl_c(&interrupt, &writing)?;
-        let job = Job { recipe: &recipe, setup: &setup, policy: &policy, dialect: self.dialect };
+        let watch = &Unwatched;
+        let job = Job { recipe: &recipe, setup: &setup, policy: &policy, dialect: self.dialect, watch };
         let mut worst = Exit::Done;
         for input in &self.inputs {
             if interrupt.is_raised() {
@@ -149,7 +152,7 @@ impl Apply {
                 return Ok(Exit::Errors);
             }
         };
-        let Done { program, findings } = job.run(&source);
+        let Done { program, findings, reports } = job.run(&source);
         if !findings.is_empty() {
             self.show(&findings, Some(source.name()))?;
         }
@@ -179,7 +182,7 @@ impl Apply {
         }
         if !self.quiet {
             let target = target.as_deref().filter(|_| !self.dry_run);
-            unless_nobody_reads(self.summary(job, &source, &program, target))?;
+            unless_nobody_reads(self.summary(job, &source, &program, &reports, target))?;
         }
         Ok(Exit::Done)
     }
@@ -212,6 +215,7 @@ impl Apply {
         job: &Job<'_>,
         source: &Arc<Source>,
         program: &Program,
+        reports: &[StepReport],
         target: Option<&Path>,
     ) -> io::Result<()> {
         let mut err = io::stderr().lock();
@@ -227,6 +231,9 @@ impl Apply {
         let steps: Vec<&str> = job.recipe.steps.iter().map(|step| step.name()).collect();
         let found = Changes::of(&before, program, &steps, Some(job.recipe.units));
         err.write_all(changes::to_text(&found).as_bytes())?;
+        for report in reports {
+            err.write_all(step_report::to_text(report).as_bytes())?;
+        }
         if to.is_empty() { Ok(()) } else { writeln!(err, "{to}", to = to.trim_start()) }
     }
 }

@@ -11,6 +11,7 @@ pub mod kind;
 pub mod policy;
 pub mod render;
 pub mod stats;
+pub mod step_report;
 pub mod steps;
 mod table;
 pub mod unified;

@@ -171,6 +171,13 @@ pub(super) fn printed_decimals(feed: f64, own: usize) -> i32 {
     (own as i32).max((-tolerance.log10()).floor() as i32).min(15)
 }
 
+/// A feed rounded down to what is printed exactly, with its own decimals or as many as the writer's tolerance asks for.
+pub(super) fn rounded_down(feed: f64, own: usize) -> f64 {
+    let power = 10f64.powi(printed_decimals(feed, own));
+    let down = (feed * power * (1.0 + 1e-12)).floor() / power;
+    if down > 0.0 { down } else { feed }
+}
+
 /// Decimals of the feed that a statement prints.
 pub(super) fn decimals_of_feed(program: &Program, statement: usize) -> usize {
     let Some(found) = program.statement(statement) else { return 0 };

@@ -1,12 +1,13 @@
 //! The program as blocks with loads, from a simulation of it.
 
-use super::feeds::{Block, Load, Piece};
+use super::feeds::{Block, Piece};
 use super::limits::{Limits, Turning};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::machining::{Cut, Machining, Options, Ran, Watch};
+use crate::program::geometry::Path;
 use crate::program::motion::Motion;
 use crate::program::record::SpindleDirection;
-use crate::program::{Path, Program, Record, Statement};
+use crate::program::{Program, Record, Statement};
 use crate::transform::numbers::word;
 
 /// The path as blocks, and what the targets are there.
@@ -103,7 +104,7 @@ impl Gathered {
             self.errors.push(unknown(program, motion, feed.is_none()));
         }
         let mut pieces = Vec::with_capacity(cut.pieces.len());
-        let mut measured = vec![[0.0; 2]; limits.all().len()];
+        let mut measured: Vec<[f64; 2]> = vec![[0.0; 2]; limits.all().len()];
         if let (Some((cutter, index)), Some(turning)) = (cutter, turning) {
             for (step, found) in cut.pieces {
                 let load = limits.load(found, cutter, index, turning);
@@ -132,20 +133,17 @@ impl Gathered {
             measured,
         });
     }
-
-    /// Length of the path that cuts, mm, by whether its load is a limit.
-    pub fn is_air(block: &Block) -> bool {
-        block.pieces.iter().all(|piece| piece.load == Load::Air)
-    }
 }
 
 /// Whether the machine stands still between two motions: STOP, OPSTOP, DELAY.
 fn stops(program: &Program, statements: std::ops::Range<usize>) -> bool {
     let waits = |statement: &Statement| {
         matches!(statement.record(), Record::Known | Record::Other)
-            && matches!(word(program.text(statement)), "STOP" | "OPSTOP" | "DELAY")
+            && matches!(word(program.text(statement)).as_str(), "STOP" | "OPSTOP" | "DELAY")
     };
-    statements.filter_map(|index| program.statement(index)).any(|statement| statement.is_live() && waits(statement))
+    statements
+        .filter_map(|index| program.statement(index))
+        .any(|statement| statement.is_live() && waits(statement))
 }
 
 fn unknown(program: &Program, motion: &Motion, feed: bool) -> Diagnostic {

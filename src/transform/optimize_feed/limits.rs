@@ -27,7 +27,12 @@ pub(super) struct Turning {
 
 impl Limits {
     /// `limits` in millimetres; `material` where a criterion needs it.
-    pub fn new(limits: Vec<(Criterion, f64)>, tooling: &Tooling, material: Option<Material>, cell: f64) -> Self {
+    pub fn new(
+        limits: Vec<(Criterion, f64)>,
+        tooling: &Tooling,
+        material: Option<Material>,
+        cell: f64,
+    ) -> Self {
         let models = material.map(|material| tooling.load_models(material)).unwrap_or_default();
         Self { limits, models, cell }
     }

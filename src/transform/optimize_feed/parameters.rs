@@ -150,7 +150,7 @@ pub struct Split {
 }
 
 fn min_change() -> Fraction {
-    Fraction::new(0.05).unwrap_or_else(|| Fraction::ONE)
+    Fraction::TWENTIETH
 }
 
 fn round_down_to() -> NonNegative {
