@@ -92,8 +92,13 @@ impl Job {
     ) -> Result<(Gathered, Ran), Box<Diagnostic>> {
         let setup: &Setup = context.setup;
         let mut notes = Vec::new();
-        let machining = Machining::new(program, setup, self.units, &mut notes)
-            .map_err(|found| several(found, &mut context.findings))?;
+        let machining = Machining::new(program, setup, self.units, &mut notes).map_err(|found| {
+            let placed = |found: Diagnostic| {
+                if found.labels.is_empty() { *self.at_step(found, context) } else { found }
+            };
+            let found = found.into_iter().map(placed).collect();
+            several(found, &mut context.findings)
+        })?;
         context.findings.extend(notes);
         let needs = |need: fn(Criterion) -> bool| self.limits.iter().any(|(criterion, _)| need(*criterion));
         if needs(Criterion::needs_teeth) {
