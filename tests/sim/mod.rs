@@ -1,6 +1,7 @@
 //! Simulation, through one door: a cutter along a path over a block.
 
 mod cuts;
+mod tilted;
 
 use clsmith::sim::{Cutter, Dexels, Engagement, Layout, Piece, Place, Profile, Simulation};
 use nalgebra::{Point3, Vector3};
