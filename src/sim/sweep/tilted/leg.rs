@@ -88,6 +88,17 @@ impl Turn {
     }
 }
 
+/// Sine and cosine; of the small angles of most legs by their series, to 1e-12.
+#[inline]
+fn sin_cos(angle: f64) -> (f64, f64) {
+    if angle > 0.05 {
+        return angle.sin_cos();
+    }
+    let square = angle * angle;
+    let sin = angle * (1.0 - square / 6.0 * (1.0 - square / 20.0));
+    (sin, 1.0 - square / 2.0 * (1.0 - square / 12.0 * (1.0 - square / 30.0)))
+}
+
 /// A unit vector across an axis: along x as far as it can be, else along y.
 pub(super) fn across(axis: &Vector3<f64>) -> Vector3<f64> {
     let along = if axis.x.abs() < 1.0 - 1e-6 { Vector3::x() } else { Vector3::y() };
@@ -108,7 +119,7 @@ impl Leg {
         if self.angle == 0.0 {
             return Pose { tip, axis: self.from.axis };
         }
-        let (sin, cos) = (self.angle * at).sin_cos();
+        let (sin, cos) = sin_cos(self.angle * at);
         Pose { tip, axis: self.from.axis * cos + self.toward * sin }
     }
 

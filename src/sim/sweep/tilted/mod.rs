@@ -109,7 +109,7 @@ impl Tilted {
             .filter(|guard| low(&guard.solid) < highest)
             .collect();
         let cuts = parts.iter().any(|part| part.lowest < highest);
-        let mut rows = usize::MAX..0;
+        let mut rows = Range { start: usize::MAX, end: 0 };
         let mut widen = |ground: &Ground, margin: usize| {
             let more = ground.rows(layout);
             rows.start = rows.start.min(more.start.saturating_sub(margin));

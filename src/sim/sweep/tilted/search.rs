@@ -123,9 +123,8 @@ pub(super) fn least(
     let first = sample(0.0);
     let rises = |end: &End| end.sample.is_some_and(|sample| sample.slope >= 0.0);
     let falls = |end: &End| end.sample.is_some_and(|sample| sample.slope <= 0.0);
-    let useless = |end: &End| end.sample.is_some_and(|sample| sample.value >= ask.useless);
-    // What lies behind a cutter that goes on: the usual case, and done with one sample.
-    if rises(&first) && useless(&first) {
+    // What lies behind a cutter that goes on, or far ahead of it: the usual case, and done with one sample and its tangent.
+    if first.sample.is_some_and(|sample| sample.value + sample.slope.min(0.0) >= ask.useless) {
         return None;
     }
     note(&first);

@@ -149,7 +149,7 @@ impl Corner {
             let up = line.height(s) - self.height;
             let rho = line.rho2(s).sqrt();
             let out = (rho - self.disc).max(0.0);
-            let distance = out.hypot(up);
+            let distance = (out * out + up * up).sqrt();
             if distance - self.radius <= CLOSE {
                 return Some(s);
             }
@@ -271,7 +271,7 @@ impl Solid {
         if let Some(corner) = &self.corner {
             let (out, up) = (rho - corner.disc, z - corner.height);
             if out * cos_bottom + up * sin_bottom > 0.0 && out * sin + up * cos < 0.0 {
-                let distance = out.hypot(up);
+                let distance = (out * out + up * up).sqrt();
                 found = Gap { gap: distance - corner.radius, radial: out / distance, axial: up / distance };
             }
         }

@@ -144,7 +144,8 @@ impl Touches {
     /// between two columns is a border in height.
     fn raised(&self, touch: &Touch) -> f64 {
         let [_, start] = self.profile.flank_start();
-        let lean = touch.frame[2].x.hypot(touch.frame[2].y);
+        let axis = &touch.frame[2];
+        let lean = (axis.x * axis.x + axis.y * axis.y).sqrt();
         if touch.height >= start || touch.axial > 0.0 || lean < 1e-6 {
             return 0.0;
         }
@@ -178,7 +179,11 @@ impl Touches {
         let opposite = upper.ahead * bottom.ahead + upper.left * bottom.left < 0.0;
         let from = bottom.radial.atan2(-bottom.axial) * if opposite { -1.0 } else { 1.0 };
         let to = upper.radial.atan2(-upper.axial);
-        if (from.min(to)..=from.max(to)).contains(&best) { forward.hypot(down) / self.pace } else { 0.0 }
+        if (from.min(to)..=from.max(to)).contains(&best) {
+            (forward * forward + down * down).sqrt() / self.pace
+        } else {
+            0.0
+        }
     }
 }
 
