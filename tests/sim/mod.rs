@@ -2,6 +2,7 @@
 
 mod cuts;
 mod tilted;
+mod tilted_engagement;
 
 use clsmith::sim::{Cutter, Dexels, Engagement, Layout, Piece, Place, Profile, Simulation};
 use nalgebra::{Point3, Vector3};

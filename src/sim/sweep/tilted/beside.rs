@@ -10,7 +10,9 @@ use nalgebra::Vector3;
 /// Where the flank is widest across the path: a line of points on each side that moves with the cutter.
 #[derive(Debug, Clone)]
 pub(super) struct Beside {
+    /// Radius where the flank begins, and its growth with height.
     pub radius: f64,
+    pub slope: f64,
     /// Heights above the tip.
     pub heights: [f64; 2],
     /// Part of the travel across the axis.
@@ -46,11 +48,13 @@ impl Beside {
         for step in 0..=steps {
             let pose = leg.pose(step as f64 / steps as f64);
             for side in [1.0, -1.0] {
-                let shift = left * (self.radius * side);
                 let out = [left.x / level * cell * side, left.y / level * cell * side];
                 let at = |part: usize| from + (to - from) * part as f64 / stack as f64;
                 for part in 0..stack {
-                    let ends = [at(part), at(part + 1)].map(|height| pose.tip + pose.axis * height + shift);
+                    let ends = [at(part), at(part + 1)].map(|height| {
+                        let radius = self.radius + self.slope * (height - from);
+                        pose.tip + pose.axis * height + left * (radius * side)
+                    });
                     let [x, y] =
                         [(ends[0].x + ends[1].x) / 2.0 + out[0], (ends[0].y + ends[1].y) / 2.0 + out[1]];
                     let heights = [ends[0].z.min(ends[1].z), ends[0].z.max(ends[1].z)];

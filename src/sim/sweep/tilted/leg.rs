@@ -1,6 +1,7 @@
 //! A leg: a stretch of a piece on which the axis turns so little that the sweep's surface over a column has one valley.
 
-use super::solid::{Line, Solid};
+use super::line::Line;
+use super::solid::Solid;
 use nalgebra::Vector3;
 
 /// A place of the cutter, heights from the grid's base.

@@ -11,10 +11,14 @@
 //! and reach r hides at most `a l + 1.5 r a^2` along the normal, half as much for the steps of a ball's sphere; legs are
 //! made so many that this is below e/2. So material is left that is thinner than e along the normal, and none is removed that
 //! the cutter did not reach, but for the rounding of heights.
+//!
+//! **Shares** relate to the tip's speed, as feeds do, so they exceed 1 where a turn moves the surface faster than the tip. Where the tip
+//! stands still ([`pace`]) they relate to the fastest point of the flutes.
 
 mod beside;
 mod ground;
 mod leg;
+mod line;
 mod search;
 mod solid;
 mod touch;
@@ -131,9 +135,11 @@ impl Tilted {
                 direction,
                 cell: layout.cell,
                 detail: around.detail,
+                continues: around.continues,
             },
             beside: Beside {
                 radius: flank.max(1e-9),
+                slope: cutter.profile.taper().tan(),
                 heights: [start, if cuts { solid.top() } else { start }],
                 across: (1.0 - along * along).max(0.0).sqrt(),
                 direction,

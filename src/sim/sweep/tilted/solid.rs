@@ -4,55 +4,11 @@
 //! points within the corner radius of a disc; a sphere for a ball) and the flank. So a line meets the solid in the hull of
 //! what it meets of the parts. Cones, cylinders, plates and spheres are quadratics; only the corner's torus is iterated.
 
+use super::line::Line;
 use crate::sim::{Collar, Profile};
 
 /// Normal distance (mm) to which the corner's torus is found.
 const CLOSE: f64 = 1e-7;
-
-/// A vertical line seen from a pose of the cutter; `s` counts upwards from the tip's height.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Line {
-    /// Height along the axis at s = 0.
-    height: f64,
-    /// Its growth: z part of the axis.
-    rise: f64,
-    /// Square of the distance from the axis at s = 0.
-    across2: f64,
-    /// Square of the axis' horizontal part.
-    lean2: f64,
-}
-
-impl Line {
-    /// A line at a horizontal offset from the tip of a cutter with a unit axis.
-    #[inline]
-    pub fn new([x, y]: [f64; 2], axis: [f64; 3]) -> Self {
-        let [ax, ay, az] = axis;
-        let height = x * ax + y * ay;
-        Self { height, rise: az, across2: x * x + y * y - height * height, lean2: ax * ax + ay * ay }
-    }
-
-    /// Height along the axis.
-    #[inline]
-    fn height(&self, s: f64) -> f64 {
-        self.height + self.rise * s
-    }
-
-    /// Square of the distance from the axis.
-    #[inline]
-    fn rho2(&self, s: f64) -> f64 {
-        (self.across2 + s * (self.lean2 * s - 2.0 * self.height * self.rise)).max(0.0)
-    }
-
-    /// The part between two heights along the axis.
-    #[inline]
-    fn between(&self, low: f64, high: f64) -> Option<[f64; 2]> {
-        if self.rise.abs() < 1e-9 {
-            return (low..=high).contains(&self.height).then_some([-1e6, 1e6]);
-        }
-        let ends = [(low - self.height) / self.rise, (high - self.height) / self.rise];
-        Some(if self.rise > 0.0 { ends } else { [ends[1], ends[0]] })
-    }
-}
 
 /// A piece of a cone or cylinder around the axis.
 #[derive(Debug, Clone, Copy)]
@@ -146,7 +102,7 @@ impl Corner {
     fn approach(&self, line: &Line, from: f64, way: f64) -> Option<f64> {
         let mut s = from;
         for _ in 0..40 {
-            let up = line.height(s) - self.height;
+            let up = line.height_at(s) - self.height;
             let rho = line.rho2(s).sqrt();
             let out = (rho - self.disc).max(0.0);
             let distance = (out * out + up * up).sqrt();

@@ -22,6 +22,8 @@ pub(super) struct Touches {
     pub direction: Option<Vector3<f64>>,
     pub cell: f64,
     pub detail: bool,
+    /// Whether the piece before ended here, so that nothing can be in the cutter at the start.
+    pub continues: bool,
 }
 
 /// A contact in the cutter's frame at the time it happened.
@@ -47,6 +49,13 @@ impl Touches {
     pub fn add(&self, [x, y]: [f64; 2], [low, top]: [f64; 2], legs: &[(Leg, Solid)], partial: &mut Partial) {
         let at = |height: f64| self.entry(Vector3::new(x, y, height), legs);
         let (Some(bottom), Some(upper)) = (at(low), at(top)) else { return };
+        let cap = self.steepest(&bottom, &upper);
+        let still = |touch: &Touch| self.advance(touch, touch.ahead, touch.left) <= 0.0;
+        if self.continues && cap <= 0.0 && still(&bottom) && still(&upper) {
+            // Nothing advances into it: a film within the tolerance that the piece before left.
+            partial.removed += top - low;
+            return;
+        }
         let vertical = |touch: &Touch| touch.normal(touch.ahead, touch.left, touch.rho).z.abs();
         // The normal's part up may vanish at one end; a chip is never thicker than at either.
         let steep = vertical(&bottom).min(vertical(&upper));
@@ -56,7 +65,7 @@ impl Touches {
         partial.add_column(0.0, bottom.left as f32, heights.map(|height| height as f32));
         let mut give = |touch: &Touch, cap: f64| partial.add(&self.contact(touch, thickness, cap));
         give(&bottom, 0.0);
-        give(&upper, self.steepest(&bottom, &upper));
+        give(&upper, cap);
         if self.detail {
             for sample in 0..SAMPLES {
                 let height = low + (top - low) * (sample as f64 + 0.5) / SAMPLES as f64;
