@@ -3,8 +3,11 @@
 //! Measured along the columns: on a slope the vertical measure is larger than the distance between the surfaces, and a steep wall
 //! that is a little off appears as few columns of its full height.
 
-use super::{Dexels, Interval, interval};
+use super::{Dexels, Interval, dilate, interval};
 use rayon::prelude::*;
+
+/// Pieces thinner than this (mm) are what rounding of heights leaves.
+const ROUNDING: f64 = 1e-4;
 
 /// How remaining stock and a target part differ.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -78,6 +81,23 @@ impl Difference {
         // Collected first: the sum must not depend on the number of threads.
         let of_band: Vec<Self> = of_band.collect();
         Ok(of_band.into_iter().fold(Self::default(), Self::and))
+    }
+
+    /// As [`Difference::between`], but what is no further than `tolerance` mm from the other solid in any direction does not count: a wall
+    /// that is a little off is no difference of its whole height. Directions across z count in whole cells, so that a tolerance
+    /// below a cell holds along z only. Thickness and volume are of what counts.
+    ///
+    /// # Errors
+    /// When the grids differ.
+    pub fn beyond(remains: &Dexels, target: &Dexels, tolerance: f64) -> Result<Self, CompareError> {
+        let gouged = Self::between(&dilate::by_ball(remains, tolerance), target, ROUNDING)?;
+        let left = Self::between(remains, &dilate::by_ball(target, tolerance), ROUNDING)?;
+        Ok(Self {
+            excess_mm3: left.excess_mm3,
+            highest_excess: left.highest_excess,
+            columns_in_excess: left.columns_in_excess,
+            ..gouged
+        })
     }
 
     fn and(self, other: Self) -> Self {
