@@ -6,8 +6,8 @@
 use super::{Dexels, Interval, dilate, interval};
 use rayon::prelude::*;
 
-/// Pieces thinner than this (mm) are what rounding of heights leaves.
-const ROUNDING: f64 = 1e-4;
+/// Rounding of heights, mm.
+const ROUNDING: f32 = 1e-4;
 
 /// How remaining stock and a target part differ.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -40,13 +40,24 @@ impl Difference {
     /// # Errors
     /// When the grids differ.
     pub fn between(remains: &Dexels, target: &Dexels, tolerance: f64) -> Result<Self, CompareError> {
+        let thick = |_, _, [low, top]: Interval, _| f64::from(top) - f64::from(low) > tolerance;
+        Self::scan(remains, target, thick)
+    }
+
+    /// Adds up the pieces that count; `counts` is told the band, the index of the column in it, the piece, and whether it is of what
+    /// is left.
+    fn scan(
+        remains: &Dexels,
+        target: &Dexels,
+        counts: impl Fn(usize, usize, Interval, bool) -> bool + Sync,
+    ) -> Result<Self, CompareError> {
         let layout = remains.layout();
         if layout != target.layout() {
             return Err(CompareError::Layout);
         }
         let area = layout.cell * layout.cell;
-        let bands = remains.bands().par_iter().zip(target.bands());
-        let of_band = bands.map(|(left, wanted)| {
+        let bands = remains.bands().par_iter().zip(target.bands()).enumerate();
+        let of_band = bands.map(|(number, (left, wanted))| {
             let mut all = Self::default();
             let (mut a, mut b): (Vec<Interval>, Vec<Interval>) = Default::default();
             for index in 0..left.rows() * left.columns {
@@ -57,10 +68,10 @@ impl Difference {
                 let [x, y] = layout.center(index % left.columns, left.first_row + index / left.columns);
                 let (mut gouged, mut in_excess) = (false, false);
                 interval::differ(&a, &b, |[low, top], is_left| {
-                    let thickness = f64::from(top) - f64::from(low);
-                    if thickness <= tolerance {
+                    if !counts(number, index, [low, top], is_left) {
                         return;
                     }
+                    let thickness = f64::from(top) - f64::from(low);
                     let end = layout.base + f64::from(if is_left { top } else { low });
                     let piece = Some((thickness, [x, y, end]));
                     if is_left {
@@ -83,20 +94,18 @@ impl Difference {
         Ok(of_band.into_iter().fold(Self::default(), Self::and))
     }
 
-    /// As [`Difference::between`], but what is no further than `tolerance` mm from the other solid in any direction does not count: a wall
-    /// that is a little off is no difference of its whole height. Directions across z count in whole cells, so that a tolerance
-    /// below a cell holds along z only. Thickness and volume are of what counts.
+    /// As [`Difference::between`], but a piece counts when some of it is further than `tolerance` mm from the other solid in every
+    /// direction: a wall that is a little off is no difference of its whole height. Directions across z count in whole cells, so
+    /// that a tolerance below a cell holds along z only.
     ///
     /// # Errors
     /// When the grids differ.
     pub fn beyond(remains: &Dexels, target: &Dexels, tolerance: f64) -> Result<Self, CompareError> {
-        let gouged = Self::between(&dilate::by_ball(remains, tolerance), target, ROUNDING)?;
-        let left = Self::between(remains, &dilate::by_ball(target, tolerance), ROUNDING)?;
-        Ok(Self {
-            excess_mm3: left.excess_mm3,
-            highest_excess: left.highest_excess,
-            columns_in_excess: left.columns_in_excess,
-            ..gouged
+        let [near_remains, near_target] = [remains, target].map(|solid| dilate::by_ball(solid, tolerance));
+        Self::scan(remains, target, |band, index, [low, top], is_left| {
+            let near = if is_left { &near_target } else { &near_remains };
+            let covers = |[from, to]: Interval| from <= low + ROUNDING && top <= to + ROUNDING;
+            !near.bands().get(band).is_some_and(|band| band.intervals(index).any(covers))
         })
     }
 

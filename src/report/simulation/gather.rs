@@ -134,7 +134,7 @@ impl<'m, 'p> Gathering<'m, 'p> {
         row: &mut Row,
     ) {
         let told = cut.motion.spindle.as_deref().and_then(|spindle| spindle.direction);
-        self.senseless += usize::from(told.is_none());
+        self.senseless += usize::from(told.is_none() && rpm.is_some());
         let sense = told.unwrap_or(SpindleDirection::Clockwise);
         let [_, high] = whole.height;
         row.axial_depth_mm = Some(whole.axial_depth_mm());

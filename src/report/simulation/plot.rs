@@ -13,6 +13,12 @@ use std::io;
 /// Width and height of the drawing.
 const SIZE: (u32, u32) = (1200, 800);
 
+/// Height of an axis, in largest values.
+const ROOM: f64 = 1.08;
+
+/// The same where the names of the programs stand above.
+const ROOM_WITH_NAMES: f64 = 1.35;
+
 /// More motions than this are drawn by the least and largest value of each of as many spans of time.
 const MOST: usize = 2000;
 
@@ -65,8 +71,8 @@ pub fn plot(series: &[Series]) -> io::Result<String> {
         root.fill(&WHITE).map_err(error)?;
         let panels = root.split_evenly((2, 1));
         let [above, below] = panels.as_slice() else { return Err(io::Error::other("no panels")) };
-        panel(above, series, "thickest chip, mm", |moment| moment.chip_thickness_mm)?;
-        panel(below, series, "feed, mm/min", |moment| moment.feed_mm_min)?;
+        panel(above, series, "thickest chip, mm", true, |moment| moment.chip_thickness_mm)?;
+        panel(below, series, "feed, mm/min", false, |moment| moment.feed_mm_min)?;
         root.present().map_err(error)?;
     }
     Ok(text)
@@ -76,6 +82,7 @@ fn panel(
     area: &DrawingArea<SVGBackend<'_>, Shift>,
     series: &[Series],
     what: &str,
+    names: bool,
     value: impl Fn(&Moment) -> Option<f64> + Copy,
 ) -> io::Result<()> {
     let moments = || series.iter().flat_map(|series| &series.moments);
@@ -87,7 +94,7 @@ fn panel(
         .margin(16)
         .set_label_area_size(LabelAreaPosition::Left, 80)
         .set_label_area_size(LabelAreaPosition::Bottom, 44)
-        .build_cartesian_2d(0.0..end, 0.0..most * 1.08)
+        .build_cartesian_2d(0.0..end, 0.0..most * if names { ROOM_WITH_NAMES } else { ROOM })
         .map_err(error)?;
     chart
         .configure_mesh()
@@ -109,6 +116,9 @@ fn panel(
         for line in lines {
             chart.draw_series(LineSeries::new(line, color.stroke_width(1))).map_err(error)?;
         }
+    }
+    if !names {
+        return Ok(());
     }
     chart
         .configure_series_labels()

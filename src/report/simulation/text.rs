@@ -55,7 +55,7 @@ fn stock(out: &mut String, simulated: &Simulated) {
 fn time(out: &mut String, simulated: &Simulated) {
     let totals = &simulated.totals;
     let mut parts = vec![format!("{} at feed", seconds(totals))];
-    if let Some(with) = simulated.accelerated_seconds {
+    if let Some(with) = simulated.accelerated_seconds.filter(|_| totals.untimed == 0) {
         parts.push(format!("{} with the machine's acceleration", duration(with)));
     }
     if let Some(rapid) = totals.rapid_seconds {
