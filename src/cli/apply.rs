@@ -3,6 +3,7 @@
 use super::exit::Exit;
 use super::files::{self, Loaded, STANDARD};
 use super::findings::FindingArgs;
+use super::output::{Outputs, unless_nobody_reads};
 use super::terminal;
 use clap::Args;
 use clsmith::diagnostic::{Diagnostic, codes};
@@ -15,9 +16,10 @@ use clsmith::report::{step_report, unified};
 use clsmith::source::Source;
 use clsmith::transform::StepReport;
 use clsmith::write::{Interrupt, is_interrupt, same_file, write_atomically_unless};
+use clsmith::write::{is_interrupt, same_file};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -86,12 +88,15 @@ impl Apply {
         stop_on_ctrl_c(&interrupt, &writing)?;
         let watch = &Unwatched;
         let job = Job { recipe: &recipe, setup: &setup, policy: &policy, dialect: self.dialect, watch };
+        let outputs = Outputs::default();
+        outputs.stop_on_ctrl_c(|| ())?;
+        let job = Job { recipe: &recipe, setup: &setup, policy: &policy, dialect: self.dialect };
         let mut worst = Exit::Done;
         for input in &self.inputs {
-            if interrupt.is_raised() {
+            if outputs.interrupt().is_raised() {
                 return Ok(Exit::Interrupted);
             }
-            match self.one(&job, input, &interrupt, &writing) {
+            match self.one(&job, input, &outputs) {
                 Ok(exit) => worst = worst.max(exit),
                 Err(error) if is_interrupt(&error) => return Ok(Exit::Interrupted),
                 Err(error) => return Err(error),
@@ -130,13 +135,7 @@ impl Apply {
         None
     }
 
-    fn one(
-        &self,
-        job: &Job<'_>,
-        input: &Path,
-        interrupt: &Interrupt,
-        writing: &Mutex<()>,
-    ) -> io::Result<Exit> {
+    fn one(&self, job: &Job<'_>, input: &Path, outputs: &Outputs) -> io::Result<Exit> {
         let target = self.target(input);
         let setup_file = job.recipe.setup_file.as_deref().map(|name| files::beside(&self.recipe, name));
         if let Some(found) =
@@ -175,7 +174,7 @@ impl Apply {
         }
         if !self.dry_run
             && let Some(target) = &target
-            && let Some(found) = write(&program, target, interrupt, writing)?
+            && let Some(found) = write(&program, target, outputs)?
         {
             self.show(&[found], Some(source.name()))?;
             return Ok(Exit::Errors);
@@ -238,49 +237,7 @@ impl Apply {
     }
 }
 
-/// Ctrl-C ends the process at once, but while an output is written: then the writer stops between two chunks and takes its
-/// temporary file along.
-fn stop_on_ctrl_c(interrupt: &Interrupt, writing: &Arc<Mutex<()>>) -> io::Result<()> {
-    let (interrupt, writing) = (interrupt.clone(), Arc::clone(writing));
-    ctrlc::set_handler(move || {
-        interrupt.raise();
-        if let Ok(_nobody_writes) = writing.try_lock() {
-            eprintln!("clsmith: stopped");
-            std::process::exit(130);
-        }
-    })
-    .map_err(io::Error::other)
-}
-
-/// What only people see may fail: with `clsmith apply ... 2>&1 | head` the outputs are still written.
-fn unless_nobody_reads(shown: io::Result<()>) -> io::Result<()> {
-    match shown {
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-        shown => shown,
-    }
-}
-
-/// Writes the program; a finding when that fails for another reason than Ctrl-C.
-fn write(
-    program: &Program,
-    target: &Path,
-    interrupt: &Interrupt,
-    writing: &Mutex<()>,
-) -> io::Result<Option<Diagnostic>> {
-    let _held = writing.lock();
-    let write_all = |out: &mut dyn Write| program.pieces().try_for_each(|piece| out.write_all(piece));
-    let done = if target == Path::new(STANDARD) {
-        let mut out = io::BufWriter::new(io::stdout().lock());
-        write_all(&mut out).and_then(|()| out.flush())
-    } else {
-        write_atomically_unless(target, interrupt, write_all)
-    };
-    match done {
-        Ok(()) => Ok(None),
-        Err(error) if is_interrupt(&error) || error.kind() == io::ErrorKind::BrokenPipe => Err(error),
-        Err(error) => {
-            let message = format!("{} cannot be written: {error}", target.display());
-            Ok(Some(Diagnostic::new(codes::UNWRITABLE, message)))
-        }
-    }
+/// Writes the program; a finding when that fails.
+fn write(program: &Program, target: &Path, outputs: &Outputs) -> io::Result<Option<Diagnostic>> {
+    outputs.write(target, |out| program.pieces().try_for_each(|piece| out.write_all(piece)))
 }

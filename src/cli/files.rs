@@ -1,7 +1,7 @@
 //! Reading inputs: CL files, recipes and setups, from files and from standard input.
 
 use clsmith::diagnostic::{Diagnostic, codes};
-use clsmith::program::Dialect;
+use clsmith::program::{Dialect, LengthUnit};
 use clsmith::setup::Setup;
 use clsmith::source::Source;
 use clsmith::transform::Recipe;
@@ -64,4 +64,13 @@ pub fn dialect(name: &str) -> Result<Dialect, String> {
         let names: Vec<&str> = Dialect::ALL.iter().map(|dialect| dialect.name()).collect();
         format!("the dialects are {}", names.join(", "))
     })
+}
+
+/// Reads `--units`.
+pub fn units(text: &str) -> Result<LengthUnit, String> {
+    match text {
+        "mm" => Ok(LengthUnit::Mm),
+        "inch" => Ok(LengthUnit::Inch),
+        _ => Err("the units are mm and inch".into()),
+    }
 }

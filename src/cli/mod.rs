@@ -6,7 +6,10 @@ mod diff;
 mod exit;
 mod files;
 mod findings;
+mod output;
+mod progress;
 mod reference;
+mod simulate;
 mod stats;
 mod terminal;
 
@@ -20,6 +23,7 @@ Examples:
   clsmith apply recipe.yaml part.cls --diff        see what would change
   clsmith check part.cls                           what is wrong with a program
   clsmith stats part.cls                           what is in it
+  clsmith simulate part.cls --setup shop.yaml      what its tools cut and bear
   clsmith diff part.cls out.cls                    what changed, by meaning
   clsmith transforms scale_feed                    what a recipe step does
 
@@ -47,6 +51,7 @@ enum Command {
     Apply(apply::Apply),
     Check(check::Check),
     Stats(stats::Stats),
+    Simulate(simulate::Simulate),
     Diff(diff::Diff),
     Transforms(reference::Transforms),
     Schema(reference::Schema),
@@ -62,6 +67,7 @@ pub fn main() -> ExitCode {
         Command::Apply(command) => command.run(),
         Command::Check(command) => command.run(),
         Command::Stats(command) => command.run(),
+        Command::Simulate(command) => command.run(),
         Command::Diff(command) => command.run(),
         Command::Transforms(command) => command.run(),
         Command::Schema(command) => command.run(),

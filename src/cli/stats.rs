@@ -35,21 +35,13 @@ pub struct Stats {
     #[arg(long, value_parser = files::dialect, value_name = "NAME")]
     dialect: Option<Dialect>,
     /// Unit of lengths of a file that does not state it: mm or inch
-    #[arg(long, value_parser = units, value_name = "UNIT")]
+    #[arg(long, value_parser = files::units, value_name = "UNIT")]
     units: Option<LengthUnit>,
     /// A setup file
     #[arg(long, value_name = "FILE")]
     setup: Option<PathBuf>,
     #[command(flatten)]
     findings: FindingArgs,
-}
-
-fn units(text: &str) -> Result<LengthUnit, String> {
-    match text {
-        "mm" => Ok(LengthUnit::Mm),
-        "inch" => Ok(LengthUnit::Inch),
-        _ => Err("the units are mm and inch".into()),
-    }
 }
 
 impl Stats {

@@ -12,7 +12,7 @@ mod tooling;
 mod watch;
 
 pub use plan::{Budget, Plan};
-pub use run::{Cut, Ran};
+pub use run::{Cut, Ran, chord_mm};
 pub use tooling::Tooling;
 pub use watch::{Unwatched, Watch};
 

@@ -12,6 +12,11 @@ const BATCH: usize = 1024;
 /// Largest distance of a chord from its arc, as a share of a cell and in mm.
 const SAGITTA: (f64, f64) = (0.02, 0.002);
 
+/// How far the chords of arcs and splines are from them at most, mm, with columns `cell` mm apart.
+pub fn chord_mm(cell: f64) -> f64 {
+    (cell * SAGITTA.0).min(SAGITTA.1)
+}
+
 /// A motion and what it engaged.
 #[derive(Debug)]
 pub struct Cut<'a> {
@@ -65,8 +70,7 @@ impl Machining<'_> {
         })?;
         let before_mm3 = stock.volume_mm3();
         let mut simulation = Simulation::new(stock, options.forces);
-        let sagitta = (plan.cell * SAGITTA.0).min(SAGITTA.1);
-        let mut trace = Trace::new(self.units.in_mm(), sagitta, options.longest);
+        let mut trace = Trace::new(self.units.in_mm(), chord_mm(plan.cell), options.longest);
         let mut faults = Faults::default();
         let mut batch = Batch::default();
         let mut done = 0.0;

@@ -2,7 +2,7 @@
 //!
 //! [`policy`] decides which findings stand and how bad they are, [`render`] turns them into text, and [`explain`] answers
 //! questions about a code. [`stats`] measures a program, [`diff`] compares two by meaning, [`unified`] shows what steps made
-//! of one as a patch, and [`changes`] counts it. Everything is written into a writer that the caller hands in, or returned.
+//! of one as a patch, and [`changes`] counts it. [`simulation`] presents what tools cut and bear. Everything is written into a writer that the caller hands in, or returned.
 
 pub mod changes;
 pub mod diff;
@@ -10,6 +10,7 @@ pub mod explain;
 pub mod kind;
 pub mod policy;
 pub mod render;
+pub mod simulation;
 pub mod stats;
 pub mod step_report;
 pub mod steps;

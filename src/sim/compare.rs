@@ -3,8 +3,11 @@
 //! Measured along the columns: on a slope the vertical measure is larger than the distance between the surfaces, and a steep wall
 //! that is a little off appears as few columns of its full height.
 
-use super::{Dexels, Interval, interval};
+use super::{Dexels, Interval, dilate, interval};
 use rayon::prelude::*;
+
+/// Rounding of heights, mm.
+const ROUNDING: f32 = 1e-4;
 
 /// How remaining stock and a target part differ.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -37,13 +40,24 @@ impl Difference {
     /// # Errors
     /// When the grids differ.
     pub fn between(remains: &Dexels, target: &Dexels, tolerance: f64) -> Result<Self, CompareError> {
+        let thick = |_, _, [low, top]: Interval, _| f64::from(top) - f64::from(low) > tolerance;
+        Self::scan(remains, target, thick)
+    }
+
+    /// Adds up the pieces that count; `counts` is told the band, the index of the column in it, the piece, and whether it is of what
+    /// is left.
+    fn scan(
+        remains: &Dexels,
+        target: &Dexels,
+        counts: impl Fn(usize, usize, Interval, bool) -> bool + Sync,
+    ) -> Result<Self, CompareError> {
         let layout = remains.layout();
         if layout != target.layout() {
             return Err(CompareError::Layout);
         }
         let area = layout.cell * layout.cell;
-        let bands = remains.bands().par_iter().zip(target.bands());
-        let of_band = bands.map(|(left, wanted)| {
+        let bands = remains.bands().par_iter().zip(target.bands()).enumerate();
+        let of_band = bands.map(|(number, (left, wanted))| {
             let mut all = Self::default();
             let (mut a, mut b): (Vec<Interval>, Vec<Interval>) = Default::default();
             for index in 0..left.rows() * left.columns {
@@ -54,10 +68,10 @@ impl Difference {
                 let [x, y] = layout.center(index % left.columns, left.first_row + index / left.columns);
                 let (mut gouged, mut in_excess) = (false, false);
                 interval::differ(&a, &b, |[low, top], is_left| {
-                    let thickness = f64::from(top) - f64::from(low);
-                    if thickness <= tolerance {
+                    if !counts(number, index, [low, top], is_left) {
                         return;
                     }
+                    let thickness = f64::from(top) - f64::from(low);
                     let end = layout.base + f64::from(if is_left { top } else { low });
                     let piece = Some((thickness, [x, y, end]));
                     if is_left {
@@ -78,6 +92,21 @@ impl Difference {
         // Collected first: the sum must not depend on the number of threads.
         let of_band: Vec<Self> = of_band.collect();
         Ok(of_band.into_iter().fold(Self::default(), Self::and))
+    }
+
+    /// As [`Difference::between`], but a piece counts when some of it is further than `tolerance` mm from the other solid in every
+    /// direction: a wall that is a little off is no difference of its whole height. Directions across z count in whole cells, so
+    /// that a tolerance below a cell holds along z only.
+    ///
+    /// # Errors
+    /// When the grids differ.
+    pub fn beyond(remains: &Dexels, target: &Dexels, tolerance: f64) -> Result<Self, CompareError> {
+        let [near_remains, near_target] = [remains, target].map(|solid| dilate::by_ball(solid, tolerance));
+        Self::scan(remains, target, |band, index, [low, top], is_left| {
+            let near = if is_left { &near_target } else { &near_remains };
+            let covers = |[from, to]: Interval| from <= low + ROUNDING && top <= to + ROUNDING;
+            !near.bands().get(band).is_some_and(|band| band.intervals(index).any(covers))
+        })
     }
 
     fn and(self, other: Self) -> Self {

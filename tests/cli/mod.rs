@@ -2,6 +2,7 @@
 
 mod apply;
 mod other;
+mod simulate;
 
 use assert_cmd::Command;
 use std::path::{Path, PathBuf};

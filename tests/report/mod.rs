@@ -10,6 +10,7 @@ mod json;
 mod line;
 mod policy;
 mod sarif;
+pub mod simulation;
 mod stats;
 mod unified;
 

@@ -88,4 +88,10 @@ super::area! {
         "After the feeds were written, the corrected program was simulated again, and a motion that the step may change loads the \
          cutter more than the target by more than the simulation's own uncertainty. Nothing is written. With `window: half_blocks` the first half \
          of a block runs at the feed of the block before it, so this is to be expected where loads jump.";
+    GOUGE = "CL0518", Error, "the part that shall be is cut into",
+        "Look at the place that the message names; where the difference is wanted, give `--tolerance`.",
+        "After the program, material is missing that the target part has, further from what is left than the tolerance. Either a motion \
+         goes too deep, or target and program do not stand in the same coordinates or unit: then everything is far off. Thickness is \
+         measured along z, so a wall that is a little too far in appears with its whole height. The target's surface is as exact \
+         as its triangles: a chord tolerance of the STL that is coarser than `--tolerance` looks like a gouge.";
 }

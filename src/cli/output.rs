@@ -1,0 +1,68 @@
+//! Writing outputs, and Ctrl-C.
+
+use super::files::STANDARD;
+use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::write::{Interrupt, is_interrupt, write_atomically_unless};
+use std::io::{self, Write};
+use std::path::Path;
+use std::sync::{Arc, Mutex};
+
+/// Where outputs are written: one at a time, and to its end or not at all.
+#[derive(Clone, Default)]
+pub struct Outputs {
+    interrupt: Interrupt,
+    writing: Arc<Mutex<()>>,
+}
+
+impl Outputs {
+    /// The wish to stop.
+    pub fn interrupt(&self) -> &Interrupt {
+        &self.interrupt
+    }
+
+    /// Ctrl-C ends the process at once, but while an output is written: then the writer stops between two chunks and takes its
+    /// temporary file along. `before` is done before the last word.
+    pub fn stop_on_ctrl_c(&self, before: impl Fn() + Send + 'static) -> io::Result<()> {
+        let Self { interrupt, writing } = self.clone();
+        ctrlc::set_handler(move || {
+            interrupt.raise();
+            if let Ok(_nobody_writes) = writing.try_lock() {
+                before();
+                eprintln!("clsmith: stopped");
+                std::process::exit(130);
+            }
+        })
+        .map_err(io::Error::other)
+    }
+
+    /// Writes an output; a finding when that fails for another reason than Ctrl-C or a reader that went away.
+    pub fn write(
+        &self,
+        target: &Path,
+        write_all: impl Fn(&mut dyn Write) -> io::Result<()>,
+    ) -> io::Result<Option<Diagnostic>> {
+        let _held = self.writing.lock();
+        let done = if target == Path::new(STANDARD) {
+            let mut out = io::BufWriter::new(io::stdout().lock());
+            write_all(&mut out).and_then(|()| out.flush())
+        } else {
+            write_atomically_unless(target, &self.interrupt, write_all)
+        };
+        match done {
+            Ok(()) => Ok(None),
+            Err(error) if is_interrupt(&error) || error.kind() == io::ErrorKind::BrokenPipe => Err(error),
+            Err(error) => {
+                let message = format!("{} cannot be written: {error}", target.display());
+                Ok(Some(Diagnostic::new(codes::UNWRITABLE, message)))
+            }
+        }
+    }
+}
+
+/// What only people see may fail: with `clsmith ... 2>&1 | head` the outputs are still written.
+pub fn unless_nobody_reads(shown: io::Result<()>) -> io::Result<()> {
+    match shown {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        shown => shown,
+    }
+}

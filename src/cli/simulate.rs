@@ -1,0 +1,338 @@
+//! `clsmith simulate`.
+
+use super::exit::Exit;
+use super::files::{self, STANDARD};
+use super::findings::FindingArgs;
+use super::output::{Outputs, unless_nobody_reads};
+use super::progress::Progress;
+use super::terminal;
+use clap::Args;
+use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::machining::{Budget, Machining, Options};
+use clsmith::parse::parse;
+use clsmith::program::{Dialect, Program};
+use clsmith::report::policy::Policy;
+use clsmith::report::simulation::{self, Simulated, plot};
+use clsmith::report::stats::Units;
+use clsmith::setup::{BodyShape, MaterialChoice, Setup};
+use clsmith::sim::{Mesh, export, remains};
+use clsmith::values::LengthUnit;
+use clsmith::write::{is_interrupt, same_file};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+const EXAMPLES: &str = "\
+Examples:
+  clsmith simulate part.cls --setup shop.yaml                       what is cut, how hard, what collides
+  clsmith simulate part.cls --setup shop.yaml --csv loads.csv       one row a motion
+  clsmith simulate part.cls --setup shop.yaml --csv - | head        the same to standard output
+  clsmith simulate part.cls --setup shop.yaml --target part.stl     gouges and excess against the part
+  clsmith simulate op1.cls --setup shop.yaml --save-stock op1.clstock --stl left.stl
+  clsmith simulate new.cls --setup shop.yaml --plot loads.svg --plot-before old.cls
+
+The setup says stock, tools and material: see configs/README.md. Outputs appear whole or not at all, never
+over an input, and not while an error stands; a collision is one (`--allow CL0511` writes all the same).
+The columns of the CSV: line, operation, tool, length_mm, feed_mm_min, chip_thickness_mm,
+removal_rate_mm3_min, axial_depth_mm, radial_depth_mm, engagement_start_deg, engagement_end_deg, force_n,
+torque_nm, power_kw. An empty cell is a value that is not known.";
+
+/// Removes the stock motion by motion: chips, depths, forces, collisions, what is left
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Simulate {
+    /// The program; `-` is standard input
+    #[arg(value_name = "PROGRAM")]
+    program: PathBuf,
+    /// The setup file: stock, tools, material, machine
+    #[arg(long, value_name = "FILE")]
+    setup: PathBuf,
+    /// The motions as a table; `-` is standard output
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    csv: Option<PathBuf>,
+    /// Everything as JSON; `-` is standard output
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    json: Option<PathBuf>,
+    /// The stock that is left, as a binary STL in mm
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    stl: Option<PathBuf>,
+    /// The stock that is left, as stock for the next program
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    save_stock: Option<PathBuf>,
+    /// Thickest chips and feeds along time, as SVG
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    plot: Option<PathBuf>,
+    /// A second program that is drawn behind the first one, in grey
+    #[arg(long, value_name = "PROGRAM", requires = "plot", help_heading = "Outputs")]
+    plot_before: Option<PathBuf>,
+    /// The part that shall be: a closed STL in the coordinates and the unit of the program
+    #[arg(long, value_name = "FILE")]
+    target: Option<PathBuf>,
+    /// How far the stock that is left may be off the target; a cell if not given
+    #[arg(long, value_name = "MM", value_parser = length, requires = "target")]
+    tolerance: Option<f64>,
+    /// Distance of the columns that the stock is made of; a fortieth of the smallest cutter if not given
+    #[arg(long, value_name = "MM", value_parser = length)]
+    cell: Option<f64>,
+    /// Memory that the stock may take
+    #[arg(long, value_name = "GIB", value_parser = length, default_value = "2")]
+    budget: f64,
+    /// Threads; as many as there are cores if not given. The result is the same
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// The dialect, instead of finding it from the text
+    #[arg(long, value_parser = files::dialect, value_name = "NAME")]
+    dialect: Option<Dialect>,
+    /// Unit of lengths of a file that does not state it: mm or inch
+    #[arg(long, value_parser = files::units, value_name = "UNIT")]
+    units: Option<LengthUnit>,
+    /// No summary and no progress, findings only
+    #[arg(short, long)]
+    quiet: bool,
+    #[command(flatten)]
+    findings: FindingArgs,
+}
+
+/// A positive number.
+fn length(text: &str) -> Result<f64, String> {
+    let value = text.parse::<f64>().ok().filter(|value| *value > 0.0 && value.is_finite());
+    value.ok_or_else(|| "this must be a number above 0".into())
+}
+
+/// Why a run ended before its end.
+enum Stop {
+    Found(Vec<Diagnostic>),
+    Interrupted,
+}
+
+impl From<Vec<Diagnostic>> for Stop {
+    fn from(found: Vec<Diagnostic>) -> Self {
+        Self::Found(found)
+    }
+}
+
+impl From<Diagnostic> for Stop {
+    fn from(found: Diagnostic) -> Self {
+        Self::Found(vec![found])
+    }
+}
+
+impl Simulate {
+    pub fn run(&self) -> io::Result<Exit> {
+        let policy = match self.problem().map_or_else(|| self.findings.policy(), Err) {
+            Ok(policy) => policy,
+            Err(problem) => {
+                eprintln!("clsmith simulate: {problem}");
+                return Ok(Exit::Usage);
+            }
+        };
+        if let Some(threads) = self.threads {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into());
+            pool.build_global().map_err(io::Error::other)?;
+        }
+        let outputs = Outputs::default();
+        let progress = Progress::new(self.quiet, outputs.interrupt());
+        outputs.stop_on_ctrl_c(progress.clearing())?;
+        let mut findings = Vec::new();
+        let done = self.simulate(&policy, &progress, &mut findings);
+        progress.clear();
+        let (simulated, drawn) = match done {
+            Ok(done) => done,
+            Err(Stop::Interrupted) => return Ok(Exit::Interrupted),
+            Err(Stop::Found(found)) => {
+                findings.extend(found);
+                self.show(&policy.apply(findings))?;
+                return self.nothing();
+            }
+        };
+        let findings = policy.apply(findings);
+        if !findings.is_empty() {
+            self.show(&findings)?;
+        }
+        if !self.quiet {
+            unless_nobody_reads(self.summary(&simulated))?;
+        }
+        if findings.iter().any(Diagnostic::is_error) {
+            return self.nothing();
+        }
+        match self.write(&simulated, drawn.as_deref(), &outputs) {
+            Ok(None) => Ok(Exit::Done),
+            Ok(Some(found)) => {
+                self.show(&[found])?;
+                Ok(Exit::Errors)
+            }
+            Err(error) if is_interrupt(&error) => Ok(Exit::Interrupted),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// What is wrong with the command line beyond what clap can say.
+    fn problem(&self) -> Option<String> {
+        let outputs: Vec<&Path> = self.outputs().collect();
+        let twice = outputs.iter().enumerate().find_map(|(index, one)| {
+            outputs.iter().skip(index + 1).find(|other| *other == one || same_file(one, other))
+        });
+        if let Some(twice) = twice {
+            return Some(format!("two outputs would go to {}", twice.display()));
+        }
+        let standard = Some(Path::new(STANDARD));
+        let read = [Some(&self.program), Some(&self.setup), self.plot_before.as_ref(), self.target.as_ref()];
+        let read = read.into_iter().flatten().filter(|path| Some(path.as_path()) == standard).count();
+        if read > 1 {
+            return Some("standard input can be read only once".into());
+        }
+        let binary = [&self.stl, &self.save_stock].into_iter().any(|path| path.as_deref() == standard);
+        binary.then(|| "--stl and --save-stock need a file".into())
+    }
+
+    fn outputs(&self) -> impl Iterator<Item = &Path> {
+        let all = [&self.csv, &self.json, &self.stl, &self.save_stock, &self.plot];
+        all.into_iter().filter_map(|path| path.as_deref())
+    }
+
+    /// Everything but writing: the simulation, and the drawing if one is wanted. What does not stop the run is added to `findings`.
+    fn simulate(
+        &self,
+        policy: &Policy,
+        progress: &Progress,
+        findings: &mut Vec<Diagnostic>,
+    ) -> Result<(Simulated, Option<String>), Stop> {
+        let setup = files::setup(&self.setup)?;
+        self.overwrites(&setup)?;
+        let read = |path: &Path| files::read(path).map_err(|found| found.message);
+        let setup = setup.with_material_file(read)?;
+        let program = self.program(&self.program, policy, findings)?;
+        let units = Units::of(&program, self.units).unit;
+        let target = self.target.as_deref().map(|path| target(path, units)).transpose()?;
+        let mut simulated = self.one(&program, &setup, progress, findings)?;
+        findings.append(&mut simulated.findings);
+        if let (Some(mesh), Some(path)) = (target, &self.target) {
+            simulated.compare(&mesh, &path.to_string_lossy(), self.tolerance);
+            findings.append(&mut simulated.findings);
+        }
+        if self.plot.is_none() {
+            return Ok((simulated, None));
+        }
+        let mut series = Vec::new();
+        if let Some(path) = &self.plot_before {
+            let before = self.program(path, policy, findings)?;
+            // What goes wrong in the program behind is not what was asked.
+            let before = self.one(&before, &setup, progress, &mut Vec::new())?;
+            series.push(before.series(path.to_string_lossy()));
+        }
+        series.push(simulated.series(simulated.file.as_str()));
+        let failed = |error: io::Error| Diagnostic::new(codes::UNWRITABLE, error.to_string());
+        let drawn = plot::plot(&series).map_err(failed)?;
+        Ok((simulated, Some(drawn)))
+    }
+
+    /// Reads a program; errors in its text stop the run.
+    fn program(&self, path: &Path, policy: &Policy, findings: &mut Vec<Diagnostic>) -> Result<Program, Stop> {
+        let source = files::read(path).map_err(|found| *found)?;
+        let parsed = parse(&source, self.dialect);
+        findings.extend(parsed.diagnostics);
+        if policy.apply(findings.clone()).iter().any(Diagnostic::is_error) {
+            return Err(Stop::Found(Vec::new()));
+        }
+        Ok(parsed.program)
+    }
+
+    fn one(
+        &self,
+        program: &Program,
+        setup: &Setup,
+        progress: &Progress,
+        findings: &mut Vec<Diagnostic>,
+    ) -> Result<Simulated, Stop> {
+        let units = Units::of(program, self.units).unit;
+        let machining = Machining::new(program, setup, units, findings)?;
+        let bytes = (self.budget * f64::from(1 << 30)) as u64;
+        let options =
+            Options { cell: self.cell, budget: Budget { bytes, ..Budget::default() }, ..Options::default() };
+        progress.begin(program.source().name());
+        Simulated::of(&machining, &options, progress)?.ok_or(Stop::Interrupted)
+    }
+
+    /// No output may be an input, nor a file that the setup names.
+    fn overwrites(&self, setup: &Setup) -> Result<(), Stop> {
+        let mut inputs = vec![self.program.as_path(), &self.setup];
+        inputs.extend([&self.target, &self.plot_before].into_iter().filter_map(|path| path.as_deref()));
+        let bodies = setup.stock.iter().flat_map(|stock| &stock.bodies);
+        inputs.extend(bodies.filter_map(|body| match &body.shape {
+            BodyShape::Stl { file, .. } | BodyShape::Saved(file) => Some(file.path.as_path()),
+            BodyShape::Block { .. } | BodyShape::Cylinder { .. } => None,
+        }));
+        if let Some(MaterialChoice::File(file)) = &setup.material {
+            inputs.push(&file.path);
+        }
+        inputs.retain(|path| *path != Path::new(STANDARD));
+        for target in self.outputs().filter(|path| *path != Path::new(STANDARD)) {
+            if let Some(hit) = inputs.iter().find(|path| same_file(path, target)) {
+                let message =
+                    format!("writing {} would overwrite the input {}", target.display(), hit.display());
+                return Err(Diagnostic::new(codes::OUTPUT_IS_INPUT, message).into());
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes what was asked for; a finding when that fails.
+    fn write(
+        &self,
+        simulated: &Simulated,
+        drawn: Option<&str>,
+        outputs: &Outputs,
+    ) -> io::Result<Option<Diagnostic>> {
+        type Writer<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
+        let all: [(&Option<PathBuf>, Writer<'_>); 5] = [
+            (&self.csv, Box::new(|out| simulation::to_csv(simulated, out))),
+            (&self.json, Box::new(|out| out.write_all(simulation::to_json(simulated).as_bytes()))),
+            (&self.stl, Box::new(|out| export::write_stl(&simulated.left, out))),
+            (&self.save_stock, Box::new(|out| remains::write(&simulated.left, out))),
+            (&self.plot, Box::new(|out| out.write_all(drawn.unwrap_or_default().as_bytes()))),
+        ];
+        for (path, write_all) in &all {
+            let Some(path) = path else { continue };
+            if let Some(found) = outputs.write(path, write_all)? {
+                return Ok(Some(found));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The summary on standard output, or on standard error when an output goes there.
+    fn summary(&self, simulated: &Simulated) -> io::Result<()> {
+        let text = simulation::to_text(simulated);
+        if self.outputs().any(|path| path == Path::new(STANDARD)) {
+            io::stderr().lock().write_all(text.as_bytes())
+        } else {
+            let mut out = io::stdout().lock();
+            out.write_all(text.as_bytes())?;
+            out.flush()
+        }
+    }
+
+    fn nothing(&self) -> io::Result<Exit> {
+        if !self.quiet && self.outputs().next().is_some() {
+            eprintln!("{}: nothing was written", self.program.display());
+        }
+        Ok(Exit::Errors)
+    }
+
+    fn show(&self, findings: &[Diagnostic]) -> io::Result<()> {
+        let mut err = io::stderr().lock();
+        let file = self.program.to_string_lossy();
+        let seen = terminal::errors_are_seen();
+        unless_nobody_reads(self.findings.show(&mut err, seen, findings, Some(&file)))
+    }
+}
+
+/// Reads a target part.
+fn target(path: &Path, units: LengthUnit) -> Result<Arc<Mesh>, Diagnostic> {
+    let source = files::read(path).map_err(|found| *found)?;
+    Machining::target(source.bytes(), units).map_err(|error| {
+        let message = format!("the target {} cannot be used: {error}", path.display());
+        let help = "The file must be a closed STL, in the coordinates and the unit of the program.";
+        Diagnostic::new(codes::STOCK_FILE, message).help(help)
+    })
+}

@@ -1,0 +1,204 @@
+//! What a simulation found: one row a motion, sums of operations and of the program, what is left and how exact it is.
+//!
+//! [`Simulated::of`] runs a [`Machining`] and keeps what it hears; [`to_text`], [`to_csv`] and [`to_json`] present it. Lengths are in mm,
+//! whatever the file's unit. What is not known is an empty cell, `null` in JSON: the chip without teeth, forces without a material,
+//! all that needs the feed of a rapid whose speed nobody says. A motion in air has zeros, and no angles.
+//!
+//! The JSON is [`Simulated`] as it stands, with `"version": 1`; numbers are rounded to six decimals. `version` changes when a reader of
+//! the structure would have to, new keys may be added without.
+
+mod gather;
+pub mod plot;
+mod round;
+mod row;
+mod sums;
+mod target;
+mod text;
+mod unknown;
+
+pub use row::{Row, to_csv};
+pub use sums::{OperationSums, Peak, Sums};
+pub use target::Compared;
+pub use text::to_text;
+
+use crate::diagnostic::Diagnostic;
+use crate::machining::{Machining, Options, Plan, Watch, chord_mm};
+use crate::sim::Dexels;
+use round::{micro, micro_some};
+use row::Cells;
+use serde::{Serialize, Serializer};
+
+/// A program that was simulated.
+#[derive(Debug, Serialize)]
+pub struct Simulated {
+    /// Version of the JSON structure: 1.
+    pub version: u32,
+    /// The file's name.
+    pub file: String,
+    /// What is cut, if the setup says its name.
+    pub material: Option<String>,
+    /// What the run cost.
+    pub cost: Cost,
+    /// How exact it is.
+    pub accuracy: Accuracy,
+    /// The stock before and after.
+    pub stock: StockVolumes,
+    /// Sums of the whole program.
+    pub totals: Sums,
+    /// Time at feed when the feed changes no faster than the machine's `max_acceleration`, s; `null` when that is not known.
+    #[serde(serialize_with = "micro_some")]
+    pub accelerated_seconds: Option<f64>,
+    /// What went wrong, counted.
+    pub faults: Faults,
+    /// What the run took for granted, in sentences.
+    pub assumptions: Vec<String>,
+    /// Sums of each operation that moves, in order.
+    pub operations: Vec<OperationSums>,
+    /// The stock that is left against the part that shall be, once [`Simulated::compare`] has looked.
+    pub target: Option<Compared>,
+    /// The motions; in JSON with the names of the CSV's columns.
+    #[serde(serialize_with = "rows")]
+    pub motions: Motions,
+    /// What went wrong, with its places.
+    #[serde(skip)]
+    pub findings: Vec<Diagnostic>,
+    /// What is left.
+    #[serde(skip)]
+    pub left: Dexels,
+}
+
+/// The rows, and the names that they share.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Motions {
+    /// One row a motion, in order. The first point of a program, which comes from nowhere, is none.
+    pub rows: Vec<Row>,
+    /// Names of operations; [`Row::operation`] is an index.
+    pub operations: Vec<String>,
+    /// Tools: the number where it is known, else the name; [`Row::tool`] is an index.
+    pub tools: Vec<String>,
+}
+
+/// What a run cost.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Cost {
+    /// Columns of the stock.
+    pub columns: u64,
+    /// Bytes of the stock, overhangs aside.
+    pub bytes: u64,
+    /// About how many times a column was looked at, at most.
+    #[serde(serialize_with = "micro")]
+    pub visits: f64,
+    /// Length of the path, mm.
+    #[serde(serialize_with = "micro")]
+    pub path_mm: f64,
+}
+
+/// How exact a run is.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Accuracy {
+    /// Distance of columns, mm.
+    #[serde(serialize_with = "micro")]
+    pub cell_mm: f64,
+    /// Across z, borders of material are known to this, mm: half a cell.
+    #[serde(serialize_with = "micro")]
+    pub lateral_mm: f64,
+    /// Arcs and splines run as chords that are no further than this from them, mm.
+    #[serde(serialize_with = "micro")]
+    pub chord_mm: f64,
+}
+
+/// Volumes in mm3.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct StockVolumes {
+    /// Before the first cut.
+    #[serde(serialize_with = "micro")]
+    pub before_mm3: f64,
+    /// Removed by all motions.
+    #[serde(serialize_with = "micro")]
+    pub removed_mm3: f64,
+    /// After the last.
+    #[serde(serialize_with = "micro")]
+    pub left_mm3: f64,
+}
+
+/// How many motions something went wrong in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub struct Faults {
+    /// Shank or holder stands in material.
+    pub collisions: usize,
+    /// A rapid takes material.
+    pub rapids_in_material: usize,
+    /// The tool cuts while the spindle stands.
+    pub spindle_stands: usize,
+    /// The tool cuts, and its feed or its speed in rev/min is not known.
+    pub unknown_feeds: usize,
+}
+
+impl Simulated {
+    /// Runs a program over its stock. Forces are computed when the setup says a material, whatever `options` say. `None` when `watch`
+    /// stopped it.
+    ///
+    /// # Errors
+    /// As [`Machining::run`]: the run costs too much, or the cell is too coarse.
+    pub fn of(
+        machining: &Machining<'_>,
+        options: &Options,
+        watch: &dyn Watch,
+    ) -> Result<Option<Self>, Vec<Diagnostic>> {
+        let material = machining.setup().material().ok();
+        let options = Options { forces: material.is_some(), ..*options };
+        let plan = machining.plan(&options).map_err(|found| vec![*found])?;
+        let mut gathering = gather::Gathering::new(machining, plan.cell);
+        let mut sink = |cut: &crate::machining::Cut<'_>| gathering.add(cut);
+        let ran = machining.run(&options, watch, &mut sink).map_err(|found| vec![*found])?;
+        let Some(ran) = ran else { return Ok(None) };
+        let gathered = gathering.end();
+        let mut findings = ran.findings;
+        findings.extend(gathered.findings);
+        let left_mm3 = ran.left.volume_mm3();
+        let removed_mm3 = gathered.totals.removed_mm3;
+        Ok(Some(Self {
+            version: 1,
+            file: machining.program().source().name().to_owned(),
+            material: material.and_then(|material| material.name.clone()),
+            cost: plan.into(),
+            accuracy: Accuracy {
+                cell_mm: ran.cell,
+                lateral_mm: ran.cell / 2.0,
+                chord_mm: chord_mm(ran.cell),
+            },
+            stock: StockVolumes { before_mm3: ran.before_mm3, removed_mm3, left_mm3 },
+            totals: gathered.totals,
+            accelerated_seconds: gathered.accelerated_seconds,
+            faults: gathered.faults,
+            assumptions: gathered.assumptions,
+            operations: gathered.operations,
+            target: None,
+            motions: gathered.motions,
+            findings,
+            left: ran.left,
+        }))
+    }
+}
+
+impl From<Plan> for Cost {
+    fn from(plan: Plan) -> Self {
+        Self { columns: plan.columns, bytes: plan.bytes, visits: plan.visits, path_mm: plan.path_mm }
+    }
+}
+
+impl Motions {
+    /// The rows as they are printed.
+    fn cells(&self) -> impl Iterator<Item = Cells<'_>> {
+        self.rows.iter().map(|row| Cells::of(row, self))
+    }
+}
+
+fn rows<S: Serializer>(motions: &Motions, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(motions.cells())
+}
+
+/// The simulation as one JSON document, indented and with a line end.
+pub fn to_json(simulated: &Simulated) -> String {
+    super::json_text(simulated)
+}

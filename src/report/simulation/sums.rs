@@ -1,0 +1,100 @@
+//! Sums and peaks over motions.
+
+use super::Row;
+use super::round::{micro, micro_some};
+use serde::Serialize;
+
+/// A largest value, and the line of the motion that has it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Peak {
+    /// The value.
+    #[serde(serialize_with = "micro")]
+    pub value: f64,
+    /// The line; `null` for a motion that a step put in.
+    pub line: Option<usize>,
+}
+
+/// Sums and peaks over motions; a peak is `null` where nothing is cut, or its value is not known.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Sums {
+    /// Motions.
+    pub motions: usize,
+    /// Motions that remove material.
+    pub cutting: usize,
+    /// Length at feed, mm.
+    #[serde(serialize_with = "micro")]
+    pub feed_mm: f64,
+    /// Length at rapid, mm.
+    #[serde(serialize_with = "micro")]
+    pub rapid_mm: f64,
+    /// Time at feed where the feed is known, without acceleration and dwells, s.
+    #[serde(serialize_with = "micro")]
+    pub feed_seconds: f64,
+    /// Motions at feed whose time is not known.
+    pub untimed: usize,
+    /// Time at rapid, s; `null` when the machine's rapid feed is not known.
+    #[serde(serialize_with = "micro_some")]
+    pub rapid_seconds: Option<f64>,
+    /// Removed volume, mm3.
+    #[serde(serialize_with = "micro")]
+    pub removed_mm3: f64,
+    /// Thickest chip, mm.
+    pub chip_thickness_mm: Option<Peak>,
+    /// Largest removal rate of a motion, mm3/min.
+    pub removal_rate_mm3_min: Option<Peak>,
+    /// Deepest cut along the axis, mm.
+    pub axial_depth_mm: Option<Peak>,
+    /// Widest cut, mm.
+    pub radial_depth_mm: Option<Peak>,
+    /// Largest force, N.
+    pub force_n: Option<Peak>,
+    /// Largest torque, N m.
+    pub torque_nm: Option<Peak>,
+    /// Largest power, kW.
+    pub power_kw: Option<Peak>,
+}
+
+/// The sums of an operation.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct OperationSums {
+    /// Its name; empty where the file has none.
+    pub name: String,
+    /// The first tool that moves in it: its number where it is known, else its name.
+    pub tool: String,
+    /// Its sums.
+    pub sums: Sums,
+}
+
+impl Sums {
+    /// Nothing yet. `rapid_known`: whether rapids have a time.
+    pub(super) fn new(rapid_known: bool) -> Self {
+        Self { rapid_seconds: rapid_known.then_some(0.0), ..Self::default() }
+    }
+
+    /// Adds a motion that removed so much.
+    pub(super) fn add(&mut self, row: &Row, removed_mm3: f64) {
+        self.motions += 1;
+        self.cutting += usize::from(removed_mm3 > 0.0);
+        self.removed_mm3 += removed_mm3;
+        if row.rapid {
+            self.rapid_mm += row.length_mm;
+            self.rapid_seconds = self.rapid_seconds.zip(row.seconds).map(|(sum, seconds)| sum + seconds);
+        } else {
+            self.feed_mm += row.length_mm;
+            self.feed_seconds += row.seconds.unwrap_or(0.0);
+            self.untimed += usize::from(row.seconds.is_none());
+        }
+        let line = row.line;
+        let raise = |peak: &mut Option<Peak>, value: Option<f64>| {
+            let value = value.filter(|value| *value > peak.map_or(0.0, |peak| peak.value));
+            *peak = value.map(|value| Peak { value, line }).or(*peak);
+        };
+        raise(&mut self.chip_thickness_mm, row.chip_thickness_mm);
+        raise(&mut self.removal_rate_mm3_min, row.removal_rate_mm3_min);
+        raise(&mut self.axial_depth_mm, row.axial_depth_mm);
+        raise(&mut self.radial_depth_mm, row.radial_depth_mm);
+        raise(&mut self.force_n, row.force_n);
+        raise(&mut self.torque_nm, row.torque_nm);
+        raise(&mut self.power_kw, row.power_kw);
+    }
+}

@@ -1,0 +1,129 @@
+//! The forms of a simulation, and what is left against a target.
+
+use super::{SHOP, SLOT, simulate};
+use crate::support::{rounded_snapshots, snapshots};
+use clsmith::machining::Machining;
+use clsmith::program::LengthUnit;
+use clsmith::report::simulation::plot::{Moment, Series, plot};
+use clsmith::report::simulation::{Simulated, to_csv, to_json, to_text};
+use clsmith::sim::export;
+
+fn slot() -> Simulated {
+    simulate(SLOT, SHOP, LengthUnit::Mm).unwrap()
+}
+
+fn csv(found: &Simulated) -> String {
+    let mut out = Vec::new();
+    to_csv(found, &mut out).unwrap();
+    String::from_utf8(out).unwrap()
+}
+
+#[test]
+fn a_simulation_as_text() {
+    snapshots("report").bind(|| insta::assert_snapshot!("simulation", to_text(&slot())));
+}
+
+#[test]
+fn a_simulation_as_csv_and_json() {
+    let found = slot();
+    let mut settings = rounded_snapshots("report");
+    // Forces are the model's matter; its own tests have them.
+    settings.add_filter(r"(\d\.\d{3})\d+", "$1");
+    settings.bind(|| {
+        insta::assert_snapshot!("simulation_csv", csv(&found));
+        insta::assert_snapshot!("simulation_json", to_json(&found));
+    });
+}
+
+#[test]
+fn the_json_names_the_columns_of_the_csv() {
+    let found = slot();
+    let json: serde_json::Value = serde_json::from_str(&to_json(&found)).unwrap();
+    let csv = csv(&found);
+    let columns: std::collections::BTreeSet<&str> = csv.lines().next().unwrap().split(',').collect();
+    let motions = json["motions"].as_array().unwrap();
+    let keys: std::collections::BTreeSet<&str> =
+        motions[0].as_object().unwrap().keys().map(String::as_str).collect();
+    assert_eq!((columns, motions.len()), (keys, csv.lines().count() - 1));
+    assert_eq!(json["version"], 1);
+}
+
+#[test]
+fn the_number_of_threads_changes_no_byte() {
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let found = slot();
+            let mut stl = Vec::new();
+            export::write_stl(&found.left, &mut stl).unwrap();
+            (csv(&found), to_json(&found), stl, plot(&[found.series("a")]).unwrap())
+        })
+    };
+    let one = run(1);
+    for threads in [2, 3, 7] {
+        assert!(run(threads) == one, "{threads} threads");
+    }
+}
+
+#[test]
+fn what_is_left_is_compared_with_a_target() {
+    let mut found = slot();
+    let mut stl = Vec::new();
+    export::write_stl(&found.left, &mut stl).unwrap();
+    let target = Machining::target(&stl, LengthUnit::Mm).unwrap();
+    found.compare(&target, "part.stl", None);
+    let compared = found.target.clone().unwrap();
+    assert_eq!((compared.gouge.columns, compared.excess.columns), (0, 0));
+    assert!(found.findings.is_empty());
+
+    let mut deep = simulate(&SLOT.replace(",-2.0000", ",-3.0000"), SHOP, LengthUnit::Mm).unwrap();
+    deep.compare(&target, "part.stl", Some(0.3));
+    let compared = deep.target.clone().unwrap();
+    let thickest = compared.gouge.thickest.unwrap();
+    assert!((thickest.mm - 1.0).abs() < 1e-4 && (thickest.at[2] + 3.0).abs() < 1e-4, "{thickest:?}");
+    assert!((compared.gouge.volume_mm3 - 60.0 * 15.0).abs() < 0.01 * 900.0);
+    assert_eq!(deep.findings[0].code.id(), "CL0518");
+    deep.compare(&target, "part.stl", Some(1.1));
+    assert_eq!(deep.target.unwrap().gouge.columns, 0);
+
+    let mut shallow = simulate(&SLOT.replace(",-2.0000", ",-1.0000"), SHOP, LengthUnit::Mm).unwrap();
+    shallow.compare(&target, "part.stl", None);
+    let compared = shallow.target.clone().unwrap();
+    assert!((compared.excess.thickest.unwrap().mm - 1.0).abs() < 1e-4);
+    assert!(shallow.findings.is_empty(), "excess is only reported");
+}
+
+#[test]
+fn a_wall_that_is_a_little_off_is_no_gouge_of_its_height() {
+    // The slot as the target, and a program whose last motion is a tenth too far to the side: less than a cell.
+    let mut stl = Vec::new();
+    export::write_stl(&slot().left, &mut stl).unwrap();
+    let target = Machining::target(&stl, LengthUnit::Mm).unwrap();
+    let aside = |by: &str| {
+        let mut found = simulate(&SLOT.replace(",15.0000,-2", by), SHOP, LengthUnit::Mm).unwrap();
+        found.compare(&target, "part.stl", None);
+        found.target.unwrap().gouge.columns
+    };
+    assert_eq!(aside(",14.8000,-2"), 0);
+    assert!(aside(",14.2000,-2") > 0);
+}
+
+#[test]
+fn programs_are_drawn_over_each_other() {
+    let found = slot();
+    let drawn = plot(&[found.series("before <1>"), found.series("after")]).unwrap();
+    assert!(drawn.starts_with("<svg width=\"1200\" height=\"800\"") && drawn.trim_end().ends_with("</svg>"));
+    for text in ["thickest chip, mm", "feed, mm/min", "time, s", "before &lt;1&gt;", "after", "#AAAAAA"] {
+        assert!(drawn.contains(text), "{text}");
+    }
+    // Nothing to draw is no error, and very long programs stay small.
+    assert!(plot(&[]).is_ok() && plot(&[Series::default()]).is_ok());
+    let moment = |index: u32| Moment {
+        from: f64::from(index),
+        to: f64::from(index + 1),
+        chip_thickness_mm: Some(0.01 * f64::from(index % 7)),
+        feed_mm_min: (!index.is_multiple_of(1000)).then_some(500.0),
+    };
+    let long = Series { name: "long".to_owned(), moments: (0..200_000).map(moment).collect() };
+    assert!(plot(&[long]).unwrap().len() < 200_000);
+}
