@@ -4,18 +4,17 @@ use super::exit::Exit;
 use super::files::{self, Loaded, STANDARD};
 use super::findings::FindingArgs;
 use super::output::{Outputs, unless_nobody_reads};
+use super::progress::Progress;
 use super::terminal;
 use clap::Args;
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::job::{Done, Job, is_changed};
-use clsmith::machining::Unwatched;
 use clsmith::parse::parse;
 use clsmith::program::{Dialect, Program};
 use clsmith::report::changes::{self, Changes};
 use clsmith::report::{step_report, unified};
 use clsmith::source::Source;
 use clsmith::transform::StepReport;
-use clsmith::write::{Interrupt, is_interrupt, same_file, write_atomically_unless};
 use clsmith::write::{is_interrupt, same_file};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -83,20 +82,19 @@ impl Apply {
                 return Ok(Exit::Errors);
             }
         };
-        let interrupt = Interrupt::new();
-        let writing = Arc::new(Mutex::new(()));
-        stop_on_ctrl_c(&interrupt, &writing)?;
-        let watch = &Unwatched;
-        let job = Job { recipe: &recipe, setup: &setup, policy: &policy, dialect: self.dialect, watch };
         let outputs = Outputs::default();
-        outputs.stop_on_ctrl_c(|| ())?;
-        let job = Job { recipe: &recipe, setup: &setup, policy: &policy, dialect: self.dialect };
+        let progress = Progress::new(self.quiet, outputs.interrupt());
+        outputs.stop_on_ctrl_c(progress.clearing())?;
+        let watch = &progress;
+        let job = Job { recipe: &recipe, setup: &setup, policy: &policy, dialect: self.dialect, watch };
         let mut worst = Exit::Done;
         for input in &self.inputs {
             if outputs.interrupt().is_raised() {
                 return Ok(Exit::Interrupted);
             }
-            match self.one(&job, input, &outputs) {
+            progress.begin(&input.to_string_lossy());
+            let done = self.one(&job, input, &outputs, &progress);
+            match done {
                 Ok(exit) => worst = worst.max(exit),
                 Err(error) if is_interrupt(&error) => return Ok(Exit::Interrupted),
                 Err(error) => return Err(error),
@@ -135,7 +133,7 @@ impl Apply {
         None
     }
 
-    fn one(&self, job: &Job<'_>, input: &Path, outputs: &Outputs) -> io::Result<Exit> {
+    fn one(&self, job: &Job<'_>, input: &Path, outputs: &Outputs, progress: &Progress) -> io::Result<Exit> {
         let target = self.target(input);
         let setup_file = job.recipe.setup_file.as_deref().map(|name| files::beside(&self.recipe, name));
         if let Some(found) =
@@ -152,6 +150,7 @@ impl Apply {
             }
         };
         let Done { program, findings, reports } = job.run(&source);
+        progress.clear();
         if !findings.is_empty() {
             self.show(&findings, Some(source.name()))?;
         }
