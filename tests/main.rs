@@ -7,6 +7,7 @@ mod check;
 mod cli;
 mod examples;
 mod layers;
+mod machining;
 mod motion;
 mod parse;
 mod recipe;

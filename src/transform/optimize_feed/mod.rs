@@ -12,6 +12,7 @@ mod margin;
 mod merge;
 mod parameters;
 mod parts;
+mod proof;
 mod report;
 mod rounding;
 pub mod split;

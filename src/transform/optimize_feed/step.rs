@@ -1,16 +1,14 @@
 //! The step: simulate, decide, write, simulate again.
 
-use super::acceleration::{Stretch, seconds};
-use super::feeds::{Block, Feeds, Rules, Window, feeds};
-use super::gather::{Gathered, Mark, gather};
+use super::feeds::{Feeds, Rules, feeds};
+use super::gather::{Gathered, gather};
 use super::limits::Limits;
 use super::parameters::{Criterion, OptimizeFeed};
-use super::report::{OperationReport, Report};
 use super::split::{Splits, split};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::machining::{Machining, Options, Ran};
 use crate::program::motion::Motion;
-use crate::program::{Change, LengthUnit, Program, Record, Statement, StepId, operation};
+use crate::program::{LengthUnit, Program, Statement};
 use crate::setup::Setup;
 use crate::transform::feed_plan::{FeedPlan, decimals_of_feed, rounded_down};
 use crate::transform::{Context, Selection, StepReport, Transform};
@@ -23,7 +21,7 @@ use std::collections::BTreeSet;
 const PIECE: f64 = 1.0;
 
 /// What arithmetic makes of equal loads.
-const NOISE: f64 = 1e-6;
+pub(super) const NOISE: f64 = 1e-6;
 
 /// Findings of one kind that are told one by one.
 const TOLD: usize = 10;
@@ -52,9 +50,9 @@ impl Transform for OptimizeFeed {
 }
 
 /// The parameters in millimetres.
-struct Job {
-    limits: Vec<(Criterion, f64)>,
-    rules: Rules,
+pub(super) struct Job {
+    pub(super) limits: Vec<(Criterion, f64)>,
+    pub(super) rules: Rules,
     options: Options,
     units: LengthUnit,
 }
@@ -226,134 +224,6 @@ impl Job {
             context.findings.push(Diagnostic::new(codes::BELOW_MINIMUM, message));
         }
     }
-
-    /// Fails when a block that the step may touch passes a limit by more than the grid's uncertainty, though it does not run at
-    /// the lowest feed. With the paper's window, that is to be expected and only reported.
-    fn prove(
-        &self,
-        program: &Program,
-        after: &Gathered,
-        context: &Context<'_>,
-    ) -> Result<(), Box<Diagnostic>> {
-        if self.rules.window == Window::HalfBlocks {
-            return Ok(());
-        }
-        for (block, mark) in touched(after) {
-            let lowest = self.rules.min_feed.max(self.rules.min_ratio.map_or(0.0, |_| block.programmed));
-            if block.programmed <= lowest * (1.0 + NOISE) {
-                continue;
-            }
-            for ((criterion, limit), [estimate, bound]) in self.limits.iter().zip(&mark.measured) {
-                let allowed = limit * (1.0 + NOISE) + (bound - estimate).max(0.0);
-                if *estimate > allowed {
-                    let span = program.statement(mark.statement).map(Statement::origin).unwrap_or_default();
-                    let message = format!(
-                        "simulated again, the {} is {estimate:.4} {} here; the target is {limit}",
-                        criterion.name(),
-                        criterion.unit()
-                    );
-                    let place = context.recipe.step_value_place(usize::from(context.step.0), &["target"]);
-                    let found = Diagnostic::new(codes::TARGET_EXCEEDED, message)
-                        .label(program.source(), span, "passes the target")
-                        .label(&context.recipe.source, place, "the target");
-                    return Err(Box::new(found));
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn report(
-        &self,
-        program: &Program,
-        before: &Gathered,
-        after: &Gathered,
-        cell: f64,
-        step: StepId,
-    ) -> Report {
-        let (criterion, target) = self.limits.first().copied().unwrap_or_default();
-        let uncertainty = touched(after)
-            .filter_map(|(_, mark)| mark.measured.first())
-            .map(|[estimate, bound]| bound - estimate)
-            .fold(0.0, f64::max);
-        let names: Vec<String> =
-            operation::operations(program).into_iter().map(|operation| operation.name).collect();
-        let of = |operation: Option<usize>| {
-            let name = operation.and_then(|index| names.get(index)).cloned().unwrap_or_default();
-            let [one, other] = [before, after].map(|gathered| self.figures(gathered, operation, target));
-            OperationReport {
-                name,
-                seconds_before: one.seconds,
-                seconds_after: other.seconds,
-                largest_before: one.largest,
-                largest_after: other.largest,
-                at_target_before: one.at_target,
-                at_target_after: other.at_target,
-            }
-        };
-        let used: BTreeSet<usize> = before.marks.iter().map(|mark| mark.operation).collect();
-        let count = |fits: fn(&Record) -> bool, inserted: bool| {
-            let mine = |statement: &&Statement| match statement.change() {
-                Change::Inserted(by) => inserted && by == step,
-                Change::Edited(by) => !inserted && by == step,
-                _ => false,
-            };
-            program.statements().iter().filter(mine).filter(|statement| fits(statement.record())).count()
-        };
-        let is_feed = |record: &Record| matches!(record, Record::Feed(_) | Record::Cycle(_));
-        Report {
-            criterion,
-            unit: criterion.unit(),
-            target,
-            cell_mm: cell,
-            uncertainty,
-            acceleration: self.rules.max_acceleration,
-            whole: of(None),
-            operations: used.into_iter().map(|operation| of(Some(operation))).collect(),
-            feeds_added: count(is_feed, true),
-            feeds_changed: count(is_feed, false),
-            points_added: count(
-                |record| matches!(record, Record::Goto(_) | Record::Points(_) | Record::DriveArc(_)),
-                true,
-            ),
-        }
-    }
-
-    fn figures(&self, gathered: &Gathered, operation: Option<usize>, target: f64) -> Figures {
-        let mine = |mark: &Mark| operation.is_none_or(|operation| mark.operation == operation);
-        let pairs = || gathered.blocks.iter().zip(&gathered.marks).filter(|(_, mark)| mine(mark));
-        let stretches: Vec<Stretch> = pairs()
-            .map(|(block, _)| Stretch {
-                length: block.length,
-                feed: block.programmed,
-                breaks_chain: block.breaks_chain,
-            })
-            .collect();
-        let (mut largest, mut cutting, mut at_target) = (0.0_f64, 0.0, 0.0);
-        for (block, mark) in pairs().filter(|(block, mark)| block.touched && mark.cuts) {
-            let estimate = mark.measured.first().map_or(0.0, |[_, bound]| *bound);
-            largest = largest.max(mark.measured.first().map_or(0.0, |[estimate, _]| *estimate));
-            cutting += block.length;
-            if (0.9..=1.0 + 1e-3).contains(&(estimate / target)) {
-                at_target += block.length;
-            }
-        }
-        Figures {
-            seconds: seconds(&stretches, self.rules.max_acceleration),
-            largest,
-            at_target: if cutting > 0.0 { at_target / cutting } else { 0.0 },
-        }
-    }
-}
-
-struct Figures {
-    seconds: f64,
-    largest: f64,
-    at_target: f64,
-}
-
-fn touched(gathered: &Gathered) -> impl Iterator<Item = (&Block, &Mark)> {
-    gathered.blocks.iter().zip(&gathered.marks).filter(|(block, _)| block.touched)
 }
 
 /// Of several errors the last one stops the step, the others are findings before it.
