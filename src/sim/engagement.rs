@@ -137,7 +137,8 @@ impl Engagement {
         self.removed_mm3 > 0.0
     }
 
-    /// Largest share `v.n / |v|` over all contacts.
+    /// Largest share `v.n / |v|` over all contacts, v in the denominator being the tip's velocity: above 1 where a turning axis
+    /// moves the surface faster than the tip.
     pub fn share(&self) -> f64 {
         self.bins.iter().map(|bin| f64::from(bin.share)).fold(0.0, f64::max)
     }
