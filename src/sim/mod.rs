@@ -16,6 +16,7 @@ mod edges;
 pub mod engagement;
 pub mod exact;
 pub mod export;
+mod fill;
 pub mod force;
 mod interval;
 pub mod load_feed;

@@ -81,6 +81,13 @@ impl Simulation {
                 partial.give(engagement, cell * cell, cell / 2.0);
             }
         }
+        if self.detail {
+            for (engagement, piece) in engagements.iter_mut().zip(pieces).filter(|(found, _)| found.cuts()) {
+                let profile = cutters.get(piece.cutter).map(|cutter| &cutter.profile);
+                let radius = profile.map_or(0.0, |profile| profile.radius_at(engagement.height[1]));
+                engagement.fill(radius, cell);
+            }
+        }
         engagements
     }
 

@@ -86,7 +86,6 @@ impl Motion {
                 let height = low + (top - low) * sample as f64 / SAMPLES as f64;
                 give(&self.entry(along, left, height, bottom), 0.0);
             }
-            give(&bottom, 0.0);
         }
     }
 
