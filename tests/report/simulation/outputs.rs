@@ -81,7 +81,9 @@ fn what_is_left_is_compared_with_a_target() {
     let compared = deep.target.clone().unwrap();
     let thickest = compared.gouge.thickest.unwrap();
     assert!((thickest.mm - 1.0).abs() < 1e-4 && (thickest.at[2] + 3.0).abs() < 1e-4, "{thickest:?}");
-    assert!((compared.gouge.volume_mm3 - 60.0 * 15.0).abs() < 0.01 * 900.0);
+    // Beside walls a column is near enough to what is left.
+    let wanted = 60.0 * (15.0 - 2.0 * 0.25);
+    assert!((compared.gouge.volume_mm3 - wanted).abs() < 1e-2, "{}", compared.gouge.volume_mm3);
     assert_eq!(deep.findings[0].code.id(), "CL0518");
     deep.compare(&target, "part.stl", Some(1.1));
     assert_eq!(deep.target.unwrap().gouge.columns, 0);
