@@ -2,17 +2,17 @@
 
 use crate::check;
 use crate::diagnostic::{Diagnostic, codes};
+use crate::machining::Watch;
 use crate::parse::parse;
 use crate::program::{Change, Dialect, Program, Statement};
 use crate::report::policy::Policy;
 use crate::setup::Setup;
 use crate::source::{Source, TooLarge};
-use crate::transform::{self, Recipe};
+use crate::transform::{self, Recipe, StepReport};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// A recipe with everything it needs, ready for any number of files.
-#[derive(Debug)]
 pub struct Job<'r> {
     /// The recipe.
     pub recipe: &'r Recipe,
@@ -22,6 +22,8 @@ pub struct Job<'r> {
     pub policy: &'r Policy,
     /// The dialect, where it is forced.
     pub dialect: Option<Dialect>,
+    /// Who watches steps that take long.
+    pub watch: &'r dyn Watch,
 }
 
 /// What came of a file.
@@ -31,6 +33,8 @@ pub struct Done {
     pub program: Option<Program>,
     /// What was found, as the policy leaves it.
     pub findings: Vec<Diagnostic>,
+    /// What steps have to say about themselves.
+    pub reports: Vec<StepReport>,
 }
 
 impl Job<'_> {
@@ -42,12 +46,13 @@ impl Job<'_> {
         let parsed = parse(source, self.dialect);
         let findings = self.policy.apply(parsed.diagnostics);
         if findings.iter().any(Diagnostic::is_error) {
-            return Done { program: None, findings };
+            return Done { program: None, findings, reports: Vec::new() };
         }
-        let outcome = match transform::run(self.recipe, self.setup, parsed.program) {
+        let outcome = match transform::run_watched(self.recipe, self.setup, parsed.program, self.watch) {
             Ok(outcome) => outcome,
             Err(stopped) => return self.done(None, findings, stopped),
         };
+        let reports = outcome.reports;
         let mut new = outcome.findings;
         if is_changed(&outcome.program) {
             match self.worse(source, &outcome.program) {
@@ -57,13 +62,13 @@ impl Job<'_> {
                 }
             }
         }
-        self.done(Some(outcome.program), findings, new)
+        Done { reports, ..self.done(Some(outcome.program), findings, new) }
     }
 
     fn done(&self, program: Option<Program>, mut findings: Vec<Diagnostic>, new: Vec<Diagnostic>) -> Done {
         findings.extend(self.policy.apply(new));
         let stopped = findings.iter().any(Diagnostic::is_error);
-        Done { program: program.filter(|_| !stopped), findings }
+        Done { program: program.filter(|_| !stopped), findings, reports: Vec::new() }
     }
 
     /// Findings of the corrected text that the original did not have. Their places are in the corrected text.

@@ -11,6 +11,10 @@ use clsmith::transform::Recipe;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+#[allow(dead_code)] // its `main`
+#[path = "../examples/figurine/generate.rs"]
+mod figurine;
+
 fn folder(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
 }
@@ -32,7 +36,14 @@ fn recipe(path: &Path) -> (Recipe, Setup) {
 }
 
 fn run(recipe: &Recipe, setup: &Setup, source: &Arc<Source>) -> String {
-    let done = Job { recipe, setup, policy: &Policy::default(), dialect: None }.run(source);
+    let done = Job {
+        recipe,
+        setup,
+        policy: &Policy::default(),
+        dialect: None,
+        watch: &clsmith::machining::Unwatched,
+    }
+    .run(source);
     assert!(!done.findings.iter().any(Diagnostic::is_error), "{:?}", done.findings);
     let mut patch = Vec::new();
     clsmith::report::unified::write(&mut patch, &done.program.unwrap(), &Default::default()).unwrap();
@@ -56,6 +67,14 @@ fn examples_do_what_their_pages_show() {
         let patch = run(&recipe, &setup, &support::source(&part));
         support::snapshots("examples").bind(|| insta::assert_snapshot!(name, patch));
     }
+}
+
+#[test]
+fn the_figurine_is_what_its_generator_prints() {
+    let part = std::fs::read_to_string(folder("examples/figurine/part.cls")).unwrap();
+    let differs = part.lines().zip(figurine::program().lines()).position(|(file, printed)| file != printed);
+    assert_eq!(differs, None, "the first line that differs");
+    assert!(part == figurine::program(), "to the last byte");
 }
 
 #[test]

@@ -18,7 +18,7 @@ fuzz_target!(|bytes: &[u8]| {
         let mut surface = Vec::new();
         export::write_stl(&dexels, &mut surface).expect("memory takes everything");
         // Far from the origin, f32 may leave nothing of a small body.
-        if height > 1e-3 * from.iter().chain(&to).fold(0.0, |most: f64, at| most.max(at.abs())) {
+        if height.min(longest) > 1e-3 * from.iter().chain(&to).fold(0.0, |most: f64, at| most.max(at.abs())) {
             Mesh::from_stl(&surface).expect("a closed surface");
         }
     }

@@ -4,6 +4,7 @@ use super::exit::Exit;
 use super::files::{self, Loaded, STANDARD};
 use super::findings::FindingArgs;
 use super::output::{Outputs, unless_nobody_reads};
+use super::progress::Progress;
 use super::terminal;
 use clap::Args;
 use clsmith::diagnostic::{Diagnostic, codes};
@@ -11,8 +12,9 @@ use clsmith::job::{Done, Job, is_changed};
 use clsmith::parse::parse;
 use clsmith::program::{Dialect, Program};
 use clsmith::report::changes::{self, Changes};
-use clsmith::report::unified;
+use clsmith::report::{step_report, unified};
 use clsmith::source::Source;
+use clsmith::transform::StepReport;
 use clsmith::write::{is_interrupt, same_file};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -81,14 +83,18 @@ impl Apply {
             }
         };
         let outputs = Outputs::default();
-        outputs.stop_on_ctrl_c(|| ())?;
-        let job = Job { recipe: &recipe, setup: &setup, policy: &policy, dialect: self.dialect };
+        let progress = Progress::new(self.quiet, outputs.interrupt());
+        outputs.stop_on_ctrl_c(progress.clearing())?;
+        let watch = &progress;
+        let job = Job { recipe: &recipe, setup: &setup, policy: &policy, dialect: self.dialect, watch };
         let mut worst = Exit::Done;
         for input in &self.inputs {
             if outputs.interrupt().is_raised() {
                 return Ok(Exit::Interrupted);
             }
-            match self.one(&job, input, &outputs) {
+            progress.begin(&input.to_string_lossy());
+            let done = self.one(&job, input, &outputs, &progress);
+            match done {
                 Ok(exit) => worst = worst.max(exit),
                 Err(error) if is_interrupt(&error) => return Ok(Exit::Interrupted),
                 Err(error) => return Err(error),
@@ -127,7 +133,7 @@ impl Apply {
         None
     }
 
-    fn one(&self, job: &Job<'_>, input: &Path, outputs: &Outputs) -> io::Result<Exit> {
+    fn one(&self, job: &Job<'_>, input: &Path, outputs: &Outputs, progress: &Progress) -> io::Result<Exit> {
         let target = self.target(input);
         let setup_file = job.recipe.setup_file.as_deref().map(|name| files::beside(&self.recipe, name));
         if let Some(found) =
@@ -143,7 +149,8 @@ impl Apply {
                 return Ok(Exit::Errors);
             }
         };
-        let Done { program, findings } = job.run(&source);
+        let Done { program, findings, reports } = job.run(&source);
+        progress.clear();
         if !findings.is_empty() {
             self.show(&findings, Some(source.name()))?;
         }
@@ -173,7 +180,7 @@ impl Apply {
         }
         if !self.quiet {
             let target = target.as_deref().filter(|_| !self.dry_run);
-            unless_nobody_reads(self.summary(job, &source, &program, target))?;
+            unless_nobody_reads(self.summary(job, &source, &program, &reports, target))?;
         }
         Ok(Exit::Done)
     }
@@ -206,6 +213,7 @@ impl Apply {
         job: &Job<'_>,
         source: &Arc<Source>,
         program: &Program,
+        reports: &[StepReport],
         target: Option<&Path>,
     ) -> io::Result<()> {
         let mut err = io::stderr().lock();
@@ -221,6 +229,9 @@ impl Apply {
         let steps: Vec<&str> = job.recipe.steps.iter().map(|step| step.name()).collect();
         let found = Changes::of(&before, program, &steps, Some(job.recipe.units));
         err.write_all(changes::to_text(&found).as_bytes())?;
+        for report in reports {
+            err.write_all(step_report::to_text(report).as_bytes())?;
+        }
         if to.is_empty() { Ok(()) } else { writeln!(err, "{to}", to = to.trim_start()) }
     }
 }

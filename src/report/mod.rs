@@ -12,6 +12,7 @@ pub mod policy;
 pub mod render;
 pub mod simulation;
 pub mod stats;
+pub mod step_report;
 pub mod steps;
 mod table;
 pub mod unified;

@@ -4,6 +4,9 @@ use super::{Dexels, Mesh, StockError};
 use nalgebra::Vector3;
 use std::sync::Arc;
 
+/// Largest coordinate or length of a body, mm: far beyond any workpiece, and far from what `f32` heights cannot hold.
+pub(super) const FARTHEST: f64 = 1e9;
+
 /// One body; mm in the workpiece frame.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Body {
@@ -94,7 +97,7 @@ impl Body {
 }
 
 fn finite<'a>(mut values: impl Iterator<Item = &'a f64>) -> Result<(), StockError> {
-    if values.all(|value| value.is_finite()) { Ok(()) } else { Err(StockError::NotFinite) }
+    if values.all(|value| value.abs() <= FARTHEST) { Ok(()) } else { Err(StockError::NotFinite) }
 }
 
 /// The box around the material of remains: the grid's in x and y, exact in z.

@@ -5,7 +5,8 @@ use super::{Dexels, Interval, interval};
 use rayon::prelude::*;
 
 /// Every interval grown by `sqrt(radius^2 - d^2)` mm at both ends over the columns at a lateral distance d up to the radius. On the
-/// same grid, so what grows past its border is lost. Exact for the columns given; a wall moves by whole cells.
+/// same grid, so what grows past its border is lost. Exact for lines of material through the centres: a wall moves by
+/// whole cells, and its rounded edge begins at the last centre, up to half a cell inside the wall.
 pub(super) fn by_ball(dexels: &Dexels, radius: f64) -> Dexels {
     let layout = *dexels.layout();
     // From the middle outwards: the column itself covers most of what its neighbours add.

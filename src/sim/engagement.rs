@@ -68,7 +68,8 @@ pub struct Engagement {
     pub across: f64,
     /// Part of the direction of travel along the tool axis, -1 (plunge) ..= 1.
     pub along: f64,
-    /// Length of the tip's path in mm.
+    /// Length of the tip's path in mm; where the tip stands still and the axis turns, of the path of the flutes' outermost
+    /// point, and shares are then of that point's speed and angles from where the axis tips to.
     pub length_mm: f64,
     /// Length of the shortest piece that this was put together from, mm. A tooth that goes further in a revolution meets
     /// material that earlier pieces have thinned, so that [`Bin::thickness`] tells nothing.

@@ -95,7 +95,7 @@ pub fn write(dexels: &Dexels, out: &mut dyn Write) -> io::Result<()> {
 /// Reads a `.clstock` file.
 ///
 /// # Errors
-/// For anything that [`write`] does not write, with the place; nothing is allocated that the file's length does not bear out.
+/// For anything that [`write()`] does not write, with the place; nothing is allocated that the file's length does not bear out.
 pub fn read(bytes: &[u8]) -> Result<Dexels, RemainsError> {
     let mut reader = Reader { bytes, at: 0 };
     if !bytes.starts_with(&MAGIC) {

@@ -6,7 +6,7 @@
 use super::Cutter;
 use super::dexel::Dexels;
 use super::engagement::Engagement;
-use super::sweep::{Circumstances, Partial, Straight, Sweep};
+use super::sweep::{Circumstances, Partial, Straight, Sweep, Tilted, pace};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
@@ -74,7 +74,7 @@ impl Simulation {
                 found
             })
             .collect();
-        let mut engagements: Vec<Engagement> = pieces.iter().map(nothing).collect();
+        let mut engagements: Vec<Engagement> = pieces.iter().map(|piece| nothing(piece, cutters)).collect();
         let cell = self.stock.layout().cell;
         for (index, partial) in found.iter().flatten() {
             if let Some(engagement) = engagements.get_mut(*index) {
@@ -89,15 +89,25 @@ impl Simulation {
         let continues = self.last == Some((piece.from, piece.cutter));
         self.last = Some((piece.to, piece.cutter));
         let around = Circumstances { continues, highest: self.highest, detail: self.detail };
+        let layout = self.stock.layout();
+        if !upright(&piece.from.axis) || !upright(&piece.to.axis) {
+            return Some(Sweep::Tilted(Box::new(Tilted::new(piece, cutter, layout, around))));
+        }
         let [from, to] = [piece.from.point, piece.to.point].map(|point| [point.x, point.y, point.z]);
-        Some(Sweep::Straight(Box::new(Straight::new(from, to, cutter, self.stock.layout(), around))))
+        Some(Sweep::Straight(Box::new(Straight::new(from, to, cutter, layout, around))))
     }
 }
 
-fn nothing(piece: &Piece) -> Engagement {
+/// Whether an axis is along z, to less than any machine can hold: 0.00001 mm at 100 mm.
+fn upright(axis: &Vector3<f64>) -> bool {
+    axis.z > 0.0 && axis.x.hypot(axis.y) <= 1e-7
+}
+
+fn nothing(piece: &Piece, cutters: &[Cutter]) -> Engagement {
     let travel = piece.to.point - piece.from.point;
     let length = travel.norm();
     let axis: Vector3<f64> = piece.from.axis;
     let along = if length > 0.0 { travel.dot(&axis) / length } else { 0.0 };
-    Engagement::none((1.0 - along * along).max(0.0).sqrt(), along, length)
+    let way = cutters.get(piece.cutter).map_or(length, |cutter| pace(piece, cutter));
+    Engagement::none((1.0 - along * along).max(0.0).sqrt(), along, way)
 }

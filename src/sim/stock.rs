@@ -1,6 +1,6 @@
 //! Stock: what lies on the machine before the program begins.
 
-use super::body::Bounds;
+use super::body::{Bounds, FARTHEST};
 use super::{Body, Dexels, Interval, Layout, dilate, interval};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -22,8 +22,8 @@ pub enum StockError {
     /// Remains from which everything was cut, or bodies far thinner than a cell.
     #[error("there is no material in the stock")]
     Empty,
-    /// A number that is not finite.
-    #[error("a number is not finite")]
+    /// A number that is not finite, or larger than any workpiece.
+    #[error("a number is not finite, or larger than {FARTHEST:e} mm")]
     NotFinite,
     /// A block whose corners are not in order.
     #[error("the block's lower corner must be below its upper one in x, y and z")]
@@ -56,7 +56,7 @@ impl Stock {
     /// # Errors
     /// Without a body or material, and for numbers that are not finite, out of order or without volume.
     pub fn new(bodies: Vec<Body>, allowance: f64) -> Result<Self, StockError> {
-        if !allowance.is_finite() {
+        if allowance.is_nan() || allowance > FARTHEST {
             return Err(StockError::NotFinite);
         }
         if allowance < 0.0 {

@@ -1,14 +1,12 @@
 //! `clamp_feed`: programmed feeds within limits.
 
-use super::feed_plan::FeedPlan;
+use super::feed_plan::{FeedPlan, decimals_of_feed, printed_decimals};
 use super::{Context, Selection, Transform};
 use crate::diagnostic::Diagnostic;
-use crate::number;
-use crate::parse;
-use crate::program::{Program, Role};
+use crate::program::Program;
 use crate::recipe::Where;
 use crate::values::Positive;
-use crate::write::{Editor, FEED_SHARE};
+use crate::write::Editor;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -99,20 +97,4 @@ fn within(feed: f64, actual: f64, (min, max): (f64, f64), decimals: usize) -> Op
     };
     let wanted = steps / power;
     (wanted != feed).then_some(wanted)
-}
-
-/// How many decimals a feed must have so that it is printed exactly: its own, or so many that the writer's tolerance is below
-/// the last of them.
-fn printed_decimals(feed: f64, own: usize) -> i32 {
-    let tolerance = (feed * FEED_SHARE).min(5e-5);
-    (own as i32).max((-tolerance.log10()).floor() as i32).min(15)
-}
-
-fn decimals_of_feed(program: &Program, statement: usize) -> usize {
-    let Some(found) = program.statement(statement) else { return 0 };
-    let text = program.text(found);
-    let roles = parse::roles(found.record(), text);
-    let numbers = parse::numbers(text).into_iter().zip(roles);
-    let feed = numbers.filter(|(_, role)| *role == Role::Feed).map(|((at, _), _)| at).next();
-    feed.and_then(|at| text.get(at)).map_or(0, number::decimals)
 }

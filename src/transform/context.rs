@@ -1,13 +1,13 @@
 //! What a step knows besides the program: the recipe around it, the setup, and where to put findings.
 
-use super::Recipe;
+use super::{Recipe, StepReport};
 use crate::diagnostic::{Code, Diagnostic, codes};
+use crate::machining::Watch;
 use crate::program::motion::Motion;
 use crate::program::{LengthUnit, Program, StepId};
 use crate::setup::Setup;
 
 /// The surroundings of a running step.
-#[derive(Debug)]
 pub struct Context<'r> {
     /// The step.
     pub step: StepId,
@@ -15,8 +15,12 @@ pub struct Context<'r> {
     pub recipe: &'r Recipe,
     /// The setup that counts, in millimetres.
     pub setup: &'r Setup,
+    /// Who watches steps that take long.
+    pub watch: &'r dyn Watch,
     /// Findings that do not stop the step.
     pub findings: Vec<Diagnostic>,
+    /// What steps have to say about themselves.
+    pub reports: Vec<StepReport>,
 }
 
 impl Context<'_> {

@@ -6,11 +6,12 @@
 
 use super::numbers::word;
 use crate::diagnostic::{Diagnostic, codes};
+use crate::number;
 use crate::parse;
 use crate::program::motion::Motion;
 use crate::program::{FieldKind, Form, Program, Record, Role};
 use crate::source::Span;
-use crate::write::Editor;
+use crate::write::{Editor, FEED_SHARE};
 
 /// What a motion wants: the place it starts at, what governs its feed, and the feed in the governing record's unit.
 #[derive(Debug, Clone, Copy)]
@@ -33,9 +34,14 @@ pub struct FeedPlan {
 impl FeedPlan {
     /// Asks every feed motion of a program. `want` gives the feed in the motion's own unit, `None` for the programmed one.
     pub fn of(program: &Program, mut want: impl FnMut(&Motion) -> Option<f64>) -> Self {
+        Self::numbered(program, |_, motion| want(motion))
+    }
+
+    /// As [`FeedPlan::of`]; `want` is told the motion's number among all motions of the program, too.
+    pub fn numbered(program: &Program, mut want: impl FnMut(usize, &Motion) -> Option<f64>) -> Self {
         let mut wishes = Vec::new();
         let (mut first, mut last) = (0, None);
-        for motion in program.motions() {
+        for (number, motion) in program.motions().enumerate() {
             // Points of one GOTO share what announces the first of them: a RAPID must not be parted from it, nor lines of bare
             // numbers from their GOTO.
             let end = motion.last_statement();
@@ -46,7 +52,7 @@ impl FeedPlan {
                 continue;
             }
             let (Some(feed), Some(governor)) = (motion.feed, motion.feed_from) else { continue };
-            let wanted = want(&motion).unwrap_or(feed.value);
+            let wanted = want(number, &motion).unwrap_or(feed.value);
             wishes.push(Wish {
                 first: first as u32,
                 last: last.unwrap_or(end) as u32,
@@ -156,6 +162,30 @@ pub fn set_feed(editor: &mut Editor, statement: usize, feed: f64) -> Result<(), 
         Some(number) => editor.set_numbers(statement, &[(number, feed)]),
         None => Ok(()),
     }
+}
+
+/// How many decimals a feed must have so that it is printed exactly: its own, or so many that the writer's tolerance is below
+/// the last of them.
+pub(super) fn printed_decimals(feed: f64, own: usize) -> i32 {
+    let tolerance = (feed * FEED_SHARE).min(5e-5);
+    (own as i32).max((-tolerance.log10()).floor() as i32).min(15)
+}
+
+/// A feed rounded down to what is printed exactly, with its own decimals or as many as the writer's tolerance asks for.
+pub(super) fn rounded_down(feed: f64, own: usize) -> f64 {
+    let power = 10f64.powi(printed_decimals(feed, own));
+    let down = (feed * power * (1.0 + 1e-12)).floor() / power;
+    if down > 0.0 { down } else { feed }
+}
+
+/// Decimals of the feed that a statement prints.
+pub(super) fn decimals_of_feed(program: &Program, statement: usize) -> usize {
+    let Some(found) = program.statement(statement) else { return 0 };
+    let text = program.text(found);
+    let roles = parse::roles(found.record(), text);
+    let numbers = parse::numbers(text).into_iter().zip(roles);
+    let feed = numbers.filter(|(_, role)| *role == Role::Feed).map(|((at, _), _)| at).next();
+    feed.and_then(|at| text.get(at)).map_or(0, number::decimals)
 }
 
 /// Which numbers of a statement are feeds.

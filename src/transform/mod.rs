@@ -23,8 +23,9 @@ pub use clamp_feed::ClampFeed;
 pub use context::Context;
 pub use convert_units::ConvertUnits;
 pub use move_origin::MoveOrigin;
+pub use optimize_feed::OptimizeFeed;
 pub use rewrite::{Region, Rewrite, RewriteRule};
-pub use run::{Outcome, run};
+pub use run::{Outcome, run, run_watched};
 pub use scale_feed::ScaleFeed;
 pub use selection::Selection;
 
@@ -93,4 +94,13 @@ transforms! {
     "rewrite" => Rewrite,
     "move_origin" => MoveOrigin,
     "convert_units" => ConvertUnits,
+    "optimize_feed" => OptimizeFeed,
+}
+
+/// What a step has to say about itself beyond findings.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StepReport {
+    /// Of `optimize_feed`.
+    OptimizeFeed(optimize_feed::Report),
 }

@@ -1,7 +1,8 @@
 //! Running a recipe on a program.
 
-use super::{Context, Recipe, Step};
+use super::{Context, Recipe, Step, StepReport};
 use crate::diagnostic::{Diagnostic, codes};
+use crate::machining::{Unwatched, Watch};
 use crate::program::{LengthUnit, Program, StepId};
 use crate::recipe::Segment;
 use crate::setup::Setup;
@@ -13,17 +14,40 @@ pub struct Outcome {
     pub program: Program,
     /// Findings of the steps that are no reason to stop.
     pub findings: Vec<Diagnostic>,
+    /// What steps have to say about themselves, in the order of the steps.
+    pub reports: Vec<StepReport>,
 }
 
 /// Applies the steps in order.
 ///
 /// # Errors
 /// What stopped a step, after the findings of the steps before it.
-pub fn run(recipe: &Recipe, setup: &Setup, mut program: Program) -> Result<Outcome, Vec<Diagnostic>> {
+pub fn run(recipe: &Recipe, setup: &Setup, program: Program) -> Result<Outcome, Vec<Diagnostic>> {
+    run_watched(recipe, setup, program, &Unwatched)
+}
+
+/// As [`run`], with somebody who is told how far long steps are.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_watched(
+    recipe: &Recipe,
+    setup: &Setup,
+    mut program: Program,
+    watch: &dyn Watch,
+) -> Result<Outcome, Vec<Diagnostic>> {
     let mut findings: Vec<Diagnostic> = unsaid_units(recipe, &program).into_iter().collect();
+    let mut reports = Vec::new();
     for (index, step) in recipe.steps.iter().enumerate() {
         let id = StepId(u16::try_from(index).unwrap_or(u16::MAX));
-        let mut context = Context { step: id, recipe, setup, findings: std::mem::take(&mut findings) };
+        let mut context = Context {
+            step: id,
+            recipe,
+            setup,
+            watch,
+            findings: std::mem::take(&mut findings),
+            reports: std::mem::take(&mut reports),
+        };
         match step.transform().apply(program, &mut context) {
             Ok(changed) => program = changed,
             Err(stopped) => {
@@ -31,16 +55,16 @@ pub fn run(recipe: &Recipe, setup: &Setup, mut program: Program) -> Result<Outco
                 return Err(context.findings);
             }
         }
-        findings = context.findings;
+        (findings, reports) = (context.findings, context.reports);
     }
-    Ok(Outcome { program, findings })
+    Ok(Outcome { program, findings, reports })
 }
 
 /// A recipe that says no unit, has lengths or feeds, and meets a program in inches.
 fn unsaid_units(recipe: &Recipe, program: &Program) -> Option<Diagnostic> {
     let said = recipe.place(&[Segment::Key("units")]).is_some();
     let measures = |step: &Step| match step {
-        Step::ClampFeed(_) => true,
+        Step::ClampFeed(_) | Step::OptimizeFeed(_) => true,
         Step::MoveOrigin(step) => step.has_lengths(),
         _ => false,
     };

@@ -111,6 +111,16 @@ macro_rules! radians {
 }
 radians! { Degrees Slope PointAngle HelixAngle }
 
+impl Fraction {
+    /// 5 %.
+    pub const TWENTIETH: Self = Self(0.05);
+}
+
+impl NonNegative {
+    /// One unit.
+    pub const ONE: Self = Self(1.0);
+}
+
 /// Reads a number and checks its range where the number stands: an error made later points at the whole map.
 struct Number<T> {
     phrase: &'static str,

@@ -251,3 +251,30 @@ fn overhangs_keep_what_is_above_the_flutes() {
     near(found[0].removed_mm3, 40.0 * 2.0 * R * 2.0, 40.0 * 2.0 * CELL);
     assert_eq!(simulation.stock().column(200, 150), vec![[8.0, 10.0], [0.0, 2.0]]);
 }
+
+/// Without detail most columns are passed over; the largest share must not be.
+#[test]
+fn the_largest_share_is_found_without_detail() {
+    let cutters = [(10.0, 0.0, 0.0), (10.0, 5.0, 0.0), (10.0, 1.0, 0.0), (10.0, 3.0, 0.0), (8.0, 1.0, 8.0)];
+    for (d, r, taper) in cutters {
+        let tool = cutter(d, r, taper, 0.0);
+        let mut points = vec![[-7.0, -10.0, -1.0]];
+        for index in 0..80 {
+            let t = f64::from(index);
+            points.push([
+                20.0 + 18.0 * (t * 0.9).sin(),
+                12.0 * (t * 1.7).cos(),
+                -3.0 + 2.5 * (t * 2.3).sin(),
+            ]);
+        }
+        let stock = block([0.0, -15.0, -10.0], [40.0, 15.0, 0.0], 0.2);
+        let with = |detail: bool| {
+            Simulation::new(stock.clone(), detail).run(&path(&points), std::slice::from_ref(&tool))
+        };
+        for (close, lean) in with(true).iter().zip(with(false)) {
+            near(lean.removed_mm3, close.removed_mm3, 1e-6 * close.removed_mm3);
+            near(lean.share(), close.share(), 0.01);
+            assert_eq!(lean.lateral, close.lateral);
+        }
+    }
+}

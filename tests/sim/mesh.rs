@@ -137,6 +137,8 @@ fn what_is_no_solid_is_refused() {
     let mut nan = faces.clone();
     nan[4][1][2] = f64::NAN;
     assert_eq!(read(&nan), MeshError::NotFinite { triangle: 5 });
+    nan[4][1][2] = 1e10;
+    assert_eq!(read(&nan), MeshError::NotFinite { triangle: 5 });
     let bytes = stl(&faces);
     let (found, expected) = (bytes.len() as u64 - 1, bytes.len() as u64);
     let cut = Mesh::from_stl(&bytes[..bytes.len() - 1]);

@@ -8,6 +8,8 @@ mod mesh;
 mod remains;
 mod shapes;
 mod stock;
+mod tilted;
+mod tilted_engagement;
 
 use clsmith::sim::{Cutter, Dexels, Engagement, Layout, Piece, Place, Profile, Simulation};
 use nalgebra::{Point3, Vector3};

@@ -4,6 +4,8 @@ mod closed;
 mod scan;
 mod stl;
 
+use super::body::FARTHEST;
+
 /// A closed mesh; mm. Inside is where shells wind around: nested or overlapping ones are one solid, one turned inside out inside
 /// another is a hollow.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,8 +36,8 @@ pub enum MeshError {
     /// No triangle, or only triangles without area.
     #[error("there is no triangle in it")]
     Empty,
-    /// A corner that is no point.
-    #[error("triangle {triangle} has a coordinate that is not finite")]
+    /// A corner that is no point, or farther away than any workpiece reaches.
+    #[error("triangle {triangle} has a coordinate that is not finite, or farther than {FARTHEST:e} mm")]
     NotFinite {
         /// Which one, counted from 1.
         triangle: usize,
@@ -82,7 +84,7 @@ impl Mesh {
             for vertex in triangle {
                 let vertex = vertices.get(*vertex as usize);
                 let vertex = vertex.ok_or(MeshError::Vertex { triangle: index + 1 })?;
-                if !vertex.iter().all(|value| value.is_finite()) {
+                if !vertex.iter().all(|value| value.abs() <= FARTHEST) {
                     return Err(MeshError::NotFinite { triangle: index + 1 });
                 }
             }

@@ -4,6 +4,9 @@ use super::partial::{Contact, Partial};
 use super::surface::Surface;
 use crate::sim::Profile;
 
+/// Material thinner than this (mm) is always looked at closely: there its thickness may be what limits the chip.
+const SKIN: f64 = 0.3;
+
 /// Samples of a column's height when forces are asked for.
 const SAMPLES: usize = 4;
 
@@ -49,8 +52,23 @@ struct Touch {
 
 impl Motion {
     /// Adds a column's contacts.
+    ///
+    /// The sweep looks the same all along the path, so the share of a contact depends only on its place across the path: on
+    /// `rise`, its height measured square to the path, and on its distance to the side. Without detail, columns that another
+    /// one dominates (further in, and over a wider range of rise) are not looked at more closely.
     pub fn add(&self, column: Column, surface: &Surface, partial: &mut Partial) {
         let Column { along, left, low, top } = column;
+        if !self.detail && top - low > SKIN {
+            let rise = |z: f64| (z - self.start) * self.across - along * self.along;
+            // Straight down, the share only depends on the distance from the axis.
+            let rho = along.hypot(left);
+            let place =
+                if self.across > 1e-9 { [rise(low), rise(top), left.abs()] } else { [rho, -rho, 0.0] };
+            if !partial.is_news(place) {
+                partial.add_volume((top - low) as f32, left as f32);
+                return;
+            }
+        }
         let bottom = self.lowest(along, left, surface);
         let upper = self.entry(along, left, top, bottom);
         let thickness = if upper.cos > 1e-3 { (top - low) / upper.cos } else { f64::INFINITY };
@@ -65,7 +83,7 @@ impl Motion {
         give(&upper, cap);
         if self.detail {
             for sample in 0..SAMPLES {
-                let height = low + (top - low) * (sample as f64 + 0.5) / SAMPLES as f64;
+                let height = low + (top - low) * sample as f64 / SAMPLES as f64;
                 give(&self.entry(along, left, height, bottom), 0.0);
             }
             give(&bottom, 0.0);
@@ -138,8 +156,9 @@ impl Motion {
             // The cylinder comes first wherever the point is above the corner when it arrives.
             let at = along - (flank_radius * flank_radius - left * left).max(0.0).sqrt();
             let height = z - tip(at);
-            if at >= -1e-4 && height >= flank_height {
-                return on(at, height);
+            // Heights are f32: what is a hair below the flank's lower end is at it.
+            if at >= -1e-4 && height >= flank_height - 1e-4 {
+                return on(at, height.max(flank_height));
             }
             if self.profile.corner_radius() <= 0.0 {
                 return lowest;

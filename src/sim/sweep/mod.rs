@@ -2,7 +2,8 @@
 //!
 //! Three-axis sweeps are closed forms ([`straight`]): for a convex profile g that moves in a straight line, the lowest point
 //! over a column is at the one contact where the profile's slope along the path equals the path's slope, and that place
-//! depends only on the column's distance from the path ([`silhouette`]).
+//! depends only on the column's distance from the path ([`silhouette`]). Where the axis is not along z, each column asks for the
+//! extremes of the solid's interval over time ([`tilted`]).
 
 mod contact;
 mod extent;
@@ -10,9 +11,11 @@ mod partial;
 pub mod silhouette;
 mod straight;
 mod surface;
+mod tilted;
 
 pub(super) use partial::Partial;
 pub(super) use straight::{Circumstances, Straight};
+pub(super) use tilted::{Tilted, pace};
 
 use crate::sim::Band;
 use std::ops::Range;
@@ -22,6 +25,8 @@ use std::ops::Range;
 pub(super) enum Sweep {
     /// Three-axis: the tool axis along z all the way.
     Straight(Box<Straight>),
+    /// The tool axis in any direction, turning or not.
+    Tilted(Box<Tilted>),
 }
 
 impl Sweep {
@@ -29,6 +34,7 @@ impl Sweep {
     pub fn rows(&self) -> Range<usize> {
         match self {
             Self::Straight(sweep) => sweep.rows(),
+            Self::Tilted(sweep) => sweep.rows(),
         }
     }
 
@@ -36,6 +42,7 @@ impl Sweep {
     pub fn sweep(&self, band: &mut Band, scratch: &mut Vec<f32>) -> Partial {
         match self {
             Self::Straight(sweep) => sweep.sweep(band, scratch),
+            Self::Tilted(sweep) => sweep.sweep(band),
         }
     }
 }

@@ -30,7 +30,13 @@ pub(in crate::sim) struct Partial {
     pub graze: f32,
     pub contact: Option<(usize, f64)>,
     bins: Option<Box<[Bin; BINS]>>,
+    /// Places of contacts (least and greatest rise, distance to the side) that dominate others.
+    known: [[f64; 3]; KNOWN],
+    next_known: usize,
 }
+
+/// Contacts that are kept to be compared with.
+const KNOWN: usize = 4;
 
 impl Partial {
     pub fn new() -> Self {
@@ -41,7 +47,30 @@ impl Partial {
             graze: 0.0,
             contact: None,
             bins: None,
+            known: [[f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY]; KNOWN],
+            next_known: 0,
         }
+    }
+
+    /// Whether a contact is dominated by none of those known; then it becomes known itself.
+    pub fn is_news(&mut self, [least, greatest, side]: [f64; 3]) -> bool {
+        let dominates = |known: &[f64; 3]| known[0] <= least && known[1] >= greatest && known[2] <= side;
+        if self.known.iter().any(dominates) {
+            return false;
+        }
+        let worse = |known: &[f64; 3]| least <= known[0] && greatest >= known[1] && side <= known[2];
+        let place = self.known.iter().position(worse).unwrap_or(self.next_known);
+        if let Some(known) = self.known.get_mut(place) {
+            *known = [least, greatest, side];
+        }
+        self.next_known = (place + 1) % KNOWN;
+        true
+    }
+
+    /// Adds to the sums only.
+    pub fn add_volume(&mut self, removed: f32, left: f32) {
+        self.removed += f64::from(removed);
+        self.lateral = hull(self.lateral, [left, left]);
     }
 
     /// Whether there is anything to tell.
@@ -50,8 +79,7 @@ impl Partial {
     }
 
     pub fn add_column(&mut self, removed: f32, left: f32, height: [f32; 2]) {
-        self.removed += f64::from(removed);
-        self.lateral = hull(self.lateral, [left, left]);
+        self.add_volume(removed, left);
         self.height = hull(self.height, height);
     }
 

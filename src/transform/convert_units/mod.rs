@@ -62,7 +62,7 @@ impl Transform for ConvertUnits {
                  its words first, by a `rewrite` step.",
             )));
         }
-        let mut found = Context { findings: Vec::new(), ..*context };
+        let mut found = Context { findings: Vec::new(), reports: Vec::new(), ..*context };
         if stated.is_none() {
             found.findings.push(unit_still_unsaid(&found, self.to));
         }

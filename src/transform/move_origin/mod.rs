@@ -91,7 +91,7 @@ impl Transform for MoveOrigin {
         if self.change == Changes::Frame {
             return frame::change(program, &place, &scope, context);
         }
-        let mut found = Context { findings: Vec::new(), ..*context };
+        let mut found = Context { findings: Vec::new(), reports: Vec::new(), ..*context };
         if place.mirrors() {
             found.findings.push(spindle_keeps_its_sense(&found));
         }

@@ -5,3 +5,4 @@ mod feeds;
 mod properties;
 mod split;
 mod split_files;
+mod step;

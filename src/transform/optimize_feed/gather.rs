@@ -1,0 +1,157 @@
+//! The program as blocks with loads, from a simulation of it.
+
+use super::feeds::{Block, Piece};
+use super::limits::{Limits, Turning};
+use crate::diagnostic::{Diagnostic, codes};
+use crate::machining::{Cut, Machining, Options, Ran, Watch};
+use crate::program::geometry::Path;
+use crate::program::motion::Motion;
+use crate::program::record::SpindleDirection;
+use crate::program::{Program, Record, Statement};
+use crate::transform::numbers::word;
+
+/// The path as blocks, and what the targets are there.
+#[derive(Debug, Default)]
+pub(super) struct Gathered {
+    /// Feed motions in order.
+    pub blocks: Vec<Block>,
+    /// For each block, what it is beside its loads.
+    pub marks: Vec<Mark>,
+    /// Cuts whose feed or speed is not known, and what stands in the way of simulating.
+    pub errors: Vec<Diagnostic>,
+}
+
+/// A block among the motions.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Mark {
+    /// Number of the motion.
+    pub motion: usize,
+    /// Its last statement.
+    pub statement: usize,
+    /// Its operation.
+    pub operation: usize,
+    /// Whether it cuts.
+    pub cuts: bool,
+    /// For every limit, how much of it the block has at its programmed feed: the estimate and its bound.
+    pub measured: Vec<[f64; 2]>,
+}
+
+/// Simulates a program and gathers its blocks. `touches` says which motions may get another feed. `None` when `watch` stopped it.
+pub(super) fn gather(
+    machining: &Machining<'_>,
+    options: &Options,
+    limits: &Limits,
+    watch: &dyn Watch,
+    mut touches: impl FnMut(&Motion) -> bool,
+) -> Result<Option<(Gathered, Ran)>, Box<Diagnostic>> {
+    let mut gathered = Gathered::default();
+    let mut before = Before::default();
+    let ran = machining.run(options, watch, &mut |cut| {
+        let touched = touches(cut.motion);
+        gathered.add(machining, limits, cut, touched, &mut before);
+    })?;
+    Ok(ran.map(|ran| (gathered, ran)))
+}
+
+/// The motion before, as far as it decides whether a chain of blocks breaks.
+#[derive(Debug, Default)]
+struct Before {
+    end: usize,
+    tool: Option<usize>,
+    operation: usize,
+    moves_at_feed: bool,
+}
+
+impl Gathered {
+    fn add(
+        &mut self,
+        machining: &Machining<'_>,
+        limits: &Limits,
+        cut: &Cut<'_>,
+        touched: bool,
+        before: &mut Before,
+    ) {
+        let motion = cut.motion;
+        let program = machining.program();
+        let at_feed = !motion.rapid && !matches!(motion.path, Path::Start);
+        let goes_on = before.moves_at_feed
+            && at_feed
+            && before.tool == cut.cutter
+            && before.operation == motion.operation
+            && !stops(program, before.end..motion.statements.end);
+        *before = Before {
+            end: motion.statements.end,
+            tool: cut.cutter,
+            operation: motion.operation,
+            moves_at_feed: at_feed,
+        };
+        if !at_feed {
+            return;
+        }
+        let unit = machining.units();
+        let length = motion.length() * unit.in_mm();
+        let rpm = motion.spindle_rpm();
+        let feed = motion.feed.and_then(|feed| feed.mm_per_minute(unit, rpm, Some(motion.length())));
+        let feed = feed.filter(|feed| *feed > 0.0);
+        let cutter = cut.cutter.and_then(|index| Some((machining.tooling().cutters().get(index)?, index)));
+        let cuts = cut.pieces.iter().any(|(_, found)| limits.cuts(found));
+        let spindle = motion.spindle.as_deref();
+        let turning = rpm.filter(|rpm| *rpm > 0.0).map(|rpm| Turning {
+            rpm,
+            direction: spindle.and_then(|spindle| spindle.direction).unwrap_or(SpindleDirection::Clockwise),
+        });
+        if cuts && touched && (feed.is_none() || turning.is_none()) {
+            self.errors.push(unknown(program, motion, feed.is_none()));
+        }
+        let mut pieces = Vec::with_capacity(cut.pieces.len());
+        let mut measured: Vec<[f64; 2]> = vec![[0.0; 2]; limits.all().len()];
+        if let (Some((cutter, index)), Some(turning)) = (cutter, turning) {
+            for (step, found) in cut.pieces {
+                let load = limits.load(found, cutter, index, turning);
+                pieces.push(Piece { length: (step.to - step.from) * length, load });
+                let Some(feed) = feed.filter(|_| limits.cuts(found)) else { continue };
+                for (measured, (criterion, _)) in measured.iter_mut().zip(limits.all()) {
+                    let [estimate, bound] = limits.measure(*criterion, found, (cutter, index), feed, turning);
+                    *measured = [measured[0].max(estimate), measured[1].max(bound)];
+                }
+            }
+        }
+        let whole = motion.hole.is_some() || matches!(motion.path, Path::Spline(_));
+        self.blocks.push(Block {
+            length,
+            programmed: feed.unwrap_or(0.0),
+            touched: touched && feed.is_some() && motion.feed_from.is_some() && motion.hole.is_none(),
+            splittable: !whole,
+            breaks_chain: !goes_on,
+            pieces,
+        });
+        self.marks.push(Mark {
+            motion: cut.number,
+            statement: motion.last_statement(),
+            operation: motion.operation,
+            cuts,
+            measured,
+        });
+    }
+}
+
+/// Whether the machine stands still between two motions: STOP, OPSTOP, DELAY.
+fn stops(program: &Program, statements: std::ops::Range<usize>) -> bool {
+    let waits = |statement: &Statement| {
+        matches!(statement.record(), Record::Known | Record::Other)
+            && matches!(word(program.text(statement)).as_str(), "STOP" | "OPSTOP" | "DELAY")
+    };
+    statements
+        .filter_map(|index| program.statement(index))
+        .any(|statement| statement.is_live() && waits(statement))
+}
+
+fn unknown(program: &Program, motion: &Motion, feed: bool) -> Diagnostic {
+    let message = if feed {
+        "this motion cuts, and its feed cannot be known"
+    } else {
+        "this motion cuts, and the spindle speed in rev/min is not known"
+    };
+    let span = program.statement(motion.last_statement()).map(Statement::origin).unwrap_or_default();
+    Diagnostic::new(codes::FEED_UNKNOWN, message).label(program.source(), span, "cuts here")
+}

@@ -1,0 +1,205 @@
+//! The parameters of `optimize_feed`.
+
+use super::feeds::{Rules, SplitRule, Window};
+use crate::program::MotionClass;
+use crate::recipe::{Where, not_empty};
+use crate::values::{Count, Factor, Fraction, NonNegative, Positive};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Gives every block the feed at which the cutter's load is at its target, by simulating what it really cuts.
+///
+/// Needs the stock, the teeth of the tools and a spindle speed in rev/min (see `setup:`); for forces a material, too. The program is
+/// simulated, feeds follow in closed form from the load of each piece of path, acceleration lowers what cannot be reached, FEDRATs
+/// are written in the file's own form, and the result is simulated again: the step fails when a target is passed by more than
+/// the simulation's own uncertainty. What the grid cannot know lowers the feed, never raises it.
+///
+/// Rapids, drilling cycles and motions that are not selected keep their feeds. A second run changes nothing beyond
+/// `min_change`, unless `min_ratio` or `max_ratio` tie the feeds to the programmed ones.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OptimizeFeed {
+    /// What `target` is about.
+    #[serde(default)]
+    pub criterion: Criterion,
+    /// The load that is allowed, in the criterion's unit.
+    pub target: Positive,
+    /// Further limits that hold at the same time; the lowest feed counts.
+    #[serde(default, deserialize_with = "not_empty")]
+    #[schemars(length(min = 1))]
+    pub limits: Option<Vec<Limit>>,
+    /// Which part of the path counts for a block.
+    #[serde(default)]
+    pub window: WindowName,
+    /// Lowest feed, in the recipe's unit per minute.
+    pub min_feed: Option<Positive>,
+    /// Highest feed, in the recipe's unit per minute; else the machine's `max_feed`. The lower of the two counts.
+    pub max_feed: Option<Positive>,
+    /// Lowest feed as a share of the programmed one.
+    pub min_ratio: Option<Factor>,
+    /// Highest feed as a share of the programmed one.
+    pub max_ratio: Option<Factor>,
+    /// Feed where nothing is cut, in the recipe's unit per minute; without it, air keeps the programmed feed.
+    pub air_feed: Option<Positive>,
+    /// Path before and after material that keeps the cutting feed, in the recipe's unit; 0.5 mm when left out.
+    pub margin: Option<NonNegative>,
+    /// Largest change of feed along the path, in the recipe's unit per minute and second; else the machine's.
+    pub max_acceleration: Option<Positive>,
+    /// Breaks long blocks whose load varies; never when left out.
+    pub split: Option<Split>,
+    /// Smaller changes, as a share, keep the feed in force.
+    #[serde(default = "min_change")]
+    pub min_change: Fraction,
+    /// Feeds are rounded down to multiples of this, in the recipe's unit per minute; 0 for as many decimals as the file prints.
+    #[serde(default = "round_down_to")]
+    pub round_down_to: NonNegative,
+    /// Distance of the simulation's columns, in the recipe's unit; else a fortieth of the smallest cutter's diameter.
+    pub cell: Option<Positive>,
+    /// Classes of motion that may get another feed.
+    #[serde(default = "motions")]
+    #[schemars(length(min = 1))]
+    pub motions: Vec<MotionClass>,
+    /// Which motions; all when it is left out.
+    #[serde(default)]
+    pub r#where: Where,
+}
+
+/// A limit beside the target.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Limit {
+    /// What it limits.
+    pub criterion: Criterion,
+    /// The load that is allowed, in the criterion's unit.
+    pub target: Positive,
+}
+
+/// What loads the cutter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Criterion {
+    /// Largest local uncut chip thickness, in the recipe's unit.
+    #[default]
+    ChipThickness,
+    /// Volume removed per minute, in the recipe's unit cubed.
+    RemovalRate,
+    /// Largest resultant cutting force over a revolution, in N.
+    Force,
+    /// Largest torque over a revolution, in Nm.
+    Torque,
+    /// Mean power, in kW.
+    Power,
+}
+
+impl Criterion {
+    /// Its unit, in millimetres.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::ChipThickness => "mm",
+            Self::RemovalRate => "mm3/min",
+            Self::Force => "N",
+            Self::Torque => "Nm",
+            Self::Power => "kW",
+        }
+    }
+
+    /// Its name for people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ChipThickness => "chip thickness",
+            Self::RemovalRate => "removal rate",
+            Self::Force => "force",
+            Self::Torque => "torque",
+            Self::Power => "power",
+        }
+    }
+
+    /// Whether it needs the material's coefficients.
+    pub fn needs_material(self) -> bool {
+        matches!(self, Self::Force | Self::Torque | Self::Power)
+    }
+
+    /// Whether it needs the teeth.
+    pub fn needs_teeth(self) -> bool {
+        self != Self::RemovalRate
+    }
+}
+
+/// Which part of the path counts for a block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum WindowName {
+    /// All of the block: the target is never passed.
+    #[default]
+    Block,
+    /// The half of the block before its end point and the half of the block after it, as in the paper: smoother, but the first half of a
+    /// block runs at the feed of the block before.
+    HalfBlocks,
+}
+
+/// When blocks are broken into parts; lengths in the recipe's unit.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Split {
+    /// Only blocks longer than this.
+    pub above: Positive,
+    /// No part is shorter than this.
+    pub shortest: Positive,
+    /// Most parts of one block.
+    pub at_most: Count,
+}
+
+fn min_change() -> Fraction {
+    Fraction::TWENTIETH
+}
+
+fn round_down_to() -> NonNegative {
+    NonNegative::ONE
+}
+
+fn motions() -> Vec<MotionClass> {
+    vec![MotionClass::Cut, MotionClass::Engage, MotionClass::StepOver]
+}
+
+impl OptimizeFeed {
+    /// All limits, the target first, in millimetres.
+    pub(super) fn all_limits(&self, mm: f64) -> Vec<(Criterion, f64)> {
+        let in_mm = |limit: &Limit| {
+            let unit = match limit.criterion {
+                Criterion::ChipThickness => mm,
+                Criterion::RemovalRate => mm * mm * mm,
+                Criterion::Force | Criterion::Torque | Criterion::Power => 1.0,
+            };
+            (limit.criterion, limit.target.get() * unit)
+        };
+        let first = Limit { criterion: self.criterion, target: self.target };
+        std::iter::once(&first).chain(self.limits.iter().flatten()).map(in_mm).collect()
+    }
+
+    /// The rules for feeds, in millimetres; `None` when neither step nor machine says a highest feed.
+    pub(super) fn rules(&self, mm: f64, machine: &crate::setup::Machine) -> Option<Rules> {
+        let feed = |feed: Option<Positive>| feed.map(|feed| feed.get() * mm);
+        let highest = [feed(self.max_feed), machine.max_feed.map(Positive::get)];
+        let max_feed = highest.into_iter().flatten().reduce(f64::min)?;
+        Some(Rules {
+            window: match self.window {
+                WindowName::Block => Window::Block,
+                WindowName::HalfBlocks => Window::HalfBlocks,
+            },
+            min_feed: feed(self.min_feed).unwrap_or(0.0),
+            max_feed,
+            min_ratio: self.min_ratio.map(Factor::get),
+            max_ratio: self.max_ratio.map(Factor::get),
+            air_feed: feed(self.air_feed).map(|air| air.min(max_feed)),
+            margin: self.margin.map_or(0.5, |margin| margin.get() * mm),
+            max_acceleration: feed(self.max_acceleration).or(machine.max_acceleration.map(Positive::get)),
+            split: self.split.map(|split| SplitRule {
+                above: split.above.get() * mm,
+                shortest: split.shortest.get() * mm,
+                at_most: split.at_most.get() as usize,
+            }),
+            min_change: self.min_change.get(),
+            round_down_to: self.round_down_to.get() * mm,
+        })
+    }
+}

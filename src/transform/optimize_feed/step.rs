@@ -1,0 +1,364 @@
+//! The step: simulate, decide, write, simulate again.
+
+use super::acceleration::{Stretch, seconds};
+use super::feeds::{Block, Feeds, Rules, Window, feeds};
+use super::gather::{Gathered, Mark, gather};
+use super::limits::Limits;
+use super::parameters::{Criterion, OptimizeFeed};
+use super::report::{OperationReport, Report};
+use super::split::{Splits, split};
+use crate::diagnostic::{Diagnostic, codes};
+use crate::machining::{Machining, Options, Ran};
+use crate::program::motion::Motion;
+use crate::program::{Change, LengthUnit, Program, Record, Statement, StepId, operation};
+use crate::setup::Setup;
+use crate::transform::feed_plan::{FeedPlan, decimals_of_feed, rounded_down};
+use crate::transform::{Context, Selection, StepReport, Transform};
+use crate::values::Positive;
+use crate::write::Editor;
+use std::collections::BTreeSet;
+
+/// Longest piece of path that is looked at on its own where blocks may not be split, mm: margins and half blocks need to know
+/// where in a block the material is.
+const PIECE: f64 = 1.0;
+
+/// What arithmetic makes of equal loads.
+const NOISE: f64 = 1e-6;
+
+/// Findings of one kind that are told one by one.
+const TOLD: usize = 10;
+
+impl Transform for OptimizeFeed {
+    fn apply(&self, program: Program, context: &mut Context<'_>) -> Result<Program, Box<Diagnostic>> {
+        let job = Job::new(self, &program, context)?;
+        let (before, ran) = job.look(self, &program, context)?;
+        // Assumptions and crashes are told once, of the program as it came.
+        context.findings.extend(ran.findings);
+        let program = job.write(program, &before, context)?;
+        let told = std::mem::take(&mut context.findings);
+        let proof = job.look(self, &program, context);
+        context.findings = told;
+        let (after, _) = proof?;
+        job.prove(&program, &after, context)?;
+        context.reports.push(StepReport::OptimizeFeed(job.report(
+            &program,
+            &before,
+            &after,
+            ran.cell,
+            context.step,
+        )));
+        Ok(program)
+    }
+}
+
+/// The parameters in millimetres.
+struct Job {
+    limits: Vec<(Criterion, f64)>,
+    rules: Rules,
+    options: Options,
+    units: LengthUnit,
+}
+
+impl Job {
+    fn new(step: &OptimizeFeed, program: &Program, context: &Context<'_>) -> Result<Self, Box<Diagnostic>> {
+        let mm = context.recipe.units.in_mm();
+        let Some(rules) = step.rules(mm, &context.setup.machine) else {
+            let message = "there is no highest feed: neither the step's `max_feed` nor the setup's `machine: { max_feed: ... }`";
+            return Err(context.fail(message, &[]));
+        };
+        if rules.min_feed > rules.max_feed {
+            let (low, high) = (rules.min_feed / mm, rules.max_feed / mm);
+            return Err(
+                context.fail(format!("the lowest feed {low} is above the highest {high}"), &["min_feed"])
+            );
+        }
+        let longest = rules.split.map_or(PIECE, |split| split.shortest.min(PIECE));
+        let limits = step.all_limits(mm);
+        let options = Options {
+            cell: step.cell.map(Positive::get).map(|cell| cell * mm),
+            longest,
+            forces: limits.iter().any(|(criterion, _)| criterion.needs_material()),
+            ..Options::default()
+        };
+        Ok(Self { limits, rules, options, units: context.file_units(program) })
+    }
+
+    /// Simulates a program.
+    fn look(
+        &self,
+        step: &OptimizeFeed,
+        program: &Program,
+        context: &mut Context<'_>,
+    ) -> Result<(Gathered, Ran), Box<Diagnostic>> {
+        let setup: &Setup = context.setup;
+        let mut notes = Vec::new();
+        let machining = Machining::new(program, setup, self.units, &mut notes).map_err(|found| {
+            let placed = |found: Diagnostic| {
+                if found.labels.is_empty() { *self.at_step(found, context) } else { found }
+            };
+            let found = found.into_iter().map(placed).collect();
+            several(found, &mut context.findings)
+        })?;
+        context.findings.extend(notes);
+        let needs = |need: fn(Criterion) -> bool| self.limits.iter().any(|(criterion, _)| need(*criterion));
+        if needs(Criterion::needs_teeth) {
+            let gaps = machining.tooling().teeth_gaps(program, setup);
+            if !gaps.is_empty() {
+                return Err(several(gaps, &mut context.findings));
+            }
+        }
+        let material = if needs(Criterion::needs_material) {
+            Some(setup.material().map_err(|found| self.at_step(*found, context))?.coefficients)
+        } else {
+            None
+        };
+        let plan = machining.plan(&self.options).map_err(|found| self.at_cell(*found, context))?;
+        let limits = Limits::new(self.limits.clone(), machining.tooling(), material, plan.cell);
+        let mut selection = Selection::new(&step.r#where, program, context);
+        let watch = context.watch;
+        let gathered = gather(&machining, &self.options, &limits, watch, |motion: &Motion| {
+            !motion.rapid && step.motions.contains(&motion.class) && selection.contains(motion, context)
+        })?;
+        selection.report(context);
+        let Some((mut gathered, ran)) = gathered else {
+            return Err(context.fail("it was stopped before it was done", &[]));
+        };
+        if !gathered.errors.is_empty() {
+            let mut errors = std::mem::take(&mut gathered.errors);
+            let more = errors.len().saturating_sub(TOLD);
+            errors.truncate(TOLD);
+            if more > 0 {
+                let message = format!("{more} more motions cut with a feed or a speed that cannot be known");
+                errors.push(Diagnostic::new(codes::FEED_UNKNOWN, message));
+            }
+            return Err(several(errors, &mut context.findings));
+        }
+        Ok((gathered, ran))
+    }
+
+    fn at_step(&self, found: Diagnostic, context: &Context<'_>) -> Box<Diagnostic> {
+        let place = context.recipe.step_place(usize::from(context.step.0));
+        Box::new(found.label(&context.recipe.source, place, "asked for by this step"))
+    }
+
+    fn at_cell(&self, found: Diagnostic, context: &Context<'_>) -> Box<Diagnostic> {
+        let place = context.recipe.step_value_place(usize::from(context.step.0), &["cell"]);
+        Box::new(found.label(&context.recipe.source, place, "asked for here"))
+    }
+
+    /// Decides the feeds and writes them.
+    fn write(
+        &self,
+        program: Program,
+        before: &Gathered,
+        context: &mut Context<'_>,
+    ) -> Result<Program, Box<Diagnostic>> {
+        let mut blocks = before.blocks.clone();
+        let step = context.step;
+        let (splits, found) = loop {
+            let found = feeds(&blocks, &self.rules);
+            let wanted: Vec<(usize, Vec<f64>)> = before
+                .marks
+                .iter()
+                .zip(&found.parts)
+                .filter_map(|(mark, parts)| {
+                    let ends: Vec<f64> =
+                        parts.split_last().map(|(_, rest)| rest.iter().map(|part| part.end).collect())?;
+                    (!ends.is_empty()).then_some((mark.motion, ends))
+                })
+                .collect();
+            let mut findings = Vec::new();
+            let splits = split(program.clone(), step, &wanted, &mut findings)?;
+            let kept: BTreeSet<usize> = splits.kept.iter().map(|(motion, _)| *motion).collect();
+            let whole = blocks
+                .iter_mut()
+                .zip(&before.marks)
+                .filter(|(block, mark)| block.splittable && kept.contains(&mark.motion));
+            let mut again = false;
+            for (block, _) in whole {
+                block.splittable = false;
+                again = true;
+            }
+            if !again {
+                context.findings.extend(findings);
+                break (splits, found);
+            }
+        };
+        self.warn(&program, before, &found, context);
+        let Splits { program, parts, .. } = splits;
+        let mut wanted = std::collections::BTreeMap::new();
+        for ((mark, feeds), block) in
+            before.marks.iter().zip(&found.parts).zip(&blocks).filter(|(_, block)| block.touched)
+        {
+            let Some(range) = parts.get(mark.motion) else { continue };
+            wanted.extend(range.clone().zip(feeds.iter().map(|part| (part.feed, block.programmed))));
+        }
+        let plan = FeedPlan::numbered(&program, |number, motion| {
+            let (wanted, programmed) = wanted.get(&number)?;
+            if (wanted - programmed).abs() <= NOISE * programmed {
+                return None;
+            }
+            let value = motion.feed?.value;
+            let actual =
+                motion.feed?.mm_per_minute(self.units, motion.spindle_rpm(), Some(motion.length()))?;
+            let decimals = motion.feed_from.map_or(0, |statement| decimals_of_feed(&program, statement));
+            Some(rounded_down(value * wanted / actual, decimals))
+        });
+        let mut editor = Editor::new(program, step);
+        plan.write(&mut editor, &mut context.findings)?;
+        editor.finish()
+    }
+
+    /// Blocks that pass the target at the lowest feed allowed.
+    fn warn(&self, program: &Program, before: &Gathered, found: &Feeds, context: &mut Context<'_>) {
+        for block in found.below_minimum.iter().take(TOLD) {
+            let Some(mark) = before.marks.get(*block) else { continue };
+            let span = program.statement(mark.statement).map(Statement::origin).unwrap_or_default();
+            let message = "the target is passed here at the lowest feed allowed";
+            let place = context.recipe.step_value_place(usize::from(context.step.0), &["min_feed"]);
+            let finding = Diagnostic::new(codes::BELOW_MINIMUM, message)
+                .label(program.source(), span, "more than the target")
+                .label(&context.recipe.source, place, "the lowest feed");
+            context.findings.push(finding);
+        }
+        if let Some(more) = found.below_minimum.len().checked_sub(TOLD).filter(|more| *more > 0) {
+            let message = format!("the target is passed at the lowest feed allowed on {more} more motions");
+            context.findings.push(Diagnostic::new(codes::BELOW_MINIMUM, message));
+        }
+    }
+
+    /// Fails when a block that the step may touch passes a limit by more than the grid's uncertainty, though it does not run at
+    /// the lowest feed. With the paper's window, that is to be expected and only reported.
+    fn prove(
+        &self,
+        program: &Program,
+        after: &Gathered,
+        context: &Context<'_>,
+    ) -> Result<(), Box<Diagnostic>> {
+        if self.rules.window == Window::HalfBlocks {
+            return Ok(());
+        }
+        for (block, mark) in touched(after) {
+            let lowest = self.rules.min_feed.max(self.rules.min_ratio.map_or(0.0, |_| block.programmed));
+            if block.programmed <= lowest * (1.0 + NOISE) {
+                continue;
+            }
+            for ((criterion, limit), [estimate, bound]) in self.limits.iter().zip(&mark.measured) {
+                let allowed = limit * (1.0 + NOISE) + (bound - estimate).max(0.0);
+                if *estimate > allowed {
+                    let span = program.statement(mark.statement).map(Statement::origin).unwrap_or_default();
+                    let message = format!(
+                        "simulated again, the {} is {estimate:.4} {} here; the target is {limit}",
+                        criterion.name(),
+                        criterion.unit()
+                    );
+                    let place = context.recipe.step_value_place(usize::from(context.step.0), &["target"]);
+                    let found = Diagnostic::new(codes::TARGET_EXCEEDED, message)
+                        .label(program.source(), span, "passes the target")
+                        .label(&context.recipe.source, place, "the target");
+                    return Err(Box::new(found));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn report(
+        &self,
+        program: &Program,
+        before: &Gathered,
+        after: &Gathered,
+        cell: f64,
+        step: StepId,
+    ) -> Report {
+        let (criterion, target) = self.limits.first().copied().unwrap_or_default();
+        let uncertainty = touched(after)
+            .filter_map(|(_, mark)| mark.measured.first())
+            .map(|[estimate, bound]| bound - estimate)
+            .fold(0.0, f64::max);
+        let names: Vec<String> =
+            operation::operations(program).into_iter().map(|operation| operation.name).collect();
+        let of = |operation: Option<usize>| {
+            let name = operation.and_then(|index| names.get(index)).cloned().unwrap_or_default();
+            let [one, other] = [before, after].map(|gathered| self.figures(gathered, operation, target));
+            OperationReport {
+                name,
+                seconds_before: one.seconds,
+                seconds_after: other.seconds,
+                largest_before: one.largest,
+                largest_after: other.largest,
+                at_target_before: one.at_target,
+                at_target_after: other.at_target,
+            }
+        };
+        let used: BTreeSet<usize> = before.marks.iter().map(|mark| mark.operation).collect();
+        let count = |fits: fn(&Record) -> bool, inserted: bool| {
+            let mine = |statement: &&Statement| match statement.change() {
+                Change::Inserted(by) => inserted && by == step,
+                Change::Edited(by) => !inserted && by == step,
+                _ => false,
+            };
+            program.statements().iter().filter(mine).filter(|statement| fits(statement.record())).count()
+        };
+        let is_feed = |record: &Record| matches!(record, Record::Feed(_) | Record::Cycle(_));
+        Report {
+            criterion,
+            unit: criterion.unit(),
+            target,
+            cell_mm: cell,
+            uncertainty,
+            acceleration: self.rules.max_acceleration,
+            whole: of(None),
+            operations: used.into_iter().map(|operation| of(Some(operation))).collect(),
+            feeds_added: count(is_feed, true),
+            feeds_changed: count(is_feed, false),
+            points_added: count(
+                |record| matches!(record, Record::Goto(_) | Record::Points(_) | Record::DriveArc(_)),
+                true,
+            ),
+        }
+    }
+
+    fn figures(&self, gathered: &Gathered, operation: Option<usize>, target: f64) -> Figures {
+        let mine = |mark: &Mark| operation.is_none_or(|operation| mark.operation == operation);
+        let pairs = || gathered.blocks.iter().zip(&gathered.marks).filter(|(_, mark)| mine(mark));
+        let stretches: Vec<Stretch> = pairs()
+            .map(|(block, _)| Stretch {
+                length: block.length,
+                feed: block.programmed,
+                breaks_chain: block.breaks_chain,
+            })
+            .collect();
+        let (mut largest, mut cutting, mut at_target) = (0.0_f64, 0.0, 0.0);
+        for (block, mark) in pairs().filter(|(block, mark)| block.touched && mark.cuts) {
+            let estimate = mark.measured.first().map_or(0.0, |[_, bound]| *bound);
+            largest = largest.max(mark.measured.first().map_or(0.0, |[estimate, _]| *estimate));
+            cutting += block.length;
+            if (0.9..=1.0 + 1e-3).contains(&(estimate / target)) {
+                at_target += block.length;
+            }
+        }
+        Figures {
+            seconds: seconds(&stretches, self.rules.max_acceleration),
+            largest,
+            at_target: if cutting > 0.0 { at_target / cutting } else { 0.0 },
+        }
+    }
+}
+
+struct Figures {
+    seconds: f64,
+    largest: f64,
+    at_target: f64,
+}
+
+fn touched(gathered: &Gathered) -> impl Iterator<Item = (&Block, &Mark)> {
+    gathered.blocks.iter().zip(&gathered.marks).filter(|(block, _)| block.touched)
+}
+
+/// Of several errors the last one stops the step, the others are findings before it.
+fn several(mut found: Vec<Diagnostic>, findings: &mut Vec<Diagnostic>) -> Box<Diagnostic> {
+    let last = found.pop().unwrap_or_else(|| Diagnostic::new(codes::STEP_FAILED, "the step cannot run"));
+    findings.extend(found);
+    Box::new(last)
+}
