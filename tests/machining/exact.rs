@@ -23,7 +23,7 @@ fn compare(corner: f64, y: f64, z: f64, rise: f64, teeth: &Teeth) {
         spindle: SpindleDirection::Clockwise,
     };
     let height = (-z).max(-(z + rise));
-    let fineness = Fineness { looks: 90, points: 9, height: height * 0.999, tolerance: 1e-5 };
+    let fineness = Fineness { looks: 60, points: 61, height: height * 0.999, tolerance: 1e-5 };
     let inside = |point: Point3<f64>| {
         point.x > 0.0 && point.y.abs() < 30.0 && point.z < 0.0 && {
             // What the way to the start of the motion has already taken.

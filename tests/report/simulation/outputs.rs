@@ -12,6 +12,11 @@ fn slot() -> Simulated {
     simulate(SLOT, SHOP, LengthUnit::Mm).unwrap()
 }
 
+/// Without forces, which are the model's matter and have tests of their own.
+fn without_forces() -> Simulated {
+    simulate(SLOT, &SHOP.replace("material: { k_tc: 2000, name: C45 }\n", ""), LengthUnit::Mm).unwrap()
+}
+
 fn csv(found: &Simulated) -> String {
     let mut out = Vec::new();
     to_csv(found, &mut out).unwrap();
@@ -20,16 +25,13 @@ fn csv(found: &Simulated) -> String {
 
 #[test]
 fn a_simulation_as_text() {
-    snapshots("report").bind(|| insta::assert_snapshot!("simulation", to_text(&slot())));
+    snapshots("report").bind(|| insta::assert_snapshot!("simulation", to_text(&without_forces())));
 }
 
 #[test]
 fn a_simulation_as_csv_and_json() {
-    let found = slot();
-    let mut settings = rounded_snapshots("report");
-    // Forces are the model's matter; its own tests have them.
-    settings.add_filter(r"(\d\.\d{3})\d+", "$1");
-    settings.bind(|| {
+    let found = without_forces();
+    rounded_snapshots("report").bind(|| {
         insta::assert_snapshot!("simulation_csv", csv(&found));
         insta::assert_snapshot!("simulation_json", to_json(&found));
     });
@@ -81,7 +83,9 @@ fn what_is_left_is_compared_with_a_target() {
     let compared = deep.target.clone().unwrap();
     let thickest = compared.gouge.thickest.unwrap();
     assert!((thickest.mm - 1.0).abs() < 1e-4 && (thickest.at[2] + 3.0).abs() < 1e-4, "{thickest:?}");
-    assert!((compared.gouge.volume_mm3 - 60.0 * 15.0).abs() < 0.01 * 900.0);
+    // Beside walls a column is near enough to what is left.
+    let wanted = 60.0 * (15.0 - 2.0 * 0.25);
+    assert!((compared.gouge.volume_mm3 - wanted).abs() < 1e-2, "{}", compared.gouge.volume_mm3);
     assert_eq!(deep.findings[0].code.id(), "CL0518");
     deep.compare(&target, "part.stl", Some(1.1));
     assert_eq!(deep.target.unwrap().gouge.columns, 0);
