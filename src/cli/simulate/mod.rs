@@ -1,11 +1,13 @@
 //! `clsmith simulate`.
 
-use super::exit::Exit;
-use super::files::{self, STANDARD};
-use super::findings::FindingArgs;
-use super::output::{Outputs, unless_nobody_reads};
-use super::progress::Progress;
-use super::terminal;
+mod outputs;
+
+use crate::cli::exit::Exit;
+use crate::cli::files::{self, STANDARD};
+use crate::cli::findings::FindingArgs;
+use crate::cli::output::{Outputs, unless_nobody_reads};
+use crate::cli::progress::Progress;
+use crate::cli::terminal;
 use clap::Args;
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::machining::{Budget, Machining, Options};
@@ -14,10 +16,10 @@ use clsmith::program::{Dialect, Program};
 use clsmith::report::policy::Policy;
 use clsmith::report::simulation::{self, Simulated, plot};
 use clsmith::report::stats::Units;
-use clsmith::setup::{BodyShape, MaterialChoice, Setup};
-use clsmith::sim::{Mesh, export, remains};
+use clsmith::setup::Setup;
+use clsmith::sim::Mesh;
 use clsmith::values::LengthUnit;
-use clsmith::write::{is_interrupt, same_file};
+use clsmith::write::is_interrupt;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -166,30 +168,6 @@ impl Simulate {
         }
     }
 
-    /// What is wrong with the command line beyond what clap can say.
-    fn problem(&self) -> Option<String> {
-        let outputs: Vec<&Path> = self.outputs().collect();
-        let twice = outputs.iter().enumerate().find_map(|(index, one)| {
-            outputs.iter().skip(index + 1).find(|other| *other == one || same_file(one, other))
-        });
-        if let Some(twice) = twice {
-            return Some(format!("two outputs would go to {}", twice.display()));
-        }
-        let standard = Some(Path::new(STANDARD));
-        let read = [Some(&self.program), Some(&self.setup), self.plot_before.as_ref(), self.target.as_ref()];
-        let read = read.into_iter().flatten().filter(|path| Some(path.as_path()) == standard).count();
-        if read > 1 {
-            return Some("standard input can be read only once".into());
-        }
-        let binary = [&self.stl, &self.save_stock].into_iter().any(|path| path.as_deref() == standard);
-        binary.then(|| "--stl and --save-stock need a file".into())
-    }
-
-    fn outputs(&self) -> impl Iterator<Item = &Path> {
-        let all = [&self.csv, &self.json, &self.stl, &self.save_stock, &self.plot];
-        all.into_iter().filter_map(|path| path.as_deref())
-    }
-
     /// Everything but writing: the simulation, and the drawing if one is wanted. What does not stop the run is added to `findings`.
     fn simulate(
         &self,
@@ -251,53 +229,6 @@ impl Simulate {
             Options { cell: self.cell, budget: Budget { bytes, ..Budget::default() }, ..Options::default() };
         progress.begin(program.source().name());
         Simulated::of(&machining, &options, progress)?.ok_or(Stop::Interrupted)
-    }
-
-    /// No output may be an input, nor a file that the setup names.
-    fn overwrites(&self, setup: &Setup) -> Result<(), Stop> {
-        let mut inputs = vec![self.program.as_path(), &self.setup];
-        inputs.extend([&self.target, &self.plot_before].into_iter().filter_map(|path| path.as_deref()));
-        let bodies = setup.stock.iter().flat_map(|stock| &stock.bodies);
-        inputs.extend(bodies.filter_map(|body| match &body.shape {
-            BodyShape::Stl { file, .. } | BodyShape::Saved(file) => Some(file.path.as_path()),
-            BodyShape::Block { .. } | BodyShape::Cylinder { .. } => None,
-        }));
-        if let Some(MaterialChoice::File(file)) = &setup.material {
-            inputs.push(&file.path);
-        }
-        inputs.retain(|path| *path != Path::new(STANDARD));
-        for target in self.outputs().filter(|path| *path != Path::new(STANDARD)) {
-            if let Some(hit) = inputs.iter().find(|path| same_file(path, target)) {
-                let message =
-                    format!("writing {} would overwrite the input {}", target.display(), hit.display());
-                return Err(Diagnostic::new(codes::OUTPUT_IS_INPUT, message).into());
-            }
-        }
-        Ok(())
-    }
-
-    /// Writes what was asked for; a finding when that fails.
-    fn write(
-        &self,
-        simulated: &Simulated,
-        drawn: Option<&str>,
-        outputs: &Outputs,
-    ) -> io::Result<Option<Diagnostic>> {
-        type Writer<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
-        let all: [(&Option<PathBuf>, Writer<'_>); 5] = [
-            (&self.csv, Box::new(|out| simulation::to_csv(simulated, out))),
-            (&self.json, Box::new(|out| out.write_all(simulation::to_json(simulated).as_bytes()))),
-            (&self.stl, Box::new(|out| export::write_stl(&simulated.left, out))),
-            (&self.save_stock, Box::new(|out| remains::write(&simulated.left, out))),
-            (&self.plot, Box::new(|out| out.write_all(drawn.unwrap_or_default().as_bytes()))),
-        ];
-        for (path, write_all) in &all {
-            let Some(path) = path else { continue };
-            if let Some(found) = outputs.write(path, write_all)? {
-                return Ok(Some(found));
-            }
-        }
-        Ok(None)
     }
 
     /// The summary on standard output, or on standard error when an output goes there.

@@ -1,0 +1,85 @@
+//! What `clsmith simulate` writes, and where it may not.
+
+use super::{Simulate, Stop};
+use crate::cli::files::STANDARD;
+use crate::cli::output::Outputs;
+use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::report::simulation::{self, Simulated};
+use clsmith::setup::{BodyShape, MaterialChoice, Setup};
+use clsmith::sim::{export, remains};
+use clsmith::write::same_file;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+impl Simulate {
+    /// What is wrong with the command line beyond what clap can say.
+    pub(super) fn problem(&self) -> Option<String> {
+        let outputs: Vec<&Path> = self.outputs().collect();
+        let twice = outputs.iter().enumerate().find_map(|(index, one)| {
+            outputs.iter().skip(index + 1).find(|other| *other == one || same_file(one, other))
+        });
+        if let Some(twice) = twice {
+            return Some(format!("two outputs would go to {}", twice.display()));
+        }
+        let standard = Some(Path::new(STANDARD));
+        let read = [Some(&self.program), Some(&self.setup), self.plot_before.as_ref(), self.target.as_ref()];
+        let read = read.into_iter().flatten().filter(|path| Some(path.as_path()) == standard).count();
+        if read > 1 {
+            return Some("standard input can be read only once".into());
+        }
+        let binary = [&self.stl, &self.save_stock].into_iter().any(|path| path.as_deref() == standard);
+        binary.then(|| "--stl and --save-stock need a file".into())
+    }
+
+    pub(super) fn outputs(&self) -> impl Iterator<Item = &Path> {
+        let all = [&self.csv, &self.json, &self.stl, &self.save_stock, &self.plot];
+        all.into_iter().filter_map(|path| path.as_deref())
+    }
+
+    /// No output may be an input, nor a file that the setup names.
+    pub(super) fn overwrites(&self, setup: &Setup) -> Result<(), Stop> {
+        let mut inputs = vec![self.program.as_path(), &self.setup];
+        inputs.extend([&self.target, &self.plot_before].into_iter().filter_map(|path| path.as_deref()));
+        let bodies = setup.stock.iter().flat_map(|stock| &stock.bodies);
+        inputs.extend(bodies.filter_map(|body| match &body.shape {
+            BodyShape::Stl { file, .. } | BodyShape::Saved(file) => Some(file.path.as_path()),
+            BodyShape::Block { .. } | BodyShape::Cylinder { .. } => None,
+        }));
+        if let Some(MaterialChoice::File(file)) = &setup.material {
+            inputs.push(&file.path);
+        }
+        inputs.retain(|path| *path != Path::new(STANDARD));
+        for target in self.outputs().filter(|path| *path != Path::new(STANDARD)) {
+            if let Some(hit) = inputs.iter().find(|path| same_file(path, target)) {
+                let message =
+                    format!("writing {} would overwrite the input {}", target.display(), hit.display());
+                return Err(Diagnostic::new(codes::OUTPUT_IS_INPUT, message).into());
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes what was asked for; a finding when that fails.
+    pub(super) fn write(
+        &self,
+        simulated: &Simulated,
+        drawn: Option<&str>,
+        outputs: &Outputs,
+    ) -> io::Result<Option<Diagnostic>> {
+        type Writer<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
+        let all: [(&Option<PathBuf>, Writer<'_>); 5] = [
+            (&self.csv, Box::new(|out| simulation::to_csv(simulated, out))),
+            (&self.json, Box::new(|out| out.write_all(simulation::to_json(simulated).as_bytes()))),
+            (&self.stl, Box::new(|out| export::write_stl(&simulated.left, out))),
+            (&self.save_stock, Box::new(|out| remains::write(&simulated.left, out))),
+            (&self.plot, Box::new(|out| out.write_all(drawn.unwrap_or_default().as_bytes()))),
+        ];
+        for (path, write_all) in &all {
+            let Some(path) = path else { continue };
+            if let Some(found) = outputs.write(path, write_all)? {
+                return Ok(Some(found));
+            }
+        }
+        Ok(None)
+    }
+}
