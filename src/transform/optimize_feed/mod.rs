@@ -1,6 +1,6 @@
 //! `optimize_feed`: block by block, the feed at which the load of the cutter stays within its targets.
 //!
-//! [`gather`] simulates the program and gives each block the largest feeds of its pieces ([`limits`]). [`feeds`] decides, and knows nothing of text: blocks with the largest feeds of their pieces go in, feeds of blocks and of
+//! `gather` simulates the program and gives each block the largest feeds of its pieces (`limits`). [`feeds`] decides, and knows nothing of text: blocks with the largest feeds of their pieces go in, feeds of blocks and of
 //! parts of blocks come out. [`split`] breaks motions of a program into parts, so that each can have the feed of its part.
 
 pub mod acceleration;
