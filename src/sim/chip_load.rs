@@ -17,7 +17,7 @@ impl Engagement {
             let chip = teeth.thickness(per_turn * f64::from(bin.share), f64::from(bin.radial));
             chip.min(self.thickness(bin, per_turn))
         };
-        self.bins.iter().map(of).fold(0.0, f64::max)
+        self.engaged().map(of).fold(0.0, f64::max)
     }
 
     /// As [`Engagement::chip_thickness`], with everything that the grid may have missed: the shares' bounds, and slivers that
@@ -29,7 +29,7 @@ impl Engagement {
             chip.min(self.thickness(bin, per_turn))
         };
         let graze = if self.graze > 0.0 { teeth.thickness(per_turn * self.graze, 1.0) } else { 0.0 };
-        self.bins.iter().map(of).fold(graze, f64::max)
+        self.engaged().map(of).fold(graze, f64::max)
     }
 
     /// The largest feed in mm/min at which no chip is thicker than `target` (mm), at a spindle speed in rev/min: formula (2) in
@@ -42,7 +42,7 @@ impl Engagement {
             if share > 0.0 { teeth.advance_for(target, radial) * rpm / share } else { f64::INFINITY }
         };
         let (mut all, mut thick) = (limit(self.graze, 1.0), limit(self.graze, 1.0));
-        for bin in &self.bins {
+        for bin in self.engaged() {
             let feed = limit(f64::from(bin.share_bound), f64::from(bin.radial));
             all = all.min(feed);
             if f64::from(bin.thickness) > target {

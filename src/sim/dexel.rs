@@ -82,6 +82,17 @@ impl Band {
         first.into_iter().chain(below)
     }
 
+    /// Whether no column has more than one interval.
+    pub(super) fn is_shallow(&self) -> bool {
+        self.below.is_empty()
+    }
+
+    /// Tops and lower ends of a stretch of columns.
+    pub(super) fn stretch_mut(&mut self, range: std::ops::Range<usize>) -> (&mut [f32], &[f32]) {
+        let top = self.top.get_mut(range.clone()).unwrap_or_default();
+        (top, self.low.get(range).unwrap_or_default())
+    }
+
     /// Whether a column has more than one interval.
     pub fn is_deep(&self, index: usize) -> bool {
         !self.below.is_empty() && self.below.contains_key(&(index as u32))

@@ -132,6 +132,11 @@ impl Engagement {
         }
     }
 
+    /// The bins that are engaged.
+    pub fn engaged(&self) -> impl Iterator<Item = &Bin> {
+        self.bins.iter().filter(|bin| bin.is_engaged())
+    }
+
     /// Whether material was removed.
     pub fn cuts(&self) -> bool {
         self.removed_mm3 > 0.0

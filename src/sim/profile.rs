@@ -26,6 +26,9 @@ pub struct Profile {
     flank_start: [f64; 2],
     /// Height of the cutting part above the tip.
     height: f64,
+    /// Tangents of `bottom_angle` and `taper`, which sweeps ask for at every column.
+    bottom_tan: f64,
+    taper_tan: f64,
 }
 
 /// A point of the meridian.
@@ -111,12 +114,14 @@ impl Profile {
             taper,
             flank_start,
             height: flute_length.max(flank_start[1] + SAME),
+            bottom_tan: tan_tip,
+            taper_tan: taper.tan(),
         })
     }
 
     /// Largest radius of the cutting part.
     pub fn radius(&self) -> f64 {
-        self.flank_start[0] + (self.height - self.flank_start[1]) * self.taper.tan()
+        self.flank_start[0] + (self.height - self.flank_start[1]) * self.taper_tan
     }
 
     /// Height of the cutting part above the tip.
@@ -158,7 +163,7 @@ impl Profile {
     /// lower end.
     pub fn height_at(&self, r: f64) -> f64 {
         if r <= self.bottom_radius {
-            return r * self.bottom_angle.tan();
+            return r * self.bottom_tan;
         }
         if r <= self.flank_start[0] {
             let across = (r - self.corner_center[0]).min(self.corner_radius);
@@ -168,17 +173,17 @@ impl Profile {
         if self.taper <= 0.0 {
             return self.flank_start[1];
         }
-        (self.flank_start[1] + (r - self.flank_start[0]) / self.taper.tan()).min(self.height)
+        (self.flank_start[1] + (r - self.flank_start[0]) / self.taper_tan).min(self.height)
     }
 
     /// Radius at a height above the tip; of a flat bottom the outer edge.
     pub fn radius_at(&self, z: f64) -> f64 {
         if z >= self.flank_start[1] {
-            return self.flank_start[0] + (z.min(self.height) - self.flank_start[1]) * self.taper.tan();
+            return self.flank_start[0] + (z.min(self.height) - self.flank_start[1]) * self.taper_tan;
         }
-        let bottom_height = self.bottom_radius * self.bottom_angle.tan();
+        let bottom_height = self.bottom_radius * self.bottom_tan;
         if z < bottom_height {
-            return (z / self.bottom_angle.tan()).max(0.0);
+            return (z / self.bottom_tan).max(0.0);
         }
         let down = self.corner_center[1] - z;
         self.corner_center[0] + (self.corner_radius * self.corner_radius - down * down).max(0.0).sqrt()
@@ -189,7 +194,7 @@ impl Profile {
         if z >= self.flank_start[1] {
             return FRAC_PI_2 - self.taper;
         }
-        if z < self.bottom_radius * self.bottom_angle.tan() || self.corner_radius <= 0.0 {
+        if z < self.bottom_radius * self.bottom_tan || self.corner_radius <= 0.0 {
             return self.bottom_angle;
         }
         ((self.corner_center[1] - z) / self.corner_radius).clamp(-1.0, 1.0).acos()
@@ -216,7 +221,7 @@ impl Profile {
             let (sin, cos) = self.taper.sin_cos();
             return [cos, sin];
         }
-        if z < self.bottom_radius * self.bottom_angle.tan() || self.corner_radius <= 0.0 {
+        if z < self.bottom_radius * self.bottom_tan || self.corner_radius <= 0.0 {
             let (sin, cos) = self.bottom_angle.sin_cos();
             return [sin, cos];
         }
@@ -257,7 +262,7 @@ impl Profile {
         if z >= self.flank_start[1] {
             return self.flank_length_start() + (z.min(self.height) - self.flank_start[1]) / self.taper.cos();
         }
-        let bottom_height = self.bottom_radius * self.bottom_angle.tan();
+        let bottom_height = self.bottom_radius * self.bottom_tan;
         if z < bottom_height {
             return z.max(0.0) / self.bottom_angle.sin();
         }

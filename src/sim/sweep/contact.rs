@@ -1,11 +1,8 @@
 //! Contacts: where on the cutter a point of a column was reached first, and how fast the surface advances there.
 
-use super::partial::{Contact, Partial};
+use super::partial::{Across, Contact, Partial};
 use super::surface::Surface;
 use crate::sim::Profile;
-
-/// Material thinner than this (mm) is always looked at closely: there its thickness may be what limits the chip.
-const SKIN: f64 = 0.3;
 
 /// Samples of a column's height when forces are asked for.
 const SAMPLES: usize = 4;
@@ -54,26 +51,33 @@ impl Motion {
     /// Adds a column's contacts.
     ///
     /// The sweep looks the same all along the path, so the share of a contact depends only on its place across the path: on
-    /// `rise`, its height measured square to the path, and on its distance to the side. Without detail, columns that another
-    /// one dominates (further in, and over a wider range of rise) are not looked at more closely.
+    /// `rise`, its height measured square to the path, and on its distance to the side. It grows inwards, and upwards unless the
+    /// path descends. Without detail, columns that another one dominates (further in and higher; on a descent, over a
+    /// wider range of rise) are not looked at more closely.
+    #[inline]
     pub fn add(&self, column: Column, surface: &Surface, partial: &mut Partial) {
-        let Column { along, left, low, top } = column;
-        if !self.detail && top - low > SKIN {
-            let rise = |z: f64| (z - self.start) * self.across - along * self.along;
-            // Straight down, the share only depends on the distance from the axis.
-            let rho = along.hypot(left);
-            let place =
-                if self.across > 1e-9 { [rise(low), rise(top), left.abs()] } else { [rho, -rho, 0.0] };
-            if !partial.is_news(place) {
-                partial.add_volume((top - low) as f32, left as f32);
-                return;
-            }
+        let depth = column.top - column.low;
+        let place = self.place(&column);
+        if !self.detail && partial.is_dominated(&place, self.along >= 0.0, depth) {
+            partial.add_volume(depth as f32, column.left as f32);
+        } else {
+            self.look(column, place, surface, partial);
         }
+    }
+
+    /// Looks at a column closely.
+    #[inline(never)]
+    fn look(&self, column: Column, place: Across, surface: &Surface, partial: &mut Partial) {
+        let Column { along, left, low, top } = column;
+        let depth = top - low;
         let bottom = self.lowest(along, left, surface);
         let upper = self.entry(along, left, top, bottom);
-        let thickness = if upper.cos > 1e-3 { (top - low) / upper.cos } else { f64::INFINITY };
+        let steepness = if upper.cos > 1e-3 { 1.0 / upper.cos } else { f64::INFINITY };
+        let thickness = depth * steepness;
         let heights = [bottom.height.min(upper.height), upper.height.max(bottom.height)];
-        partial.add_column((top - low) as f32, left as f32, heights.map(|height| height as f32));
+        partial.add_column(depth as f32, left as f32, heights.map(|height| height as f32));
+        let angle = (left as f32).atan2(upper.ahead as f32);
+        partial.remember(place, self.along >= 0.0, steepness, angle);
         let mut give = |touch: &Touch, cap: f64| partial.add(&self.contact(touch, left, thickness, cap));
         let mut cap = 0.0;
         if self.along < 0.0 {
@@ -87,6 +91,18 @@ impl Motion {
                 give(&self.entry(along, left, height, bottom), 0.0);
             }
         }
+    }
+
+    /// Where a column's contacts lie across the path. Straight down, the share only depends on the distance from the axis.
+    #[inline]
+    fn place(&self, column: &Column) -> Across {
+        let Column { along, left, low, top } = *column;
+        if self.across <= 1e-9 {
+            let rho = length(along, left);
+            return Across { least: rho, greatest: -rho, side: 0.0 };
+        }
+        let rise = |z: f64| (z - self.start) * self.across - along * self.along;
+        Across { least: rise(low), greatest: rise(top), side: left.abs() }
     }
 
     /// A contact as the bins take it. `cap` is a share that is reached between this touch and another.
@@ -133,7 +149,7 @@ impl Motion {
             0.0
         };
         let ahead = along - at;
-        let rho = ahead.hypot(left).min(self.profile.radius());
+        let rho = length(ahead, left).min(self.profile.radius());
         let [sin, cos] = self.profile.normal_at_radius(rho);
         Touch { ahead, rho, height: self.profile.height_at(rho), sin, cos }
     }
@@ -149,7 +165,7 @@ impl Motion {
         let on = |at: f64, height: f64| {
             let ahead = along - at;
             let [sin, cos] = self.profile.normal_at(height);
-            Touch { ahead, rho: ahead.hypot(left), height, sin, cos }
+            Touch { ahead, rho: length(ahead, left), height, sin, cos }
         };
         if self.profile.taper() <= 0.0 {
             // The cylinder comes first wherever the point is above the corner when it arrives.
@@ -189,7 +205,7 @@ impl Motion {
     fn first_time(&self, along: f64, left: f64, z: f64, slope: f64, until: f64) -> f64 {
         let radius = self.profile.radius();
         let over = |at: f64| {
-            let rho = (along - at).hypot(left);
+            let rho = length(along - at, left);
             z - self.start - slope * at - self.profile.height_at(rho.min(radius))
         };
         let mut low = (along - (radius * radius - left * left).max(0.0).sqrt()).clamp(0.0, until.max(0.0));
@@ -214,4 +230,9 @@ impl Motion {
         }
         high
     }
+}
+
+/// Length of a vector; plain, for nothing here is near the ends of `f64`'s range.
+fn length(a: f64, b: f64) -> f64 {
+    (a * a + b * b).sqrt()
 }

@@ -30,13 +30,45 @@ pub(in crate::sim) struct Partial {
     pub graze: f32,
     pub contact: Option<(usize, f64)>,
     bins: Option<Box<[Bin; BINS]>>,
-    /// Places of contacts (least and greatest rise, distance to the side) that dominate others.
-    known: [[f64; 3]; KNOWN],
+    known: [Known; KNOWN],
     next_known: usize,
 }
 
 /// Contacts that are kept to be compared with.
 const KNOWN: usize = 4;
+
+/// Contacts no further apart to the side than this (mm) are put together.
+const ASIDE: f64 = 1e-3;
+
+/// Where a column's contacts lie across the path: from its least to its greatest rise, at a distance to the side, mm.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::sim) struct Across {
+    pub least: f64,
+    pub greatest: f64,
+    pub side: f64,
+}
+
+/// A contact that was looked at.
+#[derive(Debug, Clone, Copy)]
+struct Known {
+    place: Across,
+    /// Thickness along the normal over depth along the column.
+    steepness: f64,
+    bin: usize,
+}
+
+impl Known {
+    const NONE: Self = Self {
+        place: Across { least: f64::INFINITY, greatest: f64::NEG_INFINITY, side: f64::INFINITY },
+        steepness: 0.0,
+        bin: 0,
+    };
+}
+
+fn bin_of(angle: f32) -> usize {
+    let turn = (f64::from(angle) + PI) / TAU * BINS as f64;
+    (turn.max(0.0) as usize).min(BINS - 1)
+}
 
 impl Partial {
     pub fn new() -> Self {
@@ -47,27 +79,55 @@ impl Partial {
             graze: 0.0,
             contact: None,
             bins: None,
-            known: [[f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY]; KNOWN],
+            known: [Known::NONE; KNOWN],
             next_known: 0,
         }
     }
 
-    /// Whether a contact is dominated by none of those known; then it becomes known itself.
-    pub fn is_news(&mut self, [least, greatest, side]: [f64; 3]) -> bool {
-        let dominates = |known: &[f64; 3]| known[0] <= least && known[1] >= greatest && known[2] <= side;
-        if self.known.iter().any(dominates) {
-            return false;
+    /// Whether a contact is dominated by one that is known; the thickness of its material then counts where that one is.
+    #[inline]
+    pub fn is_dominated(&mut self, place: &Across, climbs: bool, depth: f64) -> bool {
+        let dominates = |known: &&Known| {
+            known.place.greatest >= place.greatest
+                && known.place.side <= place.side
+                && (climbs || known.place.least <= place.least)
+        };
+        let Some(known) = self.known.iter().find(dominates) else { return false };
+        let bin = self.bins.as_mut().and_then(|bins| bins.get_mut(known.bin));
+        if let Some(bin) = bin {
+            bin.thickness = bin.thickness.max((depth * known.steepness) as f32);
         }
-        let worse = |known: &[f64; 3]| least <= known[0] && greatest >= known[1] && side <= known[2];
-        let place = self.known.iter().position(worse).unwrap_or(self.next_known);
-        if let Some(known) = self.known.get_mut(place) {
-            *known = [least, greatest, side];
-        }
-        self.next_known = (place + 1) % KNOWN;
         true
     }
 
+    /// Keeps a contact to be compared with: put together with one whose range of rise it continues, in place of one that it
+    /// dominates, or of the oldest.
+    pub fn remember(&mut self, place: Across, climbs: bool, steepness: f64, angle: f32) {
+        let touches = |known: &&mut Known| {
+            climbs || (known.place.least <= place.greatest && known.place.greatest >= place.least)
+        };
+        let near = |known: &&mut Known| (known.place.side - place.side).abs() <= ASIDE;
+        if let Some(known) = self.known.iter_mut().filter(near).find(touches) {
+            known.place.least = known.place.least.min(place.least);
+            known.place.greatest = known.place.greatest.max(place.greatest);
+            known.place.side = known.place.side.max(place.side);
+            known.steepness = known.steepness.max(steepness);
+            return;
+        }
+        let worse = |known: &Known| {
+            place.greatest >= known.place.greatest
+                && place.side <= known.place.side
+                && (climbs || place.least <= known.place.least)
+        };
+        let index = self.known.iter().position(worse).unwrap_or(self.next_known);
+        if let Some(known) = self.known.get_mut(index) {
+            *known = Known { place, steepness, bin: bin_of(angle) };
+        }
+        self.next_known = (index + 1) % KNOWN;
+    }
+
     /// Adds to the sums only.
+    #[inline]
     pub fn add_volume(&mut self, removed: f32, left: f32) {
         self.removed += f64::from(removed);
         self.lateral = hull(self.lateral, [left, left]);
@@ -85,9 +145,7 @@ impl Partial {
 
     pub fn add(&mut self, contact: &Contact) {
         let bins = self.bins.get_or_insert_with(|| Box::new([Bin::EMPTY; BINS]));
-        let turn = (f64::from(contact.angle) + PI) / TAU * BINS as f64;
-        let index = (turn.max(0.0) as usize).min(BINS - 1);
-        let Some(bin) = bins.get_mut(index) else { return };
+        let Some(bin) = bins.get_mut(bin_of(contact.angle)) else { return };
         bin.low = bin.low.min(contact.length);
         bin.high = bin.high.max(contact.length);
         bin.thickness = bin.thickness.max(contact.thickness);

@@ -4,8 +4,11 @@ use super::contact::{Column, Motion};
 use super::extent::Extent;
 use super::partial::Partial;
 use super::surface::{Path, Row, Surface};
-use crate::sim::dexel::{Band, Layout};
+use crate::sim::dexel::{Band, Layout, THINNEST};
 use crate::sim::{Collar, Cutter};
+
+/// Columns that are looked at together.
+const STEP: usize = 16;
 
 /// A straight piece, made ready for any band of columns.
 #[derive(Debug, Clone)]
@@ -132,8 +135,13 @@ impl Straight {
     fn columns(&self, [from, to]: [f64; 2]) -> std::ops::Range<usize> {
         let Layout { origin: [x0, _], cell, columns, .. } = self.layout;
         let column = |x: f64| (self.from[0] + x - x0) / cell;
-        let first = column(from).ceil().clamp(0.0, columns as f64) as usize;
-        let end = (column(to).floor() + 1.0).clamp(0.0, columns as f64) as usize;
+        // Casts round towards zero and saturate, and are instructions where `ceil` and `floor` are calls.
+        let up = |at: f64| {
+            let whole = at.max(0.0) as usize;
+            whole + usize::from(at > whole as f64)
+        };
+        let first = up(column(from)).min(columns);
+        let end = if column(to) < 0.0 { 0 } else { (column(to) as usize).saturating_add(1).min(columns) };
         first..end.max(first)
     }
 
@@ -142,7 +150,10 @@ impl Straight {
         let mut partial = Partial::new();
         let rows = self.rows();
         let (first, end) = (rows.start.max(band.first_row), rows.end.min(band.first_row + band.rows()));
-        for row in first..end {
+        // From the middle outwards, so that the contacts that dominate others come first.
+        let middle = (((self.from[1] - self.layout.origin[1]) / self.layout.cell).max(0.0) as usize)
+            .clamp(first, end.max(first));
+        for row in (middle..end).chain((first..middle).rev()) {
             let y = self.layout.center(0, row)[1] - self.from[1];
             for (index, collar) in &self.collars {
                 self.touch(band, row, y, *index, collar, &mut partial);
@@ -177,13 +188,38 @@ impl Straight {
         let seen = Row { x: x as f32, y: y as f32, cell: self.layout.cell as f32 };
         self.surface.heights(scratch, seen, self.path);
         let range = offset + columns.start..offset + columns.end;
-        let mut from = 0;
-        while let Some(hit) = first_hit(band.top.get(range.clone()).unwrap_or_default(), scratch, from) {
-            from = hit + 1;
-            let lowest = scratch.get(hit).copied().unwrap_or(f32::INFINITY);
+        let [ux, uy] = [f64::from(self.path.ux), f64::from(self.path.uy)];
+        let place = |hit: usize| {
             let x = x + hit as f64 * self.layout.cell;
-            let [ux, uy] = [f64::from(self.path.ux), f64::from(self.path.uy)];
-            let (along, left) = (x * ux + y * uy, y * ux - x * uy);
+            (x * ux + y * uy, y * ux - x * uy)
+        };
+        // Usually a cut lowers the top of a column's only interval; what it does to others is for later.
+        let mut others = Vec::new();
+        let simple = band.is_shallow() && !self.flutes_end.is_finite();
+        let (tops, lows) = band.stretch_mut(range.clone());
+        for (step, ((tops, lows), heights)) in
+            tops.chunks_mut(STEP).zip(lows.chunks(STEP)).zip(scratch.chunks(STEP)).enumerate()
+        {
+            if !tops.iter().zip(heights).fold(false, |any, (top, height)| any | (top > height)) {
+                continue;
+            }
+            for (index, ((top, low), height)) in tops.iter_mut().zip(lows).zip(heights).enumerate() {
+                if *top <= *height {
+                    continue;
+                }
+                let hit = step * STEP + index;
+                if !simple || *low + THINNEST >= *height {
+                    others.push((hit, *height));
+                    continue;
+                }
+                let (along, left) = place(hit);
+                let column = Column { along, left, low: f64::from(*height), top: f64::from(*top) };
+                *top = *height;
+                self.motion.add(column, &self.surface, partial);
+            }
+        }
+        for (hit, lowest) in others {
+            let (along, left) = place(hit);
             let upper = if self.flutes_end.is_finite() { self.upper(along, left) } else { f32::INFINITY };
             band.cut(range.start + hit, lowest, upper, |low, top| {
                 let column = Column { along, left, low: f64::from(low), top: f64::from(top) };
@@ -242,29 +278,5 @@ impl Straight {
                 partial.touch(index, f64::from(depth));
             }
         }
-    }
-}
-
-/// The first column from an index on whose top is above the sweep.
-fn first_hit(tops: &[f32], heights: &[f32], from: usize) -> Option<usize> {
-    const STEP: usize = 16;
-    let mut index = from;
-    loop {
-        let (Some(top), Some(height)) = (tops.get(index..), heights.get(index..)) else { return None };
-        if top.is_empty() {
-            return None;
-        }
-        if let (Some(top), Some(height)) = (top.first_chunk::<STEP>(), height.first_chunk::<STEP>()) {
-            let any = top.iter().zip(height).fold(false, |any, (top, height)| any | (top > height));
-            if !any {
-                index += STEP;
-                continue;
-            }
-        }
-        let found = top.iter().zip(height).take(STEP).position(|(top, height)| top > height);
-        if let Some(found) = found {
-            return Some(index + found);
-        }
-        index += STEP.min(top.len());
     }
 }

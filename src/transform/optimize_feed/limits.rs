@@ -52,16 +52,15 @@ impl Limits {
         if !self.cuts(found) && found.graze <= 0.0 {
             return Load::Air;
         }
-        let bounded = self.bounded(found);
         let feed = |(criterion, limit): &(Criterion, f64)| match criterion {
             Criterion::ChipThickness => {
                 let teeth = cutter.teeth.as_ref();
                 teeth.map_or(f64::INFINITY, |teeth| found.feed_for_chip(teeth, turning.rpm, *limit))
             }
-            Criterion::RemovalRate => bounded.feed_for_removal_rate(*limit),
+            Criterion::RemovalRate => self.bounded(found).feed_for_removal_rate(*limit),
             Criterion::Force | Criterion::Torque | Criterion::Power => {
                 let Some(model) = self.model(index, turning) else { return f64::INFINITY };
-                model.feed_for_load(&bounded, turning.rpm, only(*criterion, *limit))
+                model.feed_for_load(&self.bounded(found), turning.rpm, only(*criterion, *limit))
             }
         };
         Load::Limit(self.limits.iter().map(feed).fold(f64::INFINITY, f64::min))
@@ -76,7 +75,6 @@ impl Limits {
         feed: f64,
         turning: Turning,
     ) -> [f64; 2] {
-        let bounded = self.bounded(found);
         match criterion {
             Criterion::ChipThickness => cutter.teeth.as_ref().map_or([0.0; 2], |teeth| {
                 [
@@ -84,10 +82,13 @@ impl Limits {
                     found.chip_thickness_bound(teeth, feed, turning.rpm),
                 ]
             }),
-            Criterion::RemovalRate => [found, &bounded].map(|found| found.removal_rate_mm3_min(feed)),
+            Criterion::RemovalRate => {
+                [found, &self.bounded(found)].map(|found| found.removal_rate_mm3_min(feed))
+            }
             Criterion::Force | Criterion::Torque | Criterion::Power => {
                 let Some(model) = self.model(index, turning) else { return [0.0; 2] };
-                [found, &bounded].map(|found| of(criterion, model.loads(found, feed, turning.rpm)))
+                [found, &self.bounded(found)]
+                    .map(|found| of(criterion, model.loads(found, feed, turning.rpm)))
             }
         }
     }

@@ -21,7 +21,7 @@ use std::collections::BTreeSet;
 const PIECE: f64 = 1.0;
 
 /// What arithmetic makes of equal loads.
-pub(super) const NOISE: f64 = 1e-6;
+const NOISE: f64 = 1e-6;
 
 /// Findings of one kind that are told one by one.
 const TOLD: usize = 10;
@@ -32,12 +32,12 @@ impl Transform for OptimizeFeed {
         let (before, ran) = job.look(self, &program, context)?;
         // Assumptions and crashes are told once, of the program as it came.
         context.findings.extend(ran.findings);
-        let program = job.write(program, &before, context)?;
+        let Written { program, excused } = job.write(program, &before, context)?;
         let told = std::mem::take(&mut context.findings);
         let proof = job.look(self, &program, context);
         context.findings = told;
         let (after, _) = proof?;
-        job.prove(&program, &after, context)?;
+        job.prove(&program, &after, &excused, context)?;
         context.reports.push(StepReport::OptimizeFeed(job.report(
             &program,
             &before,
@@ -47,6 +47,13 @@ impl Transform for OptimizeFeed {
         )));
         Ok(program)
     }
+}
+
+/// The corrected program.
+struct Written {
+    program: Program,
+    /// Numbers of the motions that pass a target at the lowest feed allowed.
+    excused: BTreeSet<usize>,
 }
 
 /// The parameters in millimetres.
@@ -150,7 +157,7 @@ impl Job {
         program: Program,
         before: &Gathered,
         context: &mut Context<'_>,
-    ) -> Result<Program, Box<Diagnostic>> {
+    ) -> Result<Written, Box<Diagnostic>> {
         let mut blocks = before.blocks.clone();
         let step = context.step;
         let (splits, found) = loop {
@@ -184,6 +191,8 @@ impl Job {
         };
         self.warn(&program, before, &found, context);
         let Splits { program, parts, .. } = splits;
+        let slowest = found.below_minimum.iter().filter_map(|block| before.marks.get(*block));
+        let excused = slowest.filter_map(|mark| parts.get(mark.motion).cloned()).flatten().collect();
         let mut wanted = std::collections::BTreeMap::new();
         for ((mark, feeds), block) in
             before.marks.iter().zip(&found.parts).zip(&blocks).filter(|(_, block)| block.touched)
@@ -204,7 +213,7 @@ impl Job {
         });
         let mut editor = Editor::new(program, step);
         plan.write(&mut editor, &mut context.findings)?;
-        editor.finish()
+        Ok(Written { program: editor.finish()?, excused })
     }
 
     /// Blocks that pass the target at the lowest feed allowed.
