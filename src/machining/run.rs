@@ -78,6 +78,7 @@ impl Machining<'_> {
         loop {
             let next = motions.next();
             if let Some((number, motion)) = &next {
+                trace.see(motion);
                 let cutter = self.tooling.cutter_of(motion);
                 let start = batch.steps.len();
                 if let Some(cutter) = cutter {

@@ -49,9 +49,14 @@ impl Trace {
         Place { point: pose.point * self.unit, axis }
     }
 
+    /// Lets the frame of a motion be the workpiece's, if it is the first.
+    pub fn see(&mut self, motion: &Motion) {
+        self.home.get_or_insert_with(|| motion.frame.as_deref().cloned());
+    }
+
     /// Adds the pieces of a motion; none for one that stays where it is.
     pub fn pieces(&mut self, motion: &Motion, cutter: usize, out: &mut Vec<Step>) {
-        self.home.get_or_insert_with(|| motion.frame.as_deref().cloned());
+        self.see(motion);
         let shares = match &motion.path {
             Path::Start => return,
             Path::Line => even(1),

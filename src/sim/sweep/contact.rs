@@ -14,14 +14,18 @@ pub(super) struct Motion {
     /// Direction of travel: part across the axis, and along it (up is positive).
     pub across: f64,
     pub along: f64,
-    /// Height of the tip at the start.
+    /// Height of the tip at the start; of a piece straight along the axis, at its lower end.
     pub start: f64,
+    /// Height of the tip at the start, always.
+    pub first: f64,
     /// Length across.
     pub length: f64,
     /// Distance of columns.
     pub cell: f64,
     /// Whether the bins must be filled finely enough for forces.
     pub detail: bool,
+    /// Whether the ground at the start has not been cleared by a piece before.
+    pub fresh: bool,
 }
 
 /// A column from which `low..top` was removed: its place along the path and to the left of it.
@@ -58,10 +62,36 @@ impl Motion {
     pub fn add(&self, column: Column, surface: &Surface, partial: &mut Partial) {
         let depth = column.top - column.low;
         let place = self.place(&column);
-        if !self.detail && partial.is_dominated(&place, self.along >= 0.0, depth) {
+        if self.fresh && self.is_inside_at_start(&column) {
+            partial.add_volume(depth as f32, column.left as f32);
+            partial.add(&self.unknown(&column));
+        } else if !self.detail && partial.is_dominated(&place, self.along >= 0.0, depth) {
             partial.add_volume(depth as f32, column.left as f32);
         } else {
             self.look(column, place, surface, partial);
+        }
+    }
+
+    /// Whether a column's material is in the cutter before it moves: how it was reached is not known.
+    fn is_inside_at_start(&self, column: &Column) -> bool {
+        let rho = length(column.along, column.left);
+        rho < self.profile.radius() && column.top > self.start_height(rho) + 1e-3
+    }
+
+    fn start_height(&self, rho: f64) -> f64 {
+        self.first + self.profile.height_at(rho)
+    }
+
+    /// A contact of which nothing is known but that it is: it has the largest share there can be.
+    fn unknown(&self, column: &Column) -> Contact {
+        let rho = length(column.along, column.left);
+        Contact {
+            angle: (column.left as f32).atan2(column.along as f32),
+            length: self.profile.length_of(rho, self.profile.height_at(rho), 1.0) as f32,
+            share: 1.0,
+            share_bound: 1.0,
+            radial: 1.0,
+            thickness: f32::INFINITY,
         }
     }
 
@@ -122,7 +152,8 @@ impl Motion {
             share: share(self.cell / 2.0),
             share_bound: share(self.cell),
             radial: touch.sin as f32,
-            thickness: thickness as f32,
+            // Between two columns material may be thicker by what the surface rises over half a cell.
+            thickness: (thickness + self.cell / 2.0 * touch.sin) as f32,
         }
     }
 

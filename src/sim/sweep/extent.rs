@@ -61,6 +61,19 @@ impl Extent {
         (found[0] <= found[1]).then_some(found)
     }
 
+    /// The stretches of a row in the ring around the end of the path that lies ahead of it, `width` wide.
+    pub fn ahead(&self, y: f64, width: f64) -> [[f64; 2]; 2] {
+        let [ux, uy] = self.direction;
+        let (x, dy) = (ux * self.length, y - uy * self.length);
+        let half = |radius: f64| (radius * radius - dy * dy).max(0.0).sqrt();
+        let (outer, inner) = (half(self.radius + width), half(self.radius));
+        if outer <= 0.0 {
+            return [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+        }
+        let ahead = |stretch| half_plane(stretch, ux, self.length - y * uy);
+        [ahead([x - outer, x - inner]), ahead([x + inner, x + outer])]
+    }
+
     /// The stretch of a row beside the path, between two lateral distances on one side and the ends of the path.
     pub fn beside(&self, y: f64, lateral: [f64; 2]) -> [f64; 2] {
         let [ux, uy] = self.direction;

@@ -38,7 +38,7 @@ pub(in crate::sim) struct Partial {
 const KNOWN: usize = 4;
 
 /// Contacts no further apart to the side than this (mm) are put together.
-const ASIDE: f64 = 1e-3;
+const ASIDE: f64 = 0.06;
 
 /// Where a column's contacts lie across the path: from its least to its greatest rise, at a distance to the side, mm.
 #[derive(Debug, Clone, Copy)]

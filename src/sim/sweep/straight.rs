@@ -21,8 +21,7 @@ pub(in crate::sim) struct Straight {
     extent: Extent,
     /// Height of the flutes' upper end above the grid's base at the start; infinite where nothing stands above it.
     flutes_end: f32,
-    flank_height: f64,
-    collars: Vec<(usize, Collar)>,
+    collars: Vec<(usize, Collar, Surface)>,
     layout: Layout,
 }
 
@@ -58,7 +57,11 @@ impl Straight {
         let radius = profile.radius();
         let margin = layout.cell * 1e-2;
         let descends = dz < 0.0;
-        let (cleared_before, cleared_disc) = match around.continues {
+        let lowest_tip = from[2].min(to[2]);
+        let reaches = |height: f64| around.highest > lowest_tip + height;
+        // What the piece before left above its flutes is still there.
+        let continues = around.continues && !reaches(cutter.flute_length());
+        let (cleared_before, cleared_disc) = match continues {
             false => (f64::NEG_INFINITY, 0.0),
             true if vertical && dz >= 0.0 => (f64::INFINITY, 0.0),
             true if vertical => (f64::NEG_INFINITY, 0.0),
@@ -81,15 +84,14 @@ impl Straight {
             cleared_before,
             cleared_disc,
         };
-        let lowest_tip = from[2].min(to[2]);
-        let reaches = |height: f64| around.highest > lowest_tip + height;
         let flutes_end = if reaches(cutter.flute_length()) {
             (from[2].max(if vertical { to[2] } else { from[2] }) + cutter.flute_length() - layout.base) as f32
         } else {
             f32::INFINITY
         };
+        let near = cutter.collars.iter().copied().enumerate().filter(|(_, collar)| reaches(collar.from));
         let collars =
-            cutter.collars.iter().copied().enumerate().filter(|(_, collar)| reaches(collar.from)).collect();
+            near.map(|(index, collar)| (index, collar, Surface::disc(collar.radius, slope))).collect();
         Self {
             from: [from[0], from[1]],
             path: Path {
@@ -105,13 +107,14 @@ impl Straight {
                 across: if length > 0.0 && !vertical { horizontal / length } else { 0.0 },
                 along: if length > 0.0 { dz / length } else { 0.0 },
                 start,
+                first: from[2] - layout.base,
                 length: extent.length,
                 cell: layout.cell,
                 detail: around.detail,
+                fresh: !around.continues,
             },
             extent,
             flutes_end,
-            flank_height: profile.flank_start()[1],
             collars,
             layout: *layout,
         }
@@ -123,7 +126,7 @@ impl Straight {
         let reach = self
             .collars
             .iter()
-            .map(|(_, collar)| collar.radius - self.extent.radius)
+            .map(|(_, collar, _)| collar.radius - self.extent.radius)
             .fold(self.layout.cell, f64::max);
         let row = |y: f64| (self.from[1] + y - self.layout.origin[1]) / self.layout.cell;
         let first = row(low - reach).ceil().max(0.0) as usize;
@@ -138,7 +141,7 @@ impl Straight {
         // Casts round towards zero and saturate, and are instructions where `ceil` and `floor` are calls.
         let up = |at: f64| {
             let whole = at.max(0.0) as usize;
-            whole + usize::from(at > whole as f64)
+            whole.saturating_add(usize::from(at > whole as f64))
         };
         let first = up(column(from)).min(columns);
         let end = if column(to) < 0.0 { 0 } else { (column(to) as usize).saturating_add(1).min(columns) };
@@ -155,8 +158,8 @@ impl Straight {
             .clamp(first, end.max(first));
         for row in (middle..end).chain((first..middle).rev()) {
             let y = self.layout.center(0, row)[1] - self.from[1];
-            for (index, collar) in &self.collars {
-                self.touch(band, row, y, *index, collar, &mut partial);
+            for collar in &self.collars {
+                self.touch(band, row, y, collar, scratch, &mut partial);
             }
             for stretch in self.extent.stretches(y) {
                 self.cut(band, row, y, self.columns(stretch), scratch, &mut partial);
@@ -237,45 +240,71 @@ impl Straight {
         self.flutes_end + at(along - half).max(at(along + half))
     }
 
-    /// Material closer beside the flank than a cell: a sliver of it may be in the cutter's way unseen.
+    /// Material closer to the flank than a cell: beside the path, or ahead of its end. A sliver of it may be in the cutter's way
+    /// unseen. Material counts from the height at which the cutter is a cell thinner than it is at its widest.
     fn graze(&self, band: &Band, row: usize, y: f64, partial: &mut Partial) {
         let (radius, cell) = (self.extent.radius, self.layout.cell);
-        let inner = (radius - cell).max(0.0);
-        let share = self.motion.across * (1.0 - (inner / radius).powi(2)).max(0.0).sqrt();
-        if f64::from(partial.graze) >= share {
-            return;
-        }
         let slope = f64::from(self.path.slope);
-        let highest_tip = self.motion.start + (slope * self.extent.length).max(0.0);
-        let level = (highest_tip + self.flank_height) as f32 + 1e-3;
+        let end = self.motion.start + slope * self.extent.length;
+        let inner = (radius - cell).max(0.0);
+        let above = self.motion.profile.height_at(inner) + 1e-3;
         let offset = (row - band.first_row) * band.columns;
-        for lateral in [[radius, radius + cell], [-radius - cell, -radius]] {
-            let columns = self.columns(self.extent.beside(y, lateral));
-            let tops = band.top.get(offset + columns.start..offset + columns.end).unwrap_or_default();
-            if tops.iter().any(|top| *top > level) {
-                partial.graze = share as f32;
+        let tops = |columns: std::ops::Range<usize>| {
+            band.top.get(offset + columns.start..offset + columns.end).unwrap_or_default()
+        };
+        let share = |side: f64| {
+            let side = ((side - cell).max(0.0) / radius).min(1.0);
+            (self.motion.across * (1.0 - side * side).sqrt()) as f32
+        };
+        if partial.graze < share(radius) {
+            let level = (self.motion.start.min(end) + above) as f32;
+            for lateral in [[radius, radius + cell], [-radius - cell, -radius]] {
+                let columns = self.columns(self.extent.beside(y, lateral));
+                if tops(columns).iter().any(|top| *top > level) {
+                    partial.graze = share(radius);
+                }
+            }
+        }
+        let level = (end + above) as f32;
+        for stretch in self.extent.ahead(y, cell) {
+            let columns = self.columns(stretch);
+            let x = self.layout.center(columns.start, row)[0] - self.from[0];
+            for (index, _) in tops(columns).iter().enumerate().filter(|(_, top)| **top > level) {
+                let x = x + index as f64 * cell;
+                let side = (y * f64::from(self.path.ux) - x * f64::from(self.path.uy)).abs();
+                partial.graze = partial.graze.max(share(side));
             }
         }
     }
 
-    /// Whether a collar stands in material in a row.
-    fn touch(&self, band: &Band, row: usize, y: f64, index: usize, collar: &Collar, partial: &mut Partial) {
+    /// How deep a collar stands in material in a row: its lower end is a disc that moves with the tip.
+    fn touch(
+        &self,
+        band: &Band,
+        row: usize,
+        y: f64,
+        (index, collar, disc): &(usize, Collar, Surface),
+        scratch: &mut Vec<f32>,
+        partial: &mut Partial,
+    ) {
         let extent = Extent {
             radius: collar.radius,
             cleared_before: f64::NEG_INFINITY,
             cleared_disc: 0.0,
             ..self.extent
         };
-        let slope = f64::from(self.path.slope);
-        let lowest = self.motion.start + (slope * self.extent.length).min(0.0) + collar.from;
+        let path = Path { start: self.path.start + collar.from as f32, ..self.path };
         let offset = (row - band.first_row) * band.columns;
         for stretch in extent.stretches(y) {
             let columns = self.columns(stretch);
+            let x = self.layout.center(columns.start, row)[0] - self.from[0];
+            scratch.resize(columns.len(), 0.0);
+            disc.heights(scratch, Row { x: x as f32, y: y as f32, cell: self.layout.cell as f32 }, path);
             let tops = band.top.get(offset + columns.start..offset + columns.end).unwrap_or_default();
-            let depth = tops.iter().copied().fold(f32::NEG_INFINITY, f32::max) - lowest as f32;
-            // On a slope the collar is higher at one end; the least height is taken, and only more than a cell counts.
-            if f64::from(depth) > self.layout.cell.min(0.05) + (slope * self.extent.length).abs() {
-                partial.touch(index, f64::from(depth));
+            let depth = tops.iter().zip(scratch.iter()).map(|(top, height)| top - height);
+            let depth = f64::from(depth.fold(f32::NEG_INFINITY, f32::max));
+            if depth > self.layout.cell.min(0.05) {
+                partial.touch(*index, depth);
             }
         }
     }

@@ -62,6 +62,12 @@ impl Surface {
         }
     }
 
+    /// A flat disc, for paths of a slope.
+    pub fn disc(radius: f64, slope: f64) -> Self {
+        let side = if slope == 0.0 { 0.0 } else { slope.signum() as f32 };
+        Self::Flat { radius2: (radius * radius) as f32, side }
+    }
+
     /// How far ahead of the axis the lowest contact over a column lies, at lateral distance `q` from the path.
     pub fn ahead(&self, q: f32) -> f32 {
         match self {

@@ -1,6 +1,7 @@
 //! The program as blocks with loads, from a simulation of it.
 
-use super::feeds::{Block, Piece};
+use super::around;
+use super::feeds::{Block, Load, Piece};
 use super::limits::{Limits, Turning};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::machining::{Cut, Machining, Options, Ran, Watch};
@@ -50,15 +51,21 @@ pub(super) fn gather(
         let touched = touches(cut.motion);
         gathered.add(machining, limits, cut, touched, &mut before);
     })?;
-    Ok(ran.map(|ran| (gathered, ran)))
+    Ok(ran.map(|ran| {
+        around::widen(&mut gathered.blocks, AROUND * ran.cell);
+        (gathered, ran)
+    }))
 }
+
+/// Cells of path before and after a piece in which other pieces tell of its load: a piece shorter than that may pass between two
+/// columns.
+const AROUND: f64 = 1.5;
 
 /// The motion before, as far as it decides whether a chain of blocks breaks.
 #[derive(Debug, Default)]
 struct Before {
     end: usize,
     tool: Option<usize>,
-    operation: usize,
     moves_at_feed: bool,
 }
 
@@ -77,14 +84,8 @@ impl Gathered {
         let goes_on = before.moves_at_feed
             && at_feed
             && before.tool == cut.cutter
-            && before.operation == motion.operation
             && !stops(program, before.end..motion.statements.end);
-        *before = Before {
-            end: motion.statements.end,
-            tool: cut.cutter,
-            operation: motion.operation,
-            moves_at_feed: at_feed,
-        };
+        *before = Before { end: motion.statements.end, tool: cut.cutter, moves_at_feed: at_feed };
         if !at_feed {
             return;
         }
@@ -107,7 +108,11 @@ impl Gathered {
         let mut measured: Vec<[f64; 2]> = vec![[0.0; 2]; limits.all().len()];
         if let (Some((cutter, index)), Some(turning)) = (cutter, turning) {
             for (step, found) in cut.pieces {
-                let load = limits.load(found, cutter, index, turning);
+                let mut load = limits.load(found, cutter, index, turning);
+                if load == Load::Limit(f64::INFINITY) && !limits.cuts(found) {
+                    // A sliver that may be there and that no limit knows how to judge.
+                    load = feed.map_or(Load::Air, Load::Limit);
+                }
                 pieces.push(Piece { length: (step.to - step.from) * length, load });
                 let Some(feed) = feed.filter(|_| limits.cuts(found)) else { continue };
                 for (measured, (criterion, _)) in measured.iter_mut().zip(limits.all()) {

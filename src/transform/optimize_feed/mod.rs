@@ -4,6 +4,7 @@
 //! parts of blocks come out. [`split`] breaks motions of a program into parts, so that each can have the feed of its part.
 
 pub mod acceleration;
+mod around;
 pub mod feeds;
 mod gather;
 mod geometry;

@@ -194,20 +194,20 @@ impl Job {
         let slowest = found.below_minimum.iter().filter_map(|block| before.marks.get(*block));
         let excused = slowest.filter_map(|mark| parts.get(mark.motion).cloned()).flatten().collect();
         let mut wanted = std::collections::BTreeMap::new();
-        for ((mark, feeds), block) in
+        for ((mark, feeds), _) in
             before.marks.iter().zip(&found.parts).zip(&blocks).filter(|(_, block)| block.touched)
         {
             let Some(range) = parts.get(mark.motion) else { continue };
-            wanted.extend(range.clone().zip(feeds.iter().map(|part| (part.feed, block.programmed))));
+            wanted.extend(range.clone().zip(feeds.iter().map(|part| part.feed)));
         }
         let plan = FeedPlan::numbered(&program, |number, motion| {
-            let (wanted, programmed) = wanted.get(&number)?;
-            if (wanted - programmed).abs() <= NOISE * programmed {
-                return None;
-            }
+            let wanted = wanted.get(&number)?;
             let value = motion.feed?.value;
             let actual =
                 motion.feed?.mm_per_minute(self.units, motion.spindle_rpm(), Some(motion.length()))?;
+            if (wanted - actual).abs() <= NOISE * actual {
+                return None;
+            }
             let decimals = motion.feed_from.map_or(0, |statement| decimals_of_feed(&program, statement));
             Some(rounded_down(value * wanted / actual, decimals))
         });
