@@ -52,7 +52,14 @@ impl Simulation {
 
     /// Moves cutters along pieces; one engagement for each. Pieces of an unknown cutter engage nothing.
     pub fn run(&mut self, pieces: &[Piece], cutters: &[Cutter]) -> Vec<Engagement> {
-        let sweeps: Vec<Option<Sweep>> = pieces.iter().map(|piece| self.sweep(piece, cutters)).collect();
+        let sweeps: Vec<Option<Sweep>> = pieces
+            .iter()
+            .enumerate()
+            .map(|(index, piece)| {
+                let goes_on = pieces.get(index + 1).is_some_and(|next| goes_on(piece, next));
+                self.sweep(piece, cutters, !goes_on)
+            })
+            .collect();
         let found: Vec<Vec<(usize, Partial)>> = self
             .stock
             .bands_mut()
@@ -91,11 +98,11 @@ impl Simulation {
         engagements
     }
 
-    fn sweep(&mut self, piece: &Piece, cutters: &[Cutter]) -> Option<Sweep> {
+    fn sweep(&mut self, piece: &Piece, cutters: &[Cutter], ends: bool) -> Option<Sweep> {
         let cutter = cutters.get(piece.cutter)?;
         let continues = self.last == Some((piece.from, piece.cutter));
         self.last = Some((piece.to, piece.cutter));
-        let around = Circumstances { continues, highest: self.highest, detail: self.detail };
+        let around = Circumstances { continues, ends, highest: self.highest, detail: self.detail };
         let layout = self.stock.layout();
         if !upright(&piece.from.axis) || !upright(&piece.to.axis) {
             return Some(Sweep::Tilted(Box::new(Tilted::new(piece, cutter, layout, around))));
@@ -117,4 +124,11 @@ fn nothing(piece: &Piece, cutters: &[Cutter]) -> Engagement {
     let along = if length > 0.0 { travel.dot(&axis) / length } else { 0.0 };
     let way = cutters.get(piece.cutter).map_or(length, |cutter| pace(piece, cutter));
     Engagement::none((1.0 - along * along).max(0.0).sqrt(), along, way)
+}
+
+/// Whether a piece is followed by one of the same cutter that turns by less than 30 degrees.
+fn goes_on(piece: &Piece, next: &Piece) -> bool {
+    let (this, that) = (piece.to.point - piece.from.point, next.to.point - next.from.point);
+    let ahead = this.dot(&that) > 0.866 * this.norm() * that.norm();
+    ahead && piece.cutter == next.cutter && piece.to.point == next.from.point
 }

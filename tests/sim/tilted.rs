@@ -196,8 +196,8 @@ fn hardly_tilted_is_straight() {
             near(also[0].lateral[0], found[0].lateral[0], 0.13);
             near(also[0].lateral[1], found[0].lateral[1], 0.13);
             near(also[0].height[1], found[0].height[1], 0.05);
-            // Straight looks beside the flank only above the whole piece's highest tip.
-            assert!(also[0].graze > found[0].graze - 1e-3);
+            // Straight also looks ahead of its end, so it knows of a sliver wherever the tilted sweep does.
+            assert!(found[0].graze > 0.0 || also[0].graze == 0.0);
             near(one.volume_mm3(), two.volume_mm3(), 2e-3 * found[0].removed_mm3);
         }
     }

@@ -4,6 +4,9 @@ use super::partial::{Across, Contact, Partial};
 use super::surface::Surface;
 use crate::sim::Profile;
 
+/// Thinner material (mm) is what rounding left of the piece before: no chip to speak of.
+const FILM: f64 = 2e-4;
+
 /// Samples of a column's height when forces are asked for.
 const SAMPLES: usize = 4;
 
@@ -65,6 +68,8 @@ impl Motion {
         if self.fresh && self.is_inside_at_start(&column) {
             partial.add_volume(depth as f32, column.left as f32);
             partial.add(&self.unknown(&column));
+        } else if depth < FILM {
+            partial.add_volume(depth as f32, column.left as f32);
         } else if !self.detail && partial.is_dominated(&place, self.along >= 0.0, depth) {
             partial.add_volume(depth as f32, column.left as f32);
         } else {
@@ -107,7 +112,10 @@ impl Motion {
         let heights = [bottom.height.min(upper.height), upper.height.max(bottom.height)];
         partial.add_column(depth as f32, left as f32, heights.map(|height| height as f32));
         let angle = (left as f32).atan2(upper.ahead as f32);
-        partial.remember(place, self.along >= 0.0, steepness, angle);
+        // What was in the cutter from the start tells nothing about what it meets on its way.
+        if along - upper.ahead > 1e-6 {
+            partial.remember(place, self.along >= 0.0, steepness, angle);
+        }
         let mut give = |touch: &Touch, cap: f64| partial.add(&self.contact(touch, left, thickness, cap));
         let mut cap = 0.0;
         if self.along < 0.0 {

@@ -23,6 +23,7 @@ pub(in crate::sim) struct Straight {
     flutes_end: f32,
     collars: Vec<(usize, Collar, Surface)>,
     layout: Layout,
+    ends: bool,
 }
 
 /// What is known about a piece before its columns are looked at.
@@ -32,6 +33,8 @@ pub(in crate::sim) struct Circumstances {
     pub continues: bool,
     /// Highest material there ever was.
     pub highest: f64,
+    /// Whether the next piece does not go on in about the same direction, so that what lies ahead stays unseen.
+    pub ends: bool,
     /// Whether forces are asked for.
     pub detail: bool,
 }
@@ -117,6 +120,7 @@ impl Straight {
             flutes_end,
             collars,
             layout: *layout,
+            ends: around.ends,
         }
     }
 
@@ -266,7 +270,7 @@ impl Straight {
             }
         }
         let level = (end + above) as f32;
-        for stretch in self.extent.ahead(y, cell) {
+        for stretch in self.extent.ahead(y, cell).into_iter().filter(|_| self.ends) {
             let columns = self.columns(stretch);
             let x = self.layout.center(columns.start, row)[0] - self.from[0];
             for (index, _) in tops(columns).iter().enumerate().filter(|(_, top)| **top > level) {

@@ -109,8 +109,8 @@ impl Gathered {
         if let (Some((cutter, index)), Some(turning)) = (cutter, turning) {
             for (step, found) in cut.pieces {
                 let mut load = limits.load(found, cutter, index, turning);
-                if load == Load::Limit(f64::INFINITY) && !limits.cuts(found) {
-                    // A sliver that may be there and that no limit knows how to judge.
+                if load == Load::Limit(f64::INFINITY) && !cuts {
+                    // A sliver that may be there, that no limit knows how to judge, and nothing else to go by.
                     load = feed.map_or(Load::Air, Load::Limit);
                 }
                 pieces.push(Piece { length: (step.to - step.from) * length, load });

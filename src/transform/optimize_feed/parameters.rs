@@ -39,7 +39,8 @@ pub struct OptimizeFeed {
     pub min_ratio: Option<Factor>,
     /// Highest feed as a share of the programmed one.
     pub max_ratio: Option<Factor>,
-    /// Feed where nothing is cut, in the recipe's unit per minute; without it, air keeps the programmed feed.
+    /// Feed where nothing is cut, in the recipe's unit per minute; without it, air keeps the programmed feed, but for blocks that come
+    /// within `margin` of material: those take the cutting feed there.
     pub air_feed: Option<Positive>,
     /// Path before and after material that keeps the cutting feed, in the recipe's unit; 0.5 mm when left out.
     pub margin: Option<NonNegative>,

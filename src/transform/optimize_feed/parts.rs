@@ -74,7 +74,6 @@ pub(super) struct Bounds {
     pub(super) least: f64,
     most: f64,
     air: Option<f64>,
-    programmed: f64,
 }
 
 impl Bounds {
@@ -82,7 +81,7 @@ impl Bounds {
         let share = |ratio: Option<f64>| ratio.map(|ratio| ratio * block.programmed);
         let most = rules.max_feed.min(share(rules.max_ratio).unwrap_or(f64::INFINITY));
         let least = rules.min_feed.max(share(rules.min_ratio).unwrap_or(0.0)).min(most);
-        Self { least, most, air: rules.air_feed, programmed: block.programmed }
+        Self { least, most, air: rules.air_feed }
     }
 
     /// The feed of a window; `None` where nothing limits it and the programmed feed stays.
@@ -90,8 +89,6 @@ impl Bounds {
         let air = if content.air { self.air } else { None };
         let wanted = match (content.cutting, air) {
             (false, air) => air?,
-            // Near material without cutting any, and no air feed: the programmed feed, where it is not too fast.
-            (true, None) if content.lowest_cut.is_infinite() => content.lowest.min(self.programmed),
             (true, air) => content.lowest.min(air.unwrap_or(f64::INFINITY)),
         };
         let feed = wanted.max(self.least).min(self.most);

@@ -63,6 +63,12 @@ impl Touches {
         let heights = [bottom.height.min(upper.height), bottom.height.max(upper.height)];
         partial.add_column((top - low) as f32, upper.left as f32, heights.map(|height| height as f32));
         partial.add_column(0.0, bottom.left as f32, heights.map(|height| height as f32));
+        if !self.continues && is_inside_at_start(Vector3::new(x, y, top), legs) {
+            // How it was reached is not known: it has the largest share there can be.
+            let known = self.contact(&upper, f64::INFINITY, 1.0);
+            partial.add(&Contact { share_bound: 1.0, ..known });
+            return;
+        }
         let mut give = |touch: &Touch, cap: f64| partial.add(&self.contact(touch, thickness, cap));
         give(&bottom, 0.0);
         give(&upper, cap);
@@ -207,4 +213,12 @@ impl Touch {
         let [forward, leftward, axis] = &self.frame;
         self.travel + self.spin.cross(&(forward * ahead + leftward * left + axis * self.height))
     }
+}
+
+/// Whether a point is in the cutter before it moves.
+fn is_inside_at_start(point: Vector3<f64>, legs: &[(Leg, Solid)]) -> bool {
+    legs.first().is_some_and(|(leg, solid)| {
+        let pose = leg.pose(0.0);
+        normal(solid, &(point - pose.tip), &pose.axis).1 < -1e-3
+    })
 }
