@@ -68,9 +68,7 @@ impl Motion {
         if self.fresh && self.is_inside_at_start(&column) {
             partial.add_volume(depth as f32, column.left as f32);
             partial.add(&self.unknown(&column));
-        } else if depth < FILM {
-            partial.add_volume(depth as f32, column.left as f32);
-        } else if !self.detail && partial.is_dominated(&place, self.along >= 0.0, depth) {
+        } else if depth < FILM || (!self.detail && partial.is_dominated(&place, self.along >= 0.0, depth)) {
             partial.add_volume(depth as f32, column.left as f32);
         } else {
             self.look(column, place, surface, partial);
