@@ -24,6 +24,8 @@ pub(in crate::sim) struct Straight {
     collars: Vec<(usize, Collar, Surface)>,
     layout: Layout,
     ends: bool,
+    /// Radius of the cutter where the flank leaves the stock: of a tapered one less than the whole.
+    widest: f64,
 }
 
 /// What is known about a piece before its columns are looked at.
@@ -121,6 +123,11 @@ impl Straight {
             collars,
             layout: *layout,
             ends: around.ends,
+            widest: if profile.taper() > 0.0 {
+                profile.radius_at(around.highest - lowest_tip)
+            } else {
+                radius
+            },
         }
     }
 
@@ -247,7 +254,7 @@ impl Straight {
     /// Material closer to the flank than a cell: beside the path, or ahead of its end. A sliver of it may be in the cutter's way
     /// unseen. Material counts from the height at which the cutter is a cell thinner than it is at its widest.
     fn graze(&self, band: &Band, row: usize, y: f64, partial: &mut Partial) {
-        let (radius, cell) = (self.extent.radius, self.layout.cell);
+        let (radius, cell) = (self.widest, self.layout.cell);
         let slope = f64::from(self.path.slope);
         let end = self.motion.start + slope * self.extent.length;
         let inner = (radius - cell).max(0.0);
@@ -270,7 +277,7 @@ impl Straight {
             }
         }
         let level = (end + above) as f32;
-        for stretch in self.extent.ahead(y, cell).into_iter().filter(|_| self.ends) {
+        for stretch in (Extent { radius, ..self.extent }).ahead(y, cell).into_iter().filter(|_| self.ends) {
             let columns = self.columns(stretch);
             let x = self.layout.center(columns.start, row)[0] - self.from[0];
             for (index, _) in tops(columns).iter().enumerate().filter(|(_, top)| **top > level) {

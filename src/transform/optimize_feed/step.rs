@@ -30,6 +30,9 @@ impl Transform for OptimizeFeed {
     fn apply(&self, program: Program, context: &mut Context<'_>) -> Result<Program, Box<Diagnostic>> {
         let job = Job::new(self, &program, context)?;
         let (before, ran) = job.look(self, &program, context)?;
+        if !before.marks.iter().any(|mark| mark.cuts) {
+            return Err(nothing_cut(&program, &ran, context));
+        }
         // Assumptions and crashes are told once, of the program as it came.
         context.findings.extend(ran.findings);
         let Written { program, excused } = job.write(program, &before, context)?;
@@ -240,4 +243,23 @@ fn several(mut found: Vec<Diagnostic>, findings: &mut Vec<Diagnostic>) -> Box<Di
     let last = found.pop().unwrap_or_else(|| Diagnostic::new(codes::STEP_FAILED, "the step cannot run"));
     findings.extend(found);
     Box::new(last)
+}
+
+/// A program that cuts nothing anywhere is in the wrong place over its stock, and all of it would run at the feed of air.
+fn nothing_cut(program: &Program, ran: &Ran, context: &Context<'_>) -> Box<Diagnostic> {
+    let mut points = program.motions().filter(|motion| !motion.rapid).map(|motion| motion.to.point);
+    let path = points.next().map(|first| points.fold((first, first), |(a, b), p| (a.inf(&p), b.sup(&p))));
+    let path = path.map_or_else(String::new, |(low, high)| {
+        format!(
+            "; the feed motions end between ({:.1}, {:.1}, {:.1}) and ({:.1}, {:.1}, {:.1})",
+            low.x, low.y, low.z, high.x, high.y, high.z
+        )
+    });
+    let layout = ran.left.layout();
+    let [x, y] = layout.center(0, 0);
+    let message = format!(
+        "no motion of this program cuts the stock: is it in the right place? It begins at ({x:.1}, {y:.1}, {:.1}){path}",
+        layout.base
+    );
+    context.fail(message, &[])
 }

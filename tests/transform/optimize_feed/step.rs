@@ -235,5 +235,10 @@ fn what_is_missing_is_asked_for_at_its_place() {
     snapshot("no feed", &good, &text.replace("FEDRAT/MMPM,500.0000\n", ""));
     snapshot("cell too coarse", &recipe("target: 0.06, max_feed: 9000, cell: 3"), &text);
     snapshot("too much", &recipe("target: 0.06, max_feed: 9000, cell: 0.001"), &text);
+    snapshot(
+        "stock elsewhere",
+        &good.replace("[0, -30, -20], to: [100, 30, 0]", "[0, 70, -20], to: [100, 90, 0]"),
+        &text,
+    );
     snapshot("lowest above highest", &recipe("target: 0.06, min_feed: 700, max_feed: 600"), &text);
 }
