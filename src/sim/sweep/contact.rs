@@ -281,7 +281,7 @@ fn turn(y: f32, x: f32) -> f32 {
     let ratio = if large > 0.0 { small / large } else { 0.0 };
     let square = ratio * ratio;
     let eighth =
-        ratio * (0.999_215_2 + square * (-0.321_181_9 + square * (0.146_264_46 - square * 0.038_986_512)));
+        ratio * (0.999_215_2 + square * (-0.321_181_9 + square * (0.146_264_46 - square * 0.038_986_51)));
     let quarter = if y.abs() > x.abs() { FRAC_PI_2 - eighth } else { eighth };
     let half = if x < 0.0 { PI - quarter } else { quarter };
     if y < 0.0 { -half } else { half }
