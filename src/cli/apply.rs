@@ -223,17 +223,21 @@ impl Apply {
             None => String::new(),
         };
         if !is_changed(program) {
-            return writeln!(err, "{}{to}: nothing to change, every byte as it was", source.name());
+            writeln!(err, "{}{to}: nothing to change, every byte as it was", source.name())?;
+            return show_reports(&mut err, reports);
         }
         let before = parse(source, Some(program.dialect())).program;
         let steps: Vec<&str> = job.recipe.steps.iter().map(|step| step.name()).collect();
         let found = Changes::of(&before, program, &steps, Some(job.recipe.units));
         err.write_all(changes::to_text(&found).as_bytes())?;
-        for report in reports {
-            err.write_all(step_report::to_text(report).as_bytes())?;
-        }
+        show_reports(&mut err, reports)?;
         if to.is_empty() { Ok(()) } else { writeln!(err, "{to}", to = to.trim_start()) }
     }
+}
+
+/// What the steps say about themselves, also when they had nothing to change.
+fn show_reports(err: &mut impl Write, reports: &[StepReport]) -> io::Result<()> {
+    reports.iter().try_for_each(|report| err.write_all(step_report::to_text(report).as_bytes()))
 }
 
 /// Writes the program; a finding when that fails.

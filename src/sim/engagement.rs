@@ -78,7 +78,8 @@ pub struct Engagement {
     pub lateral: [f64; 2],
     /// Height on the cutter at which material was removed, mm above the tip along the axis: least and greatest.
     pub height: [f64; 2],
-    /// The bins; empty when nothing was removed.
+    /// The bins; empty when nothing was removed. Of a simulation without detail they hold the contacts with the largest shares, for
+    /// chip thickness; forces need a simulation with detail, which fills every direction.
     pub bins: Vec<Bin>,
     /// Largest share that a sliver thinner than a cell, which the grid cannot see, may have had beside the removed ground: where
     /// the flank passes by material closer than a cell. 0 where it does not.

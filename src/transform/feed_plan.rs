@@ -4,12 +4,12 @@
 //! wants another, a FEDRAT in the form of the governing one goes in front of the first statement of that motion. The next
 //! FEDRAT of the file sets its own feed anyway, so programmed feeds come back by themselves.
 
-use super::numbers::word;
+use super::numbers::{without_remark, word};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::number;
 use crate::parse;
 use crate::program::motion::Motion;
-use crate::program::{FieldKind, Form, Program, Record, Role};
+use crate::program::{Form, Program, Record, Role};
 use crate::source::Span;
 use crate::write::{Editor, FEED_SHARE};
 
@@ -204,14 +204,8 @@ impl Template {
     fn of(editor: &Editor, statement: usize) -> Option<Self> {
         let program = editor.program();
         let found = program.statement(statement).filter(|found| matches!(found.record(), Record::Feed(_)))?;
-        let syntax = parse::syntax(program.text(found));
-        debug_assert!(matches!(syntax.form, Form::Words | Form::Structured));
-        let end = match (&syntax.remark, syntax.fields.last()) {
-            (None, _) => syntax.text.len(),
-            (Some(_), Some(field)) if field.kind != FieldKind::Empty => field.at.end,
-            (Some(remark), _) => remark.start,
-        };
-        Some(Self { text: syntax.text.get(..end)?.to_vec() })
+        debug_assert!(matches!(parse::syntax(program.text(found)).form, Form::Words | Form::Structured));
+        Some(Self { text: without_remark(program.text(found)) })
     }
 
     fn with(&self, feed: f64, editor: &Editor) -> Vec<u8> {

@@ -7,7 +7,7 @@ use crate::diagnostic::Diagnostic;
 use crate::number::{self, Form};
 use crate::parse;
 use crate::program::record::{is_contact, is_poses};
-use crate::program::{Record, Role};
+use crate::program::{FieldKind, Record, Role};
 use crate::write::Editor;
 use nalgebra::Vector3;
 
@@ -111,4 +111,15 @@ pub fn word(text: &[u8]) -> String {
     let text = text.trim_ascii_start();
     let end = text.iter().position(|byte| matches!(byte, b'/' | b'$' | b'\r' | b'\n')).unwrap_or(text.len());
     crate::program::folded(text.get(..end).unwrap_or_default().trim_ascii_end())
+}
+
+/// A statement's text without remark and line end.
+pub fn without_remark(text: &[u8]) -> Vec<u8> {
+    let syntax = parse::syntax(text);
+    let end = match (&syntax.remark, syntax.fields.last()) {
+        (None, _) => syntax.text.len(),
+        (Some(_), Some(field)) if field.kind != FieldKind::Empty => field.at.end,
+        (Some(remark), _) => remark.start,
+    };
+    syntax.text.get(..end).unwrap_or_default().to_vec()
 }

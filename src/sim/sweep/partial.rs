@@ -146,14 +146,14 @@ impl Partial {
     pub fn add(&mut self, contact: &Contact) {
         let bins = self.bins.get_or_insert_with(|| Box::new([Bin::EMPTY; BINS]));
         let Some(bin) = bins.get_mut(bin_of(contact.angle)) else { return };
-        bin.low = bin.low.min(contact.length);
-        bin.high = bin.high.max(contact.length);
-        bin.thickness = bin.thickness.max(contact.thickness);
-        bin.share_bound = bin.share_bound.max(contact.share_bound);
-        if contact.share > bin.share {
-            bin.share = contact.share;
-            bin.radial = contact.radial;
-        }
+        bin.absorb(&Bin {
+            low: contact.length,
+            high: contact.length,
+            share: contact.share,
+            share_bound: contact.share_bound,
+            radial: contact.radial,
+            thickness: contact.thickness,
+        });
     }
 
     pub fn touch(&mut self, collar: usize, depth: f64) {

@@ -5,6 +5,7 @@ use crate::parse;
 use crate::program::geometry::{Path, Pose};
 use crate::program::motion::Motion;
 use crate::program::{FieldKind, Program, Record};
+use crate::transform::numbers::without_remark;
 use crate::write::{Editor, copy_with_numbers};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
@@ -166,12 +167,5 @@ fn with_numbers(editor: &Editor, statement: usize, first: usize, values: &[f64])
 
 /// A statement's text without a comment at its end.
 fn body(program: &Program, statement: usize) -> Vec<u8> {
-    let Some(found) = program.statement(statement) else { return Vec::new() };
-    let syntax = parse::syntax(program.text(found));
-    let end = match (&syntax.remark, syntax.fields.last()) {
-        (None, _) => syntax.text.len(),
-        (Some(_), Some(field)) if field.kind != FieldKind::Empty => field.at.end,
-        (Some(remark), _) => remark.start,
-    };
-    syntax.text.get(..end).unwrap_or_default().to_vec()
+    program.statement(statement).map(|found| without_remark(program.text(found))).unwrap_or_default()
 }

@@ -31,7 +31,7 @@ impl Transform for OptimizeFeed {
         let job = Job::new(self, &program, context)?;
         let (before, ran) = job.look(self, &program, context)?;
         if !before.marks.iter().any(|mark| mark.cuts) {
-            return Err(nothing_cut(&program, &ran, context));
+            return Err(job.nothing_cut(&program, &ran, context));
         }
         // Assumptions and crashes are told once, of the program as it came.
         context.findings.extend(ran.findings);
@@ -245,21 +245,25 @@ fn several(mut found: Vec<Diagnostic>, findings: &mut Vec<Diagnostic>) -> Box<Di
     Box::new(last)
 }
 
-/// A program that cuts nothing anywhere is in the wrong place over its stock, and all of it would run at the feed of air.
-fn nothing_cut(program: &Program, ran: &Ran, context: &Context<'_>) -> Box<Diagnostic> {
-    let mut points = program.motions().filter(|motion| !motion.rapid).map(|motion| motion.to.point);
-    let path = points.next().map(|first| points.fold((first, first), |(a, b), p| (a.inf(&p), b.sup(&p))));
-    let path = path.map_or_else(String::new, |(low, high)| {
-        format!(
-            "; the feed motions end between ({:.1}, {:.1}, {:.1}) and ({:.1}, {:.1}, {:.1})",
-            low.x, low.y, low.z, high.x, high.y, high.z
-        )
-    });
-    let layout = ran.left.layout();
-    let [x, y] = layout.center(0, 0);
-    let message = format!(
-        "no motion of this program cuts the stock: is it in the right place? It begins at ({x:.1}, {y:.1}, {:.1}){path}",
-        layout.base
-    );
-    context.fail(message, &[])
+impl Job {
+    /// A program that cuts nothing anywhere is in the wrong place over its stock, and all of it would run at the feed of air.
+    fn nothing_cut(&self, program: &Program, ran: &Ran, context: &Context<'_>) -> Box<Diagnostic> {
+        let mut points = program.motions().filter(|motion| !motion.rapid).map(|motion| motion.to.point);
+        let path = points.next().map(|first| points.fold((first, first), |(a, b), p| (a.inf(&p), b.sup(&p))));
+        let mm = self.units.in_mm();
+        let path = path.map(|(low, high)| (low * mm, high * mm));
+        let path = path.map_or_else(String::new, |(low, high)| {
+            format!(
+                "; the feed motions end between ({:.1}, {:.1}, {:.1}) and ({:.1}, {:.1}, {:.1})",
+                low.x, low.y, low.z, high.x, high.y, high.z
+            )
+        });
+        let layout = ran.left.layout();
+        let [x, y] = layout.center(0, 0).map(|center| center - layout.cell / 2.0);
+        let message = format!(
+            "no motion of this program cuts the stock: is it in the right place? In mm, the stock's lowest corner is at ({x:.1}, {y:.1}, {:.1}){path}",
+            layout.base
+        );
+        context.fail(message, &[])
+    }
 }
