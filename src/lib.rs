@@ -16,6 +16,7 @@ pub mod report;
 pub mod setup;
 pub mod sim;
 pub mod source;
+pub mod surface;
 pub mod transform;
 pub mod values;
 pub mod write;

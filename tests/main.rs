@@ -15,5 +15,6 @@ mod report;
 mod setup;
 mod sim;
 mod support;
+mod surface;
 mod transform;
 mod write_files;

@@ -1,0 +1,1 @@
+//! Cutters lowered onto meshes.

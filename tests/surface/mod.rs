@@ -1,0 +1,4 @@
+//! Profiles and meshes under cutters.
+
+mod drop;
+mod profile;

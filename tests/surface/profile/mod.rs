@@ -1,0 +1,1 @@
+//! Balls over profiles.
