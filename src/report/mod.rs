@@ -9,6 +9,7 @@ pub mod diff;
 pub mod explain;
 pub mod kind;
 pub mod policy;
+mod ramps;
 pub mod render;
 pub mod simulation;
 pub mod stats;

@@ -9,6 +9,7 @@ use std::fmt::Write;
 /// A step's report.
 pub fn to_text(report: &StepReport) -> String {
     match report {
+        StepReport::CorrectRamp(report) => super::ramps::to_text(report),
         StepReport::OptimizeFeed(report) => optimized(report),
     }
 }

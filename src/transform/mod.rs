@@ -7,6 +7,7 @@ mod affine;
 mod clamp_feed;
 mod context;
 mod convert_units;
+pub mod correct_ramp;
 pub mod feed_plan;
 mod move_origin;
 mod numbers;
@@ -22,6 +23,7 @@ pub use affine::Affine;
 pub use clamp_feed::ClampFeed;
 pub use context::Context;
 pub use convert_units::ConvertUnits;
+pub use correct_ramp::CorrectRamp;
 pub use move_origin::MoveOrigin;
 pub use optimize_feed::OptimizeFeed;
 pub use rewrite::{Region, Rewrite, RewriteRule};
@@ -94,6 +96,7 @@ transforms! {
     "rewrite" => Rewrite,
     "move_origin" => MoveOrigin,
     "convert_units" => ConvertUnits,
+    "correct_ramp" => CorrectRamp,
     "optimize_feed" => OptimizeFeed,
 }
 
@@ -101,6 +104,8 @@ transforms! {
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StepReport {
+    /// Of `correct_ramp`.
+    CorrectRamp(correct_ramp::Report),
     /// Of `optimize_feed`.
     OptimizeFeed(optimize_feed::Report),
 }

@@ -40,4 +40,27 @@ super::area! {
          the spelling of numbers do not matter, but the arguments and their number do: `COOLNT/ON` is not `COOLNT/ON,FLOOD`, \
          which `COOLNT/ON,$...` matches too. In a batch over many programs this may be meant. A rule whose `if` was false \
          everywhere is not reported: it found its statements, and nothing to correct.";
+    RAMP_OUT_OF_LIMITS = "CL0320", Warning, "a ramp is too short or too steep for an indexable cutter",
+        "The step corrects it; look at the new points with `--diff`.",
+        "An indexable cutter does not cut within D - 2r around its axis (D its diameter, r the radius of the inserts' bottom \
+         circle). On a leg shorter than D - 2r a core is left standing under it, on a descent steeper than atan(h / (D - 2r)), h \
+         the inserts' cutting height, the core rises above the inserts: either way the body of the cutter rubs on it and the \
+         cutter breaks. The finding tells the ramp's shortest leg and steepest angle against the limits; lengths are measured \
+         across the tool axis, of a helix its diameter.";
+    RAMP_IMPOSSIBLE = "CL0321", Error, "a ramp that an indexable cutter does not survive cannot be corrected",
+        "Widen `region`, choose a smaller cutter, give the ramp room in the CAM system, or say `if_impossible: keep`.",
+        "Every longer ramp was tried: on the circle through the ramp's ends, on its mirror side, along the chord between the ends, and \
+         along the operation's first cutting pass. None of them stays where the tool may go, or the statements of the ramp cannot \
+         be written anew, or no cutting follows at the level where the descent ends, so that nothing says what it is for. A ramp is \
+         never corrected in part: nothing is written. With `if_impossible: keep` it stays as it was and is reported as CL0322.";
+    RAMP_KEPT = "CL0322", Warning, "a ramp that an indexable cutter does not survive was kept",
+        "Do not run it with this cutter as it stands: correct it in the CAM system, or give `region` more room.",
+        "The ramp is too short or too steep for the cutter and could not be corrected, and the recipe says `if_impossible: keep`, or \
+         it is a straight descent and the recipe says `plunges: keep`. It stands as the CAM system wrote it. A descent beside the \
+         stock does no harm; one in material breaks an indexable cutter.";
+    NO_INSERTS = "CL0323", Note, "ramps of a tool without inserts were not looked at",
+        "If it is an indexable cutter, say so: `insert: { height: ..., radius: ... }` for it under `setup.tools`.",
+        "The limits of `correct_ramp` are those of indexable cutters, which do not cut at their centre. The step says no `tool:`, and no \
+         entry of `setup.tools` that fits this tool has an `insert:`, so it is taken for a solid cutter that may go down as its CAM \
+         system made it. Another tool of the program has inserts and was looked at.";
 }

@@ -1,0 +1,178 @@
+//! One ramp corrected: length, then height, then layers, inside the region.
+
+use super::circle::{on_circle, own_side};
+use super::detour::{along_chord, along_pass, widened};
+use super::kind::Kind;
+use super::layers::{TooMany, compressed, shallow};
+use super::limits::{Limits, keeps, long_enough, shallow_enough};
+use super::ramp::Ramp;
+use super::region::Region;
+use nalgebra::{Point2, Point3, Vector2};
+
+/// What a ramp is corrected by. Lengths in mm, in the tool's frame.
+#[derive(Debug, Clone, Copy)]
+pub struct Task<'a> {
+    /// The cutter's limits.
+    pub limits: Limits,
+    /// Height above the ramp's end at which it may begin: depth of cut and clearance (h1'); `None` keeps its own.
+    pub begin: Option<f64>,
+    /// Where the tool may go.
+    pub region: &'a Region,
+    /// The direction in which the operation cuts on from the ramp's end.
+    pub first_pass: Option<Vector2<f64>>,
+    /// How far printed coordinates may be off: legs are made that much longer, so that they keep the limit as printed.
+    pub rounding: f64,
+}
+
+/// How a ramp became longer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Lengthened {
+    /// It was long enough.
+    No,
+    /// Its turning points moved onto the circumscribed circle.
+    Circle,
+    /// Onto the circle's mirror image, since the circle left the region.
+    MirroredCircle,
+    /// The helix became wider.
+    WidenedHelix,
+    /// Long legs along the chord from start to end.
+    AlongChord,
+    /// Long legs along the first cutting pass.
+    AlongPass,
+}
+
+/// A corrected ramp.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Corrected {
+    /// The ramp.
+    pub ramp: Ramp,
+    /// How it became longer.
+    pub lengthened: Lengthened,
+    /// Ratio nu of the compression; 1 for none.
+    pub compression: f64,
+    /// How many times it goes over its path; of a helix 1 and its additional turns.
+    pub passes: usize,
+}
+
+/// Why a ramp cannot be corrected.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum Impossible {
+    /// Every longer ramp leaves the region.
+    #[error("every way to make its legs {0:.3} mm long leaves the region where the tool may go")]
+    Region(f64),
+    /// No direction to be longer in.
+    #[error("it has one leg only, and no chord or cutting pass to lengthen it along")]
+    NoDirection,
+    /// So flat a limit that no sensible number of layers keeps it.
+    #[error("it would need {0:.0} passes to be shallow enough")]
+    TooMany(f64),
+    /// Its own path is too short for its printed decimals.
+    #[error("it cannot be made to keep the limits")]
+    Limits,
+}
+
+/// The corrected ramp; `None` when it keeps the limits as it is.
+///
+/// Order: length, compression (only when a step is too steep and the ramp begins too high), layers. P1 keeps its place across the
+/// axis and Pn its place altogether; the result descends all the way and keeps both limits.
+///
+/// # Errors
+/// [`Impossible`]; a ramp is never corrected in part.
+pub fn correct(ramp: &Ramp, task: &Task<'_>) -> Result<Option<Corrected>, Impossible> {
+    if keeps(ramp, &task.limits, task.rounding) {
+        return Ok(None);
+    }
+    if long_enough(ramp, &task.limits, task.rounding) {
+        return shallower(ramp, Lengthened::No, task).map(Some);
+    }
+    let least = task.limits.shortest_leg + task.rounding;
+    let longer = candidates(ramp, least, task.first_pass);
+    if longer.is_empty() {
+        return Err(Impossible::NoDirection);
+    }
+    let mut why = Impossible::Region(task.limits.shortest_leg);
+    for (lengthened, candidate) in longer {
+        if !task.region.holds(&across(&candidate)) || !long_enough(&candidate, &task.limits, 0.0) {
+            continue;
+        }
+        match shallower(&candidate, lengthened, task) {
+            Ok(found) => return Ok(Some(found)),
+            Err(reason) => why = reason,
+        }
+    }
+    Err(why)
+}
+
+/// Longer ramps in the order in which they are tried.
+fn candidates(ramp: &Ramp, least: f64, first_pass: Option<Vector2<f64>>) -> Vec<(Lengthened, Ramp)> {
+    let mut found = Vec::new();
+    match Kind::of(ramp) {
+        Kind::Helix(helix) => {
+            found.push((Lengthened::WidenedHelix, widened(ramp, &helix, 0.5 * least)));
+        }
+        Kind::Zigzag | Kind::Plunge => {
+            let points = turning_points(ramp);
+            let places: Vec<Point2<f64>> = points.iter().map(Point3::xy).collect();
+            let legs = points.len().saturating_sub(1).max(1);
+            let path: f64 = ramp.walk().map(|(from, step)| step.across(from)).sum();
+            let (leg, closed) = (least.max(path / legs as f64), ramp.is_closed());
+            let own = own_side(&places, closed);
+            let sides = [(Lengthened::Circle, own), (Lengthened::MirroredCircle, own.mirrored())];
+            for (how, side) in sides {
+                let moved = on_circle(&places, leg, side, closed);
+                found.extend(moved.and_then(|moved| raised(&moved, &points)).map(|ramp| (how, ramp)));
+            }
+        }
+        Kind::AlongShape => {}
+    }
+    found.extend(along_chord(ramp, least).into_iter().map(|ramp| (Lengthened::AlongChord, ramp)));
+    let along = first_pass.and_then(|direction| along_pass(ramp, direction, least));
+    found.extend(along.map(|ramp| (Lengthened::AlongPass, ramp)));
+    found
+}
+
+/// P1..Pn: the turning points between straight legs.
+fn turning_points(ramp: &Ramp) -> Vec<Point3<f64>> {
+    let points: Vec<Point3<f64>> = ramp.points().collect();
+    let ends = ramp.legs();
+    let inner = ends.iter().filter_map(|leg| points.get(leg.steps.end).copied());
+    std::iter::once(ramp.start).chain(inner).collect()
+}
+
+/// New places across the axis with the old heights; P1 and Pn as they were.
+fn raised(places: &[Point2<f64>], points: &[Point3<f64>]) -> Option<Ramp> {
+    let raised = places.iter().zip(points).map(|(place, point)| Point3::new(place.x, place.y, point.z));
+    let mut raised: Vec<Point3<f64>> = raised.collect();
+    if let (Some(last), Some(end)) = (raised.last_mut(), points.last()) {
+        *last = *end;
+    }
+    Ramp::through(&raised)
+}
+
+fn across(ramp: &Ramp) -> Vec<Point2<f64>> {
+    let mut path = vec![ramp.start.xy()];
+    path.extend(ramp.walk().flat_map(|(from, step)| step.samples(from)));
+    path
+}
+
+fn shallower(ramp: &Ramp, lengthened: Lengthened, task: &Task<'_>) -> Result<Corrected, Impossible> {
+    let mut ratio = 1.0;
+    let mut lowered = ramp.clone();
+    if !shallow_enough(ramp, &task.limits, task.rounding) {
+        let begin = task.begin.filter(|begin| *begin < ramp.height());
+        if let Some(begin) = begin {
+            ratio = begin / ramp.height();
+            lowered = compressed(ramp, ratio);
+        }
+    }
+    let (ramp, passes) = if shallow_enough(&lowered, &task.limits, task.rounding) {
+        (lowered, 1)
+    } else {
+        shallow(&lowered, &task.limits).map_err(|TooMany(passes)| Impossible::TooMany(passes))?
+    };
+    if !keeps(&ramp, &task.limits, task.rounding) {
+        return Err(Impossible::Limits);
+    }
+    Ok(Corrected { ramp, lengthened, compression: ratio, passes })
+}

@@ -1,0 +1,75 @@
+//! Longer ramps where the circle does not fit: two or three long legs along a line, and wider helices.
+
+use super::kind::Helix;
+use super::layers::around;
+use super::ramp::{NOTHING, Ramp, Step};
+use nalgebra::{Point2, Point3, Vector2};
+
+/// A ramp over turning points across the axis, its height shared out by length.
+fn over(ramp: &Ramp, turns: &[Point2<f64>]) -> Option<Ramp> {
+    let (start, end) = (ramp.start, ramp.end());
+    let places: Vec<Point2<f64>> =
+        std::iter::once(start.xy()).chain(turns.iter().copied()).chain([end.xy()]).collect();
+    let lengths: Vec<f64> = places
+        .windows(2)
+        .map(|pair| match pair {
+            [a, b] => (b - a).norm(),
+            _ => 0.0,
+        })
+        .collect();
+    let whole: f64 = lengths.iter().sum();
+    let mut gone = 0.0;
+    let mut points = vec![start];
+    for (place, length) in places.iter().skip(1).zip(&lengths) {
+        gone += length;
+        let z = start.z - ramp.height() * gone / whole;
+        points.push(Point3::new(place.x, place.y, z));
+    }
+    if let Some(last) = points.last_mut() {
+        *last = end;
+    }
+    Ramp::through(&points)
+}
+
+/// Ramps along the chord P1-Pn with legs of at least `least` (mm): the chord itself where it is long enough, else beyond its end and
+/// back, from behind its start, and to and fro over both. The shortest comes first. None for a closed ramp.
+pub fn along_chord(ramp: &Ramp, least: f64) -> Vec<Ramp> {
+    let (start, end) = (ramp.start.xy(), ramp.end().xy());
+    let s = (end - start).norm();
+    let Some(along) = (end - start).try_normalize(NOTHING) else { return Vec::new() };
+    if s >= least {
+        return over(ramp, &[]).into_iter().collect();
+    }
+    let at = |distance: f64| start + along * distance;
+    let turns = [vec![at(least), at(s - least)], vec![at(s + least)], vec![at(-least)]];
+    turns.iter().filter_map(|turns| over(ramp, turns)).collect()
+}
+
+/// A ramp out along a direction from Pn, as far as both legs need, and back to Pn: where the operation's first cutting pass will go
+/// anyway.
+pub fn along_pass(ramp: &Ramp, direction: Vector2<f64>, least: f64) -> Option<Ramp> {
+    let direction = direction.try_normalize(1e-9)?;
+    let back = ramp.end().xy() - ramp.start.xy();
+    // |back + t direction| >= least for all t from the larger root on, if there is one.
+    let (half, rest) = (back.dot(&direction), back.norm_squared() - least * least);
+    let root = (half * half - rest).max(0.0).sqrt() - half;
+    let reach = least.max(root);
+    over(ramp, &[ramp.end().xy() + direction * reach])
+}
+
+/// The helix about the same axis with radius `radius` (mm): a level link out to it, and one back in from its end. Chords stay as
+/// close to their circle as they were.
+pub fn widened(ramp: &Ramp, helix: &Helix, radius: f64) -> Ramp {
+    let ratio = radius / helix.radius;
+    let out = |point: Point3<f64>| {
+        let at = helix.centre + (point.xy() - helix.centre) * ratio;
+        Point3::new(at.x, at.y, point.z)
+    };
+    let widest_step = if helix.arcs { helix.widest_step } else { helix.widest_step / ratio.sqrt() };
+    let wide = Helix { radius, widest_step, ..*helix };
+    let (start, end) = (out(ramp.start), out(ramp.end()));
+    let mut steps = vec![Step::straight(start)];
+    steps.extend(around(&wide, start, end));
+    steps.push(Step::straight(ramp.end()));
+    Ramp { start: ramp.start, steps }
+}

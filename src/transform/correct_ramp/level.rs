@@ -1,0 +1,66 @@
+//! What an operation cuts at a ramp's level.
+
+use super::find::{Found, LEVEL, is_level, placed};
+use super::ramp::Ramp;
+use super::region::Region;
+use crate::program::motion::Motion;
+use nalgebra::{Point2, Rotation3};
+use std::collections::HashMap;
+
+/// The level motions of operations, found once for each operation and tool axis.
+pub(super) struct Levels<'m> {
+    motions: &'m [Motion],
+    mm: f64,
+    known: HashMap<(usize, [i64; 3]), Vec<(f64, usize)>>,
+}
+
+impl<'m> Levels<'m> {
+    pub fn new(motions: &'m [Motion], mm: f64) -> Self {
+        Self { motions, mm, known: HashMap::new() }
+    }
+
+    /// The hull of what a ramp's operation cuts at the level of its end, and of the ramp itself.
+    pub fn hull(&mut self, found: &Found) -> Region {
+        let end = found.ramp.end().z;
+        let (motions, mm, frame) = (self.motions, self.mm, found.frame);
+        let heights = self.heights(found);
+        let start = heights.partition_point(|(z, _)| *z < end - LEVEL);
+        let level = heights.iter().skip(start).take_while(|(z, _)| *z <= end + LEVEL);
+        let level = level.filter_map(|(_, index)| motions.get(*index));
+        let cut = level.flat_map(|motion| {
+            let samples = motion.path.samples(motion.from.point, motion.to.point);
+            samples.into_iter().map(move |point| (frame * (point * mm)).xy())
+        });
+        Region::hull(cut.chain(own(&found.ramp)))
+    }
+
+    /// Heights of the operation's level motions at feed, ascending, with their indices.
+    fn heights(&mut self, found: &Found) -> &[(f64, usize)] {
+        let axis = (found.frame.inverse() * nalgebra::Vector3::z()).map(|part| (part * 1e6).round() as i64);
+        let key = (found.operation, axis.into());
+        let (motions, mm, frame) = (self.motions, self.mm, &found.frame);
+        self.known.entry(key).or_insert_with(|| heights(motions, found.operation, frame, mm))
+    }
+}
+
+fn heights(motions: &[Motion], operation: usize, frame: &Rotation3<f64>, mm: f64) -> Vec<(f64, usize)> {
+    let all = motions.iter().enumerate().filter(|(_, motion)| motion.operation == operation);
+    let upright = |motion: &Motion| (frame * motion.from.axis).xy().amax() <= 1e-6;
+    let level = all.filter(|(_, motion)| {
+        !motion.rapid
+            && motion.hole.is_none()
+            && upright(motion)
+            && motion.length() > 0.0
+            && is_level(motion, mm)
+    });
+    let mut found: Vec<(f64, usize)> =
+        level.map(|(index, motion)| (placed(motion.to, frame, mm).z, index)).collect();
+    found.sort_by(|one, other| one.0.total_cmp(&other.0));
+    found
+}
+
+fn own(ramp: &Ramp) -> Vec<Point2<f64>> {
+    let mut points = vec![ramp.start.xy()];
+    points.extend(ramp.walk().flat_map(|(from, step)| step.samples(from)));
+    points
+}

@@ -1,0 +1,225 @@
+//! A ramp as geometry: where it starts, and its steps down to the floor.
+//!
+//! Everything is in millimetres and in the tool's frame: z along the tool axis, the ramp descends.
+
+use geo::{ConvexHull, LineString, MultiPoint};
+use nalgebra::{Point2, Point3, Vector2};
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+/// Directions that differ by more than this (degrees) make a turning point; less is the bend of a curve that chords approximate.
+const CORNER: f64 = 20.0;
+
+/// Steps shorter than this across the axis (mm) go straight down.
+pub(super) const NOTHING: f64 = 1e-3;
+
+/// Points of a leg that lie this close to its chord (mm) make it straight.
+const STRAIGHT: f64 = 0.01;
+
+/// A ramp: P1 and the steps to P2..Pn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ramp {
+    /// P1, where the tool starts to descend in the material.
+    pub start: Point3<f64>,
+    /// The way down; never empty where a ramp was found.
+    pub steps: Vec<Step>,
+}
+
+/// A straight step or an arc about the tool axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step {
+    /// Where it ends.
+    pub to: Point3<f64>,
+    /// Its arc; `None` for a straight step.
+    pub bend: Option<Bend>,
+}
+
+/// The arc of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bend {
+    /// Centre.
+    pub centre: Point2<f64>,
+    /// Radians, counter-clockwise positive.
+    pub sweep: f64,
+}
+
+/// The run between two turning points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Leg {
+    /// Its steps.
+    pub steps: Range<usize>,
+    /// Largest distance of two of its points across the axis; of a straight leg its length.
+    pub extent: f64,
+    /// Whether it is straight.
+    pub straight: bool,
+}
+
+impl Step {
+    /// A straight step.
+    pub fn straight(to: Point3<f64>) -> Self {
+        Self { to, bend: None }
+    }
+
+    /// Length across the axis from where the step starts.
+    pub fn across(&self, from: Point3<f64>) -> f64 {
+        match self.bend {
+            None => (self.to.xy() - from.xy()).norm(),
+            Some(bend) => (from.xy() - bend.centre).norm() * bend.sweep.abs(),
+        }
+    }
+
+    /// Directions across the axis in which it starts and ends; `None` when it goes straight down.
+    fn directions(&self, from: Point3<f64>) -> Option<[Vector2<f64>; 2]> {
+        match self.bend {
+            None => {
+                let way = self.to.xy() - from.xy();
+                (way.norm() > NOTHING).then(|| [way.normalize(); 2])
+            }
+            Some(bend) => {
+                let tangent = |at: Point2<f64>| {
+                    let spoke = at - bend.centre;
+                    Vector2::new(-spoke.y, spoke.x).try_normalize(0.0).map(|side| side * bend.sweep.signum())
+                };
+                Some([tangent(from.xy())?, tangent(self.to.xy())?])
+            }
+        }
+    }
+
+    /// Points along it across the axis, its start left out; arcs every 5 degrees.
+    pub fn samples(&self, from: Point3<f64>) -> Vec<Point2<f64>> {
+        let Some(bend) = self.bend else { return vec![self.to.xy()] };
+        let count = (bend.sweep.abs() / 5f64.to_radians()).ceil().clamp(1.0, 100_000.0) as usize;
+        let spoke = from.xy() - bend.centre;
+        let inner = (1..count).map(|index| {
+            let angle = bend.sweep * index as f64 / count as f64;
+            bend.centre + nalgebra::Rotation2::new(angle) * spoke
+        });
+        inner.chain([self.to.xy()]).collect()
+    }
+}
+
+impl Ramp {
+    /// A ramp of straight steps through points; `None` for fewer than two.
+    pub fn through(points: &[Point3<f64>]) -> Option<Self> {
+        let (start, rest) = points.split_first()?;
+        (!rest.is_empty())
+            .then(|| Self { start: *start, steps: rest.iter().map(|to| Step::straight(*to)).collect() })
+    }
+
+    /// Pn.
+    pub fn end(&self) -> Point3<f64> {
+        self.steps.last().map_or(self.start, |step| step.to)
+    }
+
+    /// How far it descends.
+    pub fn height(&self) -> f64 {
+        self.start.z - self.end().z
+    }
+
+    /// Each step with where it starts.
+    pub fn walk(&self) -> impl Iterator<Item = (Point3<f64>, &Step)> {
+        let starts = std::iter::once(self.start).chain(self.steps.iter().map(|step| step.to));
+        starts.zip(&self.steps)
+    }
+
+    /// P1..Pn with the points between.
+    pub fn points(&self) -> impl Iterator<Item = Point3<f64>> {
+        std::iter::once(self.start).chain(self.steps.iter().map(|step| step.to))
+    }
+
+    /// Whether it ends above or below where it starts.
+    pub fn is_closed(&self) -> bool {
+        (self.end().xy() - self.start.xy()).norm() <= NOTHING
+    }
+
+    /// Length of the path.
+    pub fn length(&self) -> f64 {
+        self.walk().map(|(from, step)| step.across(from).hypot(step.to.z - from.z)).sum()
+    }
+
+    /// Tangent of the steepest step's angle; infinite where it goes straight down.
+    pub fn steepest(&self) -> f64 {
+        let slope = |(from, step): (Point3<f64>, &Step)| {
+            let (down, across) = (from.z - step.to.z, step.across(from));
+            if down <= 0.0 {
+                0.0
+            } else if across <= NOTHING {
+                f64::INFINITY
+            } else {
+                down / across
+            }
+        };
+        self.walk().map(slope).fold(0.0, f64::max)
+    }
+
+    /// The legs that descend, in order.
+    pub fn legs(&self) -> Vec<Leg> {
+        let mut bounds = vec![0];
+        let mut before: Option<Option<Vector2<f64>>> = None;
+        for (index, (from, step)) in self.walk().enumerate() {
+            let directions = step.directions(from);
+            let turns = match (before, directions) {
+                (None, _) => false,
+                (Some(Some(end)), Some([start, _])) => end.dot(&start) < CORNER.to_radians().cos(),
+                (Some(None), None) => false,
+                (Some(_), _) => true,
+            };
+            if turns {
+                bounds.push(index);
+            }
+            before = Some(directions.map(|[_, end]| end));
+        }
+        bounds.push(self.steps.len());
+        let ranges = bounds.windows(2).filter_map(|pair| match pair {
+            [start, end] if start < end => Some(*start..*end),
+            _ => None,
+        });
+        ranges.filter(|steps| self.descends(steps)).map(|steps| self.leg(steps)).collect()
+    }
+
+    fn descends(&self, steps: &Range<usize>) -> bool {
+        self.walk().skip(steps.start).take(steps.len()).any(|(from, step)| from.z > step.to.z)
+    }
+
+    fn leg(&self, steps: Range<usize>) -> Leg {
+        let mut points: Vec<Point2<f64>> = Vec::new();
+        for (from, step) in self.walk().skip(steps.start).take(steps.len()) {
+            if points.is_empty() {
+                points.push(from.xy());
+            }
+            points.extend(step.samples(from));
+        }
+        let (first, last) = match (points.first(), points.last()) {
+            (Some(first), Some(last)) => (*first, *last),
+            _ => (Point2::origin(), Point2::origin()),
+        };
+        let chord = last - first;
+        let beside = |point: &Point2<f64>| {
+            let along = chord.try_normalize(NOTHING).unwrap_or_default();
+            let way = point - first;
+            (way - along * along.dot(&way)).norm()
+        };
+        let straight = points.iter().all(|point| beside(point) <= STRAIGHT);
+        let extent = if straight { chord.norm() } else { widest(&points) };
+        Leg { steps, extent, straight }
+    }
+}
+
+/// Largest distance between two of the points.
+fn widest(points: &[Point2<f64>]) -> f64 {
+    let all: MultiPoint = points.iter().map(|point| geo::Point::new(point.x, point.y)).collect();
+    let hull: LineString = all.convex_hull().exterior().clone();
+    let corners: Vec<Point2<f64>> = hull.coords().map(|at| Point2::new(at.x, at.y)).collect();
+    let mut widest = 0.0f64;
+    for (index, one) in corners.iter().enumerate() {
+        for other in corners.iter().skip(index + 1) {
+            widest = widest.max((other - one).norm());
+        }
+    }
+    widest
+}
+
+/// The direction that an angle of a full circle leaves over, in `[0, 2 pi)`.
+pub(super) fn wrapped(angle: f64) -> f64 {
+    angle.rem_euclid(TAU)
+}

@@ -1,0 +1,94 @@
+//! Where the tool's centre may go across its axis.
+
+use geo::line_intersection::{LineIntersection, line_intersection};
+use geo::{Contains, ConvexHull, Distance, Euclidean, Line, LineString, MultiPoint, Polygon, Validation};
+use nalgebra::Point2;
+
+/// Points this far outside (mm) are on the border: below what any dialect prints.
+const BORDER: f64 = 1e-5;
+
+/// A region across the tool axis, mm.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Region {
+    /// Anywhere.
+    Everywhere,
+    /// Within a polygon, its border included.
+    Polygon(Polygon),
+}
+
+/// Why corners make no region.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum RegionError {
+    /// Fewer than three corners.
+    #[error("a region needs three corners or more")]
+    TooFew,
+    /// Its border crosses or touches itself, or it has no area.
+    #[error("the region's border crosses itself, or encloses nothing")]
+    Crossing,
+}
+
+impl Region {
+    /// The region inside a polygon, either way around; the last corner need not repeat the first.
+    ///
+    /// # Errors
+    /// [`RegionError`].
+    pub fn polygon(corners: &[[f64; 2]]) -> Result<Self, RegionError> {
+        let border: LineString = corners.iter().map(|[x, y]| (*x, *y)).collect();
+        let polygon = Polygon::new(border, Vec::new());
+        // A closed border repeats its first corner.
+        if polygon.exterior().coords().count() < 4 {
+            return Err(RegionError::TooFew);
+        }
+        if !polygon.is_valid() {
+            return Err(RegionError::Crossing);
+        }
+        Ok(Self::Polygon(polygon))
+    }
+
+    /// The convex hull of points. Of points on a line, only that line.
+    pub fn hull(points: impl IntoIterator<Item = Point2<f64>>) -> Self {
+        let all: MultiPoint = points.into_iter().map(|point| geo::Point::new(point.x, point.y)).collect();
+        Self::Polygon(all.convex_hull())
+    }
+
+    /// Whether a path lies in it; arcs are given as their samples.
+    pub fn holds(&self, path: &[Point2<f64>]) -> bool {
+        let Self::Polygon(polygon) = self else { return true };
+        let at = |point: &Point2<f64>| geo::Coord { x: point.x, y: point.y };
+        path.windows(2).all(|pair| match pair {
+            [from, to] => holds_line(polygon, Line::new(at(from), at(to))),
+            _ => true,
+        })
+    }
+}
+
+/// Between its crossings with the border a line is inside or outside as a whole, so the middles tell.
+fn holds_line(polygon: &Polygon, line: Line) -> bool {
+    let delta = line.delta();
+    let length_squared = delta.x * delta.x + delta.y * delta.y;
+    let share =
+        |at: geo::Coord| ((at.x - line.start.x) * delta.x + (at.y - line.start.y) * delta.y) / length_squared;
+    let mut cuts = vec![0.0, 1.0];
+    if length_squared > 0.0 {
+        for edge in polygon.exterior().lines() {
+            match line_intersection(line, edge) {
+                Some(LineIntersection::SinglePoint { intersection, .. }) => cuts.push(share(intersection)),
+                Some(LineIntersection::Collinear { intersection }) => {
+                    cuts.extend([share(intersection.start), share(intersection.end)]);
+                }
+                None => {}
+            }
+        }
+    }
+    cuts.sort_by(f64::total_cmp);
+    let middle = |low: f64, high: f64| line.start + delta * (0.5 * (low + high));
+    let inside = |at: geo::Coord| {
+        let point = geo::Point::from(at);
+        polygon.contains(&point) || Euclidean.distance(&point, polygon.exterior()) <= BORDER
+    };
+    let ends = [line.start, line.end].into_iter().all(inside);
+    ends && cuts.windows(2).all(|pair| match pair {
+        [low, high] => inside(middle(*low, *high)),
+        _ => true,
+    })
+}

@@ -1,0 +1,244 @@
+//! The step: find, judge, correct, write, measure again.
+
+use super::correct::{Corrected, Lengthened, Task, correct};
+use super::cutter::{self, Cutter};
+use super::find::{Found, find};
+use super::kind::Kind;
+use super::level::Levels;
+use super::limits::{Limits, Measured};
+use super::parameters::{CorrectRamp, IfImpossible, Plunges, RampRegion};
+use super::prove;
+use super::region::Region;
+use super::report::{Outcome, RampReport, Report};
+use super::words;
+use super::write::{self, Written};
+use crate::diagnostic::Diagnostic;
+use crate::program::motion::{Motion, Tool};
+use crate::program::{LengthUnit, Program, operation};
+use crate::transform::{Context, Selection, StepReport, Transform};
+use crate::values::{Finite, NonNegative, Positive};
+use crate::write::Editor;
+use std::sync::Arc;
+
+/// How far printed coordinates may put two points nearer together, in the file's unit: half of the fourth decimal at both ends, both ways.
+const ROUNDING: f64 = 2e-4;
+
+/// Where a ramp may begin above the depth of cut, mm (Zhou 2020: 2 to 3 mm).
+const CLEARANCE: f64 = 2.5;
+
+/// A ramp that is to be written anew.
+pub(super) struct Plan {
+    pub found: Found,
+    pub limits: Limits,
+    pub corrected: Corrected,
+    /// Its place among the reports.
+    pub report: usize,
+}
+
+impl Transform for CorrectRamp {
+    fn apply(&self, program: Program, context: &mut Context<'_>) -> Result<Program, Box<Diagnostic>> {
+        let file = context.file_units(&program);
+        let motions: Vec<Motion> = program.motions().collect();
+        let mut look = Look::new(self, &program, &motions, file, context);
+        look.judge_all(context)?;
+        let Look { plans, mut reports, .. } = look;
+        let mut editor = Editor::new(program, context.step);
+        let mut written: Vec<Written> = Vec::with_capacity(plans.len());
+        for plan in &plans {
+            let done = write::write(&mut editor, &motions, &plan.found, &plan.corrected.ramp, file.in_mm())?;
+            written.push(
+                done.map_err(|why| words::unproven(editor.program(), &motions, &plan.found, why, context))?,
+            );
+        }
+        let program = editor.finish()?;
+        let rounding = ROUNDING * file.in_mm();
+        prove::prove(&program, &motions, &plans, &written, (file, rounding), &mut reports).map_err(
+            |(plan, why)| match plans.get(plan) {
+                Some(plan) => words::unproven(&program, &motions, &plan.found, why, context),
+                None => context.fail(why.to_string(), &[]),
+            },
+        )?;
+        context.reports.push(StepReport::CorrectRamp(Report { ramps: reports }));
+        Ok(program)
+    }
+}
+
+/// The ramps of a program and what is to become of them.
+struct Look<'a> {
+    step: &'a CorrectRamp,
+    program: &'a Program,
+    motions: &'a [Motion],
+    file: LengthUnit,
+    operations: Vec<String>,
+    levels: Levels<'a>,
+    polygon: Option<Region>,
+    cutters: Vec<(Option<Arc<Tool>>, Option<Limits>)>,
+    plans: Vec<Plan>,
+    reports: Vec<RampReport>,
+    impossible: Vec<Diagnostic>,
+}
+
+impl<'a> Look<'a> {
+    fn new(
+        step: &'a CorrectRamp,
+        program: &'a Program,
+        motions: &'a [Motion],
+        file: LengthUnit,
+        context: &Context<'_>,
+    ) -> Self {
+        let recipe = context.recipe.units.in_mm();
+        let polygon = match &step.region {
+            RampRegion::Hull => None,
+            RampRegion::None => Some(Region::Everywhere),
+            RampRegion::Polygon(corners) => {
+                let corners: Vec<[f64; 2]> =
+                    corners.iter().map(|corner| corner.map(|value: Finite| value.get() * recipe)).collect();
+                // The corners were checked where the recipe was read.
+                Region::polygon(&corners).ok()
+            }
+        };
+        Self {
+            step,
+            program,
+            motions,
+            file,
+            operations: operation::operations(program).into_iter().map(|operation| operation.name).collect(),
+            levels: Levels::new(motions, file.in_mm()),
+            polygon,
+            cutters: Vec::new(),
+            plans: Vec::new(),
+            reports: Vec::new(),
+            impossible: Vec::new(),
+        }
+    }
+
+    fn judge_all(&mut self, context: &mut Context<'_>) -> Result<(), Box<Diagnostic>> {
+        let recipe = context.recipe.units.in_mm();
+        let depth = self.step.depth_of_cut.map(|depth| depth.get() * recipe);
+        let mut selection = Selection::new(&self.step.r#where, self.program, context);
+        let mut meant = Vec::new();
+        for found in find(self.motions, self.file.in_mm(), depth) {
+            let first = self.motions.get(found.motions.start);
+            if first.is_some_and(|motion| selection.contains(motion, context)) {
+                meant.push(found);
+            }
+        }
+        // What `where` selects is asked of ramps alone; a program may well have none.
+        if meant.is_empty() && !self.motions.iter().any(|motion| selection.contains(motion, context)) {
+            selection.report(context);
+        }
+        let mut solid: Vec<(usize, Option<Arc<Tool>>)> = Vec::new();
+        let count = meant.len();
+        for found in meant {
+            let Some(first) = self.motions.get(found.motions.start) else { continue };
+            match self.limits(first, context)? {
+                Some(limits) => self.judge(found, limits, context),
+                None => solid.push((found.motions.start, first.tool.clone())),
+            }
+        }
+        if let Some((index, tool)) = solid.first() {
+            let all = solid.len() == count;
+            let told =
+                words::without_insert(self.program, self.motions, *index, tool.as_deref(), all, context);
+            if all {
+                return Err(told);
+            }
+            context.findings.push(*told);
+        }
+        let mut impossible = std::mem::take(&mut self.impossible);
+        match impossible.pop() {
+            Some(last) => {
+                context.findings.extend(impossible);
+                Err(Box::new(last))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// The limits of a motion's tool; `None` for a tool without inserts.
+    fn limits(&mut self, motion: &Motion, context: &Context<'_>) -> Result<Option<Limits>, Box<Diagnostic>> {
+        if let Some((_, limits)) = self.cutters.iter().find(|(tool, _)| *tool == motion.tool) {
+            return Ok(*limits);
+        }
+        let none = Tool::default();
+        let tool = motion.tool.as_deref().unwrap_or(&none);
+        let limits = match cutter::of(self.step, tool, self.file, context) {
+            Cutter::Solid => None,
+            Cutter::Unknown(found) => return Err(found),
+            Cutter::Indexable(cutter) => {
+                Some(cutter.limits().map_err(|error| context.fail(error.to_string(), &["tool"]))?)
+            }
+        };
+        self.cutters.push((motion.tool.clone(), limits));
+        Ok(limits)
+    }
+
+    fn judge(&mut self, found: Found, limits: Limits, context: &mut Context<'_>) {
+        let recipe = context.recipe.units.in_mm();
+        let (step, mm) = (self.step, self.file.in_mm());
+        let clearance = step.clearance.map_or(CLEARANCE, |clearance: NonNegative| clearance.get() * recipe);
+        let begin = step.depth_of_cut.map(|depth: Positive| depth.get() * recipe + clearance);
+        let region = self.polygon.clone().unwrap_or_else(|| self.levels.hull(&found));
+        let first_pass = found.first_pass;
+        let task = Task { limits, begin, region: &region, first_pass, rounding: ROUNDING * mm };
+        let kept_plunge = step.plunges == Plunges::Keep && Kind::of(&found.ramp) == Kind::Plunge;
+        let corrected = correct(&found.ramp, &task);
+        let fits = matches!(corrected, Ok(None));
+        let mut report = self.report(&found, limits, if fits { Outcome::Fits } else { Outcome::Kept });
+        if fits {
+            self.reports.push(report);
+            return;
+        }
+        let written = write::check(self.program, self.motions, &found.motions);
+        let why_not = match (&corrected, written, first_pass) {
+            _ if kept_plunge => Some("`plunges: keep` leaves straight descents as they are".to_owned()),
+            (_, _, None) => Some("it does not end at a level where cutting goes on".to_owned()),
+            (Err(why), _, _) => Some(why.to_string()),
+            (_, Err(why), _) => Some(why.to_string()),
+            _ => None,
+        };
+        let place = words::Place { program: self.program, motions: self.motions, found: &found };
+        match (corrected, why_not) {
+            (Ok(Some(corrected)), None) => {
+                context.findings.push(words::corrected(&place, &report, &corrected, context));
+                report.outcome = Outcome::Corrected;
+                report.lengthened = corrected.lengthened;
+                report.compression = corrected.compression;
+                report.passes = corrected.passes;
+                self.plans.push(Plan { found, limits, corrected, report: self.reports.len() });
+            }
+            (_, why) => {
+                let why = why.unwrap_or_default();
+                let keep = kept_plunge || step.if_impossible == IfImpossible::Keep;
+                let told = words::impossible(&place, &report, &why, keep, context);
+                if keep { context.findings.push(told) } else { self.impossible.push(told) }
+            }
+        }
+        self.reports.push(report);
+    }
+
+    fn report(&self, found: &Found, limits: Limits, outcome: Outcome) -> RampReport {
+        let first = self.motions.get(found.motions.start);
+        let origin = first
+            .and_then(|motion| self.program.statement(motion.statements.start))
+            .map(|statement| statement.origin())
+            .unwrap_or_default();
+        RampReport {
+            operation: self.operations.get(found.operation).cloned().unwrap_or_default(),
+            line: self.program.source().line_column(origin.start).0 as u64,
+            kind: Kind::of(&found.ramp).name(),
+            limit_leg_mm: limits.shortest_leg,
+            limit_degrees: limits.steepest.atan().to_degrees(),
+            before: Measured::of(&found.ramp),
+            outcome,
+            after: None,
+            lengthened: Lengthened::No,
+            compression: 1.0,
+            passes: 1,
+            added_mm: 0.0,
+            added_seconds: None,
+            path_before: prove::drawn(&found.ramp),
+            path_after: Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,302 @@
+//! A corrected ramp in the CL text.
+//!
+//! The statements of the old ramp keep their places with what stands around them; additional points come before them, where the feed
+//! that the ramp starts with is in force. The statement of its end stays byte for byte, but for an arc that it ends.
+
+use super::find::Found;
+use super::ramp::{NOTHING, Ramp, Step};
+use crate::diagnostic::Diagnostic;
+use crate::parse;
+use crate::program::geometry::Path;
+use crate::program::motion::Motion;
+use crate::program::record::{ArcSense, Circle};
+use crate::program::{Program, Record};
+use crate::transform::numbers::without_remark;
+use crate::write::{Editor, copy_with_numbers};
+use nalgebra::{Point3, Vector3};
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+/// Chords that stand for an arc which the file cannot say stay this close to it, mm.
+const CHORD: f64 = 0.005;
+
+/// Why a ramp's statements cannot be given other points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub(super) enum Unwritable {
+    #[error("one of its statements is no plain GOTO of one point")]
+    NoGoto,
+    #[error("one of its points has a contact normal")]
+    ContactNormal,
+    #[error("one of its statements makes other motions, too")]
+    Shared,
+    #[error("an arc of it is announced by a record that cannot be written anew")]
+    Arc,
+}
+
+/// What was written for a ramp.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Written {
+    /// The ramp as it should read back, arcs that could not be said as chords.
+    pub ramp: Ramp,
+    /// Whether a motion down to its lowered start was put in before it.
+    pub lead: bool,
+    /// Whether the statement before it was lowered.
+    pub lowered: bool,
+}
+
+/// The statements of a motion of a ramp.
+#[derive(Debug, Clone, Copy)]
+struct Form {
+    goto: usize,
+    arc: Option<usize>,
+}
+
+/// Whether a ramp's statements can be given other points.
+pub(super) fn check(program: &Program, motions: &[Motion], range: &Range<usize>) -> Result<(), Unwritable> {
+    forms(program, motions, range).map(|_| ())
+}
+
+fn forms(program: &Program, motions: &[Motion], range: &Range<usize>) -> Result<Vec<Form>, Unwritable> {
+    let one = |index: usize| {
+        let motion = motions.get(index).ok_or(Unwritable::NoGoto)?;
+        let goto = motion.last_statement();
+        let live = |index: usize| program.statement(index).filter(|found| found.is_live());
+        if !matches!(live(goto).map(|found| found.record()), Some(Record::Goto(_))) {
+            return Err(Unwritable::NoGoto);
+        }
+        if motion.normal.is_some() {
+            return Err(Unwritable::ContactNormal);
+        }
+        let beside = [index.wrapping_sub(1), index + 1];
+        let shares = |other: &usize| motions.get(*other).is_some_and(|other| other.last_statement() == goto);
+        if beside.iter().any(shares) {
+            return Err(Unwritable::Shared);
+        }
+        let announced = motion.statements.clone().rev().skip(1);
+        let mut arcs = announced.filter(|index| {
+            live(*index).is_some_and(|found| {
+                matches!(
+                    found.record(),
+                    Record::Circle(_) | Record::MoveArc(_) | Record::StartDirection(_) | Record::Nurbs
+                )
+            })
+        });
+        let arc = arcs.next();
+        let told = arc.and_then(live).map(|found| found.record());
+        match (&motion.path, told) {
+            (Path::Line, None) | (Path::Arc(_), Some(Record::Circle(_) | Record::MoveArc(_))) => {
+                Ok(Form { goto, arc })
+            }
+            _ => Err(Unwritable::Arc),
+        }
+    };
+    range.clone().map(one).collect()
+}
+
+/// Writes a corrected ramp.
+///
+/// # Errors
+/// When a statement cannot be read back; `Ok(Err)` when the old statements allow no other points.
+pub(super) fn write(
+    editor: &mut Editor,
+    motions: &[Motion],
+    found: &Found,
+    new: &Ramp,
+    mm: f64,
+) -> Result<Result<Written, Unwritable>, Box<Diagnostic>> {
+    let forms = match forms(editor.program(), motions, &found.motions) {
+        Ok(forms) => forms,
+        Err(why) => return Ok(Err(why)),
+    };
+    let (Some(first), Some(last)) = (forms.first().copied(), forms.last().copied()) else {
+        return Ok(Err(Unwritable::NoGoto));
+    };
+    let arc = forms.iter().find_map(|form| form.arc);
+    let writer =
+        Writer { found, mm, goto: first.goto, circle: arc.and_then(|arc| circle(editor.program(), arc)) };
+    let new = writer.sayable(new);
+    let before = motions.get(found.motions.start).map_or(first.goto, |motion| motion.statements.start);
+    let (lead, lowered) = writer.lower_start(editor, motions, &new, before)?;
+    let steps: Vec<(Point3<f64>, Step)> = new.walk().map(|(from, step)| (from, *step)).collect();
+    let extra = steps.len().saturating_sub(forms.len());
+    let (put_in, rest) = steps.split_at(extra);
+    for (_, step) in put_in {
+        writer.insert(editor, step, before)?;
+    }
+    // With fewer points than before, the last statements but the very last go.
+    let kept = rest.len().saturating_sub(1);
+    for ((_, step), form) in rest.iter().zip(forms.iter().take(kept).chain([&last])) {
+        writer.set(editor, step, *form)?;
+    }
+    for form in forms.iter().skip(kept).take(forms.len().saturating_sub(kept + 1)) {
+        editor.delete(form.goto);
+        form.arc.into_iter().for_each(|arc| editor.delete(arc));
+    }
+    Ok(Ok(Written { ramp: new, lead, lowered }))
+}
+
+struct Writer<'a> {
+    found: &'a Found,
+    mm: f64,
+    /// The GOTO that new ones are modelled on.
+    goto: usize,
+    /// The CIRCLE that new ones are modelled on.
+    circle: Option<(usize, Circle)>,
+}
+
+impl Writer<'_> {
+    fn in_file(&self, point: Point3<f64>) -> [f64; 3] {
+        ((self.found.frame.inverse() * point) / self.mm).coords.into()
+    }
+
+    /// The ramp with arcs only where the file has a CIRCLE to say them by.
+    fn sayable(&self, ramp: &Ramp) -> Ramp {
+        let mut steps = Vec::with_capacity(ramp.steps.len());
+        for (from, step) in ramp.walk() {
+            let Some(bend) = step.bend else {
+                steps.push(*step);
+                continue;
+            };
+            if self.turns_as(bend.sweep).is_some() {
+                steps.push(*step);
+                continue;
+            }
+            let radius = (from.xy() - bend.centre).norm();
+            let widest = 2.0 * (1.0 - (CHORD / radius).min(1.0)).acos();
+            let count = (bend.sweep.abs() / widest).ceil().max(1.0);
+            for index in 1..=count as usize {
+                let share = index as f64 / count;
+                let spoke = nalgebra::Rotation2::new(bend.sweep * share) * (from.xy() - bend.centre);
+                let at = bend.centre + spoke;
+                steps.push(Step::straight(Point3::new(at.x, at.y, from.z + (step.to.z - from.z) * share)));
+            }
+            if let Some(last) = steps.last_mut() {
+                last.to = step.to;
+            }
+        }
+        Ramp { start: ramp.start, steps }
+    }
+
+    /// Whether a new CIRCLE's axis is the old one's (1) or its opposite (-1) for a sense of turning; `None` where it cannot be said.
+    fn turns_as(&self, sweep: f64) -> Option<f64> {
+        let (_, circle) = self.circle.as_ref()?;
+        let old = self.found.ramp.steps.iter().find_map(|step| step.bend)?;
+        match (old.sweep * sweep > 0.0, circle.sense) {
+            (true, _) => Some(1.0),
+            (false, ArcSense::OfDialect) => Some(-1.0),
+            (false, _) => None,
+        }
+    }
+
+    /// Brings the tool down to a start that is lower than it was: by the motion before where that goes straight down at feed, else by
+    /// one of its own.
+    fn lower_start(
+        &self,
+        editor: &mut Editor,
+        motions: &[Motion],
+        new: &Ramp,
+        before: usize,
+    ) -> Result<(bool, bool), Box<Diagnostic>> {
+        if self.found.ramp.start.z - new.start.z <= 1e-9 {
+            return Ok((false, false));
+        }
+        let index = self.found.motions.start.checked_sub(1);
+        let above = index.and_then(|index| motions.get(index).map(|motion| (index, motion)));
+        let straight = above.filter(|(index, motion)| {
+            let way = self.found.frame * (motion.to.point - motion.from.point) * self.mm;
+            let down = way.z < 0.0 && way.xy().norm() <= NOTHING;
+            let alike = self.found.frame * motion.from.axis - Vector3::z();
+            down && !motion.rapid
+                && motion.hole.is_none()
+                && alike.amax() <= 1e-6
+                && forms(editor.program(), motions, &(*index..index + 1)).is_ok()
+        });
+        let place = self.in_file(new.start);
+        match straight {
+            Some((_, motion)) => {
+                editor.set_numbers(motion.last_statement(), &numbered(0, &place))?;
+                Ok((false, true))
+            }
+            None => {
+                let text = self.copy(editor, self.goto, &numbered(0, &place));
+                editor.insert_before(before, &text)?;
+                Ok((true, false))
+            }
+        }
+    }
+
+    /// A new statement, or two for an arc.
+    fn insert(&self, editor: &mut Editor, step: &Step, before: usize) -> Result<(), Box<Diagnostic>> {
+        if let Some((statement, numbers)) = self.circle_numbers(editor.program(), step) {
+            let text = self.copy(editor, statement, &numbers);
+            editor.insert_before(before, &text)?;
+        }
+        let goto = self.copy(editor, self.goto, &numbered(0, &self.in_file(step.to)));
+        editor.insert_before(before, &goto)
+    }
+
+    /// Other numbers in the statements of an old motion.
+    fn set(&self, editor: &mut Editor, step: &Step, form: Form) -> Result<(), Box<Diagnostic>> {
+        let circle = self.circle_numbers(editor.program(), step);
+        match (circle, form.arc) {
+            (Some((_, numbers)), Some(arc)) if is_circle(editor.program(), arc) => {
+                editor.set_numbers(arc, &numbers)?;
+            }
+            (Some((statement, numbers)), _) => {
+                let text = self.copy(editor, statement, &numbers);
+                form.arc.into_iter().for_each(|arc| editor.delete(arc));
+                editor.insert_before(form.goto, &text)?;
+            }
+            (None, arc) => arc.into_iter().for_each(|arc| editor.delete(arc)),
+        }
+        editor.set_numbers(form.goto, &numbered(0, &self.in_file(step.to)))
+    }
+
+    /// The CIRCLE that new ones are modelled on, with the numbers that one for a step has.
+    fn circle_numbers(&self, program: &Program, step: &Step) -> Option<(usize, Vec<(usize, f64)>)> {
+        let bend = step.bend?;
+        let (statement, circle) = self.circle.as_ref()?;
+        let sense = self.turns_as(bend.sweep)?;
+        let centre = self.in_file(Point3::new(bend.centre.x, bend.centre.y, step.to.z));
+        let mut numbers = numbered(0, &centre);
+        numbers.extend(numbered(3, &(circle.axis * sense).into()));
+        if circle.radius.is_some() {
+            numbers.push((6, (step.to.xy() - bend.centre).norm() / self.mm));
+        }
+        if circle.times > 1 {
+            let turns = (bend.sweep.abs() / TAU - 1e-6).ceil().max(1.0);
+            numbers.extend(times_number(program, *statement).map(|index| (index, turns)));
+        }
+        Some((*statement, numbers))
+    }
+
+    fn copy(&self, editor: &Editor, statement: usize, numbers: &[(usize, f64)]) -> Vec<u8> {
+        let program = editor.program();
+        let Some(found) = program.statement(statement) else { return Vec::new() };
+        copy_with_numbers(&without_remark(program.text(found)), found.record(), numbers, editor.style())
+    }
+}
+
+fn numbered(first: usize, values: &[f64; 3]) -> Vec<(usize, f64)> {
+    values.iter().enumerate().map(|(index, value)| (first + index, *value)).collect()
+}
+
+fn circle(program: &Program, statement: usize) -> Option<(usize, Circle)> {
+    match program.statement(statement)?.record() {
+        Record::Circle(circle) => Some((statement, circle.as_ref().clone())),
+        _ => None,
+    }
+}
+
+fn is_circle(program: &Program, statement: usize) -> bool {
+    circle(program, statement).is_some()
+}
+
+/// The index of the number after `TIMES`.
+fn times_number(program: &Program, statement: usize) -> Option<usize> {
+    let found = program.statement(statement)?;
+    let syntax = parse::syntax(program.text(found));
+    let word = (0..syntax.fields.len()).find(|field| syntax.word_at(*field).as_deref() == Some("TIMES"))?;
+    let place = &syntax.fields.get(word + 1)?.at;
+    syntax.numbers().iter().position(|(at, _)| at == place)
+}
