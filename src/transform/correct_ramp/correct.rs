@@ -18,8 +18,8 @@ pub struct Task<'a> {
     pub begin: Option<f64>,
     /// Where the tool may go.
     pub region: &'a Region,
-    /// The direction in which the operation cuts on from the ramp's end.
-    pub first_pass: Option<Vector2<f64>>,
+    /// Directions in which the operation cuts on from the ramp's end, the first pass first.
+    pub passes: &'a [Vector2<f64>],
     /// How far printed coordinates may be off: legs are made that much longer, so that they keep the limit as printed.
     pub rounding: f64,
 }
@@ -87,7 +87,7 @@ pub fn correct(ramp: &Ramp, task: &Task<'_>) -> Result<Option<Corrected>, Imposs
         return shallower(ramp, Lengthened::No, task).map(Some);
     }
     let least = task.limits.shortest_leg + task.rounding;
-    let longer = candidates(ramp, least, task.first_pass);
+    let longer = candidates(ramp, least, task.passes);
     if longer.is_empty() {
         return Err(Impossible::NoDirection);
     }
@@ -105,7 +105,7 @@ pub fn correct(ramp: &Ramp, task: &Task<'_>) -> Result<Option<Corrected>, Imposs
 }
 
 /// Longer ramps in the order in which they are tried.
-fn candidates(ramp: &Ramp, least: f64, first_pass: Option<Vector2<f64>>) -> Vec<(Lengthened, Ramp)> {
+fn candidates(ramp: &Ramp, least: f64, passes: &[Vector2<f64>]) -> Vec<(Lengthened, Ramp)> {
     let mut found = Vec::new();
     match Kind::of(ramp) {
         Kind::Helix(helix) => {
@@ -127,7 +127,7 @@ fn candidates(ramp: &Ramp, least: f64, first_pass: Option<Vector2<f64>>) -> Vec<
         Kind::AlongShape => {}
     }
     found.extend(along_chord(ramp, least).into_iter().map(|ramp| (Lengthened::AlongChord, ramp)));
-    let along = first_pass.and_then(|direction| along_pass(ramp, direction, least));
+    let along = passes.iter().filter_map(|direction| along_pass(ramp, *direction, least));
     found.extend(along.map(|ramp| (Lengthened::AlongPass, ramp)));
     found
 }
@@ -150,6 +150,16 @@ fn raised(places: &[Point2<f64>], points: &[Point3<f64>]) -> Option<Ramp> {
     Ramp::through(&raised)
 }
 
+/// The same turning points with an even slope between them, where every leg is straight: an arc in a vertical plane, say, is steep only
+/// where it begins. `None` where the ramp has no other points.
+fn straightened(ramp: &Ramp) -> Option<Ramp> {
+    if Kind::of(ramp) != Kind::Zigzag {
+        return None;
+    }
+    let points = turning_points(ramp);
+    if points.len() > ramp.steps.len() { None } else { Ramp::through(&points) }
+}
+
 fn across(ramp: &Ramp) -> Vec<Point2<f64>> {
     let mut path = vec![ramp.start.xy()];
     path.extend(ramp.walk().flat_map(|(from, step)| step.samples(from)));
@@ -157,6 +167,8 @@ fn across(ramp: &Ramp) -> Vec<Point2<f64>> {
 }
 
 fn shallower(ramp: &Ramp, lengthened: Lengthened, task: &Task<'_>) -> Result<Corrected, Impossible> {
+    let straight = if shallow_enough(ramp, &task.limits, task.rounding) { None } else { straightened(ramp) };
+    let ramp = straight.as_ref().unwrap_or(ramp);
     let mut ratio = 1.0;
     let mut lowered = ramp.clone();
     if !shallow_enough(ramp, &task.limits, task.rounding) {

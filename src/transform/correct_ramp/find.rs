@@ -32,21 +32,22 @@ pub(super) struct Found {
     pub frame: Rotation3<f64>,
     /// The ramp, in mm.
     pub ramp: Ramp,
-    /// Whether cutting goes on at its end level, and where to.
-    pub first_pass: Option<Vector2<f64>>,
+    /// Whether cutting goes on at its end level.
+    pub has_level: bool,
+    /// The directions in which it does, the first pass first.
+    pub passes: Vec<Vector2<f64>>,
 }
 
 /// Looks for ramps; `mm` is one unit of the file. `begin` is the height above its end from which a descent may be in material,
 /// where that is known.
 pub(super) fn find(motions: &[Motion], mm: f64, begin: Option<f64>) -> Vec<Found> {
-    let flat = level_shares(motions, mm);
+    let operations = survey(motions, mm);
     let mut found = Vec::new();
     let mut index = 0;
     while let Some(motion) = motions.get(index) {
         let may = |motion: &Motion| {
             is_candidate(motion, mm)
-                && (motion.class_is_told
-                    || flat.get(motion.operation).is_some_and(|share| *share >= LEAST_LEVEL_SHARE))
+                && operations.get(motion.operation).is_some_and(|operation| operation.has_ramps(motion))
         };
         if !may(motion) {
             index += 1;
@@ -72,22 +73,27 @@ fn one(motions: &[Motion], mut run: Range<usize>, mm: f64, begin: Option<f64>) -
     let all = motions.get(run.clone())?;
     let first = all.first()?;
     let frame = to_tool(first.from.axis)?;
-    let mut ramp = read(all, &frame, mm)?;
+    let mut ramp = Ramp {
+        start: placed(first.from, &frame, mm),
+        steps: all.iter().flat_map(|motion| steps(motion, &frame, mm)).collect(),
+    };
     // A straight way down before the slope begins is the approach, as far as it stays above the material.
     let end = ramp.end().z;
     let above = |z: f64| begin.is_none_or(|begin| z - end >= begin - LEVEL);
     let lead =
         ramp.walk().take_while(|(from, step)| step.across(*from) <= NOTHING && above(step.to.z)).count();
+    // Straight motions are one step each, so the first steps are the first motions.
     if lead > 0 && lead < ramp.steps.len() {
         ramp.start = ramp.steps.get(lead - 1)?.to;
         ramp.steps.drain(..lead);
         run.start += lead;
     }
-    let first_pass = level_after(motions, run.end, first, &frame, mm);
-    if first_pass.is_none() && !first.class_is_told {
+    let passes = passes(motions, run.end, first, &frame, mm);
+    let has_level = !passes.is_empty();
+    if !has_level && !first.class_is_told {
         return None;
     }
-    Some(Found { operation: first.operation, motions: run, frame, ramp, first_pass })
+    Some(Found { operation: first.operation, motions: run, frame, ramp, has_level, passes })
 }
 
 /// Whether a motion may be part of a ramp: a descent at feed, with the axis at rest, that is no drilling and no turning.
@@ -97,7 +103,7 @@ fn is_candidate(motion: &Motion, mm: f64) -> bool {
         && !told_otherwise
         && motion.hole.is_none()
         && motion.class != MotionClass::Drill
-        && matches!(motion.path, Path::Line | Path::Arc(_))
+        && !matches!(motion.path, Path::Start)
         && (motion.from.axis - motion.to.axis).amax() <= SAME_AXIS
         && !is_turning(motion)
         && rise(motion) * mm < -LEVEL
@@ -160,28 +166,52 @@ fn step(motion: &Motion, frame: &Rotation3<f64>, mm: f64) -> Option<Step> {
     }
 }
 
-/// The direction in which cutting goes on at the level where a ramp ends; `None` when it does not.
-fn level_after(
+/// A motion as steps: what is no line or arc about the tool axis in chords.
+fn steps(motion: &Motion, frame: &Rotation3<f64>, mm: f64) -> Vec<Step> {
+    match step(motion, frame, mm) {
+        Some(step) => vec![step],
+        None => {
+            let points = motion.path.samples(motion.from.point, motion.to.point);
+            points.iter().skip(1).map(|point| Step::straight(frame * (point * mm))).collect()
+        }
+    }
+}
+
+/// The directions in which cutting goes on at the level where a ramp ends: of the first pass (the first motion marked as a cut, or as
+/// long as a lead never is), of the lead to it, and their opposites. Empty when nothing goes on at that level.
+fn passes(
     motions: &[Motion],
     end: usize,
     first: &Motion,
     frame: &Rotation3<f64>,
     mm: f64,
-) -> Option<Vector2<f64>> {
-    let rest = motions.get(end..)?;
-    let next = rest.iter().find(|motion| motion.length() * mm > NOTHING)?;
-    let cuts = !next.rapid
-        && next.hole.is_none()
-        && next.operation == first.operation
-        && same_axis(next, first)
-        && (next.from.axis - next.to.axis).amax() <= SAME_AXIS
-        && is_level(next, mm)
-        && !matches!(next.class, MotionClass::Retract | MotionClass::Approach);
-    if !cuts {
-        return None;
-    }
-    let tangent = match &next.path {
-        Path::Line | Path::Start => next.to.point - next.from.point,
+) -> Vec<Vector2<f64>> {
+    let rest = motions.get(end..).unwrap_or_default().iter().filter(|motion| motion.length() * mm > NOTHING);
+    let level: Vec<&Motion> = rest.take_while(|motion| goes_on(motion, first, mm)).take(LOOKED_AT).collect();
+    let told = level.iter().find(|motion| motion.class_is_told && motion.class == MotionClass::Cut);
+    let longest =
+        level.iter().copied().reduce(|one, next| if next.length() > one.length() { next } else { one });
+    let wanted = told.copied().or(longest).into_iter().chain(level.first().copied());
+    let ahead: Vec<Vector2<f64>> = wanted.filter_map(|motion| direction(motion, frame)).collect();
+    ahead.iter().copied().chain(ahead.iter().map(|direction| -direction)).collect()
+}
+
+/// Motions after a ramp among which its first pass is looked for: leads and corners come before it.
+const LOOKED_AT: usize = 8;
+
+fn goes_on(motion: &Motion, first: &Motion, mm: f64) -> bool {
+    !motion.rapid
+        && motion.hole.is_none()
+        && motion.operation == first.operation
+        && same_axis(motion, first)
+        && (motion.from.axis - motion.to.axis).amax() <= SAME_AXIS
+        && is_level(motion, mm)
+        && !matches!(motion.class, MotionClass::Retract | MotionClass::Approach)
+}
+
+fn direction(motion: &Motion, frame: &Rotation3<f64>) -> Option<Vector2<f64>> {
+    let tangent = match &motion.path {
+        Path::Line | Path::Start => motion.to.point - motion.from.point,
         Path::Arc(arc) => arc.tangent(0.0),
         Path::Spline(spline) => spline.start_tangent(),
     };
@@ -194,25 +224,50 @@ pub(super) fn is_level(motion: &Motion, mm: f64) -> bool {
     inside.iter().all(|point| ((point - motion.from.point).dot(&motion.from.axis) * mm).abs() <= LEVEL)
 }
 
-/// For each operation, the share of its path at feed across the axis that is level rather than rising: surfaces rise as much as they fall,
-/// levels are left by rapids or straight up. What is marked does not count.
-fn level_shares(motions: &[Motion], mm: f64) -> Vec<f64> {
-    let mut lengths: Vec<[f64; 2]> = Vec::new();
-    for motion in
-        motions.iter().filter(|motion| !motion.rapid && motion.hole.is_none() && !motion.class_is_told)
-    {
-        if lengths.len() <= motion.operation {
-            lengths.resize(motion.operation + 1, [0.0; 2]);
+/// What an operation is like.
+#[derive(Debug, Clone, Copy)]
+struct Survey {
+    /// Lengths of its unmarked path at feed across the axis that is level, and that is level or rises: surfaces rise as much as they
+    /// fall, levels are left by rapids or straight up. mm.
+    level: f64,
+    level_or_rising: f64,
+    /// Smallest and largest y, mm.
+    y: [f64; 2],
+}
+
+impl Survey {
+    const NOTHING: Self = Self { level: 0.0, level_or_rising: 0.0, y: [f64::INFINITY, f64::NEG_INFINITY] };
+
+    /// Whether a descent of the operation may be a ramp. A tool that CUTTER gives a single number, in a path that never leaves one y, is
+    /// a lathe's (CATIA writes the nose so).
+    fn has_ramps(&self, motion: &Motion) -> bool {
+        let data = motion.tool.as_deref().and_then(|tool| tool.data.as_ref());
+        let nose = data.is_some_and(|data| data.word == ToolWord::Cutter && data.corner_radius.is_none());
+        let [low, high] = self.y;
+        if nose && high - low <= LEVEL {
+            return false;
         }
+        motion.class_is_told || self.level >= LEAST_LEVEL_SHARE * self.level_or_rising && self.level > 0.0
+    }
+}
+
+fn survey(motions: &[Motion], mm: f64) -> Vec<Survey> {
+    let mut found: Vec<Survey> = Vec::new();
+    for motion in motions {
+        if found.len() <= motion.operation {
+            found.resize(motion.operation + 1, Survey::NOTHING);
+        }
+        let Some(survey) = found.get_mut(motion.operation) else { continue };
+        let y = motion.to.point.y * mm;
+        let [low, high] = survey.y;
+        survey.y = [low.min(y), high.max(y)];
         let up = rise(motion);
-        if up * mm < -LEVEL {
+        if motion.rapid || motion.hole.is_some() || motion.class_is_told || up * mm < -LEVEL {
             continue;
         }
-        let across = (motion.length().powi(2) - up * up).max(0.0).sqrt();
-        if let Some([level, all]) = lengths.get_mut(motion.operation) {
-            *all += across;
-            *level += if is_level(motion, mm) { across } else { 0.0 };
-        }
+        let across = (motion.length().powi(2) - up * up).max(0.0).sqrt() * mm;
+        survey.level_or_rising += across;
+        survey.level += if is_level(motion, mm) { across } else { 0.0 };
     }
-    lengths.iter().map(|[level, all]| if *all > 0.0 { level / all } else { 0.0 }).collect()
+    found
 }

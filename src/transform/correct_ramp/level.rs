@@ -1,17 +1,21 @@
 //! What an operation cuts at a ramp's level.
 
 use super::find::{Found, LEVEL, is_level, placed};
+use super::milled::Milled;
 use super::ramp::Ramp;
 use super::region::Region;
 use crate::program::motion::Motion;
 use nalgebra::{Point2, Rotation3};
 use std::collections::HashMap;
 
+/// An operation and a tool axis, to six decimals.
+type Key = (usize, [i64; 3]);
+
 /// The level motions of operations, found once for each operation and tool axis.
 pub(super) struct Levels<'m> {
     motions: &'m [Motion],
     mm: f64,
-    known: HashMap<(usize, [i64; 3]), Vec<(f64, usize)>>,
+    known: HashMap<Key, Vec<(f64, usize)>>,
 }
 
 impl<'m> Levels<'m> {
@@ -21,17 +25,27 @@ impl<'m> Levels<'m> {
 
     /// The hull of what a ramp's operation cuts at the level of its end, and of the ramp itself.
     pub fn hull(&mut self, found: &Found) -> Region {
+        Region::hull(self.paths(found).into_iter().flatten())
+    }
+
+    /// Where a tool of a radius (mm) covers nothing but what the operation cuts at the level of the ramp's end, or the ramp itself.
+    pub fn milled(&mut self, found: &Found, radius: f64) -> Region {
+        Region::Milled(Milled::new(self.paths(found), radius))
+    }
+
+    /// The paths of what is cut at the level of a ramp's end, and its own.
+    fn paths(&mut self, found: &Found) -> Vec<Vec<Point2<f64>>> {
         let end = found.ramp.end().z;
         let (motions, mm, frame) = (self.motions, self.mm, found.frame);
         let heights = self.heights(found);
         let start = heights.partition_point(|(z, _)| *z < end - LEVEL);
         let level = heights.iter().skip(start).take_while(|(z, _)| *z <= end + LEVEL);
         let level = level.filter_map(|(_, index)| motions.get(*index));
-        let cut = level.flat_map(|motion| {
+        let path = |motion: &Motion| -> Vec<Point2<f64>> {
             let samples = motion.path.samples(motion.from.point, motion.to.point);
-            samples.into_iter().map(move |point| (frame * (point * mm)).xy())
-        });
-        Region::hull(cut.chain(own(&found.ramp)))
+            samples.into_iter().map(|point| (frame * (point * mm)).xy()).collect()
+        };
+        level.map(path).chain([own(&found.ramp)]).collect()
     }
 
     /// Heights of the operation's level motions at feed, ascending, with their indices.

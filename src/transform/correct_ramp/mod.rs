@@ -13,6 +13,7 @@ pub mod kind;
 pub mod layers;
 mod level;
 pub mod limits;
+pub mod milled;
 mod parameters;
 mod prove;
 pub mod ramp;

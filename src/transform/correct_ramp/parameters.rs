@@ -28,8 +28,8 @@ pub struct CorrectRamp {
     pub depth_of_cut: Option<Positive>,
     /// How far above the depth of cut a ramp may begin, in the recipe's unit; 2.5 mm when left out.
     pub clearance: Option<NonNegative>,
-    /// Where the tool's centre may go: the hull of what the operation cuts at the ramp's level and of the ramp itself, anywhere, or a
-    /// polygon.
+    /// Where the tool's centre may go: where its disc covers only what the operation itself cuts at the ramp's level; the hull of that
+    /// cutting, which also spans islands and, around an outside contour, the part; anywhere; or a polygon.
     #[serde(default)]
     pub region: RampRegion,
     /// What becomes of a ramp that cannot be corrected: an error, so that nothing is written, or it is kept with a warning.
@@ -59,8 +59,11 @@ pub struct RampTool {
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RampRegion {
-    /// The hull of what the operation cuts at the ramp's level and of the ramp itself.
+    /// Where the tool covers only what the operation cuts at the ramp's level, or what the ramp itself covers.
     #[default]
+    Milled,
+    /// The convex hull of what the operation cuts at the ramp's level and of the ramp itself. For pockets without islands: around an
+    /// outside contour the part lies inside.
     Hull,
     /// Anywhere.
     None,

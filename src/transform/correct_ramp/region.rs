@@ -1,5 +1,6 @@
 //! Where the tool's centre may go across its axis.
 
+use super::milled::Milled;
 use geo::line_intersection::{LineIntersection, line_intersection};
 use geo::{Contains, ConvexHull, Distance, Euclidean, Line, LineString, MultiPoint, Polygon, Validation};
 use nalgebra::Point2;
@@ -14,6 +15,8 @@ pub enum Region {
     Everywhere,
     /// Within a polygon, its border included.
     Polygon(Polygon),
+    /// Where the operation's own cutting at the level reaches.
+    Milled(Milled),
 }
 
 /// Why corners make no region.
@@ -53,7 +56,11 @@ impl Region {
 
     /// Whether a path lies in it; arcs are given as their samples.
     pub fn holds(&self, path: &[Point2<f64>]) -> bool {
-        let Self::Polygon(polygon) = self else { return true };
+        let polygon = match self {
+            Self::Everywhere => return true,
+            Self::Milled(milled) => return milled.holds(path),
+            Self::Polygon(polygon) => polygon,
+        };
         let at = |point: &Point2<f64>| geo::Coord { x: point.x, y: point.y };
         path.windows(2).all(|pair| match pair {
             [from, to] => holds_line(polygon, Line::new(at(from), at(to))),
@@ -63,14 +70,14 @@ impl Region {
 }
 
 /// Between its crossings with the border a line is inside or outside as a whole, so the middles tell.
-fn holds_line(polygon: &Polygon, line: Line) -> bool {
+pub(super) fn holds_line(polygon: &Polygon, line: Line) -> bool {
     let delta = line.delta();
     let length_squared = delta.x * delta.x + delta.y * delta.y;
     let share =
         |at: geo::Coord| ((at.x - line.start.x) * delta.x + (at.y - line.start.y) * delta.y) / length_squared;
     let mut cuts = vec![0.0, 1.0];
     if length_squared > 0.0 {
-        for edge in polygon.exterior().lines() {
+        for edge in rings(polygon).flat_map(LineString::lines) {
             match line_intersection(line, edge) {
                 Some(LineIntersection::SinglePoint { intersection, .. }) => cuts.push(share(intersection)),
                 Some(LineIntersection::Collinear { intersection }) => {
@@ -84,11 +91,15 @@ fn holds_line(polygon: &Polygon, line: Line) -> bool {
     let middle = |low: f64, high: f64| line.start + delta * (0.5 * (low + high));
     let inside = |at: geo::Coord| {
         let point = geo::Point::from(at);
-        polygon.contains(&point) || Euclidean.distance(&point, polygon.exterior()) <= BORDER
+        polygon.contains(&point) || rings(polygon).any(|ring| Euclidean.distance(&point, ring) <= BORDER)
     };
     let ends = [line.start, line.end].into_iter().all(inside);
     ends && cuts.windows(2).all(|pair| match pair {
         [low, high] => inside(middle(*low, *high)),
         _ => true,
     })
+}
+
+fn rings(polygon: &Polygon) -> impl Iterator<Item = &LineString> {
+    std::iter::once(polygon.exterior()).chain(polygon.interiors())
 }

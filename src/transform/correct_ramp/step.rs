@@ -5,7 +5,7 @@ use super::cutter::{self, Cutter};
 use super::find::{Found, find};
 use super::kind::Kind;
 use super::level::Levels;
-use super::limits::{Limits, Measured};
+use super::limits::{Indexable, Limits, Measured, keeps};
 use super::parameters::{CorrectRamp, IfImpossible, Plunges, RampRegion};
 use super::prove;
 use super::region::Region;
@@ -63,6 +63,9 @@ impl Transform for CorrectRamp {
     }
 }
 
+/// An indexable cutter and its limits.
+type Known = (Indexable, Limits);
+
 /// The ramps of a program and what is to become of them.
 struct Look<'a> {
     step: &'a CorrectRamp,
@@ -72,7 +75,7 @@ struct Look<'a> {
     operations: Vec<String>,
     levels: Levels<'a>,
     polygon: Option<Region>,
-    cutters: Vec<(Option<Arc<Tool>>, Option<Limits>)>,
+    cutters: Vec<(Option<Arc<Tool>>, Option<Known>)>,
     plans: Vec<Plan>,
     reports: Vec<RampReport>,
     impossible: Vec<Diagnostic>,
@@ -88,7 +91,7 @@ impl<'a> Look<'a> {
     ) -> Self {
         let recipe = context.recipe.units.in_mm();
         let polygon = match &step.region {
-            RampRegion::Hull => None,
+            RampRegion::Hull | RampRegion::Milled => None,
             RampRegion::None => Some(Region::Everywhere),
             RampRegion::Polygon(corners) => {
                 let corners: Vec<[f64; 2]> =
@@ -132,7 +135,7 @@ impl<'a> Look<'a> {
         for found in meant {
             let Some(first) = self.motions.get(found.motions.start) else { continue };
             match self.limits(first, context)? {
-                Some(limits) => self.judge(found, limits, context),
+                Some(known) => self.judge(found, known, context),
                 None => solid.push((found.motions.start, first.tool.clone())),
             }
         }
@@ -156,7 +159,7 @@ impl<'a> Look<'a> {
     }
 
     /// The limits of a motion's tool; `None` for a tool without inserts.
-    fn limits(&mut self, motion: &Motion, context: &Context<'_>) -> Result<Option<Limits>, Box<Diagnostic>> {
+    fn limits(&mut self, motion: &Motion, context: &Context<'_>) -> Result<Option<Known>, Box<Diagnostic>> {
         if let Some((_, limits)) = self.cutters.iter().find(|(tool, _)| *tool == motion.tool) {
             return Ok(*limits);
         }
@@ -166,33 +169,38 @@ impl<'a> Look<'a> {
             Cutter::Solid => None,
             Cutter::Unknown(found) => return Err(found),
             Cutter::Indexable(cutter) => {
-                Some(cutter.limits().map_err(|error| context.fail(error.to_string(), &["tool"]))?)
+                let limits = cutter.limits().map_err(|error| context.fail(error.to_string(), &["tool"]))?;
+                Some((cutter, limits))
             }
         };
         self.cutters.push((motion.tool.clone(), limits));
         Ok(limits)
     }
 
-    fn judge(&mut self, found: Found, limits: Limits, context: &mut Context<'_>) {
+    fn judge(&mut self, found: Found, (cutter, limits): Known, context: &mut Context<'_>) {
         let recipe = context.recipe.units.in_mm();
         let (step, mm) = (self.step, self.file.in_mm());
         let clearance = step.clearance.map_or(CLEARANCE, |clearance: NonNegative| clearance.get() * recipe);
         let begin = step.depth_of_cut.map(|depth: Positive| depth.get() * recipe + clearance);
-        let region = self.polygon.clone().unwrap_or_else(|| self.levels.hull(&found));
-        let first_pass = found.first_pass;
-        let task = Task { limits, begin, region: &region, first_pass, rounding: ROUNDING * mm };
-        let kept_plunge = step.plunges == Plunges::Keep && Kind::of(&found.ramp) == Kind::Plunge;
-        let corrected = correct(&found.ramp, &task);
-        let fits = matches!(corrected, Ok(None));
-        let mut report = self.report(&found, limits, if fits { Outcome::Fits } else { Outcome::Kept });
-        if fits {
+        let rounding = ROUNDING * mm;
+        if keeps(&found.ramp, &limits, rounding) {
+            let report = self.report(&found, limits, Outcome::Fits);
             self.reports.push(report);
             return;
         }
+        let region = match &self.polygon {
+            Some(polygon) => polygon.clone(),
+            None if step.region == RampRegion::Hull => self.levels.hull(&found),
+            None => self.levels.milled(&found, cutter.diameter / 2.0),
+        };
+        let task = Task { limits, begin, region: &region, passes: &found.passes, rounding };
+        let kept_plunge = step.plunges == Plunges::Keep && Kind::of(&found.ramp) == Kind::Plunge;
+        let corrected = correct(&found.ramp, &task);
+        let mut report = self.report(&found, limits, Outcome::Kept);
         let written = write::check(self.program, self.motions, &found.motions);
-        let why_not = match (&corrected, written, first_pass) {
+        let why_not = match (&corrected, written, found.has_level) {
             _ if kept_plunge => Some("`plunges: keep` leaves straight descents as they are".to_owned()),
-            (_, _, None) => Some("it does not end at a level where cutting goes on".to_owned()),
+            (_, _, false) => Some("it does not end at a level where cutting goes on".to_owned()),
             (Err(why), _, _) => Some(why.to_string()),
             (_, Err(why), _) => Some(why.to_string()),
             _ => None,
