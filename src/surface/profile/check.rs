@@ -80,6 +80,10 @@ fn sampled(chain: &Chain, step: f64, mut give: impl FnMut(Point, bool)) {
     }
 }
 
+fn square(number: f64) -> f64 {
+    number * number
+}
+
 /// Samples by ascending u, in blocks with their bounds.
 struct Field {
     samples: Vec<Point>,
@@ -107,33 +111,34 @@ impl Field {
 
     /// The distance of the nearest sample from the ray upwards from `centre`; `near` is the block in which the last one was.
     fn distance(&self, centre: Point, near: &mut usize) -> f64 {
+        // Squares of distances are compared.
         let mut best = f64::INFINITY;
         self.look(*near, centre, &mut best, near);
         // Outwards from the block over which the centre stands, until blocks are farther away sideways than the best.
         let middle = self.blocks.partition_point(|block| block.to < centre.u);
         for index in middle..self.blocks.len() {
-            if self.blocks.get(index).is_none_or(|block| block.from - centre.u >= best) {
+            if self.blocks.get(index).is_none_or(|block| square(block.from - centre.u) >= best) {
                 break;
             }
             self.look(index, centre, &mut best, near);
         }
         for index in (0..middle).rev() {
-            if self.blocks.get(index).is_none_or(|block| centre.u - block.to >= best) {
+            if self.blocks.get(index).is_none_or(|block| square(centre.u - block.to) >= best) {
                 break;
             }
             self.look(index, centre, &mut best, near);
         }
-        best
+        best.sqrt()
     }
 
     fn look(&self, index: usize, centre: Point, best: &mut f64, near: &mut usize) {
         let Some(block) = self.blocks.get(index) else { return };
         let across = (block.from - centre.u).max(centre.u - block.to).max(0.0);
-        if across.hypot((centre.z - block.top).max(0.0)) >= *best {
+        if square(across) + square((centre.z - block.top).max(0.0)) >= *best {
             return;
         }
         for sample in self.samples.iter().skip(index * BLOCK).take(BLOCK) {
-            let distance = (sample.u - centre.u).abs().hypot((centre.z - sample.z).max(0.0));
+            let distance = square(sample.u - centre.u) + square((centre.z - sample.z).max(0.0));
             if distance < *best {
                 *best = distance;
                 *near = index;

@@ -205,6 +205,10 @@ fn cross(a: (f64, f64), b: (f64, f64)) -> f64 {
     a.0 * b.1 - a.1 * b.0
 }
 
+fn dot(a: (f64, f64), b: (f64, f64)) -> f64 {
+    a.0 * b.0 + a.1 * b.1
+}
+
 impl Wedge {
     /// Directions that pass a place at (du, dz), farther away than the tolerance.
     fn past((du, dz): (f64, f64), distance: f64, tolerance: f64) -> Self {
@@ -217,12 +221,21 @@ impl Wedge {
         }
     }
 
-    fn holds(&self, direction: (f64, f64)) -> bool {
-        cross(self.right, direction) >= 0.0 && cross(direction, self.left) >= 0.0
+    fn middle(&self) -> (f64, f64) {
+        (self.right.0 + self.left.0, self.right.1 + self.left.1)
     }
 
-    /// What both allow; `None` when that is nothing.
+    fn holds(&self, direction: (f64, f64)) -> bool {
+        dot(self.middle(), direction) > 0.0
+            && cross(self.right, direction) >= 0.0
+            && cross(direction, self.left) >= 0.0
+    }
+
+    /// What both allow; `None` when that is nothing, or when they look opposite ways.
     fn and(self, other: Self) -> Option<Self> {
+        if dot(self.middle(), other.middle()) <= 0.0 {
+            return None;
+        }
         let right = if cross(self.right, other.right) > 0.0 { other.right } else { self.right };
         let left = if cross(self.left, other.left) < 0.0 { other.left } else { self.left };
         (cross(right, left) >= 0.0).then_some(Self { right, left })
@@ -238,7 +251,7 @@ fn longest_chord(run: &[Place], at: usize, anchor: Point, tolerance: f64) -> (us
     let mut far = 0.0_f64;
     for (index, place) in run.iter().enumerate().skip(at + 1) {
         let to = (place.point.u - anchor.u, place.point.z - anchor.z);
-        let distance = to.0.hypot(to.1);
+        let distance = dot(to, to).sqrt();
         // A chain that comes back would not be followed to where it turned.
         if distance < far - tolerance {
             break;
@@ -277,7 +290,7 @@ fn along_arc(
     let Some(last) = run.get(best.0).filter(|place| !place.corner) else { return stop };
     let Some(arc) = run.get(best.0 + 1).and_then(|next| next.arc) else { return stop };
     let to = (last.point.u - anchor.u, last.point.z - anchor.z);
-    let distance = to.0.hypot(to.1);
+    let distance = dot(to, to).sqrt();
     let wedge = if distance > tolerance {
         let past = Wedge::past(to, distance, tolerance);
         match wedge.map_or(Some(past), |wedge| wedge.and(past)) {
@@ -291,7 +304,7 @@ fn along_arc(
     let allowed = |share: f64| {
         let point = piece.point(share);
         let to = (point.u - anchor.u, point.z - anchor.z);
-        wedge.holds(to) && to.0.hypot(to.1) >= distance
+        wedge.holds(to) && dot(to, to).sqrt() >= distance
     };
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..20 {

@@ -97,7 +97,7 @@ pub(super) fn envelope(chain: &Chain, radius: f64) -> Envelope {
 }
 
 fn size(stretch: &Stretch) -> f64 {
-    let place = stretch.lo.abs().max(stretch.hi.abs());
+    let place = stretch.left.u.abs().max(stretch.right.u.abs());
     match stretch.graph {
         Graph::Line { left, right } => place.max(left.z.abs()).max(right.z.abs()),
         Graph::Round { centre, radius, .. } => place.max(centre.z.abs()).max(radius),
@@ -107,7 +107,7 @@ fn size(stretch: &Stretch) -> f64 {
 /// The highest point at the skyline's end on one side (-1 left, 1 right).
 fn outermost(sky: &Skyline, side: f64) -> Option<Point> {
     let stretch = if side < 0.0 { sky.stretches.first() } else { sky.stretches.last() };
-    let of_stretch = stretch.map(|stretch| stretch.point(if side < 0.0 { stretch.lo } else { stretch.hi }));
+    let of_stretch = stretch.map(|stretch| if side < 0.0 { stretch.left } else { stretch.right });
     let of_tops = if side < 0.0 { sky.tops.first() } else { sky.tops.last() };
     let far = of_stretch.into_iter().chain(of_tops.map(|(top, _)| *top)).map(|point| point.u * side);
     let far = far.fold(f64::NEG_INFINITY, f64::max);
@@ -131,9 +131,6 @@ fn end(free: Point, piece: Option<&Piece>, outer: Point) -> End {
 /// The path of the centre.
 pub(super) fn centres(chain: &Chain, radius: f64) -> Chain {
     let Envelope { mut stretches, low, high, forward } = envelope(chain, radius);
-    let last_of = |stretch: Option<&Stretch>, high: bool| {
-        stretch.map(|stretch| stretch.point(if high { stretch.hi } else { stretch.lo }))
-    };
     let about = |stretch: &Stretch, free: Point| match stretch.graph {
         Graph::Round { centre, .. } => {
             stretch.part == Part::Vertex
@@ -142,17 +139,17 @@ pub(super) fn centres(chain: &Chain, radius: f64) -> Chain {
         }
         Graph::Line { .. } => false,
     };
-    let mut start = last_of(stretches.first(), false);
-    let mut stop = last_of(stretches.last(), true);
+    let mut start = stretches.first().map(|stretch| stretch.left);
+    let mut stop = stretches.last().map(|stretch| stretch.right);
     if let End::Free(free) = high {
         while let Some(cap) = stretches.pop_if(|stretch| about(stretch, free)) {
-            stop = Some(cap.point(cap.lo));
+            stop = Some(cap.left);
         }
     }
     let mut dropped = 0;
     if let End::Free(free) = low {
         for cap in stretches.iter().take_while(|stretch| about(stretch, free)) {
-            start = Some(cap.point(cap.hi));
+            start = Some(cap.right);
             dropped += 1;
         }
         // A chain of no extent has one cap for both ends, and the ball stands on it.
@@ -187,8 +184,8 @@ fn joined(stretches: &[Stretch], start: Option<Point>, stop: Option<Point>, forw
         reached = Some(end);
     };
     for stretch in stretches {
-        bridge(&mut pieces, stretch.point(stretch.lo), stretch.point(stretch.hi));
-        pieces.push(stretch.to_piece(0.0));
+        bridge(&mut pieces, stretch.left, stretch.right);
+        pieces.push(stretch.as_piece());
     }
     if let Some(stop) = stop {
         bridge(&mut pieces, stop, stop);

@@ -17,7 +17,9 @@ impl Point {
 
     /// Distance to another point, mm.
     pub fn distance(self, other: Self) -> f64 {
-        (self.u - other.u).hypot(self.z - other.z)
+        // Coordinates are no larger than ten kilometres: a square cannot overflow, and `hypot` is slow.
+        let (du, dz) = (self.u - other.u, self.z - other.z);
+        (du * du + dz * dz).sqrt()
     }
 
     /// The point at a share `t` of the way to `other`.

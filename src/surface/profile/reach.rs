@@ -110,16 +110,13 @@ fn touches(profile: &Chain, radius: f64) -> Vec<Touch> {
     let mut before: Option<&Stretch> = None;
     for stretch in &envelope.stretches {
         if let Some(piece) = profile.pieces().get(stretch.piece) {
-            let at = |u: f64| {
-                let centre = stretch.point(u);
-                (share(piece, contact(stretch, centre, radius)), centre)
-            };
-            touches.push(ordered(stretch.piece, at(stretch.lo), at(stretch.hi)));
+            let at = |centre: Point| (share(piece, contact(stretch, centre, radius)), centre);
+            touches.push(ordered(stretch.piece, at(stretch.left), at(stretch.right)));
         }
         if let Some(before) = before {
-            let (from, to) = (before.at(before.hi), stretch.at(stretch.lo));
+            let (from, to) = (before.right.z, stretch.left.z);
             let (wall, side) = if to > from { (stretch, radius) } else { (before, -radius) };
-            walls(&mut touches, profile, wall.piece, stretch.lo, side, [from, to]);
+            walls(&mut touches, profile, wall.piece, stretch.left.u, side, [from, to]);
         }
         before = Some(stretch);
     }
@@ -129,9 +126,9 @@ fn touches(profile: &Chain, radius: f64) -> Vec<Touch> {
         (envelope.high, envelope.stretches.last(), true),
     ] {
         if let (End::Wall(foot), Some(stretch)) = (end, stretch) {
-            let u = if high { stretch.hi } else { stretch.lo };
+            let top = if high { stretch.right } else { stretch.left };
             let side = if high { -radius } else { radius };
-            walls(&mut touches, profile, stretch.piece, u, side, [foot, stretch.at(u)]);
+            walls(&mut touches, profile, stretch.piece, top.u, side, [foot, top.z]);
         }
     }
     touches

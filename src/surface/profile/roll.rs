@@ -33,16 +33,16 @@ pub(super) fn roll(skyline: &Skyline, radius: f64, scale: f64) -> Vec<Stretch> {
     };
     let mut tops = skyline.tops.iter().copied().peekable();
     for stretch in &skyline.stretches {
-        while let Some((top, piece)) = tops.next_if(|(top, _)| top.u <= stretch.lo) {
+        while let Some((top, piece)) = tops.next_if(|(top, _)| top.u <= stretch.left.u) {
             roll.point(top, piece);
         }
         let mut rest = *stretch;
-        while let Some((top, piece)) = tops.next_if(|(top, _)| top.u < stretch.hi) {
+        while let Some((top, piece)) = tops.next_if(|(top, _)| top.u < stretch.right.u) {
             // A top inside a stretch counts only when it stands out of it.
             if top.z > stretch.at(top.u) {
-                roll.stretch(&Stretch { hi: top.u, ..rest });
+                roll.stretch(&rest.part(rest.left.u, top.u));
                 roll.point(top, piece);
-                rest.lo = top.u;
+                rest = rest.part(top.u, rest.right.u);
             }
         }
         roll.stretch(&rest);
@@ -56,7 +56,8 @@ pub(super) fn roll(skyline: &Skyline, radius: f64, scale: f64) -> Vec<Stretch> {
 impl Roll {
     fn cap(&self, at: Point, piece: usize) -> Stretch {
         let graph = Graph::Round { centre: at, radius: self.radius, upper: true };
-        Stretch { lo: at.u - self.radius, hi: at.u + self.radius, graph, piece, part: Part::Vertex }
+        let (left, right) = (Point::new(at.u - self.radius, at.z), Point::new(at.u + self.radius, at.z));
+        Stretch { left, right, graph, piece, part: Part::Vertex }
     }
 
     /// The ball over one point.
@@ -72,24 +73,24 @@ impl Roll {
 
     /// The ball over a stretch: about its left end, along it, about its right end.
     fn stretch(&mut self, stretch: &Stretch) {
-        if stretch.lo >= stretch.hi {
+        if stretch.left.u >= stretch.right.u {
             return;
         }
-        self.point(stretch.point(stretch.lo), stretch.piece);
-        let right = stretch.point(stretch.hi);
+        self.point(stretch.left, stretch.piece);
+        let right = stretch.right;
         self.last = Some(right);
         self.lay(self.body(stretch), self.cap(right, stretch.piece));
     }
 
     /// The offset by the ball's radius; `None` where the ball does not fit in.
     fn body(&self, stretch: &Stretch) -> Option<Stretch> {
-        let (graph, lo, hi) = match stretch.graph {
+        let (graph, left, right) = match stretch.graph {
             Graph::Line { left, right } => {
                 let share = self.radius / left.distance(right);
                 let (du, dz) = ((left.z - right.z) * share, (right.u - left.u) * share);
                 let moved = |point: Point| Point::new(point.u + du, point.z + dz);
                 let graph = Graph::Line { left: moved(left), right: moved(right) };
-                (graph, stretch.lo + du, stretch.hi + du)
+                (graph, moved(stretch.left), moved(stretch.right))
             }
             Graph::Round { centre, radius, upper } => {
                 let offset = if upper { radius + self.radius } else { radius - self.radius };
@@ -97,33 +98,33 @@ impl Roll {
                 if offset <= UPRIGHT {
                     return None;
                 }
-                let moved = |u: f64| centre.u + (u - centre.u) * (offset / radius);
+                let moved = |point: Point| centre.towards(point, offset / radius);
                 let graph = Graph::Round { centre, radius: offset, upper };
-                (graph, moved(stretch.lo), moved(stretch.hi))
+                (graph, moved(stretch.left), moved(stretch.right))
             }
         };
-        Some(Stretch { lo, hi, graph, piece: stretch.piece, part: Part::Body })
+        Some(Stretch { left, right, graph, piece: stretch.piece, part: Part::Body })
     }
 
     /// Lays `body` (where there is one) and then `cap` over the envelope: they win from some u on.
     fn lay(&mut self, body: Option<Stretch>, cap: Stretch) {
-        let bound = body.map_or(cap.lo, |body| body.hi);
-        let start = body.map_or(cap.lo, |body| body.lo);
+        let bound = body.map_or(cap.left.u, |body| body.right.u);
+        let start = body.map_or(cap.left.u, |body| body.left.u);
         let height = |u: f64| match body {
             Some(body) if u <= bound => body.at(u),
             _ => cap.at(u),
         };
         let mut from = start;
         while let Some(tail) = self.stretches.last_mut() {
-            if tail.lo >= start && height(tail.lo) >= tail.at(tail.lo) - self.tie {
+            if tail.left.u >= start && height(tail.left.u) >= tail.at(tail.left.u) - self.tie {
                 self.stretches.pop();
                 continue;
             }
-            if tail.hi <= start {
+            if tail.right.u <= start {
                 break;
             }
-            let lo = tail.lo.max(start);
-            let hi = tail.hi;
+            let lo = tail.left.u.max(start);
+            let hi = tail.right.u;
             let bend = bound.clamp(lo, hi);
             let along = body.map_or([None; 2], |body| body.graph.crossings(&tail.graph, lo, bend));
             let about = cap.graph.crossings(&tail.graph, bend, hi);
@@ -138,21 +139,26 @@ impl Roll {
                 }
                 left = left.max(right);
             }
-            tail.hi = from;
-            if tail.hi - tail.lo <= THIN {
+            tail.right = tail.point(from);
+            if tail.right.u - tail.left.u <= THIN {
                 self.stretches.pop();
             }
             break;
         }
         if let Some(body) = body {
-            let lo = body.lo.max(from);
-            if body.hi - lo > THIN {
-                self.stretches.push(Stretch { lo, ..body });
+            let lo = body.left.u.max(from);
+            if body.right.u - lo > THIN {
+                self.stretches.push(body.part(lo, body.right.u));
             }
         }
         let lo = bound.max(from);
-        if cap.hi - lo > THIN {
-            self.stretches.push(Stretch { lo, ..cap });
+        if cap.right.u - lo > THIN {
+            let left = match body {
+                // The cap goes on where the body ends.
+                Some(body) if lo == body.right.u => body.right,
+                _ => cap.point(lo),
+            };
+            self.stretches.push(Stretch { left, ..cap });
         }
     }
 }

@@ -54,10 +54,12 @@ fn ordered(mut run: Vec<Stretch>, forward: bool) -> Vec<Stretch> {
     }
     let mut reached = f64::NEG_INFINITY;
     for stretch in &mut run {
-        stretch.lo = stretch.lo.max(reached);
-        reached = reached.max(stretch.hi);
+        if stretch.left.u < reached {
+            stretch.left = stretch.point(reached.min(stretch.right.u));
+        }
+        reached = reached.max(stretch.right.u);
     }
-    run.retain(|stretch| stretch.lo < stretch.hi);
+    run.retain(|stretch| stretch.left.u < stretch.right.u);
     run
 }
 
@@ -69,25 +71,25 @@ fn upper(first: &[Stretch], second: &[Stretch]) -> Vec<Stretch> {
     loop {
         match (a, b) {
             (Some(one), Some(two)) => {
-                let lo = one.lo.max(two.lo);
-                let hi = one.hi.min(two.hi);
+                let lo = one.left.u.max(two.left.u);
+                let hi = one.right.u.min(two.right.u);
                 // What only one of them covers.
-                let alone = if one.lo < two.lo { one } else { two };
-                let until = lo.min(alone.hi);
-                push(&mut high, alone, alone.lo, until);
+                let alone = if one.left.u < two.left.u { one } else { two };
+                let until = lo.min(alone.right.u);
+                push(&mut high, alone, alone.left.u, until);
                 if lo < hi {
                     higher(&mut high, &one, &two, lo, hi);
                 }
                 let reached = if lo < hi { hi } else { until };
-                a = if one.hi <= reached { firsts.next() } else { rest(one, reached) };
-                b = if two.hi <= reached { seconds.next() } else { rest(two, reached) };
+                a = if one.right.u <= reached { firsts.next() } else { rest(one, reached) };
+                b = if two.right.u <= reached { seconds.next() } else { rest(two, reached) };
             }
             (Some(one), None) => {
-                push(&mut high, one, one.lo, one.hi);
+                push(&mut high, one, one.left.u, one.right.u);
                 a = firsts.next();
             }
             (None, Some(two)) => {
-                push(&mut high, two, two.lo, two.hi);
+                push(&mut high, two, two.left.u, two.right.u);
                 b = seconds.next();
             }
             (None, None) => return high,
@@ -96,7 +98,7 @@ fn upper(first: &[Stretch], second: &[Stretch]) -> Vec<Stretch> {
 }
 
 fn rest(stretch: Stretch, from: f64) -> Option<Stretch> {
-    Some(Stretch { lo: stretch.lo.max(from), ..stretch })
+    Some(if from > stretch.left.u { stretch.part(from, stretch.right.u) } else { stretch })
 }
 
 /// Adds the higher of two stretches between `lo` and `hi`; they cross at most twice.
@@ -120,13 +122,13 @@ fn push(high: &mut Vec<Stretch>, stretch: Stretch, lo: f64, hi: f64) {
     }
     match high.last_mut() {
         Some(last)
-            if last.hi == lo
+            if last.right.u == lo
                 && last.piece == stretch.piece
                 && last.graph == stretch.graph
                 && last.part == Part::Body =>
         {
-            last.hi = hi;
+            last.right = stretch.point(hi);
         }
-        _ => high.push(Stretch { lo, hi, ..stretch }),
+        _ => high.push(stretch.part(lo, hi)),
     }
 }

@@ -24,11 +24,12 @@ pub(super) enum Part {
     Vertex,
 }
 
-/// A graph from `lo` to `hi`.
+/// A graph between two of its points. Their heights are kept: where a circle is upright, u tells a height only to the root of a
+/// rounding.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stretch {
-    pub lo: f64,
-    pub hi: f64,
+    pub left: Point,
+    pub right: Point,
     pub graph: Graph,
     /// Index of the piece of the chain that it comes from.
     pub piece: usize,
@@ -98,27 +99,38 @@ fn circles(a: Point, ra: f64, b: Point, rb: f64) -> [f64; 2] {
 impl Stretch {
     /// Height at u.
     pub fn at(&self, u: f64) -> f64 {
-        self.graph.at(u)
+        if u == self.left.u {
+            self.left.z
+        } else if u == self.right.u {
+            self.right.z
+        } else {
+            self.graph.at(u)
+        }
     }
 
     /// Its point at u.
     pub fn point(&self, u: f64) -> Point {
-        Point::new(u, self.graph.at(u))
+        Point::new(u, self.at(u))
     }
 
-    /// The piece of a chain from `lo` to `hi`, lowered by `down`.
-    pub fn to_piece(&self, down: f64) -> Piece {
-        let (from, to) = (self.point(self.lo), self.point(self.hi));
+    /// The part of it from `lo` to `hi`, both inside.
+    pub fn part(&self, lo: f64, hi: f64) -> Self {
+        Self { left: self.point(lo), right: self.point(hi), ..*self }
+    }
+
+    /// The piece of a chain from `lo` to `hi`.
+    pub fn as_piece(&self) -> Piece {
+        let (from, to) = (self.left, self.right);
         match self.graph {
-            Graph::Line { .. } => Piece::line(from, to).shifted(0.0, -down),
+            Graph::Line { .. } => Piece::line(from, to),
             Graph::Round { centre, radius, upper } => {
+                // An upper half goes from pi to 0, a lower one from -pi to 0, also where an end lies a rounding beyond.
                 let angle = |point: Point| {
-                    let angle = (point.z - centre.z).atan2(point.u - centre.u);
-                    // The left end of a lower half is at pi, not at -pi ... and is reached through -pi: count from there.
-                    if !upper && angle > 0.0 { angle - 2.0 * PI } else { angle }
+                    let angle = (point.z - centre.z).abs().atan2(point.u - centre.u);
+                    if upper { angle } else { -angle }
                 };
                 let (start, end) = (angle(from), angle(to));
-                Piece::arc(Point::new(centre.u, centre.z - down), radius, start, end - start)
+                Piece::arc(centre, radius, start, end - start)
             }
         }
     }
@@ -138,7 +150,7 @@ pub(super) fn graphs(
             let (left, right) = if forward { (line.from, line.to) } else { (line.to, line.from) };
             if right.u - left.u > UPRIGHT {
                 let graph = Graph::Line { left, right };
-                take(Stretch { lo: left.u, hi: right.u, graph, piece: index, part }, forward);
+                take(Stretch { left, right, graph, piece: index, part }, forward);
             } else {
                 top(left, index);
                 top(right, index);
@@ -151,7 +163,7 @@ pub(super) fn graphs(
                 let (left, right) = if a.u <= b.u { (a, b) } else { (b, a) };
                 if right.u - left.u > UPRIGHT {
                     let graph = Graph::Round { centre: arc.centre, radius: arc.radius, upper };
-                    take(Stretch { lo: left.u, hi: right.u, graph, piece: index, part }, a.u <= b.u);
+                    take(Stretch { left, right, graph, piece: index, part }, a.u <= b.u);
                 } else {
                     top(left, index);
                     top(right, index);
