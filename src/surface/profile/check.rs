@@ -34,7 +34,7 @@ pub fn check(profile: &Chain, tip: &Chain, radius: f64, step: f64) -> Verdict {
     let mut samples = Vec::new();
     sampled(profile, step, |point, _| samples.push(point));
     samples.sort_by(|a, b| a.u.total_cmp(&b.u));
-    let field = Field::new(samples);
+    let mut field = Field::new(samples);
     let start = tip.start();
     let mut verdict = Verdict {
         gouge: 0.0,
@@ -43,10 +43,9 @@ pub fn check(profile: &Chain, tip: &Chain, radius: f64, step: f64) -> Verdict {
         gap_at: start,
         bound: step * step / 8.0 * (2.0 / radius + bend(profile) + bend(tip)),
     };
-    let mut near = 0;
     sampled(tip, step, |point, upright| {
         let centre = Point::new(point.u, point.z + radius);
-        let distance = field.distance(centre, &mut near);
+        let distance = field.distance(centre);
         if radius - distance > verdict.gouge {
             (verdict.gouge, verdict.gouge_at) = (radius - distance, point);
         }
@@ -84,16 +83,24 @@ fn square(number: f64) -> f64 {
     number * number
 }
 
-/// Samples by ascending u, in blocks with their bounds.
+/// Samples by ascending u, in blocks with their bounds, and the ball's centre that was looked at last.
 struct Field {
     samples: Vec<Point>,
     blocks: Vec<Block>,
+    /// The block in which the nearest sample was.
+    near: usize,
+    last: Option<Point>,
+    /// How far the centre has come in all.
+    way: f64,
 }
 
 struct Block {
     from: f64,
     to: f64,
     top: f64,
+    /// The distance of its nearest sample when the centre had come so far: it has changed by no more than the way since.
+    distance: f64,
+    way: f64,
 }
 
 impl Field {
@@ -104,45 +111,56 @@ impl Field {
                 from: chunk.first().map_or(0.0, |point| point.u),
                 to: chunk.last().map_or(0.0, |point| point.u),
                 top: chunk.iter().map(|point| point.z).fold(f64::NEG_INFINITY, f64::max),
+                distance: f64::NEG_INFINITY,
+                way: 0.0,
             })
             .collect();
-        Self { samples, blocks }
+        Self { samples, blocks, near: 0, last: None, way: 0.0 }
     }
 
-    /// The distance of the nearest sample from the ray upwards from `centre`; `near` is the block in which the last one was.
-    fn distance(&self, centre: Point, near: &mut usize) -> f64 {
-        // Squares of distances are compared.
+    /// The distance of the nearest sample from the ray upwards from `centre`.
+    fn distance(&mut self, centre: Point) -> f64 {
+        self.way += self.last.map_or(0.0, |last| last.distance(centre));
+        self.last = Some(centre);
         let mut best = f64::INFINITY;
-        self.look(*near, centre, &mut best, near);
+        self.look(self.near, centre, &mut best);
         // Outwards from the block over which the centre stands, until blocks are farther away sideways than the best.
         let middle = self.blocks.partition_point(|block| block.to < centre.u);
         for index in middle..self.blocks.len() {
-            if self.blocks.get(index).is_none_or(|block| square(block.from - centre.u) >= best) {
+            if self.blocks.get(index).is_none_or(|block| block.from - centre.u >= best) {
                 break;
             }
-            self.look(index, centre, &mut best, near);
+            self.look(index, centre, &mut best);
         }
         for index in (0..middle).rev() {
-            if self.blocks.get(index).is_none_or(|block| square(centre.u - block.to) >= best) {
+            if self.blocks.get(index).is_none_or(|block| centre.u - block.to >= best) {
                 break;
             }
-            self.look(index, centre, &mut best, near);
+            self.look(index, centre, &mut best);
         }
-        best.sqrt()
+        best
     }
 
-    fn look(&self, index: usize, centre: Point, best: &mut f64, near: &mut usize) {
-        let Some(block) = self.blocks.get(index) else { return };
-        let across = (block.from - centre.u).max(centre.u - block.to).max(0.0);
-        if square(across) + square((centre.z - block.top).max(0.0)) >= *best {
+    fn look(&mut self, index: usize, centre: Point, best: &mut f64) {
+        let Some(block) = self.blocks.get_mut(index) else { return };
+        if block.distance - (self.way - block.way) >= *best {
             return;
         }
-        for sample in self.samples.iter().skip(index * BLOCK).take(BLOCK) {
-            let distance = square(sample.u - centre.u) + square((centre.z - sample.z).max(0.0));
-            if distance < *best {
-                *best = distance;
-                *near = index;
-            }
+        let across = (block.from - centre.u).max(centre.u - block.to).max(0.0);
+        if square(across) + square((centre.z - block.top).max(0.0)) >= *best * *best {
+            return;
+        }
+        let samples = self.samples.get(index * BLOCK..).unwrap_or_default();
+        let mut nearest = f64::INFINITY;
+        for sample in samples.iter().take(BLOCK) {
+            let away = square(sample.u - centre.u) + square((centre.z - sample.z).max(0.0));
+            nearest = nearest.min(away);
+        }
+        block.distance = nearest.sqrt();
+        block.way = self.way;
+        if block.distance < *best {
+            *best = block.distance;
+            self.near = index;
         }
     }
 }

@@ -9,10 +9,13 @@ fn deviations(chain: &Chain, other: &Chain) -> (f64, f64) {
     let (mut above, mut below) = (0.0_f64, 0.0_f64);
     let pieces = other.pieces();
     let mut at = 0;
+    // As many of the other's pieces as a few of the chain's take.
+    let wide = 8 + 12 * pieces.len() / chain.pieces().len();
+    let samples = if pieces.len() > chain.pieces().len() { 20 } else { 3 };
     for piece in chain.pieces() {
-        for index in 0..=20 {
-            let point = piece.point(f64::from(index) / 20.0);
-            let window = pieces.iter().enumerate().skip(at.max(4) - 4).take(400);
+        for index in 0..=samples {
+            let point = piece.point(f64::from(index) / f64::from(samples));
+            let window = pieces.iter().enumerate().skip(at.max(4) - 4).take(wide);
             let (best, signed) = window
                 .map(|(index, piece)| (index, signed(piece, point)))
                 .min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))

@@ -44,13 +44,14 @@ fn greedy(curve: &impl Curve, tolerance: f64) -> usize {
 fn off(curve: &impl Curve, chain: &Chain) -> f64 {
     let parameters = curve.knots();
     let (first, last) = (parameters[0], *parameters.last().unwrap());
-    let count = 4000;
+    let count = 1000;
     let mut worst = 0.0_f64;
     for index in 0..=count {
         let point = curve.at(first + (last - first) * f64::from(index) / f64::from(count));
         let distance = chain
             .pieces()
             .iter()
+            .filter(|piece| piece.start().distance(point) <= piece.length() + 0.1)
             .map(|piece| {
                 let (mut low, mut high) = (0.0, 1.0);
                 for _ in 0..40 {

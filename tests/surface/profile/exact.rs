@@ -124,10 +124,10 @@ fn a_sine_has_the_heights_of_the_envelope() {
     };
     let points: Vec<[f64; 2]> = (0..1200).map(at).collect();
     let path = tip(&polyline(&points));
-    for index in 0..500 {
-        let u = 1.0 + f64::from(index) * 0.11;
-        let envelope = (0..30_000)
-            .map(|index| f64::from(index) * 0.002)
+    for index in 0..100 {
+        let u = 1.0 + f64::from(index) * 0.55;
+        let envelope = (0..15_000)
+            .map(|index| f64::from(index) * 0.004)
             .filter(|q| (q - u).abs() <= R)
             .map(|q| 3.0 * (q * 0.6).sin() + (R * R - (u - q) * (u - q)).sqrt() - R)
             .fold(f64::NEG_INFINITY, f64::max);

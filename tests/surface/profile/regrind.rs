@@ -11,7 +11,7 @@ fn apart(a: &Chain, b: &Chain) -> f64 {
             .pieces()
             .iter()
             .flat_map(|piece| {
-                let count = (piece.length() / 0.02).ceil().max(1.0) as usize;
+                let count = (piece.length() / 0.1).ceil().max(1.0) as usize;
                 let piece = *piece;
                 (0..=count).map(move |index| piece.point(index as f64 / count as f64))
             })
@@ -35,7 +35,22 @@ fn apart(a: &Chain, b: &Chain) -> f64 {
                 }
             }
         };
-        chain.pieces().iter().map(of).fold(f64::INFINITY, f64::min)
+        let mut best = f64::INFINITY;
+        for piece in chain.pieces() {
+            // Pieces that are too far away anyway.
+            let start = match piece {
+                Piece::Line(line) => line.from,
+                Piece::Arc(arc) => arc.centre,
+            };
+            let reach = match piece {
+                Piece::Line(_) => piece.length(),
+                Piece::Arc(arc) => arc.radius,
+            };
+            if start.distance(point) - reach < best {
+                best = best.min(of(piece));
+            }
+        }
+        best
     };
     let one = samples(a).into_iter().map(|point| distance(point, b)).fold(0.0, f64::max);
     samples(b).into_iter().map(|point| distance(point, a)).fold(one, f64::max)
