@@ -1,0 +1,220 @@
+//! The longest chords within a tolerance.
+
+use super::chain::{Chain, LARGEST};
+use super::compensate::centres;
+use super::fit::longest_arc;
+use super::piece::{Arc, Piece, Point};
+use super::wedge::longest_chord;
+use std::f64::consts::FRAC_PI_2;
+
+/// Arcs are looked at in points between which they bulge by this share of the tolerance; chords keep to the rest of it.
+const SHARE: f64 = 1.0 / 64.0;
+
+/// A bend sharper than this is a corner, when both sides go straight for [`ARM`] tolerances: 20 degrees.
+const CORNER: f64 = 0.35;
+const ARM: f64 = 2.0;
+
+/// Hollow corners that turn by more than this (120 degrees) count as if they turned by this.
+const SHARPEST: f64 = 2.0 * std::f64::consts::FRAC_PI_3;
+
+/// Looking for what a corner's sides do ends after so many pieces.
+const ARM_PIECES: usize = 64;
+
+/// On which side of the chain chords may lie.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Side {
+    /// Either side; vertices lie on the chain.
+    #[default]
+    Both,
+    /// On the chain or above it: a tip path that never gouges.
+    Above,
+    /// On the chain or below it.
+    Below,
+}
+
+/// Why there are no chords.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum ChordError {
+    /// The tolerance cannot be used.
+    #[error("a tolerance of {0} mm: it must be from 0.000001 to {LARGEST:e} mm")]
+    Tolerance(f64),
+}
+
+/// The chain made of few long chords, nowhere farther than `tolerance` mm from `chain`, and the chain nowhere farther from them.
+///
+/// Each chord is the longest that the tolerance allows from where the one before ends (wedges of directions, Sklansky and Gonzalez
+/// 1980, with chord ends on the chain): on a curve of radius of curvature rho it is close to `2 sqrt(2 rho tolerance)`.
+/// Corners are kept: bends sharper than 20 degrees with straight sides of two tolerances. Vertices of lines stay where they
+/// are or go; on arcs they lie anywhere.
+///
+/// With `keep_arcs`, arcs that bulge by more than two tolerances stay arcs, and chords that lie on a circle within the
+/// tolerance become one arc when it bulges by more than four tolerances. Smaller arcs go.
+///
+/// Above and below, the chain is offset by 0.41 of the tolerance to that side (less where hollow corners are sharper than
+/// a right angle) and followed within as much again, which takes some 1.5 times as many chords; both ends move by the
+/// offset along the normal there. Only in hollow corners that turn by more than 120 degrees they may leave more than
+/// the tolerance.
+///
+/// O(n) for chords, O(n log n) with `keep_arcs`.
+///
+/// # Errors
+/// [`ChordError`] when the tolerance is not from 1e-6 to [`LARGEST`] mm.
+pub fn chords(chain: &Chain, tolerance: f64, keep_arcs: bool, side: Side) -> Result<Chain, ChordError> {
+    if !(1e-6..=LARGEST).contains(&tolerance) {
+        return Err(ChordError::Tolerance(tolerance));
+    }
+    Ok(match side {
+        Side::Both => follow(chain, tolerance, keep_arcs),
+        Side::Above => above(chain, tolerance, keep_arcs),
+        Side::Below => above(&chain.flipped(), tolerance, keep_arcs).flipped(),
+    })
+}
+
+/// Chords on or above a chain: within h of its offset by h, which is the path of a small ball's centre.
+fn above(chain: &Chain, tolerance: f64, keep_arcs: bool) -> Chain {
+    let sense = if chain.end().u >= chain.start().u { 1.0 } else { -1.0 };
+    let mut before = Point::default();
+    // Hollow bends between pieces; a right angle may also be hidden in many small ones.
+    let mut bend = FRAC_PI_2;
+    for piece in chain.pieces().iter().filter(|piece| piece.length() > 0.0) {
+        let after = piece.direction(0.0);
+        let turn = (before.u * after.z - before.z * after.u).atan2(before.u * after.u + before.z * after.z);
+        bend = bend.max(turn * sense);
+        before = piece.direction(1.0);
+    }
+    // In a hollow corner the offset is farther away than h.
+    let corner = 1.0 / (0.5 * bend.min(SHARPEST)).cos();
+    let height = tolerance / (1.0 + corner);
+    follow(&centres(chain, height), height, keep_arcs)
+}
+
+/// A place on the chain at which a chord may end.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    pub point: Point,
+    /// The arc that leads here from the place before; `None` for a line.
+    arc: Option<Arc>,
+    corner: bool,
+}
+
+fn follow(chain: &Chain, tolerance: f64, keep_arcs: bool) -> Chain {
+    let mut run = vec![Place { point: chain.start(), arc: None, corner: false }];
+    let mut pieces: Vec<Piece> = Vec::new();
+    for piece in chain.pieces() {
+        match piece {
+            Piece::Arc(arc) if keep_arcs && arc.sagitta() > 2.0 * tolerance => {
+                chord_run(&run, tolerance, keep_arcs, &mut pieces);
+                run.clear();
+                keep(&mut pieces, *arc, tolerance);
+                run.push(Place { point: piece.end(), arc: None, corner: false });
+            }
+            Piece::Arc(arc) => {
+                let most = (1.0 - (SHARE * tolerance / arc.radius).min(1.0)).acos() * 2.0;
+                let count = (arc.sweep.abs() / most).ceil().clamp(1.0, 1e7);
+                for index in 0..count as usize {
+                    let part = Arc {
+                        start: arc.start + arc.sweep * (index as f64 / count),
+                        sweep: arc.sweep / count,
+                        ..*arc
+                    };
+                    let point = Piece::Arc(part).end();
+                    run.push(Place { point, arc: Some(part), corner: false });
+                }
+            }
+            Piece::Line(line) => run.push(Place { point: line.to, arc: None, corner: false }),
+        }
+    }
+    chord_run(&run, tolerance, keep_arcs, &mut pieces);
+    if pieces.is_empty() {
+        pieces.push(Piece::line(chain.start(), chain.end()));
+    }
+    Chain::trusted(pieces)
+}
+
+/// Adds an arc, or makes the last one longer when it is of the same circle.
+fn keep(pieces: &mut Vec<Piece>, arc: Arc, tolerance: f64) {
+    // Both circles agree ten times better than the tolerance asks, so that sums of many merges stay within it.
+    let close = tolerance / 10.0;
+    if let Some(Piece::Arc(last)) = pieces.last_mut()
+        && last.centre.distance(arc.centre) <= close.min(1e-6)
+        && (last.radius - arc.radius).abs() <= close.min(1e-6)
+        && last.sweep.signum() == arc.sweep.signum()
+        && (last.sweep + arc.sweep).abs() < std::f64::consts::TAU
+        && Piece::Arc(*last).end().distance(Piece::Arc(arc).start()) <= close.min(1e-6)
+    {
+        last.sweep += arc.sweep;
+        return;
+    }
+    pieces.push(Piece::Arc(arc));
+}
+
+/// Adds the chords of places between two arcs that stay.
+fn chord_run(run: &[Place], tolerance: f64, keep_arcs: bool, pieces: &mut Vec<Piece>) {
+    let mut run = run.to_vec();
+    let exact = if run.iter().any(|place| place.arc.is_some()) { 1.0 - SHARE } else { 1.0 };
+    mark_corners(&mut run, tolerance);
+    let Some(first) = run.first() else { return };
+    let mut anchor = first.point;
+    let mut at = 0;
+    while at + 1 < run.len() {
+        let next = longest_chord(&run, at, anchor, tolerance * exact);
+        if keep_arcs
+            && let Some((end, arc)) = longest_arc(&run, at, anchor, next.0, tolerance * exact)
+            && let Some(place) = run.get(end)
+        {
+            pieces.push(Piece::Arc(arc));
+            (at, anchor) = (end, place.point);
+            continue;
+        }
+        if anchor != next.1 {
+            pieces.push(Piece::line(anchor, next.1));
+        }
+        (at, anchor) = next;
+    }
+}
+
+impl Place {
+    /// The arc that leads here, where it is no line.
+    pub fn arc(&self) -> Option<Arc> {
+        self.arc
+    }
+
+    /// Whether a chord or arc may not go on past it.
+    pub fn is_corner(&self) -> bool {
+        self.corner
+    }
+}
+
+/// Marks the corners of a run.
+fn mark_corners(run: &mut [Place], tolerance: f64) {
+    let arm = |places: &mut dyn Iterator<Item = &Place>, at: Point| {
+        let mut far = places.take(ARM_PIECES).map(|place| place.point).skip_while(|point| {
+            point.distance(at) < 2.0 * ARM * tolerance
+        });
+        far.next().map(|point| (point.u - at.u, point.z - at.z))
+    };
+    let turn = |a: (f64, f64), b: (f64, f64)| {
+        let angle = (a.0 * b.1 - a.1 * b.0).atan2(a.0 * b.0 + a.1 * b.1);
+        angle.abs() > CORNER
+    };
+    let corners: Vec<usize> = run
+        .windows(3)
+        .enumerate()
+        .filter_map(|(index, places)| {
+            let [before, at, after] = places else { return None };
+            // The cheap look first: how it bends right here.
+            let near = |from: &Place, to: &Place| (to.point.u - from.point.u, to.point.z - from.point.z);
+            if !turn(near(before, at), near(at, after)) {
+                return None;
+            }
+            let back = arm(&mut run.get(..=index)?.iter().rev(), at.point)?;
+            let on = arm(&mut run.get(index + 2..)?.iter(), at.point)?;
+            turn((-back.0, -back.1), on).then_some(index + 1)
+        })
+        .collect();
+    for index in corners {
+        if let Some(place) = run.get_mut(index) {
+            place.corner = true;
+        }
+    }
+}
