@@ -146,7 +146,18 @@ fn edge(from: [f64; 3], to: [f64; 3], cutter: &Cutter, [x, y]: [f64; 2], best: &
         return;
     }
     let rise = to[2] - from[2];
-    let along = cutter.along(distance_square.sqrt(), rise.abs() / length).min(half);
+    let slope = rise / length;
+    // From the concave function's tangent half-way: short edges seldom need more.
+    let middle = f64::midpoint(start, end);
+    let r = (distance_square + middle * middle).sqrt();
+    if r < reach {
+        let (fall, tilt) = cutter.tangent(r);
+        let most = f64::midpoint(from[2], to[2]) - fall + (slope - tilt * middle).abs() * (length / 2.0);
+        if most <= best.tip {
+            return;
+        }
+    }
+    let along = cutter.along(distance_square.sqrt(), slope.abs()).min(half);
     let s = (if rise < 0.0 { -along } else { along }).max(start).min(end);
     let share = ((s - start) / length).clamp(0.0, 1.0);
     let z = from[2] + rise * share;

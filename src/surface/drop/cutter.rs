@@ -94,6 +94,18 @@ impl Cutter {
         if r <= self.flat || self.corner <= 0.0 { 0.0 } else { ((r - self.flat) / self.corner).min(1.0) }
     }
 
+    /// Height of the bottom above the tip at a distance from the axis less than the radius, and its rise outwards there, divided by
+    /// that distance.
+    #[inline]
+    pub(super) fn tangent(&self, r: f64) -> (f64, f64) {
+        let across = r - self.flat;
+        if across <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let up = (self.corner * self.corner - across * across).sqrt();
+        (self.corner - up, across / (up * r))
+    }
+
     /// Where a plane that rises by `slope` in its steepest direction touches: how far from the axis, uphill.
     pub(super) fn ahead(&self, slope: f64) -> f64 {
         if slope <= 0.0 {

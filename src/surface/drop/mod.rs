@@ -26,7 +26,7 @@ pub struct DropCutter {
     cutter: Cutter,
     /// A leaf's facets stand together.
     facets: Vec<Facet>,
-    /// A node's first child follows it; the first node is the root.
+    /// The first is the root.
     nodes: Vec<Node>,
 }
 
@@ -75,7 +75,7 @@ impl DropCutter {
     /// Looks at everything below a node that can be higher than the best so far, the more promising child first.
     fn lower(&self, at: usize, place: [f64; 2], best: &mut Touch) {
         let Some(node) = self.nodes.get(at) else { return };
-        let (first, second) = match node.below(at) {
+        let (first, second) = match node.below() {
             Below::Nodes(first, second) => (first, second),
             Below::Facets(leaf) => {
                 for facet in self.facets.get(leaf).unwrap_or_default() {

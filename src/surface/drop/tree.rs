@@ -26,7 +26,7 @@ pub(super) struct Node {
     slope: [f64; 2],
     /// Height of the plane over the box's middle.
     top: f64,
-    /// The second child, or the first facet.
+    /// The first of two children beside each other, or the first facet.
     next: u32,
     /// Facets of a leaf; 0 of other nodes.
     facets: u32,
@@ -39,11 +39,11 @@ pub(super) enum Below {
 }
 
 impl Node {
-    /// What is below the node with this number.
-    pub(super) fn below(&self, own: usize) -> Below {
+    /// What is below this node.
+    pub(super) fn below(&self) -> Below {
         let next = self.next as usize;
         match self.facets {
-            0 => Below::Nodes(own + 1, next),
+            0 => Below::Nodes(next, next + 1),
             facets => Below::Facets(next..next + facets as usize),
         }
     }
@@ -71,34 +71,32 @@ impl Node {
     }
 }
 
-/// Sorts facets into leaves and makes the tree above them.
+/// Sorts facets into leaves and makes the tree above them, the root first.
 pub(super) fn build(facets: &mut [Facet]) -> Vec<Node> {
     let mut nodes = Vec::with_capacity(facets.len());
     if !facets.is_empty() {
-        grow(facets, 0, &mut nodes);
+        nodes.push(node(facets));
+        grow(facets, 0, 0, &mut nodes);
     }
     nodes
 }
 
-fn grow(facets: &mut [Facet], first: usize, nodes: &mut Vec<Node>) {
-    let own = nodes.len();
-    let count = facets.len();
-    let node = node(facets);
+/// Puts what is below a node behind all others: children beside each other, for they are looked at together.
+fn grow(facets: &mut [Facet], first: usize, own: usize, nodes: &mut Vec<Node>) {
+    let (count, next) = (facets.len(), nodes.len());
+    let Some(parent) = nodes.get_mut(own) else { return };
     if count <= LEAF {
-        nodes.push(Node { next: first as u32, facets: count as u32, ..node });
+        (parent.next, parent.facets) = (first as u32, count as u32);
         return;
     }
-    nodes.push(node);
+    parent.next = next as u32;
     let axis = widest(facets);
     let half = count / 2;
     facets.select_nth_unstable_by(half, |a, b| center(a, axis).total_cmp(&center(b, axis)));
     let (left, right) = facets.split_at_mut(half);
-    grow(left, first, nodes);
-    let next = nodes.len() as u32;
-    if let Some(node) = nodes.get_mut(own) {
-        node.next = next;
-    }
-    grow(right, first + half, nodes);
+    nodes.extend([node(left), node(right)]);
+    grow(left, first, next, nodes);
+    grow(right, first + half, next + 1, nodes);
 }
 
 /// Three times a facet's middle along an axis.
