@@ -88,7 +88,7 @@ fn gap(
     while index > range.start {
         index -= 1;
         let (Some(motion), Some(at)) = (motions.get(index), point(index)) else { break };
-        if motion.operation != own && index + 1 != ahead.motions.start {
+        if Some(motion.operation) != own && index + 1 != ahead.motions.start {
             break;
         }
         let above = is_above(at, old, axis(index));
@@ -114,7 +114,13 @@ fn is_above(at: Point3<f64>, end: Point3<f64>, up: Vector3<f64>) -> bool {
 }
 
 /// A point that goes with the end of a pass: straight above it at its own height, or as one with it; never below it.
-fn shifted(at: Point3<f64>, old: Point3<f64>, new: Point3<f64>, up: Vector3<f64>, above: bool) -> Point3<f64> {
+fn shifted(
+    at: Point3<f64>,
+    old: Point3<f64>,
+    new: Point3<f64>,
+    up: Vector3<f64>,
+    above: bool,
+) -> Point3<f64> {
     let way = new - old;
     let wanted = if above { at + (way - up * way.dot(&up)) } else { at + way };
     if (at - old).norm() <= UPRIGHT {

@@ -12,6 +12,7 @@ use crate::transform::numbers::without_remark;
 use crate::write::{Editor, copy_with_numbers};
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::PI;
+use std::ops::Range;
 
 /// Why the statements of a path cannot be given other points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -55,7 +56,8 @@ impl<'a> Writer<'a> {
         let motion = self.motions.get(index).ok_or(Unwritable::NoGoto)?;
         let last = motion.last_statement();
         let beside = [index.wrapping_sub(1), index + 1];
-        let shares = |other: &usize| self.motions.get(*other).is_some_and(|other| other.last_statement() == last);
+        let shares =
+            |other: &usize| self.motions.get(*other).is_some_and(|other| other.last_statement() == last);
         if beside.iter().any(shares) || motion.hole.is_some() {
             return Err(Unwritable::NoGoto);
         }
@@ -101,7 +103,10 @@ impl<'a> Writer<'a> {
                 }
                 if (by - from).amax() <= 1e-6 {
                     self.shift(editor, motion, by)?;
-                } else if matches!(editor.program().statement(last).map(Statement::record), Some(Record::Goto(_))) {
+                } else if matches!(
+                    editor.program().statement(last).map(Statement::record),
+                    Some(Record::Goto(_))
+                ) {
                     drop_announced(editor, motion);
                     editor.set_numbers(last, &self.numbers(end))?;
                 } else {
@@ -150,7 +155,9 @@ impl<'a> Writer<'a> {
         path: &Chain,
         (radius, contact): (f64, bool),
     ) -> Result<Result<(), Unwritable>, Box<Diagnostic>> {
-        let Some(goto) = self.goto(editor.program(), pass) else { return Ok(Err(Unwritable::NoGoto)) };
+        let Some(goto) = self.goto(editor.program(), &pass.motions) else {
+            return Ok(Err(Unwritable::NoGoto));
+        };
         let breaks = self.breaks(pass, path, if contact { radius } else { 0.0 });
         let forward = if path.end().u >= path.start().u { 1.0 } else { -1.0 };
         let mut pieces = halves(path).into_iter().peekable();
@@ -171,15 +178,60 @@ impl<'a> Writer<'a> {
         Ok(Ok(()))
     }
 
+    /// Writes a pass as straight moves to points, a list for each of its motions; with an empty one the motion goes.
+    ///
+    /// # Errors
+    /// As [`Writer::pass`].
+    pub fn points(
+        &self,
+        editor: &mut Editor,
+        motions: Range<usize>,
+        points: Vec<Vec<Point3<f64>>>,
+    ) -> Result<Result<(), Unwritable>, Box<Diagnostic>> {
+        let Some(goto) = self.goto(editor.program(), &motions) else { return Ok(Err(Unwritable::NoGoto)) };
+        for (index, own) in motions.zip(points) {
+            let Some(motion) = self.motions.get(index) else { continue };
+            let simple = is_line(editor.program(), motion);
+            let (put_in, kept) = match own.split_last() {
+                Some((last, rest)) if simple => (rest, Some(last)),
+                _ => (own.as_slice(), None),
+            };
+            for point in put_in {
+                let text = copy(editor, goto, &self.numbers(*point));
+                editor.insert_before(motion.statements.start, &text)?;
+            }
+            self.keep_end(editor, motion, kept.copied())?;
+        }
+        Ok(Ok(()))
+    }
+
+    /// Gives a motion's last statement another end, or takes the motion out.
+    fn keep_end(
+        &self,
+        editor: &mut Editor,
+        motion: &Motion,
+        end: Option<Point3<f64>>,
+    ) -> Result<(), Box<Diagnostic>> {
+        match end {
+            Some(end) => editor.set_numbers(motion.last_statement(), &self.numbers(end)),
+            None => {
+                drop_announced(editor, motion);
+                editor.delete(motion.last_statement());
+                Ok(())
+            }
+        }
+    }
+
     /// A GOTO of one point that new ones are modelled on: of the pass, else the nearest before or after it in its operation.
-    fn goto(&self, program: &Program, pass: &Pass) -> Option<usize> {
+    fn goto(&self, program: &Program, pass: &Range<usize>) -> Option<usize> {
         let is_goto = |index: &usize| {
-            let found = self.motions.get(*index).and_then(|motion| program.statement(motion.last_statement()));
+            let found =
+                self.motions.get(*index).and_then(|motion| program.statement(motion.last_statement()));
             found.is_some_and(|found| found.is_live() && matches!(found.record(), Record::Goto(_)))
         };
-        let own = pass.motions.clone().find(is_goto);
-        let before = || (0..pass.motions.start).rev().find(is_goto);
-        let after = || (pass.motions.end..self.motions.len()).find(is_goto);
+        let own = pass.clone().find(is_goto);
+        let before = || (0..pass.start).rev().find(is_goto);
+        let after = || (pass.end..self.motions.len()).find(is_goto);
         let index = own.or_else(before).or_else(after)?;
         self.motions.get(index).map(Motion::last_statement)
     }
@@ -210,9 +262,7 @@ impl<'a> Writer<'a> {
         plane: &Plane,
         goto: usize,
     ) -> Result<(), Box<Diagnostic>> {
-        let last = motion.last_statement();
-        let simple = matches!(motion.path, Path::Line)
-            && matches!(editor.program().statement(last).map(Statement::record), Some(Record::Goto(_)));
+        let simple = is_line(editor.program(), motion);
         let (put_in, kept) = match pieces.split_last() {
             Some((Piece::Line(line), rest)) if simple => (rest, Some(line.to)),
             _ => (pieces, None),
@@ -220,14 +270,7 @@ impl<'a> Writer<'a> {
         for piece in put_in {
             self.insert(editor, piece, plane, goto, motion.statements.start)?;
         }
-        match kept {
-            Some(end) => editor.set_numbers(last, &self.numbers(plane.space(end)))?,
-            None => {
-                drop_announced(editor, motion);
-                editor.delete(last);
-            }
-        }
-        Ok(())
+        self.keep_end(editor, motion, kept.map(|end| plane.space(end)))
     }
 
     fn insert(
@@ -239,8 +282,10 @@ impl<'a> Writer<'a> {
         before: usize,
     ) -> Result<(), Box<Diagnostic>> {
         if let (Piece::Arc(arc), Some(template)) = (piece, &self.circle) {
-            let up = plane.space(crate::surface::profile::Point::new(0.0, 1.0)) - plane.space(Default::default());
-            let along = plane.space(crate::surface::profile::Point::new(1.0, 0.0)) - plane.space(Default::default());
+            let up =
+                plane.space(crate::surface::profile::Point::new(0.0, 1.0)) - plane.space(Default::default());
+            let along =
+                plane.space(crate::surface::profile::Point::new(1.0, 0.0)) - plane.space(Default::default());
             // From +u towards +z is right-hand about u x z.
             let axis = along.cross(&up) * (arc.sweep.signum() * template.hand);
             let axis = axis.map(|part| if part.abs() < 1e-9 { 0.0 } else { part });
@@ -258,8 +303,14 @@ impl<'a> Writer<'a> {
     }
 }
 
+/// Whether a motion is a line that one GOTO says.
+fn is_line(program: &Program, motion: &Motion) -> bool {
+    let record = program.statement(motion.last_statement()).map(Statement::record);
+    matches!(motion.path, Path::Line) && matches!(record, Some(Record::Goto(_)))
+}
+
 /// The pieces, arcs of more than half a turn in two.
-fn halves(path: &Chain) -> Vec<Piece> {
+pub(super) fn halves(path: &Chain) -> Vec<Piece> {
     let halve = |piece: &Piece| match piece {
         Piece::Arc(arc) if arc.sweep.abs() > PI => vec![piece.part(0.0, 0.5), piece.part(0.5, 1.0)],
         _ => vec![*piece],
@@ -277,7 +328,9 @@ fn copy(editor: &Editor, statement: usize, numbers: &[(usize, f64)]) -> Vec<u8> 
 fn drop_announced(editor: &mut Editor, motion: &Motion) {
     for statement in motion.statements.clone().rev().skip(1) {
         let found = editor.program().statement(statement);
-        if found.is_some_and(|found| found.is_live() && is_motion(found.record()) && *found.record() != Record::Rapid) {
+        if found.is_some_and(|found| {
+            found.is_live() && is_motion(found.record()) && *found.record() != Record::Rapid
+        }) {
             editor.delete(statement);
         }
     }
