@@ -1,17 +1,16 @@
 //! Compensation against a model: the cutter lowered onto it along each pass.
 
-use super::by_profile::leads_written;
-use super::leads::{self, Moved};
+use super::leads::{self, Moved, leads_written};
 use super::model::{lowered, seen_from_above};
 use super::passes::runs;
 use super::proof;
-use super::report::{PassReport, Report};
+use super::report::{Names, PassReport, Report};
 use super::step::Job;
 use super::words::Place;
 use super::write::Writer;
 use crate::diagnostic::{Diagnostic, codes};
+use crate::program::Program;
 use crate::program::motion::Motion;
-use crate::program::{Program, operation};
 use crate::sim::Mesh;
 use crate::surface::drop::{Cutter, DropCutter, deviation};
 use crate::transform::Context;
@@ -72,10 +71,9 @@ pub(super) fn run(
     for index in ends.keys().copied().chain(all.iter().flat_map(|work| work.run.clone())) {
         writer.check(&program, index).map_err(|why| place.unwritable(why, index, context))?;
     }
-    let names: Vec<String> =
-        operation::operations(&program).into_iter().map(|operation| operation.name).collect();
+    let names = Names::new(&program, motions);
     let mut reports: Vec<PassReport> =
-        all.iter().map(|work| work.report(motions, &program, &names)).collect();
+        all.iter().map(|work| names.pass(&work.run, work.points.iter().map(Vec::len).sum())).collect();
     let original = program.clone();
     let mut editor = Editor::new(program, context.step);
     for work in &all {
@@ -96,14 +94,8 @@ pub(super) fn run(
     })?;
     prove(job, &mesh, cutter, &after, &ranges, lift, &all, &mut reports, &place, context)?;
     between(job, &dropped, &after, &ranges, lift, &program, context);
-    let report = Report {
-        against: "mesh",
-        radius_mm: job.radius,
-        corner_radius_mm: job.corner,
-        tolerance_mm: job.tolerance,
-        passes: reports,
-        beside,
-    };
+    let report = Report::new("mesh", (job.radius, job.corner), job.tolerance);
+    let report = Report { passes: reports, beside, ..report };
     Ok((program, report))
 }
 
@@ -148,24 +140,6 @@ impl Work {
     fn moved(&self, lift: Vector3<f64>) -> Option<Moved> {
         let (start, end) = (Point3::from(self.start) + lift, Point3::from(self.end()) + lift);
         Some(Moved { motions: self.run.clone(), start, end })
-    }
-
-    fn report(&self, motions: &[Motion], program: &Program, names: &[String]) -> PassReport {
-        let first = motions.get(self.run.start);
-        let origin =
-            first.and_then(|motion| program.statement(motion.statements.start)).map(|found| found.origin());
-        PassReport {
-            operation: first.and_then(|motion| names.get(motion.operation)).cloned().unwrap_or_default(),
-            line: program.source().line_column(origin.unwrap_or_default().start).0 as u64,
-            motions_before: self.run.len(),
-            motions_after: self.points.iter().map(Vec::len).sum(),
-            gouge_mm: 0.0,
-            gap_mm: None,
-            left_mm: 0.0,
-            profile: Vec::new(),
-            path: Vec::new(),
-            naive: Vec::new(),
-        }
     }
 }
 

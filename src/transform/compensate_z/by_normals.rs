@@ -1,18 +1,17 @@
 //! Compensation by contact normals: each point moves by its own.
 
-use super::by_profile::leads_written;
-use super::leads::{self, Moved};
+use super::leads::{self, Moved, leads_written};
 use super::normals::{Contact, gouges};
 use super::passes::runs;
 use super::proof;
-use super::report::{PassReport, Report};
+use super::report::{Names, PassReport, Report};
 use super::step::Job;
 use super::words::Place;
 use super::write::Writer;
 use crate::diagnostic::{Diagnostic, codes};
+use crate::program::Program;
 use crate::program::geometry::Path;
 use crate::program::motion::Motion;
-use crate::program::{Program, operation};
 use crate::transform::Context;
 use crate::write::Editor;
 use nalgebra::{Point3, Unit, Vector3};
@@ -57,9 +56,8 @@ pub(super) fn run(
     for index in ends.keys().copied().chain(owners.iter().copied()) {
         writer.check(&program, index).map_err(|why| place.unwritable(why, index, context))?;
     }
-    let names: Vec<String> =
-        operation::operations(&program).into_iter().map(|operation| operation.name).collect();
-    let reports = reports(job, motions, &program, &runs, (&contacts, &owners), &names);
+    let names = Names::new(&program, motions);
+    let reports = reports(job, &runs, (&contacts, &owners), &names);
     let original = program.clone();
     let mut editor = Editor::new(program, context.step);
     for (contact, index) in contacts.iter().zip(&owners) {
@@ -87,14 +85,8 @@ pub(super) fn run(
             ));
         }
     }
-    let report = Report {
-        against: "normals",
-        radius_mm: job.radius,
-        corner_radius_mm: job.corner,
-        tolerance_mm: job.tolerance,
-        passes: reports,
-        beside: 0,
-    };
+    let report = Report::new("normals", (job.radius, job.corner), job.tolerance);
+    let report = Report { passes: reports, ..report };
     Ok((program, report))
 }
 
@@ -167,13 +159,12 @@ fn tell_gouges(
     }
 }
 
+/// The reports of runs: of their balls, the deepest gouge of a contact point.
 fn reports(
     job: &Job,
-    motions: &[Motion],
-    program: &Program,
     runs: &[Range<usize>],
     (contacts, owners): (&[Contact], &[usize]),
-    names: &[String],
+    names: &Names<'_>,
 ) -> Vec<PassReport> {
     let all = gouges(contacts, job.radius, 0.0);
     let deepest = |run: &Range<usize>| {
@@ -181,22 +172,5 @@ fn reports(
             all.iter().filter(|gouge| owners.get(gouge.contact).is_some_and(|owner| run.contains(owner)));
         own.map(|gouge| gouge.depth).fold(0.0, f64::max)
     };
-    let one = |run: &Range<usize>| {
-        let first = motions.get(run.start);
-        let origin =
-            first.and_then(|motion| program.statement(motion.statements.start)).map(|found| found.origin());
-        PassReport {
-            operation: first.and_then(|motion| names.get(motion.operation)).cloned().unwrap_or_default(),
-            line: program.source().line_column(origin.unwrap_or_default().start).0 as u64,
-            motions_before: run.len(),
-            motions_after: run.len(),
-            gouge_mm: deepest(run),
-            gap_mm: None,
-            left_mm: 0.0,
-            profile: Vec::new(),
-            path: Vec::new(),
-            naive: Vec::new(),
-        }
-    };
-    runs.iter().map(one).collect()
+    runs.iter().map(|run| PassReport { gouge_mm: deepest(run), ..names.pass(run, run.len()) }).collect()
 }

@@ -1,15 +1,16 @@
 //! Compensation against the passes themselves.
 
-use super::leads::{self, Moved};
+use super::clearance::height;
+use super::leads::{self, Moved, leads_written};
 use super::passes::{Pass, passes};
 use super::profile::{self, Ball, Compensated};
-use super::report::{PassReport, Report};
+use super::report::{Names, PassReport, Report};
 use super::step::Job;
 use super::words::Place;
 use super::write::Writer;
 use crate::diagnostic::{Diagnostic, codes};
+use crate::program::Program;
 use crate::program::motion::Motion;
-use crate::program::{Program, operation};
 use crate::surface::profile::{Chain, Piece, Point};
 use crate::transform::Context;
 use crate::write::Editor;
@@ -58,15 +59,16 @@ pub(super) fn run(
     }
     tell_unreachable(&all, &place, context);
     let moved: Vec<Moved> = all.iter().map(Work::moved).collect();
-    let over = |at: Point3<f64>| height(&all, &ball, at);
+    let over = |at: Point3<f64>| {
+        let exact = all.iter().map(|work| (&work.pass.plane, &work.done.exact));
+        height(exact, if ball.centre { ball.radius } else { 0.0 }, at)
+    };
     let ends = leads::around(motions, &moved, mm, &over);
     for index in ends.keys().copied().chain(all.iter().flat_map(|work| work.pass.motions.clone())) {
         writer.check(&program, index).map_err(|why| place.unwritable(why, index, context))?;
     }
-    let names: Vec<String> =
-        operation::operations(&program).into_iter().map(|operation| operation.name).collect();
-    let mut reports: Vec<PassReport> =
-        all.iter().map(|work| work.report(motions, &program, &names)).collect();
+    let names = Names::new(&program, motions);
+    let mut reports: Vec<PassReport> = all.iter().map(|work| work.report(&names)).collect();
     let original = program.clone();
     let mut editor = Editor::new(program, context.step);
     for work in &all {
@@ -78,14 +80,8 @@ pub(super) fn run(
     leads_written(&writer, &mut editor, motions, &ends, &moved, mm, &original, context)?;
     let program = editor.finish()?;
     prove(&program, &original, motions, &all, &ball, mm, &mut reports, context)?;
-    let report = Report {
-        against: "profile",
-        radius_mm: job.radius,
-        corner_radius_mm: job.corner,
-        tolerance_mm: job.tolerance,
-        passes: reports,
-        beside: 0,
-    };
+    let report = Report::new("profile", (job.radius, job.corner), job.tolerance);
+    let report = Report { passes: reports, ..report };
     Ok((program, report))
 }
 
@@ -107,21 +103,11 @@ impl Work {
         }
     }
 
-    fn report(&self, motions: &[Motion], program: &Program, names: &[String]) -> PassReport {
-        let first = motions.get(self.pass.motions.start);
-        let origin =
-            first.and_then(|motion| program.statement(motion.statements.start)).map(|found| found.origin());
+    fn report(&self, names: &Names<'_>) -> PassReport {
         PassReport {
-            operation: first.and_then(|motion| names.get(motion.operation)).cloned().unwrap_or_default(),
-            line: program.source().line_column(origin.unwrap_or_default().start).0 as u64,
-            motions_before: self.pass.motions.len(),
-            motions_after: self.path.pieces().len(),
-            gouge_mm: 0.0,
-            gap_mm: None,
             left_mm: self.done.unreachable.iter().map(|part| part.left).fold(0.0, f64::max),
             profile: drawn(&self.done.contact),
-            path: Vec::new(),
-            naive: Vec::new(),
+            ..names.pass(&self.pass.motions, self.path.pieces().len())
         }
     }
 }
@@ -141,42 +127,6 @@ pub(super) fn drawn(chain: &Chain) -> Vec<(f64, f64)> {
         }));
     }
     points
-}
-
-/// The lowest that the tip (or centre) may go in the plane of a pass, for points around passes that lie in one. In the tool's direction.
-fn height(all: &[Work], ball: &Ball, at: Point3<f64>) -> Option<f64> {
-    let lift = if ball.centre { ball.radius } else { 0.0 };
-    let one = |work: &Work| {
-        let plane = &work.pass.plane;
-        if plane.off(at).abs() > 0.01 {
-            return None;
-        }
-        let flat = plane.flat(at);
-        let top = work
-            .done
-            .exact
-            .pieces()
-            .iter()
-            .filter_map(|piece| top(piece, flat.u))
-            .fold(f64::NEG_INFINITY, f64::max);
-        let up = plane.space(Point::new(0.0, 1.0)) - plane.space(Point::default());
-        top.is_finite().then(|| plane.space(Point::new(flat.u, top + lift)).coords.dot(&up))
-    };
-    all.iter().filter_map(one).reduce(f64::max)
-}
-
-/// The highest point of a piece at `u`; arcs by their chords of a hundredth, which is for clearance alone.
-fn top(piece: &Piece, u: f64) -> Option<f64> {
-    let count = if matches!(piece, Piece::Arc(_)) { 100 } else { 1 };
-    let point = |part: usize| piece.point(part as f64 / count as f64);
-    let part = |part: usize| {
-        let (a, b) = (point(part), point(part + 1));
-        let inside = (a.u.min(b.u) - 1e-9..=a.u.max(b.u) + 1e-9).contains(&u);
-        inside.then(|| {
-            if (b.u - a.u).abs() < 1e-9 { a.z.max(b.z) } else { a.towards(b, (u - a.u) / (b.u - a.u)).z }
-        })
-    };
-    (0..count).filter_map(part).reduce(f64::max)
 }
 
 fn tell_unreachable(all: &[Work], place: &Place<'_>, context: &mut Context<'_>) {
@@ -211,49 +161,6 @@ fn tell_unreachable(all: &[Work], place: &Place<'_>, context: &mut Context<'_>) 
         let message = format!("{} more places that the ball does not reach", count - TOLD);
         context.findings.push(Diagnostic::new(codes::UNREACHABLE, message));
     }
-}
-
-/// Writes the ends around passes.
-#[allow(clippy::too_many_arguments)] // one call, and a struct would only rename them
-pub(super) fn leads_written(
-    writer: &Writer<'_>,
-    editor: &mut Editor,
-    motions: &[Motion],
-    ends: &std::collections::BTreeMap<usize, Point3<f64>>,
-    moved: &[Moved],
-    mm: f64,
-    original: &Program,
-    context: &Context<'_>,
-) -> Result<(), Box<Diagnostic>> {
-    let start_of = |index: usize| -> Point3<f64> {
-        let before = index.checked_sub(1);
-        let of_pass = moved.iter().find(|pass| pass.motions.end == index).map(|pass| pass.end);
-        of_pass
-            .or_else(|| before.and_then(|before| ends.get(&before).copied()))
-            .or_else(|| motions.get(index).map(|motion| motion.from.point * mm))
-            .unwrap_or_else(Point3::origin)
-    };
-    let within = |index: usize| moved.iter().any(|pass: &Moved| contains(&pass.motions, index));
-    let touched = ends
-        .keys()
-        .copied()
-        .chain(ends.keys().map(|index| index + 1))
-        .chain(moved.iter().map(|pass| pass.motions.end));
-    let mut touched: Vec<usize> = touched.filter(|index| *index < motions.len() && !within(*index)).collect();
-    touched.sort_unstable();
-    touched.dedup();
-    for index in touched {
-        let old = motions.get(index).map_or_else(Point3::origin, |motion| motion.to.point * mm);
-        let end = ends.get(&index).copied().unwrap_or(old);
-        let written = writer.move_end(editor, index, end, start_of(index))?;
-        let place = Place { program: original, motions };
-        written.map_err(|why| place.unwritable(why, index, context))?;
-    }
-    Ok(())
-}
-
-fn contains(range: &Range<usize>, index: usize) -> bool {
-    range.contains(&index)
 }
 
 /// Measures the written passes.

@@ -7,6 +7,8 @@
 mod by_mesh;
 mod by_normals;
 mod by_profile;
+mod clearance;
+mod ends;
 mod leads;
 mod model;
 pub mod normals;
@@ -16,6 +18,7 @@ mod profile;
 mod proof;
 mod report;
 mod step;
+mod template;
 mod words;
 mod write;
 

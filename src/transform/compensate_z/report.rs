@@ -1,6 +1,9 @@
 //! What `compensate_z` did, in numbers.
 
+use crate::program::motion::Motion;
+use crate::program::{Program, operation};
 use serde::Serialize;
+use std::ops::Range;
 
 /// What the step did.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -19,8 +22,19 @@ pub struct Report {
     pub beside: usize,
 }
 
+impl Report {
+    /// A report without passes yet.
+    pub(super) fn new(
+        against: &'static str,
+        (radius_mm, corner_radius_mm): (f64, f64),
+        tolerance_mm: f64,
+    ) -> Self {
+        Self { against, radius_mm, corner_radius_mm, tolerance_mm, passes: Vec::new(), beside: 0 }
+    }
+}
+
 /// One pass; with normals, one operation.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct PassReport {
     /// Name of its operation; may be empty.
     pub operation: String,
@@ -45,4 +59,35 @@ pub struct PassReport {
     /// What moving each point by its own normal would have made of it.
     #[serde(skip)]
     pub naive: Vec<(f64, f64)>,
+}
+
+/// Names the operations of a program for the reports of its passes.
+pub(super) struct Names<'a> {
+    program: &'a Program,
+    motions: &'a [Motion],
+    operations: Vec<String>,
+}
+
+impl<'a> Names<'a> {
+    pub fn new(program: &'a Program, motions: &'a [Motion]) -> Self {
+        let operations = operation::operations(program).into_iter().map(|operation| operation.name).collect();
+        Self { program, motions, operations }
+    }
+
+    /// The report of a pass before anything was measured.
+    pub fn pass(&self, motions: &Range<usize>, after: usize) -> PassReport {
+        let first = self.motions.get(motions.start);
+        let statement = first.and_then(|motion| self.program.statement(motion.statements.start));
+        let origin = statement.map(|found| found.origin()).unwrap_or_default();
+        PassReport {
+            operation: first
+                .and_then(|motion| self.operations.get(motion.operation))
+                .cloned()
+                .unwrap_or_default(),
+            line: self.program.source().line_column(origin.start).0 as u64,
+            motions_before: motions.len(),
+            motions_after: after,
+            ..PassReport::default()
+        }
+    }
 }

@@ -2,15 +2,15 @@
 
 use super::passes::Pass;
 use super::profile::sine;
+use super::template::{Template, template};
 use crate::diagnostic::Diagnostic;
 use crate::program::geometry::Path;
 use crate::program::motion::Motion;
-use crate::program::record::{ArcSense, Circle};
-use crate::program::{ArcRule, Program, Record, Statement};
+use crate::program::{Program, Record, Statement};
 use crate::surface::profile::{Chain, Piece, Plane};
 use crate::transform::numbers::without_remark;
 use crate::write::{Editor, copy_with_numbers};
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -25,17 +25,9 @@ pub(super) enum Unwritable {
 
 /// Writes points for one program.
 pub(super) struct Writer<'a> {
-    motions: &'a [Motion],
-    mm: f64,
+    pub(super) motions: &'a [Motion],
+    pub(super) mm: f64,
     circle: Option<Template>,
-}
-
-/// A CIRCLE that new ones are modelled on.
-struct Template {
-    statement: usize,
-    has_radius: bool,
-    /// 1 where the printed axis is right-hand, -1 where it is left-hand.
-    hand: f64,
 }
 
 impl<'a> Writer<'a> {
@@ -73,74 +65,9 @@ impl<'a> Writer<'a> {
         }
     }
 
-    fn numbers(&self, point: Point3<f64>) -> Vec<(usize, f64)> {
+    pub(super) fn numbers(&self, point: Point3<f64>) -> Vec<(usize, f64)> {
         let at: [f64; 3] = (point / self.mm).coords.into();
         at.into_iter().enumerate().collect()
-    }
-
-    /// Gives a motion that stays another end; an arc whose ends no longer move alike becomes straight.
-    ///
-    /// # Errors
-    /// When a statement does not read back, and for records that cannot be moved.
-    pub fn move_end(
-        &self,
-        editor: &mut Editor,
-        index: usize,
-        end: Point3<f64>,
-        start: Point3<f64>,
-    ) -> Result<Result<(), Unwritable>, Box<Diagnostic>> {
-        let Some(motion) = self.motions.get(index) else { return Ok(Ok(())) };
-        let (by, from) = (end - motion.to.point * self.mm, start - motion.from.point * self.mm);
-        let last = motion.last_statement();
-        let moves = |by: Vector3<f64>| by.amax() > 1e-9;
-        match &motion.path {
-            Path::Line | Path::Start if moves(by) => {
-                editor.set_numbers(last, &self.numbers(end))?;
-            }
-            Path::Arc(_) if moves(by) || moves(from) => {
-                if let Err(why) = self.check(editor.program(), index) {
-                    return Ok(Err(why));
-                }
-                if (by - from).amax() <= 1e-6 {
-                    self.shift(editor, motion, by)?;
-                } else if matches!(
-                    editor.program().statement(last).map(Statement::record),
-                    Some(Record::Goto(_))
-                ) {
-                    drop_announced(editor, motion);
-                    editor.set_numbers(last, &self.numbers(end))?;
-                } else {
-                    return Ok(Err(Unwritable::Arc));
-                }
-            }
-            Path::Spline(_) if moves(by) || moves(from) => {
-                if (by - from).amax() > 1e-6 {
-                    return Ok(Err(Unwritable::Arc));
-                }
-                self.shift(editor, motion, by)?;
-            }
-            _ => {}
-        }
-        Ok(Ok(()))
-    }
-
-    /// Moves all points of a motion's statements.
-    fn shift(&self, editor: &mut Editor, motion: &Motion, by: Vector3<f64>) -> Result<(), Box<Diagnostic>> {
-        for statement in motion.statements.clone() {
-            let program = editor.program();
-            let Some(found) = program.statement(statement).filter(|found| found.is_live()) else { continue };
-            if !is_motion(found.record()) {
-                continue;
-            }
-            let text = program.text(found);
-            let values: Vec<f64> = crate::parse::numbers(text).into_iter().map(|(_, value)| value).collect();
-            let roles = crate::parse::roles(found.record(), text);
-            let edits = crate::transform::numbers::change_triples(&values, &roles, |role, point| {
-                matches!(role, crate::program::Role::Point(0)).then(|| point + by / self.mm)
-            });
-            editor.set_numbers(statement, &edits)?;
-        }
-        Ok(())
     }
 
     /// Writes a compensated pass over the statements of the old one. What stands between them stays, and comes after the new points
@@ -325,7 +252,7 @@ fn copy(editor: &Editor, statement: usize, numbers: &[(usize, f64)]) -> Vec<u8> 
 }
 
 /// Takes out what announces an arc or spline.
-fn drop_announced(editor: &mut Editor, motion: &Motion) {
+pub(super) fn drop_announced(editor: &mut Editor, motion: &Motion) {
     for statement in motion.statements.clone().rev().skip(1) {
         let found = editor.program().statement(statement);
         if found.is_some_and(|found| {
@@ -336,7 +263,7 @@ fn drop_announced(editor: &mut Editor, motion: &Motion) {
     }
 }
 
-fn is_motion(record: &Record) -> bool {
+pub(super) fn is_motion(record: &Record) -> bool {
     matches!(
         record,
         Record::Goto(_)
@@ -349,20 +276,4 @@ fn is_motion(record: &Record) -> bool {
             | Record::Control(_)
             | Record::Rapid
     )
-}
-
-/// The first CIRCLE of the file whose sense is known.
-fn template(program: &Program) -> Option<Template> {
-    let hand = match program.dialect().arc_rule() {
-        ArcRule::LeftHand => -1.0,
-        ArcRule::RightHand => 1.0,
-        ArcRule::ByWord | ArcRule::FromTangent => return None,
-    };
-    let plain = |circle: &Circle| circle.times <= 1 && circle.sense == ArcSense::OfDialect;
-    program.live().find_map(|(statement, found)| match found.record() {
-        Record::Circle(circle) if plain(circle) => {
-            Some(Template { statement, has_radius: circle.radius.is_some(), hand })
-        }
-        _ => None,
-    })
 }
