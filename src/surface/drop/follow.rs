@@ -44,7 +44,7 @@ impl DropCutter {
     /// [`DropCutter::largest_step`], are met to half of it, and what lies between samples is not cut into deeper than a quarter of it,
     /// measured along its normal. Where the height jumps, at upright walls, the path goes straight up or down beside the wall, off
     /// by no more than the tolerance. Ends at the mesh's border are found to that as well. Points of the line stay points of the path.
-    /// Legs of no or endless length are left out.
+    /// Legs of no or endless length are left out, and stretches with material may be when they are shorter than two largest steps.
     pub fn follow(&self, line: &[[f64; 2]], tolerance: f64) -> Vec<Vec<[f64; 3]>> {
         let tolerance = tolerance.max(FINEST);
         let mut runs: Vec<Vec<[f64; 3]>> = Vec::new();
