@@ -34,7 +34,7 @@ fn place() -> impl Strategy<Value = [f64; 2]> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
+    #![proptest_config(ProptestConfig::with_cases(150))]
 
     #[test]
     fn heights_are_those_of_a_search(solid in soup(), cutter in cutter(), place in place()) {
