@@ -1,0 +1,3 @@
+//! `correct_ramp`: ramps that an indexable cutter survives.
+
+mod geometry;
