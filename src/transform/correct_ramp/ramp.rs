@@ -144,7 +144,7 @@ impl Ramp {
         let down = |index: &usize| self.point(*index).z > self.point(index + 1).z;
         let mut found = (0..self.steps.len()).filter(down);
         match found.next() {
-            Some(first) => first..found.last().unwrap_or(first) + 1,
+            Some(first) => first..found.next_back().unwrap_or(first) + 1,
             None => 0..0,
         }
     }

@@ -147,7 +147,7 @@ fn bulge(ramp: &Ramp) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
+    #![proptest_config(ProptestConfig::with_cases(256))]
 
     #[test]
     fn corrected_ramps_keep_the_limits_in_their_place(
