@@ -7,6 +7,7 @@ mod limits;
 mod odd;
 mod properties;
 mod region;
+mod shapes;
 
 use clsmith::transform::correct_ramp::limits::Limits;
 use clsmith::transform::correct_ramp::ramp::{Bend, Ramp, Step};

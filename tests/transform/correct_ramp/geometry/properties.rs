@@ -1,6 +1,7 @@
 //! What holds for every ramp.
 
 use super::Turns;
+use clsmith::transform::correct_ramp::kind::Kind;
 use clsmith::transform::correct_ramp::limits::{Limits, keeps};
 use clsmith::transform::correct_ramp::ramp::{Bend, Ramp, Step};
 use clsmith::transform::correct_ramp::region::Region;
@@ -189,7 +190,20 @@ proptest! {
         prop_assert_eq!(found.ramp.end(), ramp.end());
         prop_assert!(found.ramp.walk().all(|(from, step)| step.to.z <= from.z + 1e-12));
         prop_assert!(found.ramp.start.z <= ramp.start.z);
-        // Every leg that descends is long enough, counted anew from the turning points.
+        // Counted anew: no step is steeper, and what moved has no leg that is shorter.
+        let least = match found.lengthened {
+            Lengthened::No | Lengthened::WidenedHelix => 0.0,
+            _ if matches!(Kind::of(&found.ramp), Kind::Helix(_)) => 0.0,
+            _ => shortest_leg - 1e-6,
+        };
+        for (from, step) in found.ramp.walk() {
+            let across = match step.bend {
+                None => (step.to.xy() - from.xy()).norm(),
+                Some(bend) => (from.xy() - bend.centre).norm() * bend.sweep.abs(),
+            };
+            prop_assert!(from.z - step.to.z <= steepest * across + 2.0 * rounding + 1e-6);
+            prop_assert!(across >= least, "{across} mm of {:?}", found.lengthened);
+        }
         let after = way(&found.ramp);
         let before = way(&ramp);
         let same_way = |point: &Point2<f64>| {
