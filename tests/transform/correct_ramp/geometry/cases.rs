@@ -5,6 +5,9 @@ use clsmith::transform::correct_ramp::region::Region;
 use clsmith::transform::correct_ramp::{Impossible, Lengthened, Task, correct};
 use nalgebra::Vector2;
 
+/// How it becomes longer, nu, passes and P1..Pn.
+type Expected = (Lengthened, f64, usize, Vec<[f64; 3]>);
+
 /// What a ramp is corrected to; legs of 10 mm, 1 in 10.
 struct Case {
     name: &'static str,
@@ -13,7 +16,7 @@ struct Case {
     region: Option<[[f64; 2]; 2]>,
     begin: Option<f64>,
     first_pass: Option<[f64; 2]>,
-    expected: Result<(Lengthened, f64, usize, Vec<[f64; 3]>), Impossible>,
+    expected: Result<Expected, Impossible>,
 }
 
 const PLAIN: Case = Case {
