@@ -16,7 +16,6 @@ use crate::transform::Context;
 use crate::write::Editor;
 use nalgebra::Point3;
 use rayon::prelude::*;
-use std::ops::Range;
 
 /// Findings of one kind that are told one by one.
 const TOLD: usize = 10;

@@ -15,13 +15,8 @@ pub(super) fn height<'a>(
             return None;
         }
         let flat = plane.flat(at);
-        let top = work
-            .done
-            .exact
-            .pieces()
-            .iter()
-            .filter_map(|piece| top(piece, flat.u))
-            .fold(f64::NEG_INFINITY, f64::max);
+        let top =
+            exact.pieces().iter().filter_map(|piece| top(piece, flat.u)).fold(f64::NEG_INFINITY, f64::max);
         let up = plane.space(Point::new(0.0, 1.0)) - plane.space(Point::default());
         top.is_finite().then(|| plane.space(Point::new(flat.u, top + lift)).coords.dot(&up))
     };
