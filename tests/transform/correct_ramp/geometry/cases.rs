@@ -330,7 +330,7 @@ fn worked_cases() {
             limits: LIMITS,
             begin: case.begin,
             region: &region,
-            first_pass: case.first_pass.map(Vector2::from),
+            passes: &case.first_pass.map(Vector2::from).into_iter().collect::<Vec<_>>(),
             rounding: 0.0,
         };
         match (correct(&ramp(case.ramp), &task), case.expected) {

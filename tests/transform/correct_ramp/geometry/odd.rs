@@ -9,7 +9,7 @@ use clsmith::transform::correct_ramp::{Impossible, Lengthened, Task, correct};
 use nalgebra::{Point2, Vector2};
 
 const ANYWHERE: Task<'_> =
-    Task { limits: LIMITS, begin: None, region: &Region::Everywhere, first_pass: None, rounding: 0.0 };
+    Task { limits: LIMITS, begin: None, region: &Region::Everywhere, passes: &[], rounding: 0.0 };
 
 fn corrected(points: &[[f64; 3]]) -> Ramp {
     let found = correct(&ramp(points), &ANYWHERE).unwrap().unwrap().ramp;
@@ -33,10 +33,10 @@ fn what_is_no_number_is_refused() {
         for limits in [Limits { shortest_leg: bad, ..LIMITS }, Limits { steepest: bad, ..LIMITS }] {
             assert_eq!(correct(&good, &Task { limits, ..ANYWHERE }), Err(Impossible::Limits));
         }
-        let first_pass = Some(Vector2::new(bad, 0.0));
-        assert!(correct(&good, &Task { first_pass, ..ANYWHERE }).is_ok());
+        let passes = &[Vector2::new(bad, 0.0)];
+        assert!(correct(&good, &Task { passes, ..ANYWHERE }).is_ok());
         let plunge = ramp(&[[0.0, 0.0, 5.0], [0.0, 0.0, 0.0]]);
-        assert_eq!(correct(&plunge, &Task { first_pass, ..ANYWHERE }), Err(Impossible::NoDirection));
+        assert_eq!(correct(&plunge, &Task { passes, ..ANYWHERE }), Err(Impossible::NoDirection));
         let mut arcs =
             Turns { centre: [0.0; 2], radius: 2.0, turns: 2.0, height: 2.0, steps: 8, arcs: true }.ramp();
         arcs.steps[3].bend = Some(Bend { centre: Point2::new(0.0, bad), sweep: 1.0 });

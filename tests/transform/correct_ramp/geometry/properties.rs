@@ -169,8 +169,8 @@ proptest! {
                 Region::polygon(&corners.iter().map(|at| [at.x, at.y]).collect::<Vec<_>>()).unwrap()
             }
         };
-        let first_pass = first_pass.map(|at| at.coords);
-        let task = Task { limits, begin, region: &region, first_pass, rounding };
+        let passes: Vec<_> = first_pass.map(|at| at.coords).into_iter().collect();
+        let task = Task { limits, begin, region: &region, passes: &passes, rounding };
         let found = match correct(&ramp, &task) {
             Ok(None) => {
                 prop_assert!(keeps(&ramp, &limits, rounding));
@@ -240,8 +240,8 @@ proptest! {
         let [shortest_leg, steepest, begin] = limits;
         let limits = Limits { shortest_leg, steepest };
         for region in [&region, &Region::Everywhere] {
-            let first_pass = Some(Vector2::new(begin, steepest));
-            let task = Task { limits, begin: Some(begin), region, first_pass, rounding: 0.0 };
+            let passes = &[Vector2::new(begin, steepest)];
+            let task = Task { limits, begin: Some(begin), region, passes, rounding: 0.0 };
             if let Ok(Some(found)) = correct(&ramp, &task) {
                 prop_assert!(keeps(&found.ramp, &limits, 0.0));
             }

@@ -10,7 +10,7 @@ use nalgebra::{Point2, Point3};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 const ANYWHERE: Task<'_> =
-    Task { limits: LIMITS, begin: None, region: &Region::Everywhere, first_pass: None, rounding: 0.0 };
+    Task { limits: LIMITS, begin: None, region: &Region::Everywhere, passes: &[], rounding: 0.0 };
 
 fn corrected(ramp: &Ramp) -> Corrected {
     correct(ramp, &ANYWHERE).unwrap().unwrap()
