@@ -140,7 +140,8 @@ impl<'a> Look<'a> {
             }
         }
         if let Some((index, tool)) = solid.first() {
-            let all = solid.len() == count;
+            // A tool list with inserts serves many programs, and not each has an indexable cutter.
+            let all = solid.len() == count && !context.setup.tools.iter().any(|entry| entry.insert.is_some());
             let told =
                 words::without_insert(self.program, self.motions, *index, tool.as_deref(), all, context);
             if all {

@@ -62,6 +62,11 @@ proptest! {
             prop_assert!(looked.gouge <= 1.1e-4 && looked.gap <= 1.1e-4, "{looked:?}");
         }
     }
+}
+
+proptest! {
+    // Looking at whole paths takes a while.
+    #![proptest_config(ProptestConfig::with_cases(15))]
 
     #[test]
     fn paths_keep_their_tolerance(solid in soup(), cutter in cutter(), from in place(), to in place()) {
