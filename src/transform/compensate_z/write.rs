@@ -2,14 +2,13 @@
 
 use super::passes::Pass;
 use super::profile::sine;
-use super::template::{Template, template};
+use super::template::{Template, copy, numbered, template};
 use crate::diagnostic::Diagnostic;
 use crate::program::geometry::Path;
 use crate::program::motion::Motion;
 use crate::program::{Program, Record, Statement};
 use crate::surface::profile::{Chain, Piece, Plane};
-use crate::transform::numbers::without_remark;
-use crate::write::{Editor, copy_with_numbers};
+use crate::write::Editor;
 use nalgebra::Point3;
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -27,17 +26,17 @@ pub(super) enum Unwritable {
 pub(super) struct Writer<'a> {
     pub(super) motions: &'a [Motion],
     pub(super) mm: f64,
-    circle: Option<Template>,
+    arc: Option<Template>,
 }
 
 impl<'a> Writer<'a> {
     pub fn new(program: &Program, motions: &'a [Motion], mm: f64) -> Self {
-        Self { motions, mm, circle: template(program) }
+        Self { motions, mm, arc: template(program) }
     }
 
     /// Whether arcs can be said.
     pub fn has_arcs(&self) -> bool {
-        self.circle.is_some()
+        self.arc.is_some()
     }
 
     /// Whether a motion's statements can be given other points.
@@ -66,8 +65,7 @@ impl<'a> Writer<'a> {
     }
 
     pub(super) fn numbers(&self, point: Point3<f64>) -> Vec<(usize, f64)> {
-        let at: [f64; 3] = (point / self.mm).coords.into();
-        at.into_iter().enumerate().collect()
+        numbered(0, (point / self.mm).coords.into())
     }
 
     /// Writes a compensated pass over the statements of the old one. What stands between them stays, and comes after the new points
@@ -208,22 +206,10 @@ impl<'a> Writer<'a> {
         goto: usize,
         before: usize,
     ) -> Result<(), Box<Diagnostic>> {
-        if let (Piece::Arc(arc), Some(template)) = (piece, &self.circle) {
-            let up =
-                plane.space(crate::surface::profile::Point::new(0.0, 1.0)) - plane.space(Default::default());
-            let along =
-                plane.space(crate::surface::profile::Point::new(1.0, 0.0)) - plane.space(Default::default());
-            // From +u towards +z is right-hand about u x z.
-            let axis = along.cross(&up) * (arc.sweep.signum() * template.hand);
-            let axis = axis.map(|part| if part.abs() < 1e-9 { 0.0 } else { part });
-            let mut numbers = self.numbers(plane.space(arc.centre));
-            let printed: [f64; 3] = axis.into();
-            numbers.extend(printed.into_iter().enumerate().map(|(index, value)| (3 + index, value)));
-            if template.has_radius {
-                numbers.push((6, arc.radius / self.mm));
-            }
-            let text = copy(editor, template.statement, &numbers);
-            editor.insert_before(before, &text)?;
+        if let (Piece::Arc(arc), Some(template)) = (piece, &self.arc)
+            && !template.insert(editor, arc, plane, self.mm, before)?
+        {
+            return Ok(());
         }
         let text = copy(editor, goto, &self.numbers(plane.space(piece.end())));
         editor.insert_before(before, &text)
@@ -243,12 +229,6 @@ pub(super) fn halves(path: &Chain) -> Vec<Piece> {
         _ => vec![*piece],
     };
     path.pieces().iter().flat_map(halve).collect()
-}
-
-fn copy(editor: &Editor, statement: usize, numbers: &[(usize, f64)]) -> Vec<u8> {
-    let program = editor.program();
-    let Some(found) = program.statement(statement) else { return Vec::new() };
-    copy_with_numbers(&without_remark(program.text(found)), found.record(), numbers, editor.style())
 }
 
 /// Takes out what announces an arc or spline.

@@ -178,3 +178,23 @@ fn centres_are_a_radius_above_tips() {
             .all(|(tip, centre)| (centre - tip - nalgebra::Vector3::new(0.0, 0.0, R)).norm() < 3e-4)
     );
 }
+
+#[test]
+fn catia_arcs_are_written_as_catia_does() {
+    let head = "$$     CATIA APT VERSION 1.0\nPARTNO P\n$$ OPERATION NAME : Sweep.1\nCUTTER/   10.000000,    5.000000,    0.000000,    5.000000,    0.000000,    0.000000,   50.000000\nLOADTL/1\nRAPID\nGOTO  /  -30.00000,    0.00000,   40.00000\nFEDRAT/  300.0000,MMPM\n";
+    let body = "GOTO  /  -30.00000,    0.00000,    0.00000\nGOTO  /  -12.00000,    0.00000,    0.00000\nAUTOPS\nINDIRV/    0.00000,    0.00000,   -1.00000\nTLON,GOFWD/      (CIRCLE/      0.00000,      0.00000,      0.00000,$\n      12.00000),ON,(LINE/      0.00000,      0.00000,      0.00000,$\n                              12.00000,      0.00000,      0.00000)\nGOTO  /   30.00000,    0.00000,    0.00000\nRAPID\nGOTO  /   30.00000,    0.00000,   40.00000\n$$ end of pass\nSPINDL/OFF\nREWIND/0\nEND\n\n";
+    let text = format!("{head}{body}");
+    let done = compensate("radius: 5, tolerance: 0.005", &text).unwrap();
+    assert!(done.gouge() <= 0.0052 && done.gap() <= 0.0052, "{} {}", done.gouge(), done.gap());
+    let arcs: Vec<f64> = done
+        .program
+        .motions()
+        .filter_map(|motion| match motion.path {
+            Path::Arc(arc) => Some(arc.radius),
+            _ => None,
+        })
+        .collect();
+    assert!(arcs.iter().any(|radius| (radius - 7.0).abs() < 1e-3), "{}", done.text);
+    assert_eq!(done.text.matches("INDIRV").count(), arcs.len());
+    assert_eq!(done.text.matches("AUTOPS").count(), arcs.len() + 1, "the old one stays");
+}
