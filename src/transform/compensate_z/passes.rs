@@ -169,7 +169,8 @@ fn stretch(motions: &[Motion], start: usize, end: usize, mm: f64) -> (usize, Opt
             // A short beginning tells the direction badly, a farther point better.
             let better = through(origin, up, &points);
             let upright = plane.is_none() && better.is_none() && matches!(motion.path, Path::Line);
-            if !upright && !(holds(&better, &points) && holds(&better, &seen)) {
+            let fits = holds(&better, &points) && holds(&better, &seen);
+            if !(upright || fits) {
                 break;
             }
             plane = better.or(plane);

@@ -100,18 +100,9 @@ fn rapids_below_the_model_are_errors_and_leads_are_lifted() {
 fn a_model_that_cannot_be_used_is_told_at_the_recipe() {
     let (folder, recipe) = roof("roof.stl", 12.0);
     let text = operation(&[in_plane(&[(2.0, 0.0), (38.0, 0.0)], [10.0, 0.0], 90.0)]);
-    std::fs::write(
-        folder.path().join("open.stl"),
-        std::fs::read_to_string(folder.path().join("roof.stl"))
-            .unwrap()
-            .replacen("facet normal", "facet normal", 1)
-            .split("endfacet\n")
-            .skip(1)
-            .collect::<Vec<_>>()
-            .join("endfacet\n")
-            .replacen("facet", "solid x\nfacet", 1),
-    )
-    .unwrap();
+    let whole = std::fs::read_to_string(folder.path().join("roof.stl")).unwrap();
+    let (_, rest) = whole.split_once("endfacet\n").unwrap();
+    std::fs::write(folder.path().join("open.stl"), format!("solid roof\n{rest}")).unwrap();
     std::fs::write(folder.path().join("empty.stl"), "solid x\nendsolid x\n").unwrap();
     for (name, says) in
         [("nowhere.stl", "cannot be used"), ("open.stl", "not closed"), ("empty.stl", "no triangle")]
