@@ -1,0 +1,164 @@
+//! The centre's path of a ball that rolls over a skyline.
+//!
+//! Over every point q of the skyline the centre may not lie below the arc `q_z + sqrt(R^2 - (u - q_u)^2)`; the path is the
+//! upper envelope of these arcs. Of two such arcs the one of the point further right wins from some u on, for good: their
+//! difference never falls, since a half circle's slope falls with u. So does a whole piece against everything to its left.
+//! Taken from left to right, each piece therefore cuts off the end of the envelope so far, and nothing else: a stack, O(n).
+
+use super::piece::Point;
+use super::skyline::Skyline;
+use super::stretch::{Graph, Part, Stretch, UPRIGHT};
+
+/// Stretches narrower than this (mm) are left out; their neighbours are joined.
+const THIN: f64 = 1e-12;
+
+/// The envelope, growing to the right.
+pub(super) struct Roll {
+    pub stretches: Vec<Stretch>,
+    radius: f64,
+    /// Heights closer than this are equal: a few roundings of the largest number.
+    tie: f64,
+    /// The point that was put in last.
+    last: Option<Point>,
+}
+
+/// The path of the centre of a ball of `radius` over a skyline, by ascending u; where two stretches do not meet, the ball goes
+/// straight up or down. `scale` is the largest coordinate.
+pub(super) fn roll(skyline: &Skyline, radius: f64, scale: f64) -> Vec<Stretch> {
+    let mut roll = Roll {
+        stretches: Vec::with_capacity(2 * skyline.stretches.len() + 2),
+        radius,
+        tie: 16.0 * f64::EPSILON * scale.max(radius),
+        last: None,
+    };
+    let mut tops = skyline.tops.iter().copied().peekable();
+    for stretch in &skyline.stretches {
+        while let Some((top, piece)) = tops.next_if(|(top, _)| top.u <= stretch.left.u) {
+            roll.point(top, piece);
+        }
+        let mut rest = *stretch;
+        while let Some((top, piece)) = tops.next_if(|(top, _)| top.u < stretch.right.u) {
+            // A top inside a stretch counts only when it stands out of it.
+            if top.z > stretch.at(top.u) {
+                roll.stretch(&rest.part(rest.left.u, top.u));
+                roll.point(top, piece);
+                rest = rest.part(top.u, rest.right.u);
+            }
+        }
+        roll.stretch(&rest);
+    }
+    for (top, piece) in tops {
+        roll.point(top, piece);
+    }
+    roll.stretches
+}
+
+impl Roll {
+    fn cap(&self, at: Point, piece: usize) -> Stretch {
+        let graph = Graph::Round { centre: at, radius: self.radius, upper: true };
+        let (left, right) = (Point::new(at.u - self.radius, at.z), Point::new(at.u + self.radius, at.z));
+        Stretch { left, right, graph, piece, part: Part::Vertex }
+    }
+
+    /// The ball over one point.
+    fn point(&mut self, at: Point, piece: usize) {
+        if self.last.is_some_and(|last| {
+            (last.u - at.u).abs() <= self.tie && (last.z - at.z).abs() <= self.tie
+        }) {
+            return;
+        }
+        self.last = Some(at);
+        self.lay(None, self.cap(at, piece));
+    }
+
+    /// The ball over a stretch: about its left end, along it, about its right end.
+    fn stretch(&mut self, stretch: &Stretch) {
+        if stretch.left.u >= stretch.right.u {
+            return;
+        }
+        self.point(stretch.left, stretch.piece);
+        let right = stretch.right;
+        self.last = Some(right);
+        self.lay(self.body(stretch), self.cap(right, stretch.piece));
+    }
+
+    /// The offset by the ball's radius; `None` where the ball does not fit in.
+    fn body(&self, stretch: &Stretch) -> Option<Stretch> {
+        let (graph, left, right) = match stretch.graph {
+            Graph::Line { left, right } => {
+                let share = self.radius / left.distance(right);
+                let (du, dz) = ((left.z - right.z) * share, (right.u - left.u) * share);
+                let moved = |point: Point| Point::new(point.u + du, point.z + dz);
+                let graph = Graph::Line { left: moved(left), right: moved(right) };
+                (graph, moved(stretch.left), moved(stretch.right))
+            }
+            Graph::Round { centre, radius, upper } => {
+                let offset = if upper { radius + self.radius } else { radius - self.radius };
+                // A hollow no wider than the ball: it touches both ends at once, or nearly so.
+                if offset <= UPRIGHT {
+                    return None;
+                }
+                let moved = |point: Point| centre.towards(point, offset / radius);
+                let graph = Graph::Round { centre, radius: offset, upper };
+                (graph, moved(stretch.left), moved(stretch.right))
+            }
+        };
+        Some(Stretch { left, right, graph, piece: stretch.piece, part: Part::Body })
+    }
+
+    /// Lays `body` (where there is one) and then `cap` over the envelope: they win from some u on.
+    fn lay(&mut self, body: Option<Stretch>, cap: Stretch) {
+        let bound = body.map_or(cap.left.u, |body| body.right.u);
+        let start = body.map_or(cap.left.u, |body| body.left.u);
+        let height = |u: f64| match body {
+            Some(body) if u <= bound => body.at(u),
+            _ => cap.at(u),
+        };
+        let mut from = start;
+        while let Some(tail) = self.stretches.last_mut() {
+            if tail.left.u >= start && height(tail.left.u) >= tail.at(tail.left.u) - self.tie {
+                self.stretches.pop();
+                continue;
+            }
+            if tail.right.u <= start {
+                break;
+            }
+            let lo = tail.left.u.max(start);
+            let hi = tail.right.u;
+            let bend = bound.clamp(lo, hi);
+            let along = body.map_or([None; 2], |body| body.graph.crossings(&tail.graph, lo, bend));
+            let about = cap.graph.crossings(&tail.graph, bend, hi);
+            let mut left = lo;
+            from = hi;
+            for right in along.into_iter().flatten().chain([bend]).chain(about.into_iter().flatten()).chain([hi])
+            {
+                let middle = 0.5 * (left + right);
+                if right > left && height(middle) >= tail.at(middle) - self.tie {
+                    from = left;
+                    break;
+                }
+                left = left.max(right);
+            }
+            tail.right = tail.point(from);
+            if tail.right.u - tail.left.u <= THIN {
+                self.stretches.pop();
+            }
+            break;
+        }
+        if let Some(body) = body {
+            let lo = body.left.u.max(from);
+            if body.right.u - lo > THIN {
+                self.stretches.push(body.part(lo, body.right.u));
+            }
+        }
+        let lo = bound.max(from);
+        if cap.right.u - lo > THIN {
+            let left = match body {
+                // The cap goes on where the body ends.
+                Some(body) if lo == body.right.u => body.right,
+                _ => cap.point(lo),
+            };
+            self.stretches.push(Stretch { left, ..cap });
+        }
+    }
+}

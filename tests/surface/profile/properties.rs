@@ -1,0 +1,158 @@
+//! What holds for any profile.
+
+use super::brute::{assert_runs, clearance, polyline};
+use clsmith::surface::profile::{
+    Chain, LARGEST, Piece, Point, Side, chords, compensate, recover, unreachable,
+};
+use proptest::prelude::*;
+
+/// Pieces as steps: lines by (du, dz) and arcs by radius and angles.
+#[derive(Debug, Clone)]
+enum Step {
+    Line(f64, f64),
+    Arc(f64, f64, f64),
+}
+
+fn chain(steps: &[Step]) -> Chain {
+    let mut at = Point::new(3.0, -2.0);
+    let mut pieces = Vec::new();
+    for step in steps {
+        let piece = match *step {
+            Step::Line(du, dz) => Piece::line(at, Point::new(at.u + du, at.z + dz)),
+            Step::Arc(radius, start, sweep) => {
+                let centre = Point::new(at.u - radius * start.cos(), at.z - radius * start.sin());
+                Piece::arc(centre, radius, start, sweep)
+            }
+        };
+        at = piece.end();
+        pieces.push(piece);
+    }
+    Chain::new(pieces).unwrap()
+}
+
+/// Coordinates that often coincide: multiples of a half, zero, and any.
+fn across() -> impl Strategy<Value = f64> {
+    prop_oneof![(-4..12).prop_map(|half| f64::from(half) * 0.5), Just(0.0), -3.0..8.0, Just(1e-10), Just(1e-7)]
+}
+
+fn up() -> impl Strategy<Value = f64> {
+    prop_oneof![(-8..8).prop_map(|half| f64::from(half) * 0.5), Just(0.0), -5.0..5.0]
+}
+
+fn steps(most: usize) -> impl Strategy<Value = Vec<Step>> {
+    let step = prop_oneof![
+        3 => (across(), up()).prop_map(|(du, dz)| Step::Line(du, dz)),
+        1 => (0.1..12.0, 0.0..6.3, -6.2..6.2).prop_map(|(radius, start, sweep)| Step::Arc(radius, start, sweep)),
+        1 => ((1..20), (0..8), (-8..8)).prop_map(|(radius, start, sweep)| {
+            let eighth = std::f64::consts::FRAC_PI_4;
+            Step::Arc(f64::from(radius) * 0.5, f64::from(start) * eighth, f64::from(sweep) * eighth)
+        }),
+    ];
+    prop::collection::vec(step, 1..most)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
+
+    #[test]
+    fn the_ball_touches_everywhere_and_gouges_nowhere(
+        steps in steps(14), turn in any::<bool>(), radius in prop_oneof![Just(5.0), Just(0.5), 0.05..9.0],
+    ) {
+        let profile = if turn { chain(&steps).reversed() } else { chain(&steps) };
+        let tip = compensate(&profile, radius).unwrap();
+        assert_runs(&tip, profile.end().u >= profile.start().u);
+        // 1e-9 of the size, and what counts as upright.
+        let tolerance = 1e-8;
+        for piece in tip.pieces() {
+            let upright = (piece.start().u - piece.end().u).abs() < 1e-8;
+            for index in 0..=5 {
+                let point = piece.point(f64::from(index) / 5.0);
+                let clear = clearance(&profile, Point::new(point.u, point.z + radius)) - radius;
+                prop_assert!(clear > -tolerance, "gouge {clear} at {point:?} of {piece:?}");
+                prop_assert!(upright || clear < tolerance, "gap {clear} at {point:?} of {piece:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_balls_path_leaves_out_nothing_between_its_ends(steps in steps(10), radius in 0.3..6.0) {
+        let profile = chain(&steps);
+        let tip = compensate(&profile, radius).unwrap();
+        let (low, high) = profile.vertices().fold((f64::MAX, f64::MIN), |(low, high), point| (low.min(point.u), high.max(point.u)));
+        prop_assert!(tip.start().u >= low - 2.0 * 12.0 - radius && tip.end().u <= high + 2.0 * 12.0 + radius);
+        for part in unreachable(&profile, radius, 1e-6).unwrap() {
+            prop_assert!(part.first <= part.last && part.last < profile.pieces().len());
+            prop_assert!(part.left.is_finite());
+        }
+        // Where a recovered profile lies above the profile, the ball cannot have touched; it never lies below what it touched.
+        let contact = recover(&tip, radius).unwrap();
+        // A lone wall has no side.
+        prop_assume!((contact.end().u - contact.start().u) * (profile.end().u - profile.start().u) > 1e-3);
+        let again = compensate(&contact, radius).unwrap();
+        for point in again.vertices() {
+            let clear = clearance(&profile, Point::new(point.u, point.z + radius)) - radius;
+            prop_assert!(clear > -1e-6, "gouge {clear} at {point:?}");
+        }
+    }
+
+    #[test]
+    fn chords_keep_to_the_tolerance(
+        steps in steps(20), tolerance in prop_oneof![Just(0.01), 0.001..0.5], arcs in any::<bool>(),
+    ) {
+        let exact = chain(&steps);
+        let few = chords(&exact, tolerance, arcs, Side::Both).unwrap();
+        Chain::new(few.pieces().to_vec()).unwrap();
+        prop_assert!(few.start().distance(exact.start()) < 1e-9);
+        prop_assert!(few.end().distance(exact.end()) < 1e-6);
+        for (one, other) in [(&exact, &few), (&few, &exact)] {
+            for piece in one.pieces() {
+                for index in 0..=16 {
+                    let point = piece.point(f64::from(index) / 16.0);
+                    let distance = other.pieces().iter().map(|piece| from(piece, point)).fold(f64::MAX, f64::min);
+                    prop_assert!(distance <= tolerance * (1.0 + 1e-6), "{distance} at {point:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn wild_numbers_do_no_harm(
+        points in prop::collection::vec((wild(), wild()), 2..40), radius in prop_oneof![Just(1e-3), Just(LARGEST), 0.0..100.0],
+        tolerance in 1e-6..10.0,
+    ) {
+        let points: Vec<[f64; 2]> = points.into_iter().map(|(u, z)| [u, z]).collect();
+        let profile = polyline(&points);
+        if let Ok(tip) = compensate(&profile, radius) {
+            prop_assert!(tip.vertices().all(|point| point.u.is_finite() && point.z.is_finite()));
+            let _ = recover(&tip, radius);
+            let _ = unreachable(&profile, radius, tolerance);
+        }
+        for side in [Side::Both, Side::Above, Side::Below] {
+            let few = chords(&profile, tolerance, true, side).unwrap();
+            prop_assert!(few.vertices().all(|point| point.u.is_finite() && point.z.is_finite()));
+        }
+    }
+}
+
+fn wild() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        Just(0.0), Just(-0.0), Just(LARGEST), Just(-LARGEST), Just(1e-300), Just(5e-324),
+        -1.0..1.0, -LARGEST..LARGEST, (-3..3).prop_map(f64::from), (-3..3).prop_map(|step| 1.0 + f64::from(step) * f64::EPSILON),
+    ]
+}
+
+fn from(piece: &Piece, point: Point) -> f64 {
+    let ends = piece.start().distance(point).min(piece.end().distance(point));
+    match piece {
+        Piece::Line(line) => {
+            let (du, dz) = (line.to.u - line.from.u, line.to.z - line.from.z);
+            let share = ((point.u - line.from.u) * du + (point.z - line.from.z) * dz) / (du * du + dz * dz);
+            if (0.0..=1.0).contains(&share) { ends.min(piece.point(share).distance(point)) } else { ends }
+        }
+        Piece::Arc(arc) => {
+            let angle = (point.z - arc.centre.z).atan2(point.u - arc.centre.u);
+            let along = ((angle - arc.start) * arc.sweep.signum()).rem_euclid(std::f64::consts::TAU);
+            if along <= arc.sweep.abs() { (arc.centre.distance(point) - arc.radius).abs() } else { ends }
+        }
+    }
+}
