@@ -2,3 +2,5 @@
 
 mod drop;
 mod profile;
+mod section;
+mod solids;

@@ -137,8 +137,8 @@ impl Mesh {
         self.corners().map(volume).sum()
     }
 
-    /// The corners of every triangle.
-    fn corners(&self) -> impl Iterator<Item = [[f64; 3]; 3]> + '_ {
+    /// The corners of every triangle, mm, counter-clockwise seen from outside.
+    pub(crate) fn corners(&self) -> impl Iterator<Item = [[f64; 3]; 3]> + '_ {
         self.triangles.iter().map(|triangle| self.at(*triangle))
     }
 

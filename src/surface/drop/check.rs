@@ -1,0 +1,163 @@
+//! An independent look at a path over a mesh: how deep it cuts into it, and how far above it stays.
+//!
+//! Nothing here knows contacts. The cutter is a solid with a signed distance, and the mesh a set of points. The distance is a convex
+//! function that changes by no more than one moves, so a triangle is divided until no part of it can be nearer than the nearest point
+//! seen so far, less an allowed error; and so is the error between places looked at along the path known.
+
+use super::Cutter;
+use crate::sim::Mesh;
+use nalgebra::Vector3;
+
+type Triangle = [Vector3<f64>; 3];
+
+/// How a path lies over a mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Deviation {
+    /// How deep the mesh reaches into the cutter's solid at most, mm; 0 when it never does.
+    pub gouge: f64,
+    /// The tip where that is.
+    pub gouge_at: [f64; 3],
+    /// The largest distance between the cutter and the mesh along the path, mm, up to the cutter's radius.
+    pub gap: f64,
+    /// The tip where that is.
+    pub gap_at: [f64; 3],
+    /// How much larger either can be in truth, mm: between the places looked at.
+    pub error: f64,
+}
+
+/// Gouges and gaps of a cutter whose tip goes along a path of straight lines, as distances in space: an independent check that takes its
+/// time. `resolution` (mm, at least 1e-6) is the allowed error. None for a path without points, or with one that is not finite.
+pub fn deviation(mesh: &Mesh, cutter: Cutter, path: &[[f64; 3]], resolution: f64) -> Option<Deviation> {
+    let resolution = resolution.max(1e-6);
+    let first = path.first().filter(|_| path.iter().flatten().all(|value| value.is_finite()))?;
+    let error = resolution / 2.0;
+    let columns = Columns::new(mesh, &cutter);
+    let mut distance = columns.distance(&cutter, *first, cutter.radius(), error);
+    let (mut low, mut low_at, mut high, mut high_at) = (distance, *first, distance, *first);
+    for pair in path.windows(2) {
+        let [from, to] = pair else { continue };
+        let [from, to] = [*from, *to].map(Vector3::from);
+        let length = (to - from).norm();
+        let count = (length / resolution).ceil().max(1.0);
+        let mut index = 1.0;
+        while index <= count {
+            let tip: [f64; 3] = from.lerp(&to, index / count).into();
+            // No farther than before, plus the way.
+            let most = (distance + length / count + resolution).min(cutter.radius());
+            distance = columns.distance(&cutter, tip, most, error);
+            if distance < low {
+                (low, low_at) = (distance, tip);
+            }
+            if distance > high {
+                (high, high_at) = (distance, tip);
+            }
+            index += 1.0;
+        }
+    }
+    Some(Deviation {
+        gouge: (-low).max(0.0),
+        gouge_at: low_at,
+        gap: high.max(0.0),
+        gap_at: high_at,
+        error: resolution,
+    })
+}
+
+/// Signed distance of a point from the cutter's solid, negative inside, and its gradient. The solid is an upright cylinder of the flat's
+/// radius that begins a corner radius above the tip, made larger by the corner radius on all sides.
+fn signed(cutter: &Cutter, from_tip: Vector3<f64>) -> (f64, Vector3<f64>) {
+    let corner = cutter.corner_radius();
+    let r = from_tip.x.hypot(from_tip.y);
+    let out = if r > 0.0 { Vector3::new(from_tip.x / r, from_tip.y / r, 0.0) } else { Vector3::zeros() };
+    let (beside, below) = (r - cutter.flat_radius(), corner - from_tip.z);
+    if beside > 0.0 && below > 0.0 {
+        let far = beside.hypot(below);
+        return (far - corner, (out * beside - Vector3::z() * below) / far);
+    }
+    if beside > below { (beside - corner, out) } else { (below - corner, -Vector3::z()) }
+}
+
+/// Triangles by square columns.
+struct Columns {
+    origin: [f64; 2],
+    cell: f64,
+    size: [usize; 2],
+    cells: Vec<Vec<u32>>,
+    triangles: Vec<Triangle>,
+}
+
+impl Columns {
+    fn new(mesh: &Mesh, cutter: &Cutter) -> Self {
+        let ([x0, y0, _], [x1, y1, _]) = mesh.bounds();
+        // Half a radius, and not more than some million columns.
+        let cell = (cutter.radius() / 2.0).max((x1 - x0).max(y1 - y0) / 1000.0);
+        let size = [x1 - x0, y1 - y0].map(|width| (width / cell) as usize + 1);
+        let triangles: Vec<Triangle> = mesh.corners().map(|corners| corners.map(Vector3::from)).collect();
+        let [columns, rows] = size;
+        let mut all =
+            Self { origin: [x0, y0], cell, size, cells: vec![Vec::new(); columns * rows], triangles };
+        for index in 0..all.triangles.len() {
+            let Some([a, b, c]) = all.triangles.get(index).copied() else { continue };
+            let (low, high) = (a.inf(&b).inf(&c), a.sup(&b).sup(&c));
+            for cell in all.covered([low.x, low.y], [high.x, high.y]) {
+                if let Some(cell) = all.cells.get_mut(cell) {
+                    cell.push(index as u32);
+                }
+            }
+        }
+        all
+    }
+
+    /// Numbers of the columns that a rectangle has part in.
+    fn covered(&self, low: [f64; 2], high: [f64; 2]) -> impl Iterator<Item = usize> + use<> {
+        let range = |low: f64, high: f64, origin: f64, size: usize| {
+            let [first, last] = [low, high].map(|value| ((value - origin) / self.cell).floor());
+            // Empty when it lies beside.
+            if last < 0.0 {
+                0..0
+            } else {
+                (first.max(0.0) as usize).min(size)..(last as usize).saturating_add(1).min(size)
+            }
+        };
+        let [columns, rows] = self.size;
+        let across = range(low[0], high[0], self.origin[0], columns);
+        range(low[1], high[1], self.origin[1], rows)
+            .flat_map(move |row| across.clone().map(move |column| row * columns + column))
+    }
+
+    /// The least signed distance of the mesh from a cutter, `most` where it is more; at most `error` too large.
+    fn distance(&self, cutter: &Cutter, tip: [f64; 3], most: f64, error: f64) -> f64 {
+        let [x, y, z] = tip;
+        let reach = cutter.radius() + most.max(0.0);
+        let tip = Vector3::new(x, y, z);
+        let mut least = most;
+        for cell in self.covered([x - reach, y - reach], [x + reach, y + reach]) {
+            for index in self.cells.get(cell).into_iter().flatten() {
+                if let Some(triangle) = self.triangles.get(*index as usize) {
+                    nearest(cutter, triangle.map(|corner| corner - tip), error, &mut least);
+                }
+            }
+        }
+        least
+    }
+}
+
+/// Lowers the least distance to that of a triangle, divided as long as a part may be nearer.
+fn nearest(cutter: &Cutter, triangle: Triangle, error: f64, least: &mut f64) {
+    let [a, b, c] = triangle;
+    let middle = (a + b + c) / 3.0;
+    let (distance, gradient) = signed(cutter, middle);
+    *least = least.min(distance);
+    let sides = triangle.map(|corner| corner - middle);
+    // A convex function lies above its tangent plane.
+    let down = sides.iter().map(|side| gradient.dot(side)).fold(0.0, f64::min);
+    let size = sides.iter().map(Vector3::norm).fold(0.0, f64::max);
+    if distance + down >= *least - error || size <= error {
+        return;
+    }
+    let [ab, bc, ca] = [(a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0];
+    // Nearer parts first would save little: the bound is nearly exact.
+    for part in [[ab, bc, ca], [a, ab, ca], [ab, b, bc], [ca, bc, c]] {
+        nearest(cutter, part, error, least);
+    }
+}
