@@ -12,7 +12,7 @@ use clsmith::job::{Done, Job, is_changed};
 use clsmith::parse::parse;
 use clsmith::program::{Dialect, Program};
 use clsmith::report::changes::{self, Changes};
-use clsmith::report::{step_report, unified};
+use clsmith::report::{picture, step_report, unified};
 use clsmith::source::Source;
 use clsmith::transform::StepReport;
 use clsmith::write::{is_interrupt, same_file};
@@ -27,6 +27,7 @@ Examples:
   clsmith apply recipe.yaml part.cls --dry-run       run, report, write nothing
   clsmith apply recipe.yaml - -o - < part.cls        from standard input to standard output
   clsmith apply recipe.yaml programs/*.cls -o done/  several files into a folder
+  clsmith apply ramps.yaml part.cls --dry-run --plot ramps.svg   draw corrected ramps, before and after
 
 Every output appears whole or not at all, and never over an input. With several inputs each stands for
 itself: those with errors are not written, the others are, and the exit code is 1.";
@@ -49,6 +50,9 @@ pub struct Apply {
     /// Show the changed lines on standard output as a patch; writes nothing unless -o is given
     #[arg(long)]
     diff: bool,
+    /// Draw what the steps did as SVG: ramps before and after
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
     /// A setup file; overrides the recipe's setup
     #[arg(long, value_name = "FILE")]
     setup: Option<PathBuf>,
@@ -113,6 +117,12 @@ impl Apply {
             return Some("--diff and -o - both write to standard output".into());
         }
         let several = self.inputs.len() > 1;
+        if self.plot.as_deref().zip(self.output.as_deref()).is_some_and(|(plot, out)| plot == out) {
+            return Some("--plot and -o name one file".into());
+        }
+        if several && self.plot.is_some() {
+            return Some("--plot draws one program; there are several".into());
+        }
         let folder = self.output.as_deref().filter(|path| !path.as_os_str().is_empty());
         if let Some(folder) = folder.filter(|folder| several && !folder.is_dir()) {
             let folder = folder.display();
@@ -136,9 +146,8 @@ impl Apply {
     fn one(&self, job: &Job<'_>, input: &Path, outputs: &Outputs, progress: &Progress) -> io::Result<Exit> {
         let target = self.target(input);
         let setup_file = job.recipe.setup_file.as_deref().map(|name| files::beside(&self.recipe, name));
-        if let Some(found) =
-            target.as_deref().and_then(|target| self.overwrites(target, setup_file.as_deref()))
-        {
+        let outs = target.iter().chain(&self.plot);
+        if let Some(found) = outs.filter_map(|out| self.overwrites(out, setup_file.as_deref())).next() {
             self.show(&[found], Some(&input.to_string_lossy()))?;
             return Ok(Exit::Errors);
         }
@@ -178,11 +187,27 @@ impl Apply {
             self.show(&[found], Some(source.name()))?;
             return Ok(Exit::Errors);
         }
+        if let Some(path) = &self.plot {
+            self.draw(path, &reports, outputs)?;
+        }
         if !self.quiet {
             let target = target.as_deref().filter(|_| !self.dry_run);
             unless_nobody_reads(self.summary(job, &source, &program, &reports, target))?;
         }
         Ok(Exit::Done)
+    }
+
+    /// Draws what the steps have to show.
+    fn draw(&self, path: &Path, reports: &[StepReport], outputs: &Outputs) -> io::Result<()> {
+        let panels: Vec<_> = reports.iter().flat_map(step_report::panels).collect();
+        let Some(text) = picture::draw(&panels)? else {
+            if !self.quiet {
+                eprintln!("{}: not drawn, no step has anything to show", path.display());
+            }
+            return Ok(());
+        };
+        let failed = outputs.write(path, |out| out.write_all(text.as_bytes()))?;
+        failed.map_or(Ok(()), |found| self.show(&[found], None))
     }
 
     /// The output of an input; `None` when nothing is to be written.

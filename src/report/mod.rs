@@ -8,6 +8,7 @@ pub mod changes;
 pub mod diff;
 pub mod explain;
 pub mod kind;
+pub mod picture;
 pub mod policy;
 mod ramps;
 pub mod render;

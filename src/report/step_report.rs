@@ -1,5 +1,6 @@
 //! What steps have to say about themselves, as text for people.
 
+use super::picture::Panel;
 use super::render::text::one_line;
 use super::table::{count, duration, fixed, table};
 use crate::transform::StepReport;
@@ -11,6 +12,14 @@ pub fn to_text(report: &StepReport) -> String {
     match report {
         StepReport::CorrectRamp(report) => super::ramps::to_text(report),
         StepReport::OptimizeFeed(report) => optimized(report),
+    }
+}
+
+/// What a step's report draws; empty for a step that draws nothing.
+pub fn panels(report: &StepReport) -> Vec<Panel> {
+    match report {
+        StepReport::CorrectRamp(report) => super::ramps::panels(report),
+        StepReport::OptimizeFeed(_) => Vec::new(),
     }
 }
 

@@ -4,6 +4,8 @@ use super::chain::{Chain, LARGEST};
 use super::compensate::centres;
 use super::fit::longest_arc;
 use super::piece::{Arc, Piece, Point};
+use super::wedge::longest_chord;
+use std::f64::consts::FRAC_PI_2;
 
 /// Arcs are looked at in points between which they bulge by this share of the tolerance; chords keep to the rest of it.
 const SHARE: f64 = 1.0 / 64.0;
@@ -12,11 +14,11 @@ const SHARE: f64 = 1.0 / 64.0;
 const CORNER: f64 = 0.35;
 const ARM: f64 = 2.0;
 
+/// Hollow corners that turn by more than this (120 degrees) count as if they turned by this.
+const SHARPEST: f64 = 2.0 * std::f64::consts::FRAC_PI_3;
+
 /// Looking for what a corner's sides do ends after so many pieces.
 const ARM_PIECES: usize = 64;
-
-/// Beyond the last vertex that a chord reaches, it looks this much further (and as far again as it has come).
-const LOOK_AHEAD: usize = 64;
 
 /// On which side of the chain chords may lie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -48,8 +50,10 @@ pub enum ChordError {
 /// With `keep_arcs`, arcs that bulge by more than two tolerances stay arcs, and chords that lie on a circle within the
 /// tolerance become one arc when it bulges by more than four tolerances. Smaller arcs go.
 ///
-/// Above and below, the chain is offset by half the tolerance to that side and followed within the other half, which takes
-/// some 1.4 times as many chords; both ends move by half the tolerance along the normal there.
+/// Above and below, the chain is offset by 0.41 of the tolerance to that side (less where hollow corners are sharper than
+/// a right angle) and followed within as much again, which takes some 1.5 times as many chords; both ends move by the
+/// offset along the normal there. Only in hollow corners that turn by more than 120 degrees they may leave more than
+/// the tolerance.
 ///
 /// O(n) for chords, O(n log n) with `keep_arcs`.
 ///
@@ -59,13 +63,29 @@ pub fn chords(chain: &Chain, tolerance: f64, keep_arcs: bool, side: Side) -> Res
     if !(1e-6..=LARGEST).contains(&tolerance) {
         return Err(ChordError::Tolerance(tolerance));
     }
-    let half = tolerance / 2.0;
     Ok(match side {
         Side::Both => follow(chain, tolerance, keep_arcs),
-        // The path of a small ball's centre is the offset of a chain, without loops.
-        Side::Above => follow(&centres(chain, half), half, keep_arcs),
-        Side::Below => follow(&centres(&chain.flipped(), half), half, keep_arcs).flipped(),
+        Side::Above => above(chain, tolerance, keep_arcs),
+        Side::Below => above(&chain.flipped(), tolerance, keep_arcs).flipped(),
     })
+}
+
+/// Chords on or above a chain: within h of its offset by h, which is the path of a small ball's centre.
+fn above(chain: &Chain, tolerance: f64, keep_arcs: bool) -> Chain {
+    let sense = if chain.end().u >= chain.start().u { 1.0 } else { -1.0 };
+    let mut before = Point::default();
+    // Hollow bends between pieces; a right angle may also be hidden in many small ones.
+    let mut bend = FRAC_PI_2;
+    for piece in chain.pieces().iter().filter(|piece| piece.length() > 0.0) {
+        let after = piece.direction(0.0);
+        let turn = (before.u * after.z - before.z * after.u).atan2(before.u * after.u + before.z * after.z);
+        bend = bend.max(turn * sense);
+        before = piece.direction(1.0);
+    }
+    // In a hollow corner the offset is farther away than h.
+    let corner = 1.0 / (0.5 * bend.min(SHARPEST)).cos();
+    let height = tolerance / (1.0 + corner);
+    follow(&centres(chain, height), height, keep_arcs)
 }
 
 /// A place on the chain at which a chord may end.
@@ -154,6 +174,11 @@ fn chord_run(run: &[Place], tolerance: f64, keep_arcs: bool, pieces: &mut Vec<Pi
 }
 
 impl Place {
+    /// The arc that leads here, where it is no line.
+    pub fn arc(&self) -> Option<Arc> {
+        self.arc
+    }
+
     /// Whether a chord or arc may not go on past it.
     pub fn is_corner(&self) -> bool {
         self.corner
@@ -192,128 +217,4 @@ fn mark_corners(run: &mut [Place], tolerance: f64) {
             place.corner = true;
         }
     }
-}
-
-/// The directions from an anchor in which a chord passes all places so far within the tolerance.
-#[derive(Clone, Copy)]
-struct Wedge {
-    right: (f64, f64),
-    left: (f64, f64),
-}
-
-fn cross(a: (f64, f64), b: (f64, f64)) -> f64 {
-    a.0 * b.1 - a.1 * b.0
-}
-
-fn dot(a: (f64, f64), b: (f64, f64)) -> f64 {
-    a.0 * b.0 + a.1 * b.1
-}
-
-impl Wedge {
-    /// Directions that pass a place at (du, dz), farther away than the tolerance.
-    fn past((du, dz): (f64, f64), distance: f64, tolerance: f64) -> Self {
-        let (du, dz) = (du / distance, dz / distance);
-        let sin = tolerance / distance;
-        let cos = (1.0 - sin * sin).max(0.0).sqrt();
-        Self {
-            right: (du * cos + dz * sin, dz * cos - du * sin),
-            left: (du * cos - dz * sin, dz * cos + du * sin),
-        }
-    }
-
-    fn middle(&self) -> (f64, f64) {
-        (self.right.0 + self.left.0, self.right.1 + self.left.1)
-    }
-
-    fn holds(&self, direction: (f64, f64)) -> bool {
-        dot(self.middle(), direction) > 0.0
-            && cross(self.right, direction) >= 0.0
-            && cross(direction, self.left) >= 0.0
-    }
-
-    /// What both allow; `None` when that is nothing, or when they look opposite ways.
-    fn and(self, other: Self) -> Option<Self> {
-        if dot(self.middle(), other.middle()) <= 0.0 {
-            return None;
-        }
-        let right = if cross(self.right, other.right) > 0.0 { other.right } else { self.right };
-        let left = if cross(self.left, other.left) < 0.0 { other.left } else { self.left };
-        (cross(right, left) >= 0.0).then_some(Self { right, left })
-    }
-}
-
-/// The place that the longest chord from `anchor` (between place `at` and the next) reaches: index of the place at or
-/// before it, and the point.
-fn longest_chord(run: &[Place], at: usize, anchor: Point, tolerance: f64) -> (usize, Point) {
-    let mut wedge: Option<Wedge> = None;
-    let mut best = (at + 1, run.get(at + 1).map_or(anchor, |place| place.point));
-    let mut best_wedge = None;
-    let mut far = 0.0_f64;
-    for (index, place) in run.iter().enumerate().skip(at + 1) {
-        let to = (place.point.u - anchor.u, place.point.z - anchor.z);
-        let distance = dot(to, to).sqrt();
-        // A chain that comes back would not be followed to where it turned.
-        if distance < far - tolerance {
-            break;
-        }
-        // What lies this close to the anchor is passed in any direction.
-        let near = distance <= tolerance;
-        let allowed = wedge.is_none_or(|wedge| wedge.holds(to));
-        if allowed && (distance >= far || index == at + 1) {
-            best = (index, place.point);
-            best_wedge = wedge;
-        }
-        if place.corner || index > best.0 + LOOK_AHEAD + 2 * (best.0 - at) {
-            break;
-        }
-        far = far.max(distance);
-        if !near {
-            let past = Wedge::past(to, distance, tolerance);
-            match wedge.map_or(Some(past), |wedge| wedge.and(past)) {
-                Some(both) => wedge = Some(both),
-                None => break,
-            }
-        }
-    }
-    along_arc(run, best, best_wedge, anchor, tolerance)
-}
-
-/// Goes on along an arc beyond the last place for as far as the wedge allows: by halving, to a millionth of the arc.
-fn along_arc(
-    run: &[Place],
-    best: (usize, Point),
-    wedge: Option<Wedge>,
-    anchor: Point,
-    tolerance: f64,
-) -> (usize, Point) {
-    let stop = (best.0, best.1);
-    let Some(last) = run.get(best.0).filter(|place| !place.corner) else { return stop };
-    let Some(arc) = run.get(best.0 + 1).and_then(|next| next.arc) else { return stop };
-    let to = (last.point.u - anchor.u, last.point.z - anchor.z);
-    let distance = dot(to, to).sqrt();
-    let wedge = if distance > tolerance {
-        let past = Wedge::past(to, distance, tolerance);
-        match wedge.map_or(Some(past), |wedge| wedge.and(past)) {
-            Some(both) => both,
-            None => return stop,
-        }
-    } else {
-        return stop;
-    };
-    let piece = Piece::Arc(arc);
-    let allowed = |share: f64| {
-        let point = piece.point(share);
-        let to = (point.u - anchor.u, point.z - anchor.z);
-        wedge.holds(to) && dot(to, to).sqrt() >= distance
-    };
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..20 {
-        let middle = 0.5 * (low + high);
-        if allowed(middle) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    if low > 0.0 { (best.0, piece.point(low)) } else { stop }
 }

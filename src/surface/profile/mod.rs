@@ -23,6 +23,7 @@ mod reach;
 mod roll;
 mod skyline;
 mod stretch;
+mod wedge;
 
 pub use chain::{CONNECTED, Chain, ChainError, LARGEST};
 pub use check::{Verdict, check};

@@ -197,6 +197,9 @@ fn share(piece: &Piece, point: Point) -> f64 {
             let angle = (point.z - arc.centre.z).atan2(point.u - arc.centre.u);
             let along = ((angle - arc.start) * arc.sweep.signum()).rem_euclid(TAU);
             let sweep = arc.sweep.abs();
+            if sweep <= 0.0 {
+                return 0.0;
+            }
             // What lies beyond both ends by rounding belongs to the nearer one.
             if along <= sweep {
                 along / sweep

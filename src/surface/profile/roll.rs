@@ -53,6 +53,16 @@ pub(super) fn roll(skyline: &Skyline, radius: f64, scale: f64) -> Vec<Stretch> {
     roll.stretches
 }
 
+/// The height at which a tail and what is laid over it meet, where they do but for rounding: that of the flatter one, since
+/// a steep one tells no height.
+fn meet(tail: (f64, f64, Graph), new: (f64, Graph), radius: f64, tie: f64) -> Option<f64> {
+    let (steep_tail, steep_new) = (tail.2.steepness(tail.0), new.1.steepness(tail.0));
+    // Where a circle is upright a rounding in u is its root in height.
+    let noise = (4.0 * tie * (1.0 + steep_tail + steep_new)).min(4.0 * (radius * tie).sqrt());
+    let meets = (tail.1 - new.0).abs() <= noise;
+    meets.then_some(if steep_tail < 0.5 * steep_new { tail.1 } else { new.0 })
+}
+
 impl Roll {
     fn cap(&self, at: Point, piece: usize) -> Stretch {
         let graph = Graph::Round { centre: at, radius: self.radius, upper: true };
@@ -115,6 +125,7 @@ impl Roll {
             _ => cap.at(u),
         };
         let mut from = start;
+        let mut meet = None;
         while let Some(tail) = self.stretches.last_mut() {
             if tail.left.u >= start && height(tail.left.u) >= tail.at(tail.left.u) - self.tie {
                 self.stretches.pop();
@@ -139,7 +150,9 @@ impl Roll {
                 }
                 left = left.max(right);
             }
-            tail.right = tail.point(from);
+            let graph = body.filter(|_| from < bound).map_or(cap.graph, |body| body.graph);
+            meet = self::meet((from, tail.at(from), tail.graph), (height(from), graph), self.radius, self.tie);
+            tail.right = Point::new(from, meet.unwrap_or_else(|| tail.at(from)));
             if tail.right.u - tail.left.u <= THIN {
                 self.stretches.pop();
             }
@@ -148,7 +161,8 @@ impl Roll {
         if let Some(body) = body {
             let lo = body.left.u.max(from);
             if body.right.u - lo > THIN {
-                self.stretches.push(body.part(lo, body.right.u));
+                let left = Point::new(lo, meet.filter(|_| lo == from).unwrap_or_else(|| body.at(lo)));
+                self.stretches.push(Stretch { left, ..body });
             }
         }
         let lo = bound.max(from);
@@ -156,7 +170,7 @@ impl Roll {
             let left = match body {
                 // The cap goes on where the body ends.
                 Some(body) if lo == body.right.u => body.right,
-                _ => cap.point(lo),
+                _ => Point::new(lo, meet.filter(|_| lo == from).unwrap_or_else(|| cap.at(lo))),
             };
             self.stretches.push(Stretch { left, ..cap });
         }

@@ -49,6 +49,17 @@ impl Graph {
         }
     }
 
+    /// Steepness at u; not finite where it is upright.
+    pub fn steepness(&self, u: f64) -> f64 {
+        match *self {
+            Self::Line { left, right } => ((right.z - left.z) / (right.u - left.u)).abs(),
+            Self::Round { centre, radius, .. } => {
+                let across = u - centre.u;
+                across.abs() / ((radius - across) * (radius + across)).max(0.0).sqrt()
+            }
+        }
+    }
+
     /// Where two graphs may cross between `lo` and `hi`: ascending, at most two, possibly some where they do not.
     pub fn crossings(&self, other: &Self, lo: f64, hi: f64) -> [Option<f64>; 2] {
         let found = match (*self, *other) {

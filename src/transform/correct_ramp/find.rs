@@ -16,7 +16,7 @@ use std::ops::Range;
 pub(super) const LEVEL: f64 = 1e-3;
 
 /// Least share ([`level_shares`]) of an unmarked operation, for its descents to be ramps.
-const LEAST_LEVEL_SHARE: f64 = 0.5;
+const LEAST_LEVEL_SHARE: f64 = 0.8;
 
 /// Axes whose components differ by less are one.
 const SAME_AXIS: f64 = 1e-6;

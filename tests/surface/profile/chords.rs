@@ -173,5 +173,5 @@ fn many_pieces_take_linear_time() {
         start.elapsed().as_secs_f64()
     };
     let seconds = time(100_000);
-    assert!(seconds < 2.0, "{seconds} s");
+    assert!(seconds < 5.0, "{seconds} s");
 }

@@ -8,7 +8,16 @@ const TOOL: &str = "tool: { diameter: 25, insert_radius: 6, insert_height: 1 }";
 
 #[test]
 fn drilling_lathe_and_wire_files_have_no_ramp() {
-    for name in ["deep_drill.clsf", "4_SVERL_63_N2.cls", "DEMO1.aptsource", "DEMO3.aptsource", "PrepaFlans_Pointage.aptsource", "wire-edm-excerpt.cls", "Guincho_Lbar.apt", "nurbs.clsf"] {
+    for name in [
+        "deep_drill.clsf",
+        "4_SVERL_63_N2.cls",
+        "DEMO1.aptsource",
+        "DEMO3.aptsource",
+        "PrepaFlans_Pointage.aptsource",
+        "wire-edm-excerpt.cls",
+        "Guincho_Lbar.apt",
+        "nurbs.clsf",
+    ] {
         let Some(path) = support::corpus_file(name) else { continue };
         let program = clsmith::parse::parse(&support::source(&path), None).program;
         let done = correct_program(TOOL, "", program).unwrap();

@@ -121,7 +121,12 @@ fn what_a_person_reads() {
             shown.push_str(&step_report::to_text(report));
         }
         for found in &done.findings {
-            shown.push_str(&format!("\n{}: {}\n  {}\n", found.code, found.message, found.help.as_deref().unwrap_or("")));
+            shown.push_str(&format!(
+                "\n{}: {}\n  {}\n",
+                found.code,
+                found.message,
+                found.help.as_deref().unwrap_or("")
+            ));
         }
         let name = file.replace(['/', '.'], "-");
         support::rounded_snapshots("correct_ramp").bind(|| insta::assert_snapshot!(name, shown));

@@ -21,7 +21,10 @@ END-OF-PATH
 fn refused(parameters: &str, text: &str) -> (&'static str, String, Vec<String>) {
     let Err(mut found) = correct(parameters, text) else { panic!("not refused: {parameters}") };
     let last: Diagnostic = found.pop().unwrap();
-    let texts = last.labels.iter().map(|label| String::from_utf8_lossy(label.source.slice(label.span)).trim().to_owned());
+    let texts = last
+        .labels
+        .iter()
+        .map(|label| String::from_utf8_lossy(label.source.slice(label.span)).trim().to_owned());
     (last.code.id(), last.message.clone(), texts.collect())
 }
 
@@ -68,7 +71,8 @@ fn a_region_that_crosses_itself_is_refused_where_it_stands() {
 
 #[test]
 fn a_ramp_that_leads_to_no_level_is_not_guessed() {
-    let away = SMALL.replace("GOTO/10.0000,0.0000,-2.0000\nGOTO/10.0000,10.0000,-2.0000", "GOTO/10.0000,0.0000,5.0000");
+    let away = SMALL
+        .replace("GOTO/10.0000,0.0000,-2.0000\nGOTO/10.0000,10.0000,-2.0000", "GOTO/10.0000,0.0000,5.0000");
     let (code, message, texts) = refused(&format!("{FACE_MILL}, region: none"), &away);
     assert_eq!((code, texts[0].as_str()), ("CL0321", "GOTO/10.0000,0.0000,0.0000"));
     assert!(message.contains("no level") || message.contains("does not end at a level"), "{message}");
@@ -76,7 +80,10 @@ fn a_ramp_that_leads_to_no_level_is_not_guessed() {
 
 #[test]
 fn statements_that_hold_several_points_are_not_rewritten() {
-    let shared = SMALL.replace("GOTO/10.0000,0.0000,0.0000\nGOTO/0.0000,0.0000,-2.0000", "GOTO/10.0000,0.0000,0.0000,0.0000,0.0000,-2.0000,0.0000,0.0000,-2.0000,0.0,0.0,-2.0");
+    let shared = SMALL.replace(
+        "GOTO/10.0000,0.0000,0.0000\nGOTO/0.0000,0.0000,-2.0000",
+        "GOTO/10.0000,0.0000,0.0000,0.0000,0.0000,-2.0000,0.0000,0.0000,-2.0000,0.0,0.0,-2.0",
+    );
     let (code, message, _) = refused(&format!("{FACE_MILL}, region: none"), &shared);
     assert_eq!(code, "CL0321");
     assert!(message.contains("plain GOTO"), "{message}");

@@ -31,13 +31,19 @@ fn a_helix_of_arcs_stays_one_of_arcs() {
         GOTO/60.0000,60.0000,-2.0000\n";
     let done = correct(FACE_MILL, pocket(ramp)).unwrap();
     let [helix] = &done.ramps[..] else { panic!() };
-    assert_eq!((helix.kind, helix.outcome, helix.lengthened), ("helix", Outcome::Corrected, Lengthened::WidenedHelix));
+    assert_eq!(
+        (helix.kind, helix.outcome, helix.lengthened),
+        ("helix", Outcome::Corrected, Lengthened::WidenedHelix)
+    );
     assert!((helix.before.shortest_leg_mm - 8.0).abs() < 1e-9);
     let program = support::program(&done.text);
-    let arcs: Vec<_> = program.motions().filter_map(|motion| match motion.path {
-        Path::Arc(arc) => Some(arc),
-        _ => None,
-    }).collect();
+    let arcs: Vec<_> = program
+        .motions()
+        .filter_map(|motion| match motion.path {
+            Path::Arc(arc) => Some(arc),
+            _ => None,
+        })
+        .collect();
     assert!(!arcs.is_empty() && arcs.iter().all(|arc| (arc.radius - 19.0).abs() < 1e-3));
     // The turns that 22 mm need at radius 19 and 5/38: 1.4, of which there were 2.
     let turns: f64 = arcs.iter().map(|arc| arc.sweep / std::f64::consts::TAU).sum();
@@ -102,7 +108,10 @@ fn a_tilted_tool_ramps_in_its_own_frame() {
     for line in upright.lines() {
         match line.strip_prefix("GOTO/") {
             Some(numbers) => {
-                let [x, y, z] = numbers.split(',').map(|n| n.parse::<f64>().unwrap()).collect::<Vec<_>>()[..] else { panic!() };
+                let [x, y, z] = numbers.split(',').map(|n| n.parse::<f64>().unwrap()).collect::<Vec<_>>()[..]
+                else {
+                    panic!()
+                };
                 let axis = if std::mem::take(&mut first) { ",0.0000000,-1.0000000,0.0000000" } else { "" };
                 tilted.push_str(&format!("GOTO/{x:.4},{:.4},{y:.4}{axis}\n", 0.0 - z));
             }
@@ -118,14 +127,21 @@ fn a_tilted_tool_ramps_in_its_own_frame() {
 
 #[test]
 fn unmarked_ramps_are_found_by_geometry_and_surfaces_are_left_alone() {
-    let unmarked = |text: String| text.lines().filter(|line| !line.starts_with("PAINT")).map(|line| format!("{line}\n")).collect::<String>();
+    let unmarked = |text: String| {
+        text.lines()
+            .filter(|line| !line.starts_with("PAINT"))
+            .map(|line| format!("{line}\n"))
+            .collect::<String>()
+    };
     let ramp = format!("{DOWN}GOTO/80.0000,60.0000,0.0000\nGOTO/60.0000,60.0000,-2.0000\n");
     let done = correct(FACE_MILL, unmarked(pocket(&ramp))).unwrap();
     assert_eq!(done.outcomes(), [Outcome::Corrected]);
     // A finishing pass over waves: it goes down and up, with a flat here and there.
-    let mut waves = String::from("TOOL PATH/SURFACE,TOOL,FACE\nTLDATA/MILL,50.0000,6.0000,60.0000,0.0000,0.0000\nRAPID\nGOTO/0.0000,0.0000,20.0000\nFEDRAT/MMPM,300.0000\n");
-    for step in 0..60 {
-        let z = [0.0, -3.0, -3.0, 0.0][step % 4];
+    let mut waves = String::from(
+        "TOOL PATH/SURFACE,TOOL,FACE\nTLDATA/MILL,50.0000,6.0000,60.0000,0.0000,0.0000\nRAPID\nGOTO/0.0000,0.0000,20.0000\nFEDRAT/MMPM,300.0000\n",
+    );
+    for step in 0..64 {
+        let z = [0.0, -1.0, -2.0, -3.0, -3.0, -2.0, -1.0, 0.0][step % 8];
         waves.push_str(&format!("GOTO/{step}.0000,0.0000,{z:.4}\n"));
     }
     waves.push_str("END-OF-PATH\n");

@@ -1,5 +1,9 @@
 //! What `correct_ramp` found and did, as a table.
 
+mod panels;
+
+pub use panels::panels;
+
 use super::render::text::one_line;
 use super::table::{duration, fixed, table};
 use crate::transform::correct_ramp::{Outcome, RampReport, Report};

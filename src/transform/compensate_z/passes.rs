@@ -1,0 +1,209 @@
+//! Passes in vertical planes: which motions they are, and what lies between them.
+
+use crate::program::MotionClass;
+use crate::program::geometry::Path;
+use crate::program::motion::Motion;
+use crate::surface::profile::Plane;
+use nalgebra::{Point3, Vector3};
+use std::ops::Range;
+
+/// Points this near to a plane (mm) lie in it: a few of the last digits that files print.
+const IN_PLANE: f64 = 2e-3;
+
+/// Moves shorter than this across the axis (mm) go straight up or down.
+pub(super) const UPRIGHT: f64 = 1e-3;
+
+/// Directions within this angle (radians) are parallel.
+const PARALLEL: f64 = 0.02;
+
+/// A pass.
+#[derive(Debug, Clone)]
+pub(super) struct Pass {
+    /// Its motions.
+    pub motions: Range<usize>,
+    /// Its plane; mm, u along the pass.
+    pub plane: Plane,
+}
+
+/// Why a path is not made of passes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum NoPass {
+    /// A motion leaves the plane of its pass.
+    LeavesPlane(usize),
+    /// The tool axis turns in it.
+    AxisTurns(usize),
+}
+
+/// The passes among motions; `meant` says which motions cut. Everything else is left to links.
+///
+/// # Errors
+/// [`NoPass`] where cutting does not keep to vertical planes.
+pub(super) fn passes(
+    motions: &[Motion],
+    meant: &[bool],
+    mm: f64,
+) -> Result<Vec<Pass>, NoPass> {
+    let mut found = Vec::new();
+    for run in runs(motions, meant, mm) {
+        found.extend(of_run(motions, run, mm)?);
+    }
+    Ok(found)
+}
+
+/// Runs of motions that cut one after the other, without the straight way down to them and up from them where the file does not mark
+/// what motions are for.
+pub(super) fn runs(motions: &[Motion], meant: &[bool], mm: f64) -> Vec<Range<usize>> {
+    let mut found = Vec::new();
+    let mut index = 0;
+    let means = |index: usize| meant.get(index).copied().unwrap_or(false);
+    while index < motions.len() {
+        if !means(index) {
+            index += 1;
+            continue;
+        }
+        let operation = motions.get(index).map(|motion| motion.operation);
+        let mut end = index;
+        while means(end) && motions.get(end).map(|motion| motion.operation) == operation {
+            end += 1;
+        }
+        let mut run = index..end;
+        let upright = |index: usize, up: bool| {
+            motions.get(index).is_some_and(|motion| {
+                let way = (motion.to.point - motion.from.point) * mm;
+                let along = way.dot(&motion.to.axis);
+                !motion.class_is_told
+                    && (way - motion.to.axis * along).norm() <= UPRIGHT
+                    && (if up { along >= 0.0 } else { along <= 0.0 })
+            })
+        };
+        while !run.is_empty() && upright(run.start, false) {
+            run.start += 1;
+        }
+        while !run.is_empty() && upright(run.end - 1, true) {
+            run.end -= 1;
+        }
+        if !run.is_empty() {
+            found.push(run);
+        }
+        index = end;
+    }
+    found
+}
+
+/// A stretch of a run in one vertical plane; no plane for an arc that lies across.
+struct Stretch {
+    motions: Range<usize>,
+    plane: Option<(Plane, Vector3<f64>)>,
+    length: f64,
+}
+
+fn of_run(motions: &[Motion], run: Range<usize>, mm: f64) -> Result<Vec<Pass>, NoPass> {
+    let first = motions.get(run.start);
+    let turns = |motion: &&Motion| {
+        first.is_some_and(|first| {
+            (motion.from.axis - first.from.axis).amax() > 1e-6 || (motion.to.axis - first.from.axis).amax() > 1e-6
+        })
+    };
+    let all = motions.get(run.clone()).unwrap_or_default();
+    if let Some(at) = all.iter().position(|motion| turns(&motion)) {
+        return Err(NoPass::AxisTurns(run.start + at));
+    }
+    let stretches = stretches(motions, run, mm);
+    let main = main_direction(&stretches);
+    let along = |stretch: &Stretch| stretch.plane.is_some_and(|(_, direction)| parallel(direction, main));
+    let (passes, links): (Vec<&Stretch>, Vec<&Stretch>) = stretches.iter().partition(|stretch| along(stretch));
+    let sum = |all: &[&Stretch]| all.iter().map(|stretch| stretch.length).sum::<f64>();
+    // Links are short beside passes; where they are not, the path has no passes.
+    if sum(&links) > 0.5 * sum(&passes)
+        && let Some(link) = links.first()
+    {
+        return Err(NoPass::LeavesPlane(link.motions.start));
+    }
+    Ok(passes
+        .iter()
+        .filter_map(|stretch| Some(Pass { motions: stretch.motions.clone(), plane: stretch.plane?.0 }))
+        .collect())
+}
+
+/// The direction of the longest sum of parallel stretches.
+fn main_direction(stretches: &[Stretch]) -> Vector3<f64> {
+    let mut sums: Vec<(Vector3<f64>, f64)> = Vec::new();
+    for stretch in stretches {
+        let Some((_, direction)) = stretch.plane else { continue };
+        match sums.iter_mut().find(|(known, _)| parallel(*known, direction)) {
+            Some((_, sum)) => *sum += stretch.length,
+            None => sums.push((direction, stretch.length)),
+        }
+    }
+    // The first of equals, so that the same path always has the same passes.
+    let longest = sums.into_iter().reduce(|one, next| if next.1 > one.1 * (1.0 + 1e-9) { next } else { one });
+    longest.map_or_else(Vector3::zeros, |(direction, _)| direction)
+}
+
+fn parallel(one: Vector3<f64>, other: Vector3<f64>) -> bool {
+    one.cross(&other).norm() <= PARALLEL
+}
+
+fn stretches(motions: &[Motion], run: Range<usize>, mm: f64) -> Vec<Stretch> {
+    let mut found = Vec::new();
+    let mut start = run.start;
+    while start < run.end {
+        let (end, plane) = stretch(motions, start, run.end, mm);
+        let part = motions.get(start..end).unwrap_or_default();
+        let length = part.iter().map(|motion| motion.length() * mm).sum();
+        found.push(Stretch { motions: start..end, plane, length });
+        start = end;
+    }
+    found
+}
+
+/// The longest stretch from `start` in one plane, and its plane; at least one motion.
+fn stretch(motions: &[Motion], start: usize, end: usize, mm: f64) -> (usize, Option<(Plane, Vector3<f64>)>) {
+    let Some(first) = motions.get(start) else { return (start + 1, None) };
+    let (origin, up) = (first.from.point * mm, first.from.axis);
+    let mut seen: Vec<Point3<f64>> = Vec::new();
+    let mut plane: Option<(Plane, Vector3<f64>)> = None;
+    let mut index = start;
+    while let Some(motion) = motions.get(index).filter(|_| index < end) {
+        let points: Vec<Point3<f64>> =
+            motion.path.samples(motion.from.point, motion.to.point).iter().map(|point| point * mm).collect();
+        if !holds(&plane, &points) {
+            // A short beginning tells the direction badly, a farther point better.
+            let better = through(origin, up, &points);
+            let upright = plane.is_none() && better.is_none() && matches!(motion.path, Path::Line);
+            if !upright && !(holds(&better, &points) && holds(&better, &seen)) {
+                break;
+            }
+            plane = better.or(plane);
+        }
+        seen.extend(points);
+        index += 1;
+    }
+    (index.max(start + 1), plane.filter(|_| index > start))
+}
+
+fn holds(plane: &Option<(Plane, Vector3<f64>)>, points: &[Point3<f64>]) -> bool {
+    let Some((plane, _)) = plane else { return false };
+    points.iter().all(|point| plane.off(*point).abs() <= IN_PLANE)
+}
+
+/// The plane through a point along the axis and through the farthest of others; `None` where all are above each other.
+fn through(origin: Point3<f64>, up: Vector3<f64>, points: &[Point3<f64>]) -> Option<(Plane, Vector3<f64>)> {
+    let across = |point: &Point3<f64>| {
+        let way = point - origin;
+        way - up * way.dot(&up)
+    };
+    let far = points.iter().map(across).reduce(|one, next| if next.norm() > one.norm() { next } else { one })?;
+    if far.norm() <= UPRIGHT {
+        return None;
+    }
+    Some((Plane::new(origin, far, up)?, far.normalize()))
+}
+
+/// Whether a motion cuts, as far as its class tells: what the file marks as a cut, and everything at feed that it does not mark.
+pub(super) fn cuts(motion: &Motion) -> bool {
+    !motion.rapid
+        && motion.hole.is_none()
+        && !matches!(motion.path, Path::Start)
+        && (!motion.class_is_told || motion.class == MotionClass::Cut)
+}

@@ -1,0 +1,156 @@
+//! A pass as a profile, and the path of the ball over it.
+
+use super::passes::{NoPass, Pass};
+use crate::program::geometry::Path;
+use crate::program::motion::Motion;
+use crate::surface::profile::{
+    Arc, Chain, Nurbs, Piece, Plane, Point, Unreachable, Verdict, check, chords, compensate, recover, to_chords,
+    unreachable,
+};
+use crate::surface::profile::Side;
+use std::fmt;
+
+/// Curves become chords within this share of the tolerance; the path made of them has the rest.
+const CURVES: f64 = 0.1;
+
+/// Chords keep to this share of the tolerance; printing and curves have the rest.
+const CHORDS: f64 = 0.8;
+
+/// What a pass is compensated by, mm.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ball {
+    /// Its radius.
+    pub radius: f64,
+    /// Radius of the ball whose tip the path is; `None` for a path of contact points.
+    pub was: Option<f64>,
+    /// Whether the points of the path are that ball's centres.
+    pub was_centre: bool,
+    /// Whether the result is the path of its centre.
+    pub centre: bool,
+    /// Allowed gouge and gap.
+    pub tolerance: f64,
+    /// Whether arcs stay arcs.
+    pub arcs: bool,
+}
+
+/// A compensated pass.
+#[derive(Debug, Clone)]
+pub(super) struct Compensated {
+    /// The part as the ball shall touch it.
+    pub contact: Chain,
+    /// Tip of the exact path, before chords were made of it.
+    pub exact: Chain,
+    /// The path as it is to be written.
+    pub path: Chain,
+    /// What the ball cannot touch.
+    pub unreachable: Vec<Unreachable>,
+}
+
+/// Why a pass cannot be compensated.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Fault {
+    Pass(NoPass),
+    Geometry(String),
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Pass(_) => f.write_str("it does not lie in a vertical plane"),
+            Self::Geometry(why) => f.write_str(why),
+        }
+    }
+}
+
+/// The motions of a pass as a chain of its plane, and for each piece the motion that it comes from.
+///
+/// # Errors
+/// [`Fault`] at an arc that is no arc of the plane, and at a spline that cannot be read.
+pub(super) fn chain(
+    motions: &[Motion],
+    pass: &Pass,
+    mm: f64,
+    tolerance: f64,
+) -> Result<(Chain, Vec<usize>), Fault> {
+    let mut pieces: Vec<Piece> = Vec::new();
+    let mut owners = Vec::new();
+    for index in pass.motions.clone() {
+        let Some(motion) = motions.get(index) else { continue };
+        let flat = |point: nalgebra::Point3<f64>| pass.plane.flat(point * mm);
+        let (from, to) = (flat(motion.from.point), flat(motion.to.point));
+        match &motion.path {
+            Path::Line | Path::Start => pieces.push(Piece::line(from, to)),
+            Path::Arc(arc) => {
+                pieces.push(Piece::Arc(flat_arc(arc, &pass.plane, mm).ok_or(Fault::Pass(NoPass::LeavesPlane(index)))?));
+            }
+            Path::Spline(spline) => {
+                let mut scaled = spline.as_ref().clone();
+                scaled.controls.iter_mut().for_each(|point| *point *= mm);
+                let curve = Nurbs::from_spline(&scaled, &pass.plane).map_err(|why| Fault::Geometry(why.to_string()))?;
+                let made = to_chords(&curve, tolerance * CURVES).map_err(|why| Fault::Geometry(why.to_string()))?;
+                pieces.extend_from_slice(made.pieces());
+            }
+        }
+        owners.resize(pieces.len(), index);
+    }
+    let chain = Chain::new(pieces).map_err(|why| Fault::Geometry(why.to_string()))?;
+    Ok((chain, owners))
+}
+
+/// An arc of space as one of the plane; `None` when its axis is not the plane's normal, or it climbs along it.
+fn flat_arc(arc: &crate::program::geometry::Arc, plane: &Plane, mm: f64) -> Option<Arc> {
+    let (start, centre) = (plane.flat(arc.start * mm), plane.flat(arc.center * mm));
+    let ahead = plane.flat((arc.start + arc.axis.cross(&(arc.start - arc.center))) * mm);
+    let (spoke, tangent) = ((start.u - centre.u, start.z - centre.z), (ahead.u - start.u, ahead.z - start.z));
+    let turn = spoke.0 * tangent.1 - spoke.1 * tangent.0;
+    let radius = start.distance(centre);
+    // In its own plane the tangent is square to the spoke and as long.
+    let lies = (turn.abs() - radius * radius).abs() <= 1e-4 * radius * radius;
+    (lies && arc.rise.abs() * mm <= 1e-3).then(|| Arc {
+        centre,
+        radius,
+        start: spoke.1.atan2(spoke.0),
+        sweep: arc.sweep * turn.signum(),
+    })
+}
+
+/// Compensates a pass.
+///
+/// # Errors
+/// [`Fault`].
+pub(super) fn over(path: &Chain, ball: &Ball) -> Result<Compensated, Fault> {
+    let geometry = |why: String| Fault::Geometry(why);
+    let contact = match ball.was {
+        None => path.clone(),
+        Some(was) => {
+            let tip = if ball.was_centre { path.centre_to_tip(was) } else { path.clone() };
+            recover(&tip, was).map_err(|why| geometry(why.to_string()))?
+        }
+    };
+    let exact = compensate(&contact, ball.radius).map_err(|why| geometry(why.to_string()))?;
+    let path = chords(&exact, ball.tolerance * CHORDS, ball.arcs, Side::Both)
+        .map_err(|why| geometry(why.to_string()))?;
+    let unreachable = unreachable(&contact, ball.radius, ball.tolerance).map_err(|why| geometry(why.to_string()))?;
+    Ok(Compensated { contact, exact, path, unreachable })
+}
+
+/// The tip's chain of a path that was written for a ball's tip or centre.
+pub(super) fn tip(path: &Chain, ball: &Ball) -> Chain {
+    if ball.centre { path.centre_to_tip(ball.radius) } else { path.clone() }
+}
+
+/// Looks at a written path by other means, at places a fifth of the tolerance's chord apart.
+pub(super) fn look(contact: &Chain, tip: &Chain, ball: &Ball) -> Verdict {
+    let step = (2.0 * ball.radius * ball.tolerance).sqrt() / 4.0;
+    check(contact, tip, ball.radius, step)
+}
+
+/// The slope angle's sine of a profile beside a point, for what a ball's tip moves by there.
+pub(super) fn sine(from: Point, at: Point, to: Point) -> f64 {
+    let angle = |a: Point, b: Point| {
+        let (du, dz) = (b.u - a.u, b.z - a.z);
+        let length = du.hypot(dz);
+        if length > 0.0 { dz * du.signum() / length } else { 0.0 }
+    };
+    0.5 * (angle(from, at) + angle(at, to))
+}
