@@ -188,9 +188,10 @@ impl Place {
 /// Marks the corners of a run.
 fn mark_corners(run: &mut [Place], tolerance: f64) {
     let arm = |places: &mut dyn Iterator<Item = &Place>, at: Point| {
-        let mut far = places.take(ARM_PIECES).map(|place| place.point).skip_while(|point| {
-            point.distance(at) < 2.0 * ARM * tolerance
-        });
+        let mut far = places
+            .take(ARM_PIECES)
+            .map(|place| place.point)
+            .skip_while(|point| point.distance(at) < 2.0 * ARM * tolerance);
         far.next().map(|point| (point.u - at.u, point.z - at.z))
     };
     let turn = |a: (f64, f64), b: (f64, f64)| {

@@ -61,9 +61,8 @@ fn to_chain(curve: &impl Curve, tolerance: f64, arcs: bool) -> Result<Chain, Cho
         let point = points.first().copied().unwrap_or_default();
         pieces.push(Piece::line(point, point));
     }
-    chords(&Chain::trusted(pieces), tolerance * (1.0 - SHARE), arcs, Side::Both).map_err(|_| {
-        ChordError::Tolerance(tolerance)
-    })
+    chords(&Chain::trusted(pieces), tolerance * (1.0 - SHARE), arcs, Side::Both)
+        .map_err(|_| ChordError::Tolerance(tolerance))
 }
 
 /// Adds the samples after `from` up to `to`, between which the curve bulges by no more than `fine`.

@@ -164,11 +164,9 @@ impl Piece {
     pub fn part(&self, from: f64, to: f64) -> Self {
         match self {
             Self::Line(_) => Self::line(self.point(from), self.point(to)),
-            Self::Arc(arc) => Self::Arc(Arc {
-                start: arc.start + arc.sweep * from,
-                sweep: arc.sweep * (to - from),
-                ..*arc
-            }),
+            Self::Arc(arc) => {
+                Self::Arc(Arc { start: arc.start + arc.sweep * from, sweep: arc.sweep * (to - from), ..*arc })
+            }
         }
     }
 }

@@ -77,7 +77,8 @@ fn part(
 ) -> Option<Unreachable> {
     let mut left = 0.0_f64;
     let mut look = |point: Point| {
-        let near = balls.iter().flatten().map(|ball| ball.distance(point) - radius).fold(f64::INFINITY, f64::min);
+        let near =
+            balls.iter().flatten().map(|ball| ball.distance(point) - radius).fold(f64::INFINITY, f64::min);
         left = left.max(near);
     };
     let mut bounds: Option<(usize, Point, usize, Point)> = None;
@@ -121,10 +122,9 @@ fn touches(profile: &Chain, radius: f64) -> Vec<Touch> {
         before = Some(stretch);
     }
     // Walls down to the chain's ends.
-    for (end, stretch, high) in [
-        (envelope.low, envelope.stretches.first(), false),
-        (envelope.high, envelope.stretches.last(), true),
-    ] {
+    for (end, stretch, high) in
+        [(envelope.low, envelope.stretches.first(), false), (envelope.high, envelope.stretches.last(), true)]
+    {
         if let (End::Wall(foot), Some(stretch)) = (end, stretch) {
             let top = if high { stretch.right } else { stretch.left };
             let side = if high { -radius } else { radius };

@@ -72,9 +72,10 @@ impl Roll {
 
     /// The ball over one point.
     fn point(&mut self, at: Point, piece: usize) {
-        if self.last.is_some_and(|last| {
-            (last.u - at.u).abs() <= self.tie && (last.z - at.z).abs() <= self.tie
-        }) {
+        if self
+            .last
+            .is_some_and(|last| (last.u - at.u).abs() <= self.tie && (last.z - at.z).abs() <= self.tie)
+        {
             return;
         }
         self.last = Some(at);
@@ -141,7 +142,8 @@ impl Roll {
             let about = cap.graph.crossings(&tail.graph, bend, hi);
             let mut left = lo;
             from = hi;
-            for right in along.into_iter().flatten().chain([bend]).chain(about.into_iter().flatten()).chain([hi])
+            for right in
+                along.into_iter().flatten().chain([bend]).chain(about.into_iter().flatten()).chain([hi])
             {
                 let middle = 0.5 * (left + right);
                 if right > left && height(middle) >= tail.at(middle) - self.tie {
@@ -151,7 +153,8 @@ impl Roll {
                 left = left.max(right);
             }
             let graph = body.filter(|_| from < bound).map_or(cap.graph, |body| body.graph);
-            meet = self::meet((from, tail.at(from), tail.graph), (height(from), graph), self.radius, self.tie);
+            meet =
+                self::meet((from, tail.at(from), tail.graph), (height(from), graph), self.radius, self.tie);
             tail.right = Point::new(from, meet.unwrap_or_else(|| tail.at(from)));
             if tail.right.u - tail.left.u <= THIN {
                 self.stretches.pop();

@@ -71,10 +71,9 @@ impl Graph {
             | (Self::Round { centre, radius, .. }, Self::Line { left, right }) => {
                 line_and_circle(left, right, centre, radius)
             }
-            (
-                Self::Round { centre: a, radius: ra, .. },
-                Self::Round { centre: b, radius: rb, .. },
-            ) => circles(a, ra, b, rb),
+            (Self::Round { centre: a, radius: ra, .. }, Self::Round { centre: b, radius: rb, .. }) => {
+                circles(a, ra, b, rb)
+            }
         };
         // Not-a-number falls out here as well.
         let inside = |u: f64| (lo < u && u < hi).then_some(u);

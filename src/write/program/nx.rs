@@ -29,9 +29,7 @@ impl Writer for Nx {
         self.line(format!("TOOL PATH/{},TOOL,{}", draft.operation, tool.name));
         let (diameter, corner, length) = (tool.diameter, tool.corner_radius, tool.length);
         self.line(format!("TLDATA/MILL,{diameter:.4},{corner:.4},{length:.4},0.0000,0.0000"));
-        self.line(
-            "MSYS/0.0000,0.0000,0.0000,1.0000000,0.0000000,0.0000000,0.0000000,1.0000000,0.0000000",
-        );
+        self.line("MSYS/0.0000,0.0000,0.0000,1.0000000,0.0000000,0.0000000,0.0000000,1.0000000,0.0000000");
         self.line("$$ centerline data");
         self.line("PAINT/PATH");
         self.line("PAINT/SPEED,10");

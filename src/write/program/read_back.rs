@@ -26,7 +26,8 @@ pub struct ReadBack {
 /// Whether a text says what a draft means.
 pub(super) fn same(text: &[u8], draft: &Draft, dialect: Dialect) -> Result<(), ReadBack> {
     let whole = |reason: String| ReadBack { motion: 0, reason };
-    let source = Source::new("the written program", text.to_vec()).map_err(|error| whole(error.to_string()))?;
+    let source =
+        Source::new("the written program", text.to_vec()).map_err(|error| whole(error.to_string()))?;
     // Nothing is told about the dialect: the text must show it.
     let parsed = parse(&source, None);
     if let Some(found) = parsed.diagnostics.first() {

@@ -25,10 +25,7 @@ fn numbers_must_be_numbers() {
     for wrong in [f64::NAN, f64::INFINITY, 2.0 * LARGEST] {
         let ends = [O, Point::new(1.0, 0.0), Point::new(1.0, wrong)];
         assert_eq!(Chain::polyline(&ends), Err(ChainError::Number { piece: 1 }));
-        assert_eq!(
-            Chain::new(vec![Piece::arc(O, 1.0, wrong, 1.0)]),
-            Err(ChainError::Number { piece: 0 })
-        );
+        assert_eq!(Chain::new(vec![Piece::arc(O, 1.0, wrong, 1.0)]), Err(ChainError::Number { piece: 0 }));
     }
     assert_eq!(Chain::new(vec![Piece::arc(O, 0.0, 0.0, 1.0)]), Err(ChainError::Arc { piece: 0 }));
     assert_eq!(Chain::new(vec![Piece::arc(O, 1.0, 0.0, 7.0)]), Err(ChainError::Arc { piece: 0 }));

@@ -70,7 +70,9 @@ fn a_circle_takes_as_few_chords_as_the_closed_form() {
         println!("circle R{radius} within {tolerance}: {count} chords, optimum {optimum}");
         assert!(count >= optimum && count <= (optimum * 1.05).ceil(), "{count} {optimum}");
         assert_within(&arc, &few, tolerance, Side::Both);
-        assert!(few.pieces().iter().all(|piece| (piece.end().distance(Point::default()) - radius).abs() < 1e-9));
+        assert!(
+            few.pieces().iter().all(|piece| (piece.end().distance(Point::default()) - radius).abs() < 1e-9)
+        );
         let kept = chords(&arc, tolerance, true, Side::Both).unwrap();
         assert_eq!(kept.pieces(), arc.pieces());
     }
@@ -95,9 +97,11 @@ fn one_side_is_kept_to() {
 #[test]
 fn chords_of_one_circle_become_one_arc() {
     let mut points: Vec<[f64; 2]> = vec![[-40.0, 20.0]];
-    points.extend((0..=90).map(|index| f64::from(index) * PI / 90.0).map(|angle| {
-        [20.0 * -angle.cos(), 20.0 + 20.0 * angle.sin()]
-    }));
+    points.extend(
+        (0..=90)
+            .map(|index| f64::from(index) * PI / 90.0)
+            .map(|angle| [20.0 * -angle.cos(), 20.0 + 20.0 * angle.sin()]),
+    );
     points.push([40.0, 20.0]);
     // Chords of two degrees bulge by 0.003 mm.
     let few = chords(&polyline(&points), 0.01, true, Side::Both).unwrap();
@@ -124,14 +128,28 @@ fn small_arcs_of_a_chorded_curve_are_swallowed() {
     assert!(few.pieces().len() < 120, "{}", few.pieces().len());
     assert_within(&path, &few, 0.01, Side::Both);
     let arcs = chords(&path, 0.01, true, Side::Both).unwrap();
-    println!("dome's path: {} pieces, {} chords, {} with arcs", path.pieces().len(), few.pieces().len(), arcs.pieces().len());
+    println!(
+        "dome's path: {} pieces, {} chords, {} with arcs",
+        path.pieces().len(),
+        few.pieces().len(),
+        arcs.pieces().len()
+    );
     assert!(arcs.pieces().len() < few.pieces().len() / 2, "{}", arcs.pieces().len());
     assert_within(&path, &arcs, 0.01, Side::Both);
 }
 
 #[test]
 fn corners_and_lines_stay() {
-    let corners = [[0.0, 0.0], [20.0, 0.0], [20.0, 10.0], [30.0, 15.0], [50.0, 15.0], [51.0, 3.0], [51.0, 3.02], [90.0, 3.02]];
+    let corners = [
+        [0.0, 0.0],
+        [20.0, 0.0],
+        [20.0, 10.0],
+        [30.0, 15.0],
+        [50.0, 15.0],
+        [51.0, 3.0],
+        [51.0, 3.02],
+        [90.0, 3.02],
+    ];
     let chain = polyline(&corners);
     let few = chords(&chain, 0.001, false, Side::Both).unwrap();
     assert_eq!(few, chain);

@@ -56,7 +56,11 @@ fn off(curve: &impl Curve, chain: &Chain) -> f64 {
                 let (mut low, mut high) = (0.0, 1.0);
                 for _ in 0..40 {
                     let (a, b) = (low + (high - low) * 0.382, low + (high - low) * 0.618);
-                    if piece.point(a).distance(point) < piece.point(b).distance(point) { high = b } else { low = a }
+                    if piece.point(a).distance(point) < piece.point(b).distance(point) {
+                        high = b
+                    } else {
+                        low = a
+                    }
                 }
                 piece.point(low).distance(point)
             })
@@ -80,7 +84,9 @@ fn an_ellipse_takes_nearly_as_few_chords_as_possible() {
         println!("ellipse {}x{} within {tolerance}: {count} chords, optimum {optimum}", ellipse.a, ellipse.b);
         assert!(count as f64 <= (optimum as f64 * 1.15).ceil(), "{count} {optimum}");
         assert!(off(&ellipse, &chain) <= tolerance * (1.0 + 1e-6));
-        assert!(chain.start().distance(ellipse.at(0.0)) < 1e-12 && chain.end().distance(ellipse.at(1.0)) < 1e-12);
+        assert!(
+            chain.start().distance(ellipse.at(0.0)) < 1e-12 && chain.end().distance(ellipse.at(1.0)) < 1e-12
+        );
         let arcs = to_arcs(&ellipse, tolerance).unwrap();
         println!("  {} with arcs", arcs.pieces().len());
         assert!(arcs.pieces().len() * 2 < count);
@@ -97,13 +103,17 @@ fn the_tip_path_of_a_semi_ellipse_keeps_the_papers_equations() {
         let (sin, cos) = (PI * f64::from(index) / 200.0).sin_cos();
         let slope = (-b * cos / (a * sin)).atan();
         let contact = Point::new(a * cos, b * sin);
-        let expected =
-            Point::new(contact.u - radius * slope.sin(), contact.z - radius * (1.0 - slope.cos()));
+        let expected = Point::new(contact.u - radius * slope.sin(), contact.z - radius * (1.0 - slope.cos()));
         let nearest = path
             .pieces()
             .iter()
             .flat_map(|piece| (0..=10).map(|share| piece.point(f64::from(share) / 10.0)))
-            .map(|point| ((point.u - expected.u) * -slope.sin() + (point.z - expected.z) * slope.cos(), point.distance(expected)))
+            .map(|point| {
+                (
+                    (point.u - expected.u) * -slope.sin() + (point.z - expected.z) * slope.cos(),
+                    point.distance(expected),
+                )
+            })
             .min_by(|a, b| a.1.total_cmp(&b.1))
             .unwrap();
         assert!(nearest.0.abs() < 2.0 * tolerance, "{nearest:?} at {expected:?}");

@@ -23,7 +23,8 @@ fn near(point: Point, u: f64, z: f64) {
 
 #[test]
 fn a_wall_up_and_a_wall_down() {
-    let path = tip(&polyline(&[[0.0, 0.0], [20.0, 0.0], [20.0, 30.0], [50.0, 30.0], [50.0, -4.0], [80.0, -4.0]]));
+    let path =
+        tip(&polyline(&[[0.0, 0.0], [20.0, 0.0], [20.0, 30.0], [50.0, 30.0], [50.0, -4.0], [80.0, -4.0]]));
     near(path.start(), 0.0, 0.0);
     near(path.end(), 80.0, -4.0);
     // Floor, up beside the wall, about the edge, top, about the edge, down, floor.

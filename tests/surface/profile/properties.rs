@@ -32,7 +32,13 @@ fn chain(steps: &[Step]) -> Chain {
 
 /// Coordinates that often coincide: multiples of a half, zero, and any.
 fn across() -> impl Strategy<Value = f64> {
-    prop_oneof![(-4..12).prop_map(|half| f64::from(half) * 0.5), Just(0.0), -3.0..8.0, Just(1e-10), Just(1e-7)]
+    prop_oneof![
+        (-4..12).prop_map(|half| f64::from(half) * 0.5),
+        Just(0.0),
+        -3.0..8.0,
+        Just(1e-10),
+        Just(1e-7)
+    ]
 }
 
 fn up() -> impl Strategy<Value = f64> {
@@ -161,8 +167,16 @@ proptest! {
 
 fn wild() -> impl Strategy<Value = f64> {
     prop_oneof![
-        Just(0.0), Just(-0.0), Just(LARGEST), Just(-LARGEST), Just(1e-300), Just(5e-324),
-        -1.0..1.0, -LARGEST..LARGEST, (-3..3).prop_map(f64::from), (-3..3).prop_map(|step| 1.0 + f64::from(step) * f64::EPSILON),
+        Just(0.0),
+        Just(-0.0),
+        Just(LARGEST),
+        Just(-LARGEST),
+        Just(1e-300),
+        Just(5e-324),
+        -1.0..1.0,
+        -LARGEST..LARGEST,
+        (-3..3).prop_map(f64::from),
+        (-3..3).prop_map(|step| 1.0 + f64::from(step) * f64::EPSILON),
     ]
 }
 

@@ -57,7 +57,8 @@ fn a_tight_fillet_and_an_overhang_are_told() {
     near(found[0].from, -2.0, 0.0);
     near(found[0].to, 3.0, 5.0);
     assert!((found[0].left - 2.0 * (2.0_f64.sqrt() - 1.0)).abs() < 1e-9);
-    let overhang = polyline(&[[0.0, 20.0], [30.0, 20.0], [30.0, 15.0], [10.0, 15.0], [10.0, 0.0], [60.0, 0.0]]);
+    let overhang =
+        polyline(&[[0.0, 20.0], [30.0, 20.0], [30.0, 15.0], [10.0, 15.0], [10.0, 0.0], [60.0, 0.0]]);
     let found = unreachable(&overhang, R, 1e-6).unwrap();
     assert_eq!((found.len(), found[0].first, found[0].last), (1, 2, 4), "{found:?}");
     near(found[0].from, 30.0, 15.0);

@@ -60,8 +60,14 @@ fn parts() -> Vec<Chain> {
     let smooth = Chain::new(vec![
         Piece::line(Point::new(-30.0, 0.0), Point::new(0.0, 0.0)),
         Piece::arc(Point::new(0.0, 12.0), 12.0, -PI / 2.0, PI / 3.0),
-        Piece::line(Point::new(12.0 * 0.75_f64.sqrt(), 6.0), Point::new(12.0 * 0.75_f64.sqrt() + 5.0, 6.0 + 5.0 * 3.0_f64.sqrt())),
-        Piece::line(Point::new(12.0 * 0.75_f64.sqrt() + 5.0, 6.0 + 5.0 * 3.0_f64.sqrt()), Point::new(50.0, 10.0)),
+        Piece::line(
+            Point::new(12.0 * 0.75_f64.sqrt(), 6.0),
+            Point::new(12.0 * 0.75_f64.sqrt() + 5.0, 6.0 + 5.0 * 3.0_f64.sqrt()),
+        ),
+        Piece::line(
+            Point::new(12.0 * 0.75_f64.sqrt() + 5.0, 6.0 + 5.0 * 3.0_f64.sqrt()),
+            Point::new(50.0, 10.0),
+        ),
     ])
     .unwrap();
     let wavy: Vec<[f64; 2]> =
