@@ -21,6 +21,7 @@ use rayon::prelude::*;
 const PATH_SHARE: f64 = 0.8;
 const CURVE_SHARE: f64 = 0.03;
 const DENSE_SHARE: f64 = 0.01;
+const SHORT_SHARE: f64 = 0.1;
 
 /// The finest that curves are divided, mm.
 const FINEST: f64 = 1e-6;
@@ -124,7 +125,9 @@ pub fn surface(part: &Part, options: &Options) -> Result<Surfaced, Box<Diagnosti
         ))));
     }
     let proof = prove(&slices, &tracks, &ground, options, print);
-    let clear = print.length(high.max(making.floor) + options.clearance);
+    // Up to a round number, as people write heights.
+    let clear = (high.max(making.floor) + options.clearance) / words.units.in_mm();
+    let clear = program::rounded((clear * 1e3 - 1e-6).ceil() / 1e3, words.dialect);
     let between = Between {
         pattern: options.pattern,
         clear,
@@ -211,7 +214,8 @@ fn tracks(slices: &[Slice], options: &Options, print: Print) -> Vec<Vec<Track>> 
     let mut back = false;
     let mut all = Vec::with_capacity(slices.len());
     for slice in slices {
-        let track = |tip: &Chain| Track::new(tip, &options.planes, slice.offset, print);
+        let least = options.tolerance * SHORT_SHARE;
+        let track = |tip: &Chain| Track::new(tip, &options.planes, slice.offset, least, print);
         let mut tracks: Vec<Track> = if back {
             slice.tips.iter().rev().filter_map(|tip| track(&tip.reversed())).collect()
         } else {

@@ -56,13 +56,17 @@ impl Print {
 }
 
 impl Track {
-    /// A tip path in the plane at an offset. None when nothing of it is left in the program's decimals.
-    pub fn new(tip: &Chain, planes: &Planes, offset: f64, print: Print) -> Option<Self> {
+    /// A tip path in the plane at an offset. Lines no longer than `least` mm between other pieces are left out: a control would stop there.
+    /// None when nothing of the path is left in the program's decimals.
+    pub fn new(tip: &Chain, planes: &Planes, offset: f64, least: f64, print: Print) -> Option<Self> {
         let space = |at: Point| print.point(planes.point(offset, at.u, at.z));
         let [cos, sin] = planes.direction();
-        let start = space(tip.start());
-        let mut track = Self { start, steps: Vec::new() };
-        for piece in tip.pieces() {
+        let mut track = Self { start: space(tip.start()), steps: Vec::new() };
+        let last = tip.pieces().len().saturating_sub(1);
+        for (index, piece) in tip.pieces().iter().enumerate() {
+            if matches!(piece, Piece::Line(_)) && index != 0 && index != last && piece.length() <= least {
+                continue;
+            }
             let count = match piece {
                 Piece::Line(_) => 1,
                 Piece::Arc(arc) => (arc.sweep.abs() / MOST_SWEEP).ceil().max(1.0) as u32,
@@ -75,9 +79,12 @@ impl Track {
                 }
                 let long = (to - from).norm() * print.units.in_mm() > SHORT * print.last_decimal();
                 let arc = match piece {
-                    // From +u towards +z.
                     Piece::Arc(arc) if long => {
-                        Some((space(arc.centre), Vector3::new(sin, -cos, 0.0) * arc.sweep.signum()))
+                        let [from, to] = [from, to].map(|point| flat(point, planes, print));
+                        // As far from both ends as they are printed.
+                        let centre = space(between(from, to, arc.centre));
+                        // From +u towards +z.
+                        Some((centre, Vector3::new(sin, -cos, 0.0) * arc.sweep.signum()))
                     }
                     _ => None,
                 };
@@ -94,10 +101,7 @@ impl Track {
 
     /// The track as it lies in its plane, mm: what the program says, not what was meant.
     pub fn flat(&self, planes: &Planes, print: Print) -> Option<Chain> {
-        let flat = |point: Point3<f64>| {
-            let [x, y, z] = print.in_mm(point);
-            Point::new(planes.along([x, y]), z)
-        };
+        let flat = |point: Point3<f64>| flat(point, planes, print);
         let up = |axis: &Vector3<f64>| {
             let [cos, sin] = planes.direction();
             axis.dot(&Vector3::new(sin, -cos, 0.0)) > 0.0
@@ -135,14 +139,24 @@ impl Track {
     }
 }
 
-/// The arc between two points whose centre is the nearest to `centre` from which both are as far.
-fn arc(from: Point, to: Point, centre: Point, counter_clockwise: bool) -> Piece {
-    let (du, dz) = (to.u - from.u, to.z - from.z);
+/// A point of the program in the plane, mm.
+fn flat(point: Point3<f64>, planes: &Planes, print: Print) -> Point {
+    let [x, y, z] = print.in_mm(point);
+    Point::new(planes.along([x, y]), z)
+}
+
+/// The point as far from both ends that is nearest to `centre`.
+fn between(from: Point, to: Point, centre: Point) -> Point {
     let length = from.distance(to);
     let middle = from.towards(to, 0.5);
-    let (nu, nz) = (-dz / length, du / length);
+    let (nu, nz) = (-(to.z - from.z) / length, (to.u - from.u) / length);
     let off = (centre.u - middle.u) * nu + (centre.z - middle.z) * nz;
-    let centre = Point::new(middle.u + nu * off, middle.z + nz * off);
+    Point::new(middle.u + nu * off, middle.z + nz * off)
+}
+
+/// The arc between two points about the point as far from both that is nearest to `centre`.
+fn arc(from: Point, to: Point, centre: Point, counter_clockwise: bool) -> Piece {
+    let centre = between(from, to, centre);
     let angle = |point: Point| (point.z - centre.z).atan2(point.u - centre.u);
     let (start, end) = (angle(from), angle(to));
     let sweep = (end - start).rem_euclid(std::f64::consts::TAU);
