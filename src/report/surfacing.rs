@@ -65,7 +65,7 @@ pub fn to_text(surfaced: &Surfaced, options: &Options, name: &str) -> String {
     let proof = &surfaced.proof;
     let _ = writeln!(
         text,
-        "deepest gouge {} {units} at {}, largest gap {} {units} at {} (tolerance {}; checked to {})",
+        "deepest gouge {} {units} at {}, largest gap {} {units} at {}; tolerance {}, the check may miss {}",
         fine(proof.gouge, units),
         place(proof.gouge_at, units),
         fine(proof.gap, units),
@@ -117,19 +117,46 @@ pub fn plot(surfaced: &Surfaced, options: &Options) -> io::Result<String> {
     let title = format!("plane at {:.3}, ball of radius {} {units}", offset / mm, fine(radius, units));
     let mut panels = vec![panel(title, paths(true))];
     if let Some(wrong) = wrong.filter(|wrong| wrong.gouge > options.tolerance) {
-        let near = |point: &(f64, f64)| {
-            let window = 1.2 * radius / mm;
-            (point.0 - wrong.gouge_at.u / mm).abs() < window
-                && (point.1 - wrong.gouge_at.z / mm).abs() < window
-        };
-        let close = paths(true).into_iter().map(|mut path| {
-            path.points.retain(near);
-            path
-        });
+        let (at, half) = (wrong.gouge_at, 1.2 * radius);
+        let window = [at.u - half, at.u + half, at.z - half, at.z + half].map(|value| value / mm);
+        let close = paths(true).into_iter().flat_map(|path| clipped(path, window));
         let title = format!("where shifted points gouge deepest: {} {units}", fine(wrong.gouge, units));
-        panels.push(panel(title, close.filter(|path| !path.points.is_empty()).collect()));
+        panels.push(panel(title, close.collect()));
     }
     Ok(draw(&panels)?.unwrap_or_default())
+}
+
+/// The parts of a path in a window (least and most to the right, least and most up).
+fn clipped(path: Path, [left, right, low, high]: [f64; 4]) -> Vec<Path> {
+    let mut parts: Vec<Vec<(f64, f64)>> = Vec::new();
+    for pair in path.points.windows(2) {
+        let [(u0, z0), (u1, z1)] = *pair else { continue };
+        let (du, dz) = (u1 - u0, z1 - z0);
+        // From which share of the line to which it is inside all four sides (Liang and Barsky 1984).
+        let (mut from, mut to) = (0.0f64, 1.0f64);
+        for (across, inside) in [(-du, u0 - left), (du, right - u0), (-dz, z0 - low), (dz, high - z0)] {
+            let share = inside / across;
+            if across < 0.0 {
+                from = from.max(share);
+            } else if across > 0.0 {
+                to = to.min(share);
+            } else if inside < 0.0 {
+                to = -1.0;
+            }
+        }
+        if from > to {
+            continue;
+        }
+        let [start, end] = [from, to].map(|share| (u0 + du * share, z0 + dz * share));
+        match parts.last_mut().filter(|part| part.last() == Some(&start)) {
+            Some(part) => part.push(end),
+            None => parts.push(vec![start, end]),
+        }
+    }
+    // One entry in the legend for all parts.
+    let name = |index: usize| if index == 0 { path.name.clone() } else { String::new() };
+    let part = |(index, points)| Path { name: name(index), look: path.look, points };
+    parts.into_iter().enumerate().map(part).collect()
 }
 
 /// Every contact point by itself: contact + R (n - z), n the upward normal (Dragoi 2009, eq. (1) and (2)).

@@ -5,15 +5,15 @@ use super::profile::bounds;
 use super::proof::{Look, Pass, Proof};
 use super::slices::{Making, Slice};
 use super::space::Space;
+use super::surfaced::{Surfaced, draft};
 use super::track::{Print, Track};
 use super::{Against, Options, Part, Pattern, Planes, offsets};
 use crate::diagnostic::{Diagnostic, codes};
-use crate::program::MotionClass;
 use crate::sim::Mesh;
 use crate::surface::drop::{Cutter, DropCutter};
-use crate::surface::profile::{Chain, Unreachable, unreachable};
+use crate::surface::profile::{Chain, unreachable};
 use crate::surface::section::Sections;
-use crate::write::program::{self, Draft, DraftTool};
+use crate::write::program;
 use nalgebra::Point3;
 use rayon::prelude::*;
 
@@ -25,50 +25,6 @@ const SHORT_SHARE: f64 = 0.1;
 
 /// The finest that curves are divided, mm.
 const FINEST: f64 = 1e-6;
-
-/// A ball's length in its own diameters, where a program has to say one.
-const TOOL_LENGTH: f64 = 8.0;
-
-/// A program over a part, proved and read back.
-#[derive(Debug, Clone)]
-pub struct Surfaced {
-    /// What the program does.
-    pub draft: Draft,
-    /// Its text.
-    pub text: Vec<u8>,
-    /// How far its passes are from the part.
-    pub proof: Proof,
-    /// How many planes have a pass.
-    pub planes: usize,
-    /// How many passes.
-    pub passes: usize,
-    /// Distance of neighbouring planes, mm; 0 of a single one.
-    pub spacing: f64,
-    /// What of a profile the ball does not touch.
-    pub unreached: Vec<Unreachable>,
-    /// The middle plane: its offset, the part's line in it, and the tip's.
-    pub figure: Option<(f64, Chain, Vec<Chain>)>,
-}
-
-impl Surfaced {
-    /// How long the tool cuts, mm.
-    pub fn cutting_mm(&self) -> f64 {
-        let moves = self.draft.moves.iter().zip(self.draft.moves.iter().skip(1));
-        let cuts = moves.filter(|(_, to)| to.class == MotionClass::Cut);
-        cuts.map(|(from, to)| (to.to - from.to).norm()).sum::<f64>() * self.draft.units.in_mm()
-    }
-
-    /// How many motions cut.
-    pub fn cuts(&self) -> usize {
-        self.draft.moves.iter().filter(|step| step.class == MotionClass::Cut).count()
-    }
-
-    /// Height of what stays between passes on level ground, mm.
-    pub fn scallop(&self, radius: f64) -> f64 {
-        let half = (self.spacing / 2.0).min(radius);
-        radius - (radius * radius - half * half).sqrt()
-    }
-}
 
 /// What passes are made over, ready to be used.
 enum Ground<'a> {
@@ -132,9 +88,9 @@ pub fn surface(part: &Part, options: &Options) -> Result<Surfaced, Box<Diagnosti
         pattern: options.pattern,
         clear,
         approach: options.approach / words.units.in_mm(),
-        feed: print.length(options.feed),
-        plunge: print.length(options.plunge),
-        air: options.air.map(|feed| print.length(feed)),
+        feed: print.feed(options.feed),
+        plunge: print.feed(options.plunge),
+        air: options.air.map(|feed| print.feed(feed)),
     };
     let spacing = match places.as_slice() {
         [first, second, ..] => (second - first).abs(),
@@ -290,28 +246,6 @@ fn link(
             let lifted = |[x, y, z]: &[f64; 3]| print.point([*x, *y, z.max(making.floor)]);
             whole.then(|| between.iter().map(lifted).chain([to]).collect())
         }
-    }
-}
-
-fn draft(options: &Options, print: Print, moves: Vec<program::Move>) -> Draft {
-    let words = &options.words;
-    let diameter = print.length(2.0 * options.radius);
-    let named = words.tool_name.clone();
-    Draft {
-        name: words.name.clone(),
-        operation: words.operation.clone(),
-        tool: DraftTool {
-            number: words.tool,
-            name: named.unwrap_or_else(|| format!("BALL_D{diameter}")),
-            diameter,
-            corner_radius: print.length(options.radius),
-            length: print.length(TOOL_LENGTH * 2.0 * options.radius),
-        },
-        spindle: words.spindle,
-        coolant: words.coolant,
-        units: words.units,
-        tolerance: print.length(options.tolerance),
-        moves,
     }
 }
 

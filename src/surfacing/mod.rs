@@ -13,14 +13,16 @@ mod profile;
 mod proof;
 mod slices;
 mod space;
+mod surfaced;
 mod track;
 
 pub use file::{load as load_profile, schema as profile_schema};
 pub use join::Pattern;
-pub use make::{Surfaced, surface};
+pub use make::surface;
 pub use planes::{MOST_PLANES, Planes, offsets};
 pub use profile::{Profile, ProfileCurve, ProfileError};
 pub use proof::Proof;
+pub use surfaced::Surfaced;
 
 use crate::program::{Dialect, LengthUnit};
 use crate::sim::Mesh;

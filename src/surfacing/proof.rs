@@ -15,7 +15,7 @@ const MOST_SAMPLES: f64 = 2e6;
 /// How far the passes of a program are from the part. All in mm.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Proof {
-    /// How deep the ball goes into the part at most, what the check may miss included; 0 when it never does.
+    /// How deep the ball goes into the part at most; 0 when it never does.
     pub gouge: f64,
     /// The tip where that is.
     pub gouge_at: [f64; 3],
@@ -23,7 +23,7 @@ pub struct Proof {
     pub gap: f64,
     /// The tip where that is.
     pub gap_at: [f64; 3],
-    /// How much of the gouge is what the check may miss between the places that it looks at.
+    /// How much deeper it may be between the places that were looked at.
     pub bound: f64,
 }
 
@@ -41,9 +41,9 @@ impl Proof {
         worse
     }
 
-    /// Whether both are within a tolerance.
+    /// Whether both are within a tolerance, what the check may miss included.
     pub fn holds(&self, tolerance: f64) -> bool {
-        self.gouge <= tolerance && self.gap <= tolerance
+        self.gouge + self.bound <= tolerance && self.gap <= tolerance
     }
 }
 
@@ -90,7 +90,7 @@ impl Look<'_> {
         }
         let space = |at: crate::surface::profile::Point| self.planes.point(pass.offset, at.u, at.z);
         Some(Proof {
-            gouge: verdict.gouge + verdict.bound,
+            gouge: verdict.gouge,
             gouge_at: space(verdict.gouge_at),
             gap: verdict.gap,
             gap_at: space(verdict.gap_at),
@@ -105,7 +105,7 @@ impl Look<'_> {
         let points = pass.track.points(self.planes, self.print, pass.offset, bound);
         let found = space.along(&points, (8.0 * self.radius * bound).sqrt())?;
         Some(Proof {
-            gouge: (2.0 * bound - found.low).max(0.0),
+            gouge: (-found.low).max(0.0),
             gouge_at: found.low_at,
             gap: found.high.max(0.0),
             gap_at: found.high_at,

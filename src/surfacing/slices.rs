@@ -60,8 +60,8 @@ impl Making {
     /// The slice of a mesh with heights over the whole mesh.
     pub fn over_mesh(&self, sections: &Sections, cutter: &DropCutter, offset: f64) -> Slice {
         let mut tips = Vec::new();
-        // Paths over meshes keep to three quarters of their tolerance. Fitting arcs takes half.
-        let share = if self.arcs { 0.5 } else { 1.0 };
+        // Paths over meshes keep to three quarters of what they are given. Fitting arcs needs most of it.
+        let share = if self.arcs { 0.25 } else { 1.0 };
         for (from, to) in self.ranges(&self.stretches(sections, offset)) {
             let ends = [from, to].map(|u| {
                 let [x, y, _] = self.planes.point(offset, u, 0.0);
@@ -77,7 +77,7 @@ impl Making {
         if self.arcs {
             tips = tips
                 .iter()
-                .filter_map(|tip| chords(tip, self.tolerance * share, true, Side::Both).ok())
+                .filter_map(|tip| chords(tip, self.tolerance * (1.0 - share), true, Side::Both).ok())
                 .collect();
         }
         Slice { offset, ground: None, tips }

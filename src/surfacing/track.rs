@@ -3,7 +3,7 @@
 use super::planes::Planes;
 use crate::program::{Dialect, LengthUnit};
 use crate::surface::profile::{Chain, Piece, Point};
-use crate::write::program::rounded;
+use crate::write::program::{rounded, rounded_feed};
 use nalgebra::{Point3, Vector3};
 
 /// Arcs are cut so that none sweeps more, radians: half a turn or more has no plane of its own.
@@ -44,6 +44,11 @@ impl Print {
         rounded(mm / self.units.in_mm(), self.dialect)
     }
 
+    /// A feed in mm/min as the program will have it.
+    pub fn feed(&self, mm: f64) -> f64 {
+        rounded_feed(mm / self.units.in_mm(), self.dialect)
+    }
+
     /// The last decimal, mm.
     pub fn last_decimal(&self) -> f64 {
         10f64.powi(-(crate::write::program::decimals(self.dialect) as i32)) * self.units.in_mm()
@@ -81,8 +86,14 @@ impl Track {
                 let arc = match piece {
                     Piece::Arc(arc) if long => {
                         let [from, to] = [from, to].map(|point| flat(point, planes, print));
-                        // As far from both ends as they are printed.
-                        let centre = space(between(from, to, arc.centre));
+                        let off = (from.distance(arc.centre) - to.distance(arc.centre)).abs();
+                        // As far from both ends as they are printed; rounding is none of its business.
+                        let near = if off <= 2.0 * print.last_decimal() {
+                            arc.centre
+                        } else {
+                            between(from, to, arc.centre)
+                        };
+                        let centre = space(near);
                         // From +u towards +z.
                         Some((centre, Vector3::new(sin, -cos, 0.0) * arc.sweep.signum()))
                     }

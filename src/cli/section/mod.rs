@@ -2,9 +2,10 @@
 
 mod line;
 mod options;
+mod outputs;
 
 use super::exit::Exit;
-use super::files::{self, STANDARD};
+use super::files;
 use super::findings::FindingArgs;
 use super::output::{Outputs, unless_nobody_reads};
 use super::terminal;
@@ -15,8 +16,8 @@ use clsmith::report::policy::Policy;
 use clsmith::report::surfacing as report;
 use clsmith::sim::Mesh;
 use clsmith::surfacing::{self, Options, Part, Surfaced, load_profile, surface};
-use clsmith::write::{is_interrupt, same_file};
-use std::io::{self, Write};
+use clsmith::write::is_interrupt;
+use std::io;
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -221,25 +222,6 @@ impl Section {
         }
     }
 
-    fn write(
-        &self,
-        surfaced: &Surfaced,
-        options: &Options,
-        outputs: &Outputs,
-    ) -> io::Result<Option<Diagnostic>> {
-        // The drawing first: if it fails, no program was written.
-        if let Some(plot) = &self.plot {
-            let drawn = report::plot(surfaced, options)?;
-            if let Some(found) = outputs.write(plot, |out| out.write_all(drawn.as_bytes()))? {
-                return Ok(Some(found));
-            }
-        }
-        match self.output.as_deref().filter(|_| !self.dry_run) {
-            Some(output) => outputs.write(output, |out| out.write_all(&surfaced.text)),
-            None => Ok(None),
-        }
-    }
-
     /// The part, in mm.
     fn part(&self, options: &Options) -> Result<Part, Vec<Diagnostic>> {
         if let Some(profile) = &self.profile {
@@ -261,51 +243,6 @@ impl Section {
     /// The one input.
     fn input(&self) -> &Path {
         self.profile.as_deref().or(self.model.as_deref()).unwrap_or(Path::new(""))
-    }
-
-    fn outputs(&self) -> impl Iterator<Item = &Path> {
-        let output = self.output.as_deref().filter(|_| !self.dry_run);
-        [output, self.plot.as_deref()].into_iter().flatten()
-    }
-
-    /// What is wrong with the command line beyond what clap and options can say.
-    fn problem(&self) -> Option<String> {
-        let mut outputs = self.outputs();
-        let (one, other) = (outputs.next()?, outputs.next()?);
-        (one == other || same_file(one, other)).then(|| format!("two outputs would go to {}", one.display()))
-    }
-
-    /// No output may be the input.
-    fn overwrites(&self) -> Result<(), Vec<Diagnostic>> {
-        let input = self.input();
-        let files =
-            self.outputs().filter(|path| *path != Path::new(STANDARD) && input != Path::new(STANDARD));
-        match files.into_iter().find(|path| same_file(path, input)) {
-            Some(hit) => {
-                let message =
-                    format!("writing {} would overwrite the input {}", hit.display(), input.display());
-                Err(vec![Diagnostic::new(codes::OUTPUT_IS_INPUT, message)])
-            }
-            None => Ok(()),
-        }
-    }
-
-    /// The summary on standard output, or on standard error when an output goes there.
-    fn summary(&self, surfaced: &Surfaced, options: &Options) -> io::Result<()> {
-        let mut text = report::to_text(surfaced, options, &self.input().to_string_lossy());
-        let written = self.output.as_deref().filter(|_| !self.dry_run);
-        if let Some(path) = written.filter(|_| surfaced.proof.holds(options.tolerance)) {
-            let lines = surfaced.text.iter().filter(|byte| **byte == b'\n').count();
-            let title = options.words.dialect.title();
-            text.push_str(&format!("-> {}: {title}, {lines} lines\n", path.display()));
-        }
-        if self.outputs().any(|path| path == Path::new(STANDARD)) {
-            io::stderr().lock().write_all(text.as_bytes())
-        } else {
-            let mut out = io::stdout().lock();
-            out.write_all(text.as_bytes())?;
-            out.flush()
-        }
     }
 
     fn nothing(&self) {

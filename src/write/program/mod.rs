@@ -35,7 +35,16 @@ pub fn holds_arcs(dialect: Dialect) -> bool {
 
 /// A coordinate as the dialect prints it.
 pub fn rounded(value: f64, dialect: Dialect) -> f64 {
-    let scale = 10f64.powi(decimals(dialect) as i32);
+    to_decimals(value, decimals(dialect))
+}
+
+/// A feed as the dialect prints it: with six decimals in Creo, four elsewhere.
+pub fn rounded_feed(value: f64, dialect: Dialect) -> f64 {
+    to_decimals(value, if dialect == Dialect::Creo { 6 } else { 4 })
+}
+
+fn to_decimals(value: f64, decimals: usize) -> f64 {
+    let scale = 10f64.powi(decimals as i32);
     let rounded = (value * scale).round() / scale;
     // Minus zero would be printed as such.
     if rounded == 0.0 { 0.0 } else { rounded }

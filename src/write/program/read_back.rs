@@ -26,6 +26,11 @@ pub struct ReadBack {
 /// Whether a text says what a draft means.
 pub(super) fn same(text: &[u8], draft: &Draft, dialect: Dialect) -> Result<(), ReadBack> {
     let whole = |reason: String| ReadBack { motion: 0, reason };
+    // A line end in a name would be a statement of its own, a comma a field, and from a dollar sign on all is comment.
+    let breaks = |c: char| !(c.is_ascii_graphic() || c == ' ') || matches!(c, ',' | '$');
+    if let Some(name) = [&draft.name, &draft.operation, &draft.tool.name].into_iter().find(|name| name.contains(breaks)) {
+        return Err(whole(format!("`{}` is no name that a program can hold", name.escape_debug())));
+    }
     let source =
         Source::new("the written program", text.to_vec()).map_err(|error| whole(error.to_string()))?;
     // Nothing is told about the dialect: the text must show it.
