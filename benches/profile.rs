@@ -23,7 +23,9 @@ fn main() {
         ("chords 0.01", |_, tip| chords(tip, 0.01, false, Side::Both).expect("a tolerance").pieces().len()),
         ("arcs 0.01", |_, tip| chords(tip, 0.01, true, Side::Both).expect("a tolerance").pieces().len()),
     ];
-    for (shape, profile) in [("waves", waves(points)), ("steps that overhang", saw(points))] {
+    let shapes =
+        [("gentle hills", hills(points)), ("waves", waves(points)), ("steps that overhang", saw(points))];
+    for (shape, profile) in shapes {
         println!("{points} points, {shape}");
         let tip = compensate(&profile, 5.0).expect("a radius");
         for (name, work) in &work {
@@ -37,6 +39,15 @@ fn main() {
             println!("  {name:<12} {best:7.2} s of the processor, {count} pieces");
         }
     }
+}
+
+/// Hollows wider than the ball: nearly every point counts.
+fn hills(points: usize) -> Chain {
+    let at = |index: usize| {
+        let u = 1000.0 * index as f64 / points as f64;
+        Point::new(u, 20.0 * (u * 0.02).sin())
+    };
+    Chain::polyline(&(0..points).map(at).collect::<Vec<_>>()).expect("a profile")
 }
 
 /// Waves of a millimetre to a metre: hollows both wider and tighter than the ball.

@@ -90,10 +90,8 @@ fn main() {
                 places.len() as f64 / timed(|| heights().sum::<f64>()).max(1e-9)
             };
             let (rows, strewn) = (rate(&rows), rate(&strewn));
-            let passes: Vec<[[f64; 2]; 2]> = (0..20)
-                .map(|j| [2.5 + 5.0 * f64::from(j); 1].map(|y| [[0.0, y], [100.0, y]]))
-                .flatten()
-                .collect();
+            let passes: Vec<[[f64; 2]; 2]> =
+                (0..20).map(|j| 2.5 + 5.0 * f64::from(j)).map(|y| [[0.0, y], [100.0, y]]).collect();
             let followed = timed(|| passes.iter().map(|pass| drop.follow(pass, 0.01)).collect::<Vec<_>>());
             let follow = 2000.0 / followed.max(1e-9);
             println!("{name:<10}{:>10}{sort:>10.2}{rows:>14.0}{strewn:>14.0}{follow:>16.0}", side * side * 2);

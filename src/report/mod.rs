@@ -5,6 +5,7 @@
 //! of one as a patch, and [`changes`] counts it. [`simulation`] presents what tools cut and bear. Everything is written into a writer that the caller hands in, or returned.
 
 pub mod changes;
+mod compensated;
 pub mod diff;
 pub mod explain;
 pub mod kind;

@@ -11,7 +11,7 @@ use std::io;
 const PANEL: (u32, u32) = (640, 380);
 
 /// Room around the drawing inside a panel: margins and labels.
-const LABELS: (u32, u32) = (112, 96);
+const LABELS: (u32, u32) = (100, 61);
 
 /// Height of a panel's title.
 const TITLE: u32 = 30;
@@ -116,7 +116,7 @@ fn one(area: &DrawingArea<SVGBackend<'_>, Shift>, panel: &Panel) -> io::Result<(
                 .label(path.name.as_str())
                 .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + 18, y)], style));
         }
-        if path.look == Look::After && path.points.len() <= 200 {
+        if path.look == Look::After && path.points.len() <= 60 {
             let dots = path.points.iter().map(|at| Circle::new(*at, 3, style.filled()));
             chart.draw_series(dots).map_err(error)?;
         }

@@ -10,6 +10,7 @@ use std::fmt::Write;
 /// A step's report.
 pub fn to_text(report: &StepReport) -> String {
     match report {
+        StepReport::CompensateZ(report) => super::compensated::to_text(report),
         StepReport::CorrectRamp(report) => super::ramps::to_text(report),
         StepReport::OptimizeFeed(report) => optimized(report),
     }
@@ -18,6 +19,7 @@ pub fn to_text(report: &StepReport) -> String {
 /// What a step's report draws; empty for a step that draws nothing.
 pub fn panels(report: &StepReport) -> Vec<Panel> {
     match report {
+        StepReport::CompensateZ(report) => super::compensated::panels(report),
         StepReport::CorrectRamp(report) => super::ramps::panels(report),
         StepReport::OptimizeFeed(_) => Vec::new(),
     }

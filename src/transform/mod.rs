@@ -5,6 +5,7 @@
 
 mod affine;
 mod clamp_feed;
+pub mod compensate_z;
 mod context;
 mod convert_units;
 pub mod correct_ramp;
@@ -21,6 +22,7 @@ mod unchanged;
 
 pub use affine::Affine;
 pub use clamp_feed::ClampFeed;
+pub use compensate_z::CompensateZ;
 pub use context::Context;
 pub use convert_units::ConvertUnits;
 pub use correct_ramp::CorrectRamp;
@@ -97,6 +99,7 @@ transforms! {
     "move_origin" => MoveOrigin,
     "convert_units" => ConvertUnits,
     "correct_ramp" => CorrectRamp,
+    "compensate_z" => CompensateZ,
     "optimize_feed" => OptimizeFeed,
 }
 
@@ -104,6 +107,8 @@ transforms! {
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StepReport {
+    /// Of `compensate_z`.
+    CompensateZ(compensate_z::Report),
     /// Of `correct_ramp`.
     CorrectRamp(correct_ramp::Report),
     /// Of `optimize_feed`.

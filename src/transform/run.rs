@@ -64,7 +64,7 @@ pub fn run_watched(
 fn unsaid_units(recipe: &Recipe, program: &Program) -> Option<Diagnostic> {
     let said = recipe.place(&[Segment::Key("units")]).is_some();
     let measures = |step: &Step| match step {
-        Step::ClampFeed(_) | Step::OptimizeFeed(_) | Step::CorrectRamp(_) => true,
+        Step::ClampFeed(_) | Step::OptimizeFeed(_) | Step::CorrectRamp(_) | Step::CompensateZ(_) => true,
         Step::MoveOrigin(step) => step.has_lengths(),
         _ => false,
     };

@@ -158,3 +158,23 @@ fn an_error_that_a_step_makes_is_not_excused_by_the_same_one_elsewhere() {
     clsmith(folder.path()).args(["apply", "r.yaml", "part.cls", "-o", "out.cls"]).assert().code(1);
     assert!(!folder.path().join("out.cls").exists());
 }
+
+#[test]
+fn ramps_are_drawn_and_told_as_the_example_shows() {
+    let folder = example("web-pocket");
+    let shipped = std::fs::read_to_string(folder.path().join("ramps.svg")).unwrap();
+    let page = std::fs::read_to_string(folder.path().join("README.md")).unwrap();
+    let done = clsmith(folder.path())
+        .args(["apply", "recipe.yaml", "part.cls", "--dry-run", "--plot", "new.svg"])
+        .assert()
+        .success();
+    assert!(std::fs::read_to_string(folder.path().join("new.svg")).unwrap() == shipped);
+    let told = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+    let shown = page.split("```text\n").nth(1).unwrap().split("```").next().unwrap();
+    assert!(told.contains(shown), "{told}");
+    let run = |args: &[&str]| clsmith(folder.path()).args(args).assert();
+    run(&["apply", "recipe.yaml", "part.cls", "--dry-run", "--plot", "part.cls"]).code(1);
+    run(&["apply", "recipe.yaml", "part.cls", "-o", "x", "--plot", "x"]).code(2);
+    run(&["apply", "recipe.yaml", "part.cls", "part.cls", "--dry-run", "--plot", "x"]).code(2);
+    assert!(!folder.path().join("x").exists());
+}

@@ -49,7 +49,7 @@ fn a_ball_is_a_circle_above() {
     let solid = mesh(&sphere(10.0, 60));
     let sections = Sections::new(&solid, 0.7);
     let (low, high) = sections.offsets();
-    assert!(low >= -10.0 && low < -9.98 && high <= 10.0 && high > 9.98);
+    assert!((-10.0..-9.98).contains(&low) && high <= 10.0 && high > 9.98);
     for i in -19..20 {
         let offset = f64::from(i) / 2.0;
         let chains = sections.at(offset);

@@ -1,5 +1,6 @@
 //! Transforms, through one door: a recipe's steps applied to a text.
 
+mod compensate_z;
 mod convert_units;
 mod correct_ramp;
 mod feed;

@@ -62,5 +62,15 @@ super::area! {
         "If it is an indexable cutter, say so: `insert: { height: ..., radius: ... }` for it under `setup.tools`.",
         "The limits of `correct_ramp` are those of indexable cutters, which do not cut at their centre. The step says no `tool:`, and no \
          entry of `setup.tools` that fits this tool has an `insert:`, so it is taken for a solid cutter that may go down as its CAM \
-         system made it. Another tool of the program has inserts and was looked at.";
+         system made it. Other tools of the setup have inserts; when none has, the step fails instead, since then it can judge nothing.";
+    UNREACHABLE = "CL0330", Warning, "the ball does not reach a part of the profile",
+        "Finish it with a smaller ball, or accept what is left.",
+        "A ball touches a profile only where nothing beside keeps it away: a fillet or corner tighter than its radius, and anything below \
+         an overhang, is left standing. The compensated path goes over such a place without cutting into its sides. The finding \
+         tells where along the pass (u counts from its beginning) and how much is left.";
+    BALL_GOUGES = "CL0331", Error, "the compensated cutter cuts into the part",
+        "Use a smaller ball there, or change the tool axis or the path in the CAM system.",
+        "With contact normals every point is compensated by itself, and nothing in it knows its neighbours: where the part is \
+         hollower than the ball, the ball that touches one point cuts into another. The finding tells both and the depth. Against a model it is \
+         found between passes, where a link or rapid was programmed too low. Nothing is written while it stands.";
 }

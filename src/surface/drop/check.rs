@@ -144,20 +144,54 @@ impl Columns {
 
 /// Lowers the least distance to that of a triangle, divided as long as a part may be nearer.
 fn nearest(cutter: &Cutter, triangle: Triangle, error: f64, least: &mut f64) {
-    let [a, b, c] = triangle;
-    let middle = (a + b + c) / 3.0;
-    let (distance, gradient) = signed(cutter, middle);
+    let (whole, distance) = Part::new(cutter, triangle);
     *least = least.min(distance);
-    let sides = triangle.map(|corner| corner - middle);
-    // A convex function lies above its tangent plane.
-    let down = sides.iter().map(|side| gradient.dot(side)).fold(0.0, f64::min);
-    let size = sides.iter().map(Vector3::norm).fold(0.0, f64::max);
-    if distance + down >= *least - error || size <= error {
+    divide(cutter, &whole, error, least);
+}
+
+fn divide(cutter: &Cutter, part: &Part, error: f64, least: &mut f64) {
+    if part.nearest >= *least - error || part.size <= error {
         return;
     }
+    let [a, b, c] = part.corners;
     let [ab, bc, ca] = [(a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0];
-    // Nearer parts first would save little: the bound is nearly exact.
-    for part in [[ab, bc, ca], [a, ab, ca], [ab, b, bc], [ca, bc, c]] {
-        nearest(cutter, part, error, least);
+    let mut parts = [[ab, bc, ca], [a, ab, ca], [ab, b, bc], [ca, bc, c]].map(|part| {
+        let (part, distance) = Part::new(cutter, part);
+        *least = least.min(distance);
+        part
+    });
+    // The more promising first.
+    parts.sort_unstable_by(|one, other| one.nearest.total_cmp(&other.nearest));
+    for part in &parts {
+        divide(cutter, part, error, least);
+    }
+}
+
+/// A part of a triangle, relative to the tip.
+struct Part {
+    corners: Triangle,
+    /// Nothing of it is nearer.
+    nearest: f64,
+    /// From its middle to the farthest corner.
+    size: f64,
+}
+
+impl Part {
+    /// With the distance of its middle.
+    fn new(cutter: &Cutter, corners: Triangle) -> (Self, f64) {
+        let [a, b, c] = corners;
+        let middle = (a + b + c) / 3.0;
+        let (distance, gradient) = signed(cutter, middle);
+        let r = middle.x.hypot(middle.y);
+        let out = if r > 0.0 { Vector3::new(middle.x / r, middle.y / r, 0.0) } else { Vector3::zeros() };
+        let sides = corners.map(|corner| corner - middle);
+        let least = |along: Vector3<f64>| sides.iter().map(|side| along.dot(side)).fold(0.0, f64::min);
+        // Convex functions lie above their tangent planes, and the distance is no less than that from the level below the tip and from
+        // the endless cylinder: those are what holds where a flat end's edge lets the gradient jump.
+        let nearest = (distance + least(gradient))
+            .max(least(-Vector3::z()) - middle.z)
+            .max(r - cutter.radius() + least(out));
+        let size = sides.iter().map(Vector3::norm).fold(0.0, f64::max);
+        (Self { corners, nearest, size }, distance)
     }
 }

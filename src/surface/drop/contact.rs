@@ -157,8 +157,13 @@ fn edge(from: [f64; 3], to: [f64; 3], cutter: &Cutter, [x, y]: [f64; 2], best: &
             return;
         }
     }
-    let along = cutter.along(distance_square.sqrt(), slope.abs()).min(half);
-    let s = (if rise < 0.0 { -along } else { along }).max(start).min(end);
+    // What is under the cutter, counted towards the rising side.
+    let (low, high) = (start.max(-half), end.min(half));
+    let s = if rise < 0.0 {
+        -cutter.along(distance_square.sqrt(), -slope, -high, -low)
+    } else {
+        cutter.along(distance_square.sqrt(), slope, low, high)
+    };
     let share = ((s - start) / length).clamp(0.0, 1.0);
     let z = from[2] + rise * share;
     let tip = z - cutter.height_at((distance_square + s * s).sqrt());

@@ -11,7 +11,7 @@
 //!
 //! Chords are halved until this is a quarter of the tolerance and heights half-way and at the quarters are as near to them. So no
 //! needle between samples is cut into, however thin. Valleys between two samples may be passed over when they are narrower
-//! than a quarter of a step; the cutter then stays above.
+//! than the largest step; the cutter then stays above.
 
 use super::{Drop, DropCutter, thin};
 
@@ -44,7 +44,7 @@ impl DropCutter {
     /// [`DropCutter::largest_step`], are met to half of it, and what lies between samples is not cut into deeper than a quarter of it,
     /// measured along its normal. Where the height jumps, at upright walls, the path goes straight up or down beside the wall, off
     /// by no more than the tolerance. Ends at the mesh's border are found to that as well. Points of the line stay points of the path.
-    /// Legs of no or endless length are left out.
+    /// Legs of no or endless length are left out, and stretches with material may be when they are shorter than two largest steps.
     pub fn follow(&self, line: &[[f64; 2]], tolerance: f64) -> Vec<Vec<[f64; 3]>> {
         let tolerance = tolerance.max(FINEST);
         let mut runs: Vec<Vec<[f64; 3]>> = Vec::new();
@@ -125,7 +125,8 @@ impl<'a> Leg<'a> {
     }
 
     fn samples(&self, step: f64) -> Vec<Sample> {
-        let count = (self.length / step).ceil().max(1.0);
+        // Four parts each, if nothing asks for more.
+        let count = (self.length / (4.0 * step)).ceil().max(1.0);
         let mut last = self.sample(0.0);
         let mut samples = vec![last];
         let mut index = 1.0;
@@ -148,32 +149,39 @@ impl<'a> Leg<'a> {
             return;
         }
         let half = self.sample(middle);
-        let near = self.tolerance / 4.0;
-        let good = match (from.tip, to.tip, half.tip) {
-            (None, None, None) => {
-                samples.push(to);
+        if from.tip.is_none() && half.tip.is_none() && to.tip.is_none() {
+            samples.push(to);
+            return;
+        }
+        if self.straight(from, half, to) {
+            let [first, third] =
+                [(from, half), (half, to)].map(|(a, b)| self.sample(f64::midpoint(a.along, b.along)));
+            let parts = [(from, first), (first, half), (half, third), (third, to)];
+            if self.straight(from, first, half)
+                && self.straight(half, third, to)
+                && parts.iter().all(|(a, b)| self.free(*a, *b))
+            {
+                samples.extend(parts.map(|(_, end)| end));
                 return;
             }
-            (Some(a), Some(b), Some(z)) => {
-                self.cutter.passed(across, b - a) <= near && (z - f64::midpoint(a, b)).abs() <= near
-            }
+        }
+        self.refine(from, half, samples);
+        self.refine(half, to, samples);
+    }
+
+    /// Whether the height half-way is a quarter of the tolerance from the chord's.
+    fn straight(&self, from: Sample, half: Sample, to: Sample) -> bool {
+        match (from.tip, half.tip, to.tip) {
+            (Some(a), Some(z), Some(b)) => (z - f64::midpoint(a, b)).abs() <= self.tolerance / 4.0,
             _ => false,
-        };
-        let quarters = good.then(|| {
-            [(from, half), (half, to)].map(|(a, b)| (self.sample(f64::midpoint(a.along, b.along)), a, b))
-        });
-        let straight = |(quarter, a, b): &(Sample, Sample, Sample)| match (quarter.tip, a.tip, b.tip) {
-            (Some(z), Some(a), Some(b)) => (z - f64::midpoint(a, b)).abs() <= near,
+        }
+    }
+
+    /// Whether what lies between two samples cannot be cut into deeper than a quarter of the tolerance.
+    fn free(&self, from: Sample, to: Sample) -> bool {
+        match (from.tip, to.tip) {
+            (Some(a), Some(b)) => self.cutter.passed(to.along - from.along, b - a) <= self.tolerance / 4.0,
             _ => false,
-        };
-        match quarters {
-            Some(quarters) if quarters.iter().all(straight) => {
-                samples.extend(quarters.iter().flat_map(|(quarter, _, end)| [*quarter, *end]));
-            }
-            _ => {
-                self.refine(from, half, samples);
-                self.refine(half, to, samples);
-            }
         }
     }
 

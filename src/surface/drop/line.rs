@@ -14,46 +14,60 @@
 
 use super::Cutter;
 
-/// Error of the sine at which the search for a bull-nose's touching point ends. The height is stationary there.
-const SINE: f64 = 1e-13;
+/// A step of the sine at which the search for a bull-nose's touching point ends. The error behind such a step of Newton's is about its
+/// square, and the height is stationary there.
+const SINE: f64 = 1e-10;
 
 /// A bound on the steps of that search that halvings alone would keep.
 const STEPS: u32 = 60;
 
 impl Cutter {
-    /// How far from the place nearest to the axis an endless line touches, towards its rising side; mm. `distance` (less than the
-    /// radius) is that place's from the axis, `slope` at least 0. Where the line is level it is 0.
-    pub(super) fn along(&self, distance: f64, slope: f64) -> f64 {
-        if slope <= 0.0 {
-            return 0.0;
+    /// Where between `from` and `to` a line touches, as the distance from the place nearest to the axis towards its rising side, mm.
+    /// `distance` is that place's from the axis, `slope` at least 0; all between the ends is under the cutter.
+    pub(super) fn along(&self, distance: f64, slope: f64, from: f64, to: f64) -> f64 {
+        // The touch is never on the falling side.
+        if slope <= 0.0 || to <= 0.0 {
+            return to.min(0.0).max(from);
         }
         let (corner, flat, radius) = (self.corner_radius(), self.flat_radius(), self.radius());
         let square = distance * distance;
-        // Of the plane through the line and parallel to the axis; 1 where the line is upright.
+        // Of the line's angle against the level; 1 where it is upright.
         let sine = 1.0 / (1.0 + 1.0 / (slope * slope)).sqrt();
         if corner <= 0.0 || flat <= 0.0 {
             let half = (radius * radius - square).max(0.0).sqrt();
-            return if corner <= 0.0 { half } else { half * sine };
+            return if corner <= 0.0 { to } else { (half * sine).max(from).min(to) };
         }
         // (1 + m^2) r^2 - d^2 divided by 1 + m^2, so that steep lines stay within range.
         let shrunk = square * (1.0 - sine * sine);
-        let mut low = sine.max((distance - flat) / corner).min(1.0);
-        let mut high = 1.0;
-        let mut lean = if distance < flat { low } else { high };
-        for _ in 0..STEPS {
+        // Left minus right side of the equation, and its slope; on the left of the root where there is none.
+        let over = |lean: f64| {
             let r = flat + corner * lean;
             let below = r * r - shrunk;
             if below <= 0.0 {
-                break;
+                return (-1.0, 1.0);
             }
             let root = below.sqrt();
-            let over = lean - sine * r / root;
+            (lean - sine * r / root, 1.0 + corner * sine * shrunk / (below * root))
+        };
+        let lean = |s: f64| ((square + s * s).sqrt() - flat) / corner;
+        let (first, last) = (lean(from.max(0.0)), lean(to).min(1.0));
+        // Short edges are mostly touched at an end.
+        if last <= sine || over(last).0 <= 0.0 {
+            return to;
+        }
+        if from > 0.0 && first >= sine && over(first).0 >= 0.0 {
+            return from;
+        }
+        let (mut low, mut high) = (first.max(sine), last);
+        let mut lean = f64::midpoint(low, high);
+        for _ in 0..STEPS {
+            let (over, rise) = over(lean);
             if over > 0.0 {
                 high = lean;
             } else {
                 low = lean;
             }
-            let mut next = lean - over / (1.0 + corner * sine * shrunk / (below * root));
+            let mut next = lean - over / rise;
             if !(next > low && next < high) {
                 next = f64::midpoint(low, high);
             }
@@ -64,6 +78,6 @@ impl Cutter {
             }
         }
         let r = flat + corner * lean;
-        (r * r - square).max(0.0).sqrt()
+        (r * r - square).max(0.0).sqrt().max(from).min(to)
     }
 }

@@ -1,6 +1,6 @@
 //! The longest chords within a tolerance.
 
-use super::chain::{Chain, LARGEST};
+use super::chain::{Chain, ChainError, LARGEST};
 use super::compensate::centres;
 use super::fit::longest_arc;
 use super::piece::{Arc, Piece, Point};
@@ -38,6 +38,9 @@ pub enum ChordError {
     /// The tolerance cannot be used.
     #[error("a tolerance of {0} mm: it must be from 0.000001 to {LARGEST:e} mm")]
     Tolerance(f64),
+    /// A curve leaves the numbers that a chain can hold.
+    #[error(transparent)]
+    Chain(#[from] ChainError),
 }
 
 /// The chain made of few long chords, nowhere farther than `tolerance` mm from `chain`, and the chain nowhere farther from them.
@@ -109,8 +112,10 @@ fn follow(chain: &Chain, tolerance: f64, keep_arcs: bool) -> Chain {
                 run.push(Place { point: piece.end(), arc: None, corner: false });
             }
             Piece::Arc(arc) => {
-                let most = (1.0 - (SHARE * tolerance / arc.radius).min(1.0)).acos() * 2.0;
-                let count = (arc.sweep.abs() / most).ceil().clamp(1.0, 1e7);
+                // sagitta = 2 r sin^2(sweep / 4)
+                let most = 4.0 * (SHARE * tolerance / (2.0 * arc.radius)).min(1.0).sqrt().asin();
+                // A million only bounds memory: an arc of 100 m within 1e-6 mm takes less.
+                let count = (arc.sweep.abs() / most).ceil().clamp(1.0, 1e6);
                 for index in 0..count as usize {
                     let part = Arc {
                         start: arc.start + arc.sweep * (index as f64 / count),

@@ -12,6 +12,9 @@ pub const SMALLEST_BALL: f64 = 1e-3;
 /// Ends of a path closer than this (mm) need no line between them.
 const MEETS: f64 = 1e-10;
 
+/// A chain's end this near (mm) to the outermost place is beside it: files round places to a ten-thousandth.
+const BESIDE: f64 = 1e-3;
+
 /// Why there is no path.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum CompensateError {
@@ -32,7 +35,7 @@ pub enum CompensateError {
 /// Where the path starts and ends: the ball stands on the profile's free end with the end's own normal, so the tip is at
 /// `u - R sin U`; where something in front keeps it away from there, it stands where it touches both. It does not roll about a free
 /// end. A wall up to the end is followed to its top, a wall down at the end to its foot. Where the profile's end lies under the
-/// profile itself, the path goes to where the ball's side leaves the outermost place.
+/// profile itself (by more than 0.001 mm), the path goes to where the ball's side leaves the outermost place.
 ///
 /// Seen from above only the highest points matter; [`unreachable`](super::unreachable()) tells what the ball does not touch.
 ///
@@ -120,12 +123,12 @@ fn outermost(sky: &Skyline, side: f64) -> Option<Point> {
 }
 
 fn end(free: Point, piece: Option<&Piece>, outer: Point) -> End {
-    let beside = (free.u - outer.u).abs() <= UPRIGHT;
-    if beside && (free.z - outer.z).abs() <= UPRIGHT {
-        return End::Free(free);
+    if free.distance(outer) <= BESIDE {
+        return End::Free(outer);
     }
-    let upright = piece.is_some_and(|piece| (piece.start().u - piece.end().u).abs() <= UPRIGHT);
-    if beside && upright && free.z < outer.z { End::Wall(free.z) } else { End::Nose }
+    let upright = piece.is_some_and(|piece| (piece.start().u - piece.end().u).abs() <= BESIDE);
+    let below = (free.u - outer.u).abs() <= BESIDE && free.z < outer.z;
+    if below && upright { End::Wall(free.z) } else { End::Nose }
 }
 
 /// The path of the centre.

@@ -1,6 +1,6 @@
 //! Curves given by a parameter, and how they become chains.
 
-use super::chain::Chain;
+use super::chain::{Chain, LARGEST};
 use super::chords::{ChordError, Side, chords};
 use super::piece::{Piece, Point};
 
@@ -23,7 +23,7 @@ pub trait Curve {
 /// `2 sqrt(2 rho tolerance)` at a radius of curvature rho (Dragoi 2009, section 3, fig. 7). Chord ends lie on the curve.
 ///
 /// # Errors
-/// [`ChordError`] when the tolerance is not from 1e-6 mm up.
+/// [`ChordError`] when the tolerance is below 2e-6 mm or the curve goes beyond [`LARGEST`].
 pub fn to_chords(curve: &impl Curve, tolerance: f64) -> Result<Chain, ChordError> {
     to_chain(curve, tolerance, false)
 }
@@ -31,12 +31,15 @@ pub fn to_chords(curve: &impl Curve, tolerance: f64) -> Result<Chain, ChordError
 /// The curve in arcs and chords no farther than `tolerance` mm from it, as [`chords`] makes them with arcs.
 ///
 /// # Errors
-/// [`ChordError`] when the tolerance is not from 1e-6 mm up.
+/// [`ChordError`] when the tolerance is below 2e-6 mm or the curve goes beyond [`LARGEST`].
 pub fn to_arcs(curve: &impl Curve, tolerance: f64) -> Result<Chain, ChordError> {
     to_chain(curve, tolerance, true)
 }
 
 fn to_chain(curve: &impl Curve, tolerance: f64, arcs: bool) -> Result<Chain, ChordError> {
+    if !(2e-6..=LARGEST).contains(&tolerance) {
+        return Err(ChordError::Tolerance(tolerance));
+    }
     let fine = tolerance * SHARE;
     let knots = curve.knots();
     let mut points: Vec<Point> = knots.first().map(|knot| curve.at(*knot)).into_iter().collect();
@@ -61,8 +64,7 @@ fn to_chain(curve: &impl Curve, tolerance: f64, arcs: bool) -> Result<Chain, Cho
         let point = points.first().copied().unwrap_or_default();
         pieces.push(Piece::line(point, point));
     }
-    chords(&Chain::trusted(pieces), tolerance * (1.0 - SHARE), arcs, Side::Both)
-        .map_err(|_| ChordError::Tolerance(tolerance))
+    chords(&Chain::new(pieces)?, tolerance * (1.0 - SHARE), arcs, Side::Both)
 }
 
 /// Adds the samples after `from` up to `to`, between which the curve bulges by no more than `fine`.

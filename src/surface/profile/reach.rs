@@ -77,9 +77,17 @@ fn part(
 ) -> Option<Unreachable> {
     let mut left = 0.0_f64;
     let mut look = |point: Point| {
-        let near =
-            balls.iter().flatten().map(|ball| ball.distance(point) - radius).fold(f64::INFINITY, f64::min);
-        left = left.max(near);
+        let near = balls.iter().flatten().map(|ball| ball.distance(point)).fold(f64::INFINITY, f64::min);
+        // A ball that goes straight from one place to the other passes all between.
+        let near = match balls {
+            [Some(a), Some(b)]
+                if (a.u - b.u).abs() <= UPRIGHT && (a.z.min(b.z)..=a.z.max(b.z)).contains(&point.z) =>
+            {
+                near.min((point.u - a.u).abs())
+            }
+            _ => near,
+        };
+        left = left.max(near - radius);
     };
     let mut bounds: Option<(usize, Point, usize, Point)> = None;
     for (index, piece) in profile.pieces().iter().enumerate().take(to.0 + 1).skip(from.0) {
@@ -129,6 +137,12 @@ fn touches(profile: &Chain, radius: f64) -> Vec<Touch> {
             let top = if high { stretch.right } else { stretch.left };
             let side = if high { -radius } else { radius };
             walls(&mut touches, profile, stretch.piece, top.u, side, [foot, top.z]);
+            // The foot counts also where the wall is not quite upright.
+            let at_end = high == envelope.forward;
+            let last = profile.pieces().len().saturating_sub(1);
+            let (piece, share) = if at_end { (last, 1.0) } else { (0, 0.0) };
+            let ball = Point::new(top.u, foot.min(top.z));
+            touches.push(Touch { piece, from: (share, ball), to: (share, ball) });
         }
     }
     touches

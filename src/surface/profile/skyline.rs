@@ -4,6 +4,9 @@ use super::chain::Chain;
 use super::piece::Point;
 use super::stretch::{Part, Stretch, graphs};
 
+/// Pieces of one run may overlap by this much (mm): the ends of arcs are rounded.
+const ROUNDING: f64 = 1e-12;
+
 /// The skyline: stretches by ascending u that do not overlap, and single points that stand above them.
 pub(super) struct Skyline {
     pub stretches: Vec<Stretch>,
@@ -22,7 +25,11 @@ pub(super) fn skyline(chain: &Chain) -> Skyline {
             index,
             piece,
             |stretch, forward| {
-                if !run.is_empty() && forward != run_forward {
+                let overlaps = run.last().is_some_and(|last| {
+                    let overlap = last.right.u.min(stretch.right.u) - last.left.u.max(stretch.left.u);
+                    forward != run_forward || overlap > ROUNDING
+                });
+                if overlaps {
                     runs.push(ordered(std::mem::take(&mut run), run_forward));
                 }
                 run_forward = forward;
@@ -47,7 +54,7 @@ pub(super) fn skyline(chain: &Chain) -> Skyline {
     Skyline { stretches: runs.pop().unwrap_or_default(), tops }
 }
 
-/// A run in ascending order. Pieces may overlap by what a chain may be apart; the earlier one gives way.
+/// A run in ascending order. Where two pieces overlap by a rounding, the second one gives way.
 fn ordered(mut run: Vec<Stretch>, forward: bool) -> Vec<Stretch> {
     if !forward {
         run.reverse();

@@ -1,7 +1,7 @@
 //! Stretches: graphs z(u) over an interval of u, of which envelopes are made.
 
 use super::piece::{Arc, Piece, Point};
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// What is narrower than this (mm) counts as upright: horizontal places differ by no more.
 pub(super) const UPRIGHT: f64 = 1e-9;
@@ -134,10 +134,14 @@ impl Stretch {
         match self.graph {
             Graph::Line { .. } => Piece::line(from, to),
             Graph::Round { centre, radius, upper } => {
-                // An upper half goes from pi to 0, a lower one from -pi to 0, also where an end lies a rounding beyond.
+                // An upper half goes from pi to 0, a lower one from -pi to 0; an end may lie a rounding beyond.
                 let angle = |point: Point| {
-                    let angle = (point.z - centre.z).abs().atan2(point.u - centre.u);
-                    if upper { angle } else { -angle }
+                    let angle = (point.z - centre.z).atan2(point.u - centre.u);
+                    match upper {
+                        true if angle < -FRAC_PI_2 => angle + TAU,
+                        false if angle > FRAC_PI_2 => angle - TAU,
+                        _ => angle,
+                    }
                 };
                 let (start, end) = (angle(from), angle(to));
                 Piece::arc(centre, radius, start, end - start)

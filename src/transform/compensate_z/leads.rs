@@ -1,7 +1,13 @@
 //! Leads, links and rapids around passes: they move with the ends of their passes, and never below them.
 
 use super::passes::UPRIGHT;
+use super::words::Place;
+use super::write::Writer;
+use crate::diagnostic::Diagnostic;
+use crate::program::Program;
 use crate::program::motion::Motion;
+use crate::transform::Context;
+use crate::write::Editor;
 use nalgebra::{Point3, Vector3};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -88,7 +94,7 @@ fn gap(
     while index > range.start {
         index -= 1;
         let (Some(motion), Some(at)) = (motions.get(index), point(index)) else { break };
-        if motion.operation != own && index + 1 != ahead.motions.start {
+        if Some(motion.operation) != own && index + 1 != ahead.motions.start {
             break;
         }
         let above = is_above(at, old, axis(index));
@@ -114,7 +120,13 @@ fn is_above(at: Point3<f64>, end: Point3<f64>, up: Vector3<f64>) -> bool {
 }
 
 /// A point that goes with the end of a pass: straight above it at its own height, or as one with it; never below it.
-fn shifted(at: Point3<f64>, old: Point3<f64>, new: Point3<f64>, up: Vector3<f64>, above: bool) -> Point3<f64> {
+fn shifted(
+    at: Point3<f64>,
+    old: Point3<f64>,
+    new: Point3<f64>,
+    up: Vector3<f64>,
+    above: bool,
+) -> Point3<f64> {
     let way = new - old;
     let wanted = if above { at + (way - up * way.dot(&up)) } else { at + way };
     if (at - old).norm() <= UPRIGHT {
@@ -123,4 +135,47 @@ fn shifted(at: Point3<f64>, old: Point3<f64>, new: Point3<f64>, up: Vector3<f64>
     let lower = (new - wanted).dot(&up);
     // What was above the end stays above it.
     if (at - old).dot(&up) >= -UPRIGHT && lower > 0.0 { wanted + up * lower } else { wanted }
+}
+
+/// Writes the ends around passes.
+#[allow(clippy::too_many_arguments)] // one call, and a struct would only rename them
+pub(super) fn leads_written(
+    writer: &Writer<'_>,
+    editor: &mut Editor,
+    motions: &[Motion],
+    ends: &BTreeMap<usize, Point3<f64>>,
+    moved: &[Moved],
+    mm: f64,
+    original: &Program,
+    context: &Context<'_>,
+) -> Result<(), Box<Diagnostic>> {
+    let start_of = |index: usize| -> Point3<f64> {
+        let before = index.checked_sub(1);
+        let of_pass = moved.iter().find(|pass| pass.motions.end == index).map(|pass| pass.end);
+        of_pass
+            .or_else(|| before.and_then(|before| ends.get(&before).copied()))
+            .or_else(|| motions.get(index).map(|motion| motion.from.point * mm))
+            .unwrap_or_else(Point3::origin)
+    };
+    let within = |index: usize| moved.iter().any(|pass: &Moved| contains(&pass.motions, index));
+    let touched = ends
+        .keys()
+        .copied()
+        .chain(ends.keys().map(|index| index + 1))
+        .chain(moved.iter().map(|pass| pass.motions.end));
+    let mut touched: Vec<usize> = touched.filter(|index| *index < motions.len() && !within(*index)).collect();
+    touched.sort_unstable();
+    touched.dedup();
+    for index in touched {
+        let old = motions.get(index).map_or_else(Point3::origin, |motion| motion.to.point * mm);
+        let end = ends.get(&index).copied().unwrap_or(old);
+        let written = writer.move_end(editor, index, end, start_of(index))?;
+        let place = Place { program: original, motions };
+        written.map_err(|why| place.unwritable(why, index, context))?;
+    }
+    Ok(())
+}
+
+fn contains(range: &Range<usize>, index: usize) -> bool {
+    range.contains(&index)
 }

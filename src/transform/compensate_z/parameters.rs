@@ -9,8 +9,8 @@ use serde::Deserialize;
 ///
 /// The points of such a path are contact points; driven as they are, the ball cuts too deep on every slope. `against: profile` takes each
 /// pass in a vertical plane (between its leads, links and rapids) as the part's profile and writes the envelope of the ball over
-/// it: no gouge in hollow corners, arcs about sharp ones, as few chords as the tolerance allows, arcs where the file has a
-/// CIRCLE to write them by. `against: normals` moves each point by its own contact normal (nine-value GOTO), in three to five axes.
+/// it: no gouge in hollow corners, arcs about sharp ones, as few chords as the tolerance allows, arcs where the file has one to
+/// write them like. `against: normals` moves each point by its own contact normal (nine-value GOTO), in three to five axes.
 /// `against: { mesh: part.stl }` lowers the cutter onto a model along the pass seen from above, so that heights are right in
 /// space; there it may be a bull-nose or flat cutter, too.
 ///
@@ -86,7 +86,7 @@ pub enum Against {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Arcs {
-    /// Where the file has a CIRCLE that tells its sense.
+    /// Where the file has an arc that tells its sense to write them like: a CIRCLE (NX, SolidWorks, Makino), or INDIRV and TLON (CATIA).
     #[default]
     Keep,
     /// As chords.

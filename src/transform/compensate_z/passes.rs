@@ -38,11 +38,7 @@ pub(super) enum NoPass {
 ///
 /// # Errors
 /// [`NoPass`] where cutting does not keep to vertical planes.
-pub(super) fn passes(
-    motions: &[Motion],
-    meant: &[bool],
-    mm: f64,
-) -> Result<Vec<Pass>, NoPass> {
+pub(super) fn passes(motions: &[Motion], meant: &[bool], mm: f64) -> Result<Vec<Pass>, NoPass> {
     let mut found = Vec::new();
     for run in runs(motions, meant, mm) {
         found.extend(of_run(motions, run, mm)?);
@@ -101,7 +97,8 @@ fn of_run(motions: &[Motion], run: Range<usize>, mm: f64) -> Result<Vec<Pass>, N
     let first = motions.get(run.start);
     let turns = |motion: &&Motion| {
         first.is_some_and(|first| {
-            (motion.from.axis - first.from.axis).amax() > 1e-6 || (motion.to.axis - first.from.axis).amax() > 1e-6
+            (motion.from.axis - first.from.axis).amax() > 1e-6
+                || (motion.to.axis - first.from.axis).amax() > 1e-6
         })
     };
     let all = motions.get(run.clone()).unwrap_or_default();
@@ -111,7 +108,8 @@ fn of_run(motions: &[Motion], run: Range<usize>, mm: f64) -> Result<Vec<Pass>, N
     let stretches = stretches(motions, run, mm);
     let main = main_direction(&stretches);
     let along = |stretch: &Stretch| stretch.plane.is_some_and(|(_, direction)| parallel(direction, main));
-    let (passes, links): (Vec<&Stretch>, Vec<&Stretch>) = stretches.iter().partition(|stretch| along(stretch));
+    let (passes, links): (Vec<&Stretch>, Vec<&Stretch>) =
+        stretches.iter().partition(|stretch| along(stretch));
     let sum = |all: &[&Stretch]| all.iter().map(|stretch| stretch.length).sum::<f64>();
     // Links are short beside passes; where they are not, the path has no passes.
     if sum(&links) > 0.5 * sum(&passes)
@@ -171,7 +169,8 @@ fn stretch(motions: &[Motion], start: usize, end: usize, mm: f64) -> (usize, Opt
             // A short beginning tells the direction badly, a farther point better.
             let better = through(origin, up, &points);
             let upright = plane.is_none() && better.is_none() && matches!(motion.path, Path::Line);
-            if !upright && !(holds(&better, &points) && holds(&better, &seen)) {
+            let fits = holds(&better, &points) && holds(&better, &seen);
+            if !(upright || fits) {
                 break;
             }
             plane = better.or(plane);
@@ -193,7 +192,8 @@ fn through(origin: Point3<f64>, up: Vector3<f64>, points: &[Point3<f64>]) -> Opt
         let way = point - origin;
         way - up * way.dot(&up)
     };
-    let far = points.iter().map(across).reduce(|one, next| if next.norm() > one.norm() { next } else { one })?;
+    let far =
+        points.iter().map(across).reduce(|one, next| if next.norm() > one.norm() { next } else { one })?;
     if far.norm() <= UPRIGHT {
         return None;
     }

@@ -3,11 +3,11 @@
 use super::passes::{NoPass, Pass};
 use crate::program::geometry::Path;
 use crate::program::motion::Motion;
-use crate::surface::profile::{
-    Arc, Chain, Nurbs, Piece, Plane, Point, Unreachable, Verdict, check, chords, compensate, recover, to_chords,
-    unreachable,
-};
 use crate::surface::profile::Side;
+use crate::surface::profile::{
+    Arc, Chain, Nurbs, Piece, Plane, Point, Unreachable, Verdict, check, chords, compensate, recover,
+    to_chords, unreachable,
+};
 use std::fmt;
 
 /// Curves become chords within this share of the tolerance; the path made of them has the rest.
@@ -81,13 +81,17 @@ pub(super) fn chain(
         match &motion.path {
             Path::Line | Path::Start => pieces.push(Piece::line(from, to)),
             Path::Arc(arc) => {
-                pieces.push(Piece::Arc(flat_arc(arc, &pass.plane, mm).ok_or(Fault::Pass(NoPass::LeavesPlane(index)))?));
+                pieces.push(Piece::Arc(
+                    flat_arc(arc, &pass.plane, mm).ok_or(Fault::Pass(NoPass::LeavesPlane(index)))?,
+                ));
             }
             Path::Spline(spline) => {
                 let mut scaled = spline.as_ref().clone();
                 scaled.controls.iter_mut().for_each(|point| *point *= mm);
-                let curve = Nurbs::from_spline(&scaled, &pass.plane).map_err(|why| Fault::Geometry(why.to_string()))?;
-                let made = to_chords(&curve, tolerance * CURVES).map_err(|why| Fault::Geometry(why.to_string()))?;
+                let curve = Nurbs::from_spline(&scaled, &pass.plane)
+                    .map_err(|why| Fault::Geometry(why.to_string()))?;
+                let made =
+                    to_chords(&curve, tolerance * CURVES).map_err(|why| Fault::Geometry(why.to_string()))?;
                 pieces.extend_from_slice(made.pieces());
             }
         }
@@ -130,7 +134,8 @@ pub(super) fn over(path: &Chain, ball: &Ball) -> Result<Compensated, Fault> {
     let exact = compensate(&contact, ball.radius).map_err(|why| geometry(why.to_string()))?;
     let path = chords(&exact, ball.tolerance * CHORDS, ball.arcs, Side::Both)
         .map_err(|why| geometry(why.to_string()))?;
-    let unreachable = unreachable(&contact, ball.radius, ball.tolerance).map_err(|why| geometry(why.to_string()))?;
+    let unreachable =
+        unreachable(&contact, ball.radius, ball.tolerance).map_err(|why| geometry(why.to_string()))?;
     Ok(Compensated { contact, exact, path, unreachable })
 }
 

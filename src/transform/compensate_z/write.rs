@@ -2,16 +2,16 @@
 
 use super::passes::Pass;
 use super::profile::sine;
+use super::template::{Template, copy, numbered, template};
 use crate::diagnostic::Diagnostic;
 use crate::program::geometry::Path;
 use crate::program::motion::Motion;
-use crate::program::record::{ArcSense, Circle};
-use crate::program::{ArcRule, Program, Record, Statement};
+use crate::program::{Program, Record, Statement};
 use crate::surface::profile::{Chain, Piece, Plane};
-use crate::transform::numbers::without_remark;
-use crate::write::{Editor, copy_with_numbers};
-use nalgebra::{Point3, Vector3};
+use crate::write::Editor;
+use nalgebra::Point3;
 use std::f64::consts::PI;
+use std::ops::Range;
 
 /// Why the statements of a path cannot be given other points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -24,27 +24,19 @@ pub(super) enum Unwritable {
 
 /// Writes points for one program.
 pub(super) struct Writer<'a> {
-    motions: &'a [Motion],
-    mm: f64,
-    circle: Option<Template>,
-}
-
-/// A CIRCLE that new ones are modelled on.
-struct Template {
-    statement: usize,
-    has_radius: bool,
-    /// 1 where the printed axis is right-hand, -1 where it is left-hand.
-    hand: f64,
+    pub(super) motions: &'a [Motion],
+    pub(super) mm: f64,
+    arc: Option<Template>,
 }
 
 impl<'a> Writer<'a> {
     pub fn new(program: &Program, motions: &'a [Motion], mm: f64) -> Self {
-        Self { motions, mm, circle: template(program) }
+        Self { motions, mm, arc: template(program) }
     }
 
     /// Whether arcs can be said.
     pub fn has_arcs(&self) -> bool {
-        self.circle.is_some()
+        self.arc.is_some()
     }
 
     /// Whether a motion's statements can be given other points.
@@ -55,7 +47,8 @@ impl<'a> Writer<'a> {
         let motion = self.motions.get(index).ok_or(Unwritable::NoGoto)?;
         let last = motion.last_statement();
         let beside = [index.wrapping_sub(1), index + 1];
-        let shares = |other: &usize| self.motions.get(*other).is_some_and(|other| other.last_statement() == last);
+        let shares =
+            |other: &usize| self.motions.get(*other).is_some_and(|other| other.last_statement() == last);
         if beside.iter().any(shares) || motion.hole.is_some() {
             return Err(Unwritable::NoGoto);
         }
@@ -71,71 +64,8 @@ impl<'a> Writer<'a> {
         }
     }
 
-    fn numbers(&self, point: Point3<f64>) -> Vec<(usize, f64)> {
-        let at: [f64; 3] = (point / self.mm).coords.into();
-        at.into_iter().enumerate().collect()
-    }
-
-    /// Gives a motion that stays another end; an arc whose ends no longer move alike becomes straight.
-    ///
-    /// # Errors
-    /// When a statement does not read back, and for records that cannot be moved.
-    pub fn move_end(
-        &self,
-        editor: &mut Editor,
-        index: usize,
-        end: Point3<f64>,
-        start: Point3<f64>,
-    ) -> Result<Result<(), Unwritable>, Box<Diagnostic>> {
-        let Some(motion) = self.motions.get(index) else { return Ok(Ok(())) };
-        let (by, from) = (end - motion.to.point * self.mm, start - motion.from.point * self.mm);
-        let last = motion.last_statement();
-        let moves = |by: Vector3<f64>| by.amax() > 1e-9;
-        match &motion.path {
-            Path::Line | Path::Start if moves(by) => {
-                editor.set_numbers(last, &self.numbers(end))?;
-            }
-            Path::Arc(_) if moves(by) || moves(from) => {
-                if let Err(why) = self.check(editor.program(), index) {
-                    return Ok(Err(why));
-                }
-                if (by - from).amax() <= 1e-6 {
-                    self.shift(editor, motion, by)?;
-                } else if matches!(editor.program().statement(last).map(Statement::record), Some(Record::Goto(_))) {
-                    drop_announced(editor, motion);
-                    editor.set_numbers(last, &self.numbers(end))?;
-                } else {
-                    return Ok(Err(Unwritable::Arc));
-                }
-            }
-            Path::Spline(_) if moves(by) || moves(from) => {
-                if (by - from).amax() > 1e-6 {
-                    return Ok(Err(Unwritable::Arc));
-                }
-                self.shift(editor, motion, by)?;
-            }
-            _ => {}
-        }
-        Ok(Ok(()))
-    }
-
-    /// Moves all points of a motion's statements.
-    fn shift(&self, editor: &mut Editor, motion: &Motion, by: Vector3<f64>) -> Result<(), Box<Diagnostic>> {
-        for statement in motion.statements.clone() {
-            let program = editor.program();
-            let Some(found) = program.statement(statement).filter(|found| found.is_live()) else { continue };
-            if !is_motion(found.record()) {
-                continue;
-            }
-            let text = program.text(found);
-            let values: Vec<f64> = crate::parse::numbers(text).into_iter().map(|(_, value)| value).collect();
-            let roles = crate::parse::roles(found.record(), text);
-            let edits = crate::transform::numbers::change_triples(&values, &roles, |role, point| {
-                matches!(role, crate::program::Role::Point(0)).then(|| point + by / self.mm)
-            });
-            editor.set_numbers(statement, &edits)?;
-        }
-        Ok(())
+    pub(super) fn numbers(&self, point: Point3<f64>) -> Vec<(usize, f64)> {
+        numbered(0, (point / self.mm).coords.into())
     }
 
     /// Writes a compensated pass over the statements of the old one. What stands between them stays, and comes after the new points
@@ -150,7 +80,9 @@ impl<'a> Writer<'a> {
         path: &Chain,
         (radius, contact): (f64, bool),
     ) -> Result<Result<(), Unwritable>, Box<Diagnostic>> {
-        let Some(goto) = self.goto(editor.program(), pass) else { return Ok(Err(Unwritable::NoGoto)) };
+        let Some(goto) = self.goto(editor.program(), &pass.motions) else {
+            return Ok(Err(Unwritable::NoGoto));
+        };
         let breaks = self.breaks(pass, path, if contact { radius } else { 0.0 });
         let forward = if path.end().u >= path.start().u { 1.0 } else { -1.0 };
         let mut pieces = halves(path).into_iter().peekable();
@@ -171,15 +103,60 @@ impl<'a> Writer<'a> {
         Ok(Ok(()))
     }
 
+    /// Writes a pass as straight moves to points, a list for each of its motions; with an empty one the motion goes.
+    ///
+    /// # Errors
+    /// As [`Writer::pass`].
+    pub fn points(
+        &self,
+        editor: &mut Editor,
+        motions: Range<usize>,
+        points: Vec<Vec<Point3<f64>>>,
+    ) -> Result<Result<(), Unwritable>, Box<Diagnostic>> {
+        let Some(goto) = self.goto(editor.program(), &motions) else { return Ok(Err(Unwritable::NoGoto)) };
+        for (index, own) in motions.zip(points) {
+            let Some(motion) = self.motions.get(index) else { continue };
+            let simple = is_line(editor.program(), motion);
+            let (put_in, kept) = match own.split_last() {
+                Some((last, rest)) if simple => (rest, Some(last)),
+                _ => (own.as_slice(), None),
+            };
+            for point in put_in {
+                let text = copy(editor, goto, &self.numbers(*point));
+                editor.insert_before(motion.statements.start, &text)?;
+            }
+            self.keep_end(editor, motion, kept.copied())?;
+        }
+        Ok(Ok(()))
+    }
+
+    /// Gives a motion's last statement another end, or takes the motion out.
+    fn keep_end(
+        &self,
+        editor: &mut Editor,
+        motion: &Motion,
+        end: Option<Point3<f64>>,
+    ) -> Result<(), Box<Diagnostic>> {
+        match end {
+            Some(end) => editor.set_numbers(motion.last_statement(), &self.numbers(end)),
+            None => {
+                drop_announced(editor, motion);
+                editor.delete(motion.last_statement());
+                Ok(())
+            }
+        }
+    }
+
     /// A GOTO of one point that new ones are modelled on: of the pass, else the nearest before or after it in its operation.
-    fn goto(&self, program: &Program, pass: &Pass) -> Option<usize> {
+    fn goto(&self, program: &Program, pass: &Range<usize>) -> Option<usize> {
         let is_goto = |index: &usize| {
-            let found = self.motions.get(*index).and_then(|motion| program.statement(motion.last_statement()));
+            let found =
+                self.motions.get(*index).and_then(|motion| program.statement(motion.last_statement()));
             found.is_some_and(|found| found.is_live() && matches!(found.record(), Record::Goto(_)))
         };
-        let own = pass.motions.clone().find(is_goto);
-        let before = || (0..pass.motions.start).rev().find(is_goto);
-        let after = || (pass.motions.end..self.motions.len()).find(is_goto);
+        let own = pass.clone().find(is_goto);
+        let before = || (0..pass.start).rev().find(is_goto);
+        let after = || (pass.end..self.motions.len()).find(is_goto);
         let index = own.or_else(before).or_else(after)?;
         self.motions.get(index).map(Motion::last_statement)
     }
@@ -210,9 +187,7 @@ impl<'a> Writer<'a> {
         plane: &Plane,
         goto: usize,
     ) -> Result<(), Box<Diagnostic>> {
-        let last = motion.last_statement();
-        let simple = matches!(motion.path, Path::Line)
-            && matches!(editor.program().statement(last).map(Statement::record), Some(Record::Goto(_)));
+        let simple = is_line(editor.program(), motion);
         let (put_in, kept) = match pieces.split_last() {
             Some((Piece::Line(line), rest)) if simple => (rest, Some(line.to)),
             _ => (pieces, None),
@@ -220,14 +195,7 @@ impl<'a> Writer<'a> {
         for piece in put_in {
             self.insert(editor, piece, plane, goto, motion.statements.start)?;
         }
-        match kept {
-            Some(end) => editor.set_numbers(last, &self.numbers(plane.space(end)))?,
-            None => {
-                drop_announced(editor, motion);
-                editor.delete(last);
-            }
-        }
-        Ok(())
+        self.keep_end(editor, motion, kept.map(|end| plane.space(end)))
     }
 
     fn insert(
@@ -238,28 +206,24 @@ impl<'a> Writer<'a> {
         goto: usize,
         before: usize,
     ) -> Result<(), Box<Diagnostic>> {
-        if let (Piece::Arc(arc), Some(template)) = (piece, &self.circle) {
-            let up = plane.space(crate::surface::profile::Point::new(0.0, 1.0)) - plane.space(Default::default());
-            let along = plane.space(crate::surface::profile::Point::new(1.0, 0.0)) - plane.space(Default::default());
-            // From +u towards +z is right-hand about u x z.
-            let axis = along.cross(&up) * (arc.sweep.signum() * template.hand);
-            let axis = axis.map(|part| if part.abs() < 1e-9 { 0.0 } else { part });
-            let mut numbers = self.numbers(plane.space(arc.centre));
-            let printed: [f64; 3] = axis.into();
-            numbers.extend(printed.into_iter().enumerate().map(|(index, value)| (3 + index, value)));
-            if template.has_radius {
-                numbers.push((6, arc.radius / self.mm));
-            }
-            let text = copy(editor, template.statement, &numbers);
-            editor.insert_before(before, &text)?;
+        if let (Piece::Arc(arc), Some(template)) = (piece, &self.arc)
+            && !template.insert(editor, arc, plane, self.mm, before)?
+        {
+            return Ok(());
         }
         let text = copy(editor, goto, &self.numbers(plane.space(piece.end())));
         editor.insert_before(before, &text)
     }
 }
 
+/// Whether a motion is a line that one GOTO says.
+fn is_line(program: &Program, motion: &Motion) -> bool {
+    let record = program.statement(motion.last_statement()).map(Statement::record);
+    matches!(motion.path, Path::Line) && matches!(record, Some(Record::Goto(_)))
+}
+
 /// The pieces, arcs of more than half a turn in two.
-fn halves(path: &Chain) -> Vec<Piece> {
+pub(super) fn halves(path: &Chain) -> Vec<Piece> {
     let halve = |piece: &Piece| match piece {
         Piece::Arc(arc) if arc.sweep.abs() > PI => vec![piece.part(0.0, 0.5), piece.part(0.5, 1.0)],
         _ => vec![*piece],
@@ -267,23 +231,19 @@ fn halves(path: &Chain) -> Vec<Piece> {
     path.pieces().iter().flat_map(halve).collect()
 }
 
-fn copy(editor: &Editor, statement: usize, numbers: &[(usize, f64)]) -> Vec<u8> {
-    let program = editor.program();
-    let Some(found) = program.statement(statement) else { return Vec::new() };
-    copy_with_numbers(&without_remark(program.text(found)), found.record(), numbers, editor.style())
-}
-
 /// Takes out what announces an arc or spline.
-fn drop_announced(editor: &mut Editor, motion: &Motion) {
+pub(super) fn drop_announced(editor: &mut Editor, motion: &Motion) {
     for statement in motion.statements.clone().rev().skip(1) {
         let found = editor.program().statement(statement);
-        if found.is_some_and(|found| found.is_live() && is_motion(found.record()) && *found.record() != Record::Rapid) {
+        if found.is_some_and(|found| {
+            found.is_live() && is_motion(found.record()) && *found.record() != Record::Rapid
+        }) {
             editor.delete(statement);
         }
     }
 }
 
-fn is_motion(record: &Record) -> bool {
+pub(super) fn is_motion(record: &Record) -> bool {
     matches!(
         record,
         Record::Goto(_)
@@ -296,20 +256,4 @@ fn is_motion(record: &Record) -> bool {
             | Record::Control(_)
             | Record::Rapid
     )
-}
-
-/// The first CIRCLE of the file whose sense is known.
-fn template(program: &Program) -> Option<Template> {
-    let hand = match program.dialect().arc_rule() {
-        ArcRule::LeftHand => -1.0,
-        ArcRule::RightHand => 1.0,
-        ArcRule::ByWord | ArcRule::FromTangent => return None,
-    };
-    let plain = |circle: &Circle| circle.times <= 1 && circle.sense == ArcSense::OfDialect;
-    program.live().find_map(|(statement, found)| match found.record() {
-        Record::Circle(circle) if plain(circle) => {
-            Some(Template { statement, has_radius: circle.radius.is_some(), hand })
-        }
-        _ => None,
-    })
 }

@@ -5,7 +5,7 @@ use super::detour::{along_chord, along_pass, widened};
 use super::kind::Kind;
 use super::layers::{TooMany, compressed, shallow};
 use super::limits::{Limits, keeps, long_enough, shallow_enough};
-use super::ramp::Ramp;
+use super::ramp::{Ramp, is_sensible};
 use super::region::Region;
 use nalgebra::{Point2, Point3, Vector2};
 
@@ -67,7 +67,8 @@ pub enum Impossible {
     /// So flat a limit that no sensible number of layers keeps it.
     #[error("it would need {0:.0} passes to be shallow enough")]
     TooMany(f64),
-    /// Its own path is too short for its printed decimals.
+    /// Its own path is too short for its printed decimals, or one of its coordinates or limits is no
+    /// number of a sensible size.
     #[error("it cannot be made to keep the limits")]
     Limits,
 }
@@ -80,6 +81,10 @@ pub enum Impossible {
 /// # Errors
 /// [`Impossible`]; a ramp is never corrected in part.
 pub fn correct(ramp: &Ramp, task: &Task<'_>) -> Result<Option<Corrected>, Impossible> {
+    let numbers = [task.limits.shortest_leg, task.limits.steepest, task.rounding];
+    if !ramp.is_sensible() || !numbers.into_iter().all(is_sensible) {
+        return Err(Impossible::Limits);
+    }
     if keeps(ramp, &task.limits, task.rounding) {
         return Ok(None);
     }
@@ -93,7 +98,7 @@ pub fn correct(ramp: &Ramp, task: &Task<'_>) -> Result<Option<Corrected>, Imposs
     }
     let mut why = Impossible::Region(task.limits.shortest_leg);
     for (lengthened, candidate) in longer {
-        if !task.region.holds(&across(&candidate)) || !long_enough(&candidate, &task.limits, 0.0) {
+        if !task.region.holds(&candidate.path()) || !long_enough(&candidate, &task.limits, 0.0) {
             continue;
         }
         match shallower(&candidate, lengthened, task) {
@@ -132,12 +137,11 @@ fn candidates(ramp: &Ramp, least: f64, passes: &[Vector2<f64>]) -> Vec<(Lengthen
     found
 }
 
-/// P1..Pn: the turning points between straight legs.
+/// P1..Pn: the turning points between straight legs that descend. Level legs have no part in it, but Pn stays Pn.
 fn turning_points(ramp: &Ramp) -> Vec<Point3<f64>> {
-    let points: Vec<Point3<f64>> = ramp.points().collect();
-    let ends = ramp.legs();
-    let inner = ends.iter().filter_map(|leg| points.get(leg.steps.end).copied());
-    std::iter::once(ramp.start).chain(inner).collect()
+    let legs = ramp.legs();
+    let inner = legs.iter().take(legs.len().saturating_sub(1)).map(|leg| ramp.point(leg.steps.end));
+    std::iter::once(ramp.start).chain(inner).chain([ramp.end()]).collect()
 }
 
 /// New places across the axis with the old heights; P1 and Pn as they were.
@@ -151,19 +155,14 @@ fn raised(places: &[Point2<f64>], points: &[Point3<f64>]) -> Option<Ramp> {
 }
 
 /// The same turning points with an even slope between them, where every leg is straight: an arc in a vertical plane, say, is steep only
-/// where it begins. `None` where the ramp has no other points.
+/// where it begins. `None` where the ramp has no other points, or level legs.
 fn straightened(ramp: &Ramp) -> Option<Ramp> {
-    if Kind::of(ramp) != Kind::Zigzag {
+    let descending: usize = ramp.legs().iter().map(|leg| leg.steps.len()).sum();
+    if Kind::of(ramp) != Kind::Zigzag || descending < ramp.steps.len() {
         return None;
     }
     let points = turning_points(ramp);
     if points.len() > ramp.steps.len() { None } else { Ramp::through(&points) }
-}
-
-fn across(ramp: &Ramp) -> Vec<Point2<f64>> {
-    let mut path = vec![ramp.start.xy()];
-    path.extend(ramp.walk().flat_map(|(from, step)| step.samples(from)));
-    path
 }
 
 fn shallower(ramp: &Ramp, lengthened: Lengthened, task: &Task<'_>) -> Result<Corrected, Impossible> {
@@ -172,17 +171,14 @@ fn shallower(ramp: &Ramp, lengthened: Lengthened, task: &Task<'_>) -> Result<Cor
     let mut ratio = 1.0;
     let mut lowered = ramp.clone();
     if !shallow_enough(ramp, &task.limits, task.rounding) {
-        let begin = task.begin.filter(|begin| *begin < ramp.height());
+        let begin = task.begin.filter(|begin| *begin > 0.0 && *begin < ramp.height());
         if let Some(begin) = begin {
             ratio = begin / ramp.height();
             lowered = compressed(ramp, ratio);
         }
     }
-    let (ramp, passes) = if shallow_enough(&lowered, &task.limits, task.rounding) {
-        (lowered, 1)
-    } else {
-        shallow(&lowered, &task.limits).map_err(|TooMany(passes)| Impossible::TooMany(passes))?
-    };
+    let (ramp, passes) = shallow(&lowered, &task.limits, task.rounding, task.region)
+        .map_err(|TooMany(passes)| Impossible::TooMany(passes))?;
     if !keeps(&ramp, &task.limits, task.rounding) {
         return Err(Impossible::Limits);
     }

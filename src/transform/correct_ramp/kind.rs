@@ -64,9 +64,13 @@ impl Kind {
     }
 }
 
-/// The descending part of the ramp as a helix; level steps before and after it are links to a widened one.
+/// The descending part of the ramp as a helix; level steps before and after it are links to a widened one. What is level within
+/// it goes around too.
 fn helix(ramp: &Ramp) -> Option<Helix> {
-    let steps: Vec<_> = ramp.walk().filter(|(from, step)| from.z > step.to.z).collect();
+    let descent = ramp.descent();
+    let inside = ramp.walk().skip(descent.start).take(descent.len());
+    let steps: Vec<_> =
+        inside.filter(|(from, step)| from.z > step.to.z || step.across(*from) > NOTHING).collect();
     let first = steps.first()?;
     let bends: Vec<Option<Bend>> = steps.iter().map(|(_, step)| step.bend).collect();
     let arcs = bends.first()?.is_some();

@@ -1,8 +1,9 @@
 //! Shallower ramps: equal-ratio compression, then more layers (Zhou 2020, "ramp angle correction").
 
 use super::kind::{Helix, Kind};
-use super::limits::Limits;
+use super::limits::{Limits, shallow_enough};
 use super::ramp::{Bend, Ramp, Step};
+use super::region::Region;
 use nalgebra::{Point3, Rotation2};
 use std::f64::consts::TAU;
 
@@ -39,11 +40,13 @@ pub fn passes(steepest: f64, limit: f64, closed: bool) -> Result<usize, TooMany>
     if passes <= MOST_PASSES as f64 { Ok(passes as usize) } else { Err(TooMany(passes)) }
 }
 
-/// The ramp in passes that share its height: around again where it is closed, forward, back and forward where it is open.
+/// The ramp in passes (at least one) that share its height: around again where it is closed, forward, back and forward where it is
+/// open.
 pub fn layered(ramp: &Ramp, passes: usize) -> Ramp {
+    let passes = passes.max(1);
     let (closed, height, top) = (ramp.is_closed(), ramp.height(), ramp.start.z);
     let fallen = |z: f64| if height > 0.0 { (top - z) / height } else { 0.0 };
-    let count = passes.max(1) as f64;
+    let count = passes as f64;
     let mut steps = Vec::with_capacity(ramp.steps.len() * passes);
     for pass in 0..passes {
         let at = |share: f64| top - height * (pass as f64 + share) / count;
@@ -69,43 +72,60 @@ pub fn layered(ramp: &Ramp, passes: usize) -> Ramp {
     Ramp { start: ramp.start, steps }
 }
 
-/// The ramp no steeper than the limit, by more passes or, of a helix, more turns; and how many passes it has.
+/// The ramp no steeper than the limit (`rounding` as in [`shallow_enough`]), by more passes or, of a helix, more turns; and how many
+/// passes it has. Where more turns leave the region, a helix too gets passes over its own path.
 ///
 /// # Errors
 /// [`TooMany`].
-pub fn shallow(ramp: &Ramp, limits: &Limits) -> Result<(Ramp, usize), TooMany> {
-    let steepest = ramp.steepest();
-    if steepest <= limits.steepest * (1.0 + SLACK) {
+pub fn shallow(
+    ramp: &Ramp,
+    limits: &Limits,
+    rounding: f64,
+    region: &Region,
+) -> Result<(Ramp, usize), TooMany> {
+    let fits = |ramp: &Ramp| shallow_enough(ramp, limits, rounding);
+    if fits(ramp) {
         return Ok((ramp.clone(), 1));
     }
+    // Ends that are a little off their circle, or off one another, make some step shorter than in the first pass: then one more.
     if let Kind::Helix(helix) = Kind::of(ramp) {
-        return turned(ramp, &helix, limits);
+        let more = turns(ramp, &helix, limits)?;
+        let found = [more, more + 1].map(|more| (turned(ramp, &helix, more), 1 + more));
+        if let Some(found) =
+            found.into_iter().find(|(turned, _)| fits(turned) && region.holds(&turned.path()))
+        {
+            return Ok(found);
+        }
     }
-    let passes = passes(steepest, limits.steepest, ramp.is_closed())?;
-    Ok((layered(ramp, passes), passes))
+    let closed = ramp.is_closed();
+    let least = passes(ramp.steepest(), limits.steepest, closed)?;
+    let found = layered(ramp, least);
+    if fits(&found) {
+        return Ok((found, least));
+    }
+    let more = least + if closed { 1 } else { 2 };
+    Ok((layered(ramp, more), more))
 }
 
-/// A helix with as many whole turns more as it needs: each is a layer of its own, and its ends stay where they are.
-fn turned(ramp: &Ramp, helix: &Helix, limits: &Limits) -> Result<(Ramp, usize), TooMany> {
+/// How many whole turns more a helix needs.
+fn turns(ramp: &Ramp, helix: &Helix, limits: &Limits) -> Result<usize, TooMany> {
     // Chords are shorter than their arcs, hence steeper.
     let half = helix.widest_step / 2.0;
     let chords = if helix.arcs || half <= 0.0 { 1.0 } else { half.sin() / half };
     let needed = ramp.height() / (helix.radius * chords * limits.steepest);
     let more = ((needed - helix.sweep.abs()) / TAU - SLACK).ceil().max(0.0);
     let turns = helix.sweep.abs() / TAU + more;
-    if turns > MOST_PASSES as f64 {
-        return Err(TooMany(turns));
-    }
-    let longer = Helix { sweep: helix.sweep + TAU * more * helix.sweep.signum(), ..*helix };
-    let start = ramp.walk().find(|(from, step)| from.z > step.to.z).map_or(ramp.start, |(from, _)| from);
-    let lead = ramp.walk().take_while(|(from, step)| from.z <= step.to.z).map(|(_, step)| *step);
-    let tail_length = ramp.steps.iter().rev().zip(ramp.steps.iter().rev().skip(1));
-    let tail = tail_length.take_while(|(step, before)| before.to.z <= step.to.z).count();
-    let bottom = ramp.steps.get(ramp.steps.len() - tail - 1).map_or(ramp.end(), |step| step.to);
-    let mut steps: Vec<Step> = lead.collect();
-    steps.extend(around(&longer, start, bottom));
-    steps.extend(ramp.steps.iter().skip(ramp.steps.len() - tail));
-    Ok((Ramp { start: ramp.start, steps }, 1 + more as usize))
+    if turns <= MOST_PASSES as f64 { Ok(more as usize) } else { Err(TooMany(turns)) }
+}
+
+/// A helix with whole turns more: each is a layer of its own, and its ends stay where they are.
+fn turned(ramp: &Ramp, helix: &Helix, more: usize) -> Ramp {
+    let longer = Helix { sweep: helix.sweep + TAU * more as f64 * helix.sweep.signum(), ..*helix };
+    let descent = ramp.descent();
+    let mut steps: Vec<Step> = ramp.steps.iter().take(descent.start).copied().collect();
+    steps.extend(around(&longer, ramp.point(descent.start), ramp.point(descent.end)));
+    steps.extend(ramp.steps.iter().skip(descent.end));
+    Ramp { start: ramp.start, steps }
 }
 
 /// The steps of a helix from `start` down to `end`, none wider than its widest step; both lie on its circle.

@@ -2,7 +2,6 @@
 
 use super::find::{Found, LEVEL, is_level, placed};
 use super::milled::Milled;
-use super::ramp::Ramp;
 use super::region::Region;
 use crate::program::motion::Motion;
 use nalgebra::{Point2, Rotation3};
@@ -28,24 +27,35 @@ impl<'m> Levels<'m> {
         Region::hull(self.paths(found).into_iter().flatten())
     }
 
-    /// Where a tool of a radius (mm) covers nothing but what the operation cuts at the level of the ramp's end, or the ramp itself.
-    pub fn milled(&mut self, found: &Found, radius: f64) -> Region {
-        Region::Milled(Milled::new(self.paths(found), radius))
+    /// Where a tool of a radius (mm) covers nothing but what the operation cuts at the level of the ramp's end, or the ramp itself; looked at
+    /// within `reach` (mm) of the ramp.
+    pub fn milled(&mut self, found: &Found, radius: f64, reach: f64) -> Region {
+        Region::Milled(Milled::new(&self.paths(found), radius, &found.ramp.path(), reach))
     }
 
-    /// The paths of what is cut at the level of a ramp's end, and its own.
+    /// The paths of what is cut at the level of a ramp's end, motions that go on from each other joined, and the ramp's own.
     fn paths(&mut self, found: &Found) -> Vec<Vec<Point2<f64>>> {
         let end = found.ramp.end().z;
         let (motions, mm, frame) = (self.motions, self.mm, found.frame);
         let heights = self.heights(found);
         let start = heights.partition_point(|(z, _)| *z < end - LEVEL);
         let level = heights.iter().skip(start).take_while(|(z, _)| *z <= end + LEVEL);
-        let level = level.filter_map(|(_, index)| motions.get(*index));
-        let path = |motion: &Motion| -> Vec<Point2<f64>> {
+        let mut level: Vec<usize> = level.map(|(_, index)| *index).collect();
+        level.sort_unstable();
+        let mut paths: Vec<Vec<Point2<f64>>> = Vec::new();
+        let mut last = None;
+        for index in level {
+            let Some(motion) = motions.get(index) else { continue };
             let samples = motion.path.samples(motion.from.point, motion.to.point);
-            samples.into_iter().map(|point| (frame * (point * mm)).xy()).collect()
-        };
-        level.map(path).chain([own(&found.ramp)]).collect()
+            let points = samples.into_iter().map(|point| (frame * (point * mm)).xy());
+            match paths.last_mut().filter(|_| last.is_some_and(|last| last + 1 == index)) {
+                Some(path) => path.extend(points.skip(1)),
+                None => paths.push(points.collect()),
+            }
+            last = Some(index);
+        }
+        paths.push(found.ramp.path());
+        paths
     }
 
     /// Heights of the operation's level motions at feed, ascending, with their indices.
@@ -71,10 +81,4 @@ fn heights(motions: &[Motion], operation: usize, frame: &Rotation3<f64>, mm: f64
         level.map(|(index, motion)| (placed(motion.to, frame, mm).z, index)).collect();
     found.sort_by(|one, other| one.0.total_cmp(&other.0));
     found
-}
-
-fn own(ramp: &Ramp) -> Vec<Point2<f64>> {
-    let mut points = vec![ramp.start.xy()];
-    points.extend(ramp.walk().flat_map(|(from, step)| step.samples(from)));
-    points
 }

@@ -40,10 +40,10 @@ impl Indexable {
     /// The limits: l_min = D - 2r, a_lim = atan(h_ic / (D - 2r)).
     ///
     /// # Errors
-    /// [`CutsToCentre`] when D - 2r is not positive.
+    /// [`CutsToCentre`] when D - 2r is not a positive number.
     pub fn limits(&self) -> Result<Limits, CutsToCentre> {
         let blind = self.diameter - 2.0 * self.insert_radius;
-        if blind <= 1e-9 {
+        if blind.is_nan() || blind <= 1e-9 {
             let Self { diameter, insert_radius, .. } = *self;
             return Err(CutsToCentre { diameter, insert_radius });
         }

@@ -2,51 +2,79 @@
 
 use super::region::holds_line;
 use geo::buffer::{BufferStyle, LineCap, LineJoin};
-use geo::{Buffer, Intersects, Line, LineString, MultiLineString, MultiPolygon, Rect};
+use geo::{
+    BoundingRect, Buffer, Coord, Intersects, Line, LineString, MultiLineString, MultiPolygon, Rect, Simplify,
+};
 use nalgebra::Point2;
 
-/// Rounded corners of buffers are polygons with steps of this angle (radians): off by a radius over 3,000.
-const STEP: f64 = 0.05;
+/// Rounded corners of buffers are polygons with steps of this angle (radians): off by a radius over 800.
+const STEP: f64 = 0.1;
 
-/// The tool may cover this much (mm) that is not covered by the operation: what polygons for circles make, and no more.
+/// The tool may cover this much (mm) that is not covered by the operation, or this share of its radius: what polygons for circles make.
 const MARGIN: f64 = 0.05;
+const SHARE: f64 = 1.0 / 400.0;
 
-/// The paths of an operation's cuts at one level, and the radius of the tool; mm.
+/// Chords within this (mm) of a path stand for it.
+const COARSE: f64 = 0.01;
+
+/// The area within reach of a ramp that an operation's cuts at one level leave to the tool's centre.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Milled {
-    paths: Vec<LineString>,
-    radius: f64,
+    free: MultiPolygon,
+    reach: Rect,
 }
 
 impl Milled {
-    /// The area that a tool of a radius covers along paths across its axis; arcs are given as samples.
-    pub fn new(paths: Vec<Vec<Point2<f64>>>, radius: f64) -> Self {
-        let string = |path: Vec<Point2<f64>>| path.into_iter().map(|at| (at.x, at.y)).collect();
-        Self { paths: paths.into_iter().map(string).collect(), radius }
-    }
-
-    /// Whether the tool, its centre going along a path, covers nothing but this area.
+    /// The area for a tool of `radius` (mm) along paths across its axis, arcs as samples; within `reach` (mm) of `around`, farther away
+    /// nothing is free.
     ///
-    /// The area is grown from the paths by the radius and shrunk by it again: a morphological closing, which lies between the
-    /// paths and their hull. Only what is within reach of the path is looked at.
-    pub fn holds(&self, path: &[Point2<f64>]) -> bool {
-        let all: LineString = path.iter().map(|at| (at.x, at.y)).collect();
-        let Some(reach) = geo::BoundingRect::bounding_rect(&all) else { return true };
-        let aside = geo::Coord { x: 3.0 * self.radius, y: 3.0 * self.radius };
-        let reach = Rect::new(reach.min() - aside, reach.max() + aside);
-        let near = self.paths.iter().flat_map(LineString::lines).filter(|line| line.intersects(&reach));
-        let near: Vec<LineString> = near.map(LineString::from).collect();
-        if near.is_empty() {
-            return false;
+    /// What the tool covers along the paths is shrunk by its radius: a morphological closing of the paths, which lies between
+    /// them and their hull.
+    pub fn new(paths: &[Vec<Point2<f64>>], radius: f64, around: &[Point2<f64>], reach: f64) -> Self {
+        let at = |point: &Point2<f64>| Coord { x: point.x, y: point.y };
+        let own: LineString = around.iter().map(at).collect();
+        let nothing = Rect::new(Coord::zero(), Coord::zero());
+        let grown = |by: f64| {
+            let by = Coord { x: by, y: by };
+            own.bounding_rect().map_or(nothing, |bounds| Rect::new(bounds.min() - by, bounds.max() + by))
+        };
+        let (reach, seen) = (grown(reach), grown(reach + 2.0 * radius));
+        let mut near: Vec<LineString> = Vec::new();
+        for path in paths {
+            let whole: LineString = path.iter().map(at).collect();
+            let whole = whole.simplify(COARSE);
+            let mut open: Vec<Coord> = Vec::new();
+            for line in whole.lines() {
+                if !line.intersects(&seen) {
+                    near.extend((open.len() > 1).then(|| LineString::new(std::mem::take(&mut open))));
+                    open.clear();
+                    continue;
+                }
+                if open.is_empty() {
+                    open.push(line.start);
+                }
+                open.push(line.end);
+            }
+            near.extend((open.len() > 1).then_some(LineString::new(open)));
         }
-        let free = self.closed(MultiLineString(near));
-        all.lines().all(|line: Line| free.iter().any(|polygon| holds_line(polygon, line)))
-    }
-
-    fn closed(&self, paths: MultiLineString) -> MultiPolygon {
+        if near.is_empty() {
+            return Self { free: MultiPolygon::new(Vec::new()), reach };
+        }
         let style = |distance: f64| {
             BufferStyle::new(distance).line_cap(LineCap::Round(STEP)).line_join(LineJoin::Round(STEP))
         };
-        paths.buffer_with_style(style(self.radius)).buffer_with_style(style(MARGIN - self.radius))
+        let covered = MultiLineString(near).buffer_with_style(style(radius));
+        let free = covered.buffer_with_style(style(MARGIN.max(radius * SHARE) - radius));
+        Self { free, reach }
+    }
+
+    /// Whether the tool's centre may go along a path.
+    pub fn holds(&self, path: &[Point2<f64>]) -> bool {
+        let all: LineString = path.iter().map(|at| (at.x, at.y)).collect();
+        let inside = |line: Line| {
+            let ends = [line.start, line.end].iter().all(|end| end.intersects(&self.reach));
+            ends && self.free.iter().any(|polygon| holds_line(polygon, line))
+        };
+        all.lines().all(inside)
     }
 }

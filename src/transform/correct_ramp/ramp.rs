@@ -16,6 +16,9 @@ pub(super) const NOTHING: f64 = 1e-3;
 /// Points of a leg that lie this close to its chord (mm) make it straight.
 const STRAIGHT: f64 = 0.01;
 
+/// Coordinates beyond this (mm) belong to no machine, and their squares and hulls are not to be trusted.
+const FARTHEST: f64 = 1e9;
+
 /// A ramp: P1 and the steps to P2..Pn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ramp {
@@ -85,13 +88,15 @@ impl Step {
         }
     }
 
-    /// Points along it across the axis, its start left out; arcs every 5 degrees.
+    /// Points along it across the axis, its start left out; arcs every 5 degrees. Of many turns the first and what the last is more.
     pub fn samples(&self, from: Point3<f64>) -> Vec<Point2<f64>> {
         let Some(bend) = self.bend else { return vec![self.to.xy()] };
-        let count = (bend.sweep.abs() / 5f64.to_radians()).ceil().clamp(1.0, 100_000.0) as usize;
+        let turns = bend.sweep.abs();
+        let sweep = bend.sweep.signum() * if turns > TAU { TAU + wrapped(turns) } else { turns };
+        let count = (sweep.abs() / 5f64.to_radians()).ceil().max(1.0) as usize;
         let spoke = from.xy() - bend.centre;
         let inner = (1..count).map(|index| {
-            let angle = bend.sweep * index as f64 / count as f64;
+            let angle = sweep * index as f64 / count as f64;
             bend.centre + nalgebra::Rotation2::new(angle) * spoke
         });
         inner.chain([self.to.xy()]).collect()
@@ -127,6 +132,37 @@ impl Ramp {
         std::iter::once(self.start).chain(self.steps.iter().map(|step| step.to))
     }
 
+    /// The point before the step of that index, from P1 on; Pn behind the last.
+    pub(super) fn point(&self, index: usize) -> Point3<f64> {
+        index
+            .checked_sub(1)
+            .map_or(self.start, |before| self.steps.get(before).map_or(self.end(), |step| step.to))
+    }
+
+    /// The steps from the first that descends to the last; those before and after are level links.
+    pub(super) fn descent(&self) -> Range<usize> {
+        let down = |index: &usize| self.point(*index).z > self.point(index + 1).z;
+        let mut found = (0..self.steps.len()).filter(down);
+        match found.next() {
+            Some(first) => first..found.next_back().unwrap_or(first) + 1,
+            None => 0..0,
+        }
+    }
+
+    /// The way across the axis from P1 to Pn; arcs are sampled.
+    pub(super) fn path(&self) -> Vec<Point2<f64>> {
+        let mut path = vec![self.start.xy()];
+        path.extend(self.walk().flat_map(|(from, step)| step.samples(from)));
+        path
+    }
+
+    /// Whether all its coordinates and angles are numbers of a sensible size.
+    pub(super) fn is_sensible(&self) -> bool {
+        let bends = self.steps.iter().filter_map(|step| step.bend);
+        let bends = bends.flat_map(|bend| [bend.centre.x, bend.centre.y, bend.sweep]);
+        self.points().flat_map(|point| [point.x, point.y, point.z]).chain(bends).all(is_sensible)
+    }
+
     /// Whether it ends above or below where it starts.
     pub fn is_closed(&self) -> bool {
         (self.end().xy() - self.start.xy()).norm() <= NOTHING
@@ -158,6 +194,10 @@ impl Ramp {
         let mut before: Option<Option<Vector2<f64>>> = None;
         for (index, (from, step)) in self.walk().enumerate() {
             let directions = step.directions(from);
+            // A point given twice is no turning point.
+            if directions.is_none() && (from.z - step.to.z).abs() <= NOTHING {
+                continue;
+            }
             let turns = match (before, directions) {
                 (None, _) => false,
                 (Some(Some(end)), Some([start, _])) => end.dot(&start) < CORNER.to_radians().cos(),
@@ -178,16 +218,13 @@ impl Ramp {
     }
 
     fn descends(&self, steps: &Range<usize>) -> bool {
-        self.walk().skip(steps.start).take(steps.len()).any(|(from, step)| from.z > step.to.z)
+        steps.clone().any(|index| self.point(index).z > self.point(index + 1).z)
     }
 
     fn leg(&self, steps: Range<usize>) -> Leg {
-        let mut points: Vec<Point2<f64>> = Vec::new();
-        for (from, step) in self.walk().skip(steps.start).take(steps.len()) {
-            if points.is_empty() {
-                points.push(from.xy());
-            }
-            points.extend(step.samples(from));
+        let mut points = vec![self.point(steps.start).xy()];
+        for (index, step) in steps.clone().zip(self.steps.iter().skip(steps.start)) {
+            points.extend(step.samples(self.point(index)));
         }
         let (first, last) = match (points.first(), points.last()) {
             (Some(first), Some(last)) => (*first, *last),
@@ -205,9 +242,15 @@ impl Ramp {
     }
 }
 
+/// Whether a coordinate (mm) or an angle is a number of a sensible size: a hull takes no others.
+pub(super) fn is_sensible(value: f64) -> bool {
+    value.abs() <= FARTHEST
+}
+
 /// Largest distance between two of the points.
 fn widest(points: &[Point2<f64>]) -> f64 {
-    let all: MultiPoint = points.iter().map(|point| geo::Point::new(point.x, point.y)).collect();
+    let sensible = points.iter().filter(|point| is_sensible(point.x) && is_sensible(point.y));
+    let all: MultiPoint = sensible.map(|point| geo::Point::new(point.x, point.y)).collect();
     let hull: LineString = all.convex_hull().exterior().clone();
     let corners: Vec<Point2<f64>> = hull.coords().map(|at| Point2::new(at.x, at.y)).collect();
     let mut widest = 0.0f64;

@@ -1,8 +1,11 @@
 //! Where the tool's centre may go across its axis.
 
 use super::milled::Milled;
+use super::ramp::is_sensible;
 use geo::line_intersection::{LineIntersection, line_intersection};
-use geo::{Contains, ConvexHull, Distance, Euclidean, Line, LineString, MultiPoint, Polygon, Validation};
+use geo::{
+    Area, Contains, ConvexHull, Distance, Euclidean, Line, LineString, MultiPoint, Polygon, Validation,
+};
 use nalgebra::Point2;
 
 /// Points this far outside (mm) are on the border: below what any dialect prints.
@@ -42,15 +45,18 @@ impl Region {
         if polygon.exterior().coords().count() < 4 {
             return Err(RegionError::TooFew);
         }
-        if !polygon.is_valid() {
+        // Corners in line are valid to `geo`; mm^2, beyond any rounding.
+        if !polygon.is_valid() || polygon.unsigned_area() <= 1e-6 {
             return Err(RegionError::Crossing);
         }
         Ok(Self::Polygon(polygon))
     }
 
-    /// The convex hull of points. Of points on a line, only that line.
+    /// The convex hull of points, of those on a line only that line; of none, nothing. What is no number
+    /// of a sensible size is left out.
     pub fn hull(points: impl IntoIterator<Item = Point2<f64>>) -> Self {
-        let all: MultiPoint = points.into_iter().map(|point| geo::Point::new(point.x, point.y)).collect();
+        let sensible = points.into_iter().filter(|point| is_sensible(point.x) && is_sensible(point.y));
+        let all: MultiPoint = sensible.map(|point| geo::Point::new(point.x, point.y)).collect();
         Self::Polygon(all.convex_hull())
     }
 
@@ -61,6 +67,10 @@ impl Region {
             Self::Milled(milled) => return milled.holds(path),
             Self::Polygon(polygon) => polygon,
         };
+        // Distances to an empty border are 0.
+        if polygon.exterior().coords().next().is_none() {
+            return false;
+        }
         let at = |point: &Point2<f64>| geo::Coord { x: point.x, y: point.y };
         path.windows(2).all(|pair| match pair {
             [from, to] => holds_line(polygon, Line::new(at(from), at(to))),

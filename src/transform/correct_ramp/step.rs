@@ -140,7 +140,8 @@ impl<'a> Look<'a> {
             }
         }
         if let Some((index, tool)) = solid.first() {
-            let all = solid.len() == count;
+            // A tool list with inserts serves many programs, and not each has an indexable cutter.
+            let all = solid.len() == count && !context.setup.tools.iter().any(|entry| entry.insert.is_some());
             let told =
                 words::without_insert(self.program, self.motions, *index, tool.as_deref(), all, context);
             if all {
@@ -191,7 +192,11 @@ impl<'a> Look<'a> {
         let region = match &self.polygon {
             Some(polygon) => polygon.clone(),
             None if step.region == RampRegion::Hull => self.levels.hull(&found),
-            None => self.levels.milled(&found, cutter.diameter / 2.0),
+            None => {
+                // No candidate goes farther than three legs away: the circle of few legs is the widest.
+                let reach = 3.0 * limits.shortest_leg.max(found.ramp.length());
+                self.levels.milled(&found, cutter.diameter / 2.0, reach)
+            }
         };
         let task = Task { limits, begin, region: &region, passes: &found.passes, rounding };
         let kept_plunge = step.plunges == Plunges::Keep && Kind::of(&found.ramp) == Kind::Plunge;

@@ -131,7 +131,7 @@ fn nearly_upright_walls_hold_the_cutter() {
         let drop = over(&solid, ball);
         // Between the wall's upper and lower end: at a height where the wall is a radius away.
         let found = tip(&drop, 11.0 - 2e-6 + lean / 2.0, 0.0);
-        assert!(found <= 2.0 && found >= -6.0, "{found}");
+        assert!((-6.0..=2.0).contains(&found), "{found}");
         if lean > 1e-5 {
             // The wall's normal leans as well, by far less than this.
             let z = 2.0 - 7.0 * (lean / 2.0 - 2e-6) / lean - 1.0;

@@ -34,7 +34,7 @@ fn place() -> impl Strategy<Value = [f64; 2]> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
+    #![proptest_config(ProptestConfig::with_cases(150))]
 
     #[test]
     fn heights_are_those_of_a_search(solid in soup(), cutter in cutter(), place in place()) {
@@ -62,6 +62,11 @@ proptest! {
             prop_assert!(looked.gouge <= 1.1e-4 && looked.gap <= 1.1e-4, "{looked:?}");
         }
     }
+}
+
+proptest! {
+    // Looking at whole paths takes a while.
+    #![proptest_config(ProptestConfig::with_cases(15))]
 
     #[test]
     fn paths_keep_their_tolerance(solid in soup(), cutter in cutter(), from in place(), to in place()) {

@@ -48,6 +48,15 @@ fn walls_at_the_ends_are_followed() {
     near(path.start(), -5.0, -5.0);
     near(path.end(), 55.0, -6.0);
     assert_eq!(path.pieces().len(), 5);
+    // Walls of a file are upright to its last decimal.
+    for slant in [-1e-4, 1e-4] {
+        let path = tip(&polyline(&[[0.0, 0.0], [slant, 20.0], [50.0, 20.0], [50.0 + slant, -1.0]]));
+        assert!(path.start().distance(Point::new(-5.0, -5.0)) < 2e-3, "{path:?}");
+        assert!(path.end().distance(Point::new(55.0, -6.0)) < 2e-3, "{path:?}");
+    }
+    // A step back by the last decimal makes no other end.
+    let path = tip(&polyline(&[[0.0, 0.0], [20.0, 0.0], [19.9999, 0.0]]));
+    assert!(path.end().distance(Point::new(20.0, 0.0)) < 1e-9, "{path:?}");
     // Nothing but a wall.
     let path = tip(&polyline(&[[3.0, 0.0], [3.0, 20.0]]));
     assert!(path.pieces().iter().all(|piece| (piece.start().u + 2.0).abs() < 1e-6), "{path:?}");

@@ -23,6 +23,10 @@ fn all_of_a_smooth_profile_is_touched() {
     for chain in [wide.clone(), wide.reversed()] {
         assert_eq!(unreachable(&chain, R, 1e-6).unwrap(), []);
     }
+    let slanting = polyline(&[[0.0, 0.0], [-1e-4, 20.0], [50.0, 20.0], [49.9999, -1.0]]);
+    for chain in [slanting.clone(), slanting.reversed()] {
+        assert_eq!(unreachable(&chain, R, 2e-4).unwrap(), []);
+    }
     // Chorded finely, each corner hides a little; what is left there is next to nothing.
     let points: Vec<[f64; 2]> = (0..400)
         .map(|index| f64::from(index) * PI / 400.0)

@@ -1,7 +1,7 @@
 //! `correct_ramp`: geometry, programs, real files.
 
 mod corpus;
-// mod geometry;
+mod geometry;
 mod programs;
 mod refused;
 mod special;

@@ -176,3 +176,22 @@ fn the_setup_knows_inserts_and_solid_cutters_are_left_alone() {
     assert!(codes.contains(&"CL0320") && codes.contains(&"CL0323"), "{codes:?}");
     assert!(done.text.ends_with(&two), "the solid cutter's operation is untouched");
 }
+
+#[test]
+fn around_an_outside_contour_the_part_is_no_place_to_ramp() {
+    // A contour of 100 x 60 mm around a boss, with a lead 30 mm long beside it: the hull spans the boss, the milled band does not.
+    let text = "TOOL PATH/BOSS,TOOL,FACE\nTLDATA/MILL,20.0000,2.0000,60.0000,0.0000,0.0000\nPAINT/COLOR,211\nRAPID\nGOTO/50.0000,0.0000,5.0000\n\
+        PAINT/COLOR,42\nFEDRAT/MMPM,300.0000\nGOTO/50.0000,6.0000,1.0000\nGOTO/50.0000,0.0000,-3.0000\nPAINT/COLOR,31\n\
+        GOTO/100.0000,0.0000,-3.0000\nGOTO/100.0000,60.0000,-3.0000\nGOTO/0.0000,60.0000,-3.0000\nGOTO/0.0000,0.0000,-3.0000\n\
+        GOTO/50.0000,0.0000,-3.0000\nEND-OF-PATH\n";
+    let tool = "tool: { diameter: 20, insert_radius: 2, insert_height: 4 }";
+    let deepest = |region: &str| {
+        let done = correct(&format!("{tool}, region: {region}"), text).unwrap();
+        let lengthened = done.ramps[0].lengthened;
+        let inside = |[x, y, _]: &&[f64; 3]| (11.0..89.0).contains(x) && (11.0..49.0).contains(y);
+        (lengthened, done.ramps[0].path_after.iter().filter(inside).count())
+    };
+    assert_eq!(deepest("milled"), (Lengthened::AlongPass, 0));
+    let (_, inside) = deepest("hull");
+    assert!(inside > 0, "the circle bulges into the boss");
+}

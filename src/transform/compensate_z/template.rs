@@ -1,0 +1,123 @@
+//! The records that new arcs are modelled on.
+
+use crate::diagnostic::Diagnostic;
+use crate::program::record::{ArcSense, Circle};
+use crate::program::{ArcRule, Program, Record};
+use crate::surface::profile::{Arc, Piece, Plane, Point};
+use crate::transform::numbers::{without_remark, word};
+use crate::write::{Editor, copy_with_numbers};
+use nalgebra::{Point3, Vector3};
+
+/// How a file says an arc.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Template {
+    /// CIRCLE and GOTO.
+    Circle {
+        statement: usize,
+        has_radius: bool,
+        /// 1 where the printed axis is right-hand, -1 where it is left-hand.
+        hand: f64,
+    },
+    /// CATIA's INDIRV and TLON, after AUTOPS where the file has that.
+    Drive { auto: Option<usize>, direction: usize, drive: usize },
+}
+
+/// The first arc of the file whose sense is known.
+pub(super) fn template(program: &Program) -> Option<Template> {
+    let hand = match program.dialect().arc_rule() {
+        ArcRule::LeftHand => -1.0,
+        ArcRule::RightHand => 1.0,
+        ArcRule::ByWord | ArcRule::FromTangent => return drive(program),
+    };
+    let plain = |circle: &Circle| circle.times <= 1 && circle.sense == ArcSense::OfDialect;
+    program.live().find_map(|(statement, found)| match found.record() {
+        Record::Circle(circle) if plain(circle) => {
+            Some(Template::Circle { statement, has_radius: circle.radius.is_some(), hand })
+        }
+        _ => None,
+    })
+}
+
+/// A TLON of half a turn or less, which has no INTOF: ten numbers.
+fn drive(program: &Program) -> Option<Template> {
+    let (mut auto, mut direction, mut drive) = (None, None, None);
+    for (statement, found) in program.live() {
+        let text = program.text(found);
+        let place = match found.record() {
+            Record::StartDirection(_) => &mut direction,
+            Record::DriveArc(arc) if !arc.beyond_half && crate::parse::numbers(text).len() == 10 => {
+                &mut drive
+            }
+            Record::Known if word(text) == "AUTOPS" => &mut auto,
+            _ => continue,
+        };
+        place.get_or_insert(statement);
+    }
+    Some(Template::Drive { auto, direction: direction?, drive: drive? })
+}
+
+impl Template {
+    /// Puts in an arc of half a turn or less; whether its end still has to be told by a GOTO. Lengths of the file are `mm` long.
+    ///
+    /// # Errors
+    /// When a new statement does not read back.
+    pub fn insert(
+        &self,
+        editor: &mut Editor,
+        arc: &Arc,
+        plane: &Plane,
+        mm: f64,
+        before: usize,
+    ) -> Result<bool, Box<Diagnostic>> {
+        let space = |point: Point| plane.space(point);
+        let way = |u: f64, z: f64| (space(Point::new(u, z)) - space(Point::default())).map(tidy);
+        let place = |point: Point3<f64>| -> [f64; 3] { (point / mm).coords.into() };
+        let centre = place(space(arc.centre));
+        match *self {
+            Self::Circle { statement, has_radius, hand } => {
+                // From +u towards +z is right-hand about u x z.
+                let axis = way(1.0, 0.0).cross(&way(0.0, 1.0)) * (arc.sweep.signum() * hand);
+                let mut numbers = numbered(0, centre);
+                numbers.extend(numbered(3, axis.map(tidy).into()));
+                if has_radius {
+                    numbers.push((6, arc.radius / mm));
+                }
+                editor.insert_before(before, &copy(editor, statement, &numbers))?;
+                Ok(true)
+            }
+            Self::Drive { auto, direction, drive } => {
+                let tangent = Piece::Arc(*arc).direction(0.0);
+                let tangent: Vector3<f64> = way(tangent.u, tangent.z).normalize();
+                let mut numbers = numbered(0, centre);
+                numbers.push((3, arc.radius / mm));
+                numbers.extend(numbered(4, centre));
+                numbers.extend(numbered(7, place(space(Piece::Arc(*arc).end()))));
+                if let Some(auto) = auto {
+                    editor.insert_before(before, &copy(editor, auto, &[]))?;
+                }
+                editor.insert_before(
+                    before,
+                    &copy(editor, direction, &numbered(0, tangent.map(tidy).into())),
+                )?;
+                editor.insert_before(before, &copy(editor, drive, &numbers))?;
+                Ok(false)
+            }
+        }
+    }
+}
+
+/// What is nothing but rounding is printed without a sign.
+fn tidy(part: f64) -> f64 {
+    if part.abs() < 1e-9 { 0.0 } else { part }
+}
+
+pub(super) fn numbered(first: usize, values: [f64; 3]) -> Vec<(usize, f64)> {
+    values.into_iter().enumerate().map(|(index, value)| (first + index, value)).collect()
+}
+
+/// A statement's text with other numbers.
+pub(super) fn copy(editor: &Editor, statement: usize, numbers: &[(usize, f64)]) -> Vec<u8> {
+    let program = editor.program();
+    let Some(found) = program.statement(statement) else { return Vec::new() };
+    copy_with_numbers(&without_remark(program.text(found)), found.record(), numbers, editor.style())
+}
