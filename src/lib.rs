@@ -17,6 +17,7 @@ pub mod setup;
 pub mod sim;
 pub mod source;
 pub mod surface;
+pub mod surfacing;
 pub mod transform;
 pub mod values;
 pub mod write;

@@ -62,7 +62,8 @@ fn beginning(part: &Path) -> Arc<Source> {
 
 #[test]
 fn examples_do_what_their_pages_show() {
-    for example in files(&folder("examples")) {
+    // What a recipe corrects; the other example makes a program, see below.
+    for example in files(&folder("examples")).into_iter().filter(|path| !path.ends_with("ball-profile")) {
         let name = example.file_name().unwrap().to_string_lossy().into_owned();
         let page = std::fs::read_to_string(example.join("README.md")).unwrap();
         assert!(
@@ -76,6 +77,24 @@ fn examples_do_what_their_pages_show() {
             .unwrap();
         let patch = run(&recipe, &setup, &beginning(&part));
         support::snapshots("examples").bind(|| insta::assert_snapshot!(name, patch));
+    }
+}
+
+#[test]
+fn the_ball_over_a_profile_is_what_its_page_makes() {
+    let shipped = folder("examples/ball-profile");
+    let page = std::fs::read_to_string(shipped.join("README.md")).unwrap();
+    let command = page.lines().find_map(|line| line.strip_prefix("clsmith ")).unwrap();
+    let made = crate::cli::example("ball-profile");
+    let file = |folder: &Path, name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
+    for name in ["part.cls", "figure.svg"] {
+        std::fs::remove_file(made.path().join(name)).unwrap();
+    }
+    let done = crate::cli::clsmith(made.path()).args(command.split(' ')).assert().success();
+    let shown = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
+    assert!(page.contains(&format!("```text\n{shown}```")), "{shown}");
+    for name in ["part.cls", "figure.svg"] {
+        assert!(file(made.path(), name) == file(&shipped, name), "{name} is what the command makes");
     }
 }
 

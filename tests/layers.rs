@@ -19,6 +19,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("recipe", &["source", "diagnostic", "program", "values", "yaml", "setup"]),
     ("machining", &["source", "diagnostic", "program", "values", "setup", "sim"]),
     ("check", &["source", "number", "diagnostic", "program", "parse"]),
+    ("surfacing", &["source", "diagnostic", "program", "parse", "write", "values", "yaml", "sim", "surface"]),
     (
         "transform",
         &[
@@ -49,6 +50,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
             "values",
             "sim",
             "surface",
+            "surfacing",
             "setup",
             "recipe",
             "machining",

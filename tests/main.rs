@@ -16,5 +16,6 @@ mod setup;
 mod sim;
 mod support;
 mod surface;
+mod surfacing;
 mod transform;
 mod write_files;

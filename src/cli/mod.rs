@@ -9,6 +9,7 @@ mod findings;
 mod output;
 mod progress;
 mod reference;
+mod section;
 mod simulate;
 mod stats;
 mod terminal;
@@ -24,6 +25,8 @@ Examples:
   clsmith check part.cls                           what is wrong with a program
   clsmith stats part.cls                           what is in it
   clsmith simulate part.cls --setup shop.yaml      what its tools cut and bear
+  clsmith section part.stl --radius 5 --step 0.5 --feed 800 -o part.cls
+                                                   a program for a ball over a part
   clsmith diff part.cls out.cls                    what changed, by meaning
   clsmith transforms scale_feed                    what a recipe step does
 
@@ -52,6 +55,7 @@ enum Command {
     Check(check::Check),
     Stats(stats::Stats),
     Simulate(simulate::Simulate),
+    Section(section::Section),
     Diff(diff::Diff),
     Transforms(reference::Transforms),
     Schema(reference::Schema),
@@ -68,6 +72,7 @@ pub fn main() -> ExitCode {
         Command::Check(command) => command.run(),
         Command::Stats(command) => command.run(),
         Command::Simulate(command) => command.run(),
+        Command::Section(command) => command.run(),
         Command::Diff(command) => command.run(),
         Command::Transforms(command) => command.run(),
         Command::Schema(command) => command.run(),

@@ -16,6 +16,15 @@ pub enum LengthUnit {
     Inch,
 }
 
+impl std::fmt::Display for LengthUnit {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Mm => "mm",
+            Self::Inch => "inch",
+        })
+    }
+}
+
 impl LengthUnit {
     /// Millimetres in one unit.
     pub fn in_mm(self) -> f64 {

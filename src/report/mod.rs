@@ -17,6 +17,7 @@ pub mod simulation;
 pub mod stats;
 pub mod step_report;
 pub mod steps;
+pub mod surfacing;
 mod table;
 pub mod unified;
 

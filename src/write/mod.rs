@@ -4,6 +4,7 @@ mod atomic;
 mod editor;
 mod interrupt;
 mod patch;
+pub mod program;
 mod same;
 mod style;
 

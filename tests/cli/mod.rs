@@ -2,6 +2,7 @@
 
 mod apply;
 mod other;
+mod section;
 mod simulate;
 
 use assert_cmd::Command;

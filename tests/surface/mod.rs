@@ -3,4 +3,4 @@
 mod drop;
 mod profile;
 mod section;
-mod solids;
+pub(crate) mod solids;

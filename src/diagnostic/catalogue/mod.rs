@@ -8,6 +8,7 @@ mod reading;
 mod recipe;
 mod running;
 mod simulating;
+mod surfaces;
 
 use super::Severity;
 use std::fmt;
@@ -116,11 +117,19 @@ pub mod codes {
     pub use super::recipe::*;
     pub use super::running::*;
     pub use super::simulating::*;
+    pub use super::surfaces::*;
 }
 
 /// Every code, area by area, in the order of their ids.
-pub const CATALOGUE: &[&[Code]] =
-    &[reading::ROWS, checking::ROWS, recipe::ROWS, running::ROWS, files::ROWS, simulating::ROWS];
+pub const CATALOGUE: &[&[Code]] = &[
+    reading::ROWS,
+    checking::ROWS,
+    recipe::ROWS,
+    running::ROWS,
+    files::ROWS,
+    simulating::ROWS,
+    surfaces::ROWS,
+];
 
 /// Looks a code up by its id, in any case.
 pub fn code(id: &str) -> Option<Code> {

@@ -1,0 +1,278 @@
+//! `clsmith section`.
+
+mod line;
+mod options;
+mod outputs;
+
+use super::exit::Exit;
+use super::files;
+use super::findings::FindingArgs;
+use super::output::{Outputs, unless_nobody_reads};
+use super::terminal;
+use clap::{Args, ValueEnum};
+use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::program::{Dialect, LengthUnit};
+use clsmith::report::policy::Policy;
+use clsmith::report::surfacing as report;
+use clsmith::sim::Mesh;
+use clsmith::surfacing::{self, Options, Part, Surfaced, load_profile, surface};
+use clsmith::write::is_interrupt;
+use std::io;
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "\
+Examples:
+  clsmith section part.stl --plane zx --step 0.5 --radius 5 --tolerance 0.005 --feed 800 -o part.cls
+  clsmith section part.stl --plane 30 --step 0.4 --radius 3 --feed 1200 --pattern one-way -o part.aptsource
+  clsmith section --profile profile.yaml --from 0 --to 40 --step 0.5 --radius 5 --feed 800 -o part.ncl
+  clsmith section part.stl --step 0.5 --radius 5 --feed 800 --dry-run --plot paths.svg
+
+Planes stand upright: zx along x (counted by y), yz along y (counted by x), or at an angle in degrees from x
+(counted to the left of it). The ball's tip follows the part's top so that the ball touches it everywhere it can;
+the path is checked against the part by other means, and nothing is written when it is farther off than the
+tolerance. All lengths here, in the STL and in the program are in --units, feeds in that a minute; a profile
+file says its own unit.
+
+Passes end where the tip would go below the part's lowest place (or --floor). With --pattern zigzag the tool goes from
+pass to pass over the surface where that is near; else it is lifted --clearance above the part.";
+
+/// Makes a program for a ball that goes over a part in parallel vertical planes
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Section {
+    /// The part: a closed STL
+    #[arg(value_name = "MODEL", required_unless_present = "profile", conflicts_with = "profile")]
+    model: Option<PathBuf>,
+    /// A profile (YAML) that is the same in all planes, instead of a model
+    #[arg(long, value_name = "FILE")]
+    profile: Option<PathBuf>,
+    /// The planes: zx, yz, or an angle in degrees from x
+    #[arg(long, value_name = "PLANE", default_value = "zx", allow_negative_numbers = true)]
+    plane: String,
+    /// Largest distance of planes; they are spread evenly
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    step: Option<String>,
+    /// First plane; the model's own border if not given
+    #[arg(long, value_name = "PLACE", allow_negative_numbers = true)]
+    from: Option<String>,
+    /// Last plane
+    #[arg(long, value_name = "PLACE", allow_negative_numbers = true)]
+    to: Option<String>,
+    /// Radius of the ball
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    radius: Option<String>,
+    /// How deep passes may go into the part, and how far off it they may stay; 0.01 mm if not given
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    tolerance: Option<String>,
+    /// What heights are made from: the whole mesh, or its profile in the plane alone
+    #[arg(long, value_enum, default_value = "mesh", conflicts_with = "profile")]
+    against: Against,
+    /// How passes follow each other
+    #[arg(long, value_enum, default_value = "zigzag")]
+    pattern: Pattern,
+    /// Keep arcs where the dialect holds them in vertical planes (NX, CATIA)
+    #[arg(long)]
+    arcs: bool,
+    /// Feed of the passes
+    #[arg(long, value_name = "FEED", help_heading = "Motion", allow_negative_numbers = true)]
+    feed: Option<String>,
+    /// Feed of the way down to a pass; half the feed if not given
+    #[arg(long, value_name = "FEED", help_heading = "Motion", allow_negative_numbers = true)]
+    plunge: Option<String>,
+    /// Between passes above the part: `rapid`, or a feed
+    #[arg(
+        long,
+        value_name = "FEED",
+        default_value = "rapid",
+        help_heading = "Motion",
+        allow_negative_numbers = true
+    )]
+    between: String,
+    /// How far above the part's top the tool goes across; 10 mm if not given
+    #[arg(long, value_name = "LENGTH", help_heading = "Motion", allow_negative_numbers = true)]
+    clearance: Option<String>,
+    /// How far above a pass the plunge feed begins; 2 mm if not given
+    #[arg(long, value_name = "LENGTH", help_heading = "Motion", allow_negative_numbers = true)]
+    approach: Option<String>,
+    /// The tip goes nowhere below this z; the part's lowest place if not given
+    #[arg(long, value_name = "PLACE", help_heading = "Motion", allow_negative_numbers = true)]
+    floor: Option<String>,
+    /// Spindle speed in revolutions a minute
+    #[arg(long, value_name = "RPM", help_heading = "Program", allow_negative_numbers = true)]
+    spindle: Option<String>,
+    /// Switch coolant on
+    #[arg(long, help_heading = "Program")]
+    coolant: bool,
+    /// Number of the tool
+    #[arg(long, value_name = "N", default_value_t = 1, help_heading = "Program")]
+    tool: u32,
+    /// Name of the tool
+    #[arg(long, value_name = "NAME", help_heading = "Program")]
+    tool_name: Option<String>,
+    /// Name of the operation
+    #[arg(long, value_name = "NAME", help_heading = "Program")]
+    operation: Option<String>,
+    /// nx, catia or creo; by the output's extension (.aptsource and .apt, .ncl) if not given, else nx
+    #[arg(long, value_parser = writable, value_name = "NAME", help_heading = "Program")]
+    dialect: Option<Dialect>,
+    /// Unit of lengths here, in the STL and in the program: mm or inch
+    #[arg(long, value_parser = files::units, value_name = "UNIT", default_value = "mm", help_heading = "Program")]
+    units: LengthUnit,
+    /// Where to write the program; `-` is standard output
+    #[arg(short, long, value_name = "FILE", required_unless_present = "dry_run", help_heading = "Outputs")]
+    output: Option<PathBuf>,
+    /// A drawing of the middle plane: part, shifted contact points, tip path (SVG)
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    plot: Option<PathBuf>,
+    /// Make and prove, write no program
+    #[arg(long)]
+    dry_run: bool,
+    /// No summary, findings only
+    #[arg(short, long)]
+    quiet: bool,
+    #[command(flatten)]
+    findings: FindingArgs,
+}
+
+/// What heights over a mesh are made from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Against {
+    /// The whole mesh.
+    Mesh,
+    /// Its profile in the plane.
+    Profile,
+}
+
+/// How passes follow each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Pattern {
+    /// Forth and back.
+    Zigzag,
+    /// All the same way.
+    OneWay,
+}
+
+fn writable(name: &str) -> Result<Dialect, String> {
+    let writable = clsmith::write::program::WRITABLE;
+    let found = Dialect::of_name(name).filter(|dialect| writable.contains(dialect));
+    found.ok_or_else(|| "the dialects that can be written are nx, catia and creo".into())
+}
+
+impl Section {
+    pub fn run(&self) -> io::Result<Exit> {
+        let policy = match self.problem().map_or_else(|| self.findings.policy(), Err) {
+            Ok(policy) => policy,
+            Err(problem) => {
+                eprintln!("clsmith section: {problem}");
+                return Ok(Exit::Usage);
+            }
+        };
+        let options = match self.options() {
+            Ok(options) => options,
+            Err(found) => {
+                self.show(&policy.apply(found))?;
+                self.nothing();
+                return Ok(Exit::Usage);
+            }
+        };
+        let outputs = Outputs::default();
+        outputs.stop_on_ctrl_c(|| {})?;
+        let done = self.overwrites().and_then(|()| {
+            let part = self.part(&options)?;
+            surface(&part, &options).map_err(|found| vec![*found])
+        });
+        let surfaced = match done {
+            Ok(surfaced) => surfaced,
+            Err(found) => {
+                self.show(&policy.apply(found))?;
+                self.nothing();
+                return Ok(Exit::Errors);
+            }
+        };
+        self.finish(&surfaced, &options, &policy, &outputs)
+    }
+
+    /// Shows what was found and made, and writes what may be written.
+    fn finish(
+        &self,
+        surfaced: &Surfaced,
+        options: &Options,
+        policy: &Policy,
+        outputs: &Outputs,
+    ) -> io::Result<Exit> {
+        let found = policy.apply(report::findings(surfaced, options));
+        if !found.is_empty() {
+            self.show(&found)?;
+        }
+        if !self.quiet {
+            unless_nobody_reads(self.summary(surfaced, options))?;
+        }
+        if found.iter().any(Diagnostic::is_error) {
+            self.nothing();
+            return Ok(Exit::Errors);
+        }
+        match self.write(surfaced, options, outputs) {
+            Ok(None) => Ok(Exit::Done),
+            Ok(Some(found)) => {
+                self.show(&[found])?;
+                Ok(Exit::Errors)
+            }
+            Err(error) if is_interrupt(&error) => Ok(Exit::Interrupted),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// The part, in mm.
+    fn part(&self, options: &Options) -> Result<Part, Vec<Diagnostic>> {
+        if let Some(profile) = &self.profile {
+            let source = files::read(profile).map_err(|found| vec![*found])?;
+            return load_profile(&source).map(Part::Profile);
+        }
+        let path = self.input();
+        let source = files::read(path).map_err(|found| vec![*found])?;
+        let mesh = Mesh::from_stl(source.bytes()).and_then(|mesh| match options.words.units {
+            LengthUnit::Mm => Ok(mesh),
+            LengthUnit::Inch => mesh.scaled(LengthUnit::Inch.in_mm()),
+        });
+        mesh.map(Part::Mesh).map_err(|error| {
+            let message = format!("the model {} cannot be gone over: {error}", path.display());
+            vec![Diagnostic::new(codes::MODEL_FILE, message)]
+        })
+    }
+
+    /// The one input.
+    fn input(&self) -> &Path {
+        self.profile.as_deref().or(self.model.as_deref()).unwrap_or(Path::new(""))
+    }
+
+    fn nothing(&self) {
+        if !self.quiet && self.outputs().next().is_some() {
+            eprintln!("{}: nothing was written", self.input().display());
+        }
+    }
+
+    fn show(&self, findings: &[Diagnostic]) -> io::Result<()> {
+        let mut err = io::stderr().lock();
+        let file = self.input().to_string_lossy();
+        let seen = terminal::errors_are_seen();
+        unless_nobody_reads(self.findings.show(&mut err, seen, findings, Some(&file)))
+    }
+}
+
+impl From<Against> for surfacing::Against {
+    fn from(against: Against) -> Self {
+        match against {
+            Against::Mesh => Self::Mesh,
+            Against::Profile => Self::Profile,
+        }
+    }
+}
+
+impl From<Pattern> for surfacing::Pattern {
+    fn from(pattern: Pattern) -> Self {
+        match pattern {
+            Pattern::Zigzag => Self::ZigZag,
+            Pattern::OneWay => Self::OneWay,
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! The options of `clsmith section`, read with all faults at once.
+
+use super::Section;
+use super::line::CommandLine;
+use clsmith::diagnostic::Diagnostic;
+use clsmith::program::Dialect;
+use clsmith::surfacing::{Options, Planes, Words};
+use std::path::Path;
+
+/// Lengths that are taken when none is given, mm.
+const TOLERANCE: f64 = 0.01;
+const CLEARANCE: f64 = 10.0;
+const APPROACH: f64 = 2.0;
+
+/// The smallest ball, step and tolerance, mm: below that, rounding is all there is.
+const SMALLEST: f64 = 1e-2;
+const FINEST: f64 = 1e-4;
+
+impl Section {
+    pub(super) fn options(&self) -> Result<Options, Vec<Diagnostic>> {
+        let mut line = CommandLine::new(self.units);
+        let unit = self.units.in_mm();
+        let planes = self.planes(&mut line);
+        let step = needed(&mut line, "--step", self.step.as_deref(), "how far planes are apart");
+        let radius = needed(&mut line, "--radius", self.radius.as_deref(), "the ball's radius");
+        let feed = needed(&mut line, "--feed", self.feed.as_deref(), "how fast passes are cut");
+        let tolerance = line.size("--tolerance", self.tolerance.as_deref());
+        for (option, value, least) in
+            [("--radius", radius, SMALLEST), ("--step", step, FINEST), ("--tolerance", tolerance, FINEST)]
+        {
+            if value.is_some_and(|value| value < least) {
+                line.fault(
+                    option,
+                    format!("{option} is less than {} {}", least / unit, self.units),
+                    "too small",
+                );
+            }
+        }
+        let range = self.range(&mut line);
+        let clearance = line.size("--clearance", self.clearance.as_deref());
+        let approach = line.distance("--approach", self.approach.as_deref());
+        let plunge = line.size("--plunge", self.plunge.as_deref());
+        let floor = line.place("--floor", self.floor.as_deref());
+        let air = match self.between.as_str() {
+            "rapid" => None,
+            feed => line.size("--between", Some(feed)),
+        };
+        let spindle = line.positive("--spindle", self.spindle.as_deref());
+        let operation = line.name("--operation", self.operation.as_deref());
+        let tool_name = line.name("--tool-name", self.tool_name.as_deref());
+        let found = line.into_found();
+        let (Some(planes), Some(step), Some(radius), Some(feed), []) =
+            (planes, step, radius, feed, found.as_slice())
+        else {
+            return Err(found);
+        };
+        Ok(Options {
+            planes,
+            range,
+            step,
+            radius,
+            tolerance: tolerance.unwrap_or(TOLERANCE),
+            against: self.against.into(),
+            pattern: self.pattern.into(),
+            arcs: self.arcs,
+            floor,
+            clearance: clearance.unwrap_or(CLEARANCE),
+            approach: approach.unwrap_or(APPROACH),
+            feed,
+            plunge: plunge.unwrap_or(feed / 2.0),
+            air,
+            words: Words {
+                dialect: self.dialect(),
+                units: self.units,
+                name: name(self.input()),
+                operation: operation.unwrap_or_else(|| "SECTION".to_owned()),
+                tool: self.tool,
+                tool_name,
+                spindle,
+                coolant: self.coolant,
+            },
+        })
+    }
+
+    fn planes(&self, line: &mut CommandLine) -> Option<Planes> {
+        match self.plane.to_ascii_lowercase().as_str() {
+            "zx" | "xz" => Some(Planes::ZX),
+            "yz" | "zy" => Some(Planes::YZ),
+            angle => {
+                let fits = angle.parse::<f64>().ok().filter(|angle| angle.abs() <= 360.0);
+                if fits.is_none() {
+                    let message = format!(
+                        "--plane is zx, yz or an angle from -360 to 360 degrees, not `{}`",
+                        self.plane
+                    );
+                    line.fault("--plane", message, "no plane");
+                }
+                fits.map(Planes::at)
+            }
+        }
+    }
+
+    /// Both ends, or none.
+    fn range(&self, line: &mut CommandLine) -> Option<(f64, f64)> {
+        let (from, to) = (line.place("--from", self.from.as_deref()), line.place("--to", self.to.as_deref()));
+        match (&self.from, &self.to) {
+            (Some(_), None) => line.missing("--to", "--from says only where the first plane is"),
+            (None, Some(_)) => line.missing("--from", "--to says only where the last plane is"),
+            _ => {}
+        }
+        from.zip(to)
+    }
+
+    /// The dialect asked for, else that of the output's extension, else NX.
+    fn dialect(&self) -> Dialect {
+        let extension = self.output.as_deref().and_then(Path::extension);
+        let extension = extension.map(|extension| extension.to_string_lossy().to_ascii_lowercase());
+        self.dialect.unwrap_or(match extension.as_deref() {
+            Some("aptsource" | "apt") => Dialect::Catia,
+            Some("ncl") => Dialect::Creo,
+            _ => Dialect::Nx,
+        })
+    }
+}
+
+fn needed(line: &mut CommandLine, option: &'static str, text: Option<&str>, what: &str) -> Option<f64> {
+    if text.is_none() {
+        line.missing(option, what);
+    }
+    line.size(option, text)
+}
+
+/// A name for the program that every dialect holds, from its input's.
+fn name(input: &Path) -> String {
+    let stem = input.file_stem().unwrap_or_default().to_string_lossy().to_ascii_uppercase();
+    let plain: String =
+        stem.chars().take(40).map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
+    if plain.is_empty() { "PART".to_owned() } else { plain }
+}

@@ -1,0 +1,120 @@
+//! Passes joined to one path: from pass to pass over the surface where that is near and safe, else up, across and down again.
+
+use super::track::{Print, Track};
+use crate::program::MotionClass;
+use crate::write::program::{Move, Way};
+use nalgebra::Point3;
+
+/// How passes follow each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Pattern {
+    /// Forth and back: every other plane the other way.
+    #[default]
+    ZigZag,
+    /// Every pass the same way, with a retract after each.
+    OneWay,
+}
+
+/// How the tool goes between passes. All in the program's unit.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Between {
+    pub pattern: Pattern,
+    /// Height of the tip at which nothing is in the way.
+    pub clear: f64,
+    /// From here above a pass it goes down at the plunge feed.
+    pub approach: f64,
+    pub feed: f64,
+    pub plunge: f64,
+    /// Feed between passes above the part; rapid when there is none.
+    pub air: Option<f64>,
+}
+
+/// The motions through all tracks, which stand plane by plane in the order and direction in which they are cut.
+///
+/// `link` gives points from the end of one track to the start of the next over which the tool may go at feed.
+pub(super) fn join(
+    planes: &[Vec<Track>],
+    between: &Between,
+    print: Print,
+    link: impl Fn(Point3<f64>, Point3<f64>) -> Option<Vec<Point3<f64>>>,
+) -> Vec<Move> {
+    let mut path = Joined { moves: Vec::new(), between: *between, print };
+    let mut at: Option<Point3<f64>> = None;
+    for tracks in planes {
+        for (index, track) in tracks.iter().enumerate() {
+            // Parts of one plane have something between them that is not to be cut.
+            let near = index == 0 && between.pattern == Pattern::ZigZag;
+            match at.and_then(|at| link(at, track.start).filter(|_| near)) {
+                Some(points) => path.over(points),
+                None => path.down_to(at, track.start),
+            }
+            path.along(track);
+            at = Some(track.end());
+        }
+    }
+    if let Some(at) = at {
+        path.up_from(at);
+    }
+    path.moves
+}
+
+struct Joined {
+    moves: Vec<Move>,
+    between: Between,
+    print: Print,
+}
+
+impl Joined {
+    fn air(&mut self, to: Point3<f64>, class: MotionClass) {
+        // Where it already is, nothing moves.
+        if self.moves.last().is_some_and(|last| last.to == to) {
+            return;
+        }
+        let way = match self.between.air {
+            // Where the tool comes from at first, nobody knows; no feed would be right.
+            Some(feed) if !self.moves.is_empty() => Way::Line { feed },
+            _ => Way::Rapid,
+        };
+        self.moves.push(Move { to, way, class });
+    }
+
+    fn up_from(&mut self, at: Point3<f64>) {
+        self.air(Point3::new(at.x, at.y, self.between.clear), MotionClass::Retract);
+    }
+
+    /// Up from a place, across, and down to another, the last bit at the plunge feed.
+    fn down_to(&mut self, at: Option<Point3<f64>>, start: Point3<f64>) {
+        let first = at.is_none();
+        if let Some(at) = at {
+            self.up_from(at);
+        }
+        let class = if first { MotionClass::Approach } else { MotionClass::Rapid };
+        self.air(Point3::new(start.x, start.y, self.between.clear), class);
+        let above = crate::write::program::rounded(start.z + self.between.approach, self.print.dialect);
+        if above < self.between.clear {
+            self.air(Point3::new(start.x, start.y, above), MotionClass::Rapid);
+        }
+        let way = Way::Line { feed: self.between.plunge };
+        self.moves.push(Move { to: start, way, class: MotionClass::Engage });
+    }
+
+    fn over(&mut self, points: Vec<Point3<f64>>) {
+        let way = Way::Line { feed: self.between.feed };
+        for to in points {
+            if self.moves.last().is_none_or(|last| last.to != to) {
+                self.moves.push(Move { to, way, class: MotionClass::StepOver });
+            }
+        }
+    }
+
+    fn along(&mut self, track: &Track) {
+        let feed = self.between.feed;
+        self.moves.extend(track.steps.iter().map(|step| {
+            let way = match step.arc {
+                Some((centre, axis)) => Way::Arc { centre, axis, feed },
+                None => Way::Line { feed },
+            };
+            Move { to: step.to, way, class: MotionClass::Cut }
+        }));
+    }
+}

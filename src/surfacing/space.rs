@@ -1,0 +1,181 @@
+//! How far a ball with the shank above it is from a mesh: an exact distance in space, triangle by triangle.
+//!
+//! The cutter is everything nearer than its radius to the upright ray from the ball's centre. So its distance from a triangle is that of
+//! a ray from a triangle, which is a matter of points, edges and the inside, and knows nothing of how cutters are lowered.
+
+use crate::sim::Mesh;
+use nalgebra::Vector3;
+
+type Triangle = [Vector3<f64>; 3];
+
+/// More columns than this along a side are not made.
+const MOST_COLUMNS: f64 = 1000.0;
+
+/// What a path shows. In mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Found {
+    /// The nearest that the mesh comes, less the radius: negative where it is in the cutter.
+    pub low: f64,
+    /// The tip where that is.
+    pub low_at: [f64; 3],
+    /// The farthest that it is, less the radius.
+    pub high: f64,
+    /// The tip where that is.
+    pub high_at: [f64; 3],
+}
+
+/// A mesh in square columns.
+pub(super) struct Space {
+    radius: f64,
+    origin: [f64; 2],
+    cell: f64,
+    size: [usize; 2],
+    columns: Vec<Vec<u32>>,
+    triangles: Vec<(Triangle, Vector3<f64>, Vector3<f64>)>,
+}
+
+impl Space {
+    /// Sorts a mesh's triangles for a ball of `radius` mm.
+    pub fn new(mesh: &Mesh, radius: f64) -> Self {
+        let ([x0, y0, _], [x1, y1, _]) = mesh.bounds();
+        let cell = (radius / 2.0).max((x1 - x0).max(y1 - y0) / MOST_COLUMNS);
+        let size = [x1 - x0, y1 - y0].map(|width| (width / cell) as usize + 1);
+        let [across, deep] = size;
+        let bounded = |corners: [[f64; 3]; 3]| {
+            let [a, b, c] = corners.map(Vector3::from);
+            ([a, b, c], a.inf(&b).inf(&c), a.sup(&b).sup(&c))
+        };
+        let triangles: Vec<_> = mesh.corners().map(bounded).collect();
+        let columns = vec![Vec::new(); across * deep];
+        let mut space = Self { radius, origin: [x0, y0], cell, size, columns, triangles };
+        for index in 0..space.triangles.len() {
+            let Some((_, low, high)) = space.triangles.get(index).copied() else { continue };
+            for column in space.covered([low.x, low.y], [high.x, high.y]) {
+                if let Some(column) = space.columns.get_mut(column) {
+                    column.push(index as u32);
+                }
+            }
+        }
+        space
+    }
+
+    /// Looks along a path of straight lines, every `step` mm and at its points. None for a path without points.
+    ///
+    /// The distance of a point of the mesh from a cutter that moves straight is a convex function of the way: between two places
+    /// looked at, a point gets no deeper into the cutter than what a ball passes on the way, `step^2 / (8 R)`.
+    pub fn along(&self, path: &[[f64; 3]], step: f64) -> Option<Found> {
+        let first = path.first().filter(|_| path.iter().flatten().all(|value| value.is_finite()))?;
+        let mut distance = self.distance(*first, self.radius);
+        let mut found = Found { low: distance, low_at: *first, high: distance, high_at: *first };
+        for pair in path.windows(2) {
+            let [from, to] = pair else { continue };
+            let [from, to] = [*from, *to].map(Vector3::from);
+            let length = (to - from).norm();
+            let count = (length / step).ceil().max(1.0);
+            let mut index = 1.0;
+            while index <= count {
+                let tip: [f64; 3] = from.lerp(&to, index / count).into();
+                // No farther than before, plus the way.
+                distance = self.distance(tip, (distance + length / count + 1e-6).min(self.radius));
+                if distance < found.low {
+                    (found.low, found.low_at) = (distance, tip);
+                }
+                if distance > found.high {
+                    (found.high, found.high_at) = (distance, tip);
+                }
+                index += 1.0;
+            }
+        }
+        Some(found)
+    }
+
+    /// The mesh's distance from the ray above the ball's centre, less the radius; `most` where it is more.
+    fn distance(&self, [x, y, z]: [f64; 3], most: f64) -> f64 {
+        let centre = Vector3::new(x, y, z + self.radius);
+        let reach = self.radius + most.max(0.0);
+        let mut least = reach * reach;
+        for column in self.covered([x - reach, y - reach], [x + reach, y + reach]) {
+            for index in self.columns.get(column).into_iter().flatten() {
+                if let Some((triangle, low, high)) = self.triangles.get(*index as usize)
+                    && from_box(&centre, low, high) < least
+                {
+                    least = least.min(from_ray(&centre, triangle));
+                }
+            }
+        }
+        least.sqrt() - self.radius
+    }
+
+    /// Numbers of the columns that a rectangle has part in.
+    fn covered(&self, low: [f64; 2], high: [f64; 2]) -> impl Iterator<Item = usize> + use<> {
+        let range = |low: f64, high: f64, origin: f64, size: usize| {
+            let [first, last] = [low, high].map(|value| ((value - origin) / self.cell).floor());
+            // Empty when it lies beside.
+            if last < 0.0 {
+                0..0
+            } else {
+                (first.max(0.0) as usize).min(size)..(last as usize).saturating_add(1).min(size)
+            }
+        };
+        let [across, deep] = self.size;
+        let [x, y] = self.origin;
+        let columns = range(low[0], high[0], x, across);
+        range(low[1], high[1], y, deep)
+            .flat_map(move |row| columns.clone().map(move |column| row * across + column))
+    }
+}
+
+/// Square of the distance of the ray up from a point from a box.
+fn from_box(at: &Vector3<f64>, low: &Vector3<f64>, high: &Vector3<f64>) -> f64 {
+    let beside = |value: f64, low: f64, high: f64| (low - value).max(value - high).max(0.0);
+    let (x, y) = (beside(at.x, low.x, high.x), beside(at.y, low.y, high.y));
+    let below = (at.z - high.z).max(0.0);
+    x * x + y * y + below * below
+}
+
+/// Square of the distance of the ray up from a point from a triangle.
+fn from_ray(at: &Vector3<f64>, triangle: &Triangle) -> f64 {
+    let [a, b, c] = *triangle;
+    let normal = (b - a).cross(&(c - a));
+    let sides = [(a, b), (b, c), (c, a)];
+    let edges = sides.iter().map(|(from, to)| ray_from_edge(at, from, to)).fold(f64::INFINITY, f64::min);
+    // Inside, seen along the normal: the distance of the ray's start from the plane.
+    let over = sides.iter().all(|(from, to)| normal.dot(&(to - from).cross(&(at - from))) >= 0.0);
+    let square = normal.norm_squared();
+    let start = if over && square > 0.0 { (at - a).dot(&normal).powi(2) / square } else { f64::INFINITY };
+    // Inside, seen from above, and above the start: the ray goes through.
+    let turned = sides.map(|(from, to)| {
+        let (side, from) = (to - from, at - from);
+        side.x * from.y - side.y * from.x
+    });
+    let around = turned.iter().all(|turn| *turn >= 0.0) || turned.iter().all(|turn| *turn <= 0.0);
+    if around && normal.z != 0.0 && (a - at).dot(&normal) / normal.z >= 0.0 {
+        return 0.0;
+    }
+    edges.min(start)
+}
+
+/// Square of the distance of the ray up from a point from an edge: across where the ray is beside it, else from the start.
+fn ray_from_edge(at: &Vector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>) -> f64 {
+    let side = to - from;
+    let nearest = |share: f64| from + side * share.clamp(0.0, 1.0);
+    let level = side.x * side.x + side.y * side.y;
+    // Where the edge is nearest to the endless upright line.
+    let beside =
+        if level > 0.0 { ((at.x - from.x) * side.x + (at.y - from.y) * side.y) / level } else { 0.0 };
+    let place = nearest(beside);
+    let highest = if level > 0.0 { place.z } else { from.z.max(to.z) };
+    if highest >= at.z {
+        return (place.x - at.x).powi(2) + (place.y - at.y).powi(2);
+    }
+    let square = side.norm_squared();
+    let share = if square > 0.0 { (at - from).dot(&side) / square } else { 0.0 };
+    let start = (nearest(share) - at).norm_squared();
+    // An edge that rises past the start is beside the ray from there on.
+    let rises = if side.z != 0.0 { (at.z - from.z) / side.z } else { f64::NAN };
+    if (0.0..=1.0).contains(&rises) {
+        let place = from + side * rises;
+        return start.min((place.x - at.x).powi(2) + (place.y - at.y).powi(2));
+    }
+    start
+}
