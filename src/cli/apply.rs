@@ -14,7 +14,7 @@ use clsmith::program::{Dialect, Program};
 use clsmith::report::changes::{self, Changes};
 use clsmith::report::{picture, step_report, unified};
 use clsmith::source::Source;
-use clsmith::transform::StepReport;
+use clsmith::transform::{Recipe, Step, StepReport};
 use clsmith::write::{is_interrupt, same_file};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -117,7 +117,15 @@ impl Apply {
             return Some("--diff and -o - both write to standard output".into());
         }
         let several = self.inputs.len() > 1;
-        if self.plot.as_deref().zip(self.output.as_deref()).is_some_and(|(plot, out)| plot == out) {
+        let plot_to_standard = self.plot.as_ref().is_some_and(standard);
+        if plot_to_standard && (self.diff || self.output.as_ref().is_some_and(standard)) {
+            return Some("--plot - shares standard output with --diff or -o -".into());
+        }
+        let target = self.inputs.first().and_then(|input| self.target(input));
+        if let (Some(plot), Some(target)) = (&self.plot, target)
+            && !plot_to_standard
+            && (*plot == target || same_file(plot, &target))
+        {
             return Some("--plot and -o name one file".into());
         }
         if several && self.plot.is_some() {
@@ -146,8 +154,10 @@ impl Apply {
     fn one(&self, job: &Job<'_>, input: &Path, outputs: &Outputs, progress: &Progress) -> io::Result<Exit> {
         let target = self.target(input);
         let setup_file = job.recipe.setup_file.as_deref().map(|name| files::beside(&self.recipe, name));
-        let outs = target.iter().chain(&self.plot);
-        if let Some(found) = outs.filter_map(|out| self.overwrites(out, setup_file.as_deref())).next() {
+        let outs = target.iter().chain(self.plot.iter().filter(|path| *path != Path::new(STANDARD)));
+        if let Some(found) =
+            outs.filter_map(|out| self.overwrites(out, setup_file.as_deref(), job.recipe)).next()
+        {
             self.show(&[found], Some(&input.to_string_lossy()))?;
             return Ok(Exit::Errors);
         }
@@ -187,27 +197,30 @@ impl Apply {
             self.show(&[found], Some(source.name()))?;
             return Ok(Exit::Errors);
         }
-        if let Some(path) = &self.plot {
-            self.draw(path, &reports, outputs)?;
-        }
+        let drawn = match &self.plot {
+            Some(path) => self.draw(path, &reports, outputs)?,
+            None => Exit::Done,
+        };
         if !self.quiet {
             let target = target.as_deref().filter(|_| !self.dry_run);
             unless_nobody_reads(self.summary(job, &source, &program, &reports, target))?;
         }
-        Ok(Exit::Done)
+        Ok(drawn)
     }
 
     /// Draws what the steps have to show.
-    fn draw(&self, path: &Path, reports: &[StepReport], outputs: &Outputs) -> io::Result<()> {
+    fn draw(&self, path: &Path, reports: &[StepReport], outputs: &Outputs) -> io::Result<Exit> {
         let panels: Vec<_> = reports.iter().flat_map(step_report::panels).collect();
         let Some(text) = picture::draw(&panels)? else {
             if !self.quiet {
                 eprintln!("{}: not drawn, no step has anything to show", path.display());
             }
-            return Ok(());
+            return Ok(Exit::Done);
         };
-        let failed = outputs.write(path, |out| out.write_all(text.as_bytes()))?;
-        failed.map_or(Ok(()), |found| self.show(&[found], None))
+        match outputs.write(path, |out| out.write_all(text.as_bytes()))? {
+            Some(found) => self.show(&[found], None).map(|()| Exit::Errors),
+            None => Ok(Exit::Done),
+        }
     }
 
     /// The output of an input; `None` when nothing is to be written.
@@ -219,10 +232,12 @@ impl Apply {
         Some(output.clone())
     }
 
-    /// No output may be any of the inputs, the recipe or the setup.
-    fn overwrites(&self, target: &Path, setup_file: Option<&Path>) -> Option<Diagnostic> {
+    /// No output may be any of the inputs, the recipe, the setup, or a model that a step reads.
+    fn overwrites(&self, target: &Path, setup_file: Option<&Path>, recipe: &Recipe) -> Option<Diagnostic> {
         let given = self.inputs.iter().chain([&self.recipe]).chain(&self.setup).map(PathBuf::as_path);
-        let all = given.chain(setup_file);
+        let read = recipe.steps.iter().filter_map(Step::reads);
+        let models: Vec<PathBuf> = read.map(|file| file.beside(&self.recipe)).collect();
+        let all = given.chain(setup_file).chain(models.iter().map(PathBuf::as_path));
         let hit = all.filter(|path| *path != Path::new(STANDARD)).find(|path| same_file(path, target))?;
         let message = format!("writing {} would overwrite the input {}", target.display(), hit.display());
         Some(Diagnostic::new(codes::OUTPUT_IS_INPUT, message))

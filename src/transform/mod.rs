@@ -103,6 +103,16 @@ transforms! {
     "optimize_feed" => OptimizeFeed,
 }
 
+impl Step {
+    /// A file that the step reads beside the program.
+    pub fn reads(&self) -> Option<&crate::values::FilePath> {
+        match self {
+            Self::CompensateZ(step) => step.reads(),
+            _ => None,
+        }
+    }
+}
+
 /// What a step has to say about itself beyond findings.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]

@@ -123,3 +123,21 @@ pub fn without_remark(text: &[u8]) -> Vec<u8> {
     };
     syntax.text.get(..end).unwrap_or_default().to_vec()
 }
+
+/// Takes a statement out; a remark at its end stays, as a comment of its own.
+///
+/// # Errors
+/// When the comment does not read back.
+pub fn delete_but_remark(editor: &mut Editor, statement: usize) -> Result<(), Box<Diagnostic>> {
+    let program = editor.program();
+    let Some(found) = program.statement(statement) else { return Ok(()) };
+    let text = program.text(found);
+    let remark = parse::syntax(text).remark.and_then(|remark| text.get(remark.start..));
+    match remark.map(<[u8]>::to_vec) {
+        Some(remark) => editor.set_text(statement, &remark),
+        None => {
+            editor.delete(statement);
+            Ok(())
+        }
+    }
+}

@@ -177,4 +177,13 @@ fn ramps_are_drawn_and_told_as_the_example_shows() {
     run(&["apply", "recipe.yaml", "part.cls", "-o", "x", "--plot", "x"]).code(2);
     run(&["apply", "recipe.yaml", "part.cls", "part.cls", "--dry-run", "--plot", "x"]).code(2);
     assert!(!folder.path().join("x").exists());
+    std::fs::create_dir(folder.path().join("out")).unwrap();
+    run(&["apply", "recipe.yaml", "part.cls", "-o", "out", "--plot", "out/part.cls"]).code(2);
+    run(&["apply", "recipe.yaml", "part.cls", "--diff", "--plot", "-"]).code(2);
+    run(&["apply", "recipe.yaml", "part.cls", "--dry-run", "--plot", "nowhere/x.svg"]).code(1);
+    let mesh = "version: 1\nsteps:\n  - compensate_z: { radius: 5, against: { mesh: part.stl } }\n";
+    std::fs::write(folder.path().join("mesh.yaml"), mesh).unwrap();
+    std::fs::write(folder.path().join("part.stl"), "solid").unwrap();
+    run(&["apply", "mesh.yaml", "part.cls", "-o", "part.stl"]).code(1);
+    assert_eq!(std::fs::read_to_string(folder.path().join("part.stl")).unwrap(), "solid");
 }

@@ -1,6 +1,6 @@
 //! Compensation against a model: the cutter lowered onto it along each pass.
 
-use super::leads::{self, Moved, leads_written};
+use super::leads::{self, Around, Moved, leads_written};
 use super::model::{lowered, seen_from_above};
 use super::passes::runs;
 use super::proof;
@@ -22,7 +22,10 @@ use std::ops::Range;
 use std::path::Path;
 
 /// Places at which written passes are looked at, all together: more would take minutes.
-const LOOKS: f64 = 2e6;
+const LOOKS: f64 = 1e6;
+
+/// Points this far above where the cutter would stand (mm) are in the air.
+const AIR: f64 = 0.5;
 
 /// What printing may add to gouge and gap, in the file's unit.
 const PRINTED: f64 = 1e-4;
@@ -54,7 +57,8 @@ pub(super) fn run(
     let cutter = Cutter::new(2.0 * job.radius, job.corner)
         .map_err(|why| context.fail(why.to_string(), &["radius"]))?;
     let dropped = DropCutter::new(&mesh, cutter);
-    let runs = runs(motions, meant, mm);
+    let near = in_contact(job, motions, meant, &dropped);
+    let runs = runs(motions, &near, mm);
     let count = runs.len();
     let made: Vec<Option<Work>> = runs.into_par_iter().map(|run| make(job, motions, run, &dropped)).collect();
     let all: Vec<Work> = made.into_iter().flatten().collect();
@@ -66,7 +70,8 @@ pub(super) fn run(
     let lift = Vector3::z() * if job.centre { job.radius } else { 0.0 };
     let moved: Vec<Moved> = all.iter().filter_map(|work| work.moved(lift)).collect();
     let height = |at: Point3<f64>| dropped.height(at.x, at.y).map(|drop| drop.tip_z + lift.z);
-    let ends = leads::around(motions, &moved, mm, &height);
+    let ends = leads::around(&Around::new(&program, motions, meant, mm, job.lift()), &moved, &height)
+        .map_err(|why| place.stuck(why, context))?;
     let writer = Writer::new(&program, motions, mm);
     for index in ends.keys().copied().chain(all.iter().flat_map(|work| work.run.clone())) {
         writer.check(&program, index).map_err(|why| place.unwritable(why, index, context))?;
@@ -97,6 +102,22 @@ pub(super) fn run(
     let report = Report::new("mesh", (job.radius, job.corner), job.tolerance);
     let report = Report { passes: reports, beside, ..report };
     Ok((program, report))
+}
+
+/// The motions that are meant and touch the model: one that is higher at either end than the cutter could stand there is a link, a retract or
+/// a plunge.
+fn in_contact(job: &Job, motions: &[Motion], meant: &[bool], cutter: &DropCutter) -> Vec<bool> {
+    let mm = job.file.in_mm();
+    // A larger ball than this one stood higher on slopes.
+    let room = AIR + 2.0 * job.was.map_or(0.0, |was| (was - job.radius).abs());
+    let lift = if job.was_centre { job.was.unwrap_or(0.0) } else { 0.0 };
+    let above = |point: Point3<f64>| {
+        let at = point * mm;
+        cutter.height(at.x, at.y).is_some_and(|drop| at.z - lift > drop.tip_z + room)
+    };
+    let touches =
+        |(motion, meant): (&Motion, &bool)| *meant && !above(motion.from.point) && !above(motion.to.point);
+    motions.iter().zip(meant).map(touches).collect()
 }
 
 fn mesh(path: &FilePath, mm: f64, context: &Context<'_>) -> Result<Mesh, Box<Diagnostic>> {

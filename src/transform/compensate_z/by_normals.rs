@@ -1,6 +1,6 @@
 //! Compensation by contact normals: each point moves by its own.
 
-use super::leads::{self, Moved, leads_written};
+use super::leads::{self, Around, Moved, leads_written};
 use super::normals::{Contact, gouges};
 use super::passes::runs;
 use super::proof;
@@ -43,6 +43,11 @@ pub(super) fn run(
                 "this point has no contact normal (GOTO with nine values), which `against: normals` needs";
             place.fail(message.to_owned(), index, "no normal", context)
         })?;
+        if contact.normal.dot(&contact.axis) < -1e-6 {
+            let message =
+                "the contact normal points away from the tool, into the part: the ball would come from below";
+            return Err(place.fail(message.to_owned(), index, "points down", context));
+        }
         contacts.push(contact);
         owners.push(index);
     }
@@ -51,7 +56,8 @@ pub(super) fn run(
         |contact: &Contact| if job.centre { contact.centre(job.radius) } else { contact.tip(job.radius) };
     let moved: Vec<Moved> =
         runs.iter().filter_map(|run| moved(job, motions, run, &contacts, &owners, mm, &new)).collect();
-    let ends = leads::around(motions, &moved, mm, &|_| None);
+    let ends = leads::around(&Around::new(&program, motions, meant, mm, job.lift()), &moved, &|_| None)
+        .map_err(|why| place.stuck(why, context))?;
     let writer = Writer::new(&program, motions, mm);
     for index in ends.keys().copied().chain(owners.iter().copied()) {
         writer.check(&program, index).map_err(|why| place.unwritable(why, index, context))?;

@@ -1,7 +1,7 @@
 //! Compensation against the passes themselves.
 
 use super::clearance::height;
-use super::leads::{self, Moved, leads_written};
+use super::leads::{self, Around, Moved, leads_written};
 use super::passes::{Pass, passes};
 use super::profile::{self, Ball, Compensated};
 use super::report::{Names, PassReport, Report};
@@ -62,7 +62,8 @@ pub(super) fn run(
         let exact = all.iter().map(|work| (&work.pass.plane, &work.done.exact));
         height(exact, if ball.centre { ball.radius } else { 0.0 }, at)
     };
-    let ends = leads::around(motions, &moved, mm, &over);
+    let ends = leads::around(&Around::new(&program, motions, meant, mm, job.lift()), &moved, &over)
+        .map_err(|why| place.stuck(why, context))?;
     for index in ends.keys().copied().chain(all.iter().flat_map(|work| work.pass.motions.clone())) {
         writer.check(&program, index).map_err(|why| place.unwritable(why, index, context))?;
     }

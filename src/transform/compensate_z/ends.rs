@@ -26,6 +26,11 @@ impl Writer<'_> {
         let (by, from) = (end - motion.to.point * self.mm, start - motion.from.point * self.mm);
         let last = motion.last_statement();
         let moves = |by: Vector3<f64>| by.amax() > 1e-9;
+        let record = editor.program().statement(last).map(Statement::record);
+        if moves(from) && matches!(record, Some(Record::GoDelta(_))) {
+            // A step from a place that has moved would end elsewhere.
+            return Ok(Err(Unwritable::NoGoto));
+        }
         match &motion.path {
             Path::Line | Path::Start if moves(by) => {
                 editor.set_numbers(last, &self.numbers(end))?;

@@ -1,11 +1,12 @@
 //! Leads, links and rapids around passes: they move with the ends of their passes, and never below them.
 
-use super::passes::UPRIGHT;
+use super::passes::{UPRIGHT, cuts};
 use super::words::Place;
 use super::write::Writer;
 use crate::diagnostic::Diagnostic;
-use crate::program::Program;
+use crate::program::geometry::Path;
 use crate::program::motion::Motion;
+use crate::program::{Program, Record, Statement};
 use crate::transform::Context;
 use crate::write::Editor;
 use nalgebra::{Point3, Vector3};
@@ -23,89 +24,191 @@ pub(super) struct Moved {
     pub end: Point3<f64>,
 }
 
+/// What is known about the motions around passes.
+pub(super) struct Around<'a> {
+    pub motions: &'a [Motion],
+    /// Length of the file's unit, mm.
+    pub mm: f64,
+    /// How much higher (mm, along the axis) everything around passes goes: the ball's radius where tips become centres.
+    pub lift: f64,
+    /// Which motions cannot end elsewhere: FROM and GOHOME.
+    pub fixed: Vec<bool>,
+    /// Which motions cut, but are not meant.
+    pub excluded: Vec<bool>,
+}
+
+/// Why what is around a pass cannot go with it; the motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Stuck {
+    /// The pass begins where a rapid ends.
+    Rapid(usize),
+    /// The pass goes on from, or into, a cut that is not meant.
+    Excluded(usize),
+    /// The pass begins at a place that is not its operation's to move.
+    Fixed(usize),
+}
+
+impl<'a> Around<'a> {
+    pub fn new(program: &Program, motions: &'a [Motion], meant: &[bool], mm: f64, lift: f64) -> Self {
+        let fixed = |motion: &Motion| {
+            let record = program.statement(motion.last_statement()).map(Statement::record);
+            matches!(record, Some(Record::From(_) | Record::GoHome(_)))
+        };
+        let excluded = |(motion, meant): (&Motion, &bool)| {
+            let way = motion.to.point - motion.from.point;
+            let upright = (way - motion.to.axis * way.dot(&motion.to.axis)).norm() * mm <= UPRIGHT;
+            !*meant && cuts(motion) && !(upright && !motion.class_is_told)
+        };
+        Self {
+            motions,
+            mm,
+            lift,
+            fixed: motions.iter().map(fixed).collect(),
+            excluded: motions.iter().zip(meant).map(excluded).collect(),
+        }
+    }
+
+    fn is(&self, list: &[bool], index: usize) -> bool {
+        list.get(index).copied().unwrap_or(false)
+    }
+
+    fn stays(&self, index: usize) -> bool {
+        self.is(&self.fixed, index) || self.is(&self.excluded, index)
+    }
+
+    fn point(&self, index: usize) -> Option<Point3<f64>> {
+        self.motions.get(index).map(|motion| motion.to.point * self.mm)
+    }
+
+    fn axis(&self, index: usize) -> Vector3<f64> {
+        self.motions.get(index).map_or_else(Vector3::z, |motion| motion.to.axis)
+    }
+
+    fn operation(&self, index: usize) -> Option<usize> {
+        self.motions.get(index).map(|motion| motion.operation)
+    }
+
+    /// Whether the motion before a pass can bring the tool to its new start, and the one after it take it from its end.
+    fn check(&self, pass: &Moved) -> Result<(), Stuck> {
+        let own = self.operation(pass.motions.start);
+        let Some(before) = pass.motions.start.checked_sub(1) else {
+            return Err(Stuck::Fixed(pass.motions.start));
+        };
+        if self.operation(before) != own || self.is(&self.fixed, before) {
+            return Err(Stuck::Fixed(before));
+        }
+        let (after, end) = (pass.motions.end, self.operation(pass.motions.end));
+        if self.is(&self.excluded, before) {
+            return Err(Stuck::Excluded(before));
+        }
+        if end == own && self.is(&self.excluded, after) {
+            return Err(Stuck::Excluded(after));
+        }
+        let rapid =
+            self.motions.get(before).is_some_and(|motion| motion.rapid || matches!(motion.path, Path::Start));
+        let way = pass.start - self.point(before).unwrap_or(pass.start);
+        let up = self.axis(before);
+        let across = (way - up * way.dot(&up)).norm();
+        if rapid && (way.dot(&up) < -1e-6 || across > 1e-6) {
+            return Err(Stuck::Rapid(before));
+        }
+        Ok(())
+    }
+}
+
 /// New ends of motions around passes, by the motion's index; mm. `height` is the lowest that the tip may go at a place, where that is
-/// known: the ends given here are not lower.
+/// known.
 ///
 /// Straight above an end of a pass, points stay straight above it. Leads at feed move as one with their end. What lies between two
-/// passes at feed moves with both, in proportion. Everything else stays where it is, but for its height.
+/// passes at feed moves with both, in proportion. Everything else of the operation stays where it is, but for its height. No rapid
+/// ends lower than it did.
+///
+/// # Errors
+/// [`Stuck`] where that would move what is not to be moved.
 pub(super) fn around(
-    motions: &[Motion],
+    around: &Around<'_>,
     passes: &[Moved],
-    mm: f64,
     height: &dyn Fn(Point3<f64>) -> Option<f64>,
-) -> BTreeMap<usize, Point3<f64>> {
+) -> Result<BTreeMap<usize, Point3<f64>>, Stuck> {
     let mut ends = BTreeMap::new();
-    let last = motions.len();
+    let last = around.motions.len();
     for (index, pass) in passes.iter().enumerate() {
-        let before = index.checked_sub(1).and_then(|before| passes.get(before));
+        around.check(pass)?;
         let next = passes.get(index + 1);
-        if before.is_none() {
-            gap(motions, (None, Some(pass)), 0..pass.motions.start, mm, &mut ends);
+        if index == 0 {
+            gap(around, (None, Some(pass)), 0..pass.motions.start, &mut ends);
         }
         let until = next.map_or(last, |next| next.motions.start);
-        gap(motions, (Some(pass), next), pass.motions.end..until, mm, &mut ends);
+        gap(around, (Some(pass), next), pass.motions.end..until, &mut ends);
     }
     for (index, end) in &mut ends {
-        let up = motions.get(*index).map_or_else(Vector3::z, |motion| motion.to.axis);
-        if let Some(least) = height(*end) {
-            let low = least - end.coords.dot(&up);
-            // Rounding of the path itself is no reason to leave it.
-            if low > 1e-6 {
-                *end += up * low;
-            }
+        // The start of a pass is what was computed for it.
+        if passes.iter().any(|pass| pass.motions.start == index + 1) {
+            continue;
+        }
+        let up = around.axis(*index);
+        let rapid = around.motions.get(*index).is_some_and(|motion| motion.rapid);
+        let old = around.point(*index).filter(|_| rapid).map(|old| old.coords.dot(&up) + around.lift);
+        let least = height(*end).into_iter().chain(old).fold(f64::NEG_INFINITY, f64::max);
+        let low = least - end.coords.dot(&up);
+        // Rounding of the path itself is no reason to leave it.
+        if low > 1e-6 {
+            *end += up * low;
         }
     }
-    ends
+    Ok(ends)
 }
 
 /// The motions between two passes (or before the first, or after the last).
 fn gap(
-    motions: &[Motion],
+    around: &Around<'_>,
     (left, reached): (Option<&Moved>, Option<&Moved>),
     range: Range<usize>,
-    mm: f64,
     ends: &mut BTreeMap<usize, Point3<f64>>,
 ) {
-    let operation = |pass: &Moved| motions.get(pass.motions.start).map(|motion| motion.operation);
-    let point = |index: usize| motions.get(index).map(|motion| motion.to.point * mm);
-    let axis = |index: usize| motions.get(index).map_or_else(Vector3::z, |motion| motion.to.axis);
-    // The points that belong to the end behind, and those that belong to the start ahead.
-    let mut behind = range.start;
+    let own = left.or(reached).and_then(|pass| around.operation(pass.motions.start));
+    let next = reached.and_then(|pass| around.operation(pass.motions.start));
+    if around.lift > 0.0 {
+        for index in range.clone().filter(|index| !around.stays(*index)) {
+            let operation = around.operation(index);
+            if let Some(at) = around.point(index).filter(|_| operation == own || operation == next) {
+                ends.insert(index, at + around.axis(index) * around.lift);
+            }
+        }
+    }
+    let mut behind: BTreeMap<usize, bool> = BTreeMap::new();
     if let Some(left) = left {
-        let old = left.motions.end.checked_sub(1).and_then(point).unwrap_or(left.end);
-        let own = operation(left);
+        let old = left.motions.end.checked_sub(1).and_then(|last| around.point(last)).unwrap_or(left.end);
         let mut lead = true;
-        while behind < range.end && motions.get(behind).map(|motion| motion.operation) == own {
-            let (Some(motion), Some(at)) = (motions.get(behind), point(behind)) else { break };
+        for index in range.clone() {
+            let (Some(motion), Some(at)) = (around.motions.get(index), around.point(index)) else { break };
             lead &= !motion.rapid;
-            let above = is_above(at, old, axis(behind));
-            if !lead && !above {
+            let above = is_above(at, old, around.axis(index));
+            if around.operation(index) != own || around.stays(index) || !lead && !above {
                 break;
             }
-            ends.insert(behind, shifted(at, old, left.end, axis(behind), above));
-            behind += 1;
+            ends.insert(index, shifted(at, (old, left.end), around.axis(index), above, around.lift));
+            behind.insert(index, above);
         }
     }
     let Some(ahead) = reached else { return };
-    let own = operation(ahead);
-    let Some(old) = ahead.motions.start.checked_sub(1).and_then(point).or(Some(ahead.start)) else { return };
+    let Some(old) = ahead.motions.start.checked_sub(1).and_then(|before| around.point(before)) else {
+        return;
+    };
     let mut lead = true;
-    let mut index = range.end;
-    while index > range.start {
-        index -= 1;
-        let (Some(motion), Some(at)) = (motions.get(index), point(index)) else { break };
-        if Some(motion.operation) != own && index + 1 != ahead.motions.start {
+    for index in range.clone().rev() {
+        let (Some(motion), Some(at)) = (around.motions.get(index), around.point(index)) else { break };
+        let above = is_above(at, old, around.axis(index));
+        if around.operation(index) != next || around.stays(index) || !lead && !above {
             break;
         }
-        let above = is_above(at, old, axis(index));
-        if !lead && !above {
-            break;
-        }
-        let wanted = shifted(at, old, ahead.start, axis(index), above);
+        let wanted = shifted(at, (old, ahead.start), around.axis(index), above, around.lift);
         let share = (index + 1 - range.start) as f64 / range.len() as f64;
-        let new = match ends.get(&index) {
-            // A link at feed goes evenly from one end to the other.
-            Some(behind) if index + 1 < ahead.motions.start => behind + (wanted - behind) * share,
+        let link = !motion.rapid && !above && index + 1 < ahead.motions.start;
+        let new = match (ends.get(&index), behind.get(&index)) {
+            // A link at feed goes evenly from one end to the other; what stands straight above the end behind stays there.
+            (Some(other), Some(false)) if link => other + (wanted - other) * share,
+            (Some(other), Some(true)) if !above => *other,
             _ => wanted,
         };
         ends.insert(index, new);
@@ -119,19 +222,19 @@ fn is_above(at: Point3<f64>, end: Point3<f64>, up: Vector3<f64>) -> bool {
     (way - up * way.dot(&up)).norm() <= UPRIGHT
 }
 
-/// A point that goes with the end of a pass: straight above it at its own height, or as one with it; never below it.
+/// A point that goes with the end of a pass: straight above it at its own height (`lift` higher), or as one with it; never below it.
 fn shifted(
     at: Point3<f64>,
-    old: Point3<f64>,
-    new: Point3<f64>,
+    (old, new): (Point3<f64>, Point3<f64>),
     up: Vector3<f64>,
     above: bool,
+    lift: f64,
 ) -> Point3<f64> {
-    let way = new - old;
-    let wanted = if above { at + (way - up * way.dot(&up)) } else { at + way };
     if (at - old).norm() <= UPRIGHT {
         return new;
     }
+    let way = new - old;
+    let wanted = if above { at + (way - up * way.dot(&up)) + up * lift } else { at + way };
     let lower = (new - wanted).dot(&up);
     // What was above the end stays above it.
     if (at - old).dot(&up) >= -UPRIGHT && lower > 0.0 { wanted + up * lower } else { wanted }

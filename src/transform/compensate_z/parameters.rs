@@ -45,6 +45,16 @@ pub struct CompensateZ {
     pub r#where: Where,
 }
 
+impl CompensateZ {
+    /// The model that it is compensated against.
+    pub(in crate::transform) fn reads(&self) -> Option<&FilePath> {
+        match &self.against {
+            Against::Mesh(path) => Some(path),
+            _ => None,
+        }
+    }
+}
+
 /// What the points of a path are.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]

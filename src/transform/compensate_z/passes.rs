@@ -30,6 +30,8 @@ pub(super) struct Pass {
 pub(super) enum NoPass {
     /// A motion leaves the plane of its pass.
     LeavesPlane(usize),
+    /// A motion goes back over its pass.
+    TurnsBack(usize),
     /// The tool axis turns in it.
     AxisTurns(usize),
 }
@@ -62,28 +64,40 @@ pub(super) fn runs(motions: &[Motion], meant: &[bool], mm: f64) -> Vec<Range<usi
         while means(end) && motions.get(end).map(|motion| motion.operation) == operation {
             end += 1;
         }
-        let mut run = index..end;
-        let upright = |index: usize, up: bool| {
-            motions.get(index).is_some_and(|motion| {
-                let way = (motion.to.point - motion.from.point) * mm;
-                let along = way.dot(&motion.to.axis);
-                !motion.class_is_told
-                    && (way - motion.to.axis * along).norm() <= UPRIGHT
-                    && (if up { along >= 0.0 } else { along <= 0.0 })
-            })
-        };
-        while !run.is_empty() && upright(run.start, false) {
-            run.start += 1;
-        }
-        while !run.is_empty() && upright(run.end - 1, true) {
-            run.end -= 1;
-        }
+        let run = trimmed(motions, index..end, mm);
         if !run.is_empty() {
             found.push(run);
         }
         index = end;
     }
     found
+}
+
+/// A run without the straight way down to it and up from it, where the file does not mark them as cuts, or where it comes from a rapid
+/// or goes on as one.
+fn trimmed(motions: &[Motion], mut run: Range<usize>, mm: f64) -> Range<usize> {
+    let rapid = |index: Option<usize>| {
+        index
+            .and_then(|index| motions.get(index))
+            .is_none_or(|motion| motion.rapid || matches!(motion.path, Path::Start))
+    };
+    let upright = |index: usize, up: bool, beside_rapid: bool| {
+        motions.get(index).is_some_and(|motion| {
+            let way = (motion.to.point - motion.from.point) * mm;
+            let along = way.dot(&motion.to.axis);
+            (!motion.class_is_told || beside_rapid)
+                && matches!(motion.path, Path::Line)
+                && (way - motion.to.axis * along).norm() <= UPRIGHT
+                && (if up { along >= 0.0 } else { along <= 0.0 })
+        })
+    };
+    while !run.is_empty() && upright(run.start, false, rapid(run.start.checked_sub(1))) {
+        run.start += 1;
+    }
+    while !run.is_empty() && upright(run.end - 1, true, rapid(Some(run.end))) {
+        run.end -= 1;
+    }
+    run
 }
 
 /// A stretch of a run in one vertical plane; no plane for an arc that lies across.
@@ -117,10 +131,45 @@ fn of_run(motions: &[Motion], run: Range<usize>, mm: f64) -> Result<Vec<Pass>, N
     {
         return Err(NoPass::LeavesPlane(link.motions.start));
     }
-    Ok(passes
+    let mut found = Vec::new();
+    for stretch in passes {
+        let Some((plane, _)) = stretch.plane else { continue };
+        let motions_of = trimmed(motions, stretch.motions.clone(), mm);
+        if let Some(back) = turns_back(motions, &motions_of, &plane, mm) {
+            return Err(NoPass::TurnsBack(back));
+        }
+        if !motions_of.is_empty() {
+            found.push(Pass { motions: motions_of, plane });
+        }
+    }
+    Ok(found)
+}
+
+/// Where a pass goes back over more than a quarter of its width; less is an overhang of its profile.
+fn turns_back(motions: &[Motion], range: &Range<usize>, plane: &Plane, mm: f64) -> Option<usize> {
+    let ends = |motion: &Motion| [motion.from, motion.to].map(|pose| plane.flat(pose.point * mm).u);
+    let all = motions.get(range.clone())?;
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    let (mut forward, mut back) = (0.0, 0.0);
+    for [from, to] in all.iter().map(ends) {
+        (low, high) = (low.min(from.min(to)), high.max(from.max(to)));
+        if to > from { forward += to - from } else { back += from - to }
+    }
+    if f64::min(forward, back) <= 0.25 * (high - low) {
+        return None;
+    }
+    let way = if all
         .iter()
-        .filter_map(|stretch| Some(Pass { motions: stretch.motions.clone(), plane: stretch.plane?.0 }))
-        .collect())
+        .map(ends)
+        .find(|[from, to]| (to - from).abs() > UPRIGHT)
+        .is_some_and(|[from, to]| to > from)
+    {
+        1.0
+    } else {
+        -1.0
+    };
+    let first = all.iter().map(ends).position(|[from, to]| (to - from) * way < -UPRIGHT)?;
+    Some(range.start + first)
 }
 
 /// The direction of the longest sum of parallel stretches.

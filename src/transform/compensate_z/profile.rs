@@ -16,6 +16,9 @@ const CURVES: f64 = 0.1;
 /// Chords keep to this share of the tolerance; printing and curves have the rest.
 const CHORDS: f64 = 0.8;
 
+/// Steep lines that lean by no more than this (mm) are upright.
+const PRINTED_WALL: f64 = 2e-3;
+
 /// What a pass is compensated by, mm.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ball {
@@ -74,16 +77,24 @@ pub(super) fn chain(
 ) -> Result<(Chain, Vec<usize>), Fault> {
     let mut pieces: Vec<Piece> = Vec::new();
     let mut owners = Vec::new();
+    let mut reached: Option<Point> = None;
     for index in pass.motions.clone() {
         let Some(motion) = motions.get(index) else { continue };
         let flat = |point: nalgebra::Point3<f64>| pass.plane.flat(point * mm);
-        let (from, to) = (flat(motion.from.point), flat(motion.to.point));
+        // Each piece begins exactly where the one before ends: printing puts them up to a last digit apart.
+        let from = reached.unwrap_or_else(|| flat(motion.from.point));
+        let mut to = flat(motion.to.point);
         match &motion.path {
-            Path::Line | Path::Start => pieces.push(Piece::line(from, to)),
+            Path::Line | Path::Start => {
+                // A wall that leans by printed digits alone is a wall; the other side of it is another pass.
+                if (to.u - from.u).abs() <= PRINTED_WALL && (to.z - from.z).abs() > 10.0 * PRINTED_WALL {
+                    to.u = from.u;
+                }
+                pieces.push(Piece::line(from, to));
+            }
             Path::Arc(arc) => {
-                pieces.push(Piece::Arc(
-                    flat_arc(arc, &pass.plane, mm).ok_or(Fault::Pass(NoPass::LeavesPlane(index)))?,
-                ));
+                let round = flat_arc(arc, &pass.plane, mm).ok_or(Fault::Pass(NoPass::LeavesPlane(index)))?;
+                pieces.push(Piece::Arc(through(&round, from, to)));
             }
             Path::Spline(spline) => {
                 let mut scaled = spline.as_ref().clone();
@@ -92,13 +103,37 @@ pub(super) fn chain(
                     .map_err(|why| Fault::Geometry(why.to_string()))?;
                 let made =
                     to_chords(&curve, tolerance * CURVES).map_err(|why| Fault::Geometry(why.to_string()))?;
+                let start = made.start();
+                if start.distance(from) > 0.0 {
+                    pieces.push(Piece::line(from, start));
+                }
                 pieces.extend_from_slice(made.pieces());
+                to = made.end();
             }
         }
         owners.resize(pieces.len(), index);
+        reached = Some(to);
     }
     let chain = Chain::new(pieces).map_err(|why| Fault::Geometry(why.to_string()))?;
     Ok((chain, owners))
+}
+
+/// The arc of the nearest centre that goes exactly from one point to another; itself where they are one.
+fn through(arc: &Arc, from: Point, to: Point) -> Arc {
+    let (du, dz) = (to.u - from.u, to.z - from.z);
+    let chord = du.hypot(dz);
+    if chord < 1e-3 {
+        return *arc;
+    }
+    let middle = from.towards(to, 0.5);
+    let (nu, nz) = (-dz / chord, du / chord);
+    let aside = (arc.centre.u - middle.u) * nu + (arc.centre.z - middle.z) * nz;
+    let centre = Point::new(middle.u + nu * aside, middle.z + nz * aside);
+    let angle = |at: Point| (at.z - centre.z).atan2(at.u - centre.u);
+    let start = angle(from);
+    let turn = (angle(to) - start).rem_euclid(std::f64::consts::TAU);
+    let sweep = if arc.sweep > 0.0 { turn } else { turn - std::f64::consts::TAU };
+    Arc { centre, radius: from.distance(centre), start, sweep }
 }
 
 /// An arc of space as one of the plane; `None` when its axis is not the plane's normal, or it climbs along it.

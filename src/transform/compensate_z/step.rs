@@ -91,6 +91,12 @@ impl Job {
         })
     }
 
+    /// How much higher what lies around passes goes, mm: tips that become centres rise by the radius.
+    pub fn lift(&self) -> f64 {
+        let was = if self.was_centre { self.was.unwrap_or(0.0) } else { 0.0 };
+        if self.centre { (self.radius - was).max(0.0) } else { 0.0 }
+    }
+
     /// Takes the cutter from the tool of the motions, which must be one, unless the step says the radius.
     fn cutter_at(
         &mut self,

@@ -1,5 +1,6 @@
 //! What the step says.
 
+use super::leads::Stuck;
 use super::passes::NoPass;
 use super::profile::Fault;
 use super::write::Unwritable;
@@ -60,6 +61,15 @@ impl Place<'_> {
                         .help(help),
                 )
             }
+            NoPass::TurnsBack(motion) => {
+                let help = "A pass goes one way. Put a link or a retract between two passes in one plane, or compensate `against: { mesh: ... }`.";
+                let message =
+                    "the path turns back in the plane of its pass: here it goes over what it has been over";
+                Box::new(
+                    self.finding(codes::STEP_FAILED, message.to_owned(), motion, "goes back", context)
+                        .help(help),
+                )
+            }
             NoPass::AxisTurns(motion) => {
                 let help = "With a turning axis, compensate `against: normals`.";
                 let message = "the tool axis turns within a pass, so the pass has no plane along it";
@@ -69,6 +79,27 @@ impl Place<'_> {
                 )
             }
         }
+    }
+
+    pub fn stuck(&self, why: Stuck, context: &Context<'_>) -> Box<Diagnostic> {
+        let (motion, message, help) = match why {
+            Stuck::Rapid(motion) => (
+                motion,
+                "a pass begins where this rapid ends, and the rapid would have to end elsewhere",
+                "Go down to the pass at feed, straight along the tool axis; or mark cuts and leads (PAINT/COLOR), so that a lead is not taken for a cut.",
+            ),
+            Stuck::Excluded(motion) => (
+                motion,
+                "a pass goes on from or into this cut, which `where` leaves out, so their common point cannot move",
+                "Select both, or neither.",
+            ),
+            Stuck::Fixed(motion) => (
+                motion,
+                "a pass begins here, at a place that its operation cannot move (another operation's last point, or FROM)",
+                "Let the operation go to the start of its pass by a motion of its own.",
+            ),
+        };
+        Box::new(self.finding(codes::STEP_FAILED, message.to_owned(), motion, "here", context).help(help))
     }
 
     pub fn fault(&self, why: &Fault, motion: usize, context: &Context<'_>) -> Box<Diagnostic> {

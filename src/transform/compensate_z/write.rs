@@ -8,6 +8,7 @@ use crate::program::geometry::Path;
 use crate::program::motion::Motion;
 use crate::program::{Program, Record, Statement};
 use crate::surface::profile::{Chain, Piece, Plane};
+use crate::transform::numbers::delete_but_remark;
 use crate::write::Editor;
 use nalgebra::Point3;
 use std::f64::consts::PI;
@@ -54,8 +55,7 @@ impl<'a> Writer<'a> {
         }
         let record = program.statement(last).map(Statement::record);
         match (record, &motion.path) {
-            (Some(Record::Goto(_) | Record::From(_)), _) => Ok(()),
-            (Some(Record::GoHome(Some(_))), _) => Ok(()),
+            (Some(Record::Goto(_)), _) => Ok(()),
             (Some(Record::Points(_)), _) if motion.normal.is_some() => Ok(()),
             (Some(Record::DriveArc(_)), Path::Arc(_)) => Ok(()),
             (Some(Record::Control(_)), Path::Spline(_)) => Ok(()),
@@ -141,8 +141,7 @@ impl<'a> Writer<'a> {
             Some(end) => editor.set_numbers(motion.last_statement(), &self.numbers(end)),
             None => {
                 drop_announced(editor, motion);
-                editor.delete(motion.last_statement());
-                Ok(())
+                delete_but_remark(editor, motion.last_statement())
             }
         }
     }

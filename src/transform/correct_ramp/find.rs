@@ -15,6 +15,12 @@ use std::ops::Range;
 /// Heights that differ by less than this (mm) are one level.
 pub(super) const LEVEL: f64 = 1e-3;
 
+/// A motion that goes down by more than this (mm) descends: half of the fourth decimal. Chords of a gentle helix fall little more.
+const FALLS: f64 = 5e-5;
+
+/// A descent of less than this (mm) is the rounding of a level.
+const LEAST_HEIGHT: f64 = 0.01;
+
 /// Least share ([`level_shares`]) of an unmarked operation, for its descents to be ramps.
 const LEAST_LEVEL_SHARE: f64 = 0.8;
 
@@ -90,7 +96,13 @@ fn one(motions: &[Motion], mut run: Range<usize>, mm: f64, begin: Option<f64>) -
     }
     let passes = passes(motions, run.end, first, &frame, mm);
     let has_level = !passes.is_empty();
-    if !has_level && !first.class_is_told {
+    // A marked engage that leads onto a surface is no ramp either.
+    let next =
+        motions.get(run.end..).unwrap_or_default().iter().find(|motion| motion.length() * mm > NOTHING);
+    let surface = next.is_some_and(|next| {
+        !next.rapid && next.class == MotionClass::Cut && next.operation == first.operation
+    });
+    if ramp.height() < LEAST_HEIGHT || !has_level && (!first.class_is_told || surface) {
         return None;
     }
     Some(Found { operation: first.operation, motions: run, frame, ramp, has_level, passes })
@@ -106,7 +118,7 @@ fn is_candidate(motion: &Motion, mm: f64) -> bool {
         && !matches!(motion.path, Path::Start)
         && (motion.from.axis - motion.to.axis).amax() <= SAME_AXIS
         && !is_turning(motion)
-        && rise(motion) * mm < -LEVEL
+        && rise(motion) * mm < -FALLS
 }
 
 /// A lathe: the spindle keeps a surface speed, or the tool is none that mills.

@@ -51,9 +51,12 @@ pub(super) fn prove(
         let motions = after.get(start..end).ok_or(fault(Unproven::Count))?;
         let ramp = read(motions, &plan.found.frame, mm).ok_or(fault(Unproven::Points))?;
         check(&ramp, written, plan, rounding).map_err(fault)?;
-        let first = before.get(range.start);
+        let (first, last) = (before.get(range.start), before.get(range.end.saturating_sub(1)));
+        // The slowest feed is the last one, or the only one.
         let alike = motions.iter().all(|motion| {
-            first.is_some_and(|first| (motion.rapid, motion.operation) == (false, first.operation))
+            last.is_some_and(|last| {
+                (motion.rapid, motion.operation, motion.feed) == (false, last.operation, last.feed)
+            })
         });
         if !alike {
             return Err(fault(Unproven::Points));

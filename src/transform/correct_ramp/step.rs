@@ -11,10 +11,11 @@ use super::prove;
 use super::region::Region;
 use super::report::{Outcome, RampReport, Report};
 use super::words;
-use super::write::{self, Written};
+use super::write::{self, Unwritable, Written};
 use crate::diagnostic::Diagnostic;
 use crate::program::motion::{Motion, Tool};
-use crate::program::{LengthUnit, Program, operation};
+use crate::program::record::CutterCompensation;
+use crate::program::{LengthUnit, Program, Record, Statement, operation};
 use crate::transform::{Context, Selection, StepReport, Transform};
 use crate::values::{Finite, NonNegative, Positive};
 use crate::write::Editor;
@@ -75,6 +76,8 @@ struct Look<'a> {
     operations: Vec<String>,
     levels: Levels<'a>,
     polygon: Option<Region>,
+    /// Statements that switch cutter compensation, and whether on.
+    compensation: Vec<(usize, bool)>,
     cutters: Vec<(Option<Arc<Tool>>, Option<Known>)>,
     plans: Vec<Plan>,
     reports: Vec<RampReport>,
@@ -108,6 +111,7 @@ impl<'a> Look<'a> {
             operations: operation::operations(program).into_iter().map(|operation| operation.name).collect(),
             levels: Levels::new(motions, file.in_mm()),
             polygon,
+            compensation: compensation(program),
             cutters: Vec::new(),
             plans: Vec::new(),
             reports: Vec::new(),
@@ -202,7 +206,8 @@ impl<'a> Look<'a> {
         let kept_plunge = step.plunges == Plunges::Keep && Kind::of(&found.ramp) == Kind::Plunge;
         let corrected = correct(&found.ramp, &task);
         let mut report = self.report(&found, limits, Outcome::Kept);
-        let written = write::check(self.program, self.motions, &found.motions);
+        let written = write::check(self.program, self.motions, &found.motions)
+            .and_then(|()| if self.is_compensated(&found) { Err(Unwritable::Compensation) } else { Ok(()) });
         let why_not = match (&corrected, written, found.has_level) {
             _ if kept_plunge => Some("`plunges: keep` leaves straight descents as they are".to_owned()),
             (_, _, false) => Some("it does not end at a level where cutting goes on".to_owned()),
@@ -230,6 +235,18 @@ impl<'a> Look<'a> {
         self.reports.push(report);
     }
 
+    /// Whether cutter compensation is on at a ramp, or switched in it.
+    fn is_compensated(&self, found: &Found) -> bool {
+        let motions = self.motions.get(found.motions.clone()).unwrap_or_default();
+        let start = motions.first().map_or(0, |motion| motion.statements.start);
+        let end = motions.last().map_or(0, |motion| motion.statements.end);
+        let before = self.compensation.partition_point(|(statement, _)| *statement < start);
+        let within = self.compensation.iter().skip(before).take_while(|(statement, _)| *statement < end);
+        let on =
+            before.checked_sub(1).and_then(|last| self.compensation.get(last)).is_some_and(|(_, on)| *on);
+        on || within.count() > 0
+    }
+
     fn report(&self, found: &Found, limits: Limits, outcome: Outcome) -> RampReport {
         let first = self.motions.get(found.motions.start);
         let origin = first
@@ -254,4 +271,12 @@ impl<'a> Look<'a> {
             path_after: Vec::new(),
         }
     }
+}
+
+fn compensation(program: &Program) -> Vec<(usize, bool)> {
+    let switch = |(statement, found): (usize, &Statement)| match found.record() {
+        Record::CutterCompensation(mode) => Some((statement, *mode != CutterCompensation::Off)),
+        _ => None,
+    };
+    program.live().filter_map(switch).collect()
 }

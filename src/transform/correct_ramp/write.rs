@@ -1,7 +1,8 @@
 //! A corrected ramp in the CL text.
 //!
-//! The statements of the old ramp keep their places with what stands around them; additional points come before them, where the feed
-//! that the ramp starts with is in force. The statement of its end stays byte for byte, but for an arc that it ends.
+//! The statements of the old ramp keep their places with what stands around them; additional points come before them. Where the feed
+//! gets slower on the way down, all points come where it is slowest. The statement of its end stays byte for byte, but for an arc
+//! that it ends.
 
 use super::find::Found;
 use super::ramp::{NOTHING, Ramp, Step};
@@ -11,7 +12,7 @@ use crate::program::geometry::Path;
 use crate::program::motion::Motion;
 use crate::program::record::{ArcSense, Circle};
 use crate::program::{Program, Record};
-use crate::transform::numbers::without_remark;
+use crate::transform::numbers::{delete_but_remark, without_remark};
 use crate::write::{Editor, copy_with_numbers};
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::TAU;
@@ -31,6 +32,12 @@ pub(super) enum Unwritable {
     Shared,
     #[error("an arc of it is announced by a record that cannot be written anew")]
     Arc,
+    #[error("its feed rises, or changes its unit, on the way down, so that no feed is safe for new points")]
+    Feed,
+    #[error(
+        "cutter compensation (CUTCOM) is on, and the control would offset the new points to changing sides"
+    )]
+    Compensation,
 }
 
 /// What was written for a ramp.
@@ -53,7 +60,26 @@ struct Form {
 
 /// Whether a ramp's statements can be given other points.
 pub(super) fn check(program: &Program, motions: &[Motion], range: &Range<usize>) -> Result<(), Unwritable> {
-    forms(program, motions, range).map(|_| ())
+    forms(program, motions, range)?;
+    one_feed(motions, range).map(|_| ())
+}
+
+/// Whether one feed governs the whole ramp; if not, its last one has to be the slowest.
+fn one_feed(motions: &[Motion], range: &Range<usize>) -> Result<bool, Unwritable> {
+    let all = motions.get(range.clone()).unwrap_or_default();
+    let last = all.last().and_then(|motion| motion.feed);
+    // A FEDRAT between CIRCLE and its GOTO governs that arc, but not what would be put in before it.
+    let inside = |motion: &Motion| motion.feed_from.is_some_and(|from| from >= motion.statements.start);
+    if all.iter().any(inside) {
+        return Err(Unwritable::Feed);
+    }
+    if all.iter().all(|motion| motion.feed == last) {
+        return Ok(true);
+    }
+    let Some(last) = last else { return Err(Unwritable::Feed) };
+    let slower =
+        |motion: &Motion| motion.feed.is_some_and(|feed| feed.unit == last.unit && feed.value >= last.value);
+    if all.iter().all(slower) { Ok(false) } else { Err(Unwritable::Feed) }
 }
 
 fn forms(program: &Program, motions: &[Motion], range: &Range<usize>) -> Result<Vec<Form>, Unwritable> {
@@ -104,8 +130,10 @@ pub(super) fn write(
     new: &Ramp,
     mm: f64,
 ) -> Result<Result<Written, Unwritable>, Box<Diagnostic>> {
-    let forms = match forms(editor.program(), motions, &found.motions) {
-        Ok(forms) => forms,
+    let every = forms(editor.program(), motions, &found.motions);
+    let (mut forms, one_feed) = match every.and_then(|every| Ok((every, one_feed(motions, &found.motions)?)))
+    {
+        Ok(found) => found,
         Err(why) => return Ok(Err(why)),
     };
     let (Some(first), Some(last)) = (forms.first().copied(), forms.last().copied()) else {
@@ -115,7 +143,15 @@ pub(super) fn write(
     let writer =
         Writer { found, mm, goto: first.goto, circle: arc.and_then(|arc| circle(editor.program(), arc)) };
     let new = writer.sayable(new);
-    let before = motions.get(found.motions.start).map_or(first.goto, |motion| motion.statements.start);
+    // Where the feed gets slower on the way down, all new points come where it is slowest.
+    let place = if one_feed { found.motions.start } else { found.motions.end.saturating_sub(1) };
+    if !one_feed {
+        for form in forms.drain(..forms.len().saturating_sub(1)) {
+            delete_but_remark(editor, form.goto)?;
+            form.arc.into_iter().for_each(|arc| editor.delete(arc));
+        }
+    }
+    let before = motions.get(place).map_or(first.goto, |motion| motion.statements.start);
     let (lead, lowered) = writer.lower_start(editor, motions, &new, before)?;
     let steps: Vec<(Point3<f64>, Step)> = new.walk().map(|(from, step)| (from, *step)).collect();
     let extra = steps.len().saturating_sub(forms.len());
@@ -129,7 +165,7 @@ pub(super) fn write(
         writer.set(editor, step, *form)?;
     }
     for form in forms.iter().skip(kept).take(forms.len().saturating_sub(kept + 1)) {
-        editor.delete(form.goto);
+        delete_but_remark(editor, form.goto)?;
         form.arc.into_iter().for_each(|arc| editor.delete(arc));
     }
     Ok(Ok(Written { ramp: new, lead, lowered }))

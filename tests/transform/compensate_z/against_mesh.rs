@@ -120,3 +120,21 @@ fn a_model_that_cannot_be_used_is_told_at_the_recipe() {
         .unwrap();
     assert!(found.last().unwrap().message.contains("nothing of the model"));
 }
+
+#[test]
+fn an_unmarked_link_above_the_model_is_no_cut() {
+    let (_folder, recipe) = roof("roof.stl", 12.0);
+    let text = "TOOL PATH/A,TOOL,B\nTLDATA/MILL,10.0000,5.0000,60.0000,0.0000,0.0000\nRAPID\nGOTO/5.0000,10.0000,40.0000,0.0000000,0.0000000,1.0000000\nFEDRAT/MMPM,300.0000\n\
+        GOTO/5.0000,10.0000,2.0000\nFEDRAT/MMPM,900.0000\nGOTO/30.0000,10.0000,12.0000\nGOTO/55.0000,10.0000,2.0000\nFEDRAT/MMPM,5000.0000\nGOTO/55.0000,10.0000,40.0000\n\
+        GOTO/5.0000,20.0000,40.0000\nFEDRAT/MMPM,300.0000\nGOTO/5.0000,20.0000,2.0000\nFEDRAT/MMPM,900.0000\nGOTO/30.0000,20.0000,12.0000\nGOTO/55.0000,20.0000,2.0000\nRAPID\nGOTO/55.0000,20.0000,40.0000\nEND-OF-PATH\n";
+    let done =
+        compensate_beside(recipe.to_str().unwrap(), "radius: 5, against: { mesh: roof.stl }", text).unwrap();
+    assert_eq!(done.report.passes.len(), 2);
+    assert!(
+        done.text.contains("GOTO/55.0000,10.0000,40.0000\nGOTO/5.0000,20.0000,40.0000\n"),
+        "{}",
+        done.text
+    );
+    let fast = done.program.motions().filter(|motion| motion.feed.is_some_and(|feed| feed.value == 5000.0));
+    assert!(fast.filter(|motion| !motion.rapid).all(|motion| motion.to.point.z >= 40.0));
+}

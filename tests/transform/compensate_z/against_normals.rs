@@ -76,3 +76,10 @@ fn a_point_without_normal_is_asked_for() {
     assert_eq!(found.last().unwrap().code.id(), "CL0302");
     assert!(found.last().unwrap().message.contains("no contact normal"));
 }
+
+#[test]
+fn a_normal_into_the_part_is_refused() {
+    let down: Vec<_> = (0..5).map(|step| ([f64::from(step), 0.0, 0.0], AXIS, [0.0, 0.0, -1.0])).collect();
+    let found = compensate("radius: 5, against: normals", &with_normals(&down)).err().unwrap();
+    assert!(found.last().unwrap().message.contains("into the part"));
+}

@@ -3,6 +3,7 @@
 mod against_mesh;
 mod against_normals;
 mod against_profile;
+mod around;
 mod refused;
 mod regrind;
 

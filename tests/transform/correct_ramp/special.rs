@@ -149,19 +149,46 @@ fn unmarked_ramps_are_found_by_geometry_and_surfaces_are_left_alone() {
 }
 
 #[test]
-fn feeds_inside_a_ramp_keep_their_legs() {
+fn where_the_feed_gets_slower_all_new_points_are_slow() {
     let ramp = format!(
-        "{DOWN}GOTO/80.0000,60.0000,0.0000\n$$ slower\nFEDRAT/MMPM,150.0000\nGOTO/60.0000,60.0000,-2.0000\n"
+        "{DOWN}GOTO/80.0000,60.0000,0.0000\n$$ slower\nFEDRAT/MMPM,150.0000\nGOTO/60.0000,60.0000,-2.0000 $$ the floor\n"
     );
     let done = correct(&format!("{FACE_MILL}, region: none"), pocket(&ramp)).unwrap();
     let program = support::program(&done.text);
-    let feeds: Vec<f64> = program
-        .motions()
-        .filter(|motion| motion.class == clsmith::program::MotionClass::Engage)
-        .map(|motion| motion.feed.unwrap().value)
-        .collect();
-    assert_eq!((feeds.first(), feeds.last()), (Some(&300.0), Some(&150.0)));
-    assert!(done.text.contains("$$ slower\nFEDRAT/MMPM,150.0000\n"));
+    let engages = program.motions().filter(|motion| motion.class == clsmith::program::MotionClass::Engage);
+    let feeds: Vec<f64> = engages.map(|motion| motion.feed.unwrap().value).collect();
+    assert!(feeds.len() >= 2 && feeds.iter().all(|feed| *feed == 150.0), "{feeds:?}");
+    assert!(done.text.contains("$$ slower\nFEDRAT/MMPM,150.0000\n") && done.text.contains("$$ the floor"));
+    let faster = pocket(&ramp.replace("150.0000", "600.0000"));
+    let found = correct(&format!("{FACE_MILL}, region: none"), faster).err().unwrap();
+    assert!(found.last().unwrap().message.contains("feed rises"), "{found:?}");
+}
+
+#[test]
+fn cutter_compensation_and_feeds_inside_arcs_stand_in_the_way() {
+    let ramp = format!(
+        "{DOWN}CUTCOM/LEFT,XYPLAN\nGOTO/80.0000,60.0000,0.0000\nGOTO/60.0000,60.0000,-2.0000\nCUTCOM/OFF\n"
+    );
+    let found = correct(FACE_MILL, pocket(&ramp)).err().unwrap();
+    assert!(found.last().unwrap().message.contains("CUTCOM"), "{found:?}");
+    let half = |x: i32, z: f64, feed: &str| {
+        format!(
+            "CIRCLE/60.0000,60.0000,{z:.4},0.0000000,0.0000000,-1.0000000,20.0000,0.0600,0.5000,50.0000,6.0000\n{feed}GOTO/{x}.0000,60.0000,{z:.4}\n"
+        )
+    };
+    let ramp = format!(
+        "FEDRAT/MMPM,5000.0000\nGOTO/80.0000,60.0000,18.0000\nPAINT/COLOR,42\n{}{}",
+        half(40, 8.0, "FEDRAT/MMPM,300.0000\n"),
+        half(80, -2.0, "")
+    );
+    let found = correct(FACE_MILL, pocket(&ramp)).err().unwrap();
+    assert!(found.last().unwrap().message.contains("feed"), "{found:?}");
+}
+
+#[test]
+fn an_engage_onto_a_surface_is_no_ramp() {
+    let text = "TOOL PATH/SURFACE,TOOL,FACE\nTLDATA/MILL,50.0000,6.0000,60.0000,0.0000,0.0000\nPAINT/COLOR,211\nRAPID\nGOTO/0.0000,0.0000,20.0000\nPAINT/COLOR,42\nFEDRAT/MMPM,300.0000\nGOTO/1.0000,0.0000,2.0000\nPAINT/COLOR,31\nGOTO/10.0000,0.0000,1.0000\nGOTO/20.0000,0.0000,3.0000\nEND-OF-PATH\n";
+    assert!(correct(FACE_MILL, text).unwrap().ramps.is_empty());
 }
 
 #[test]
