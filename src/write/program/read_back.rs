@@ -28,7 +28,9 @@ pub(super) fn same(text: &[u8], draft: &Draft, dialect: Dialect) -> Result<(), R
     let whole = |reason: String| ReadBack { motion: 0, reason };
     // A line end in a name would be a statement of its own, a comma a field, and from a dollar sign on all is comment.
     let breaks = |c: char| !(c.is_ascii_graphic() || c == ' ') || matches!(c, ',' | '$');
-    if let Some(name) = [&draft.name, &draft.operation, &draft.tool.name].into_iter().find(|name| name.contains(breaks)) {
+    if let Some(name) =
+        [&draft.name, &draft.operation, &draft.tool.name].into_iter().find(|name| name.contains(breaks))
+    {
         return Err(whole(format!("`{}` is no name that a program can hold", name.escape_debug())));
     }
     let source =
@@ -61,7 +63,7 @@ pub(super) fn same(text: &[u8], draft: &Draft, dialect: Dialect) -> Result<(), R
 
 fn fits(meant: &Move, motion: &Motion, slack: f64) -> Result<(), String> {
     let off = (motion.to.point - meant.to).norm();
-    if !(off <= SAME * (1.0 + meant.to.coords.norm())) {
+    if off.is_nan() || off > SAME * (1.0 + meant.to.coords.norm()) {
         return Err(format!("it ends {off} from where it should"));
     }
     if motion.rapid != (meant.way == Way::Rapid) {
