@@ -198,3 +198,21 @@ fn catia_arcs_are_written_as_catia_does() {
     assert_eq!(done.text.matches("INDIRV").count(), arcs.len());
     assert_eq!(done.text.matches("AUTOPS").count(), arcs.len() + 1, "the old one stays");
 }
+
+#[test]
+fn what_a_person_reads() {
+    let text = operation(&[
+        in_plane(&[(0.0, 0.0), (20.0, 15.0), (40.0, 0.0)], [0.0, 0.0], 0.0),
+        in_plane(&[(40.0, 15.0), (20.0, 0.0), (0.0, 15.0)], [0.0, 0.5], 0.0),
+    ]);
+    let done = compensate("radius: 5, tolerance: 0.05", &text).unwrap();
+    let mut shown = Vec::new();
+    clsmith::report::unified::write(&mut shown, &done.program, &Default::default()).unwrap();
+    let mut shown = String::from_utf8(shown).unwrap();
+    let report = clsmith::transform::StepReport::CompensateZ(done.report);
+    shown.push_str(&clsmith::report::step_report::to_text(&report));
+    for found in &done.findings {
+        shown.push_str(&format!("\n{}: {}\n", found.code, found.message));
+    }
+    support::rounded_snapshots("compensate_z").bind(|| insta::assert_snapshot!("two-passes", shown));
+}
