@@ -55,7 +55,7 @@ enum Command {
     Check(check::Check),
     Stats(stats::Stats),
     Simulate(simulate::Simulate),
-    Section(section::Section),
+    Section(Box<section::Section>),
     Diff(diff::Diff),
     Transforms(reference::Transforms),
     Schema(reference::Schema),

@@ -32,6 +32,9 @@ enum Ground<'a> {
     Mesh { mesh: &'a Mesh, sections: Sections, cutter: DropCutter },
 }
 
+/// What to go over, its lowest and highest z, and from where to where it goes across the planes, where that is known.
+type Place<'a> = (Ground<'a>, f64, f64, Option<(f64, f64)>);
+
 /// Makes the program over a part, proves it and reads it back.
 ///
 /// # Errors
@@ -131,7 +134,7 @@ fn ground<'a>(
     options: &Options,
     making: &mut Making,
     ball: Cutter,
-) -> Result<(Ground<'a>, f64, f64, Option<(f64, f64)>), Box<Diagnostic>> {
+) -> Result<Place<'a>, Box<Diagnostic>> {
     match part {
         Part::Profile(profile) => {
             let share = |share: f64| (share * options.tolerance).max(FINEST);

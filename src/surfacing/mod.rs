@@ -1,7 +1,7 @@
 //! Whole programs from surfaces: a mesh or a profile is gone over in parallel vertical planes by a ball, tip output.
 //!
-//! [`surface`] makes the passes plane by plane ([`slices`]), puts them into the program's own decimals ([`track`]), looks at what came
-//! out with other means ([`proof`]), joins them ([`join`]) and writes the program ([`crate::write::program`]), which is read back. What is
+//! [`surface`] makes the passes plane by plane (`slices`), puts them into the program's own decimals (`track`), looks at what came
+//! out with other means (`proof`), joins them (`join`) and writes the program ([`crate::write::program`]), which is read back. What is
 //! proved is what is written, rounding included. Source of the method: Dragoi 2009; the passes are its steps 4 to 17.
 
 mod cut;

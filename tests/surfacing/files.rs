@@ -47,7 +47,7 @@ fn arcs_turn_as_they_say() {
         let middle = chain.pieces()[0].point(0.5);
         assert!((middle.u - u).hypot(middle.z - z) < 1e-9, "{text}: {middle:?}");
         assert!((arc.radius - radius).abs() < 1e-9, "{text}");
-        assert_eq!(chain.pieces()[0].start().distance(Point::default()) < 1e-9, true);
+        assert!(chain.start().distance(Point::default()) < 1e-9, "{text}");
     }
 }
 

@@ -163,7 +163,7 @@ fn ellipse(text: &EllipseText, start: Point, scale: f64) -> Result<ProfileCurve,
     for (at, parameter, key) in [(start, from, "centre"), (to, until, "to")] {
         let off = whole.at(parameter / TAU).distance(at);
         // In the direction of the centre that is the distance from the ellipse, or a little more.
-        if !(off <= ROUNDED * (a / b).max(b / a)) {
+        if off.is_nan() || off > ROUNDED * (a / b).max(b / a) {
             let which = if key == "to" { "end" } else { "start" };
             let message = format!("the {which} of this piece is {off:.4} mm from the ellipse");
             let label = if key == "to" { "not on the ellipse" } else { "does not go through the start" };
@@ -171,7 +171,7 @@ fn ellipse(text: &EllipseText, start: Point, scale: f64) -> Result<ProfileCurve,
         }
     }
     let turned = (until - from).rem_euclid(TAU);
-    let turned = if turned < 1e-9 || turned > TAU - 1e-9 { 0.0 } else { turned };
+    let turned = if (1e-9..=TAU - 1e-9).contains(&turned) { turned } else { 0.0 };
     let sweep = match text.turn {
         Turn::Left if turned > 0.0 => turned,
         Turn::Right if turned > 0.0 => turned - TAU,

@@ -63,7 +63,7 @@ pub(super) fn same(text: &[u8], draft: &Draft, dialect: Dialect) -> Result<(), R
 
 fn fits(meant: &Move, motion: &Motion, slack: f64) -> Result<(), String> {
     let off = (motion.to.point - meant.to).norm();
-    if !(off <= SAME * (1.0 + meant.to.coords.norm())) {
+    if off.is_nan() || off > SAME * (1.0 + meant.to.coords.norm()) {
         return Err(format!("it ends {off} from where it should"));
     }
     if motion.rapid != (meant.way == Way::Rapid) {
