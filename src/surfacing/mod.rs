@@ -12,7 +12,6 @@ mod planes;
 mod profile;
 mod proof;
 mod slices;
-mod space;
 mod surfaced;
 mod track;
 

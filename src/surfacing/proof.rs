@@ -1,8 +1,8 @@
 //! The finished passes looked at with other means than those that made them: how deep they go, how far off they stay.
 
 use super::planes::Planes;
-use super::space::Space;
 use super::track::{Print, Track};
+use crate::surface::drop::Space;
 use crate::surface::profile::{Chain, check};
 use rayon::prelude::*;
 

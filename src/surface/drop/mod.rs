@@ -10,11 +10,13 @@ mod contact;
 mod cutter;
 mod follow;
 mod line;
+mod space;
 mod thin;
 mod tree;
 
 pub use check::{Deviation, deviation};
 pub use cutter::{Cutter, CutterError};
+pub use space::{Clearance, Space};
 
 use crate::sim::Mesh;
 use contact::{Facet, Touch};

@@ -12,7 +12,7 @@ use crate::diagnostic::{Diagnostic, codes};
 use crate::program::Program;
 use crate::program::motion::Motion;
 use crate::sim::Mesh;
-use crate::surface::drop::{Cutter, DropCutter, deviation};
+use crate::surface::drop::{Cutter, Deviation, DropCutter, Space, deviation};
 use crate::transform::Context;
 use crate::values::FilePath;
 use crate::write::Editor;
@@ -186,9 +186,7 @@ fn prove(
         points.map(|point| (point * mm - lift).coords.into()).collect()
     };
     let paths: Vec<Vec<[f64; 3]>> = ranges.iter().map(path).collect();
-    let length: f64 = paths.iter().flat_map(|path| path.windows(2)).map(distance).sum();
-    let resolution = job.tolerance.max(length / LOOKS);
-    let found: Vec<_> = paths.par_iter().map(|path| deviation(mesh, cutter, path, resolution)).collect();
+    let found = look(job, mesh, cutter, &paths);
     for ((work, found), report) in all.iter().zip(found).zip(reports) {
         let Some(found) = found else { continue };
         report.gouge_mm = found.gouge;
@@ -202,6 +200,25 @@ fn prove(
         }
     }
     Ok(())
+}
+
+/// Looks at paths in space by other means than they were made.
+fn look(job: &Job, mesh: &Mesh, cutter: Cutter, paths: &[Vec<[f64; 3]>]) -> Vec<Option<Deviation>> {
+    if job.corner == job.radius {
+        // Between two places, a ball passes what is free at both by no more than a tenth of the tolerance.
+        let error = job.tolerance / 10.0;
+        let step = (8.0 * job.radius * error).sqrt();
+        let space = Space::new(mesh, job.radius);
+        let one = |path: &Vec<[f64; 3]>| {
+            let seen = space.along(path, step)?;
+            let (gouge, gap) = ((-seen.low).max(0.0), seen.high.max(0.0));
+            Some(Deviation { gouge, gouge_at: seen.low_at, gap, gap_at: seen.high_at, error })
+        };
+        return paths.par_iter().map(one).collect();
+    }
+    let length: f64 = paths.iter().flat_map(|path| path.windows(2)).map(distance).sum();
+    let resolution = job.tolerance.max(length / LOOKS);
+    paths.par_iter().map(|path| deviation(mesh, cutter, path, resolution)).collect()
 }
 
 fn distance(pair: &[[f64; 3]]) -> f64 {

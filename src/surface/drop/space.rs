@@ -13,7 +13,7 @@ const MOST_COLUMNS: f64 = 1000.0;
 
 /// What a path shows. In mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Found {
+pub struct Clearance {
     /// The nearest that the mesh comes, less the radius: negative where it is in the cutter.
     pub low: f64,
     /// The tip where that is.
@@ -24,8 +24,9 @@ pub(super) struct Found {
     pub high_at: [f64; 3],
 }
 
-/// A mesh in square columns.
-pub(super) struct Space {
+/// A mesh in square columns, for a ball.
+#[derive(Debug, Clone)]
+pub struct Space {
     radius: f64,
     origin: [f64; 2],
     cell: f64,
@@ -63,10 +64,10 @@ impl Space {
     ///
     /// The distance of a point of the mesh from a cutter that moves straight is a convex function of the way: between two places
     /// looked at, a point gets no deeper into the cutter than what a ball passes on the way, `step^2 / (8 R)`.
-    pub fn along(&self, path: &[[f64; 3]], step: f64) -> Option<Found> {
+    pub fn along(&self, path: &[[f64; 3]], step: f64) -> Option<Clearance> {
         let first = path.first().filter(|_| path.iter().flatten().all(|value| value.is_finite()))?;
         let mut distance = self.distance(*first, self.radius);
-        let mut found = Found { low: distance, low_at: *first, high: distance, high_at: *first };
+        let mut found = Clearance { low: distance, low_at: *first, high: distance, high_at: *first };
         for pair in path.windows(2) {
             let [from, to] = pair else { continue };
             let [from, to] = [*from, *to].map(Vector3::from);
