@@ -125,11 +125,11 @@ fn moved(
     let at = |index: usize| owners.binary_search(&index).ok().and_then(|place| contacts.get(place));
     let (first, last) = (at(run.start)?, at(run.end.checked_sub(1)?)?);
     let before = run.start.checked_sub(1).and_then(|before| motions.get(before));
-    // The point before the first has its own normal, or moves as the first does.
+    // The point before the first contact moves by its own normal, if it has one, and else not at all.
     let own = before.and_then(|motion| job.contact(motion, mm));
     let start = match (own, before) {
         (Some(own), _) => new(&own),
-        (None, Some(motion)) => motion.to.point * mm + (new(first) - motions.get(run.start)?.to.point * mm),
+        (None, Some(motion)) => motion.to.point * mm + motion.to.axis * job.lift(),
         (None, None) => new(first),
     };
     Some(Moved { motions: run.clone(), start, end: new(last) })
