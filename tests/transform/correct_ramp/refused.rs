@@ -71,8 +71,10 @@ fn a_region_that_crosses_itself_is_refused_where_it_stands() {
 
 #[test]
 fn a_ramp_that_leads_to_no_level_is_not_guessed() {
-    let away = SMALL
-        .replace("GOTO/10.0000,0.0000,-2.0000\nGOTO/10.0000,10.0000,-2.0000", "GOTO/10.0000,0.0000,5.0000");
+    let away = SMALL.replace(
+        "PAINT/COLOR,31\nGOTO/10.0000,0.0000,-2.0000\nGOTO/10.0000,10.0000,-2.0000",
+        "PAINT/COLOR,37\nGOTO/10.0000,0.0000,5.0000",
+    );
     let (code, message, texts) = refused(&format!("{FACE_MILL}, region: none"), &away);
     assert_eq!((code, texts[0].as_str()), ("CL0321", "GOTO/10.0000,0.0000,0.0000"));
     assert!(message.contains("no level") || message.contains("does not end at a level"), "{message}");
