@@ -57,7 +57,7 @@ impl<'a> Around<'a> {
         let excluded = |(motion, meant): (&Motion, &bool)| {
             let way = motion.to.point - motion.from.point;
             let upright = (way - motion.to.axis * way.dot(&motion.to.axis)).norm() * mm <= UPRIGHT;
-            !*meant && cuts(motion) && !(upright && !motion.class_is_told)
+            !*meant && cuts(motion) && (motion.class_is_told || !upright)
         };
         Self {
             motions,
