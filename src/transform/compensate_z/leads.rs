@@ -94,15 +94,22 @@ impl<'a> Around<'a> {
         let Some(before) = pass.motions.start.checked_sub(1) else {
             return Err(Stuck::Fixed(pass.motions.start));
         };
+        // An end that stays where it was needs nobody to move.
+        let same =
+            |new: Point3<f64>, old: Option<Point3<f64>>| old.is_some_and(|old| (new - old).norm() <= 1e-6);
+        let last = pass.motions.end.checked_sub(1).and_then(|last| self.point(last));
+        let after = pass.motions.end;
+        if !same(pass.end, last) && self.operation(after) == own && self.is(&self.excluded, after) {
+            return Err(Stuck::Excluded(after));
+        }
+        if same(pass.start, self.point(before)) {
+            return Ok(());
+        }
         if self.operation(before) != own || self.is(&self.fixed, before) {
             return Err(Stuck::Fixed(before));
         }
-        let (after, end) = (pass.motions.end, self.operation(pass.motions.end));
         if self.is(&self.excluded, before) {
             return Err(Stuck::Excluded(before));
-        }
-        if end == own && self.is(&self.excluded, after) {
-            return Err(Stuck::Excluded(after));
         }
         let rapid =
             self.motions.get(before).is_some_and(|motion| motion.rapid || matches!(motion.path, Path::Start));
