@@ -31,6 +31,10 @@ pub fn findings(surfaced: &Surfaced, options: &Options) -> Vec<Diagnostic> {
         let message = format!("{worse}, more than the tolerance of {tolerance} {units}");
         found.push(Diagnostic::new(codes::NOT_WITHIN_TOLERANCE, message));
     }
+    if options.words.spindle.is_none() {
+        let message = "no `--spindle` is given, so the program says no spindle speed";
+        found.push(Diagnostic::new(codes::SECTION_WITHOUT_SPINDLE, message));
+    }
     let left = surfaced.unreached.iter().max_by(|a, b| a.left.total_cmp(&b.left));
     if let Some(most) = left {
         let count = surfaced.unreached.len();
@@ -62,6 +66,13 @@ pub fn to_text(surfaced: &Surfaced, options: &Options, name: &str) -> String {
         "{name}: {planes}, {passes}, {cutting:.0} {units} of cutting in {} motions",
         surfaced.cuts()
     );
+    if surfaced.empty > 0 {
+        let _ = writeln!(
+            text,
+            "{} planes beside these meet nothing of the part: a flank that faces across the planes is not cut",
+            surfaced.empty
+        );
+    }
     let proof = &surfaced.proof;
     let _ = writeln!(
         text,

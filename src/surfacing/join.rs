@@ -31,12 +31,14 @@ pub(super) struct Between {
 
 /// The motions through all tracks, which stand plane by plane in the order and direction in which they are cut.
 ///
-/// `link` gives points from the end of one track to the start of the next over which the tool may go at feed.
+/// `link` gives points from the end of one track to the start of the next over which the tool may go at feed; `top` the highest z of
+/// the part beside a place, above which a rapid has to end.
 pub(super) fn join(
     planes: &[Vec<Track>],
     between: &Between,
     print: Print,
     link: impl Fn(Point3<f64>, Point3<f64>) -> Option<Vec<Point3<f64>>>,
+    top: impl Fn(Point3<f64>) -> f64,
 ) -> Vec<Move> {
     let mut path = Joined { moves: Vec::new(), between: *between, print };
     let mut at: Option<Point3<f64>> = None;
@@ -46,7 +48,7 @@ pub(super) fn join(
             let near = index == 0 && between.pattern == Pattern::ZigZag;
             match at.and_then(|at| link(at, track.start).filter(|_| near)) {
                 Some(points) => path.over(points),
-                None => path.down_to(at, track.start),
+                None => path.down_to(at, track.start, top(track.start)),
             }
             path.along(track);
             at = Some(track.end());
@@ -82,15 +84,17 @@ impl Joined {
         self.air(Point3::new(at.x, at.y, self.between.clear), MotionClass::Retract);
     }
 
-    /// Up from a place, across, and down to another, the last bit at the plunge feed.
-    fn down_to(&mut self, at: Option<Point3<f64>>, start: Point3<f64>) {
+    /// Up from a place, across, and down to another, the last bit at the plunge feed: from above everything beside it, since stock may stand
+    /// on a wall.
+    fn down_to(&mut self, at: Option<Point3<f64>>, start: Point3<f64>, top: f64) {
         let first = at.is_none();
         if let Some(at) = at {
             self.up_from(at);
         }
         let class = if first { MotionClass::Approach } else { MotionClass::Rapid };
         self.air(Point3::new(start.x, start.y, self.between.clear), class);
-        let above = crate::write::program::rounded(start.z + self.between.approach, self.print.dialect);
+        let above =
+            crate::write::program::rounded(start.z.max(top) + self.between.approach, self.print.dialect);
         if above < self.between.clear {
             self.air(Point3::new(start.x, start.y, above), MotionClass::Rapid);
         }

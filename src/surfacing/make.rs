@@ -100,7 +100,16 @@ pub fn surface(part: &Part, options: &Options) -> Result<Surfaced, Box<Diagnosti
         _ => 0.0,
     };
     let near = (3.0 * spacing).max(2.0 * options.radius);
-    let moves = join(&tracks, &between, print, |from, to| link(&ground, &making, print, near, from, to));
+    let beside = beside(part, options);
+    let top = |at: Point3<f64>| {
+        let mm = words.units.in_mm();
+        let height = match &beside {
+            Some(wide) => wide.height(at.x * mm, at.y * mm).map(|drop| drop.tip_z),
+            None => Some(high),
+        };
+        height.map_or(at.z, |height| height / mm)
+    };
+    let moves = join(&tracks, &between, print, |from, to| link(&ground, &making, print, near, from, to), top);
     let draft = draft(options, print, moves);
     let text = program::write(&draft, words.dialect).map_err(|error| {
         let message = format!("the written program does not read back as it was meant: {error}");
@@ -117,11 +126,21 @@ pub fn surface(part: &Part, options: &Options) -> Result<Surfaced, Box<Diagnosti
         text,
         proof,
         planes: tracks.iter().filter(|tracks| !tracks.is_empty()).count(),
+        empty: tracks.iter().filter(|tracks| tracks.is_empty()).count(),
         passes,
         spacing,
         unreached,
         figure: figure(&slices, &tracks, &ground, &making, print),
     })
+}
+
+/// A flat cutter that tells the highest place of a mesh within the ball's radius and the approach.
+fn beside(part: &Part, options: &Options) -> Option<DropCutter> {
+    let wide = Cutter::flat(2.0 * (options.radius + options.approach)).ok()?;
+    match part {
+        Part::Mesh(mesh) => Some(DropCutter::new(mesh, wide)),
+        Part::Profile(_) => None,
+    }
 }
 
 fn fault(message: String) -> Box<Diagnostic> {

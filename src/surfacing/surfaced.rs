@@ -21,6 +21,8 @@ pub struct Surfaced {
     pub proof: Proof,
     /// How many planes have a pass.
     pub planes: usize,
+    /// How many planes were asked for and meet nothing.
+    pub empty: usize,
     /// How many passes.
     pub passes: usize,
     /// Distance of neighbouring planes, mm; 0 of a single one.

@@ -141,3 +141,9 @@ pub fn delete_but_remark(editor: &mut Editor, statement: usize) -> Result<(), Bo
         }
     }
 }
+
+/// A coordinate as a file prints it: more decimals than it has elsewhere tell a machine nothing.
+pub fn rounded(value: f64, decimals: usize) -> f64 {
+    let power = 10f64.powi(decimals as i32);
+    (value * power).round() / power
+}

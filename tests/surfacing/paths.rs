@@ -39,14 +39,16 @@ fn zigzag_turns_every_other_plane_and_one_way_does_not() {
     assert_eq!(forth(&one_way), [true; 6]);
     assert_eq!(of_class(&one_way, MotionClass::StepOver).len(), 0);
     assert_eq!(of_class(&one_way, MotionClass::Retract).len(), 6);
-    // Up to 10 mm above the top, across, down to 2 mm above the pass at rapid, and on at the plunge feed.
+    // Up to 10 mm above the top, across, down to 2 mm above what is beside the pass at rapid, and on at the plunge feed.
     for (from, to) in of_class(&one_way, MotionClass::Retract) {
         assert_eq!((to.to.z, to.way, from.to.x, from.to.y), (15.0, Way::Rapid, to.to.x, to.to.y));
     }
     for (from, to) in of_class(&one_way, MotionClass::Engage) {
         assert_eq!((from.to.x, from.to.y), (to.to.x, to.to.y));
         assert_eq!((from.way, to.way), (Way::Rapid, Way::Line { feed: 300.0 }));
-        assert!((from.to.z - to.to.z - 2.0).abs() < 1e-9);
+        // 2 mm above the highest place within the ball's radius and those 2 mm.
+        let above = from.to.z - to.to.z;
+        assert!((2.0..=7.0).contains(&above), "{above}");
     }
 }
 
@@ -116,4 +118,14 @@ fn a_floor_ends_passes() {
     let surfaced = along(&valley, &Options { floor: Some(4.0), ..options() });
     assert_eq!(surfaced.passes, 2 * surfaced.planes, "the valley below it is left");
     assert!(surfaced.draft.moves.iter().all(|step| step.to.z >= 4.0 - 1e-4));
+}
+
+#[test]
+fn a_rapid_ends_above_the_wall_beside_it() {
+    // A boss 20 mm high; with the floor at 5 the passes begin beside it.
+    let boss = [[0.0, 0.0], [10.0, 0.0], [10.0, 20.0], [30.0, 20.0], [30.0, 0.0], [40.0, 0.0]];
+    let surfaced = along(&boss, &Options { floor: Some(5.0), ..options() });
+    for (from, to) in of_class(&surfaced, MotionClass::Engage) {
+        assert!(from.to.z >= 20.0, "{} {}", from.to, to.to);
+    }
 }

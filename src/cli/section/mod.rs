@@ -204,15 +204,13 @@ impl Section {
         if !found.is_empty() {
             self.show(&found)?;
         }
-        if !self.quiet {
-            unless_nobody_reads(self.summary(surfaced, options))?;
-        }
         if found.iter().any(Diagnostic::is_error) {
+            self.tell(surfaced, options)?;
             self.nothing();
             return Ok(Exit::Errors);
         }
         match self.write(surfaced, options, outputs) {
-            Ok(None) => Ok(Exit::Done),
+            Ok(None) => self.tell(surfaced, options).map(|()| Exit::Done),
             Ok(Some(found)) => {
                 self.show(&[found])?;
                 Ok(Exit::Errors)
@@ -220,6 +218,10 @@ impl Section {
             Err(error) if is_interrupt(&error) => Ok(Exit::Interrupted),
             Err(error) => Err(error),
         }
+    }
+
+    fn tell(&self, surfaced: &Surfaced, options: &Options) -> io::Result<()> {
+        if self.quiet { Ok(()) } else { unless_nobody_reads(self.summary(surfaced, options)) }
     }
 
     /// The part, in mm.

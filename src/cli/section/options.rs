@@ -16,6 +16,10 @@ const APPROACH: f64 = 2.0;
 const SMALLEST: f64 = 1e-2;
 const FINEST: f64 = 1e-4;
 
+/// The least distance of a rapid's end from the part, mm, and the slowest feed and speed.
+const NEAREST: f64 = 0.1;
+const SLOWEST: f64 = 0.01;
+
 impl Section {
     pub(super) fn options(&self) -> Result<Options, Vec<Diagnostic>> {
         let mut line = CommandLine::new(self.units);
@@ -46,6 +50,27 @@ impl Section {
             feed => line.size("--between", Some(feed)),
         };
         let spindle = line.positive("--spindle", self.spindle.as_deref());
+        for (option, value, least) in [("--clearance", clearance, NEAREST), ("--approach", approach, NEAREST)]
+        {
+            if value.is_some_and(|value| value < least) {
+                let message = format!(
+                    "{option} is less than {} {}: a rapid would end on the part",
+                    least / unit,
+                    self.units
+                );
+                line.fault(option, message, "too small");
+            }
+        }
+        let rates = [("--feed", feed), ("--plunge", plunge), ("--between", air), ("--spindle", spindle)];
+        for (option, value) in rates {
+            if value.is_some_and(|value| value < SLOWEST) {
+                line.fault(
+                    option,
+                    format!("{option} is less than {SLOWEST}: it would be printed as zero"),
+                    "too slow",
+                );
+            }
+        }
         let operation = line.name("--operation", self.operation.as_deref());
         let tool_name = line.name("--tool-name", self.tool_name.as_deref());
         let found = line.into_found();
@@ -113,7 +138,12 @@ impl Section {
 
     /// The dialect asked for, else that of the output's extension, else NX.
     fn dialect(&self) -> Dialect {
-        let extension = self.output.as_deref().and_then(Path::extension);
+        // Creo ends its names in a version: `op010.ncl.1`.
+        let version =
+            |path: &&Path| path.extension().is_some_and(|end| end.to_string_lossy().parse::<u32>().is_ok());
+        let output = self.output.as_deref();
+        let unversioned = output.filter(version).map(|path| path.with_extension(""));
+        let extension = unversioned.as_deref().or(output).and_then(Path::extension);
         let extension = extension.map(|extension| extension.to_string_lossy().to_ascii_lowercase());
         self.dialect.unwrap_or(match extension.as_deref() {
             Some("aptsource" | "apt") => Dialect::Catia,

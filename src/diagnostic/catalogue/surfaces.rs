@@ -35,4 +35,8 @@ super::area! {
         "Take a smaller ball for these places, or finish them with another tool.",
         "A ball does not get into corners and hollows that are tighter than its radius, nor below overhangs. What is left there is told \
          as a distance from the ball where it comes nearest. The path is right all the same: it touches on both sides and gouges nothing.";
+    SECTION_WITHOUT_SPINDLE = "CL0608", Warning, "a program made without a spindle speed",
+        "Give `--spindle 8000`, or see to it that the post or the operator switches the spindle on.",
+        "The program that `section` writes has a SPINDL record only where `--spindle` says a speed. Without it the tool would cut with a \
+         standing spindle, unless the post or an earlier operation has switched it on.";
 }

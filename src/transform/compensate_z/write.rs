@@ -8,8 +8,8 @@ use crate::program::geometry::Path;
 use crate::program::motion::Motion;
 use crate::program::{Program, Record, Statement};
 use crate::surface::profile::{Chain, Piece, Plane};
-use crate::transform::numbers::delete_but_remark;
-use crate::write::Editor;
+use crate::transform::numbers::{delete_but_remark, rounded};
+use crate::write::{Editor, Style};
 use nalgebra::Point3;
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -27,12 +27,15 @@ pub(super) enum Unwritable {
 pub(super) struct Writer<'a> {
     pub(super) motions: &'a [Motion],
     pub(super) mm: f64,
+    /// Decimals of the file's coordinates, four at least.
+    decimals: usize,
     arc: Option<Template>,
 }
 
 impl<'a> Writer<'a> {
     pub fn new(program: &Program, motions: &'a [Motion], mm: f64) -> Self {
-        Self { motions, mm, arc: template(program) }
+        let decimals = Style::of(program).length_decimals.max(4);
+        Self { motions, mm, decimals, arc: template(program) }
     }
 
     /// Whether arcs can be said.
@@ -65,7 +68,7 @@ impl<'a> Writer<'a> {
     }
 
     pub(super) fn numbers(&self, point: Point3<f64>) -> Vec<(usize, f64)> {
-        numbered(0, (point / self.mm).coords.into())
+        numbered(0, (point / self.mm).coords.map(|value| rounded(value, self.decimals)).into())
     }
 
     /// Writes a compensated pass over the statements of the old one. What stands between them stays, and comes after the new points
