@@ -66,3 +66,13 @@ pub fn unless_nobody_reads(shown: io::Result<()>) -> io::Result<()> {
         shown => shown,
     }
 }
+
+/// A summary on standard output, or on standard error when an output goes there.
+pub fn print_summary(text: &str, output_is_taken: bool) -> io::Result<()> {
+    if output_is_taken {
+        return io::stderr().lock().write_all(text.as_bytes());
+    }
+    let mut out = io::stdout().lock();
+    out.write_all(text.as_bytes())?;
+    out.flush()
+}

@@ -8,7 +8,7 @@ use crate::number::{self, Form};
 use crate::parse;
 use crate::program::record::{is_contact, is_poses};
 use crate::program::{FieldKind, Record, Role};
-use crate::write::Editor;
+use crate::write::{Editor, copy_with_numbers};
 use nalgebra::Vector3;
 
 /// A matrix in the comments of a CATIA file prints unit vectors with 5 decimals; turned ones need as many as an NX frame.
@@ -146,4 +146,16 @@ pub fn delete_but_remark(editor: &mut Editor, statement: usize) -> Result<(), Bo
 pub fn rounded(value: f64, decimals: usize) -> f64 {
     let power = 10f64.powi(decimals as i32);
     (value * power).round() / power
+}
+
+/// Pairs of numbers' indices from `first` on and their new values.
+pub fn numbered(first: usize, values: impl IntoIterator<Item = f64>) -> Vec<(usize, f64)> {
+    values.into_iter().enumerate().map(|(index, value)| (first + index, value)).collect()
+}
+
+/// A statement's text with other numbers and without its remark, for a new statement in its form.
+pub fn copied(editor: &Editor, statement: usize, numbers: &[(usize, f64)]) -> Vec<u8> {
+    let program = editor.program();
+    let Some(found) = program.statement(statement) else { return Vec::new() };
+    copy_with_numbers(&without_remark(program.text(found)), found.record(), numbers, editor.style())
 }

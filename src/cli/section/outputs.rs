@@ -2,12 +2,12 @@
 
 use super::Section;
 use crate::cli::files::STANDARD;
-use crate::cli::output::Outputs;
+use crate::cli::output::{Outputs, print_summary};
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::report::surfacing as report;
 use clsmith::surfacing::{Options, Surfaced};
 use clsmith::write::same_file;
-use std::io::{self, Write};
+use std::io;
 use std::path::Path;
 
 impl Section {
@@ -66,12 +66,6 @@ impl Section {
             let title = options.words.dialect.title();
             text.push_str(&format!("-> {}: {title}, {lines} lines\n", path.display()));
         }
-        if self.outputs().any(|path| path == Path::new(STANDARD)) {
-            io::stderr().lock().write_all(text.as_bytes())
-        } else {
-            let mut out = io::stdout().lock();
-            out.write_all(text.as_bytes())?;
-            out.flush()
-        }
+        print_summary(&text, self.outputs().any(|path| path == Path::new(STANDARD)))
     }
 }

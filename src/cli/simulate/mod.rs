@@ -5,7 +5,7 @@ mod outputs;
 use crate::cli::exit::Exit;
 use crate::cli::files::{self, STANDARD};
 use crate::cli::findings::FindingArgs;
-use crate::cli::output::{Outputs, unless_nobody_reads};
+use crate::cli::output::{Outputs, print_summary, unless_nobody_reads};
 use crate::cli::progress::Progress;
 use crate::cli::terminal;
 use clap::Args;
@@ -20,7 +20,7 @@ use clsmith::setup::Setup;
 use clsmith::sim::Mesh;
 use clsmith::values::LengthUnit;
 use clsmith::write::is_interrupt;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -234,13 +234,7 @@ impl Simulate {
     /// The summary on standard output, or on standard error when an output goes there.
     fn summary(&self, simulated: &Simulated) -> io::Result<()> {
         let text = simulation::to_text(simulated);
-        if self.outputs().any(|path| path == Path::new(STANDARD)) {
-            io::stderr().lock().write_all(text.as_bytes())
-        } else {
-            let mut out = io::stdout().lock();
-            out.write_all(text.as_bytes())?;
-            out.flush()
-        }
+        print_summary(&text, self.outputs().any(|path| path == Path::new(STANDARD)))
     }
 
     fn nothing(&self) -> io::Result<Exit> {

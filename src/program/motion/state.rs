@@ -22,6 +22,18 @@ pub struct Tool {
     pub(super) shape_is_new: bool,
 }
 
+impl Tool {
+    /// The tool as people call it: `tool 3`, `tool 3 (MILL_10)`, `tool MILL_10`, `the tool`.
+    pub fn called(&self) -> String {
+        match (self.number, &self.name) {
+            (Some(number), Some(name)) => format!("tool {number} ({name})"),
+            (Some(number), None) => format!("tool {number}"),
+            (None, Some(name)) => format!("tool {name}"),
+            (None, None) => "the tool".to_owned(),
+        }
+    }
+}
+
 /// Where the printed coordinates stand: `outside = origin + axes * printed`.
 ///
 /// The direction of CSYS, CAMERA and CATIA0 matrices is the file's own statement; for NX it is measured.

@@ -34,7 +34,7 @@ impl Resolved {
         if self.assumptions.is_empty() {
             return None;
         }
-        let message = format!("{} is taken with {}", super::gap::called(tool), self.assumptions.join("; "));
+        let message = format!("{} is taken with {}", tool.called(), self.assumptions.join("; "));
         Some(Diagnostic::new(codes::ASSUMPTION, message).label(source, span, "used here"))
     }
 }

@@ -120,7 +120,7 @@ impl ToolGap {
 impl Subject {
     fn new(tool: &Tool, entry: Option<&ToolEntry>) -> Self {
         let entry = entry.map(|entry| entry.place.clone());
-        Self { called: called(tool), matches: matches(tool), entry }
+        Self { called: tool.called(), matches: matches(tool), entry }
     }
 
     /// What to write where.
@@ -160,16 +160,6 @@ impl Setup {
             span,
             "used here",
         ))
-    }
-}
-
-/// `tool 3`, `tool MILL_10`, `the tool`.
-pub(super) fn called(tool: &Tool) -> String {
-    match (tool.number, &tool.name) {
-        (Some(number), Some(name)) => format!("tool {number} ({name})"),
-        (Some(number), None) => format!("tool {number}"),
-        (None, Some(name)) => format!("tool {name}"),
-        (None, None) => "the tool".to_owned(),
     }
 }
 

@@ -5,6 +5,7 @@
 //! seen so far, less an allowed error; and so is the error between places looked at along the path known.
 
 use super::Cutter;
+use super::columns::Columns;
 use crate::sim::Mesh;
 use nalgebra::Vector3;
 
@@ -31,8 +32,8 @@ pub fn deviation(mesh: &Mesh, cutter: Cutter, path: &[[f64; 3]], resolution: f64
     let resolution = resolution.max(1e-6);
     let first = path.first().filter(|_| path.iter().flatten().all(|value| value.is_finite()))?;
     let error = resolution / 2.0;
-    let columns = Columns::new(mesh, &cutter);
-    let mut distance = columns.distance(&cutter, *first, cutter.radius(), error);
+    let field = Field::new(mesh, &cutter);
+    let mut distance = field.distance(&cutter, *first, cutter.radius(), error);
     let (mut low, mut low_at, mut high, mut high_at) = (distance, *first, distance, *first);
     for pair in path.windows(2) {
         let [from, to] = pair else { continue };
@@ -44,7 +45,7 @@ pub fn deviation(mesh: &Mesh, cutter: Cutter, path: &[[f64; 3]], resolution: f64
             let tip: [f64; 3] = from.lerp(&to, index / count).into();
             // No farther than before, plus the way.
             let most = (distance + length / count + resolution).min(cutter.radius());
-            distance = columns.distance(&cutter, tip, most, error);
+            distance = field.distance(&cutter, tip, most, error);
             if distance < low {
                 (low, low_at) = (distance, tip);
             }
@@ -77,52 +78,16 @@ fn signed(cutter: &Cutter, from_tip: Vector3<f64>) -> (f64, Vector3<f64>) {
     if beside > below { (beside - corner, out) } else { (below - corner, -Vector3::z()) }
 }
 
-/// Triangles by square columns.
-struct Columns {
-    origin: [f64; 2],
-    cell: f64,
-    size: [usize; 2],
-    cells: Vec<Vec<u32>>,
+/// A mesh's triangles, and by columns which of them are where.
+struct Field {
+    columns: Columns,
     triangles: Vec<Triangle>,
 }
 
-impl Columns {
+impl Field {
     fn new(mesh: &Mesh, cutter: &Cutter) -> Self {
-        let ([x0, y0, _], [x1, y1, _]) = mesh.bounds();
-        // Half a radius, and not more than some million columns.
-        let cell = (cutter.radius() / 2.0).max((x1 - x0).max(y1 - y0) / 1000.0);
-        let size = [x1 - x0, y1 - y0].map(|width| (width / cell) as usize + 1);
-        let triangles: Vec<Triangle> = mesh.corners().map(|corners| corners.map(Vector3::from)).collect();
-        let [columns, rows] = size;
-        let mut all =
-            Self { origin: [x0, y0], cell, size, cells: vec![Vec::new(); columns * rows], triangles };
-        for index in 0..all.triangles.len() {
-            let Some([a, b, c]) = all.triangles.get(index).copied() else { continue };
-            let (low, high) = (a.inf(&b).inf(&c), a.sup(&b).sup(&c));
-            for cell in all.covered([low.x, low.y], [high.x, high.y]) {
-                if let Some(cell) = all.cells.get_mut(cell) {
-                    cell.push(index as u32);
-                }
-            }
-        }
-        all
-    }
-
-    /// Numbers of the columns that a rectangle has part in.
-    fn covered(&self, low: [f64; 2], high: [f64; 2]) -> impl Iterator<Item = usize> + use<> {
-        let range = |low: f64, high: f64, origin: f64, size: usize| {
-            let [first, last] = [low, high].map(|value| ((value - origin) / self.cell).floor());
-            // Empty when it lies beside.
-            if last < 0.0 {
-                0..0
-            } else {
-                (first.max(0.0) as usize).min(size)..(last as usize).saturating_add(1).min(size)
-            }
-        };
-        let [columns, rows] = self.size;
-        let across = range(low[0], high[0], self.origin[0], columns);
-        range(low[1], high[1], self.origin[1], rows)
-            .flat_map(move |row| across.clone().map(move |column| row * columns + column))
+        let triangles = mesh.corners().map(|corners| corners.map(Vector3::from)).collect();
+        Self { columns: Columns::new(mesh, cutter.radius()), triangles }
     }
 
     /// The least signed distance of the mesh from a cutter, `most` where it is more; at most `error` too large.
@@ -131,8 +96,8 @@ impl Columns {
         let reach = cutter.radius() + most.max(0.0);
         let tip = Vector3::new(x, y, z);
         let mut least = most;
-        for cell in self.covered([x - reach, y - reach], [x + reach, y + reach]) {
-            for index in self.cells.get(cell).into_iter().flatten() {
+        for column in self.columns.within([x - reach, y - reach], [x + reach, y + reach]) {
+            for index in column {
                 if let Some(triangle) = self.triangles.get(*index as usize) {
                     nearest(cutter, triangle.map(|corner| corner - tip), error, &mut least);
                 }

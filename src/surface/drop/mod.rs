@@ -6,6 +6,7 @@
 //! count whichever way they face: in a closed mesh one that faces down always lies under one that faces up.
 
 mod check;
+mod columns;
 mod contact;
 mod cutter;
 mod follow;

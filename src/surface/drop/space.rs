@@ -3,13 +3,11 @@
 //! The cutter is everything nearer than its radius to the upright ray from the ball's centre. So its distance from a triangle is that of
 //! a ray from a triangle, which is a matter of points, edges and the inside, and knows nothing of how cutters are lowered.
 
+use super::columns::Columns;
 use crate::sim::Mesh;
 use nalgebra::Vector3;
 
 type Triangle = [Vector3<f64>; 3];
-
-/// More columns than this along a side are not made.
-const MOST_COLUMNS: f64 = 1000.0;
 
 /// What a path shows. In mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,36 +26,18 @@ pub struct Clearance {
 #[derive(Debug, Clone)]
 pub struct Space {
     radius: f64,
-    origin: [f64; 2],
-    cell: f64,
-    size: [usize; 2],
-    columns: Vec<Vec<u32>>,
+    columns: Columns,
     triangles: Vec<(Triangle, Vector3<f64>, Vector3<f64>)>,
 }
 
 impl Space {
     /// Sorts a mesh's triangles for a ball of `radius` mm.
     pub fn new(mesh: &Mesh, radius: f64) -> Self {
-        let ([x0, y0, _], [x1, y1, _]) = mesh.bounds();
-        let cell = (radius / 2.0).max((x1 - x0).max(y1 - y0) / MOST_COLUMNS);
-        let size = [x1 - x0, y1 - y0].map(|width| (width / cell) as usize + 1);
-        let [across, deep] = size;
         let bounded = |corners: [[f64; 3]; 3]| {
             let [a, b, c] = corners.map(Vector3::from);
             ([a, b, c], a.inf(&b).inf(&c), a.sup(&b).sup(&c))
         };
-        let triangles: Vec<_> = mesh.corners().map(bounded).collect();
-        let columns = vec![Vec::new(); across * deep];
-        let mut space = Self { radius, origin: [x0, y0], cell, size, columns, triangles };
-        for index in 0..space.triangles.len() {
-            let Some((_, low, high)) = space.triangles.get(index).copied() else { continue };
-            for column in space.covered([low.x, low.y], [high.x, high.y]) {
-                if let Some(column) = space.columns.get_mut(column) {
-                    column.push(index as u32);
-                }
-            }
-        }
-        space
+        Self { radius, columns: Columns::new(mesh, radius), triangles: mesh.corners().map(bounded).collect() }
     }
 
     /// Looks along a path of straight lines, every `step` mm and at its points. None for a path without points.
@@ -95,8 +75,8 @@ impl Space {
         let centre = Vector3::new(x, y, z + self.radius);
         let reach = self.radius + most.max(0.0);
         let mut least = reach * reach;
-        for column in self.covered([x - reach, y - reach], [x + reach, y + reach]) {
-            for index in self.columns.get(column).into_iter().flatten() {
+        for column in self.columns.within([x - reach, y - reach], [x + reach, y + reach]) {
+            for index in column {
                 if let Some((triangle, low, high)) = self.triangles.get(*index as usize)
                     && from_box(&centre, low, high) < least
                 {
@@ -105,24 +85,6 @@ impl Space {
             }
         }
         least.sqrt() - self.radius
-    }
-
-    /// Numbers of the columns that a rectangle has part in.
-    fn covered(&self, low: [f64; 2], high: [f64; 2]) -> impl Iterator<Item = usize> + use<> {
-        let range = |low: f64, high: f64, origin: f64, size: usize| {
-            let [first, last] = [low, high].map(|value| ((value - origin) / self.cell).floor());
-            // Empty when it lies beside.
-            if last < 0.0 {
-                0..0
-            } else {
-                (first.max(0.0) as usize).min(size)..(last as usize).saturating_add(1).min(size)
-            }
-        };
-        let [across, deep] = self.size;
-        let [x, y] = self.origin;
-        let columns = range(low[0], high[0], x, across);
-        range(low[1], high[1], y, deep)
-            .flat_map(move |row| columns.clone().map(move |column| row * across + column))
     }
 }
 

@@ -68,8 +68,7 @@ pub(super) fn run(
     let mut editor = Editor::new(program, context.step);
     for (contact, index) in contacts.iter().zip(&owners) {
         let Some(motion) = motions.get(*index) else { continue };
-        let at: [f64; 3] = (new(contact) / mm).coords.into();
-        editor.set_numbers(motion.last_statement(), &at.into_iter().enumerate().collect::<Vec<_>>())?;
+        editor.set_numbers(motion.last_statement(), &writer.numbers(new(contact)))?;
     }
     leads_written(&writer, &mut editor, motions, &ends, &moved, mm, &original, context)?;
     let program = editor.finish()?;

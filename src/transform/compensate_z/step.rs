@@ -2,7 +2,7 @@
 
 use super::parameters::{Against, Arcs, CompensateZ, CutterPoint, PathPoint};
 use super::passes::cuts;
-use super::words::{Place, called};
+use super::words::Place;
 use super::{by_mesh, by_normals, by_profile};
 use crate::diagnostic::Diagnostic;
 use crate::program::motion::{Motion, Tool};
@@ -23,7 +23,7 @@ impl Transform for CompensateZ {
             motions.iter().map(|motion| selection.contains(motion, context) && cuts(motion)).collect();
         selection.report(context);
         let Some(first) = meant.iter().position(|meant| *meant) else { return Ok(program) };
-        let mut job = Job::new(self, &program, &motions, file, context)?;
+        let mut job = Job::new(self, file, context)?;
         job.cutter_at(&program, &motions, &meant, first, context)?;
         let (program, report) = match &self.against {
             Against::Profile => by_profile::run(&job, program, &motions, &meant, context)?,
@@ -53,13 +53,7 @@ pub(super) struct Job {
 }
 
 impl Job {
-    fn new(
-        step: &CompensateZ,
-        _: &Program,
-        _: &[Motion],
-        file: LengthUnit,
-        context: &Context<'_>,
-    ) -> Result<Self, Box<Diagnostic>> {
+    fn new(step: &CompensateZ, file: LengthUnit, context: &Context<'_>) -> Result<Self, Box<Diagnostic>> {
         let recipe = context.recipe.units.in_mm();
         let mm = |value: Option<Positive>| value.map(|value| value.get() * recipe);
         let was = mm(step.was_radius);
@@ -127,7 +121,7 @@ impl Job {
         let diameter = told(entry.and_then(|entry| entry.diameter), data.and_then(|data| data.diameter));
         let corner =
             told(entry.and_then(|entry| entry.corner_radius), data.and_then(|data| data.corner_radius));
-        let called = called(tool.as_deref());
+        let called = used.called();
         let Some(diameter) = diameter.filter(|diameter| *diameter > 0.0) else {
             let message = format!(
                 "the radius is not known: neither the step nor the setup nor the CL file says that of {called}"

@@ -4,8 +4,8 @@ use crate::diagnostic::Diagnostic;
 use crate::program::record::{ArcSense, Circle};
 use crate::program::{ArcRule, Program, Record};
 use crate::surface::profile::{Arc, Piece, Plane, Point};
-use crate::transform::numbers::{without_remark, word};
-use crate::write::{Editor, copy_with_numbers};
+use crate::transform::numbers::{copied, numbered, word};
+use crate::write::Editor;
 use nalgebra::{Point3, Vector3};
 
 /// How a file says an arc.
@@ -78,11 +78,11 @@ impl Template {
                 // From +u towards +z is right-hand about u x z.
                 let axis = way(1.0, 0.0).cross(&way(0.0, 1.0)) * (arc.sweep.signum() * hand);
                 let mut numbers = numbered(0, centre);
-                numbers.extend(numbered(3, axis.map(tidy).into()));
+                numbers.extend(numbered(3, <[f64; 3]>::from(axis.map(tidy))));
                 if has_radius {
                     numbers.push((6, arc.radius / mm));
                 }
-                editor.insert_before(before, &copy(editor, statement, &numbers))?;
+                editor.insert_before(before, &copied(editor, statement, &numbers))?;
                 Ok(true)
             }
             Self::Drive { auto, direction, drive } => {
@@ -93,13 +93,13 @@ impl Template {
                 numbers.extend(numbered(4, centre));
                 numbers.extend(numbered(7, place(space(Piece::Arc(*arc).end()))));
                 if let Some(auto) = auto {
-                    editor.insert_before(before, &copy(editor, auto, &[]))?;
+                    editor.insert_before(before, &copied(editor, auto, &[]))?;
                 }
                 editor.insert_before(
                     before,
-                    &copy(editor, direction, &numbered(0, tangent.map(tidy).into())),
+                    &copied(editor, direction, &numbered(0, <[f64; 3]>::from(tangent.map(tidy)))),
                 )?;
-                editor.insert_before(before, &copy(editor, drive, &numbers))?;
+                editor.insert_before(before, &copied(editor, drive, &numbers))?;
                 Ok(false)
             }
         }
@@ -109,15 +109,4 @@ impl Template {
 /// What is nothing but rounding is printed without a sign.
 fn tidy(part: f64) -> f64 {
     if part.abs() < 1e-9 { 0.0 } else { part }
-}
-
-pub(super) fn numbered(first: usize, values: [f64; 3]) -> Vec<(usize, f64)> {
-    values.into_iter().enumerate().map(|(index, value)| (first + index, value)).collect()
-}
-
-/// A statement's text with other numbers.
-pub(super) fn copy(editor: &Editor, statement: usize, numbers: &[(usize, f64)]) -> Vec<u8> {
-    let program = editor.program();
-    let Some(found) = program.statement(statement) else { return Vec::new() };
-    copy_with_numbers(&without_remark(program.text(found)), found.record(), numbers, editor.style())
 }

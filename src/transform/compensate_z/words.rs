@@ -5,7 +5,7 @@ use super::passes::NoPass;
 use super::profile::Fault;
 use super::write::Unwritable;
 use crate::diagnostic::{Code, Diagnostic, codes};
-use crate::program::motion::{Motion, Tool};
+use crate::program::motion::Motion;
 use crate::program::{Program, Statement};
 use crate::transform::Context;
 
@@ -118,15 +118,5 @@ impl Place<'_> {
             "would have to move",
             context,
         )
-    }
-}
-
-/// A tool as people call it.
-pub(super) fn called(tool: Option<&Tool>) -> String {
-    match tool.map(|tool| (tool.number, tool.name.as_deref())) {
-        Some((Some(number), Some(name))) => format!("tool {number} ({name})"),
-        Some((Some(number), None)) => format!("tool {number}"),
-        Some((None, Some(name))) => format!("tool {name}"),
-        _ => "the tool".to_owned(),
     }
 }

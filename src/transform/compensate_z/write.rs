@@ -2,13 +2,13 @@
 
 use super::passes::Pass;
 use super::profile::sine;
-use super::template::{Template, copy, numbered, template};
+use super::template::{Template, template};
 use crate::diagnostic::Diagnostic;
 use crate::program::geometry::Path;
 use crate::program::motion::Motion;
 use crate::program::{Program, Record, Statement};
 use crate::surface::profile::{Chain, Piece, Plane};
-use crate::transform::numbers::{delete_but_remark, rounded};
+use crate::transform::numbers::{copied, delete_but_remark, numbered, rounded};
 use crate::write::{Editor, Style};
 use nalgebra::Point3;
 use std::f64::consts::PI;
@@ -68,7 +68,7 @@ impl<'a> Writer<'a> {
     }
 
     pub(super) fn numbers(&self, point: Point3<f64>) -> Vec<(usize, f64)> {
-        numbered(0, (point / self.mm).coords.map(|value| rounded(value, self.decimals)).into())
+        numbered(0, <[f64; 3]>::from((point / self.mm).coords.map(|value| rounded(value, self.decimals))))
     }
 
     /// Writes a compensated pass over the statements of the old one. What stands between them stays, and comes after the new points
@@ -125,7 +125,7 @@ impl<'a> Writer<'a> {
                 _ => (own.as_slice(), None),
             };
             for point in put_in {
-                let text = copy(editor, goto, &self.numbers(*point));
+                let text = copied(editor, goto, &self.numbers(*point));
                 editor.insert_before(motion.statements.start, &text)?;
             }
             self.keep_end(editor, motion, kept.copied())?;
@@ -213,7 +213,7 @@ impl<'a> Writer<'a> {
         {
             return Ok(());
         }
-        let text = copy(editor, goto, &self.numbers(plane.space(piece.end())));
+        let text = copied(editor, goto, &self.numbers(plane.space(piece.end())));
         editor.insert_before(before, &text)
     }
 }

@@ -39,7 +39,7 @@ pub(super) fn of(step: &CorrectRamp, tool: &Tool, file: LengthUnit, context: &Co
         return Cutter::Solid;
     }
     let missing = |what: &str, key: &str| {
-        let called = called(tool);
+        let called = tool.called();
         let message = format!("{what} of {called} is not known, and its ramps cannot be judged without it");
         let help = format!(
             "Say `tool: {{ {key}: ... }}` in the step, or complete `setup.tools` for the tool, there as \
@@ -54,15 +54,5 @@ pub(super) fn of(step: &CorrectRamp, tool: &Tool, file: LengthUnit, context: &Co
         (None, _, _) => missing("the diameter", "diameter"),
         (_, None, _) => missing("the insert's radius", "insert_radius"),
         (_, _, None) => missing("the cutting height of the insert", "insert_height"),
-    }
-}
-
-/// A tool as people call it.
-pub(super) fn called(tool: &Tool) -> String {
-    match (tool.number, tool.name.as_deref()) {
-        (Some(number), Some(name)) => format!("tool {number} ({name})"),
-        (Some(number), None) => format!("tool {number}"),
-        (None, Some(name)) => format!("tool {name}"),
-        (None, None) => "the tool".to_owned(),
     }
 }

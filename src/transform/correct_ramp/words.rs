@@ -128,7 +128,7 @@ pub(super) fn without_insert(
     error: bool,
     context: &Context<'_>,
 ) -> Box<Diagnostic> {
-    let called = tool.map_or_else(|| "the tool".to_owned(), super::cutter::called);
+    let called = tool.map_or_else(|| "the tool".to_owned(), Tool::called);
     let statement = motions.get(motion).map_or(0, Motion::last_statement);
     if error {
         let message = format!(

@@ -12,8 +12,8 @@ use crate::program::geometry::Path;
 use crate::program::motion::Motion;
 use crate::program::record::{ArcSense, Circle};
 use crate::program::{Program, Record};
-use crate::transform::numbers::{delete_but_remark, without_remark};
-use crate::write::{Editor, copy_with_numbers};
+use crate::transform::numbers::{copied, delete_but_remark, numbered};
+use crate::write::Editor;
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -250,11 +250,11 @@ impl Writer<'_> {
         let place = self.in_file(new.start);
         match straight {
             Some((_, motion)) => {
-                editor.set_numbers(motion.last_statement(), &numbered(0, &place))?;
+                editor.set_numbers(motion.last_statement(), &numbered(0, place))?;
                 Ok((false, true))
             }
             None => {
-                let text = self.copy(editor, self.goto, &numbered(0, &place));
+                let text = copied(editor, self.goto, &numbered(0, place));
                 editor.insert_before(before, &text)?;
                 Ok((true, false))
             }
@@ -264,10 +264,10 @@ impl Writer<'_> {
     /// A new statement, or two for an arc.
     fn insert(&self, editor: &mut Editor, step: &Step, before: usize) -> Result<(), Box<Diagnostic>> {
         if let Some((statement, numbers)) = self.circle_numbers(editor.program(), step) {
-            let text = self.copy(editor, statement, &numbers);
+            let text = copied(editor, statement, &numbers);
             editor.insert_before(before, &text)?;
         }
-        let goto = self.copy(editor, self.goto, &numbered(0, &self.in_file(step.to)));
+        let goto = copied(editor, self.goto, &numbered(0, self.in_file(step.to)));
         editor.insert_before(before, &goto)
     }
 
@@ -279,13 +279,13 @@ impl Writer<'_> {
                 editor.set_numbers(arc, &numbers)?;
             }
             (Some((statement, numbers)), _) => {
-                let text = self.copy(editor, statement, &numbers);
+                let text = copied(editor, statement, &numbers);
                 form.arc.into_iter().for_each(|arc| editor.delete(arc));
                 editor.insert_before(form.goto, &text)?;
             }
             (None, arc) => arc.into_iter().for_each(|arc| editor.delete(arc)),
         }
-        editor.set_numbers(form.goto, &numbered(0, &self.in_file(step.to)))
+        editor.set_numbers(form.goto, &numbered(0, self.in_file(step.to)))
     }
 
     /// The CIRCLE that new ones are modelled on, with the numbers that one for a step has.
@@ -294,8 +294,8 @@ impl Writer<'_> {
         let (statement, circle) = self.circle.as_ref()?;
         let sense = self.turns_as(bend.sweep)?;
         let centre = self.in_file(Point3::new(bend.centre.x, bend.centre.y, step.to.z));
-        let mut numbers = numbered(0, &centre);
-        numbers.extend(numbered(3, &(circle.axis * sense).into()));
+        let mut numbers = numbered(0, centre);
+        numbers.extend(numbered(3, <[f64; 3]>::from(circle.axis * sense)));
         if circle.radius.is_some() {
             numbers.push((6, (step.to.xy() - bend.centre).norm() / self.mm));
         }
@@ -305,16 +305,6 @@ impl Writer<'_> {
         }
         Some((*statement, numbers))
     }
-
-    fn copy(&self, editor: &Editor, statement: usize, numbers: &[(usize, f64)]) -> Vec<u8> {
-        let program = editor.program();
-        let Some(found) = program.statement(statement) else { return Vec::new() };
-        copy_with_numbers(&without_remark(program.text(found)), found.record(), numbers, editor.style())
-    }
-}
-
-fn numbered(first: usize, values: &[f64; 3]) -> Vec<(usize, f64)> {
-    values.iter().enumerate().map(|(index, value)| (first + index, *value)).collect()
 }
 
 fn circle(program: &Program, statement: usize) -> Option<(usize, Circle)> {

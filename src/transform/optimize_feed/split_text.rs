@@ -4,9 +4,9 @@ use crate::diagnostic::Diagnostic;
 use crate::parse;
 use crate::program::geometry::{Path, Pose};
 use crate::program::motion::Motion;
-use crate::program::{FieldKind, Program, Record};
-use crate::transform::numbers::without_remark;
-use crate::write::{Editor, copy_with_numbers};
+use crate::program::{FieldKind, Program};
+use crate::transform::numbers::{copied, numbered, without_remark};
+use crate::write::Editor;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -158,11 +158,7 @@ fn intersection(text: &[u8]) -> Option<Range<usize>> {
 
 /// A statement's text with numbers from `first` on given new values.
 fn with_numbers(editor: &Editor, statement: usize, first: usize, values: &[f64]) -> Vec<u8> {
-    let program = editor.program();
-    let record = program.statement(statement).map_or(&Record::Other, |found| found.record());
-    let edits: Vec<(usize, f64)> =
-        values.iter().enumerate().map(|(index, value)| (first + index, *value)).collect();
-    copy_with_numbers(&body(program, statement), record, &edits, editor.style())
+    copied(editor, statement, &numbered(first, values.iter().copied()))
 }
 
 /// A statement's text without a comment at its end.
