@@ -5,6 +5,7 @@
 //! numbers; [`report`] says what changed. ARCHITECTURE.md follows one GOTO through all of it.
 
 pub mod check;
+pub mod chips;
 pub mod diagnostic;
 pub mod job;
 pub mod machining;
