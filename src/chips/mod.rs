@@ -14,8 +14,10 @@ pub mod cover;
 pub mod diagram;
 pub mod family;
 mod interval;
+mod jet;
 pub mod section;
 pub mod stack;
+mod trig;
 
 pub use area::Polygon;
-pub use section::{FlatMill, Refusal};
+pub use section::{FlatMill, Refusal, Step};
