@@ -15,6 +15,7 @@ pub mod diagram;
 pub mod family;
 mod interval;
 pub mod section;
+pub mod solid;
 pub mod stack;
 
 pub use area::Polygon;
