@@ -1,1 +1,6 @@
 //! Undeformed chips.
+
+mod area;
+mod brute;
+mod solid;
+mod stack;
