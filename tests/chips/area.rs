@@ -60,7 +60,7 @@ fn steps_are_a_millionth_up_to_a_metre_and_double_beyond() {
 #[test]
 fn round_fractions_are_exact() {
     let border = vec![[-3.25, 1.5], [7.125, 1.5], [7.125, 9.75], [-3.25, 9.75]];
-    let found = polygons(&region(&[border.clone()]));
+    let found = polygons(&region(std::slice::from_ref(&border)));
     assert_eq!(found.len(), 1);
     let mut corners = found[0].outer.clone();
     let mut expected = border.clone();
