@@ -267,6 +267,16 @@ pub(super) struct Window<'f> {
 }
 
 impl Window<'_> {
+    /// Half the length of the interval.
+    pub fn half(&self) -> f64 {
+        self.offset.magnitude()
+    }
+
+    /// A curve at the time in the middle.
+    pub fn now(&self, curve: Curve) -> Trig<Interval> {
+        Trig(self.family.expand(curve, &self.middle).0)
+    }
+
     /// A curve at all these times: enclosures of its coefficients, and of their derivatives by time.
     pub fn curve(&self, curve: Curve) -> (Trig<Interval>, Trig<Interval>) {
         let (mut all, rate) = self.family.expand(curve, &self.whole);

@@ -86,10 +86,13 @@ fn a_cutter_that_turns_back_in_the_layer_folds_its_envelope() {
 
 #[test]
 fn turning_about_the_tip_from_upright_is_told_apart() {
-    for z in [0.0, 0.1, 4.0] {
+    for z in [0.1, 4.0] {
         let f = family(5.0, place([0.0; 3], axis(0.0, 0.0)), place([0.0; 3], axis(25.0, 0.0)), z);
         assert!(Diagram::new(&f).is_resolved(), "z {z}");
     }
+    // In the tip's own layer f is zero twice over along the chord's ends, which no proof of signs can tell.
+    let f = family(5.0, place([0.0; 3], axis(0.0, 0.0)), place([0.0; 3], axis(25.0, 0.0)), 0.0);
+    assert!(!Diagram::new(&f).is_resolved());
 }
 
 #[test]

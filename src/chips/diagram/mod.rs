@@ -4,6 +4,7 @@
 //! off. Their topology is proved by interval arithmetic: see [`slab`].
 
 mod cells;
+mod moving;
 pub mod slab;
 pub mod stretch;
 

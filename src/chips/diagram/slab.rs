@@ -6,6 +6,7 @@
 //! the envelope begins or ends), a split, a branch that runs into the bottom disc's chord.
 
 use super::cells::{Bracket, Cells, Roots, narrow};
+use super::moving;
 use crate::chips::family::{Curve, Family, Window};
 use crate::chips::interval::Interval;
 use crate::chips::trig::{Angle, Trig};
@@ -17,7 +18,7 @@ const SHORTEST: f64 = 1.0 / (1 << 23) as f64;
 const FINEST: f64 = 0.1;
 
 /// Events at most; a diagram with more has curves that coincide.
-const MOST_EVENTS: usize = 64;
+const MOST_EVENTS: usize = 512;
 
 /// Slabs at most, likewise.
 const MOST_SLABS: usize = 4096;
@@ -117,11 +118,9 @@ fn certain(family: &Family, window: &Window<'_>, circles: &mut Circles, finest: 
     let mut bottom_roots = roots(bottom_cells, &bottom, finest)?;
     let nothing = Roots { brackets: Vec::new(), positive: true };
     let mut top_roots = nothing.clone();
-    let mut top = None;
     if family.has_top() {
         let (curve, _) = window.curve(Curve::Top);
         top_roots = roots(top_cells, &curve, finest)?;
-        top = Some(curve);
     }
     if bottom_roots.brackets.is_empty() && top_roots.brackets.is_empty() {
         return Some([edge_roots, bottom_roots, top_roots, nothing]);
@@ -132,16 +131,12 @@ fn certain(family: &Family, window: &Window<'_>, circles: &mut Circles, finest: 
     let mut face_roots = if slides { nothing } else { roots(face_cells, &face, finest)? };
     // Turning about the tip, f is zero all along the bottom disc's rim: the order of two curves that are one does not matter.
     let pivots = family.pivots_about_tip();
-    let others = [(&mut edge_roots, edge, pivots), (&mut face_roots, face, false)];
+    let others = [(&mut edge_roots, Curve::Edge, pivots), (&mut face_roots, Curve::Face, false)];
     for (other, curve, same) in others {
-        (same || apart(&mut bottom_roots, &bottom, other, &curve)).then_some(())?;
-        if let Some(top) = &top {
-            apart(&mut top_roots, top, other, &curve).then_some(())?;
-        }
+        (same || apart(&mut bottom_roots, Curve::Bottom, other, curve, window)).then_some(())?;
+        apart(&mut top_roots, Curve::Top, other, curve, window).then_some(())?;
     }
-    if let Some(top) = &top {
-        apart(&mut bottom_roots, &bottom, &mut top_roots, top).then_some(())?;
-    }
+    apart(&mut bottom_roots, Curve::Bottom, &mut top_roots, Curve::Top, window).then_some(())?;
     Some([edge_roots, bottom_roots, top_roots, face_roots])
 }
 
@@ -156,14 +151,14 @@ fn roots(cells: &mut Cells, curve: &Trig<Interval>, finest: f64) -> Option<Roots
     cells.roots(curve)
 }
 
-/// Whether no bracket of one curve meets one of the other, narrowing them where they do.
-fn apart(a: &mut Roots, a_curve: &Trig<Interval>, b: &mut Roots, b_curve: &Trig<Interval>) -> bool {
+/// Whether no root of one curve meets one of the other, narrowing brackets where they do.
+fn apart(a: &mut Roots, a_curve: Curve, b: &mut Roots, b_curve: Curve, window: &Window<'_>) -> bool {
     for a in &mut a.brackets {
         for b in &mut b.brackets {
             if meet(a, b) {
-                narrow(a, a_curve);
-                narrow(b, b_curve);
-                if meet(a, b) {
+                narrow(a, &window.curve(a_curve).0);
+                narrow(b, &window.curve(b_curve).0);
+                if meet(a, b) && !moving::apart(a, a_curve, b_curve, window) {
                     return false;
                 }
             }

@@ -50,7 +50,9 @@ impl Stretch {
                 })
             })
             .collect();
-        let start = |track: &Track| track.brackets.first().map_or(0.0, |bracket| bracket.lo.rem_euclid(TAU));
+        let start = |track: &Track| {
+            track.brackets.first().map_or(0.0, |bracket| (0.5 * (bracket.lo + bracket.hi)).rem_euclid(TAU))
+        };
         tracks.sort_by(|a, b| start(a).total_cmp(&start(b)));
         Self { t: slab.t, ends: vec![slab.t[1]], tracks }
     }
