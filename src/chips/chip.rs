@@ -38,3 +38,13 @@ impl Chip {
         self.layers.iter().map(|layer| layer.area_mm2 * layer.thickness).sum()
     }
 }
+
+/// stand-in
+pub fn cut(
+    _: &mut super::stack::Stack,
+    _: &[super::FlatMill],
+    pieces: &[crate::sim::Piece],
+    _: f64,
+) -> Vec<Result<Chip, super::Refusal>> {
+    pieces.iter().map(|_| Ok(Chip::default())).collect()
+}
