@@ -174,9 +174,7 @@ impl<'r> Running<'r> {
             .map(|(step, chip)| match chip {
                 // A chord of an arc that rounding has made a point, or a piece beside all material.
                 Err(Refusal::Still) => (step, Ok(Chip::default())),
-                Err(Refusal::Tilt { .. } | Refusal::Turn { .. }) if harmless(&step) => {
-                    (step, Ok(Chip::default()))
-                }
+                Err(_) if harmless(&step) => (step, Ok(Chip::default())),
                 chip => (step, chip),
             })
             .collect();

@@ -1,6 +1,6 @@
 //! One motion, and the table of them all.
 
-use super::round::{micro, micro_some};
+use crate::report::round::{micro, micro_some};
 use super::{Motions, Simulated};
 use serde::Serialize;
 use std::io::{self, Write};
