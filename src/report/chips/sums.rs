@@ -71,7 +71,7 @@ impl OperationChips {
         self.volume_mm3 += row.volume_mm3;
         raise(&mut self.chip_mm3, row.volume_mm3, row.line, None);
         for layer in &row.layers {
-            let mut at = |largest: &mut Option<Largest>, value: f64| {
+            let at = |largest: &mut Option<Largest>, value: f64| {
                 raise(largest, value, row.line, Some(crate::report::round::rounded(layer.z)));
             };
             let LayerRow { area_mm2, chip_thickness_mm, count, .. } = layer;
