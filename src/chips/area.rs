@@ -1,4 +1,12 @@
-//! Areas in a layer: polygons with holes.
+//! Areas in a layer: polygons with holes, and the integer grid on which they are cut.
+
+mod clipper;
+mod grid;
+mod region;
+
+pub use clipper::Clipper;
+pub use grid::Grid;
+pub use region::{Region, Window};
 
 /// A connected area: an outer border and the holes in it. Points are x, y in mm; the outer border goes counter-clockwise, holes
 /// go clockwise; no border repeats its first point.

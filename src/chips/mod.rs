@@ -19,3 +19,4 @@ pub mod stack;
 
 pub use area::Polygon;
 pub use section::{FlatMill, Refusal};
+pub use stack::{Layer, Removed, Stack, StackError};

@@ -1,41 +1,168 @@
-//! (stand-in until the real one is here)
-use super::Polygon;
-use crate::sim::Stock;
+//! The workpiece as a stack of layers.
 
-/// stand-in
-#[derive(Debug, Clone, PartialEq, Default)]
+mod bodies;
+mod layer;
+mod mesh;
+mod tiles;
+
+pub use layer::{Layer, Removed};
+
+use super::area::{Clipper, Grid, Region};
+use crate::sim::{Body, Stock};
+use bodies::Cylinder;
+use mesh::Slices;
+use rayon::prelude::*;
+
+/// Layers at most: a bound on memory.
+pub const MOST_LAYERS: usize = 100_000;
+
+/// Why there is no stack of a stock.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum StackError {
+    /// A layer without thickness.
+    #[error("layers must have a positive thickness, not {thickness} mm")]
+    Thickness {
+        /// The thickness asked for, mm.
+        thickness: f64,
+    },
+    /// Thinner layers than there is memory for.
+    #[error(
+        "layers of {thickness} mm are {layers} in the stock, more than the {MOST_LAYERS} that are allowed"
+    )]
+    TooMany {
+        /// The thickness asked for, mm.
+        thickness: f64,
+        /// Layers that it makes.
+        layers: f64,
+    },
+    /// A stock too large for steps that are fine enough.
+    #[error("the stock is {size} mm wide; areas are cut exactly up to 130 m only")]
+    TooLarge {
+        /// Its larger side in x and y, mm.
+        size: f64,
+    },
+    /// A mesh that should be grown.
+    #[error(
+        "the stock is an STL with an allowance of {allowance} mm; a mesh cannot be grown for layers, so give an STL with the allowance in it"
+    )]
+    Allowance {
+        /// The allowance, mm.
+        allowance: f64,
+    },
+    /// What an earlier program left.
+    #[error("the stock is a .clstock of columns, which has no exact layers; give a block, cylinder or STL")]
+    Remains,
+}
+
+/// The workpiece in layers z = const, from below.
+#[derive(Debug, Clone)]
 pub struct Stack {
+    bounds: ([f64; 3], [f64; 3]),
+    grid: Grid,
     layers: Vec<Layer>,
 }
-/// stand-in
-#[derive(Debug, Clone, PartialEq)]
-pub struct Layer {
-    /// z
-    pub z: f64,
-    /// thickness
-    pub thickness: f64,
-}
-impl Layer {
-    /// polygons
-    pub fn polygons(&self) -> Vec<Polygon> {
-        Vec::new()
-    }
-}
-/// stand-in
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error("no")]
-pub struct StackError;
+
 impl Stack {
-    /// new
-    pub fn new(_: &Stock, _: f64) -> Result<Self, StackError> {
-        Ok(Self::default())
+    /// A stock in layers of a thickness, mm, the lowest on its lower side and the highest as thin as is left. Each has the section of
+    /// the stock in its middle; curves are chords within 0.0005 mm.
+    ///
+    /// # Errors
+    /// When the thickness is none or makes too many layers, the stock is larger than sections can be exact, or made of something that has no
+    /// exact sections: a mesh with an allowance, or remains.
+    pub fn new(stock: &Stock, thickness: f64) -> Result<Self, StackError> {
+        Self::with_corners(stock, thickness, layer::MOST_CORNERS)
     }
-    /// layers
+
+    /// The same, with areas in pieces of at most so many corners. Nothing but the time it takes depends on them, as far as roundings go.
+    ///
+    /// # Errors
+    /// See [`Stack::new`].
+    pub fn with_corners(stock: &Stock, thickness: f64, corners: usize) -> Result<Self, StackError> {
+        if !(thickness > 0.0 && thickness.is_finite()) {
+            return Err(StackError::Thickness { thickness });
+        }
+        let bounds = stock.bounds();
+        let ([x0, y0, z0], [x1, y1, z1]) = bounds;
+        // A rounding more than a whole number of layers is no layer.
+        let count = ((z1 - z0) / thickness - 1e-9).ceil().max(1.0);
+        if count > MOST_LAYERS as f64 {
+            return Err(StackError::TooMany { thickness, layers: count });
+        }
+        let size = (x1 - x0).max(y1 - y0);
+        let grid = Grid::around([x0, y0], [x1, y1]).ok_or(StackError::TooLarge { size })?;
+        let slabs: Vec<[f64; 2]> = (0..count as usize)
+            .map(|number| z0 + thickness * number as f64)
+            .map(|bottom| [bottom, thickness.min(z1 - bottom)])
+            .collect();
+        let heights: Vec<f64> = slabs.iter().map(|[bottom, thickness]| bottom + thickness / 2.0).collect();
+        let shapes = stock.bodies().iter().map(|body| Shape::new(body, stock.allowance(), &heights));
+        let shapes: Vec<Shape> = shapes.collect::<Result<_, _>>()?;
+        let layers = slabs.into_par_iter().zip(&heights).enumerate().map(|(number, (slab, height))| {
+            let mut area = Region::default();
+            shapes.iter().for_each(|shape| area.append(&shape.at(number, *height, &grid)));
+            Layer::new(number, slab, grid, area, corners)
+        });
+        Ok(Self { bounds, grid, layers: layers.collect() })
+    }
+
+    /// Lower and upper corner of the box around the stock, mm.
+    pub fn bounds(&self) -> ([f64; 3], [f64; 3]) {
+        self.bounds
+    }
+
+    /// The grid on which areas are cut.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// The layers, from below.
     pub fn layers(&self) -> &[Layer] {
         &self.layers
     }
-    /// volume
+
+    /// The layers, from below; none depends on another one.
+    pub fn layers_mut(&mut self) -> &mut [Layer] {
+        &mut self.layers
+    }
+
+    /// What is left, mm3: areas times thicknesses.
     pub fn volume_mm3(&self) -> f64 {
-        0.0
+        self.layers.iter().map(|layer| layer.area_mm2() * layer.thickness()).sum()
+    }
+}
+
+/// A body that has level sections.
+enum Shape {
+    Block([f64; 3], [f64; 3]),
+    Cylinder(Cylinder),
+    Mesh(Slices),
+}
+
+impl Shape {
+    fn new(body: &Body, allowance: f64, heights: &[f64]) -> Result<Self, StackError> {
+        match body {
+            Body::Block { from, to } => {
+                Ok(Self::Block(from.map(|at| at - allowance), to.map(|at| at + allowance)))
+            }
+            Body::Cylinder { diameter, from, to } => {
+                Ok(Self::Cylinder(Cylinder::new(*diameter, [*from, *to], allowance)))
+            }
+            Body::Mesh(_) if allowance > 0.0 => Err(StackError::Allowance { allowance }),
+            Body::Mesh(mesh) => Ok(Self::Mesh(Slices::new(mesh, heights))),
+            Body::Remains(_) => Err(StackError::Remains),
+        }
+    }
+
+    /// The section in the plane with a number, whose borders wind around it once.
+    fn at(&self, number: usize, height: f64, grid: &Grid) -> Region {
+        match self {
+            Self::Block(from, to) => Region::new(grid, [bodies::block(*from, *to, height).as_slice()]),
+            Self::Cylinder(cylinder) => Region::new(grid, [cylinder.at(height).as_slice()]),
+            // Several shells, of which some may be turned inside out: joined before other bodies come.
+            Self::Mesh(slices) => {
+                let borders = slices.at(number, height);
+                Clipper::default().joined(&Region::new(grid, borders.iter().map(Vec::as_slice)))
+            }
+        }
     }
 }

@@ -1,0 +1,114 @@
+//! A layer of the workpiece.
+
+use super::tiles::{Room, Tile};
+use crate::chips::Polygon;
+use crate::chips::area::{Grid, Region};
+use crate::chips::cover::Cover;
+
+/// Corners from which on a piece of a layer is halved: large enough that the edge of one cut fits in a piece.
+pub(super) const MOST_CORNERS: usize = 256;
+
+/// What is left of the workpiece between two heights.
+#[derive(Debug, Clone)]
+pub struct Layer {
+    number: usize,
+    bottom: f64,
+    thickness: f64,
+    grid: Grid,
+    most_corners: usize,
+    material: Tile,
+    /// The last place of the cutter, where nothing is left.
+    cleared: Region,
+    room: Room,
+}
+
+/// What was taken out of a layer.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Removed {
+    /// The chip's pieces.
+    pub pieces: Vec<Polygon>,
+    /// Their area, mm2.
+    pub area_mm2: f64,
+    /// Area of the material that stood inside the cutter at its first place, mm2.
+    pub inside_mm2: f64,
+}
+
+impl Layer {
+    pub(super) fn new(
+        number: usize,
+        [bottom, thickness]: [f64; 2],
+        grid: Grid,
+        area: Region,
+        most: usize,
+    ) -> Self {
+        let mut room = Room::default();
+        let material = Tile::new(room.clipper.joined(&area), most, &mut room);
+        let cleared = Region::default();
+        Self { number, bottom, thickness, grid, most_corners: most, material, cleared, room: Room::default() }
+    }
+
+    /// Its number, from below.
+    pub fn number(&self) -> usize {
+        self.number
+    }
+
+    /// Height of its lower side, mm.
+    pub fn bottom(&self) -> f64 {
+        self.bottom
+    }
+
+    /// Height of its middle, mm: there the cutter's sections belong.
+    pub fn z(&self) -> f64 {
+        self.bottom + self.thickness / 2.0
+    }
+
+    /// Its thickness, mm.
+    pub fn thickness(&self) -> f64 {
+        self.thickness
+    }
+
+    /// Takes out the material that a cutter meets between two places.
+    ///
+    /// First everything inside its first place goes, which is no part of the chip; nothing is there when the last cut ended in the same
+    /// section. The chip is what is left of the material inside the advancing borders. Areas are exact for corners rounded to the
+    /// [`Grid`], and what is as thin as a step or two is left out.
+    pub fn remove(&mut self, cover: &Cover) -> Removed {
+        let mut removed = Removed::default();
+        let section = |border: &[[f64; 2]]| Region::new(&self.grid, [border]);
+        let (first, last) = (section(&cover.first), section(&cover.last));
+        if first != self.cleared {
+            removed.inside_mm2 = self.take(&first).0.area_mm2(&self.grid);
+        }
+        let borders = cover.advancing.iter().map(Vec::as_slice);
+        let (taken, pieces) = self.take(&Region::new(&self.grid, borders));
+        if !taken.is_empty() {
+            (removed.pieces, removed.area_mm2) = self.room.clipper.pieces(&taken, pieces > 1, &self.grid);
+        }
+        self.cleared = last;
+        removed
+    }
+
+    /// Takes out everything that borders wind around; from how many tiles.
+    fn take(&mut self, cut: &Region) -> (Region, usize) {
+        let mut taken = Region::default();
+        let Some(window) = cut.window() else { return (taken, 0) };
+        let count = self.material.take(cut, &window, self.most_corners, &mut self.room, &mut taken);
+        (taken, count)
+    }
+
+    /// What is left, mm2.
+    pub fn area_mm2(&self) -> f64 {
+        self.region().area_mm2(&self.grid)
+    }
+
+    /// What is left, as connected polygons.
+    pub fn polygons(&self) -> Vec<Polygon> {
+        Room::default().clipper.polygons(&self.region(), &self.grid).0
+    }
+
+    fn region(&self) -> Region {
+        let mut all = Region::default();
+        self.material.collect(&mut all);
+        all
+    }
+}
