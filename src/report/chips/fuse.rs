@@ -1,40 +1,63 @@
 //! The chips of a motion's pieces as one, layer by layer.
 
 use super::LayerRow;
+use crate::chips::Polygon;
+use crate::chips::area::{Clipper, Grid, Region};
 use crate::chips::chip::LayerChip;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// Joins the chips of pieces of path that follow each other. `thickness` is the thickest chip of a tooth on a layer of a piece.
+/// Joins the chips of pieces of path that follow each other. `thickness` is the thickest chip of a tooth on a layer of a piece, `grid`
+/// the one that the workpiece was cut on; `borders`: whether to keep them.
 ///
-/// Areas add up, for what one piece removed the next one does not find. Where several pieces meet on a layer their borders stay
-/// as they are, side by side.
+/// Areas add up, for what one piece removed the next one does not find; where chips of several pieces meet, their borders become one.
 pub(super) fn fuse<'a>(
     chips: impl Iterator<Item = (&'a LayerChip, Option<f64>)>,
+    grid: &Grid,
     borders: bool,
 ) -> Vec<LayerRow> {
-    let mut layers: BTreeMap<usize, LayerRow> = BTreeMap::new();
+    let mut layers: BTreeMap<usize, (LayerRow, Vec<&[Polygon]>)> = BTreeMap::new();
     for (chip, thickness) in chips {
-        let row = layers.entry(chip.layer).or_insert_with(|| LayerRow {
-            z: chip.z,
-            thickness_mm: chip.thickness,
-            chip_thickness_mm: Some(0.0),
-            ..LayerRow::default()
+        let (row, parts) = layers.entry(chip.layer).or_insert_with(|| {
+            let row = LayerRow {
+                number: chip.layer,
+                z: chip.z,
+                thickness_mm: chip.thickness,
+                chip_thickness_mm: Some(0.0),
+                ..LayerRow::default()
+            };
+            (row, Vec::new())
         });
         row.area_mm2 += chip.area_mm2;
         row.inside_mm2 += chip.inside_mm2;
-        row.count += chip.pieces.len();
         row.arcs_deg.extend(&chip.arcs_deg);
         // One piece whose thickness is not known, and nobody knows the thickest.
         row.chip_thickness_mm = row.chip_thickness_mm.zip(thickness).map(|(a, b)| a.max(b));
-        if borders {
-            row.polygons.extend(chip.pieces.iter().cloned());
+        if !chip.pieces.is_empty() {
+            parts.push(&chip.pieces);
         }
     }
-    let mut rows: Vec<LayerRow> = layers.into_values().collect();
-    for row in &mut rows {
+    let whole = |(mut row, parts): (LayerRow, Vec<&[Polygon]>)| {
         row.arcs_deg = joined(&row.arcs_deg);
-    }
-    rows
+        let polygons = match parts.as_slice() {
+            [] => Cow::Borrowed([].as_slice()),
+            [only] => Cow::Borrowed(*only),
+            several => Cow::Owned(together(several, grid)),
+        };
+        row.count = polygons.len();
+        if borders {
+            row.polygons = polygons.into_owned();
+        }
+        row
+    };
+    layers.into_values().map(whole).collect()
+}
+
+/// Polygons beside each other as few.
+fn together(parts: &[&[Polygon]], grid: &Grid) -> Vec<Polygon> {
+    let polygons = parts.iter().flat_map(|part| part.iter());
+    let borders = polygons.flat_map(|polygon| std::iter::once(&polygon.outer).chain(&polygon.holes));
+    Clipper::default().polygons(&Region::new(grid, borders.map(Vec::as_slice)), grid).0
 }
 
 /// Arcs of a circle in degrees as few that do not overlap, in order, each beginning in -180..180.

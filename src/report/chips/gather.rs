@@ -3,10 +3,9 @@
 use super::fuse::fuse;
 use super::{ChipReport, Keep, LayerRow, OperationChips, Row, Skipped, Totals};
 use crate::chips::chip::LayerChip;
-use crate::chips::stack::Stack;
 use crate::chips::{FlatMill, Polygon};
 use crate::machining::Machining;
-use crate::machining::chips::{ChipCut, ChipOptions, LeftOut, flat};
+use crate::machining::chips::{ChipCut, ChipOptions, ChipsRan, LeftOut, flat};
 use crate::program::geometry::Path;
 use crate::program::motion::Motion;
 use crate::program::operation;
@@ -121,7 +120,7 @@ impl<'m, 'p> Gathering<'m, 'p> {
         let chips = chips.flat_map(|(step, chip)| chip.layers.iter().map(move |layer| (step, layer)));
         let chips = chips.map(|(step, layer)| (layer, pace.thickness(step, layer)));
         let drawn = self.draws(cut);
-        let mut layers = fuse(chips, self.keep.borders || drawn);
+        let mut layers = fuse(chips, cut.stack.grid(), self.keep.borders || drawn);
         if drawn {
             self.scenes.extend(scene(cut, &layers, self.machining));
         }
@@ -214,8 +213,10 @@ impl<'m, 'p> Gathering<'m, 'p> {
         self.scenes.len() < self.keep.scenes && cut.chips().flat_map(|chip| &chip.layers).any(shown)
     }
 
-    /// Puts everything together, but for what the run itself knows.
-    pub fn end(self, options: ChipOptions) -> ChipReport {
+    /// Puts everything together.
+    pub fn end(mut self, options: ChipOptions, ran: ChipsRan) -> ChipReport {
+        self.totals.stock_mm3 = ran.before_mm3;
+        self.totals.left_mm3 = ran.left.volume_mm3();
         let assumptions = self.assumptions();
         ChipReport {
             file: self.machining.program().source().name().to_owned(),
@@ -226,8 +227,8 @@ impl<'m, 'p> Gathering<'m, 'p> {
             skipped: self.skipped,
             rows: self.rows,
             scenes: self.scenes,
-            findings: Vec::new(),
-            left: Stack::default(),
+            findings: ran.findings,
+            left: ran.left,
         }
     }
 
@@ -299,7 +300,7 @@ impl Pace<'_> {
 fn scene(cut: &ChipCut<'_>, rows: &[LayerRow], machining: &Machining<'_>) -> Option<Scene> {
     let cutter = machining.tooling().cutters().get(cut.cutter?)?;
     let layer = |row: &LayerRow| {
-        let stands = cut.stack.layers().iter().find(|layer| layer.z == row.z);
+        let stands = cut.stack.layers().iter().find(|layer| layer.number() == row.number);
         SceneLayer {
             z: row.z,
             thickness_mm: row.thickness_mm,

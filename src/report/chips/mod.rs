@@ -99,11 +99,6 @@ impl ChipReport {
             };
             return Err(vec![Diagnostic::new(codes::NO_MOTION_ASKED, message)]);
         }
-        let mut report = gathering.end(options);
-        report.totals.stock_mm3 = ran.before_mm3;
-        report.totals.left_mm3 = ran.left.volume_mm3();
-        report.findings = ran.findings;
-        report.left = ran.left;
-        Ok(Some(report))
+        Ok(Some(gathering.end(options, ran)))
     }
 }

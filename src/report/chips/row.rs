@@ -40,6 +40,8 @@ pub struct Row {
 /// The chip of a motion on one layer.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LayerRow {
+    /// Number of the layer, from below.
+    pub number: usize,
     /// Height of the layer's middle, mm.
     pub z: f64,
     /// Its thickness, mm.
