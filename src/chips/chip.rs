@@ -41,10 +41,57 @@ impl Chip {
 
 /// stand-in
 pub fn cut(
-    _: &mut super::stack::Stack,
-    _: &[super::FlatMill],
+    stack: &mut super::stack::Stack,
+    mills: &[super::FlatMill],
     pieces: &[crate::sim::Piece],
-    _: f64,
+    tolerance: f64,
 ) -> Vec<Result<Chip, super::Refusal>> {
-    pieces.iter().map(|_| Ok(Chip::default())).collect()
+    use rayon::prelude::*;
+    let steps: Vec<Result<super::Step, super::Refusal>> = pieces
+        .iter()
+        .map(|piece| super::Step::new(mills.get(piece.cutter).copied().ok_or(super::Refusal::NoCutter)?, piece))
+        .collect();
+    let found: Vec<Vec<(usize, LayerChip)>> = stack
+        .layers_mut()
+        .par_iter_mut()
+        .map(|layer| {
+            let mut out = Vec::new();
+            for (index, step) in steps.iter().enumerate() {
+                let Ok(step) = step else { continue };
+                let [low, high] = step.reach();
+                if layer.z() < low || layer.z() > high {
+                    continue;
+                }
+                let family = super::family::Family::new(step, layer.z());
+                let diagram = super::diagram::Diagram::new(&family);
+                let rim = super::cover::Rim::new(step, tolerance);
+                let cover = super::cover::Cover::new(&diagram, &rim);
+                let removed = layer.remove(&cover);
+                if removed.area_mm2 > 0.0 || removed.inside_mm2 > 0.0 {
+                    out.push((
+                        index,
+                        LayerChip {
+                            layer: layer.number(),
+                            z: layer.z(),
+                            thickness: layer.thickness(),
+                            area_mm2: removed.area_mm2,
+                            inside_mm2: removed.inside_mm2,
+                            pieces: removed.pieces,
+                            arcs_deg: vec![[-90.0, 90.0]],
+                            advance_mm: step.length_mm(),
+                        },
+                    ));
+                }
+            }
+            out
+        })
+        .collect();
+    let mut chips: Vec<Result<Chip, super::Refusal>> =
+        steps.iter().map(|step| step.as_ref().map(|_| Chip::default()).map_err(|r| *r)).collect();
+    for (index, layer) in found.into_iter().flatten() {
+        if let Some(Ok(chip)) = chips.get_mut(index) {
+            chip.layers.push(layer);
+        }
+    }
+    chips
 }

@@ -14,9 +14,11 @@ pub mod cover;
 pub mod diagram;
 pub mod family;
 mod interval;
+mod jet;
 pub mod section;
 pub mod stack;
+mod trig;
 
 pub use area::Polygon;
-pub use section::{FlatMill, Refusal};
+pub use section::{FlatMill, Refusal, Step};
 pub use stack::{Layer, Removed, Stack, StackError};

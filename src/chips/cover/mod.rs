@@ -1,0 +1,88 @@
+//! The area that the cutter covers on a layer between two places.
+//!
+//! Whatever is covered but not at the beginning was entered at some time through the section's edge where that advances. So the covered
+//! area is the first section together with the images of the diagram's advancing regions. Each region ([`bands`]) maps to the plane
+//! without folding, f having one sign in it: its border's image winds around a point as often as the edge enters it, and the union is
+//! what any of the borders winds around.
+
+mod bands;
+mod outline;
+mod rim;
+
+pub use outline::Cut;
+pub use rim::Rim;
+
+use super::diagram::Diagram;
+use super::diagram::stretch::Stretch;
+use super::family::{Curve, Family};
+use outline::{Cuts, outline};
+
+/// What a cutter covers on one layer between two places. Closed borders of x, y in mm; none repeats its first point.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Cover {
+    /// The section at the first place: convex, counter-clockwise; empty where the cutter does not reach the layer.
+    pub first: Vec<[f64; 2]>,
+    /// The section at the last place, likewise.
+    pub last: Vec<[f64; 2]>,
+    /// Borders of everything that the edge enters on its way; an area is covered where they wind around it at all (their
+    /// winding numbers are nowhere negative). Parts of `first` may be covered again.
+    pub advancing: Vec<Vec<[f64; 2]>>,
+}
+
+impl Cover {
+    /// What the family of a diagram covers. Points lie on the true borders; chords between them are within the rim's tolerance.
+    pub fn new(diagram: &Diagram, rim: &Rim) -> Self {
+        let family = diagram.family();
+        let stretches = diagram.stretches();
+        let (Some(begin), Some(end)) = (stretches.first(), stretches.last()) else { return Self::default() };
+        let mut cover = Self {
+            first: outline(family, rim, 0.0, Cuts::of(family, begin), &nodes(family, &[begin], 0.0)),
+            last: outline(family, rim, 1.0, Cuts::of(family, end), &nodes(family, &[end], 1.0)),
+            advancing: Vec::new(),
+        };
+        for (index, stretch) in stretches.iter().enumerate() {
+            let before = index.checked_sub(1).and_then(|index| stretches.get(index));
+            let after = stretches.get(index + 1);
+            let bottom = nodes(family, &with(before, stretch), stretch.t[0]);
+            let top = nodes(family, &with(after, stretch), stretch.t[1]);
+            if let Some(before) = before {
+                // The section itself closes whatever the resolution of the event leaves open, and is what appears at once when an upright
+                // cutter's bottom reaches the layer.
+                let (old, new) = (Cuts::of(family, before), Cuts::of(family, stretch));
+                cover.add(outline(family, rim, stretch.t[0], new, &bottom));
+                if old != new {
+                    cover.add(outline(family, rim, stretch.t[0], old, &bottom));
+                }
+            }
+            bands::borders(family, rim, stretch, [&bottom, &top], &mut cover.advancing);
+        }
+        cover
+    }
+
+    fn add(&mut self, border: Vec<[f64; 2]>) {
+        if border.len() > 2 {
+            self.advancing.push(border);
+        }
+    }
+
+    /// Whether nothing is entered.
+    pub fn is_empty(&self) -> bool {
+        self.advancing.is_empty()
+    }
+}
+
+fn with<'s>(other: Option<&'s Stretch>, stretch: &'s Stretch) -> Vec<&'s Stretch> {
+    other.into_iter().chain([stretch]).collect()
+}
+
+/// Angles of the envelope's branches at a time: corners of borders on both sides of it, which must be corners of both.
+fn nodes(family: &Family, stretches: &[&Stretch], t: f64) -> Vec<f64> {
+    let angles = stretches.iter().flat_map(|stretch| {
+        let edges = stretch.tracks.iter().filter(|track| track.curve == Curve::Edge);
+        edges.map(|track| stretch.theta(family, track, t).rem_euclid(std::f64::consts::TAU))
+    });
+    let mut angles: Vec<f64> = angles.collect();
+    angles.sort_by(f64::total_cmp);
+    angles.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+    angles
+}

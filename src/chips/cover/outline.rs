@@ -1,0 +1,90 @@
+//! The outline of one section: the ellipse with what the ends of the flutes cut off.
+
+use super::rim::Rim;
+use crate::chips::diagram::stretch::Stretch;
+use crate::chips::family::{Curve, Family};
+use crate::chips::trig::Trig;
+use std::f64::consts::TAU;
+
+/// How an end of the flutes stands to the ellipse.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cut {
+    /// It cuts nothing off.
+    Free,
+    /// It cuts everything off.
+    All,
+    /// A chord is the border.
+    Chord,
+}
+
+/// What both ends do: bottom, top.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Cuts([Cut; 2]);
+
+impl Cuts {
+    /// As they are all through a stretch.
+    pub fn of(family: &Family, stretch: &Stretch) -> Self {
+        Self([Curve::Bottom, Curve::Top].map(|curve| {
+            if curve == Curve::Top && !family.has_top() {
+                return Cut::Free;
+            }
+            if stretch.tracks.iter().any(|track| track.curve == curve) {
+                return Cut::Chord;
+            }
+            let Trig([constant, ..]) = family.curve(curve, 0.5 * (stretch.t[0] + stretch.t[1]));
+            // Without a root the constant decides.
+            if constant > 0.0 { Cut::Free } else { Cut::All }
+        }))
+    }
+}
+
+/// The angles from which to which a curve `k0 + k1 cos + k2 sin` is negative; `Err` tells whether all are (`true`) or none.
+fn cut_off(curve: &Trig<f64>) -> Result<[f64; 2], bool> {
+    let Trig([k0, k1, k2, ..]) = *curve;
+    let swing = k1.hypot(k2);
+    if k0.abs() >= swing {
+        return Err(k0 < 0.0);
+    }
+    let middle = k2.atan2(k1) + 0.5 * TAU;
+    let half = (k0 / swing).acos();
+    Ok([middle - half, middle + half])
+}
+
+/// The section at a time, counter-clockwise; empty where there is none. `nodes` are further angles at which it has corners.
+pub(super) fn outline(family: &Family, rim: &Rim, t: f64, cuts: Cuts, nodes: &[f64]) -> Vec<[f64; 2]> {
+    let mut removed: Vec<[f64; 2]> = Vec::new();
+    for (curve, cut) in [Curve::Bottom, Curve::Top].into_iter().zip(cuts.0) {
+        match cut {
+            Cut::Free => {}
+            Cut::All => return Vec::new(),
+            Cut::Chord => match cut_off(&family.curve(curve, t)) {
+                Ok(angles) => removed.push(angles),
+                Err(true) => return Vec::new(),
+                Err(false) => {}
+            },
+        }
+    }
+    let ellipse = family.ellipse(t);
+    let kept = |angle: f64| {
+        removed.iter().all(|[from, to]| (angle - from).rem_euclid(TAU) > to - from || to - from >= TAU)
+    };
+    let mut corners: Vec<(f64, [f64; 2])> = rim.between(-1e-9, TAU - 1e-9).collect();
+    corners.extend(nodes.iter().map(|angle| {
+        let (sin, cos) = angle.sin_cos();
+        (*angle, [cos, sin])
+    }));
+    corners.retain(|(angle, _)| kept(*angle));
+    for angle in removed.iter().flatten() {
+        // An end of one chord that the other has cut off is no corner.
+        let others = removed.iter().filter(|ends| !ends.contains(angle));
+        let inside =
+            others.clone().any(|[from, to]| (angle - from).rem_euclid(TAU) <= to - from);
+        if !inside {
+            let (sin, cos) = angle.sin_cos();
+            corners.push((angle.rem_euclid(TAU), [cos, sin]));
+        }
+    }
+    corners.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    corners.dedup_by(|(a, _), (b, _)| (*a - *b).abs() < 1e-9);
+    corners.into_iter().map(|(_, direction)| ellipse.point(direction)).collect()
+}

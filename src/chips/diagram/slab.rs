@@ -1,0 +1,177 @@
+//! Intervals of time in which nothing changes in the diagram's topology, and the events between them.
+//!
+//! Over an interval of time every curve is enclosed by interval arithmetic. When each cell of the circle has a curve of one sign, or one
+//! that only rises or falls, its roots are known to be functions of time, one in each bracket; when the brackets of different curves are
+//! apart, so is the order of the roots. Otherwise the interval is halved, down to [`SHORTEST`], where something happens: a fold (a branch of
+//! the envelope begins or ends), a split, a branch that runs into the bottom disc's chord.
+
+use super::cells::{Bracket, Cells, Roots, narrow};
+use crate::chips::family::{Curve, Family, Window};
+use crate::chips::interval::Interval;
+use crate::chips::trig::{Angle, Trig};
+
+/// Shortest interval of time that is halved: a sixteen-millionth of the step.
+const SHORTEST: f64 = 1.0 / (1 << 23) as f64;
+
+/// Narrowest cells for an interval of the whole step, radians; those of shorter ones go with the root of time, as folds do.
+const FINEST: f64 = 0.1;
+
+/// Events at most; a diagram with more has curves that coincide.
+const MOST_EVENTS: usize = 64;
+
+/// An interval of time in which the roots of all curves are functions of time that do not cross.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Slab {
+    /// Beginning and end.
+    pub t: [f64; 2],
+    /// The roots by curve, in the order of [`Curve::ALL`]; those of the face only where there is a chord.
+    pub roots: [Roots; 4],
+}
+
+/// What happens to the envelope at an event, so far as it was proved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Proof {
+    /// In the box of angles, the envelope is one arc with one lowest (or highest) time: two branches begin (`true`) or end there.
+    Fold {
+        /// Least and largest angle, radians.
+        angles: [f64; 2],
+        /// Whether they begin.
+        begins: bool,
+    },
+    /// Not told apart at this resolution: branches may cross, split or meet in the box.
+    Open {
+        /// Least and largest angle, radians.
+        angles: [f64; 2],
+    },
+    /// Nothing happens to the envelope itself; it meets a chord, or a chord comes or goes.
+    Elsewhere,
+}
+
+/// A time at which the topology changes, known to a sixteen-millionth of the step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Event {
+    /// When.
+    pub t: f64,
+    /// What happens to the envelope.
+    pub proof: Proof,
+}
+
+/// The step in slabs, with the events between them; events next to each other in time are one.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Slabs {
+    /// In time's order.
+    pub slabs: Vec<Slab>,
+    /// In time's order.
+    pub events: Vec<Event>,
+}
+
+/// Cuts the whole step into slabs.
+pub fn slabs(family: &Family) -> Slabs {
+    let mut found = Slabs::default();
+    let all = || Circles(Curve::ALL.map(|_| Cells::new()));
+    explore(family, Interval { lo: 0.0, hi: 1.0 }, all(), &mut found);
+    found
+}
+
+/// The circle in cells, for every curve.
+#[derive(Clone)]
+struct Circles([Cells; 4]);
+
+fn explore(family: &Family, t: Interval, mut circles: Circles, found: &mut Slabs) {
+    let window = family.over(t);
+    let finest = FINEST * (t.hi - t.lo).sqrt();
+    if let Some(roots) = certain(family, &window, &mut circles, finest) {
+        found.slabs.push(Slab { t: [t.lo, t.hi], roots });
+        return;
+    }
+    if t.hi - t.lo <= SHORTEST || found.events.len() >= MOST_EVENTS {
+        let [edge, ..] = &circles.0;
+        let event = Event { t: t.middle(), proof: proof(&window, edge) };
+        found.events.push(event);
+        return;
+    }
+    let middle = t.middle();
+    explore(family, Interval { lo: t.lo, hi: middle }, circles.clone(), found);
+    explore(family, Interval { lo: middle, hi: t.hi }, circles, found);
+}
+
+/// The roots of all curves, if they are certain and apart.
+fn certain(family: &Family, window: &Window<'_>, circles: &mut Circles, finest: f64) -> Option<[Roots; 4]> {
+    let [edge_cells, bottom_cells, top_cells, face_cells] = &mut circles.0;
+    let (edge, _) = window.curve(Curve::Edge);
+    let mut edge_roots = if edge.magnitude() <= family.still() {
+        Roots { brackets: Vec::new(), positive: true }
+    } else {
+        roots(edge_cells, &edge, finest)?
+    };
+    let (bottom, _) = window.curve(Curve::Bottom);
+    let mut bottom_roots = roots(bottom_cells, &bottom, finest)?;
+    let nothing = Roots { brackets: Vec::new(), positive: true };
+    let mut top_roots = nothing.clone();
+    let mut top = None;
+    if family.has_top() {
+        let (curve, _) = window.curve(Curve::Top);
+        top_roots = roots(top_cells, &curve, finest)?;
+        top = Some(curve);
+    }
+    if bottom_roots.brackets.is_empty() && top_roots.brackets.is_empty() {
+        return Some([edge_roots, bottom_roots, top_roots, nothing]);
+    }
+    let (face, _) = window.curve(Curve::Face);
+    let mut face_roots = roots(face_cells, &face, finest)?;
+    let others = [(&mut edge_roots, edge), (&mut face_roots, face)];
+    for (other, curve) in others {
+        apart(&mut bottom_roots, &bottom, other, &curve).then_some(())?;
+        if let Some(top) = &top {
+            apart(&mut top_roots, top, other, &curve).then_some(())?;
+        }
+    }
+    if let Some(top) = &top {
+        apart(&mut bottom_roots, &bottom, &mut top_roots, top).then_some(())?;
+    }
+    Some([edge_roots, bottom_roots, top_roots, face_roots])
+}
+
+fn roots(cells: &mut Cells, curve: &Trig<Interval>, finest: f64) -> Option<Roots> {
+    let Trig([constant, others @ ..]) = curve;
+    let swing: f64 = others.iter().map(|k| k.magnitude()).sum();
+    // Most layers are nowhere near the ends of the flutes.
+    if constant.lo > swing || constant.hi < -swing {
+        return Some(Roots { brackets: Vec::new(), positive: constant.lo > 0.0 });
+    }
+    cells.look(curve, finest);
+    cells.roots(curve)
+}
+
+/// Whether no bracket of one curve meets one of the other, narrowing them where they do.
+fn apart(a: &mut Roots, a_curve: &Trig<Interval>, b: &mut Roots, b_curve: &Trig<Interval>) -> bool {
+    for a in &mut a.brackets {
+        for b in &mut b.brackets {
+            if meet(a, b) {
+                narrow(a, a_curve);
+                narrow(b, b_curve);
+                if meet(a, b) {
+                    return false;
+                }
+            }
+        }
+    }
+    true
+}
+
+fn meet(a: &Bracket, b: &Bracket) -> bool {
+    let turn = std::f64::consts::TAU;
+    [-turn, 0.0, turn].into_iter().any(|shift| a.lo <= b.hi + shift && b.lo + shift <= a.hi)
+}
+
+/// What can be said of the envelope in the box of which nothing is known.
+fn proof(window: &Window<'_>, cells: &Cells) -> Proof {
+    let Some(x) = cells.unknown() else { return Proof::Elsewhere };
+    let (edge, rate) = window.curve(Curve::Edge);
+    let angle = Angle::over(x);
+    // Where f_t and f_xx keep their signs the zero set is t(x) with t'' = -f_xx / f_t wherever t' = 0: at most one extremum.
+    match (rate.value(&angle).sign(), edge.bend(&angle).sign()) {
+        (Some(later), Some(bend)) => Proof::Fold { angles: [x.lo, x.hi], begins: later != bend },
+        _ => Proof::Open { angles: [x.lo, x.hi] },
+    }
+}

@@ -1,0 +1,155 @@
+//! Stretches of time from one event to the next, with the curves' roots as functions of time.
+
+use super::cells::Bracket;
+use super::slab::{Event, Slab, Slabs};
+use crate::chips::family::{Curve, Family};
+use std::f64::consts::TAU;
+
+/// Two roots closer than this (radians) at a border of slabs are one. Only at a fold two different ones come nearer.
+const SAME: f64 = 1e-6;
+
+/// A root through a stretch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Track {
+    /// Which curve's.
+    pub curve: Curve,
+    /// Whether the curve rises with the angle.
+    pub rising: bool,
+    /// One for each slab.
+    brackets: Vec<Bracket>,
+}
+
+/// From one event to the next: within it, roots neither come nor go, and do not cross.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stretch {
+    /// Beginning and end.
+    pub t: [f64; 2],
+    /// Ends of its slabs, one for each.
+    ends: Vec<f64>,
+    /// The roots of edge, bottom and top, in the order of their angles at the beginning.
+    pub tracks: Vec<Track>,
+}
+
+impl Stretch {
+    /// The angle of a track at a time, radians: never left of its bracket at the beginning by more than a turn.
+    pub fn theta(&self, family: &Family, track: &Track, t: f64) -> f64 {
+        let slab = self.ends.partition_point(|end| *end < t).min(track.brackets.len().saturating_sub(1));
+        let Some(bracket) = track.brackets.get(slab) else { return 0.0 };
+        family.curve(track.curve, t).root(bracket.lo, bracket.hi, track.rising)
+    }
+
+    fn of(slab: &Slab) -> Self {
+        let mut tracks: Vec<Track> = [Curve::Edge, Curve::Bottom, Curve::Top]
+            .into_iter()
+            .zip(&slab.roots)
+            .flat_map(|(curve, roots)| {
+                roots.brackets.iter().map(move |bracket| Track {
+                    curve,
+                    rising: bracket.rising,
+                    brackets: vec![*bracket],
+                })
+            })
+            .collect();
+        let start = |track: &Track| track.brackets.first().map_or(0.0, |bracket| bracket.lo.rem_euclid(TAU));
+        tracks.sort_by(|a, b| start(a).total_cmp(&start(b)));
+        Self { t: slab.t, ends: vec![slab.t[1]], tracks }
+    }
+
+    /// Goes on with the next slab, unless the roots differ there.
+    fn join(&mut self, family: &Family, next: Self) -> Result<(), Self> {
+        if self.tracks.len() != next.tracks.len() {
+            return Err(next);
+        }
+        let t = self.t[1];
+        let here: Vec<f64> = self.tracks.iter().map(|track| self.theta(family, track, t)).collect();
+        let there: Vec<f64> = next.tracks.iter().map(|track| next.theta(family, track, t)).collect();
+        let count = here.len();
+        let fits = |shift: usize| {
+            (0..count).all(|index| {
+                let other = (index + shift) % count;
+                let same = self.tracks.get(index).zip(next.tracks.get(other));
+                let angles = here.get(index).zip(there.get(other));
+                same.is_some_and(|(a, b)| a.curve == b.curve && a.rising == b.rising)
+                    && angles.is_some_and(|(a, b)| distance(*a, *b) < SAME)
+            })
+        };
+        let Some(shift) = (0..count.max(1)).find(|shift| fits(*shift)) else { return Err(next) };
+        let mut others = next.tracks;
+        others.rotate_left(shift.min(count));
+        for ((track, mut other), angle) in self.tracks.iter_mut().zip(others).zip(here) {
+            // On the same turn of the circle.
+            let turns = other.brackets.first().map_or(0.0, |bracket| {
+                ((angle - 0.5 * (bracket.lo + bracket.hi)) / TAU).round() * TAU
+            });
+            for bracket in &mut other.brackets {
+                bracket.lo += turns;
+                bracket.hi += turns;
+            }
+            track.brackets.append(&mut other.brackets);
+        }
+        self.t[1] = next.t[1];
+        self.ends.extend(next.ends);
+        Ok(())
+    }
+}
+
+/// Distance of two angles on the circle, radians.
+pub fn distance(a: f64, b: f64) -> f64 {
+    let d = (a - b).rem_euclid(TAU);
+    d.min(TAU - d)
+}
+
+/// Puts slabs together; each event between stretches shrinks to its middle, and stretches reach up to it.
+///
+/// Gives the stretches and the events at their borders: where several are next to each other, the first that tells most.
+pub fn stretches(family: &Family, slabs: Slabs) -> (Vec<Stretch>, Vec<Event>) {
+    let mut stretches: Vec<Stretch> = Vec::new();
+    let mut events: Vec<Event> = Vec::new();
+    let mut waiting = slabs.events.into_iter().peekable();
+    for slab in slabs.slabs {
+        let mut met: Vec<Event> = Vec::new();
+        while let Some(event) = waiting.next_if(|event| event.t < slab.t[0]) {
+            met.push(event);
+        }
+        let next = Stretch::of(&slab);
+        let next = match (stretches.last_mut(), met.is_empty()) {
+            (Some(last), true) => match last.join(family, next) {
+                Ok(()) => continue,
+                Err(next) => next,
+            },
+            _ => next,
+        };
+        border(&mut stretches, next, &met, &mut events);
+    }
+    let rest: Vec<Event> = waiting.collect();
+    if let Some(last) = stretches.last_mut() {
+        last.t[1] = 1.0;
+    }
+    events.extend(strongest(&rest));
+    (stretches, events)
+}
+
+fn border(stretches: &mut Vec<Stretch>, mut next: Stretch, met: &[Event], events: &mut Vec<Event>) {
+    let event = strongest(met);
+    let t = match (stretches.last_mut(), event) {
+        (None, _) => 0.0,
+        (Some(_), None) => next.t[0],
+        (Some(last), Some(_)) => 0.5 * (last.t[1] + next.t[0]),
+    };
+    if let Some(last) = stretches.last_mut() {
+        last.t[1] = t;
+    }
+    next.t[0] = t;
+    events.extend(event.map(|event| Event { t, ..event }));
+    stretches.push(next);
+}
+
+fn strongest(met: &[Event]) -> Option<Event> {
+    use super::slab::Proof;
+    let rank = |event: &&Event| match event.proof {
+        Proof::Open { .. } => 2,
+        Proof::Fold { .. } => 1,
+        Proof::Elsewhere => 0,
+    };
+    met.iter().max_by_key(rank).copied()
+}

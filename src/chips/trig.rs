@@ -1,0 +1,94 @@
+//! Trigonometric polynomials of second degree, `k0 + k1 cos + k2 sin + k3 cos 2x + k4 sin 2x`: what everything on an ellipse is.
+
+use super::interval::Interval;
+use super::jet::Scalar;
+
+/// The coefficients.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Trig<S>(pub [S; 5]);
+
+/// Cosine and sine of an angle and of its double.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Angle<S> {
+    /// Cosine.
+    pub cos: S,
+    /// Sine.
+    pub sin: S,
+    /// Cosine of the double.
+    pub cos2: S,
+    /// Sine of the double.
+    pub sin2: S,
+}
+
+impl Angle<f64> {
+    /// Of an angle in radians.
+    pub fn of(x: f64) -> Self {
+        let (sin, cos) = x.sin_cos();
+        Self { cos, sin, cos2: cos * cos - sin * sin, sin2: 2.0 * sin * cos }
+    }
+}
+
+impl Angle<Interval> {
+    /// Of all angles of an interval, radians.
+    pub fn over(x: Interval) -> Self {
+        let (sin, cos) = x.sin_cos();
+        let (sin2, cos2) = Interval { lo: 2.0 * x.lo, hi: 2.0 * x.hi }.sin_cos();
+        Self { cos, sin, cos2, sin2 }
+    }
+}
+
+impl<S: Scalar> Trig<S> {
+    /// The value.
+    pub fn value(&self, x: &Angle<S>) -> S {
+        let [k0, k1, k2, k3, k4] = self.0;
+        k0 + k1 * x.cos + k2 * x.sin + k3 * x.cos2 + k4 * x.sin2
+    }
+
+    /// The derivative by the angle.
+    pub fn slope(&self, x: &Angle<S>) -> S {
+        let [_, k1, k2, k3, k4] = self.0;
+        k2 * x.cos - k1 * x.sin + S::of(2.0) * (k4 * x.cos2 - k3 * x.sin2)
+    }
+
+    /// The second derivative by the angle.
+    pub fn bend(&self, x: &Angle<S>) -> S {
+        let [_, k1, k2, k3, k4] = self.0;
+        -(k1 * x.cos + k2 * x.sin + S::of(4.0) * (k3 * x.cos2 + k4 * x.sin2))
+    }
+}
+
+impl Trig<Interval> {
+    /// A bound on its absolute value.
+    pub fn magnitude(&self) -> f64 {
+        self.0.iter().map(|k| k.magnitude()).sum()
+    }
+}
+
+impl Trig<f64> {
+    /// The angle in `[lo, hi]` at which it is zero, given that it rises (or falls) there; an end where it has the same sign all over.
+    /// To the last bits: Newton's steps, and halves where those leave the bracket.
+    pub fn root(&self, lo: f64, hi: f64, rising: bool) -> f64 {
+        let sign = if rising { 1.0 } else { -1.0 };
+        let at = |x: f64| {
+            let angle = Angle::of(x);
+            (sign * self.value(&angle), sign * self.slope(&angle))
+        };
+        let (mut lo, mut hi) = (lo, hi);
+        let mut x = 0.5 * (lo + hi);
+        for _ in 0..100 {
+            let (value, slope) = at(x);
+            if value > 0.0 {
+                hi = x;
+            } else {
+                lo = x;
+            }
+            let next = x - value / slope;
+            let next = if next > lo && next < hi { next } else { 0.5 * (lo + hi) };
+            if (next - x).abs() <= 1e-15 * (1.0 + x.abs()) || hi - lo <= 1e-15 * (1.0 + x.abs()) {
+                return next;
+            }
+            x = next;
+        }
+        x
+    }
+}
