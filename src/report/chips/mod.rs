@@ -10,6 +10,7 @@ mod fuse;
 mod gather;
 mod picture;
 mod row;
+mod sheet;
 mod solids;
 mod sums;
 mod text;
