@@ -1,6 +1,15 @@
-//! What one piece of path removes.
+//! What pieces of path remove.
 
+mod arcs;
+
+use super::cover::{Cover, Rim};
+use super::diagram::Diagram;
+use super::family::Family;
+use super::section::{FlatMill, Refusal, Step};
+use super::stack::{Layer, Stack};
 use super::Polygon;
+use crate::sim::Piece;
+use rayon::prelude::*;
 
 /// The chip of a piece of path on one layer.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,11 +26,13 @@ pub struct LayerChip {
     pub inside_mm2: f64,
     /// Its pieces.
     pub pieces: Vec<Polygon>,
-    /// Where the last edge is engaged: angles in degrees about the tool axis from the direction in which the section moves,
-    /// counter-clockwise seen from +z; each `[in, out]` with `in < out`, -180..=180 for `in`.
+    /// Where the last edge borders on the chip: angles in degrees of a tooth about the tool axis, from the direction in which the
+    /// section's centre moves (from x where it stands), counter-clockwise seen from above; each `[in, out]` with `in < out` and
+    /// `-180 <= in < 180`, in order.
     pub arcs_deg: Vec<[f64; 2]>,
-    /// Largest share of the tip's way with which the engaged edge advances along its own normal in space, times the length of the piece:
-    /// the largest thickness of the chip were the piece one tooth's advance, mm.
+    /// How far the engaged edge advances along the normal of the cutter's surface in space at most, in mm for the whole piece at the speed that
+    /// it has at the end: the largest thickness of the chip were the piece one tooth's advance. On the flutes and, where the layer
+    /// meets it, on the bottom disc.
     pub advance_mm: f64,
 }
 
@@ -39,59 +50,72 @@ impl Chip {
     }
 }
 
-/// stand-in
+/// Takes pieces of path out of the workpiece one after another: a chip for each, or why it was left out and nothing removed.
+/// `Piece::cutter` counts `mills`. Sections are polygons with chords within `tolerance` (mm).
+///
+/// Layers do not know of each other and are worked on in parallel; the result is the same for any number of threads.
 pub fn cut(
-    stack: &mut super::stack::Stack,
-    mills: &[super::FlatMill],
-    pieces: &[crate::sim::Piece],
+    stack: &mut Stack,
+    mills: &[FlatMill],
+    pieces: &[Piece],
     tolerance: f64,
-) -> Vec<Result<Chip, super::Refusal>> {
-    use rayon::prelude::*;
-    let steps: Vec<Result<super::Step, super::Refusal>> = pieces
+) -> Vec<Result<Chip, Refusal>> {
+    let steps: Vec<Result<(Step, Rim), Refusal>> = pieces
         .iter()
-        .map(|piece| super::Step::new(mills.get(piece.cutter).copied().ok_or(super::Refusal::NoCutter)?, piece))
-        .collect();
-    let found: Vec<Vec<(usize, LayerChip)>> = stack
-        .layers_mut()
-        .par_iter_mut()
-        .map(|layer| {
-            let mut out = Vec::new();
-            for (index, step) in steps.iter().enumerate() {
-                let Ok(step) = step else { continue };
-                let [low, high] = step.reach();
-                if layer.z() < low || layer.z() > high {
-                    continue;
-                }
-                let family = super::family::Family::new(step, layer.z());
-                let diagram = super::diagram::Diagram::new(&family);
-                let rim = super::cover::Rim::new(step, tolerance);
-                let cover = super::cover::Cover::new(&diagram, &rim);
-                let removed = layer.remove(&cover);
-                if removed.area_mm2 > 0.0 || removed.inside_mm2 > 0.0 {
-                    out.push((
-                        index,
-                        LayerChip {
-                            layer: layer.number(),
-                            z: layer.z(),
-                            thickness: layer.thickness(),
-                            area_mm2: removed.area_mm2,
-                            inside_mm2: removed.inside_mm2,
-                            pieces: removed.pieces,
-                            arcs_deg: vec![[-90.0, 90.0]],
-                            advance_mm: step.length_mm(),
-                        },
-                    ));
-                }
-            }
-            out
+        .map(|piece| {
+            let mill = mills.get(piece.cutter).ok_or(Refusal::NoCutter)?;
+            let step = Step::new(*mill, piece)?;
+            let rim = Rim::new(&step, tolerance);
+            Ok((step, rim))
         })
         .collect();
-    let mut chips: Vec<Result<Chip, super::Refusal>> =
-        steps.iter().map(|step| step.as_ref().map(|_| Chip::default()).map_err(|r| *r)).collect();
-    for (index, layer) in found.into_iter().flatten() {
-        if let Some(Ok(chip)) = chips.get_mut(index) {
-            chip.layers.push(layer);
+    let layer = |layer: &mut Layer| -> Vec<(usize, LayerChip)> {
+        let chips = steps.iter().enumerate().filter_map(|(index, step)| {
+            let (step, rim) = step.as_ref().ok()?;
+            Some((index, layer_chip(layer, step, rim)?))
+        });
+        chips.collect()
+    };
+    let found: Vec<Vec<(usize, LayerChip)>> = stack.layers_mut().par_iter_mut().map(layer).collect();
+    let mut chips: Vec<Result<Chip, Refusal>> =
+        steps.iter().map(|step| step.as_ref().map(|_| Chip::default()).map_err(|refusal| *refusal)).collect();
+    for (index, chip) in found.into_iter().flatten() {
+        if let Some(Ok(whole)) = chips.get_mut(index) {
+            whole.layers.push(chip);
         }
     }
     chips
+}
+
+/// Takes one step out of a layer; `None` when nothing is removed.
+fn layer_chip(layer: &mut Layer, step: &Step, rim: &Rim) -> Option<LayerChip> {
+    let z = layer.z();
+    let [low, high] = step.reach();
+    if z < low || z > high {
+        return None;
+    }
+    let family = Family::new(step, z);
+    let diagram = Diagram::new(&family);
+    let cover = Cover::new(&diagram, rim);
+    if cover.first.is_empty() && cover.is_empty() {
+        return None;
+    }
+    let removed = layer.remove(&cover);
+    // Where chords of two steps' sections meet, less than their tolerance is left.
+    let rounding = rim.tolerance() * std::f64::consts::TAU * step.mill().radius;
+    let inside_mm2 = if removed.inside_mm2 > rounding { removed.inside_mm2 } else { 0.0 };
+    if removed.area_mm2 <= 0.0 && inside_mm2 <= 0.0 {
+        return None;
+    }
+    let (arcs_deg, advance_mm) = arcs::engaged(&diagram, rim, &removed.pieces);
+    Some(LayerChip {
+        layer: layer.number(),
+        z,
+        thickness: layer.thickness(),
+        area_mm2: removed.area_mm2,
+        inside_mm2,
+        pieces: removed.pieces,
+        arcs_deg,
+        advance_mm,
+    })
 }

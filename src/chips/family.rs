@@ -90,6 +90,12 @@ impl Ellipse {
         let [xx, xy, yy] = self.shape;
         0.5 * (xx + yy) + (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt()
     }
+
+    /// Shorter semi-axis, mm: the cutter's radius.
+    pub fn shortest(&self) -> f64 {
+        let [xx, xy, yy] = self.shape;
+        0.5 * (xx + yy) - (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt()
+    }
 }
 
 impl Family {

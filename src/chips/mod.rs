@@ -20,5 +20,9 @@ pub mod stack;
 mod trig;
 
 pub use area::Polygon;
+pub use chip::{Chip, LayerChip, cut};
+pub use cover::{Cover, Rim};
+pub use diagram::Diagram;
+pub use family::Family;
 pub use section::{FlatMill, Refusal, Step};
 pub use stack::{Layer, Removed, Stack, StackError};
