@@ -118,7 +118,9 @@ fn certain(family: &Family, window: &Window<'_>, circles: &mut Circles, finest: 
         return Some([edge_roots, bottom_roots, top_roots, nothing]);
     }
     let (face, _) = window.curve(Curve::Face);
-    let mut face_roots = roots(face_cells, &face, finest)?;
+    // A disc that slides in its own plane neither advances nor retreats anywhere.
+    let slides = face.magnitude() <= family.still() / family.step().mill().radius;
+    let mut face_roots = if slides { nothing } else { roots(face_cells, &face, finest)? };
     let others = [(&mut edge_roots, edge), (&mut face_roots, face)];
     for (other, curve) in others {
         apart(&mut bottom_roots, &bottom, other, &curve).then_some(())?;
