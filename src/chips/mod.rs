@@ -16,6 +16,7 @@ pub mod family;
 mod interval;
 mod jet;
 pub mod section;
+pub mod solid;
 pub mod stack;
 mod trig;
 

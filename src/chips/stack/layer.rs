@@ -17,8 +17,8 @@ pub struct Layer {
     grid: Grid,
     most_corners: usize,
     material: Tile,
-    /// The last place of the cutter, where nothing is left.
-    cleared: Region,
+    /// The cutter's section at the end of the last cut: nothing is left inside.
+    cleared: Vec<[f64; 2]>,
     room: Room,
 }
 
@@ -43,8 +43,8 @@ impl Layer {
     ) -> Self {
         let mut room = Room::default();
         let material = Tile::new(room.clipper.joined(&area), most, &mut room);
-        let cleared = Region::default();
-        Self { number, bottom, thickness, grid, most_corners: most, material, cleared, room: Room::default() }
+        let (cleared, room) = Default::default();
+        Self { number, bottom, thickness, grid, most_corners: most, material, cleared, room }
     }
 
     /// Its number, from below.
@@ -74,9 +74,8 @@ impl Layer {
     /// [`Grid`], and what is as thin as a step or two is left out.
     pub fn remove(&mut self, cover: &Cover) -> Removed {
         let mut removed = Removed::default();
-        let section = |border: &[[f64; 2]]| Region::new(&self.grid, [border]);
-        let (first, last) = (section(&cover.first), section(&cover.last));
-        if first != self.cleared {
+        if cover.first != self.cleared {
+            let first = Region::new(&self.grid, [cover.first.as_slice()]);
             removed.inside_mm2 = self.take(&first).0.area_mm2(&self.grid);
         }
         let borders = cover.advancing.iter().map(Vec::as_slice);
@@ -84,7 +83,7 @@ impl Layer {
         if !taken.is_empty() {
             (removed.pieces, removed.area_mm2) = self.room.clipper.pieces(&taken, pieces > 1, &self.grid);
         }
-        self.cleared = last;
+        self.cleared.clone_from(&cover.last);
         removed
     }
 
