@@ -76,6 +76,7 @@ fn one(area: &Area<'_>, scene: &Scene, at: Option<f64>) -> io::Result<()> {
         .configure_mesh()
         .disable_mesh()
         .x_labels(9)
+        .x_label_formatter(&|theta| format!("{theta:.0}"))
         .y_labels(6)
         .x_desc("theta, degrees")
         .y_desc("t")

@@ -23,7 +23,6 @@ pub(super) fn fuse<'a>(
                 number: chip.layer,
                 z: chip.z,
                 thickness_mm: chip.thickness,
-                chip_thickness_mm: Some(0.0),
                 ..LayerRow::default()
             };
             (row, Vec::new())
@@ -31,8 +30,9 @@ pub(super) fn fuse<'a>(
         row.area_mm2 += chip.area_mm2;
         row.inside_mm2 += chip.inside_mm2;
         row.arcs_deg.extend(&chip.arcs_deg);
-        // One piece whose thickness is not known, and nobody knows the thickest.
-        row.chip_thickness_mm = row.chip_thickness_mm.zip(thickness).map(|(a, b)| a.max(b));
+        // `None` is less than any thickness.
+        row.chip_thickness_mm =
+            [row.chip_thickness_mm, thickness].into_iter().flatten().reduce(f64::max);
         if !chip.pieces.is_empty() {
             parts.push(&chip.pieces);
         }

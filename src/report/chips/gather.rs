@@ -135,10 +135,8 @@ impl<'m, 'p> Gathering<'m, 'p> {
             feed_mm_min: self.feed(cut.motion),
             volume_mm3: cut.volume_mm3(),
             inside_mm3,
-            chip_thickness_mm: layers
-                .iter()
-                .map(|layer| layer.chip_thickness_mm)
-                .try_fold(0.0, |most, thickness| thickness.map(|thickness| f64::max(most, thickness))),
+            chip_thickness_mm: (pace.known || cut.volume_mm3() <= 0.0)
+                .then(|| layers.iter().filter_map(|layer| layer.chip_thickness_mm).fold(0.0, f64::max)),
             layers,
             tool,
         };
@@ -185,7 +183,8 @@ impl<'m, 'p> Gathering<'m, 'p> {
     fn pace(&mut self, cut: &ChipCut<'_>, tool: &str) -> Pace<'m> {
         let cutter = cut.cutter.and_then(|index| self.machining.tooling().cutters().get(index));
         let rpm = cut.motion.spindle_rpm().filter(|rpm| *rpm > 0.0);
-        let pace = Pace { cutter, per_turn: self.feed(cut.motion).zip(rpm).map(|(feed, rpm)| feed / rpm) };
+        let per_turn = self.feed(cut.motion).zip(rpm).map(|(feed, rpm)| feed / rpm);
+        let mut pace = Pace { cutter, per_turn, known: false };
         let cuts = |(step, chip): &(Step, Result<crate::chips::chip::Chip, _>)| {
             let removes = chip.as_ref().is_ok_and(|chip| chip.layers.iter().any(|layer| layer.area_mm2 > 0.0));
             removes.then(|| way(step))
@@ -200,6 +199,8 @@ impl<'m, 'p> Gathering<'m, 'p> {
             self.unknown += 1;
         } else if ways.iter().any(|way| *way <= STANDS) {
             self.standing += 1;
+        } else {
+            pace.known = true;
         }
         pace
     }
@@ -282,13 +283,19 @@ struct Pace<'m> {
     cutter: Option<&'m Cutter>,
     /// Feed of a turn, mm.
     per_turn: Option<f64>,
+    /// Whether thicknesses are known on the whole motion.
+    known: bool,
 }
 
 impl Pace<'_> {
-    /// The thickest chip of a tooth on a layer of a piece, mm; the flank's normal stands square to the axis.
+    /// The thickest chip of a tooth on a layer of a piece, mm; the flank's normal stands square to the axis. Not known where the cutter has
+    /// left the chip at the end of the piece.
     fn thickness(&self, step: &Step, layer: &LayerChip) -> Option<f64> {
         if layer.area_mm2 <= 0.0 {
             return Some(0.0);
+        }
+        if layer.advance_mm <= 0.0 {
+            return None;
         }
         let teeth = self.cutter?.teeth.as_ref()?;
         let way = Some(way(step)).filter(|way| *way > STANDS)?;

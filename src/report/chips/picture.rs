@@ -24,7 +24,7 @@ const IN_A_ROW: usize = 6;
 
 /// Layers drawn of several moves, and of one.
 const LAYERS: usize = 4;
-const LAYERS_OF_ONE: usize = 6;
+const LAYERS_OF_ONE: usize = 12;
 
 /// A panel.
 struct Panel<'r> {
