@@ -114,6 +114,11 @@ impl Family {
         1e-9 * self.step.mill.radius * self.pace
     }
 
+    /// Whether the tip stays where it is, as far as angles of a millionth can tell.
+    pub(super) fn pivots_about_tip(&self) -> bool {
+        self.step.way.norm() <= 1e-6 * self.step.mill.radius * self.step.turn
+    }
+
     /// Whether the upper end of the flutes may reach the layer.
     pub(super) fn has_top(&self) -> bool {
         self.step.mill.flutes.is_finite()

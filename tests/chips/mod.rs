@@ -1,1 +1,4 @@
 //! Undeformed chips.
+
+mod brute;
+mod cover;

@@ -22,6 +22,9 @@ pub enum Cut {
 pub(super) struct Cuts([Cut; 2]);
 
 impl Cuts {
+    /// As a section alone shows them.
+    pub const SEEN: Self = Self([Cut::Chord, Cut::Chord]);
+
     /// As they are all through a stretch.
     pub fn of(family: &Family, stretch: &Stretch) -> Self {
         Self([Curve::Bottom, Curve::Top].map(|curve| {
@@ -57,6 +60,7 @@ pub(super) fn outline(family: &Family, rim: &Rim, t: f64, cuts: Cuts, nodes: &[f
         match cut {
             Cut::Free => {}
             Cut::All => return Vec::new(),
+            Cut::Chord if curve == Curve::Top && !family.has_top() => {}
             Cut::Chord => match cut_off(&family.curve(curve, t)) {
                 Ok(angles) => removed.push(angles),
                 Err(true) => return Vec::new(),

@@ -77,20 +77,24 @@ impl Cells {
     ///
     /// What was certain for a longer time stays so; of cells whose slope is known, the sign may become so.
     pub fn look(&mut self, curve: &Trig<Interval>, finest: f64) {
-        let mut done = Vec::with_capacity(self.0.len() + 8);
+        let mut done: Vec<Cell> = Vec::with_capacity(self.0.len() + 8);
         let mut waiting: Vec<Cell> = std::mem::take(&mut self.0);
         waiting.reverse();
         while let Some(mut cell) = waiting.pop() {
             if cell.known.sign().is_none() {
-                cell.known = known(curve, &cell.angle).or(cell.known);
+                cell.known = known(curve, &cell).or(cell.known);
             }
             let wide = cell.x.hi - cell.x.lo > finest && done.len() + waiting.len() < MOST;
             if cell.known == Known::Nothing && wide {
                 let middle = cell.x.middle();
                 waiting.push(Cell::new(middle, cell.x.hi));
                 waiting.push(Cell::new(cell.x.lo, middle));
-            } else {
-                done.push(cell);
+                continue;
+            }
+            match done.last_mut() {
+                // Of what has one sign nothing more will be asked.
+                Some(last) if cell.known.sign().is_some() && last.known == cell.known => last.x.hi = cell.x.hi,
+                _ => done.push(cell),
             }
         }
         self.0 = done;
@@ -173,30 +177,44 @@ impl Known {
     }
 }
 
-fn known(curve: &Trig<Interval>, angle: &Angle<Interval>) -> Known {
-    match (curve.value(angle).sign(), curve.slope(angle).sign()) {
+fn known(curve: &Trig<Interval>, cell: &Cell) -> Known {
+    let told = |value: Interval, slope: Interval| match (value.sign(), slope.sign()) {
         (Some(1), _) => Known::Positive,
         (Some(_), _) => Known::Negative,
         (None, Some(1)) => Known::Rises,
         (None, Some(_)) => Known::Falls,
         (None, None) => Known::Nothing,
+    };
+    let quick = told(curve.value(&cell.angle), curve.slope(&cell.angle));
+    if quick.sign().is_some() {
+        return quick;
     }
+    // Taylor's formula about the middle, whose error goes with the square of the cell: near a fold value and slope are both small.
+    let middle = Interval::point(cell.x.middle());
+    let (centre, offset) = (Angle::over(middle), cell.x - middle);
+    let bend = curve.bend(&cell.angle);
+    let slope = curve.slope(&centre);
+    let square = Interval { lo: 0.0, hi: 0.5 * offset.magnitude() * offset.magnitude() * (1.0 + 1e-15) };
+    let close = told(curve.value(&centre) + slope * offset + bend * square, slope + bend * offset);
+    close.or(quick)
 }
 
-/// Makes a bracket narrower, as far as the signs at its ends stay certain.
+/// Makes a bracket about as narrow as the root's way during the time allows: the signs at its ends stay certain.
 pub fn narrow(bracket: &mut Bracket, curve: &Trig<Interval>) {
     let sign = |x: f64| curve.value(&Angle::over(Interval::point(x))).sign();
     let (below, above) = if bracket.rising { (Some(-1), Some(1)) } else { (Some(1), Some(-1)) };
-    let (lo, hi) = (bracket.lo, bracket.hi);
-    // From the middle outward there is some place where the sign is that of the end.
-    let mut inner = 0.5 * (lo + hi);
-    for _ in 0..8 {
-        let middle = 0.5 * (bracket.lo + inner);
-        if sign(middle) == below { bracket.lo = middle } else { inner = middle }
-    }
-    inner = 0.5 * (lo + hi);
-    for _ in 0..8 {
-        let middle = 0.5 * (bracket.hi + inner);
-        if sign(middle) == above { bracket.hi = middle } else { inner = middle }
+    let Bracket { lo, hi, rising } = *bracket;
+    let root = Trig(curve.0.map(Interval::middle)).root(lo, hi, rising);
+    // From next to the root outward.
+    let mut reach = (hi - lo) * 1e-12;
+    let (mut left, mut right) = (false, false);
+    while reach < hi - lo && !(left && right) {
+        if !left && root - reach > lo && sign(root - reach) == below {
+            (bracket.lo, left) = (root - reach, true);
+        }
+        if !right && root + reach < hi && sign(root + reach) == above {
+            (bracket.hi, right) = (root + reach, true);
+        }
+        reach *= 8.0;
     }
 }

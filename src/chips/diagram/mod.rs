@@ -18,6 +18,7 @@ pub struct Diagram {
     family: Family,
     stretches: Vec<Stretch>,
     events: Vec<Event>,
+    resolved: bool,
 }
 
 /// How a branch begins or ends.
@@ -56,8 +57,15 @@ pub enum Region {
 impl Diagram {
     /// The diagram of a family.
     pub fn new(family: &Family) -> Self {
-        let (stretches, events) = stretch::stretches(family, slab::slabs(family));
-        Self { family: *family, stretches, events }
+        let slabs = slab::slabs(family);
+        let resolved = !slabs.given_up;
+        let (stretches, events) = stretch::stretches(family, slabs);
+        Self { family: *family, stretches, events, resolved }
+    }
+
+    /// Whether all of it was told apart. Curves that run along each other for a while, though not to the bit, may not be.
+    pub fn is_resolved(&self) -> bool {
+        self.resolved
     }
 
     /// The family that it is of.
@@ -65,7 +73,7 @@ impl Diagram {
         &self.family
     }
 
-    /// Stretches of time from event to event, from 0 to 1; none where nothing could be told at all.
+    /// Stretches of time from event to event; from 0 to 1 when everything was told apart.
     pub fn stretches(&self) -> &[Stretch] {
         &self.stretches
     }

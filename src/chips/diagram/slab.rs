@@ -19,6 +19,9 @@ const FINEST: f64 = 0.1;
 /// Events at most; a diagram with more has curves that coincide.
 const MOST_EVENTS: usize = 64;
 
+/// Slabs at most, likewise.
+const MOST_SLABS: usize = 4096;
+
 /// An interval of time in which the roots of all curves are functions of time that do not cross.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Slab {
@@ -63,6 +66,8 @@ pub struct Slabs {
     pub slabs: Vec<Slab>,
     /// In time's order.
     pub events: Vec<Event>,
+    /// Whether there were so many of either that the rest was left out: curves that run along each other.
+    pub given_up: bool,
 }
 
 /// Cuts the whole step into slabs.
@@ -78,13 +83,17 @@ pub fn slabs(family: &Family) -> Slabs {
 struct Circles([Cells; 4]);
 
 fn explore(family: &Family, t: Interval, mut circles: Circles, found: &mut Slabs) {
+    if found.events.len() >= MOST_EVENTS || found.slabs.len() >= MOST_SLABS {
+        found.given_up = true;
+        return;
+    }
     let window = family.over(t);
     let finest = FINEST * (t.hi - t.lo).sqrt();
     if let Some(roots) = certain(family, &window, &mut circles, finest) {
         found.slabs.push(Slab { t: [t.lo, t.hi], roots });
         return;
     }
-    if t.hi - t.lo <= SHORTEST || found.events.len() >= MOST_EVENTS {
+    if t.hi - t.lo <= SHORTEST {
         let [edge, ..] = &circles.0;
         let event = Event { t: t.middle(), proof: proof(&window, edge) };
         found.events.push(event);
@@ -121,9 +130,11 @@ fn certain(family: &Family, window: &Window<'_>, circles: &mut Circles, finest: 
     // A disc that slides in its own plane neither advances nor retreats anywhere.
     let slides = face.magnitude() <= family.still() / family.step().mill().radius;
     let mut face_roots = if slides { nothing } else { roots(face_cells, &face, finest)? };
-    let others = [(&mut edge_roots, edge), (&mut face_roots, face)];
-    for (other, curve) in others {
-        apart(&mut bottom_roots, &bottom, other, &curve).then_some(())?;
+    // Turning about the tip, f is zero all along the bottom disc's rim: the order of two curves that are one does not matter.
+    let pivots = family.pivots_about_tip();
+    let others = [(&mut edge_roots, edge, pivots), (&mut face_roots, face, false)];
+    for (other, curve, same) in others {
+        (same || apart(&mut bottom_roots, &bottom, other, &curve)).then_some(())?;
         if let Some(top) = &top {
             apart(&mut top_roots, top, other, &curve).then_some(())?;
         }
