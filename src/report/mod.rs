@@ -6,13 +6,13 @@
 //! they cut layer by layer. Everything is written into a writer that the caller hands in, or returned.
 
 pub mod changes;
+pub mod chips;
 mod compensated;
 pub mod diff;
 pub mod explain;
 pub mod kind;
 pub mod picture;
 pub mod policy;
-pub mod chips;
 mod ramps;
 pub mod render;
 mod round;

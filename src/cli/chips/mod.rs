@@ -197,8 +197,7 @@ impl Chips {
         let scenes = if self.svg.is_some() || self.diagram.is_some() { usize::from(self.moves) } else { 0 };
         let keep = Keep { borders: self.json.is_some() || self.stl.is_some(), scenes, at: self.at };
         progress.begin(program.source().name());
-        let mut report =
-            ChipReport::of(&machining, &options, keep, progress)?.ok_or(Stop::Interrupted)?;
+        let mut report = ChipReport::of(&machining, &options, keep, progress)?.ok_or(Stop::Interrupted)?;
         findings.append(&mut report.findings);
         let drawn = self.drawn(&report)?;
         Ok((report, drawn))

@@ -59,13 +59,16 @@ impl Chips {
         }
         if report.scenes.is_empty() {
             let message = match self.at {
-                Some(z) => format!("none of the moves removes anything at z {z}, so there is nothing to draw"),
+                Some(z) => {
+                    format!("none of the moves removes anything at z {z}, so there is nothing to draw")
+                }
                 None => "none of the moves removes anything, so there is nothing to draw".to_owned(),
             };
             return Err(Diagnostic::new(codes::NO_SUCH_LAYER, message).into());
         }
         let failed = |error: io::Error| Diagnostic::new(codes::UNWRITABLE, error.to_string());
-        let layers = self.svg.as_ref().map(|_| chips::picture(report, self.at)).transpose().map_err(failed)?;
+        let layers =
+            self.svg.as_ref().map(|_| chips::picture(report, self.at)).transpose().map_err(failed)?;
         let diagrams =
             self.diagram.as_ref().map(|_| chips::diagrams(report, self.at)).transpose().map_err(failed)?;
         Ok(Drawn { layers, diagrams })
@@ -83,7 +86,10 @@ impl Chips {
             (&self.csv, Box::new(|out| chips::to_csv(report, out))),
             (&self.json, Box::new(|out| chips::to_json(report, out))),
             (&self.stl, Box::new(|out| chips::to_stl(report, out))),
-            (&self.svg, Box::new(|out| out.write_all(drawn.layers.as_deref().unwrap_or_default().as_bytes()))),
+            (
+                &self.svg,
+                Box::new(|out| out.write_all(drawn.layers.as_deref().unwrap_or_default().as_bytes())),
+            ),
             (
                 &self.diagram,
                 Box::new(|out| out.write_all(drawn.diagrams.as_deref().unwrap_or_default().as_bytes())),

@@ -204,8 +204,7 @@ impl<'r> Running<'r> {
                 1 => "its motion is left out, and the material that it".to_owned(),
                 more => format!("its {more} motions are left out, and the material that they"),
             };
-            let message =
-                format!("{} has {}: {motions} would remove stays", tool.called(), other.has);
+            let message = format!("{} has {}: {motions} would remove stays", tool.called(), other.has);
             let found = Diagnostic::new(codes::NO_FLAT_MILL, message);
             findings.push(found.label(program.source(), place(program, first), "its first motion"));
         }
@@ -223,7 +222,9 @@ fn look(
 ) {
     if let Some((refusal, count)) = cut.refused() {
         let message = match cut.pieces.len() {
-            1 => format!("this motion cannot be modelled, and the material that it would remove stays: {refusal}"),
+            1 => format!(
+                "this motion cannot be modelled, and the material that it would remove stays: {refusal}"
+            ),
             all => format!(
                 "{count} of the {all} pieces of this motion cannot be modelled, and the material that they would remove stays: {refusal}"
             ),

@@ -1,8 +1,8 @@
 //! Boundary construction diagrams: theta across, time up, as the figures of the paper that they come from.
 
+use super::ChipReport;
 use super::gather::{Scene, SceneLayer};
 use super::sheet::{ADVANCING, Area, BRANCH, EDGE, OUTSIDE, RETREATING, Sample, error, sheet};
-use super::ChipReport;
 use crate::chips::Step;
 use crate::chips::diagram::{Branch, Diagram, End, Region};
 use crate::chips::family::{Curve, Family};

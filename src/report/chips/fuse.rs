@@ -31,8 +31,7 @@ pub(super) fn fuse<'a>(
         row.inside_mm2 += chip.inside_mm2;
         row.arcs_deg.extend(&chip.arcs_deg);
         // `None` is less than any thickness.
-        row.chip_thickness_mm =
-            [row.chip_thickness_mm, thickness].into_iter().flatten().reduce(f64::max);
+        row.chip_thickness_mm = [row.chip_thickness_mm, thickness].into_iter().flatten().reduce(f64::max);
         if !chip.pieces.is_empty() {
             parts.push(&chip.pieces);
         }

@@ -186,7 +186,8 @@ impl<'m, 'p> Gathering<'m, 'p> {
         let per_turn = self.feed(cut.motion).zip(rpm).map(|(feed, rpm)| feed / rpm);
         let mut pace = Pace { cutter, per_turn, known: false };
         let cuts = |(step, chip): &(Step, Result<crate::chips::chip::Chip, _>)| {
-            let removes = chip.as_ref().is_ok_and(|chip| chip.layers.iter().any(|layer| layer.area_mm2 > 0.0));
+            let removes =
+                chip.as_ref().is_ok_and(|chip| chip.layers.iter().any(|layer| layer.area_mm2 > 0.0));
             removes.then(|| way(step))
         };
         let ways: Vec<f64> = cut.pieces.iter().filter_map(cuts).collect();

@@ -1,9 +1,9 @@
 //! Layers of moves as a drawing: small multiples, a column for each move and a row for each layer from the highest; the layers of a
 //! single move stand side by side.
 
+use super::ChipReport;
 use super::gather::{Scene, SceneLayer};
 use super::sheet::{Area, CHIP, EDGE, Sample, WORKPIECE, error, sheet};
-use super::ChipReport;
 use crate::chips::area::{Clipper, Grid, Region};
 use crate::chips::cover::{Cover, Rim};
 use crate::chips::diagram::Diagram;
@@ -167,8 +167,7 @@ impl<'r> Panel<'r> {
 fn within(polygons: &[Polygon], window: &[[f64; 2]], grid: &Grid) -> Vec<Polygon> {
     let borders = polygons.iter().flat_map(|polygon| std::iter::once(&polygon.outer).chain(&polygon.holes));
     let area = Region::new(grid, borders.map(Vec::as_slice));
-    let (mut clipper, mut inside, mut outside) =
-        (Clipper::default(), Region::default(), Region::default());
+    let (mut clipper, mut inside, mut outside) = (Clipper::default(), Region::default(), Region::default());
     clipper.cut(&area, &Region::new(grid, [window]), &mut inside, &mut outside);
     clipper.polygons(&inside, grid).0
 }

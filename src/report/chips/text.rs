@@ -55,7 +55,8 @@ fn operations(out: &mut String, report: &ChipReport) {
     if report.operations.is_empty() {
         return;
     }
-    let head = ["operation", "tool", "motions", "cutting", "mm3", "largest", "mm2", "chip, mm", "engaged", "pieces"];
+    let head =
+        ["operation", "tool", "motions", "cutting", "mm3", "largest", "mm2", "chip, mm", "engaged", "pieces"];
     let mut rows: Vec<Vec<String>> = vec![head.map(str::to_owned).to_vec()];
     rows.extend(report.operations.iter().take(MOST_ROWS).map(row));
     out.push('\n');

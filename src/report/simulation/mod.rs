@@ -22,8 +22,8 @@ pub use text::to_text;
 
 use crate::diagnostic::Diagnostic;
 use crate::machining::{Machining, Options, Plan, Watch, chord_mm};
-use crate::sim::Dexels;
 use crate::report::round::{micro, micro_some};
+use crate::sim::Dexels;
 use row::Cells;
 use serde::{Serialize, Serializer};
 

@@ -1,8 +1,8 @@
 //! What is left against the part that shall be.
 
 use super::Simulated;
-use crate::report::round::micro;
 use crate::diagnostic::{Diagnostic, codes};
+use crate::report::round::micro;
 use crate::sim::{Difference, Mesh};
 use serde::Serialize;
 
