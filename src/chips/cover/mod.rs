@@ -73,6 +73,11 @@ impl Cover {
         sliced::cover(family, rim, slices)
     }
 
+    /// The sections at `count + 1` evenly spaced times, for a union by brute force.
+    pub fn sections(family: &Family, rim: &Rim, count: usize) -> Vec<Vec<[f64; 2]>> {
+        sliced::sections(family, rim, count)
+    }
+
     fn add(&mut self, border: Vec<[f64; 2]>) {
         if border.len() > 2 {
             self.advancing.push(border);
