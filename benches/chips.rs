@@ -49,6 +49,11 @@ fn layers() -> impl Iterator<Item = f64> {
     (0..20).map(|index| -9.75 + 0.5 * f64::from(index))
 }
 
+fn diagrams(pieces: &[Piece]) -> Vec<Diagram> {
+    let steps = pieces.iter().map(|piece| Step::new(MILL, piece).expect("a step that can be modelled"));
+    steps.flat_map(|step| layers().map(move |z| Diagram::new(&Family::new(&step, z)))).collect()
+}
+
 fn covers(pieces: &[Piece], tolerance: f64) -> Vec<Cover> {
     let mut all = Vec::new();
     for piece in pieces {
@@ -90,6 +95,8 @@ fn dense(piece: &Piece, z: f64, count: usize, tolerance: f64) -> f64 {
 fn main() {
     let start = Instant::now();
     let pieces = path(400);
+    let (diagrams, took) = timed(start, || black_box(diagrams(&pieces)));
+    println!("diagrams: {:.0} a second", diagrams.len() as f64 / took);
     let (all, took) = timed(start, || black_box(covers(&pieces, TOLERANCE)));
     let touched = all.iter().filter(|cover| !cover.is_empty()).count();
     println!(

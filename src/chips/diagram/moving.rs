@@ -26,7 +26,8 @@ pub(super) fn apart(bracket: &Bracket, curve: Curve, other: Curve, window: &Wind
         (all.slope(&there) * Interval::point(velocity) + rate.value(&there)) * time
     };
     let (below, above) = if bracket.rising { (Some(-1), Some(1)) } else { (Some(1), Some(-1)) };
-    let mut y = 1e-13;
+    // About what the root's acceleration takes it away.
+    let mut y = 1e-13 + 2.0 * drift(&all, &rate, 1e-13).magnitude() / now.slope(&at).magnitude();
     while y < bracket.hi - bracket.lo {
         let change = drift(&all, &rate, y);
         let sign = |angle: f64| (now.value(&Angle::over(Interval::point(angle))) + change).sign();

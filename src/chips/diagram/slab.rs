@@ -5,7 +5,7 @@
 //! apart, so is the order of the roots. Otherwise the interval is halved, down to [`SHORTEST`], where something happens: a fold (a branch of
 //! the envelope begins or ends), a split, a branch that runs into the bottom disc's chord.
 
-use super::cells::{Bracket, Cells, Roots, narrow};
+use super::cells::{Bracket, Cells, Roots};
 use super::moving;
 use crate::chips::family::{Curve, Family, Window};
 use crate::chips::interval::Interval;
@@ -74,8 +74,9 @@ pub struct Slabs {
 /// Cuts the whole step into slabs.
 pub fn slabs(family: &Family) -> Slabs {
     let mut found = Slabs::default();
-    let all = || Circles(Curve::ALL.map(|_| Cells::new()));
-    explore(family, Interval { lo: 0.0, hi: 1.0 }, all(), &mut found);
+    let circle = Cells::new();
+    let circles = Circles([circle.clone(), circle.clone(), circle.clone(), circle]);
+    explore(family, Interval { lo: 0.0, hi: 1.0 }, circles, &mut found);
     found
 }
 
@@ -109,13 +110,13 @@ fn explore(family: &Family, t: Interval, mut circles: Circles, found: &mut Slabs
 fn certain(family: &Family, window: &Window<'_>, circles: &mut Circles, finest: f64) -> Option<[Roots; 4]> {
     let [edge_cells, bottom_cells, top_cells, face_cells] = &mut circles.0;
     let (edge, _) = window.curve(Curve::Edge);
-    let mut edge_roots = if edge.magnitude() <= family.still() {
+    let edge_roots = if edge.magnitude() <= family.still() {
         Roots { brackets: Vec::new(), positive: true }
     } else {
         roots(edge_cells, &edge, finest)?
     };
     let (bottom, _) = window.curve(Curve::Bottom);
-    let mut bottom_roots = roots(bottom_cells, &bottom, finest)?;
+    let bottom_roots = roots(bottom_cells, &bottom, finest)?;
     let nothing = Roots { brackets: Vec::new(), positive: true };
     let mut top_roots = nothing.clone();
     if family.has_top() {
@@ -128,15 +129,15 @@ fn certain(family: &Family, window: &Window<'_>, circles: &mut Circles, finest: 
     let (face, _) = window.curve(Curve::Face);
     // A disc that slides in its own plane neither advances nor retreats anywhere.
     let slides = face.magnitude() <= family.still() / family.step().mill().radius;
-    let mut face_roots = if slides { nothing } else { roots(face_cells, &face, finest)? };
+    let face_roots = if slides { nothing } else { roots(face_cells, &face, finest)? };
     // Turning about the tip, f is zero all along the bottom disc's rim: the order of two curves that are one does not matter.
     let pivots = family.pivots_about_tip();
-    let others = [(&mut edge_roots, Curve::Edge, pivots), (&mut face_roots, Curve::Face, false)];
+    let others = [(&edge_roots, Curve::Edge, pivots), (&face_roots, Curve::Face, false)];
     for (other, curve, same) in others {
-        (same || apart(&mut bottom_roots, Curve::Bottom, other, curve, window)).then_some(())?;
-        apart(&mut top_roots, Curve::Top, other, curve, window).then_some(())?;
+        (same || apart(&bottom_roots, Curve::Bottom, other, curve, window)).then_some(())?;
+        apart(&top_roots, Curve::Top, other, curve, window).then_some(())?;
     }
-    apart(&mut bottom_roots, Curve::Bottom, &mut top_roots, Curve::Top, window).then_some(())?;
+    apart(&bottom_roots, Curve::Bottom, &top_roots, Curve::Top, window).then_some(())?;
     Some([edge_roots, bottom_roots, top_roots, face_roots])
 }
 
@@ -151,16 +152,12 @@ fn roots(cells: &mut Cells, curve: &Trig<Interval>, finest: f64) -> Option<Roots
     cells.roots(curve)
 }
 
-/// Whether no root of one curve meets one of the other, narrowing brackets where they do.
-fn apart(a: &mut Roots, a_curve: Curve, b: &mut Roots, b_curve: Curve, window: &Window<'_>) -> bool {
-    for a in &mut a.brackets {
-        for b in &mut b.brackets {
-            if meet(a, b) {
-                narrow(a, &window.curve(a_curve).0);
-                narrow(b, &window.curve(b_curve).0);
-                if meet(a, b) && !moving::apart(a, a_curve, b_curve, window) {
-                    return false;
-                }
+/// Whether no root of one curve meets one of the other.
+fn apart(a: &Roots, a_curve: Curve, b: &Roots, b_curve: Curve, window: &Window<'_>) -> bool {
+    for a in &a.brackets {
+        for b in &b.brackets {
+            if meet(a, b) && !moving::apart(a, a_curve, b_curve, window) {
+                return false;
             }
         }
     }
