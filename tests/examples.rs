@@ -62,8 +62,10 @@ fn beginning(part: &Path) -> Arc<Source> {
 
 #[test]
 fn examples_do_what_their_pages_show() {
-    // What a recipe corrects; the other example makes a program, see below.
-    for example in files(&folder("examples")).into_iter().filter(|path| !path.ends_with("ball-profile")) {
+    // What a recipe corrects; the others make a program or chips, see below.
+    let others = ["ball-profile", "five-axis-chip"];
+    let corrects = |path: &PathBuf| !others.iter().any(|other| path.ends_with(other));
+    for example in files(&folder("examples")).into_iter().filter(corrects) {
         let name = example.file_name().unwrap().to_string_lossy().into_owned();
         let page = std::fs::read_to_string(example.join("README.md")).unwrap();
         assert!(
@@ -95,6 +97,27 @@ fn the_ball_over_a_profile_is_what_its_page_makes() {
     assert!(page.contains(&format!("```text\n{shown}```")), "{shown}");
     for name in ["part.cls", "figure.svg"] {
         assert!(file(made.path(), name) == file(&shipped, name), "{name} is what the command makes");
+    }
+}
+
+#[test]
+fn the_chips_in_five_axes_are_what_their_page_shows() {
+    let shipped = folder("examples/five-axis-chip");
+    let page = std::fs::read_to_string(shipped.join("README.md")).unwrap();
+    let made = crate::cli::example("five-axis-chip");
+    let figures = ["chip.svg", "diagram.svg", "corner.svg"];
+    for name in figures {
+        std::fs::remove_file(made.path().join(name)).unwrap();
+    }
+    let mut shown = String::new();
+    for command in page.lines().filter_map(|line| line.strip_prefix("clsmith ")) {
+        let done = crate::cli::clsmith(made.path()).args(command.split(' ')).assert().success();
+        shown = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
+    }
+    assert!(page.contains(&format!("```text\n{shown}```")), "{shown}");
+    for name in figures {
+        let file = |folder: &Path| std::fs::read_to_string(folder.join(name)).unwrap();
+        assert!(file(made.path()) == file(&shipped), "{name} is what the command makes");
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod apply;
 mod check;
+mod chips;
 mod diff;
 mod exit;
 mod files;
@@ -25,6 +26,8 @@ Examples:
   clsmith check part.cls                           what is wrong with a program
   clsmith stats part.cls                           what is in it
   clsmith simulate part.cls --setup shop.yaml      what its tools cut and bear
+  clsmith chips part.cls --setup shop.yaml --layer 0.5
+                                                   the exact chips of flat end mills, in five axes too
   clsmith section part.stl --radius 5 --step 0.5 --feed 800 -o part.cls
                                                    a program for a ball over a part
   clsmith diff part.cls out.cls                    what changed, by meaning
@@ -55,6 +58,7 @@ enum Command {
     Check(check::Check),
     Stats(stats::Stats),
     Simulate(simulate::Simulate),
+    Chips(Box<chips::Chips>),
     Section(Box<section::Section>),
     Diff(diff::Diff),
     Transforms(reference::Transforms),
@@ -72,6 +76,7 @@ pub fn main() -> ExitCode {
         Command::Check(command) => command.run(),
         Command::Stats(command) => command.run(),
         Command::Simulate(command) => command.run(),
+        Command::Chips(command) => command.run(),
         Command::Section(command) => command.run(),
         Command::Diff(command) => command.run(),
         Command::Transforms(command) => command.run(),

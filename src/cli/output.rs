@@ -2,7 +2,7 @@
 
 use super::files::STANDARD;
 use clsmith::diagnostic::{Diagnostic, codes};
-use clsmith::write::{Interrupt, is_interrupt, write_atomically_unless};
+use clsmith::write::{Interrupt, is_interrupt, same_file, write_atomically_unless};
 use std::io::{self, Write};
 use std::path::Path;
 use std::sync::{Arc, Mutex};
@@ -57,6 +57,17 @@ impl Outputs {
             }
         }
     }
+}
+
+/// A finding when an output would go over an input; standard input and output are no files.
+pub fn overwritten<'a>(mut outputs: impl Iterator<Item = &'a Path>, inputs: &[&Path]) -> Option<Diagnostic> {
+    outputs.find_map(|target| {
+        let files = inputs.iter().filter(|path| **path != Path::new(STANDARD));
+        let mut files = files.filter(|_| target != Path::new(STANDARD));
+        let hit = files.find(|path| same_file(path, target))?;
+        let message = format!("writing {} would overwrite the input {}", target.display(), hit.display());
+        Some(Diagnostic::new(codes::OUTPUT_IS_INPUT, message))
+    })
 }
 
 /// What only people see may fail: with `clsmith ... 2>&1 | head` the outputs are still written.

@@ -27,36 +27,38 @@ impl Faults {
         cutter: &Cutter,
         cell: f64,
     ) {
-        let statement = motion.last_statement();
-        let mut tell = |code: Code, message: String, label: &str| {
-            let (count, _) = self.counts.entry(code.id()).or_insert((0, code));
-            *count += 1;
-            if *count <= TOLD {
-                let found = Diagnostic::new(code, message);
-                self.told.push(found.label(program.source(), place(program, statement), label));
-            }
-        };
         if let Some((index, depth)) = found.contact {
             let what = match cutter.collars.get(index).map(|collar| collar.kind) {
                 Some(CollarKind::Holder) => "holder",
                 _ => "shank",
             };
-            tell(
-                codes::COLLISION,
-                format!("the {what} stands {depth:.2} mm deep in material"),
-                "on this motion",
-            );
+            let message = format!("the {what} stands {depth:.2} mm deep in material");
+            self.tell(program, motion, codes::COLLISION, message, "on this motion");
         }
         // A speck below a cell's cube is what rounding leaves where a rapid grazes the stock.
-        if !found.cuts() || found.removed_mm3 < cell.powi(3) {
-            return;
+        if found.cuts() && found.removed_mm3 >= cell.powi(3) {
+            self.removed(program, motion, found.removed_mm3);
         }
+    }
+
+    /// Looks at a motion that removed so much, in mm3: no rapid should, and no tool that does not turn.
+    pub fn removed(&mut self, program: &Program, motion: &Motion, mm3: f64) {
         if motion.rapid {
-            let message =
-                format!("a rapid goes through material and takes {:.3} mm3 of it", found.removed_mm3);
-            tell(codes::RAPID_THROUGH_STOCK, message, "at rapid");
+            let message = format!("a rapid goes through material and takes {mm3:.3} mm3 of it");
+            self.tell(program, motion, codes::RAPID_THROUGH_STOCK, message, "at rapid");
         } else if motion.spindle.as_deref().is_none_or(|spindle| !spindle.on) {
-            tell(codes::SPINDLE_STANDS, "the tool cuts while the spindle stands".to_owned(), "cuts");
+            let message = "the tool cuts while the spindle stands".to_owned();
+            self.tell(program, motion, codes::SPINDLE_STANDS, message, "cuts");
+        }
+    }
+
+    /// Tells of a motion, or counts it once enough of its kind were told.
+    pub fn tell(&mut self, program: &Program, motion: &Motion, code: Code, message: String, label: &str) {
+        let (count, _) = self.counts.entry(code.id()).or_insert((0, code));
+        *count += 1;
+        if *count <= TOLD {
+            let at = place(program, motion.last_statement());
+            self.told.push(Diagnostic::new(code, message).label(program.source(), at, label));
         }
     }
 

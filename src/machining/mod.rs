@@ -2,8 +2,9 @@
 //!
 //! [`Machining::new`] finds the cutter of every tool and the stock, asks for what is missing and says what it assumes;
 //! [`Machining::plan`] knows what a run costs; [`Machining::run`] removes material motion by motion and hands each motion on
-//! with what it engaged.
+//! with what it engaged; [`Machining::chips`](chips) does so in layers, with the exact chips of flat end mills.
 
+pub mod chips;
 mod faults;
 mod plan;
 mod run;

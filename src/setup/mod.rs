@@ -22,6 +22,7 @@ pub use tools::{Bar, Insert, Resolved, ToolEntry, ToolGap, ToolGapKind};
 
 use crate::diagnostic::{Diagnostic, codes};
 use crate::source::Source;
+use std::path::Path;
 use std::sync::Arc;
 
 /// The setup of a job. Lengths in millimetres, whatever the unit of the file it came from.
@@ -71,6 +72,20 @@ impl Setup {
                         `stock: { block: { from: [x, y, z], to: [x, y, z] } }`, or `cylinder`, `stl`, `file`.";
             Box::new(Diagnostic::new(codes::STOCK_MISSING, message).help(help))
         })
+    }
+
+    /// The files that it names: stock and material.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
+        let bodies = self.stock.iter().flat_map(|stock| &stock.bodies);
+        let bodies = bodies.filter_map(|body| match &body.shape {
+            BodyShape::Stl { file, .. } | BodyShape::Saved(file) => Some(file.path.as_path()),
+            BodyShape::Block { .. } | BodyShape::Cylinder { .. } => None,
+        });
+        let material = self.material.iter().filter_map(|material| match material {
+            MaterialChoice::File(file) => Some(file.path.as_path()),
+            _ => None,
+        });
+        bodies.chain(material)
     }
 
     /// JSON schema of a setup file, for editors.

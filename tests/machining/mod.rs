@@ -1,5 +1,6 @@
 //! Programs over their stock: frames, arcs, cycles, crashes, and the fast chip against the exact one.
 
+mod chips;
 mod exact;
 mod paths;
 

@@ -1,6 +1,7 @@
 //! Rendering of findings, and the choice of those that are rendered.
 
 mod changes;
+mod chips;
 mod corpus;
 mod diff;
 mod explain;

@@ -96,7 +96,7 @@ pub struct Simulate {
 }
 
 /// A positive number.
-fn length(text: &str) -> Result<f64, String> {
+pub(super) fn length(text: &str) -> Result<f64, String> {
     let value = text.parse::<f64>().ok().filter(|value| *value > 0.0 && value.is_finite());
     value.ok_or_else(|| "this must be a number above 0".into())
 }

@@ -2,10 +2,10 @@
 
 use super::{Simulate, Stop};
 use crate::cli::files::STANDARD;
-use crate::cli::output::Outputs;
-use clsmith::diagnostic::{Diagnostic, codes};
+use crate::cli::output::{Outputs, overwritten};
+use clsmith::diagnostic::Diagnostic;
 use clsmith::report::simulation::{self, Simulated};
-use clsmith::setup::{BodyShape, MaterialChoice, Setup};
+use clsmith::setup::Setup;
 use clsmith::sim::{export, remains};
 use clsmith::write::same_file;
 use std::io::{self, Write};
@@ -40,23 +40,11 @@ impl Simulate {
     pub(super) fn overwrites(&self, setup: &Setup) -> Result<(), Stop> {
         let mut inputs = vec![self.program.as_path(), &self.setup];
         inputs.extend([&self.target, &self.plot_before].into_iter().filter_map(|path| path.as_deref()));
-        let bodies = setup.stock.iter().flat_map(|stock| &stock.bodies);
-        inputs.extend(bodies.filter_map(|body| match &body.shape {
-            BodyShape::Stl { file, .. } | BodyShape::Saved(file) => Some(file.path.as_path()),
-            BodyShape::Block { .. } | BodyShape::Cylinder { .. } => None,
-        }));
-        if let Some(MaterialChoice::File(file)) = &setup.material {
-            inputs.push(&file.path);
+        inputs.extend(setup.files());
+        match overwritten(self.outputs(), &inputs) {
+            Some(found) => Err(found.into()),
+            None => Ok(()),
         }
-        inputs.retain(|path| *path != Path::new(STANDARD));
-        for target in self.outputs().filter(|path| *path != Path::new(STANDARD)) {
-            if let Some(hit) = inputs.iter().find(|path| same_file(path, target)) {
-                let message =
-                    format!("writing {} would overwrite the input {}", target.display(), hit.display());
-                return Err(Diagnostic::new(codes::OUTPUT_IS_INPUT, message).into());
-            }
-        }
-        Ok(())
     }
 
     /// Writes what was asked for; a finding when that fails.

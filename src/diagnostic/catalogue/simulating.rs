@@ -94,4 +94,35 @@ super::area! {
          goes too deep, or target and program do not stand in the same coordinates or unit: then everything is far off. Thickness is \
          measured along z, so a wall that is a little too far in appears with its whole height. The target's surface is as exact \
          as its triangles: a chord tolerance of the STL that is coarser than `--tolerance` looks like a gouge.";
+    NO_FLAT_MILL = "CL0520", Warning, "a tool whose chips in layers cannot be modelled",
+        "Simulate it with `clsmith simulate`; or say its shape under `setup.tools`, if it is a flat end mill after all.",
+        "`clsmith chips` knows the section of a layer with a cylinder that ends in a flat disc: an ellipse, cut off by a chord. \
+         A corner radius, a ball, a taper or a drill's point has other sections, and none of them is guessed: the tool's motions are \
+         left out. What they would remove stays in the workpiece, so chips of flat end mills that come after them may be \
+         too large.";
+    CHIP_REFUSED = "CL0521", Warning, "a motion whose chip cannot be modelled",
+        "Look at the axis of this point and of the one before it.",
+        "A layer cuts a cylinder in an ellipse as long as the diameter divided by the cosine of the axis' angle to z. Near 90 degrees it \
+         has no end, so `clsmith chips` stops at 80 degrees; and where an axis turns by half a turn between two points, nobody can \
+         tell which way. The motion is left out: what it would remove stays in the workpiece and is part of later chips, if any. \
+         Motions that cannot reach the stock are not told. For a part that is milled from its side, write the program in coordinates whose z \
+         stands along most of the axes (`move_origin`).";
+    STILL_MOTION = "CL0522", Note, "a motion that goes nowhere",
+        "Delete the repeated point, or leave it: it cuts nothing.",
+        "This point has the place and the axis of the one before it. Nothing moves, so there is no chip and no direction that \
+         engagement could be measured from. CAM systems write such points between operations; in the middle of a \
+         cut they stop some controls for a moment and leave a mark.";
+    LAYERS = "CL0523", Error, "stock that cannot be cut into such layers",
+        "Choose another `--layer`, or describe the stock as a block, a cylinder or a closed STL.",
+        "The workpiece is a stack of layers of equal thickness, from its lowest to its highest point; each is the section of the stock at the \
+         layer's middle. A layer must be thinner than the stock is high, there must not be more of them than memory can hold, and the \
+         section must consist of closed borders.";
+    NO_MOTION_ASKED = "CL0524", Error, "lines without a motion",
+        "Give lines that GOTO records stand on; `clsmith chips` without `--lines` reports all.",
+        "`--lines A..B` asks for the motions that end on lines A to B of the file, both included. None does: they are beyond the \
+         end of the file, or hold other records only. A motion counts by the line on which the statement that ends it begins.";
+    NO_SUCH_LAYER = "CL0525", Error, "a height at which there is nothing to draw",
+        "Give a height inside a layer that one of the moves cuts; the JSON and the CSV list them.",
+        "`--at Z` chooses the layer that a picture shows by a height in mm, in the coordinates of the stock. None of the moves that are asked \
+         for removes anything on the layer with this height, or the stock has no layer there.";
 }

@@ -8,7 +8,7 @@ use crate::program::geometry::Path;
 use crate::program::motion::{Motion, Tool};
 use crate::program::operation;
 use crate::program::record::SpindleDirection;
-use crate::report::line_of;
+use crate::report::{line_of, tool_name};
 use crate::sim::{Cutter, Engagement, LoadModel, Loads};
 use crate::transform::optimize_feed::acceleration::{self, Stretch};
 use std::sync::Arc;
@@ -198,12 +198,8 @@ impl<'m, 'p> Gathering<'m, 'p> {
         if let Some(index) = self.tools.iter().rposition(same) {
             return index;
         }
-        let called = motion.tool.as_deref().and_then(|tool| {
-            let number = tool.number.map(|number| number.to_string());
-            number.or_else(|| tool.name.clone())
-        });
         self.tools.push(motion.tool.clone());
-        self.motions.tools.push(called.unwrap_or_default());
+        self.motions.tools.push(tool_name(motion.tool.as_deref()));
         self.tools.len() - 1
     }
 

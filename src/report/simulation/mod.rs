@@ -9,7 +9,6 @@
 
 mod gather;
 pub mod plot;
-mod round;
 mod row;
 mod sums;
 mod target;
@@ -23,8 +22,8 @@ pub use text::to_text;
 
 use crate::diagnostic::Diagnostic;
 use crate::machining::{Machining, Options, Plan, Watch, chord_mm};
+use crate::report::round::{micro, micro_some};
 use crate::sim::Dexels;
-use round::{micro, micro_some};
 use row::Cells;
 use serde::{Serialize, Serializer};
 

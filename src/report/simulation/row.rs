@@ -1,7 +1,7 @@
 //! One motion, and the table of them all.
 
-use super::round::{micro, micro_some};
 use super::{Motions, Simulated};
+use crate::report::round::{micro, micro_some};
 use serde::Serialize;
 use std::io::{self, Write};
 

@@ -1,7 +1,7 @@
 //! Sums and peaks over motions.
 
 use super::Row;
-use super::round::{micro, micro_some};
+use crate::report::round::{micro, micro_some};
 use serde::Serialize;
 
 /// A largest value, and the line of the motion that has it.

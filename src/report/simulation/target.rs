@@ -1,8 +1,8 @@
 //! What is left against the part that shall be.
 
 use super::Simulated;
-use super::round::micro;
 use crate::diagnostic::{Diagnostic, codes};
+use crate::report::round::micro;
 use crate::sim::{Difference, Mesh};
 use serde::Serialize;
 
@@ -51,7 +51,7 @@ impl Simulated {
         // Both are on one grid, so that they can be compared.
         let found = Difference::beyond(&self.left, &target.columns(layout), tolerance_mm).unwrap_or_default();
         let thickest = |piece: Option<(f64, [f64; 3])>| {
-            piece.map(|(mm, at)| Thickest { mm, at: at.map(super::round::rounded) })
+            piece.map(|(mm, at)| Thickest { mm, at: at.map(crate::report::round::rounded) })
         };
         let compared = Compared {
             file: name.to_owned(),

@@ -1,0 +1,225 @@
+//! `clsmith chips`.
+
+mod lines;
+mod outputs;
+
+use crate::cli::exit::Exit;
+use crate::cli::files::{self, STANDARD};
+use crate::cli::findings::FindingArgs;
+use crate::cli::output::{Outputs, print_summary, unless_nobody_reads};
+use crate::cli::progress::Progress;
+use crate::cli::terminal;
+use clap::Args;
+use clsmith::diagnostic::Diagnostic;
+use clsmith::machining::Machining;
+use clsmith::machining::chips::ChipOptions;
+use clsmith::parse::parse;
+use clsmith::program::Dialect;
+use clsmith::report::chips::{self, ChipReport, Keep};
+use clsmith::report::policy::Policy;
+use clsmith::report::stats::Units;
+use clsmith::values::LengthUnit;
+use clsmith::write::is_interrupt;
+use outputs::Drawn;
+use std::io;
+use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "\
+Examples:
+  clsmith chips part.cls --setup shop.yaml --layer 0.5                     chips of all motions, in sums
+  clsmith chips part.cls --setup shop.yaml --layer 0.5 --json chips.json   every chip's borders, layer by layer
+  clsmith chips part.cls --setup shop.yaml --layer 0.5 --csv - | head      one row for each motion and layer
+  clsmith chips part.cls --setup shop.yaml --layer 0.5 --lines 40..48 --svg corner.svg --at -2
+                                                                           the moves through a corner, side by side
+  clsmith chips part.cls --setup shop.yaml --layer 0.2 --lines 44 --stl chip.stl --diagram diagram.svg
+                                                                           one chip as a solid, and how it was found
+
+Chips are those of flat end mills in three and five axes; other tools are told and left out, and so are moves whose
+axis is more than 80 degrees from z. The setup says stock, tools and machine: see configs/README.md. Lengths of the
+command line are in mm. Outputs appear whole or not at all, never over an input, and not while an error stands.
+The columns of the CSV: line, operation, tool, length_mm, feed_mm_min, z_mm, thickness_mm, area_mm2, volume_mm3,
+inside_mm2, pieces, chip_thickness_mm, engaged_deg, arcs_deg. An empty cell is a value that is not known.";
+
+/// Finds the exact undeformed chip of every motion, layer by layer, in three and five axes
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Chips {
+    /// The program; `-` is standard input
+    #[arg(value_name = "PROGRAM")]
+    program: PathBuf,
+    /// The setup file: stock, tools, machine
+    #[arg(long, value_name = "FILE")]
+    setup: PathBuf,
+    /// Thickness of the layers that the workpiece is cut into
+    #[arg(long, value_name = "MM", value_parser = super::simulate::length)]
+    layer: f64,
+    /// Report only motions on these lines of the file: A..B, A.., ..B or A. What is before them is cut, what is after is not run
+    #[arg(long, value_name = "A..B", value_parser = lines::parse, default_value = "..", hide_default_value = true)]
+    lines: RangeInclusive<usize>,
+    /// Everything as JSON, with the borders of all pieces; `-` is standard output
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    json: Option<PathBuf>,
+    /// A table with one row for each motion and layer; `-` is standard output
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    csv: Option<PathBuf>,
+    /// The chips as solids, stacked of their layers, as a binary STL in mm
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    stl: Option<PathBuf>,
+    /// Layers of the first moves that cut, side by side, as SVG
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    svg: Option<PathBuf>,
+    /// The boundary construction diagrams of these moves, as SVG
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    diagram: Option<PathBuf>,
+    /// Draw only the layer at this height; a few of all layers if not given
+    #[arg(long, value_name = "Z", allow_negative_numbers = true, value_parser = height)]
+    at: Option<f64>,
+    /// How many moves are drawn at most
+    #[arg(long, value_name = "N", default_value = "6", value_parser = clap::value_parser!(u8).range(1..=24))]
+    moves: u8,
+    /// How far straight pieces of a border, and chords of arcs, may be from the curve
+    #[arg(long, value_name = "MM", default_value = "0.002", value_parser = super::simulate::length)]
+    tolerance: f64,
+    /// Threads; as many as there are cores if not given. The result is the same
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// The dialect, instead of finding it from the text
+    #[arg(long, value_parser = files::dialect, value_name = "NAME")]
+    dialect: Option<Dialect>,
+    /// Unit of lengths of a file that does not state it: mm or inch
+    #[arg(long, value_parser = files::units, value_name = "UNIT")]
+    units: Option<LengthUnit>,
+    /// No summary and no progress, findings only
+    #[arg(short, long)]
+    quiet: bool,
+    #[command(flatten)]
+    findings: FindingArgs,
+}
+
+/// A height in mm.
+fn height(text: &str) -> Result<f64, String> {
+    let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
+    value.ok_or_else(|| "this must be a number".into())
+}
+
+/// Why a run ended before its end.
+enum Stop {
+    Found(Vec<Diagnostic>),
+    Interrupted,
+}
+
+impl From<Vec<Diagnostic>> for Stop {
+    fn from(found: Vec<Diagnostic>) -> Self {
+        Self::Found(found)
+    }
+}
+
+impl From<Diagnostic> for Stop {
+    fn from(found: Diagnostic) -> Self {
+        Self::Found(vec![found])
+    }
+}
+
+impl Chips {
+    pub fn run(&self) -> io::Result<Exit> {
+        let policy = match self.problem().map_or_else(|| self.findings.policy(), Err) {
+            Ok(policy) => policy,
+            Err(problem) => {
+                eprintln!("clsmith chips: {problem}");
+                return Ok(Exit::Usage);
+            }
+        };
+        if let Some(threads) = self.threads {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into());
+            pool.build_global().map_err(io::Error::other)?;
+        }
+        let outputs = Outputs::default();
+        let progress = Progress::new(self.quiet, outputs.interrupt());
+        outputs.stop_on_ctrl_c(progress.clearing())?;
+        let mut findings = Vec::new();
+        let done = self.find(&policy, &progress, &mut findings);
+        progress.clear();
+        let (report, drawn) = match done {
+            Ok(done) => done,
+            Err(Stop::Interrupted) => return Ok(Exit::Interrupted),
+            Err(Stop::Found(found)) => {
+                findings.extend(found);
+                self.show(&policy.apply(findings))?;
+                return self.nothing();
+            }
+        };
+        let findings = policy.apply(findings);
+        if !findings.is_empty() {
+            self.show(&findings)?;
+        }
+        if !self.quiet {
+            unless_nobody_reads(self.summary(&report))?;
+        }
+        if findings.iter().any(Diagnostic::is_error) {
+            return self.nothing();
+        }
+        match self.write(&report, &drawn, &outputs) {
+            Ok(None) => Ok(Exit::Done),
+            Ok(Some(found)) => {
+                self.show(&[found])?;
+                Ok(Exit::Errors)
+            }
+            Err(error) if is_interrupt(&error) => Ok(Exit::Interrupted),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Everything but writing: the chips, and the drawings if some are wanted. What does not stop the run is added to `findings`.
+    fn find(
+        &self,
+        policy: &Policy,
+        progress: &Progress,
+        findings: &mut Vec<Diagnostic>,
+    ) -> Result<(ChipReport, Drawn), Stop> {
+        let setup = files::setup(&self.setup)?;
+        self.overwrites(&setup)?;
+        let source = files::read(&self.program).map_err(|found| *found)?;
+        let parsed = parse(&source, self.dialect);
+        findings.extend(parsed.diagnostics);
+        if policy.apply(findings.clone()).iter().any(Diagnostic::is_error) {
+            return Err(Stop::Found(Vec::new()));
+        }
+        let program = parsed.program;
+        let units = Units::of(&program, self.units).unit;
+        let machining = Machining::new(&program, &setup, units, findings)?;
+        let options = ChipOptions {
+            layer: self.layer,
+            tolerance: self.tolerance,
+            lines: self.lines.clone(),
+            one_by_one: false,
+        };
+        let scenes = if self.svg.is_some() || self.diagram.is_some() { usize::from(self.moves) } else { 0 };
+        let keep = Keep { borders: self.json.is_some() || self.stl.is_some(), scenes, at: self.at };
+        progress.begin(program.source().name());
+        let mut report = ChipReport::of(&machining, &options, keep, progress)?.ok_or(Stop::Interrupted)?;
+        findings.append(&mut report.findings);
+        let drawn = self.drawn(&report)?;
+        Ok((report, drawn))
+    }
+
+    /// The summary on standard output, or on standard error when an output goes there.
+    fn summary(&self, report: &ChipReport) -> io::Result<()> {
+        let text = chips::to_text(report);
+        print_summary(&text, self.outputs().any(|path| path == Path::new(STANDARD)))
+    }
+
+    fn nothing(&self) -> io::Result<Exit> {
+        if !self.quiet && self.outputs().next().is_some() {
+            eprintln!("{}: nothing was written", self.program.display());
+        }
+        Ok(Exit::Errors)
+    }
+
+    fn show(&self, findings: &[Diagnostic]) -> io::Result<()> {
+        let mut err = io::stderr().lock();
+        let file = self.program.to_string_lossy();
+        let seen = terminal::errors_are_seen();
+        unless_nobody_reads(self.findings.show(&mut err, seen, findings, Some(&file)))
+    }
+}

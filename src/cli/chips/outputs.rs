@@ -1,0 +1,106 @@
+//! What `clsmith chips` writes, and where it may not.
+
+use super::{Chips, Stop};
+use crate::cli::files::STANDARD;
+use crate::cli::output::{self, Outputs};
+use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::report::chips::{self, ChipReport};
+use clsmith::setup::Setup;
+use clsmith::write::same_file;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Drawings, where they are wanted.
+#[derive(Debug, Default)]
+pub struct Drawn {
+    layers: Option<String>,
+    diagrams: Option<String>,
+}
+
+impl Chips {
+    /// What is wrong with the command line beyond what clap can say.
+    pub(super) fn problem(&self) -> Option<String> {
+        let outputs: Vec<&Path> = self.outputs().collect();
+        let twice = outputs.iter().enumerate().find_map(|(index, one)| {
+            outputs.iter().skip(index + 1).find(|other| *other == one || same_file(one, other))
+        });
+        if let Some(twice) = twice {
+            return Some(format!("two outputs would go to {}", twice.display()));
+        }
+        let standard = Path::new(STANDARD);
+        if self.program == standard && self.setup == standard {
+            return Some("standard input can be read only once".into());
+        }
+        if self.at.is_some() && self.svg.is_none() && self.diagram.is_none() {
+            return Some("--at is for --svg and --diagram".into());
+        }
+        (self.stl.as_deref() == Some(standard)).then(|| "--stl needs a file".into())
+    }
+
+    pub(super) fn outputs(&self) -> impl Iterator<Item = &Path> {
+        let all = [&self.csv, &self.json, &self.stl, &self.svg, &self.diagram];
+        all.into_iter().filter_map(|path| path.as_deref())
+    }
+
+    /// No output may be an input, nor a file that the setup names.
+    pub(super) fn overwrites(&self, setup: &Setup) -> Result<(), Stop> {
+        let mut inputs = vec![self.program.as_path(), &self.setup];
+        inputs.extend(setup.files());
+        match output::overwritten(self.outputs(), &inputs) {
+            Some(found) => Err(found.into()),
+            None => Ok(()),
+        }
+    }
+
+    /// The drawings that are wanted.
+    pub(super) fn drawn(&self, report: &ChipReport) -> Result<Drawn, Stop> {
+        if self.svg.is_none() && self.diagram.is_none() {
+            return Ok(Drawn::default());
+        }
+        if report.scenes.is_empty() {
+            let message = match self.at {
+                Some(z) => {
+                    format!("none of the moves removes anything at z {z}, so there is nothing to draw")
+                }
+                None => "none of the moves removes anything, so there is nothing to draw".to_owned(),
+            };
+            return Err(Diagnostic::new(codes::NO_SUCH_LAYER, message).into());
+        }
+        let failed = |error: io::Error| Diagnostic::new(codes::UNWRITABLE, error.to_string());
+        let layers =
+            self.svg.as_ref().map(|_| chips::picture(report, self.at)).transpose().map_err(failed)?;
+        let diagrams =
+            self.diagram.as_ref().map(|_| chips::diagrams(report, self.at)).transpose().map_err(failed)?;
+        Ok(Drawn { layers, diagrams })
+    }
+
+    /// Writes what was asked for; a finding when that fails.
+    pub(super) fn write(
+        &self,
+        report: &ChipReport,
+        drawn: &Drawn,
+        outputs: &Outputs,
+    ) -> io::Result<Option<Diagnostic>> {
+        type Writer<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
+        let all: [(&Option<PathBuf>, Writer<'_>); 5] = [
+            (&self.csv, Box::new(|out| chips::to_csv(report, out))),
+            (&self.json, Box::new(|out| chips::to_json(report, out))),
+            (&self.stl, Box::new(|out| chips::to_stl(report, out))),
+            (
+                &self.svg,
+                Box::new(|out| out.write_all(drawn.layers.as_deref().unwrap_or_default().as_bytes())),
+            ),
+            (
+                &self.diagram,
+                Box::new(|out| out.write_all(drawn.diagrams.as_deref().unwrap_or_default().as_bytes())),
+            ),
+        ];
+        for (path, write_all) in &all {
+            let Some(path) = path else { continue };
+            if let Some(found) = outputs.write(path, write_all)? {
+                return Ok(Some(found));
+            }
+        }
+        Ok(None)
+    }
+}

@@ -1,0 +1,97 @@
+//! The chips of a motion's pieces as one, layer by layer.
+
+use super::LayerRow;
+use crate::chips::Polygon;
+use crate::chips::area::{Clipper, Grid, Region};
+use crate::chips::chip::LayerChip;
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+/// Joins the chips of pieces of path that follow each other. `thickness` is the thickest chip of a tooth on a layer of a piece, `grid`
+/// the one that the workpiece was cut on; `borders`: whether to keep them.
+///
+/// Areas add up, for what one piece removed the next one does not find; where chips of several pieces meet, their borders become one.
+pub(super) fn fuse<'a>(
+    chips: impl Iterator<Item = (&'a LayerChip, Option<f64>)>,
+    grid: &Grid,
+    borders: bool,
+) -> Vec<LayerRow> {
+    let mut layers: BTreeMap<usize, (LayerRow, Vec<&[Polygon]>)> = BTreeMap::new();
+    for (chip, thickness) in chips {
+        let (row, parts) = layers.entry(chip.layer).or_insert_with(|| {
+            let row = LayerRow {
+                number: chip.layer,
+                z: chip.z,
+                thickness_mm: chip.thickness,
+                ..LayerRow::default()
+            };
+            (row, Vec::new())
+        });
+        row.area_mm2 += chip.area_mm2;
+        row.inside_mm2 += chip.inside_mm2;
+        row.arcs_deg.extend(&chip.arcs_deg);
+        // `None` is less than any thickness.
+        row.chip_thickness_mm = [row.chip_thickness_mm, thickness].into_iter().flatten().reduce(f64::max);
+        if !chip.pieces.is_empty() {
+            parts.push(&chip.pieces);
+        }
+    }
+    let whole = |(mut row, parts): (LayerRow, Vec<&[Polygon]>)| {
+        row.arcs_deg = joined(&row.arcs_deg);
+        let polygons = match parts.as_slice() {
+            [] => Cow::Borrowed([].as_slice()),
+            [only] => Cow::Borrowed(*only),
+            several => Cow::Owned(together(several, grid)),
+        };
+        row.count = polygons.len();
+        if borders {
+            row.polygons = polygons.into_owned();
+        }
+        row
+    };
+    layers.into_values().map(whole).collect()
+}
+
+/// Polygons beside each other as few.
+fn together(parts: &[&[Polygon]], grid: &Grid) -> Vec<Polygon> {
+    let polygons = parts.iter().flat_map(|part| part.iter());
+    let borders = polygons.flat_map(|polygon| std::iter::once(&polygon.outer).chain(&polygon.holes));
+    Clipper::default().polygons(&Region::new(grid, borders.map(Vec::as_slice)), grid).0
+}
+
+/// Arcs of a circle in degrees as few that do not overlap, in order, each beginning in -180..180.
+fn joined(arcs: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    const TURN: f64 = 360.0;
+    let mut flat: Vec<[f64; 2]> = Vec::new();
+    for [from, to] in arcs {
+        if to - from >= TURN {
+            return vec![[-180.0, 180.0]];
+        }
+        let start = (from + 180.0).rem_euclid(TURN) - 180.0;
+        let end = start + (to - from);
+        flat.push([start, end.min(180.0)]);
+        if end > 180.0 {
+            flat.push([-180.0, end - TURN]);
+        }
+    }
+    flat.sort_by(|[a, _], [b, _]| a.total_cmp(b));
+    let mut joined: Vec<[f64; 2]> = Vec::new();
+    for [from, to] in flat {
+        match joined.last_mut() {
+            Some([_, end]) if from <= *end => *end = end.max(to),
+            _ => joined.push([from, to]),
+        }
+    }
+    // What was cut at +-180 is one arc again.
+    if let ([[first, end], .., [_, last]], 2..) = (joined.as_slice(), joined.len())
+        && *first <= -180.0
+        && *last >= 180.0
+    {
+        let end = *end + TURN;
+        joined.remove(0);
+        if let Some([_, last]) = joined.last_mut() {
+            *last = end;
+        }
+    }
+    joined
+}

@@ -1,0 +1,325 @@
+//! The rows and sums, motion by motion.
+
+use super::fuse::fuse;
+use super::{ChipReport, Keep, LayerRow, OperationChips, Row, Skipped, Totals};
+use crate::chips::chip::LayerChip;
+use crate::chips::{FlatMill, Polygon};
+use crate::machining::Machining;
+use crate::machining::chips::{ChipCut, ChipOptions, ChipsRan, LeftOut, flat};
+use crate::program::geometry::Path;
+use crate::program::motion::Motion;
+use crate::program::operation;
+use crate::report::table::counted;
+use crate::report::tool_name;
+use crate::sim::{Cutter, Piece, Step};
+use std::collections::BTreeSet;
+
+/// A move and the workpiece around it, for pictures.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// Line of the motion.
+    pub line: usize,
+    /// Its mill.
+    pub mill: FlatMill,
+    /// Its pieces in order.
+    pub pieces: Vec<Piece>,
+    /// The layers that it cuts, from below.
+    pub layers: Vec<SceneLayer>,
+}
+
+/// A layer of a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SceneLayer {
+    /// Height of its middle, mm.
+    pub z: f64,
+    /// Its thickness, mm.
+    pub thickness_mm: f64,
+    /// The workpiece after the move.
+    pub workpiece: Vec<Polygon>,
+    /// The chip.
+    pub chip: Vec<Polygon>,
+}
+
+impl SceneLayer {
+    /// Whether a height is in the layer.
+    pub fn holds(&self, z: f64) -> bool {
+        (z - self.z).abs() <= self.thickness_mm / 2.0
+    }
+}
+
+/// What grows while motions go by.
+pub(super) struct Gathering<'m, 'p> {
+    machining: &'m Machining<'p>,
+    keep: Keep,
+    rapid: Option<f64>,
+    names: Vec<String>,
+    operations: Vec<OperationChips>,
+    totals: Totals,
+    pub rows: Vec<Row>,
+    pub skipped: Vec<Skipped>,
+    scenes: Vec<Scene>,
+    /// Tools whose teeth nobody says, where one of them cuts.
+    toothless: BTreeSet<String>,
+    /// Cuts at a feed or speed that is not known, and cuts that turn about a tip that stands.
+    unknown: usize,
+    standing: usize,
+    /// Rapids of tools whose shape nobody says, and motions that go nowhere.
+    shapeless: usize,
+    still: usize,
+}
+
+impl<'m, 'p> Gathering<'m, 'p> {
+    pub fn new(machining: &'m Machining<'p>, keep: Keep) -> Self {
+        let names = operation::operations(machining.program()).into_iter().map(|found| found.name);
+        let names: Vec<String> = names.collect();
+        let operation = |name: &String| OperationChips { name: name.clone(), ..OperationChips::default() };
+        Self {
+            machining,
+            keep,
+            rapid: machining.setup().machine.rapid_feed.map(|feed| feed.get()),
+            operations: names.iter().map(operation).collect(),
+            names,
+            totals: Totals::default(),
+            rows: Vec::new(),
+            skipped: Vec::new(),
+            scenes: Vec::new(),
+            toothless: BTreeSet::new(),
+            unknown: 0,
+            standing: 0,
+            shapeless: 0,
+            still: 0,
+        }
+    }
+
+    /// Adds a motion.
+    pub fn add(&mut self, cut: &ChipCut<'_>) {
+        if cut.motion.path == Path::Start {
+            return;
+        }
+        self.totals.motions += 1;
+        self.totals.chips_mm3 += cut.volume_mm3();
+        let layers = || cut.chips().flat_map(|chip| &chip.layers);
+        let inside_mm3: f64 = layers().map(|layer| layer.inside_mm2 * layer.thickness).sum();
+        self.totals.inside_mm3 += inside_mm3;
+        let reason = self.reason(cut);
+        self.totals.skipped += usize::from(reason.is_some());
+        if !cut.asked {
+            return;
+        }
+        let tool = tool_name(cut.motion.tool.as_deref());
+        let operation = self.names.get(cut.motion.operation).cloned().unwrap_or_default();
+        if let Some(reason) = reason {
+            let (operation, tool) = (operation.clone(), tool.clone());
+            self.skipped.push(Skipped { line: cut.line, operation, tool, reason });
+        }
+        if cut.left_out.is_some() || (!cut.pieces.is_empty() && cut.chips().next().is_none()) {
+            return;
+        }
+        let pace = self.pace(cut, &tool);
+        let chips = cut.pieces.iter().filter_map(|(step, chip)| Some((step, chip.as_ref().ok()?)));
+        let chips = chips.flat_map(|(step, chip)| chip.layers.iter().map(move |layer| (step, layer)));
+        let chips = chips.map(|(step, layer)| (layer, pace.thickness(step, layer)));
+        let drawn = self.draws(cut);
+        let mut layers = fuse(chips, cut.stack.grid(), self.keep.borders || drawn);
+        if drawn {
+            self.scenes.extend(scene(cut, &layers, self.machining));
+        }
+        if !self.keep.borders {
+            layers.iter_mut().for_each(|layer| layer.polygons.clear());
+        }
+        let row = Row {
+            line: cut.line,
+            operation,
+            rapid: cut.motion.rapid,
+            length_mm: cut.motion.length() * self.machining.units().in_mm(),
+            feed_mm_min: self.feed(cut.motion),
+            volume_mm3: cut.volume_mm3(),
+            inside_mm3,
+            chip_thickness_mm: (pace.known || cut.volume_mm3() <= 0.0)
+                .then(|| layers.iter().filter_map(|layer| layer.chip_thickness_mm).fold(0.0, f64::max)),
+            layers,
+            tool,
+        };
+        if let Some(sums) = self.operations.get_mut(cut.motion.operation) {
+            if sums.motions == 0 {
+                sums.tool.clone_from(&row.tool);
+            }
+            sums.add(&row);
+        }
+        self.rows.push(row);
+    }
+
+    /// Why a motion was not cut, or in part.
+    fn reason(&mut self, cut: &ChipCut<'_>) -> Option<String> {
+        match cut.left_out {
+            Some(LeftOut::Tool) => Some("the tool is no flat end mill".to_owned()),
+            Some(LeftOut::Unknown) => {
+                self.shapeless += 1;
+                Some("a rapid of a tool whose shape is not known".to_owned())
+            }
+            // There is nothing to cut, so nothing is missing.
+            Some(LeftOut::Still) => {
+                self.still += 1;
+                None
+            }
+            None => cut.refused().map(|(refusal, count)| match cut.pieces.len() {
+                1 => refusal.to_string(),
+                all => format!("{count} of {all} pieces: {refusal}"),
+            }),
+        }
+    }
+
+    /// The feed of a motion, mm/min.
+    fn feed(&self, motion: &Motion) -> Option<f64> {
+        if motion.rapid {
+            return self.rapid;
+        }
+        let rpm = motion.spindle_rpm().filter(|rpm| *rpm > 0.0);
+        let feed = motion.feed?.mm_per_minute(self.machining.units(), rpm, Some(motion.length()));
+        feed.filter(|feed| *feed > 0.0)
+    }
+
+    /// What makes a thickness of an advance; counts what is missing where the motion cuts.
+    fn pace(&mut self, cut: &ChipCut<'_>, tool: &str) -> Pace<'m> {
+        let cutter = cut.cutter.and_then(|index| self.machining.tooling().cutters().get(index));
+        let rpm = cut.motion.spindle_rpm().filter(|rpm| *rpm > 0.0);
+        let per_turn = self.feed(cut.motion).zip(rpm).map(|(feed, rpm)| feed / rpm);
+        let mut pace = Pace { cutter, per_turn, known: false };
+        let cuts = |(step, chip): &(Step, Result<crate::chips::chip::Chip, _>)| {
+            let removes =
+                chip.as_ref().is_ok_and(|chip| chip.layers.iter().any(|layer| layer.area_mm2 > 0.0));
+            removes.then(|| way(step))
+        };
+        let ways: Vec<f64> = cut.pieces.iter().filter_map(cuts).collect();
+        if ways.is_empty() {
+            return pace;
+        }
+        if cutter.is_some_and(|cutter| cutter.teeth.is_none()) {
+            self.toothless.insert(tool.to_owned());
+        } else if pace.per_turn.is_none() {
+            self.unknown += 1;
+        } else if ways.iter().any(|way| *way <= STANDS) {
+            self.standing += 1;
+        } else {
+            pace.known = true;
+        }
+        pace
+    }
+
+    /// Whether there is to be a picture of a motion.
+    fn draws(&self, cut: &ChipCut<'_>) -> bool {
+        let shown = |layer: &LayerChip| {
+            let here = |z: f64| (z - layer.z).abs() <= layer.thickness / 2.0;
+            layer.area_mm2 > 0.0 && self.keep.at.is_none_or(here)
+        };
+        self.scenes.len() < self.keep.scenes && cut.chips().flat_map(|chip| &chip.layers).any(shown)
+    }
+
+    /// Puts everything together.
+    pub fn end(mut self, options: ChipOptions, ran: ChipsRan) -> ChipReport {
+        self.totals.stock_mm3 = ran.before_mm3;
+        self.totals.left_mm3 = ran.left.volume_mm3();
+        let assumptions = self.assumptions();
+        ChipReport {
+            file: self.machining.program().source().name().to_owned(),
+            options,
+            totals: self.totals,
+            operations: self.operations.into_iter().filter(|sums| sums.motions > 0).collect(),
+            assumptions,
+            skipped: self.skipped,
+            rows: self.rows,
+            scenes: self.scenes,
+            findings: ran.findings,
+            left: ran.left,
+        }
+    }
+
+    fn assumptions(&self) -> Vec<String> {
+        let mut said = vec![
+            "what stands above the flutes is not looked at; `clsmith simulate` finds collisions".to_owned(),
+        ];
+        let cuts = |count: usize| counted(count, "cut", "cuts");
+        for tool in &self.toothless {
+            let tool = if tool.is_empty() { "the tool".to_owned() } else { format!("tool {tool}") };
+            said.push(format!("the teeth of {tool} are not said under `setup.tools`: no chip thickness"));
+        }
+        if self.unknown > 0 {
+            let cuts = cuts(self.unknown);
+            said.push(format!("feed or spindle speed of {cuts} is not known: no chip thickness"));
+        }
+        if self.standing > 0 {
+            let cuts = cuts(self.standing);
+            said.push(format!(
+                "{cuts} turn about a tip that stands, and a feed does not say how fast: no chip thickness"
+            ));
+        }
+        if self.totals.inside_mm3 > 5e-4 {
+            said.push(format!(
+                "{:.3} mm3 stood inside a cutter where a motion began: taken away, and part of no chip",
+                self.totals.inside_mm3
+            ));
+        }
+        if self.shapeless > 0 {
+            let rapids = counted(self.shapeless, "rapid", "rapids");
+            said.push(format!("{rapids} of tools whose shape is not known cut nothing"));
+        }
+        if self.still > 0 {
+            let motions = counted(self.still, "motion goes", "motions go");
+            said.push(format!("{motions} nowhere and cut nothing"));
+        }
+        said
+    }
+}
+
+/// Ways of the tip below this, mm, are none.
+const STANDS: f64 = 1e-7;
+
+/// Length of the tip's way, mm.
+fn way(step: &Step) -> f64 {
+    (step.piece.to.point - step.piece.from.point).norm()
+}
+
+/// What makes a thickness of an advance.
+struct Pace<'m> {
+    cutter: Option<&'m Cutter>,
+    /// Feed of a turn, mm.
+    per_turn: Option<f64>,
+    /// Whether thicknesses are known on the whole motion.
+    known: bool,
+}
+
+impl Pace<'_> {
+    /// The thickest chip of a tooth on a layer of a piece, mm; the flank's normal stands square to the axis. Not known where the cutter has
+    /// left the chip at the end of the piece.
+    fn thickness(&self, step: &Step, layer: &LayerChip) -> Option<f64> {
+        if layer.area_mm2 <= 0.0 {
+            return Some(0.0);
+        }
+        if layer.advance_mm <= 0.0 {
+            return None;
+        }
+        let teeth = self.cutter?.teeth.as_ref()?;
+        let way = Some(way(step)).filter(|way| *way > STANDS)?;
+        Some(teeth.thickness(layer.advance_mm / way * self.per_turn?, 1.0))
+    }
+}
+
+/// The picture of a motion that was cut just now.
+fn scene(cut: &ChipCut<'_>, rows: &[LayerRow], machining: &Machining<'_>) -> Option<Scene> {
+    let cutter = machining.tooling().cutters().get(cut.cutter?)?;
+    let layer = |row: &LayerRow| {
+        let stands = cut.stack.layers().iter().find(|layer| layer.number() == row.number);
+        SceneLayer {
+            z: row.z,
+            thickness_mm: row.thickness_mm,
+            workpiece: stands.map(|layer| layer.polygons()).unwrap_or_default(),
+            chip: row.polygons.clone(),
+        }
+    };
+    Some(Scene {
+        line: cut.line,
+        mill: flat(cutter).ok()?,
+        pieces: cut.pieces.iter().map(|(step, _)| step.piece).collect(),
+        layers: rows.iter().filter(|row| row.area_mm2 > 0.0).map(layer).collect(),
+    })
+}

@@ -1,0 +1,243 @@
+//! One motion and its layers, as CSV and JSON.
+
+use super::compact::Outline;
+use super::{ChipReport, OperationChips, Skipped, Totals};
+use crate::chips::Polygon;
+use crate::report::round::{micro, micro_some, rounded};
+use serde::{Serialize, Serializer};
+use std::io::{self, Write};
+
+/// A motion and its chip.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct Row {
+    /// 1-based line of the statement that ends the motion.
+    pub line: usize,
+    /// Its operation; empty where the file has none.
+    pub operation: String,
+    /// Its tool: the number where it is known, else the name.
+    pub tool: String,
+    /// Whether it is a rapid.
+    pub rapid: bool,
+    /// Length of the path, mm.
+    #[serde(serialize_with = "micro")]
+    pub length_mm: f64,
+    /// Feed of the tool's tip, mm/min; of a rapid, the machine's.
+    #[serde(serialize_with = "micro_some")]
+    pub feed_mm_min: Option<f64>,
+    /// Volume of the chip, mm3.
+    #[serde(serialize_with = "micro")]
+    pub volume_mm3: f64,
+    /// Material that stood inside the cutter where the motion began and is part of no chip, mm3.
+    #[serde(serialize_with = "micro")]
+    pub inside_mm3: f64,
+    /// The thickest chip of a tooth, mm; 0 in air.
+    #[serde(serialize_with = "micro_some")]
+    pub chip_thickness_mm: Option<f64>,
+    /// Its layers from below, those with a chip or with material inside the cutter.
+    pub layers: Vec<LayerRow>,
+}
+
+/// The chip of a motion on one layer.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LayerRow {
+    /// Number of the layer, from below.
+    pub number: usize,
+    /// Height of the layer's middle, mm.
+    pub z: f64,
+    /// Its thickness, mm.
+    pub thickness_mm: f64,
+    /// Area of the chip, mm2.
+    pub area_mm2: f64,
+    /// Material that stood inside the cutter where the motion began and is part of no chip, mm2.
+    pub inside_mm2: f64,
+    /// The thickest chip of a tooth, mm; not known either where the cutter has left the layer's chip before the motion ends.
+    pub chip_thickness_mm: Option<f64>,
+    /// Where the edge was engaged ([`crate::chips::chip::LayerChip::arcs_deg`]); of several pieces of path, all that any of them was.
+    pub arcs_deg: Vec<[f64; 2]>,
+    /// How many separate pieces the chip is in.
+    pub count: usize,
+    /// These pieces, where borders are kept.
+    pub polygons: Vec<Polygon>,
+}
+
+impl LayerRow {
+    /// Sum of the arcs of engagement, degrees.
+    pub fn engaged_deg(&self) -> f64 {
+        self.arcs_deg.iter().map(|[from, to]| to - from).sum()
+    }
+}
+
+/// A border as the JSON has it.
+struct Border<'a>(&'a [[f64; 2]]);
+
+impl Serialize for Border<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.0.iter().map(|point| point.map(rounded)))
+    }
+}
+
+/// A layer as the JSON has it: `pieces` are outer borders, `holes` are holes, and `hole_of` says for each of these the number of
+/// the piece that it is in, from 0.
+#[derive(Serialize)]
+struct LayerJson<'a> {
+    #[serde(serialize_with = "micro")]
+    z: f64,
+    #[serde(serialize_with = "micro")]
+    thickness_mm: f64,
+    #[serde(serialize_with = "micro")]
+    area_mm2: f64,
+    #[serde(serialize_with = "micro")]
+    inside_mm2: f64,
+    #[serde(serialize_with = "micro_some")]
+    chip_thickness_mm: Option<f64>,
+    arcs_deg: Vec<[f64; 2]>,
+    pieces: Vec<Border<'a>>,
+    holes: Vec<Border<'a>>,
+    hole_of: Vec<usize>,
+}
+
+impl Serialize for LayerRow {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let holes = || {
+            let pieces = self.polygons.iter().enumerate();
+            pieces.flat_map(|(index, polygon)| polygon.holes.iter().map(move |hole| (index, hole)))
+        };
+        let layer = LayerJson {
+            z: self.z,
+            thickness_mm: self.thickness_mm,
+            area_mm2: self.area_mm2,
+            inside_mm2: self.inside_mm2,
+            chip_thickness_mm: self.chip_thickness_mm,
+            arcs_deg: self.arcs_deg.iter().map(|arc| arc.map(rounded)).collect(),
+            pieces: self.polygons.iter().map(|polygon| Border(&polygon.outer)).collect(),
+            holes: holes().map(|(_, hole)| Border(hole)).collect(),
+            hole_of: holes().map(|(index, _)| index).collect(),
+        };
+        layer.serialize(serializer)
+    }
+}
+
+/// The document.
+#[derive(Serialize)]
+struct Document<'a> {
+    /// Version of the structure: 1. It changes when a reader would have to; new keys may be added without.
+    version: u32,
+    file: &'a str,
+    #[serde(serialize_with = "micro")]
+    layer_mm: f64,
+    #[serde(serialize_with = "micro")]
+    tolerance_mm: f64,
+    totals: &'a Totals,
+    assumptions: &'a [String],
+    operations: &'a [OperationChips],
+    skipped: &'a [Skipped],
+    motions: &'a [Row],
+}
+
+/// The chips as one JSON document, a line for each layer, with a line end. The borders of pieces are in it where they were kept.
+///
+/// # Errors
+/// What `out` returns.
+pub fn to_json(report: &ChipReport, out: &mut dyn Write) -> io::Result<()> {
+    let document = Document {
+        version: 1,
+        file: &report.file,
+        layer_mm: report.options.layer,
+        tolerance_mm: report.options.tolerance,
+        totals: &report.totals,
+        assumptions: &report.assumptions,
+        operations: &report.operations,
+        skipped: &report.skipped,
+        motions: &report.rows,
+    };
+    let mut serializer = serde_json::Serializer::with_formatter(&mut *out, Outline::default());
+    document.serialize(&mut serializer)?;
+    out.write_all(b"\n")
+}
+
+/// A row of the CSV.
+#[derive(Serialize)]
+struct Cells<'a> {
+    line: usize,
+    operation: &'a str,
+    tool: &'a str,
+    #[serde(serialize_with = "micro")]
+    length_mm: f64,
+    #[serde(serialize_with = "micro_some")]
+    feed_mm_min: Option<f64>,
+    #[serde(serialize_with = "micro")]
+    z_mm: f64,
+    #[serde(serialize_with = "micro")]
+    thickness_mm: f64,
+    #[serde(serialize_with = "micro")]
+    area_mm2: f64,
+    #[serde(serialize_with = "micro")]
+    volume_mm3: f64,
+    #[serde(serialize_with = "micro")]
+    inside_mm2: f64,
+    pieces: usize,
+    #[serde(serialize_with = "micro_some")]
+    chip_thickness_mm: Option<f64>,
+    #[serde(serialize_with = "micro")]
+    engaged_deg: f64,
+    arcs_deg: String,
+}
+
+/// The columns, for a table without rows.
+const COLUMNS: [&str; 14] = [
+    "line",
+    "operation",
+    "tool",
+    "length_mm",
+    "feed_mm_min",
+    "z_mm",
+    "thickness_mm",
+    "area_mm2",
+    "volume_mm3",
+    "inside_mm2",
+    "pieces",
+    "chip_thickness_mm",
+    "engaged_deg",
+    "arcs_deg",
+];
+
+/// The chips as a table, one row for each motion and layer with a chip: comma-separated, a head line, numbers with a decimal point,
+/// empty cells for what is not known. Arcs of engagement are `from to`, several of them with a semicolon between.
+///
+/// # Errors
+/// What `out` returns.
+pub fn to_csv(report: &ChipReport, out: &mut dyn Write) -> io::Result<()> {
+    let mut writer = csv::WriterBuilder::new().has_headers(false).from_writer(out);
+    writer.write_record(COLUMNS).map_err(io_error)?;
+    for row in &report.rows {
+        for layer in &row.layers {
+            let arcs = layer.arcs_deg.iter().map(|[from, to]| format!("{} {}", rounded(*from), rounded(*to)));
+            let cells = Cells {
+                line: row.line,
+                operation: &row.operation,
+                tool: &row.tool,
+                length_mm: row.length_mm,
+                feed_mm_min: row.feed_mm_min,
+                z_mm: layer.z,
+                thickness_mm: layer.thickness_mm,
+                area_mm2: layer.area_mm2,
+                volume_mm3: layer.area_mm2 * layer.thickness_mm,
+                inside_mm2: layer.inside_mm2,
+                pieces: layer.count,
+                chip_thickness_mm: layer.chip_thickness_mm,
+                engaged_deg: layer.engaged_deg(),
+                arcs_deg: arcs.collect::<Vec<_>>().join("; "),
+            };
+            writer.serialize(cells).map_err(io_error)?;
+        }
+    }
+    writer.flush()
+}
+
+/// The writer's own error, so that a stopped run is known as one.
+fn io_error(error: csv::Error) -> io::Error {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        other => io::Error::other(format!("{other:?}")),
+    }
+}

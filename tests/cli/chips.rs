@@ -1,0 +1,138 @@
+//! `clsmith chips`.
+
+use super::{clsmith, names};
+use crate::report::simulation::{SHOP, SLOT};
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+fn job() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("part.cls"), SLOT).unwrap();
+    std::fs::write(folder.path().join("shop.yaml"), SHOP).unwrap();
+    folder
+}
+
+fn run(folder: &Path, args: &[&str]) -> assert_cmd::assert::Assert {
+    clsmith(folder).args(["chips", "part.cls", "--setup", "shop.yaml", "--layer", "1"]).args(args).assert()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+#[test]
+fn every_output_is_written() {
+    let folder = job();
+    let outputs =
+        ["--csv", "a.csv", "--json", "a.json", "--stl", "a.stl", "--svg", "a.svg", "--diagram", "b.svg"];
+    let done = run(folder.path(), &outputs).success();
+    assert_eq!(
+        names(folder.path()),
+        ["a.csv", "a.json", "a.stl", "a.svg", "b.svg", "part.cls", "shop.yaml"].map(PathBuf::from)
+    );
+    let shown = text(&done.get_output().stdout);
+    assert!(shown.contains("largest chip: 600.0") && shown.contains("on line 16"), "{shown}");
+    assert!(done.get_output().stderr.is_empty(), "no bar where there is no terminal");
+    let json = std::fs::read(folder.path().join("a.json")).unwrap();
+    let json: serde_json::Value = serde_json::from_slice(&json).unwrap();
+    assert!(json["motions"][1]["layers"][0]["pieces"][0][0][0].is_number(), "{json}");
+}
+
+#[test]
+fn lines_are_chosen() {
+    let folder = job();
+    let csv = |lines: &str| {
+        let done = run(folder.path(), &["--lines", lines, "--csv", "-", "-q"]).success();
+        let shown = text(&done.get_output().stdout);
+        shown.lines().skip(1).map(|row| row.split(',').next().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(csv("13..14"), ["13", "13", "14", "14"]);
+    assert_eq!(csv("16"), ["16", "16"]);
+    assert_eq!(csv("..12"), ["12", "12"]);
+    assert_eq!(csv("14..").len(), 4);
+    let done = run(folder.path(), &["--lines", "900..", "--csv", "a.csv"]).code(1);
+    assert!(text(&done.get_output().stderr).contains("CL0524"));
+    assert!(!folder.path().join("a.csv").exists());
+}
+
+#[test]
+fn the_same_bytes_whatever_the_threads() {
+    let folder = job();
+    for threads in ["1", "3"] {
+        let (csv, svg) = (format!("{threads}.csv"), format!("{threads}.svg"));
+        run(folder.path(), &["--threads", threads, "--csv", &csv, "--svg", &svg, "-q"])
+            .success()
+            .stdout("")
+            .stderr("");
+    }
+    let read = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
+    assert!(read("1.csv") == read("3.csv") && read("1.svg") == read("3.svg"));
+}
+
+#[test]
+fn an_error_stops_all_outputs() {
+    let folder = job();
+    let before = names(folder.path());
+    std::fs::write(folder.path().join("part.cls"), SLOT.replace("SPINDL/RPM,4000.0000,CLW", "SPINDL/OFF"))
+        .unwrap();
+    let done = run(folder.path(), &["--csv", "a.csv", "--stl", "a.stl"]).code(1);
+    let shown = text(&done.get_output().stderr);
+    assert!(shown.contains("CL0512") && shown.contains("nothing was written"), "{shown}");
+    assert_eq!(names(folder.path()), before);
+    run(folder.path(), &["--csv", "a.csv", "--allow", "CL0512"]).success();
+    let done = run(folder.path(), &["--layer", "0.0000001"]).code(2);
+    assert!(text(&done.get_output().stderr).contains("--layer"));
+    let thin = ["chips", "part.cls", "--setup", "shop.yaml", "--layer", "0.0000001"];
+    let done = clsmith(folder.path()).args(thin).assert().code(1);
+    assert!(text(&done.get_output().stderr).contains("CL0523"));
+}
+
+#[test]
+fn a_height_with_nothing_to_draw_is_an_error() {
+    let folder = job();
+    let done = run(folder.path(), &["--svg", "a.svg", "--at", "-5"]).code(1);
+    let shown = text(&done.get_output().stderr);
+    assert!(shown.contains("CL0525") && shown.contains("at z -5"), "{shown}");
+    assert!(!folder.path().join("a.svg").exists());
+    run(folder.path(), &["--svg", "a.svg", "--at", "-0.3"]).success();
+}
+
+#[test]
+fn other_tools_are_warned_of() {
+    let folder = job();
+    let ball = SLOT.replace("MILL,10.0000,0.0000,", "MILL,10.0000,5.0000,");
+    std::fs::write(folder.path().join("part.cls"), ball).unwrap();
+    let done = run(folder.path(), &[]).success();
+    let shown = text(&done.get_output().stderr);
+    assert!(shown.contains("CL0520") && shown.contains("a ball of radius 5 mm"), "{shown}");
+    assert!(text(&done.get_output().stdout).contains("nothing is cut"));
+    run(folder.path(), &["--deny", "CL0520"]).code(1);
+}
+
+#[test]
+fn no_input_is_overwritten() {
+    let folder = job();
+    for output in ["part.cls", "./shop.yaml"] {
+        let before = std::fs::read(folder.path().join(output)).unwrap();
+        let done = run(folder.path(), &["--json", output]).code(1);
+        assert!(text(&done.get_output().stderr).contains("CL0404"), "{output}");
+        assert_eq!(std::fs::read(folder.path().join(output)).unwrap(), before);
+    }
+}
+
+#[test]
+fn the_command_line_is_checked_and_the_help_has_examples() {
+    let folder = job();
+    run(folder.path(), &["--csv", "-", "--json", "-"]).code(2);
+    run(folder.path(), &["--csv", "a", "--json", "a"]).code(2);
+    run(folder.path(), &["--stl", "-"]).code(2);
+    run(folder.path(), &["--at", "1"]).code(2);
+    run(folder.path(), &["--lines", "5..4"]).code(2);
+    run(folder.path(), &["--tolerance", "0"]).code(2);
+    run(folder.path(), &["--moves", "0"]).code(2);
+    clsmith(folder.path()).args(["chips", "part.cls", "--setup", "shop.yaml"]).assert().code(2);
+    assert_eq!(names(folder.path()), ["part.cls", "shop.yaml"].map(PathBuf::from));
+    let help = clsmith(folder.path()).args(["chips", "--help"]).assert().success();
+    let help = text(&help.get_output().stdout);
+    assert!(help.contains("Examples:") && help.contains("chip_thickness_mm"), "{help}");
+}

@@ -1,0 +1,218 @@
+//! Reports of chips whose numbers are known in closed form.
+
+use super::simulation::{SHOP, SLOT, close, setup};
+use crate::support::{program, rounded_snapshots, snapshots};
+use clsmith::diagnostic::Diagnostic;
+use clsmith::machining::chips::ChipOptions;
+use clsmith::machining::{Machining, Unwatched};
+use clsmith::program::LengthUnit;
+use clsmith::report::chips::{ChipReport, Keep, Row, diagrams, picture, to_csv, to_json, to_stl, to_text};
+use clsmith::sim::Mesh;
+use std::f64::consts::PI;
+
+fn options(layer: f64) -> ChipOptions {
+    ChipOptions::new(layer)
+}
+
+fn report(text: &str, shop: &str, options: &ChipOptions, keep: Keep) -> Result<ChipReport, Vec<Diagnostic>> {
+    let (program, setup) = (program(text), setup(shop));
+    let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new())?;
+    ChipReport::of(&machining, options, keep, &Unwatched).map(Option::unwrap)
+}
+
+fn slot(keep: Keep) -> ChipReport {
+    let found = report(SLOT, SHOP, &options(1.0), keep).unwrap();
+    assert!(found.findings.is_empty(), "{:?}", found.findings);
+    found
+}
+
+fn row(report: &ChipReport, line: usize) -> &Row {
+    report.rows.iter().find(|row| row.line == line).unwrap()
+}
+
+fn csv(report: &ChipReport) -> String {
+    let mut out = Vec::new();
+    to_csv(report, &mut out).unwrap();
+    String::from_utf8(out).unwrap()
+}
+
+fn json(report: &ChipReport) -> String {
+    let mut out = Vec::new();
+    to_json(report, &mut out).unwrap();
+    String::from_utf8(out).unwrap()
+}
+
+#[test]
+fn a_slot_has_its_areas_volumes_engagement_and_chip() {
+    let found = slot(Keep::default());
+    // From outside to x 20: a rectangle and half a disc.
+    let first = row(&found, 12);
+    assert_eq!(first.layers.iter().map(|layer| layer.z).collect::<Vec<_>>(), [-1.5, -0.5]);
+    for layer in &first.layers {
+        close(Some(layer.area_mm2), 20.0 * 10.0 + PI * 12.5, 0.05);
+        close(layer.chip_thickness_mm, 800.0 / (4000.0 * 4.0), 1e-6);
+        close(Some(layer.engaged_deg()), 180.0, 0.1);
+        assert!(layer.polygons.is_empty() && layer.count == 1);
+    }
+    close(Some(row(&found, 13).volume_mm3), 20.0 * 10.0 * 2.0, 1e-3);
+    close(Some(found.totals.chips_mm3), 60.0 * 15.0 * 2.0, 1e-3);
+    close(Some(found.totals.left_mm3), 24_000.0 - 1800.0, 1e-3);
+    // In air: no layers, and a chip that is known to be none.
+    let air = row(&found, 15);
+    assert_eq!((air.layers.len(), air.chip_thickness_mm), (0, Some(0.0)));
+}
+
+#[test]
+fn the_json_has_the_shape_that_it_shall_have() {
+    let keep = Keep { borders: true, ..Keep::default() };
+    // An island stands in the way of nothing: a ring-shaped path around it, cut in one arc.
+    let found = report(&ring(), RING_SHOP, &options(1.0), keep).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&json(&found)).unwrap();
+    assert_eq!(json["version"], 1);
+    let motions = json["motions"].as_array().unwrap();
+    let ring = motions.iter().rfind(|motion| motion["volume_mm3"].as_f64().unwrap() > 0.0).unwrap();
+    let layer = &ring["layers"][0];
+    let numbers = |value: &serde_json::Value| value.as_array().unwrap().len();
+    assert_eq!((numbers(&layer["pieces"]), numbers(&layer["holes"])), (1, 1));
+    assert_eq!(layer["hole_of"], serde_json::json!([0]));
+    assert!(layer["pieces"][0].as_array().unwrap().iter().all(|point| numbers(point) == 2));
+    // Areas of the borders are the area that is told.
+    let area = |border: &serde_json::Value| {
+        let points: Vec<[f64; 2]> = serde_json::from_value(border.clone()).unwrap();
+        let next = points.iter().cycle().skip(1);
+        points.iter().zip(next).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>() / 2.0
+    };
+    let told = layer["area_mm2"].as_f64().unwrap();
+    close(Some(area(&layer["pieces"][0]) + area(&layer["holes"][0])), told, 0.01 * told);
+    let volume: f64 = ring["layers"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|layer| layer["area_mm2"].as_f64().unwrap() * layer["thickness_mm"].as_f64().unwrap())
+        .sum();
+    close(ring["volume_mm3"].as_f64(), volume, 1e-4);
+}
+
+/// A full circle of radius 10 around an island, by an end mill of 10 mm.
+fn ring() -> String {
+    SLOT.replace(
+        "GOTO/20.0000,20.0000,-2.0000\n",
+        "GOTO/20.0000,20.0000,-2.0000\n\
+         CIRCLE/30.0000,20.0000,-2.0000,0.0000000,0.0000000,1.0000000,10.0000,0.0600,0.5000,10.0000,0.0000\n\
+         GOTO/20.0000,20.0000,-2.0000\nEND-OF-PATH\n",
+    )
+    .split_inclusive("END-OF-PATH\n")
+    .next()
+    .unwrap()
+    .to_owned()
+}
+
+const RING_SHOP: &str = "stock: { block: { from: [0, 0, -10], to: [60, 40, 0] } }\n\
+    tools: [ { match: { number: 3 }, teeth: 4, flute_length: 20 } ]\n";
+
+#[test]
+fn chips_as_text_csv_and_json() {
+    let found = slot(Keep { borders: true, ..Keep::default() });
+    snapshots("report").bind(|| {
+        insta::assert_snapshot!("chips", to_text(&found));
+        insta::assert_snapshot!("chips_csv", csv(&found));
+    });
+    // One motion is enough of the borders.
+    let options = ChipOptions { lines: 13..=13, ..options(2.0) };
+    let found = report(SLOT, SHOP, &options, Keep { borders: true, ..Keep::default() }).unwrap();
+    rounded_snapshots("report").bind(|| insta::assert_snapshot!("chips_json", json(&found)));
+}
+
+#[test]
+fn lines_before_are_cut_and_lines_after_are_not_run() {
+    let whole = slot(Keep::default());
+    let some = ChipOptions { lines: 13..=14, ..options(1.0) };
+    let found = report(SLOT, SHOP, &some, Keep::default()).unwrap();
+    assert_eq!(found.rows.as_slice(), &whole.rows[2..4]);
+    assert!(found.totals.left_mm3 > whole.totals.left_mm3 + 100.0);
+    let none = ChipOptions { lines: 100..=200, ..options(1.0) };
+    let errors = report(SLOT, SHOP, &none, Keep::default()).unwrap_err();
+    assert_eq!(errors[0].code.id(), "CL0524");
+}
+
+#[test]
+fn what_is_not_known_is_empty_and_said() {
+    let unknown = |text: &str, shop: &str, said: &str| {
+        let found = report(text, shop, &options(1.0), Keep::default()).unwrap();
+        assert!(
+            found.assumptions.iter().any(|assumption| assumption.contains(said)),
+            "{:?}",
+            found.assumptions
+        );
+        assert_eq!(row(&found, 13).chip_thickness_mm, None);
+        assert!(csv(&found).lines().nth(1).unwrap().contains(",1,,"), "{}", csv(&found));
+    };
+    unknown(SLOT, &SHOP.replace("teeth: 4", "helix: 0"), "the teeth of tool 3");
+    unknown(&SLOT.replace("FEDRAT/MMPM,800.0000", "PAINT/SPEED,10"), SHOP, "feed or spindle speed of 4 cuts");
+}
+
+#[test]
+fn a_turn_about_the_tip_has_no_feed() {
+    let text = SLOT.replace(
+        "GOTO/40.0000,20.0000,-2.0000\n",
+        "GOTO/20.0000,20.0000,-2.0000,0.0000000,0.2588190,0.9659258\nGOTO/20.0000,20.0000,-2.0000,0.0000000,0.0000000,1.0000000\n",
+    );
+    let found = report(&text, SHOP, &options(1.0), Keep::default()).unwrap();
+    let turned = row(&found, 13);
+    assert!(turned.volume_mm3 > 1.0 && turned.chip_thickness_mm.is_none());
+    assert!(
+        found.assumptions.iter().any(|said| said.contains("turn about a tip that stands")),
+        "{:?}",
+        found.assumptions
+    );
+}
+
+#[test]
+fn the_number_of_threads_changes_no_byte() {
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let found = slot(Keep { borders: true, scenes: 2, at: None });
+            let mut stl = Vec::new();
+            to_stl(&found, &mut stl).unwrap();
+            (json(&found), csv(&found), stl, picture(&found, None).unwrap(), diagrams(&found, None).unwrap())
+        })
+    };
+    let one = run(1);
+    assert!(one == run(2) && one == run(3));
+}
+
+#[test]
+fn the_solid_has_the_chip_s_volume() {
+    let found = report(
+        SLOT,
+        SHOP,
+        &ChipOptions { lines: 16..=16, ..options(0.5) },
+        Keep { borders: true, ..Keep::default() },
+    );
+    let found = found.unwrap();
+    let mut stl = Vec::new();
+    to_stl(&found, &mut stl).unwrap();
+    // Layers lie on each other with whole faces, so the signed sum is the volume.
+    let mesh = Mesh::from_stl(&stl).unwrap();
+    let (low, high) = mesh.bounds();
+    assert_eq!((low[2], high[2]), (-2.0, 0.0));
+    close(Some(found.rows[0].volume_mm3), 60.0 * 5.0 * 2.0, 1e-3);
+}
+
+#[test]
+fn pictures_show_moves_and_layers() {
+    let found = slot(Keep { borders: false, scenes: 3, at: None });
+    assert_eq!(found.scenes.iter().map(|scene| scene.line).collect::<Vec<_>>(), [12, 13, 14]);
+    let drawn = picture(&found, None).unwrap();
+    for title in ["line 12, z -0.5", "line 14, z -1.5", "workpiece after the move"] {
+        assert!(drawn.contains(title), "{title}");
+    }
+    let at = picture(&found, Some(-1.2)).unwrap();
+    assert!(at.contains("z -1.5") && !at.contains("z -0.5"));
+    let diagrams = diagrams(&found, Some(-1.2)).unwrap();
+    assert!(diagrams.contains("line 13, z -1.5") && diagrams.contains("advances"));
+    // Nothing is cut at this height.
+    let nothing = slot(Keep { borders: false, scenes: 3, at: Some(-5.0) });
+    assert!(nothing.scenes.is_empty());
+}
