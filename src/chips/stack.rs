@@ -1,6 +1,7 @@
 //! The workpiece as a stack of layers.
 
 mod bodies;
+mod cleared;
 mod layer;
 mod mesh;
 mod tiles;
