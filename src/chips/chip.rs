@@ -2,12 +2,12 @@
 
 mod arcs;
 
+use super::Polygon;
 use super::cover::{Cover, Rim};
 use super::diagram::Diagram;
 use super::family::Family;
 use super::section::{FlatMill, Refusal, Step};
 use super::stack::{Layer, Stack};
-use super::Polygon;
 use crate::sim::Piece;
 use rayon::prelude::*;
 

@@ -128,11 +128,7 @@ impl Family {
         let step = &self.step;
         let zero = S::of(0.0);
         let line = |from: f64, way: f64| Jet { v: S::of(from) + S::of(way) * t, d: S::of(way), dd: zero };
-        let tip = [
-            line(step.tip.x, step.way.x),
-            line(step.tip.y, step.way.y),
-            line(step.tip.z, step.way.z),
-        ];
+        let tip = [line(step.tip.x, step.way.x), line(step.tip.y, step.way.y), line(step.tip.z, step.way.z)];
         let (sin, cos) = (S::of(step.turn) * t).sin_cos();
         let turn = S::of(step.turn);
         let turned = |from: f64, across: f64| {
@@ -171,7 +167,7 @@ impl Family {
     }
 
     /// The coefficients of a curve with their derivatives by time.
-    fn coefficients<S: Scalar>(&self, curve: Curve, at: &At<S>) -> ([S; 5], [S; 5]) {
+    fn expand<S: Scalar>(&self, curve: Curve, at: &At<S>) -> ([S; 5], [S; 5]) {
         let radius = self.step.mill.radius;
         let split = |k: [(S, S); 5]| (k.map(|(v, _)| v), k.map(|(_, d)| d));
         let none = (S::of(0.0), S::of(0.0));
@@ -234,14 +230,14 @@ impl Family {
         }
     }
 
-    /// A curve at a time.
-    pub fn curve(&self, curve: Curve, t: f64) -> Trig<f64> {
-        Trig(self.coefficients(curve, &self.at(t)).0)
+    /// Coefficients of a curve at a time: `k0 + k1 cos x + k2 sin x + k3 cos 2x + k4 sin 2x`.
+    pub fn coefficients(&self, curve: Curve, t: f64) -> [f64; 5] {
+        self.curve(curve, t).0
     }
 
-    /// Derivative of a curve by time.
-    pub fn rate(&self, curve: Curve, t: f64) -> Trig<f64> {
-        Trig(self.coefficients(curve, &self.at(t)).1)
+    /// A curve at a time.
+    pub(super) fn curve(&self, curve: Curve, t: f64) -> Trig<f64> {
+        Trig(self.expand(curve, &self.at(t)).0)
     }
 
     /// The family over all times of an interval.
@@ -273,8 +269,8 @@ pub(super) struct Window<'f> {
 impl Window<'_> {
     /// A curve at all these times: enclosures of its coefficients, and of their derivatives by time.
     pub fn curve(&self, curve: Curve) -> (Trig<Interval>, Trig<Interval>) {
-        let (mut all, rate) = self.family.coefficients(curve, &self.whole);
-        let (middle, _) = self.family.coefficients(curve, &self.middle);
+        let (mut all, rate) = self.family.expand(curve, &self.whole);
+        let (middle, _) = self.family.expand(curve, &self.middle);
         // The mean value theorem's enclosure is narrower for short times.
         for ((all, middle), rate) in all.iter_mut().zip(middle).zip(rate) {
             *all = all.meet(middle + rate * self.offset);

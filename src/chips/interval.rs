@@ -15,11 +15,6 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// From the smaller to the larger of two numbers.
-    pub fn new(a: f64, b: f64) -> Self {
-        Self { lo: a.min(b), hi: a.max(b) }
-    }
-
     /// A number alone.
     pub fn point(x: f64) -> Self {
         Self { lo: x, hi: x }

@@ -1,96 +1,76 @@
-//! An independent look: sections made in space and cut by half planes, and their union by another library's sweep.
+//! Areas by brute force, with other means than the library's own.
 
-use clsmith::chips::FlatMill;
-use clsmith::sim::{Piece, Place};
-use geo::{BooleanOps, Coord, LineString, MultiPolygon, Polygon};
-use nalgebra::{Point3, Rotation3, Unit, Vector3};
+use clsmith::chips::Polygon;
+use clsmith::chips::area::signed_area;
+use geo::{Area, BooleanOps, Coord, LineString, MultiPolygon, unary_union};
 
-/// Corners of a sampled ellipse.
-const CORNERS: usize = 360;
-
-pub fn place(point: [f64; 3], axis: [f64; 3]) -> Place {
-    Place { point: Point3::from(point), axis: Vector3::from(axis).normalize() }
+/// Everything that is inside one of many sections, closed borders of x, y in mm.
+pub fn dense_union(sections: &[Vec<[f64; 2]>]) -> Vec<Polygon> {
+    polygons(union(sections))
 }
 
-pub fn piece(from: Place, to: Place) -> Piece {
-    Piece { from, to, cutter: 0 }
+/// What is inside one of some polygons and in none of others.
+pub fn difference(of: &[Polygon], less: &[Polygon]) -> Vec<Polygon> {
+    polygons(plane(of).difference(&plane(less)))
 }
 
-/// The axis `tilt` degrees from upright towards `towards` degrees from x.
-pub fn axis(tilt: f64, towards: f64) -> [f64; 3] {
-    let (t, w) = (tilt.to_radians(), towards.to_radians());
-    [t.sin() * w.cos(), t.sin() * w.sin(), t.cos()]
+/// What is inside one of some polygons and one of others.
+pub fn intersection(one: &[Polygon], other: &[Polygon]) -> Vec<Polygon> {
+    polygons(plane(one).intersection(&plane(other)))
 }
 
-/// The place of the cutter at a time: the tip straight, the axis turned about the normal of both axes.
-pub fn place_at(piece: &Piece, t: f64) -> Place {
-    let (from, to) = (piece.from.axis, piece.to.axis);
-    let normal = from.cross(&to);
-    let axis = match Unit::try_new(normal, 1e-14) {
-        Some(normal) => Rotation3::from_axis_angle(&normal, from.angle(&to) * t) * from,
-        None => from,
+/// Area of all, mm2.
+pub fn area(of: &[Polygon]) -> f64 {
+    plane(of).unsigned_area()
+}
+
+/// By halves: neighbouring sections are alike, so their unions stay small.
+fn union(sections: &[Vec<[f64; 2]>]) -> MultiPolygon {
+    if sections.len() <= 4 {
+        let all: Vec<geo::Polygon> =
+            sections.iter().map(|border| geo::Polygon::new(line(border), Vec::new())).collect();
+        return unary_union(&all);
+    }
+    let (one, other) = sections.split_at(sections.len() / 2);
+    unary_union(&[union(one), union(other)])
+}
+
+fn plane(of: &[Polygon]) -> MultiPolygon {
+    let polygon = |polygon: &Polygon| {
+        geo::Polygon::new(line(&polygon.outer), polygon.holes.iter().map(|hole| line(hole)).collect())
     };
-    Place { point: piece.from.point + (piece.to.point - piece.from.point) * t, axis }
+    of.iter().map(polygon).collect()
 }
 
-/// The section of a mill at a place with the layer at z: lines of the cylinder that meet the layer, then cut by the planes of the ends.
-pub fn section(mill: &FlatMill, place: &Place, z: f64) -> Vec<[f64; 2]> {
-    let a = place.axis;
-    let u = a.cross(&if a.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() }).normalize();
-    let v = a.cross(&u);
-    let corner = |index: usize| {
-        let angle = std::f64::consts::TAU * (index as f64 + 0.5) / CORNERS as f64;
-        // A polygon of the same area as the circle.
-        let grown = (std::f64::consts::TAU / CORNERS as f64 / (std::f64::consts::TAU / CORNERS as f64).sin()).sqrt();
-        let line = place.point + (u * angle.cos() + v * angle.sin()) * (mill.radius * grown);
-        line + a * ((z - line.z) / a.z)
+fn line(border: &[[f64; 2]]) -> LineString {
+    border.iter().map(|[x, y]| Coord { x: *x, y: *y }).collect()
+}
+
+fn polygons(of: MultiPolygon) -> Vec<Polygon> {
+    let border = |line: &LineString, outer: bool| {
+        let mut border: Vec<[f64; 2]> = line.coords().map(|at| [at.x, at.y]).collect();
+        border.pop();
+        if (signed_area(&border) > 0.0) != outer {
+            border.reverse();
+        }
+        border
     };
-    let mut corners: Vec<Point3<f64>> = (0..CORNERS).map(corner).collect();
-    corners = half_plane(&corners, |p| (p - place.point).dot(&a));
-    if mill.flutes.is_finite() {
-        corners = half_plane(&corners, |p| mill.flutes - (p - place.point).dot(&a));
-    }
-    corners.into_iter().map(|p| [p.x, p.y]).collect()
+    let polygon = |polygon: geo::Polygon| Polygon {
+        outer: border(polygon.exterior(), true),
+        holes: polygon.interiors().iter().map(|hole| border(hole, false)).collect(),
+    };
+    of.into_iter().map(polygon).collect()
 }
 
-fn half_plane(corners: &[Point3<f64>], height: impl Fn(&Point3<f64>) -> f64) -> Vec<Point3<f64>> {
-    let mut kept = Vec::new();
-    for (index, a) in corners.iter().enumerate() {
-        let b = &corners[(index + 1) % corners.len()];
-        let (ha, hb) = (height(a), height(b));
-        if ha >= 0.0 {
-            kept.push(*a);
-        }
-        if (ha >= 0.0) != (hb >= 0.0) {
-            kept.push(a + (b - a) * (ha / (ha - hb)));
-        }
-    }
-    kept
-}
-
-pub fn polygon(border: &[[f64; 2]]) -> Polygon {
-    let ring: Vec<Coord> = border.iter().map(|[x, y]| Coord { x: *x, y: *y }).collect();
-    Polygon::new(LineString(ring), Vec::new())
-}
-
-/// The union of sections, each a convex border: of halves, and of halves of those, since neighbours overlap most.
-pub fn union(sections: &[Vec<[f64; 2]>]) -> MultiPolygon {
-    match sections {
-        [] => MultiPolygon::new(Vec::new()),
-        [border] if border.len() > 2 => MultiPolygon::new(vec![polygon(border)]),
-        [_] => MultiPolygon::new(Vec::new()),
-        _ => {
-            let (one, other) = sections.split_at(sections.len() / 2);
-            union(one).union(&union(other))
-        }
-    }
-}
-
-/// What a mill covers on a layer and did not cover at the beginning: the union of sections at `count` times less the first.
-pub fn fresh(mill: &FlatMill, piece: &Piece, z: f64, count: usize) -> MultiPolygon {
-    let sections: Vec<Vec<[f64; 2]>> = (0..=count)
-        .map(|index| section(mill, &place_at(piece, index as f64 / count as f64), z))
-        .collect();
-    let first = union(&sections[..1]);
-    union(&sections).difference(&first)
+#[test]
+fn two_squares_and_a_ring() {
+    let square =
+        |at: f64, size: f64| vec![[at, at], [at + size, at], [at + size, at + size], [at, at + size]];
+    let both = dense_union(&[square(0.0, 2.0), square(1.0, 2.0)]);
+    assert_eq!(both.len(), 1);
+    assert!((area(&both) - 7.0).abs() < 1e-6 && (both[0].area_mm2() - 7.0).abs() < 1e-6);
+    let ring = difference(&dense_union(&[square(0.0, 3.0)]), &dense_union(&[square(1.0, 1.0)]));
+    assert_eq!(ring[0].holes.len(), 1);
+    assert!((ring[0].area_mm2() - 8.0).abs() < 1e-6);
+    assert!((area(&intersection(&ring, &both)) - 6.0).abs() < 1e-6);
 }

@@ -1,4 +1,10 @@
 //! Undeformed chips.
 
+mod area;
 mod brute;
 mod cover;
+mod diagram;
+mod sections;
+mod solid;
+mod stack;
+mod whole;

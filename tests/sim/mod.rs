@@ -6,7 +6,7 @@ mod cuts;
 mod export;
 mod mesh;
 mod remains;
-mod shapes;
+pub mod shapes;
 mod stock;
 mod tilted;
 mod tilted_engagement;

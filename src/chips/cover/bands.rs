@@ -64,9 +64,8 @@ pub(super) fn borders(
         }
     }
     for (curve, sign) in [(Curve::Bottom, 1.0), (Curve::Top, -1.0)] {
-        let of = |rising: bool| {
-            roots.iter().find(|(_, track)| track.curve == curve && track.rising == rising)
-        };
+        let of =
+            |rising: bool| roots.iter().find(|(_, track)| track.curve == curve && track.rising == rising);
         let (Some((from, a)), Some((to, b))) = (of(false), of(true)) else { continue };
         let face = family.curve(Curve::Face, middle);
         let speed = |angle: f64| sign * face.value(&Angle::of(angle));

@@ -81,8 +81,7 @@ pub(super) fn outline(family: &Family, rim: &Rim, t: f64, cuts: Cuts, nodes: &[f
     for angle in removed.iter().flatten() {
         // An end of one chord that the other has cut off is no corner.
         let others = removed.iter().filter(|ends| !ends.contains(angle));
-        let inside =
-            others.clone().any(|[from, to]| (angle - from).rem_euclid(TAU) <= to - from);
+        let inside = others.clone().any(|[from, to]| (angle - from).rem_euclid(TAU) <= to - from);
         if !inside {
             let (sin, cos) = angle.sin_cos();
             corners.push((angle.rem_euclid(TAU), [cos, sin]));

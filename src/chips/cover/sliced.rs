@@ -14,10 +14,12 @@ pub(super) fn cover(family: &Family, rim: &Rim, slices: usize) -> Cover {
     let mut advancing = Vec::new();
     for index in 1..=slices {
         let next = section(index);
-        let points: Vec<geo::Point> = last.iter().chain(&next).map(|place| geo::Point::from(*place)).collect();
+        let points: Vec<geo::Point> =
+            last.iter().chain(&next).map(|place| geo::Point::from(*place)).collect();
         // A section that comes or goes within the slice is taken to be there all through it.
         let hull = MultiPoint(points).convex_hull();
-        let mut border: Vec<[f64; 2]> = hull.exterior().points().map(|point| [point.x(), point.y()]).collect();
+        let mut border: Vec<[f64; 2]> =
+            hull.exterior().points().map(|point| [point.x(), point.y()]).collect();
         border.pop();
         if border.len() > 2 {
             advancing.push(border);

@@ -93,7 +93,9 @@ impl Cells {
             }
             match done.last_mut() {
                 // Of what has one sign nothing more will be asked.
-                Some(last) if cell.known.sign().is_some() && last.known == cell.known => last.x.hi = cell.x.hi,
+                Some(last) if cell.known.sign().is_some() && last.known == cell.known => {
+                    last.x.hi = cell.x.hi
+                }
                 _ => done.push(cell),
             }
         }

@@ -78,9 +78,10 @@ impl Stretch {
         others.rotate_left(shift.min(count));
         for ((track, mut other), angle) in self.tracks.iter_mut().zip(others).zip(here) {
             // On the same turn of the circle.
-            let turns = other.brackets.first().map_or(0.0, |bracket| {
-                ((angle - 0.5 * (bracket.lo + bracket.hi)) / TAU).round() * TAU
-            });
+            let turns = other
+                .brackets
+                .first()
+                .map_or(0.0, |bracket| ((angle - 0.5 * (bracket.lo + bracket.hi)) / TAU).round() * TAU);
             for bracket in &mut other.brackets {
                 bracket.lo += turns;
                 bracket.hi += turns;

@@ -1,0 +1,178 @@
+//! Chips of whole pieces of path: volumes, arcs, thickness.
+
+use super::brute;
+use super::sections::{axis, block, fresh, piece, place};
+use clsmith::chips::{Chip, FlatMill, Refusal, Stack, cut};
+use clsmith::sim::{Dexels, Piece, Simulation, Stock};
+use proptest::prelude::*;
+
+const MILL: FlatMill = FlatMill { radius: 5.0, flutes: 30.0 };
+
+fn chips(stock: &Stock, layer: f64, pieces: &[Piece]) -> (Stack, Vec<Result<Chip, Refusal>>) {
+    let mut stack = Stack::new(stock, layer).unwrap();
+    let chips = cut(&mut stack, &[MILL], pieces, 0.001);
+    (stack, chips)
+}
+
+fn upright(x: f64, y: f64, z: f64) -> clsmith::sim::Place {
+    place([x, y, z], [0.0, 0.0, 1.0])
+}
+
+#[test]
+fn a_slot_is_engaged_over_half_a_turn() {
+    let stock = block([0.0, -20.0, -10.0], [60.0, 20.0, 0.0]);
+    let (stack, chips) = chips(
+        &stock,
+        0.5,
+        &[
+            piece(upright(-6.0, 0.0, -4.0), upright(20.0, 0.0, -4.0)),
+            piece(upright(20.0, 0.0, -4.0), upright(21.0, 0.0, -4.0)),
+        ],
+    );
+    let chip = chips[1].as_ref().unwrap();
+    assert_eq!(chip.layers.len(), 8);
+    assert!((chip.volume_mm3() - 10.0 * 1.0 * 4.0).abs() < 0.02, "{}", chip.volume_mm3());
+    for layer in &chip.layers {
+        assert_eq!(layer.arcs_deg.len(), 1);
+        let [from, to] = layer.arcs_deg[0];
+        assert!((from + 90.0).abs() < 1.0 && (to - 90.0).abs() < 1.0, "{from} {to}");
+        assert!((layer.advance_mm - 1.0).abs() < 1e-3);
+        assert_eq!(layer.inside_mm2, 0.0);
+    }
+    let removed: f64 = chips.iter().map(|chip| chip.as_ref().unwrap().volume_mm3()).sum();
+    assert!((stack.volume_mm3() + removed - 60.0 * 40.0 * 10.0).abs() < 1e-3);
+}
+
+#[test]
+fn a_side_cut_is_engaged_from_its_depth() {
+    // The stock reaches 2 mm into the cutter from the left: from acos((R - a) / R) behind 90 degrees.
+    let stock = block([0.0, 3.0, -4.0], [60.0, 30.0, 0.0]);
+    let (_, chips) = chips(
+        &stock,
+        1.0,
+        &[
+            piece(upright(-6.0, 0.0, -4.0), upright(20.0, 0.0, -4.0)),
+            piece(upright(20.0, 0.0, -4.0), upright(20.2, 0.0, -4.0)),
+        ],
+    );
+    let layer = &chips[1].as_ref().unwrap().layers[0];
+    let [from, to] = layer.arcs_deg[0];
+    let entry = (3.0f64 / 5.0).asin().to_degrees();
+    assert!((from - entry).abs() < 1.0 && (to - 90.0).abs() < 1.5, "{from} {to} {entry}");
+    // The thickest place is where the tooth meets the stock's old side.
+    assert!((layer.advance_mm - 0.2 * (1.0 - 0.36f64).sqrt()).abs() < 0.003, "{}", layer.advance_mm);
+}
+
+#[test]
+fn a_plunge_takes_whole_discs_and_its_advance_is_its_depth() {
+    let stock = block([-20.0, -20.0, -10.0], [20.0, 20.0, 0.0]);
+    let (_, chips) = chips(&stock, 0.5, &[piece(upright(0.0, 0.0, 1.0), upright(0.0, 0.0, -3.0))]);
+    let chip = chips[0].as_ref().unwrap();
+    assert_eq!(chip.layers.len(), 6);
+    assert!((chip.volume_mm3() - 3.0 * 25.0 * std::f64::consts::PI).abs() < 0.1);
+}
+
+#[test]
+fn what_stood_inside_at_the_beginning_is_no_chip() {
+    let stock = block([-20.0, -20.0, -2.0], [20.0, 20.0, 0.0]);
+    let (_, chips) = chips(&stock, 1.0, &[piece(upright(0.0, 0.0, -2.0), upright(1.0, 0.0, -2.0))]);
+    let layer = &chips[0].as_ref().unwrap().layers[0];
+    assert!((layer.inside_mm2 - 25.0 * std::f64::consts::PI).abs() < 0.05);
+    assert!((layer.area_mm2 - 10.0).abs() < 0.01);
+}
+
+#[test]
+fn a_chip_may_be_two_pieces() {
+    // Tilting about a point in the layer, with the middle already milled: both ends of the section go down into the stock.
+    let stock = Stock::new(
+        vec![
+            clsmith::sim::Body::Block { from: [-20.0, -20.0, 0.0], to: [-4.9, 20.0, 1.0] },
+            clsmith::sim::Body::Block { from: [4.9, -20.0, 0.0], to: [20.0, 20.0, 1.0] },
+        ],
+        0.0,
+    )
+    .unwrap();
+    let p = piece(place([0.0, 0.0, -10.0], axis(0.0, 0.0)), place([-3.0, 0.0, -9.5], axis(16.0, 0.0)));
+    let (_, chips) = chips(&stock, 1.0, &[p]);
+    let layer = &chips[0].as_ref().unwrap().layers[0];
+    assert_eq!(layer.pieces.len(), 2, "{layer:?}");
+    let dense = brute::area(&brute::intersection(
+        &fresh(&MILL, &p, 0.5, 2000),
+        &brute::dense_union(&[
+            vec![[-20.0, -20.0], [-4.9, -20.0], [-4.9, 20.0], [-20.0, 20.0]],
+            vec![[4.9, -20.0], [20.0, -20.0], [20.0, 20.0], [4.9, 20.0]],
+        ]),
+    ));
+    assert!((layer.area_mm2 - dense).abs() < 1e-3 * dense + 0.003, "{} {dense}", layer.area_mm2);
+}
+
+#[test]
+fn thinner_layers_converge() {
+    let stock = block([-20.0, -20.0, -6.0], [20.0, 20.0, 0.0]);
+    let p = piece(place([0.0, 0.0, -3.0], axis(20.0, 30.0)), place([2.0, 1.0, -3.5], axis(28.0, 50.0)));
+    let volume = |layer: f64| {
+        let first =
+            piece(place([0.0, 0.0, 10.0], axis(20.0, 30.0)), place([0.0, 0.0, -3.0], axis(20.0, 30.0)));
+        chips(&stock, layer, &[first, p]).1[1].as_ref().unwrap().volume_mm3()
+    };
+    let finest = volume(0.01);
+    let errors: Vec<f64> =
+        [0.5, 0.125, 0.03125].into_iter().map(|layer| (volume(layer) - finest).abs()).collect();
+    // The bottom disc's rim cuts layers off, so the error goes with the layer, or better.
+    assert!(
+        errors[0] < 0.02 * finest && errors[1] < 0.006 * finest && errors[2] < 0.002 * finest,
+        "{errors:?} of {finest}"
+    );
+}
+
+#[test]
+fn results_do_not_depend_on_threads() {
+    let stock = block([-20.0, -20.0, -6.0], [20.0, 20.0, 0.0]);
+    let pieces = [
+        piece(place([-30.0, 0.0, -3.0], axis(20.0, 30.0)), place([2.0, 1.0, -3.5], axis(28.0, 50.0))),
+        piece(place([2.0, 1.0, -3.5], axis(28.0, 50.0)), place([6.0, -3.0, -3.0], axis(10.0, 90.0))),
+    ];
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| chips(&stock, 0.25, &pieces).1)
+    };
+    assert_eq!(run(1), run(2));
+}
+
+/// Volumes of the same pieces by dexels, and how far half a cell along all borders may make them wrong.
+fn by_dexels(stock: &Stock, pieces: &[Piece], cell: f64) -> Vec<f64> {
+    let profile = clsmith::sim::Profile::new(2.0 * MILL.radius, 0.0, 0.0, 0.0, MILL.flutes).unwrap();
+    let cutter = clsmith::sim::Cutter { profile, collars: Vec::new(), teeth: None };
+    let dexels: Dexels = stock.dexels(cell, usize::MAX).unwrap();
+    let mut simulation = Simulation::new(dexels, false);
+    simulation.run(pieces, &[cutter]).into_iter().map(|engagement| engagement.removed_mm3).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    #[test]
+    fn dexels_and_layers_agree_on_random_steps(
+        tilts in prop::array::uniform2(0.0..35.0f64),
+        towards in prop::array::uniform2(0.0..60.0f64),
+        way in prop::array::uniform3(-3.0..3.0f64),
+        depth in -5.0..-1.0f64,
+    ) {
+        let stock = block([-15.0, -15.0, -9.0], [15.0, 15.0, 0.0]);
+        let above = place([-25.0, 0.0, depth], axis(tilts[0], towards[0]));
+        let from = place([0.0, 0.0, depth], axis(tilts[0], towards[0]));
+        let to = place([way[0], way[1], depth + way[2]], axis(tilts[1], towards[1]));
+        let pieces = [piece(above, from), piece(from, to)];
+        let (cell, layer) = (0.1, 0.1);
+        let (_, layers) = chips(&stock, layer, &pieces);
+        let dexels = by_dexels(&stock, &pieces, cell);
+        for (chip, dexels) in layers.iter().zip(dexels) {
+            let volume = chip.as_ref().unwrap().volume_mm3();
+            // Columns sample a border to half a cell, layers a slope to half a layer; both errors mostly cancel around the chip. The chip's
+            // surface is at most that of both ends' sections and the swept sides.
+            let surface = 2.0 * (2.0 * MILL.radius + 25.0) * 9.0;
+            let bound = 0.05 * 0.5 * (cell + layer) * surface + 0.02 * volume;
+            prop_assert!((volume - dexels).abs() <= bound, "{volume} {dexels} bound {bound}");
+        }
+    }
+}
