@@ -79,8 +79,11 @@ fn a_cutter_that_turns_back_in_the_layer_folds_its_envelope() {
     // The axis pivots about a point in the layer that the way passes: the section grows, stops and shrinks.
     let f = family(5.0, place([0.0; 3], axis(30.0, 20.0)), place([3.0, 1.0, 1.0], axis(45.0, 100.0)), 3.0);
     let diagram = Diagram::new(&f);
-    let folds = diagram.branches(16).iter().filter(|b| b.begins == End::Fold || b.ends == End::Fold).count();
-    assert!(folds >= 2, "{:?}", diagram.events());
+    // Two begin together, and one of them ends together with one that was there.
+    let ends: Vec<(End, End)> = diagram.branches(16).iter().map(|b| (b.begins, b.ends)).collect();
+    assert_eq!(ends.len(), 4, "{ends:?} {:?}", diagram.events());
+    assert_eq!(ends.iter().filter(|(begins, _)| *begins == End::Fold).count(), 2, "{ends:?}");
+    assert_eq!(ends.iter().filter(|(_, ends)| *ends == End::Fold).count(), 2, "{ends:?}");
     assert!(diagram.is_resolved());
 }
 
