@@ -7,6 +7,7 @@
 pub mod check;
 pub mod chips;
 pub mod diagnostic;
+pub mod fingerprint;
 pub mod job;
 pub mod machining;
 pub mod number;

@@ -61,6 +61,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
             "transform",
         ],
     ),
+    ("fingerprint", &["source", "diagnostic", "setup", "transform"]),
     (
         "job",
         &[
