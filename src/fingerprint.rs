@@ -54,6 +54,13 @@ impl Digest {
         Self::of_reader(File::open(path)?)
     }
 
+    /// The digest of bytes that come in chunks; how they are cut does not count.
+    pub fn of_chunks<'a>(chunks: impl IntoIterator<Item = &'a [u8]>) -> Self {
+        let mut hasher = Sha256::new();
+        chunks.into_iter().for_each(|chunk| hasher.update(chunk));
+        Self(hasher.finalize().into())
+    }
+
     /// The digest of a list: each part counts with its length, so moving a byte from one part to the next changes it.
     pub fn of_parts<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> Self {
         let mut hasher = Sha256::new();

@@ -6,6 +6,7 @@
 
 pub mod check;
 pub mod chips;
+pub mod choice;
 pub mod diagnostic;
 pub mod fingerprint;
 pub mod job;

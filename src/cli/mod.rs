@@ -6,10 +6,12 @@ mod diff;
 mod exit;
 mod files;
 mod findings;
+mod hook;
 mod output;
 mod progress;
 mod reference;
 mod section;
+mod shop;
 mod simulate;
 mod stats;
 mod terminal;
@@ -57,6 +59,7 @@ enum Command {
     Simulate(simulate::Simulate),
     Section(Box<section::Section>),
     Diff(diff::Diff),
+    Hook(Box<hook::Hook>),
     Transforms(reference::Transforms),
     Schema(reference::Schema),
     Explain(reference::Explain),
@@ -74,6 +77,7 @@ pub fn main() -> ExitCode {
         Command::Simulate(command) => command.run(),
         Command::Section(command) => command.run(),
         Command::Diff(command) => command.run(),
+        Command::Hook(command) => command.run(),
         Command::Transforms(command) => command.run(),
         Command::Schema(command) => command.run(),
         Command::Explain(command) => command.run(),
@@ -81,7 +85,7 @@ pub fn main() -> ExitCode {
         Command::Man(command) => command.run(Cli::command()),
     };
     match done {
-        Ok(exit) => exit.into(),
+        Ok(exit) => exit.leave(),
         // A reader that has seen enough (`clsmith ... | head`) is no error of ours, but the work was not done either.
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Exit::NobodyReads.into(),
         Err(error) => {

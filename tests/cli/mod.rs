@@ -1,8 +1,10 @@
 //! The command as people run it.
 
 mod apply;
+mod hook;
 mod other;
 mod section;
+mod select;
 mod simulate;
 
 use assert_cmd::Command;
