@@ -15,6 +15,7 @@ mod shop;
 mod simulate;
 mod stats;
 mod terminal;
+mod watch;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use exit::Exit;
@@ -60,6 +61,7 @@ enum Command {
     Section(Box<section::Section>),
     Diff(diff::Diff),
     Hook(Box<hook::Hook>),
+    Watch(Box<watch::Watch>),
     Transforms(reference::Transforms),
     Schema(reference::Schema),
     Explain(reference::Explain),
@@ -78,6 +80,7 @@ pub fn main() -> ExitCode {
         Command::Section(command) => command.run(),
         Command::Diff(command) => command.run(),
         Command::Hook(command) => command.run(),
+        Command::Watch(command) => command.run(),
         Command::Transforms(command) => command.run(),
         Command::Schema(command) => command.run(),
         Command::Explain(command) => command.run(),

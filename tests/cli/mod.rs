@@ -6,6 +6,7 @@ mod other;
 mod section;
 mod select;
 mod simulate;
+mod watch;
 
 use assert_cmd::Command;
 use std::path::{Path, PathBuf};

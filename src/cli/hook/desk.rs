@@ -52,13 +52,17 @@ impl Desk {
         interrupt: &Interrupt,
     ) -> (Vec<PathBuf>, Vec<Diagnostic>) {
         let (mut put, mut found) = (Vec::new(), Vec::new());
-        let left = match self.left() {
+        let (left, others) = match self.left() {
             Ok(left) => left,
             Err(error) => {
                 let message = format!("what the post left cannot be read: {error}");
                 return (put, vec![Diagnostic::new(codes::UNREADABLE, message)]);
             }
         };
+        for other in others {
+            let message = format!("the post left {}, which is no file and is thrown away", other.display());
+            found.push(Diagnostic::new(codes::UNREADABLE, message));
+        }
         for from in left {
             let Ok(name) = from.strip_prefix(self.folder.path()) else { continue };
             let target = to.join(name);
@@ -75,9 +79,9 @@ impl Desk {
         (put, found)
     }
 
-    /// The files in the folder besides the program, sorted. Links are not followed.
-    fn left(&self) -> io::Result<Vec<PathBuf>> {
-        let mut left = Vec::new();
+    /// The files in the folder besides the program, sorted, and what is neither file nor folder: links are not followed.
+    fn left(&self) -> io::Result<(Vec<PathBuf>, Vec<PathBuf>)> {
+        let (mut left, mut others) = (Vec::new(), Vec::new());
         let mut folders = vec![self.folder.path().to_path_buf()];
         while let Some(folder) = folders.pop() {
             for entry in fs::read_dir(folder)? {
@@ -85,13 +89,16 @@ impl Desk {
                 let kind = entry.file_type()?;
                 if kind.is_dir() {
                     folders.push(entry.path());
-                } else if kind.is_file() && entry.path() != self.file {
+                } else if !kind.is_file() {
+                    others.push(entry.path());
+                } else if entry.path() != self.file {
                     left.push(entry.path());
                 }
             }
         }
         left.sort();
-        Ok(left)
+        others.sort();
+        Ok((left, others))
     }
 
     /// Takes the folder away.

@@ -8,6 +8,7 @@ use crate::cli::files;
 use crate::cli::output::{Outputs, unless_nobody_reads};
 use crate::cli::progress::Progress;
 use crate::cli::shop::{self, Correction, InputRecord, Log, Outcome, OutputRecord, Record};
+use crate::cli::terminal::plain;
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::fingerprint::Digest;
 use clsmith::report::policy::Policy;
@@ -131,7 +132,7 @@ impl<'h> Run<'h> {
         let name = self.hook.name().to_string_lossy();
         match args.chooser() {
             Ok(chooser) => shop::correct(args, &chooser, policy, progress, &name, source),
-            Err(found) => Correction::refused(found),
+            Err(found) => Correction::without_recipe(found),
         }
     }
 
@@ -201,7 +202,7 @@ impl<'h> Run<'h> {
             let folder = self.hook.input.parent().unwrap_or(Path::new(""));
             let (put, faults) = desk.hand_over(folder, &protected, self.outputs.interrupt());
             if !self.hook.quiet {
-                put.iter().for_each(|path| eprintln!("{}: from the post", path.display()));
+                put.iter().for_each(|path| eprintln!("{}: from the post", plain(&path.to_string_lossy())));
             }
             record.left = put.iter().map(|path| path.to_string_lossy().into_owned()).collect();
             found.extend(faults);
@@ -215,7 +216,7 @@ impl<'h> Run<'h> {
     /// What the recipe did, for who looks on.
     fn summary(&self) -> io::Result<()> {
         let mut err = io::stderr().lock();
-        let name = &self.input.path;
+        let name = plain(&self.input.path);
         let recipe = self.correction.recipe.as_ref();
         let by = recipe.map(|recipe| format!("{} ({})", recipe.path, recipe.chosen_by)).unwrap_or_default();
         match self.correction.outcome {
@@ -240,7 +241,7 @@ impl<'h> Run<'h> {
             self.correction.outcome = Outcome::Stopped;
             eprintln!("clsmith: stopped");
         } else if self.correction.outcome == Outcome::Refused {
-            eprintln!("{}: nothing was posted", self.input.path);
+            eprintln!("{}: nothing was posted", plain(&self.input.path));
         }
         let Some(mut log) = self.log.take() else { return Ok(Exit::Posted(exit)) };
         let more = More { post: self.post.as_ref(), exit };

@@ -49,16 +49,31 @@ pub struct Correction {
     pub reports: Vec<StepReport>,
     /// The recipe, once it was read.
     pub recipe: Option<RecipeRecord>,
+    /// Whether it is refused for what stands around it, a broken recipe say, and may go through when that is put right.
+    pub surroundings: bool,
 }
 
 impl Correction {
     fn without_program(outcome: Outcome, findings: Vec<Diagnostic>) -> Self {
-        Self { outcome, program: None, findings, steps: Vec::new(), reports: Vec::new(), recipe: None }
+        Self {
+            outcome,
+            program: None,
+            findings,
+            steps: Vec::new(),
+            reports: Vec::new(),
+            recipe: None,
+            surroundings: false,
+        }
     }
 
     /// A program that cannot be corrected.
     pub fn refused(findings: Vec<Diagnostic>) -> Self {
         Self::without_program(Outcome::Refused, findings)
+    }
+
+    /// A program whose recipe cannot be used.
+    pub fn without_recipe(findings: Vec<Diagnostic>) -> Self {
+        Self { surroundings: true, ..Self::refused(findings) }
     }
 
     /// The bytes that go on: the corrected program, or the file as it came.
@@ -91,11 +106,11 @@ pub fn correct(
     };
     let Loaded { recipe, setup, texts } = match files::recipe(&path, given.as_deref()) {
         Ok(loaded) => loaded,
-        Err(found) => return Correction::refused(found),
+        Err(found) => return Correction::without_recipe(found),
     };
     let print = match RecipePrint::of(&texts, &recipe, &setup) {
         Ok(print) => print,
-        Err(found) => return Correction::refused(vec![*found]),
+        Err(found) => return Correction::without_recipe(vec![*found]),
     };
     let used = RecipeRecord { path: path.to_string_lossy().into_owned(), chosen_by: by, print };
     let job = Job { recipe: &recipe, setup: &setup, policy, dialect: args.dialect, watch };
@@ -107,5 +122,5 @@ pub fn correct(
         Some(_) => Outcome::Unchanged,
         None => Outcome::Refused,
     };
-    Correction { outcome, program, findings, steps, reports, recipe: Some(used) }
+    Correction { outcome, program, findings, steps, reports, recipe: Some(used), surroundings: false }
 }
