@@ -30,6 +30,10 @@ Examples:
   clsmith simulate part.cls --setup shop.yaml      what its tools cut and bear
   clsmith section part.stl --radius 5 --step 0.5 --feed 800 -o part.cls
                                                    a program for a ball over a part
+  clsmith hook --recipe recipe.yaml part.cls -- mypost {}
+                                                   correct a program and post the result
+  clsmith watch exports --recipe recipe.yaml --out corrected '*.cls'
+                                                   correct what lands in a folder
   clsmith diff part.cls out.cls                    what changed, by meaning
   clsmith transforms scale_feed                    what a recipe step does
 
@@ -38,6 +42,8 @@ Exit codes:
   1  errors were found; nothing was written for the file they are in
   2  the command line is wrong
   3  `diff`: the programs differ in meaning
+  124-127, 128+n  `hook`: the post was stopped, nothing was posted, it could not be started,
+     it was not found, it was ended by signal n; all other codes are the post's own
   130  stopped by Ctrl-C; no half file is left
   141  the reader of the output went away (`| head`)";
 

@@ -69,7 +69,7 @@ impl Policy {
                 return Err(format!("{code} cannot be allowed: {} ends the run", code.meaning()));
             }
             if NEVER_SILENT.contains(&code) {
-                return Err(format!("{code} cannot be allowed: {} is always told", code.meaning()));
+                return Err(format!("{code} cannot be allowed, it is always told: {}", code.meaning()));
             }
             if policy.deny.contains(&code) {
                 return Err(format!("{code} is both denied and allowed"));

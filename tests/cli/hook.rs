@@ -41,7 +41,7 @@ fn stderr(done: &assert_cmd::assert::Assert) -> String {
 }
 
 fn nothing_remains(folder: &Path) {
-    assert_eq!(names(&folder.join("tmp")), [PathBuf::new(); 0]);
+    assert_eq!(names(&folder.join("tmp")), Vec::<PathBuf>::new());
 }
 
 /// A script in a folder.
@@ -155,6 +155,15 @@ fn names_and_arguments_need_not_be_utf8() {
     let done = hook(folder.path()).arg(name).arg("--").arg(script).arg(odd).arg("{}").assert().code(0);
     assert_eq!(done.get_output().stdout, b"\xfe\xff\n");
     assert!(folder.path().join(OsStr::from_bytes(b"gr\xfc\xdfe \xff.cls.copy")).exists());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn nobody_else_can_read_the_copy() {
+    let folder = example("pocket");
+    let script = script(folder.path(), "stat -c %a \"${1%/*}\"");
+    let done = hook(folder.path()).args(["part.cls", "--"]).arg(script).arg("{}").assert().code(0);
+    assert_eq!(done.get_output().stdout, b"700\n");
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod apply;
 mod hook;
+mod hook_examples;
 mod other;
 mod section;
 mod select;

@@ -26,7 +26,7 @@ fn shop(rules: &str) -> tempfile::TempDir {
 fn chosen(folder: &Path, input: &str) -> (String, String) {
     let log = folder.join("log.jsonl");
     let _ = fs::remove_file(&log);
-    clsmith(folder)
+    let _ = clsmith(folder)
         .args([
             "hook",
             "-q",
@@ -128,7 +128,11 @@ fn a_wrong_selection_is_underlined() {
         ("rules:\n- when: { tool: [] }\n  recipe: a.yaml\n", "CL0207", "an empty list fits nothing"),
         ("rules:\n- when: { machine: \"[\" }\n  recipe: a.yaml\n", "CL0207", "no name pattern"),
         ("rules:\n- when: { file: \"*\" }\n", "CL0205", "`recipe`"),
-        ("rules:\n- when: { file: \"*\" }\n  recipe: a.yaml\notherwise: skip\n", "CL02", "`pass`"),
+        (
+            "rules:\n- when: { file: \"*\" }\n  recipe: a.yaml\notherwise: skip\n",
+            "CL02",
+            "Did you mean `stop`",
+        ),
         ("version: 1\nsteps: []\n", "CL02", "--recipe"),
     ] {
         let folder = shop(text);

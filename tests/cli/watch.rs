@@ -342,7 +342,7 @@ fn permissions_count(folder: &Path) -> bool {
     use std::os::unix::fs::PermissionsExt;
     let path = folder.join("closed");
     fs::write(&path, "").unwrap();
-    fs::set_permissions(&path, fs::Permissions::from_mode(0)).unwrap();
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o000)).unwrap();
     fs::read(&path).is_err()
 }
 
@@ -357,7 +357,7 @@ fn files_that_cannot_be_read_and_folders_that_cannot_be_written_are_told() {
     let mode = |path: &str, mode: u32| {
         fs::set_permissions(folder.path().join(path), fs::Permissions::from_mode(mode)).unwrap();
     };
-    mode("exports/part.cls", 0);
+    mode("exports/part.cls", 0o000);
     assert!(stderr(&recipe(folder.path(), "*.cls").assert().code(1)).contains("CL0401"));
     mode("exports/part.cls", 0o644);
     mode("out", 0o555);
@@ -405,7 +405,8 @@ fn a_watch_that_is_killed_at_any_moment_goes_on() {
             assert!(text.ends_with(&format!("$$ {name}\n")) || name == "part.cls", "{name} is cut");
         }
     }
-    recipe(folder.path(), "*.cls").assert();
+    // The rest; what was refused before the last kill no longer counts, so either code is right.
+    let _ = recipe(folder.path(), "*.cls").assert();
     let expected = corrected(folder.path());
     for name in &names {
         let text = fs::read(folder.path().join("out").join(name)).unwrap();

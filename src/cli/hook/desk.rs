@@ -21,8 +21,15 @@ pub struct Desk {
 impl Desk {
     /// A folder that only this user can look into, with one file in it.
     pub fn with<'b>(name: &OsStr, pieces: impl Iterator<Item = &'b [u8]>) -> Result<Self, Box<Diagnostic>> {
-        let folder = tempfile::Builder::new().prefix("clsmith-hook-").tempdir();
-        let folder = folder.map_err(|error| {
+        let mut builder = tempfile::Builder::new();
+        builder.prefix("clsmith-hook-");
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            // Programs are a shop's knowledge; the default would leave it to the umask who may read them.
+            builder.permissions(fs::Permissions::from_mode(0o700));
+        }
+        let folder = builder.tempdir().map_err(|error| {
             let message = format!("the private folder for the post cannot be made: {error}");
             Box::new(Diagnostic::new(codes::UNWRITABLE, message))
         })?;

@@ -7,9 +7,6 @@ use std::io;
 use std::process::{Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
-/// How long a post that is to end may tidy up before it is killed.
-const GRACE: Duration = Duration::from_secs(2);
-
 /// The longest pause between two looks at the post.
 const LONGEST_PAUSE: Duration = Duration::from_millis(50);
 
@@ -86,6 +83,8 @@ fn ended(status: ExitStatus) -> Ended {
 fn end(child: &mut dyn ChildWrapper) -> io::Result<()> {
     #[cfg(unix)]
     {
+        /// How long a post that is to end may tidy up before it is killed.
+        const GRACE: Duration = Duration::from_secs(2);
         const SIGTERM: i32 = 15;
         let asked = Instant::now();
         if child.signal(SIGTERM).is_ok() {

@@ -23,6 +23,9 @@ pub enum Moved {
     Changed,
 }
 
+/// More refused programs of one name are a fault of something else.
+const MOST: usize = 10_000;
+
 /// Moves a program aside.
 pub fn aside(
     export: &Export,
@@ -31,22 +34,24 @@ pub fn aside(
     folder: &Path,
 ) -> Result<Moved, Box<Diagnostic>> {
     let text = Digest::of(diagnostics.as_bytes());
-    for number in 0.. {
+    for number in 0..MOST {
         let target = numbered(&folder.join(&export.name), number);
         let beside = with_end(&target, ".diagnostics.txt");
-        let is_ours = |path: &Path, digest: Digest| {
-            !fs::exists(path).unwrap_or(true) || Digest::of_file(path).is_ok_and(|found| found == digest)
-        };
-        if !is_ours(&target, digest) || !is_ours(&beside, text) {
+        // What has our content is from a try that did not come to its end.
+        if !is_free_or(&target, digest)? || !is_free_or(&beside, text)? {
             continue;
         }
         put(&beside, |out| out.write_all(diagnostics.as_bytes()))?;
-        put(&target, |out| io::copy(&mut File::open(&export.path)?, out).map(drop))?;
-        let copied = Digest::of_file(&target).map_err(|error| Box::new(unreadable(&target, &error)))?;
-        if copied != digest || Stamp::of(&export.path).ok() != Some(export.stamp) {
-            // Somebody exports anew at this moment; what was put aside is nothing anybody exported, or is old.
-            let _ = fs::remove_file(&target);
-            let _ = fs::remove_file(&beside);
+        let is_new = put(&target, |out| io::copy(&mut File::open(&export.path)?, out).map(drop))?;
+        if !is_free_or(&target, digest)? {
+            // Somebody exports anew at this moment: what was copied is nothing that anybody exported.
+            if is_new {
+                let _ = fs::remove_file(&target);
+                let _ = fs::remove_file(&beside);
+            }
+            return Ok(Moved::Changed);
+        }
+        if Stamp::of(&export.path).ok() != Some(export.stamp) {
             return Ok(Moved::Changed);
         }
         return Ok(match fs::remove_file(&export.path) {
@@ -54,18 +59,30 @@ pub fn aside(
             Err(error) => Moved::Copied(target, Box::new(unwritable(&export.path, &error))),
         });
     }
-    Ok(Moved::Changed)
+    let full = io::Error::other(format!("there are {MOST} refused programs of this name"));
+    Err(Box::new(unwritable(&folder.join(&export.name), &full)))
 }
 
-/// Writes a file that is not there; one that is there is ours, from a try that did not come to its end.
-fn put(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Box<Diagnostic>> {
+/// Whether nothing stands there, or just this content.
+fn is_free_or(path: &Path, digest: Digest) -> Result<bool, Box<Diagnostic>> {
+    match Digest::of_file(path) {
+        Ok(found) => Ok(found == digest),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(true),
+        // A folder of this name, say.
+        Err(_) if fs::symlink_metadata(path).is_ok() => Ok(false),
+        Err(error) => Err(Box::new(unreadable(path, &error))),
+    }
+}
+
+/// Writes a file that is not there; one that is there stays. Whether it was written.
+fn put(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<bool, Box<Diagnostic>> {
     let make = || {
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder)?;
         }
         match write_new_atomically(path, write) {
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Ok(()),
-            written => written,
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Ok(false),
+            written => written.map(|()| true),
         }
     };
     make().map_err(|error| Box::new(unwritable(path, &error)))

@@ -95,7 +95,8 @@ impl<'w> Watching<'w> {
                 let first = first.get_or_insert_with(names);
                 exports.retain(|export| first.contains(&export.name));
             }
-            self.seen.retain(|name, _| exports.iter().any(|export| export.name == *name));
+            // Exports come in the order of their names.
+            self.seen.retain(|name, _| exports.binary_search_by(|export| export.name.cmp(name)).is_ok());
             for export in &exports {
                 match self.consider(export) {
                     Err(error) if is_interrupt(&error) => return Ok(Exit::Interrupted),
@@ -172,24 +173,26 @@ impl<'w> Watching<'w> {
     fn take(&mut self, export: &Export) -> io::Result<Taken> {
         let changed = || Ok(Ok(Status::Settling(Instant::now())));
         let fits = export.stamp.size < u64::from(u32::MAX);
-        let read = if fits { fs::read(&export.path).map(Some) } else { Ok(None) };
-        let read = read.and_then(|bytes| {
-            let first = match &bytes {
+        let read = || -> io::Result<_> {
+            let bytes = if fits { Some(fs::read(&export.path)?) } else { None };
+            let digest = match &bytes {
                 Some(bytes) => Digest::of(bytes),
                 None => Digest::of_file(&export.path)?,
             };
-            Ok((bytes, first, Digest::of_file(&export.path)?, Stamp::of(&export.path)?))
-        });
-        let (bytes, digest, again, stamp) = match read {
+            let is_done = self.state.is_done(&export.name, digest);
+            let rests = is_done || Digest::of_file(&export.path)? == digest;
+            Ok((bytes, digest, is_done, rests && Stamp::of(&export.path)? == export.stamp))
+        };
+        let (bytes, digest, is_done, rests) = match read() {
             Ok(read) => read,
             // Taken away again.
             Err(error) if error.kind() == io::ErrorKind::NotFound => return changed(),
             Err(error) => return Ok(Err(vec![unreadable(&export.path, &error)])),
         };
-        if again != digest || stamp != export.stamp {
+        if !rests {
             return changed();
         }
-        if self.state.is_done(&export.name, digest) {
+        if is_done {
             return Ok(Ok(Status::Done));
         }
         let when = (shop::now(), Instant::now());

@@ -71,9 +71,9 @@ super::area! {
          NX, has no machine that a rule could ask for.";
     WATCHED_FOLDERS = "CL0417", Error, "folders of a watch that lie in each other",
         "Give three folders side by side: exports, `--out` and `--refused`.",
-        "The folder for corrected or refused programs is the watched folder or lies in it. What the watch writes would then be \
-         taken for a new export and corrected again: a feed scaled by 0.8 would be scaled by 0.64 next, and so on. Links are \
-         followed before folders are compared.";
+        "The folder for corrected or refused programs, or the file for the log or the state, lies in the watched folder, or the \
+         watched folder lies in one for outputs. What the watch writes would then be taken for a new export and corrected \
+         again: a feed scaled by 0.8 would be scaled by 0.64 next, and so on. Links are followed before folders are compared.";
     WATCHED_ALREADY = "CL0418", Error, "another watch is at work in a folder",
         "Stop the other one first; on a share it may run on another machine.",
         "A watch holds a lock, `.clsmith-watch.lock`, in the folder that it watches and in the one that it writes to, as long as \
