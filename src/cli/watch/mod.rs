@@ -3,6 +3,7 @@
 //! It polls. Notifications are not sent for what other computers do on a network share, which is where exports land, and are
 //! lost when their queue is full; a look every few seconds at a folder with a few hundred files costs nothing.
 
+mod deliver;
 mod folders;
 mod look;
 mod refused;

@@ -3,20 +3,17 @@
 use super::Watch;
 use super::folders::Folders;
 use super::look::{Export, Stamp, look, unreadable};
-use super::refused::{Moved, aside};
 use super::state::State;
 use crate::cli::exit::Exit;
-use crate::cli::output::{Outputs, unwritable};
+use crate::cli::output::Outputs;
 use crate::cli::progress::Progress;
-use crate::cli::shop::{self, Correction, InputRecord, Log, Outcome, OutputRecord, Record};
+use crate::cli::shop::{self, Correction, Log, Outcome};
 use crate::cli::terminal::plain;
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::fingerprint::Digest;
 use clsmith::report::policy::Policy;
-use clsmith::report::render::human;
 use clsmith::source::Source;
-use clsmith::write::{is_interrupt, same_file};
-use serde::Serialize;
+use clsmith::write::is_interrupt;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io;
@@ -28,16 +25,16 @@ const LONGEST_PAUSE: Duration = Duration::from_secs(300);
 
 /// What a watch knows.
 pub struct Watching<'w> {
-    watch: &'w Watch,
-    folders: &'w Folders,
-    outputs: &'w Outputs,
+    pub(super) watch: &'w Watch,
+    pub(super) folders: &'w Folders,
+    pub(super) outputs: &'w Outputs,
     policy: &'w Policy,
     progress: &'w Progress,
-    log: Option<Log>,
-    state: State,
+    pub(super) log: Option<Log>,
+    pub(super) state: State,
     seen: BTreeMap<PathBuf, Seen>,
     told: BTreeSet<String>,
-    worst: Exit,
+    pub(super) worst: Exit,
 }
 
 /// A file that was seen.
@@ -48,7 +45,7 @@ struct Seen {
 
 /// What a file waits for.
 #[derive(Clone)]
-enum Status {
+pub enum Status {
     /// Not to change for some time, from then on.
     Settling(Instant),
     /// For nothing: it was done, or is told and left.
@@ -58,14 +55,7 @@ enum Status {
 }
 
 /// What a file that was taken waits for, or what stands in the way around it.
-type Taken = Result<Status, Vec<Diagnostic>>;
-
-/// What only the lines of a watch say.
-#[derive(Debug, Serialize)]
-struct More<'r> {
-    /// Where a refused program is now.
-    refused_to: Option<&'r str>,
-}
+pub type Taken = Result<Status, Vec<Diagnostic>>;
 
 impl<'w> Watching<'w> {
     pub fn new(
@@ -101,6 +91,10 @@ impl<'w> Watching<'w> {
                 match self.consider(export) {
                     Err(error) if is_interrupt(&error) => return Ok(Exit::Interrupted),
                     done => done?,
+                }
+                // Ctrl-C while an output was written is only remembered, and may come when all is written.
+                if self.outputs.interrupt().is_raised() {
+                    return Ok(Exit::Interrupted);
                 }
             }
             if self.watch.once && self.is_over(begun)? {
@@ -233,125 +227,8 @@ impl<'w> Watching<'w> {
         }
     }
 
-    fn write(
-        &mut self,
-        export: &Export,
-        digest: Digest,
-        source: &Source,
-        correction: Correction,
-        when: (String, Instant),
-    ) -> io::Result<Taken> {
-        let target = self.folders.out.join(&export.name);
-        let print = correction.recipe.iter().flat_map(|recipe| &recipe.print.files);
-        let mut inputs =
-            print.map(|file| PathBuf::from(&file.path)).chain(self.watch.recipe.files().cloned());
-        if same_file(&target, &export.path) || inputs.any(|input| same_file(&target, &input)) {
-            let message = format!("writing {} would overwrite an input", target.display());
-            return Ok(Err(vec![Diagnostic::new(codes::OUTPUT_IS_INPUT, message)]));
-        }
-        let new = Digest::of_chunks(correction.pieces(source));
-        // After a crash between output and state the output stands already, and nobody must see it change.
-        if Digest::of_file(&target).ok() != Some(new) {
-            if let Some(folder) = target.parent()
-                && let Err(error) = fs::create_dir_all(folder)
-            {
-                return Ok(Err(vec![unwritable(folder, &error)]));
-            }
-            let pieces = |out: &mut dyn io::Write| {
-                correction.pieces(source).try_for_each(|piece| out.write_all(piece))
-            };
-            if let Some(found) = self.outputs.write(&target, pieces)? {
-                return Ok(Err(vec![found]));
-            }
-        }
-        let name = export.name.to_string_lossy();
-        if !correction.findings.is_empty() {
-            self.watch.show(&correction.findings, &name)?;
-        }
-        self.say(&name, &correction, &target);
-        self.remember(export, digest, correction.outcome)?;
-        let output = OutputRecord { path: Some(target.to_string_lossy().into_owned()), sha256: new };
-        self.add_to_log(export, digest, &correction, (Some(output), None), when)?;
-        Ok(Ok(Status::Done))
-    }
-
-    fn refuse(
-        &mut self,
-        export: &Export,
-        digest: Digest,
-        correction: Correction,
-        when: (String, Instant),
-    ) -> io::Result<Taken> {
-        let name = export.name.to_string_lossy();
-        let mut text = Vec::new();
-        human::render(&mut text, &correction.findings, Some(&name), &human::HumanOptions::default())?;
-        let text = String::from_utf8_lossy(&text);
-        let moved = match aside(export, digest, &text, &self.folders.refused) {
-            Ok(moved) => moved,
-            Err(found) => return Ok(Err(vec![*found])),
-        };
-        let (to, stays) = match moved {
-            Moved::Changed => return Ok(Ok(Status::Settling(Instant::now()))),
-            Moved::To(to) => (to, None),
-            Moved::Copied(to, found) => (to, Some(found)),
-        };
-        self.worst = self.worst.max(Exit::Errors);
-        self.watch.show(&correction.findings, &name)?;
-        eprintln!("{}: refused -> {}", plain(&name), plain(&to.to_string_lossy()));
-        if let Some(found) = stays {
-            self.watch.show(&[*found], &name)?;
-            // It stays among the exports, and must not be refused again for ever.
-            self.remember(export, digest, Outcome::Refused)?;
-        }
-        let to = to.to_string_lossy().into_owned();
-        self.add_to_log(export, digest, &correction, (None, Some(&to)), when)?;
-        Ok(Ok(Status::Done))
-    }
-
-    fn say(&self, name: &str, correction: &Correction, target: &Path) {
-        if self.watch.quiet {
-            return;
-        }
-        let what = match (correction.outcome, &correction.recipe) {
-            (Outcome::Corrected, Some(recipe)) => {
-                format!("corrected by {} ({})", recipe.path, recipe.chosen_by)
-            }
-            (Outcome::Unchanged, Some(recipe)) => {
-                format!("nothing to change for {} ({})", recipe.path, recipe.chosen_by)
-            }
-            _ => "no rule fits, passed as it is".to_owned(),
-        };
-        eprintln!("{}: {what} -> {}", plain(name), plain(&target.to_string_lossy()));
-    }
-
-    fn remember(&mut self, export: &Export, digest: Digest, outcome: Outcome) -> io::Result<()> {
-        match self.state.add(&export.name, digest, outcome) {
-            Ok(()) => Ok(()),
-            Err(found) => self.tell_once(*found),
-        }
-    }
-
-    fn add_to_log(
-        &mut self,
-        export: &Export,
-        digest: Digest,
-        correction: &Correction,
-        (output, refused_to): (Option<OutputRecord>, Option<&str>),
-        (time, started): (String, Instant),
-    ) -> io::Result<()> {
-        let Some(log) = &mut self.log else { return Ok(()) };
-        let path = export.path.to_string_lossy().into_owned();
-        let input = InputRecord { path, sha256: Some(digest) };
-        let more = More { refused_to };
-        let record = Record::of("watch", (&time, started), &input, correction, output.as_ref(), more);
-        match log.add(&record) {
-            Ok(()) => Ok(()),
-            Err(found) => self.tell_once(*found),
-        }
-    }
-
     /// Tells what would otherwise be told at every look.
-    fn tell_once(&mut self, found: Diagnostic) -> io::Result<()> {
+    pub(super) fn tell_once(&mut self, found: Diagnostic) -> io::Result<()> {
         if found.is_error() {
             self.worst = self.worst.max(Exit::Errors);
         }
