@@ -27,10 +27,10 @@ Examples:
   clsmith hook --recipe shop.yaml --timeout 300 --on-error pass-original part.cls -- mypost --in={}
   clsmith hook --recipe shop.yaml --keep corrected/ part.cls -- C:\\post\\mypost.exe \"a b\" {}
 
-`{}` stands for the corrected program, in any argument and any number of times. No shell is involved: every
-argument reaches the post as it is, blanks, quotes and line breaks included. The program lies in a private
-temporary folder under its own name; what the post leaves beside it there is moved beside INPUT when the
-post has ended by itself. INPUT is never changed.
+`{}` stands for the corrected program, in any argument and any number of times. No shell is
+involved: every argument reaches the post as it is, blanks, quotes and line breaks included. The
+program lies in a private temporary folder under its own name; what the post leaves beside it
+there is put beside INPUT when the post has ended by itself. INPUT is never changed.
 
 Exit codes: the post's own, and
   2    the command line is wrong; nothing ran
@@ -40,10 +40,11 @@ Exit codes: the post's own, and
   127  the post was not found
   128+n  the post was ended by signal n
   130  stopped by Ctrl-C
-A post may itself end with one of these numbers; then the hook warns (CL0415), and the log tells the two apart.
+A post may itself end with one of these numbers; then the hook warns (CL0415), and the log tells
+the two apart.
 
-The log (--log) gets one line of JSON a run: time, input, recipe with all files it depends on (SHA-256),
-version, outcome, changes by step, findings by code, post, exit code, seconds.";
+The log (--log) gets one line of JSON a run: time, input, recipe with all files it depends on
+(SHA-256), version, outcome, changes by step, findings by code, post, exit code, seconds.";
 
 /// What to do with a program that cannot be corrected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

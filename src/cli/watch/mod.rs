@@ -32,19 +32,23 @@ const EXAMPLES: &str = "\
 Examples:
   clsmith watch exports --recipe shop.yaml --out corrected '*.cls'
   clsmith watch exports --select recipes.yaml --out corrected --log watch.jsonl '**/*.aptsource'
-  clsmith watch exports --recipe shop.yaml --out corrected --once '*.cls'    what is there now, then end
+  clsmith watch exports --recipe shop.yaml --out corrected --once '*.cls'
+                                                 what is there now, then end
 
-Looks every --poll seconds. A file is taken when its size and time have not changed for --settle seconds and it
-reads the same twice; a file that changes meanwhile is left for the next look. The corrected program appears whole
-under the same name in --out, over an earlier one. A program that cannot be corrected is moved to --refused with
-NAME.diagnostics.txt beside it; what stands there already is never overwritten.
+Looks every --poll seconds. A file is taken when its size and time have not changed for --settle
+seconds and it reads the same twice; a file that changes meanwhile is left for the next look. The
+corrected program appears whole under the same name in --out, over an earlier one. A program that
+cannot be corrected is moved to --refused with NAME.diagnostics.txt beside it; what stands there
+already is never overwritten.
 
-What was done is remembered by content in --state, one line of JSON each, so a restart, even after a crash, does
-nothing twice: only a file whose content has changed is done again. Another recipe alone is no reason.
-GLOB is a path below the folder: `*.cls` takes the folder's own files, `**/*.cls` those of its subfolders, too.
+What was done is remembered by content in --state, one line of JSON each, so a restart, even after
+a crash, does nothing twice: only a file whose content has changed is done again. Another recipe
+alone is no reason. GLOB is a path below the folder: `*.cls` takes the folder's own files,
+`**/*.cls` those of its subfolders, too.
 
-Exit codes: 130 after Ctrl-C, which is how a watch ends; 1 if it cannot begin; with --once 0 if all were taken or
-were done before, 1 if one was refused, cannot be read or written, or is still changing.";
+Exit codes: 130 after Ctrl-C, which is how a watch ends; 1 if it cannot begin; with --once 0 if
+all were taken or were done before, 1 if one was refused, cannot be read or written, or is still
+changing.";
 
 /// Corrects programs that land in a folder
 #[derive(Debug, Args)]
