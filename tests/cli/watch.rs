@@ -395,10 +395,19 @@ fn a_watch_that_is_killed_at_any_moment_goes_on() {
         fs::write(folder.path().join("exports").join(format!("bad-{name}")), format!("{BROKEN}$$ {name}\n"))
             .unwrap();
     }
-    // Different moments each time, the same in each run.
-    for moment in [40, 110, 120, 130, 140, 155, 170, 190, 210, 240] {
+    let (out, refused) = (folder.path().join("out"), folder.path().join("out/refused"));
+    let made = || {
+        [&out, &refused].into_iter().filter(|made| made.exists()).map(|made| seen(made).len()).sum::<usize>()
+    };
+    // As soon as something new stands there, and a little later each time: in the midst of the next.
+    for round in 0..12 {
+        let before = made();
+        if before == 13 + 1 + 24 {
+            break;
+        }
         let child = start(folder.path());
-        std::thread::sleep(Duration::from_millis(moment));
+        wait_for("something new", || made() > before);
+        std::thread::sleep(Duration::from_millis(3 * round));
         stop(child);
         for name in seen(&folder.path().join("out")).iter().filter(|name| name.ends_with(".cls")) {
             let text = fs::read_to_string(folder.path().join("out").join(name)).unwrap();
