@@ -6,7 +6,9 @@
 
 pub mod check;
 pub mod chips;
+pub mod choice;
 pub mod diagnostic;
+pub mod fingerprint;
 pub mod job;
 pub mod machining;
 pub mod number;

@@ -18,6 +18,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("surface", &["program", "sim"]),
     ("setup", &["source", "diagnostic", "program", "values", "yaml", "sim"]),
     ("recipe", &["source", "diagnostic", "program", "values", "yaml", "setup"]),
+    ("choice", &["source", "diagnostic", "program", "parse", "values", "yaml"]),
     ("machining", &["source", "diagnostic", "program", "values", "setup", "sim", "chips"]),
     ("check", &["source", "number", "diagnostic", "program", "parse"]),
     ("surfacing", &["source", "diagnostic", "program", "parse", "write", "values", "yaml", "sim", "surface"]),
@@ -61,6 +62,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
             "transform",
         ],
     ),
+    ("fingerprint", &["source", "diagnostic", "setup", "transform"]),
     (
         "job",
         &[

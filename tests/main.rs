@@ -7,6 +7,7 @@ mod check;
 mod chips;
 mod cli;
 mod examples;
+mod fingerprint;
 mod layers;
 mod machining;
 mod motion;

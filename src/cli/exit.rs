@@ -17,6 +17,19 @@ pub enum Exit {
     Interrupted,
     /// Whoever read the output went away before it was all written.
     NobodyReads,
+    /// `hook`: the post's code, or the hook's own.
+    Posted(i32),
+}
+
+impl Exit {
+    /// Ends the process. Everything that has to be tidied up is gone by now.
+    pub fn leave(self) -> ExitCode {
+        match self {
+            // Windows has codes beyond a byte, and cut to one 256 would be success.
+            Self::Posted(code) => std::process::exit(code),
+            exit => exit.into(),
+        }
+    }
 }
 
 impl From<Exit> for ExitCode {
@@ -28,6 +41,7 @@ impl From<Exit> for ExitCode {
             Exit::Differ => 3,
             Exit::Interrupted => 130,
             Exit::NobodyReads => 141,
+            Exit::Posted(code) => u8::try_from(code).unwrap_or(1),
         })
     }
 }

@@ -7,13 +7,16 @@ mod diff;
 mod exit;
 mod files;
 mod findings;
+mod hook;
 mod output;
 mod progress;
 mod reference;
 mod section;
+mod shop;
 mod simulate;
 mod stats;
 mod terminal;
+mod watch;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use exit::Exit;
@@ -30,6 +33,10 @@ Examples:
                                                    the exact chips of flat end mills, in five axes too
   clsmith section part.stl --radius 5 --step 0.5 --feed 800 -o part.cls
                                                    a program for a ball over a part
+  clsmith hook --recipe recipe.yaml part.cls -- mypost {}
+                                                   correct a program and post the result
+  clsmith watch exports --recipe recipe.yaml --out corrected '*.cls'
+                                                   correct what lands in a folder
   clsmith diff part.cls out.cls                    what changed, by meaning
   clsmith transforms scale_feed                    what a recipe step does
 
@@ -38,6 +45,8 @@ Exit codes:
   1  errors were found; nothing was written for the file they are in
   2  the command line is wrong
   3  `diff`: the programs differ in meaning
+  124-127, 128+n  `hook`: the post was stopped, nothing was posted, it could not be started,
+     it was not found, it was ended by signal n; all other codes are the post's own
   130  stopped by Ctrl-C; no half file is left
   141  the reader of the output went away (`| head`)";
 
@@ -61,6 +70,8 @@ enum Command {
     Chips(Box<chips::Chips>),
     Section(Box<section::Section>),
     Diff(diff::Diff),
+    Hook(Box<hook::Hook>),
+    Watch(Box<watch::Watch>),
     Transforms(reference::Transforms),
     Schema(reference::Schema),
     Explain(reference::Explain),
@@ -79,6 +90,8 @@ pub fn main() -> ExitCode {
         Command::Chips(command) => command.run(),
         Command::Section(command) => command.run(),
         Command::Diff(command) => command.run(),
+        Command::Hook(command) => command.run(),
+        Command::Watch(command) => command.run(),
         Command::Transforms(command) => command.run(),
         Command::Schema(command) => command.run(),
         Command::Explain(command) => command.run(),
@@ -86,7 +99,7 @@ pub fn main() -> ExitCode {
         Command::Man(command) => command.run(Cli::command()),
     };
     match done {
-        Ok(exit) => exit.into(),
+        Ok(exit) => exit.leave(),
         // A reader that has seen enough (`clsmith ... | head`) is no error of ours, but the work was not done either.
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Exit::NobodyReads.into(),
         Err(error) => {

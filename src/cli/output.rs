@@ -5,7 +5,7 @@ use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::write::{Interrupt, is_interrupt, same_file, write_atomically_unless};
 use std::io::{self, Write};
 use std::path::Path;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, LockResult, Mutex, MutexGuard};
 
 /// Where outputs are written: one at a time, and to its end or not at all.
 #[derive(Clone, Default)]
@@ -41,7 +41,21 @@ impl Outputs {
         target: &Path,
         write_all: impl Fn(&mut dyn Write) -> io::Result<()>,
     ) -> io::Result<Option<Diagnostic>> {
-        let _held = self.writing.lock();
+        let _held = self.hold();
+        self.write_held(target, write_all)
+    }
+
+    /// Keeps Ctrl-C from ending the process at once, for who has something to take away first and looks at the interrupt.
+    pub fn hold(&self) -> LockResult<MutexGuard<'_, ()>> {
+        self.writing.lock()
+    }
+
+    /// As [`Outputs::write`], for who holds the outputs already.
+    pub fn write_held(
+        &self,
+        target: &Path,
+        write_all: impl Fn(&mut dyn Write) -> io::Result<()>,
+    ) -> io::Result<Option<Diagnostic>> {
         let done = if target == Path::new(STANDARD) {
             let mut out = io::BufWriter::new(io::stdout().lock());
             write_all(&mut out).and_then(|()| out.flush())
@@ -51,10 +65,7 @@ impl Outputs {
         match done {
             Ok(()) => Ok(None),
             Err(error) if is_interrupt(&error) || error.kind() == io::ErrorKind::BrokenPipe => Err(error),
-            Err(error) => {
-                let message = format!("{} cannot be written: {error}", target.display());
-                Ok(Some(Diagnostic::new(codes::UNWRITABLE, message)))
-            }
+            Err(error) => Ok(Some(unwritable(target, &error))),
         }
     }
 }
@@ -68,6 +79,11 @@ pub fn overwritten<'a>(mut outputs: impl Iterator<Item = &'a Path>, inputs: &[&P
         let message = format!("writing {} would overwrite the input {}", target.display(), hit.display());
         Some(Diagnostic::new(codes::OUTPUT_IS_INPUT, message))
     })
+}
+
+/// An output that cannot be written.
+pub fn unwritable(target: &Path, error: &io::Error) -> Diagnostic {
+    Diagnostic::new(codes::UNWRITABLE, format!("{} cannot be written: {error}", target.display()))
 }
 
 /// What only people see may fail: with `clsmith ... 2>&1 | head` the outputs are still written.

@@ -29,8 +29,7 @@ impl Progress {
 
     /// Begins again with another name.
     pub fn begin(&self, name: &str) {
-        // A name from the command line must not be able to talk to the terminal.
-        self.bar.set_message(name.replace(char::is_control, "?"));
+        self.bar.set_message(terminal::plain(name));
         self.bar.reset();
     }
 

@@ -44,17 +44,24 @@ impl Transforms {
 /// Prints the JSON Schema of recipes, for editors to complete and check from
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples:\n  clsmith schema > clsmith-recipe.schema.json\n  clsmith schema --setup > clsmith-setup.schema.json"
+    after_help = "Examples:\n  clsmith schema > clsmith-recipe.schema.json\n  clsmith schema --setup > clsmith-setup.schema.json\n  clsmith schema --select > clsmith-select.schema.json"
 )]
 pub struct Schema {
     /// The schema of setup files instead
     #[arg(long)]
     setup: bool,
+    /// The schema of files that choose the recipe (`hook --select`) instead
+    #[arg(long, conflicts_with = "setup")]
+    select: bool,
 }
 
 impl Schema {
     pub fn run(&self) -> io::Result<Exit> {
-        let schema = if self.setup { Setup::schema() } else { clsmith::recipe::schema::<transform::Step>() };
+        let schema = match self {
+            Self { setup: true, .. } => Setup::schema(),
+            Self { select: true, .. } => clsmith::choice::schema(),
+            _ => clsmith::recipe::schema::<transform::Step>(),
+        };
         print(&serde_json::to_string_pretty(&schema)?)
     }
 }

@@ -52,3 +52,8 @@ pub fn unicode() -> bool {
         .find(|value| !value.is_empty());
     locale.is_none_or(|value| value.to_ascii_uppercase().replace('-', "").contains("UTF8"))
 }
+
+/// A name as it may be shown: one from outside must not be able to talk to the terminal.
+pub fn plain(name: &str) -> String {
+    name.replace(char::is_control, "?")
+}

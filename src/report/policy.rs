@@ -1,6 +1,9 @@
 //! Which findings stand, and how bad they are: `--deny`, `--allow`, `--notes`.
 
-use crate::diagnostic::codes::{OUTPUT_IS_INPUT, TOO_LARGE, UNREADABLE, UNWRITABLE};
+use crate::diagnostic::codes::{
+    EXIT_CODE_SHARED, LEAVES_FOLDER, NO_RULE, OUTPUT_IS_INPUT, PASSED_ORIGINAL, POST_KILLED, POST_MISSING,
+    POST_NOT_STARTED, POST_TIMED_OUT, TOO_LARGE, UNREADABLE, UNWRITABLE, WATCHED_ALREADY, WATCHED_FOLDERS,
+};
 use crate::diagnostic::{CATALOGUE, Code, Diagnostic, Label, Severity, code};
 use crate::source::Span;
 use std::cmp::Ordering;
@@ -19,7 +22,22 @@ pub struct Policy {
 }
 
 /// Findings that end a run; dropping them would end it without a word.
-const NEVER_ALLOWED: &[Code] = &[UNREADABLE, UNWRITABLE, TOO_LARGE, OUTPUT_IS_INPUT];
+const NEVER_ALLOWED: &[Code] = &[
+    UNREADABLE,
+    UNWRITABLE,
+    TOO_LARGE,
+    OUTPUT_IS_INPUT,
+    POST_MISSING,
+    POST_NOT_STARTED,
+    POST_TIMED_OUT,
+    POST_KILLED,
+    NO_RULE,
+    WATCHED_FOLDERS,
+    WATCHED_ALREADY,
+];
+
+/// Findings about the run itself; without them a program would go on, or be left, and nobody knew.
+const NEVER_SILENT: &[Code] = &[PASSED_ORIGINAL, EXIT_CODE_SHARED, LEAVES_FOLDER];
 
 impl Policy {
     /// Reads what `--deny` and `--allow` were given: codes in any case, and `warnings` to deny every warning.
@@ -49,6 +67,9 @@ impl Policy {
             let code = parse_code(word)?;
             if NEVER_ALLOWED.contains(&code) {
                 return Err(format!("{code} cannot be allowed: {} ends the run", code.meaning()));
+            }
+            if NEVER_SILENT.contains(&code) {
+                return Err(format!("{code} cannot be allowed, it is always told: {}", code.meaning()));
             }
             if policy.deny.contains(&code) {
                 return Err(format!("{code} is both denied and allowed"));

@@ -46,6 +46,26 @@ pub fn write_atomically_unless(
     replace(&follow_links(path)?, old.as_ref(), interrupt, write)
 }
 
+/// [`write_atomically`] for a file that is not there yet.
+///
+/// # Errors
+/// [`io::ErrorKind::AlreadyExists`] when something has that name, also if it came meanwhile; it stays as it is.
+pub fn write_new_atomically(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    if fs::symlink_metadata(path).is_ok() {
+        return Err(io::Error::from(io::ErrorKind::AlreadyExists));
+    }
+    let folder = folder_of(path);
+    let temporary = create_in(folder)?;
+    fill(temporary.as_file(), &Interrupt::new(), write)?;
+    temporary.as_file().sync_all()?;
+    temporary.persist_noclobber(path).map_err(|failed| failed.error)?;
+    sync_folder(folder);
+    Ok(())
+}
+
 fn replace(
     target: &Path,
     old: Option<&Metadata>,

@@ -8,7 +8,7 @@ pub mod program;
 mod same;
 mod style;
 
-pub use atomic::{write_atomically, write_atomically_unless};
+pub use atomic::{write_atomically, write_atomically_unless, write_new_atomically};
 pub use editor::{Editor, syntax};
 pub use interrupt::{Interrupt, is_interrupt};
 pub use patch::{FEED_SHARE, copy as copy_with_numbers, numbers as patch_numbers};

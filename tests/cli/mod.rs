@@ -2,9 +2,13 @@
 
 mod apply;
 mod chips;
+mod hook;
+mod hook_examples;
 mod other;
 mod section;
+mod select;
 mod simulate;
+mod watch;
 
 use assert_cmd::Command;
 use std::path::{Path, PathBuf};

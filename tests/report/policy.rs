@@ -45,6 +45,10 @@ fn what_cannot_be_wished() {
         refused(&[], &["CL0401"]),
         "CL0401 cannot be allowed: a file that cannot be read ends the run"
     );
+    assert_eq!(
+        refused(&[], &["CL0410"]),
+        "CL0410 cannot be allowed, it is always told: the untouched program was handed on"
+    );
     assert!(refused(&[], &["warnings"]).starts_with("`warnings` can be denied but not allowed"));
     assert!(refused(&["CL1"], &[]).contains("did you mean CL0001"));
 }

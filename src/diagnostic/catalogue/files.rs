@@ -29,4 +29,59 @@ super::area! {
          The export is the only proof of what the CAM system meant. A correction applied to its own result corrects twice: \
          a feed scaled by 0.8 and scaled again runs at 0.64, and nothing in the file tells. So the input always stays and \
          the output goes beside it; this cannot be allowed away.";
+    PASSED_ORIGINAL = "CL0410", Warning, "the untouched program was handed on",
+        "Correct what the errors above name, export and post again; do not run the program before somebody has looked at it.",
+        "The hook could not correct the program, for the errors shown before this one, and it was told to go on all the same \
+         (`--on-error pass-original`). So the post got the CAM system's export as it was, byte for byte. What the recipe is there \
+         for, a feed limit or a safe ramp, is missing from the program that now goes to the machine. The log says so, too: \
+         its outcome is `passed_original`.";
+    POST_MISSING = "CL0411", Error, "the post-processor is not there",
+        "Check the path after `--`; a script also needs the interpreter that its first line names.",
+        "The hook corrected the program and wanted to start the post-processor that stands after `--`, and the operating system \
+         did not find it: a typing error, a program that is not on the PATH of whoever the CAM system runs as, a script whose first \
+         line names an interpreter that this machine does not have, or a network drive that is not connected. No post ran, so any NC \
+         program that stands in the folder is an old one. The exit code is 127, as of a shell.";
+    POST_NOT_STARTED = "CL0412", Error, "the post-processor cannot be started",
+        "Check that it is a program, made for this machine, and that you may execute it.",
+        "The post-processor that stands after `--` is there, but the operating system refused to run it: the file is not marked \
+         executable, it is a folder or a text without a `#!` line, it was built for another system, or its arguments are too long. \
+         No shell is involved, so what only a shell knows (an alias, a built-in command) cannot be named here. No post ran. The exit \
+         code is 126, as of a shell.";
+    POST_TIMED_OUT = "CL0413", Error, "the post-processor took too long and was stopped",
+        "Look why it hangs (a question that nobody answers, a licence that does not come); allow more by `--timeout`.",
+        "The post-processor had not ended when the time of `--timeout` was over, so it was asked to end and two seconds later \
+         killed, together with every process that it had started. What it left beside the corrected program is thrown away, \
+         since half a program must not reach a machine; what it wrote elsewhere by its own means still stands there: do not use \
+         it. Its standard input is empty, so a post that asks a question gets no answer. The exit code is 124.";
+    POST_KILLED = "CL0414", Error, "the post-processor was ended by a signal",
+        "It crashed or somebody stopped it: look at its own messages above, and do not use what it wrote.",
+        "The post-processor did not end by itself: it crashed, ran out of memory, or was killed. What it left beside the corrected \
+         program is thrown away, since half a program must not reach a machine. The exit code is 128 and the number of the signal: \
+         139 for a segmentation fault, 137 for a kill.";
+    EXIT_CODE_SHARED = "CL0415", Warning, "the post-processor ended with a code that the hook uses, too",
+        "Read this run's line of `--log`: `outcome` and `post` tell the two apart.",
+        "The hook ends with the post's own exit code, and with 124 to 127 or above 128 where no post ended by itself. This time the \
+         post itself ended with such a code, so a script that only looks at the number may misread it. The messages and the log do \
+         not: where the hook stopped, one of the codes CL0411 to CL0414 or the recipe's errors stand here instead of this one.";
+    NO_RULE = "CL0416", Error, "no rule chooses a recipe for a program",
+        "Add a rule that fits, or say what else to do: `otherwise: pass`, or `otherwise: { recipe: name.yaml }`.",
+        "The program was compared with every rule of the selection, from the first to the last, and none fits; `otherwise` is \
+         `stop`, or is not said, which means the same. The finding tells what the program says of itself. Names are compared in \
+         whole, upper and lower case differ, and `*` stands for any text; a program without a MACHIN record, such as any of \
+         NX, has no machine that a rule could ask for.";
+    WATCHED_FOLDERS = "CL0417", Error, "folders of a watch that lie in each other",
+        "Give three folders side by side: exports, `--out` and `--refused`.",
+        "The folder for corrected or refused programs, or the file for the log or the state, lies in the watched folder, or the \
+         watched folder lies in one for outputs. What the watch writes would then be taken for a new export and corrected \
+         again: a feed scaled by 0.8 would be scaled by 0.64 next, and so on. Links are followed before folders are compared.";
+    WATCHED_ALREADY = "CL0418", Error, "another watch is at work in a folder",
+        "Stop the other one first; on a share it may run on another machine.",
+        "A watch holds a lock, `.clsmith-watch.lock`, in the folder that it watches and in the one that it writes to, as long as \
+         it runs. Two of them would correct every export twice and move refused ones away from under each other. The lock is \
+         the operating system's, so it ends with its process however that dies, and the empty file that remains means nothing.";
+    LEAVES_FOLDER = "CL0419", Warning, "a symbolic link that leads out of the watched folder",
+        "Export into the folder itself, or watch the folder that the link leads to.",
+        "The watch only takes files that lie in the folder it was given. This name is a link to somewhere else, and whoever may \
+         write into the folder could have made it point at anything: it is left alone. Linked folders are not entered either, so \
+         no circle of links can keep the watch busy.";
 }

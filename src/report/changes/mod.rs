@@ -7,7 +7,7 @@
 mod text;
 
 use crate::program::LengthUnit;
-pub use text::to_text;
+pub use text::{steps_to_text, to_text};
 
 use super::kind::Kind;
 use super::stats::{Measured, Totals, Units};
@@ -64,33 +64,12 @@ impl Changes {
         let (units_before, units) = (told(before), told(after));
         // A step may have changed the unit; numbers that stand side by side must not.
         let scale = units_before.unit.in_mm() / units.unit.in_mm();
-        let named = |name: &&str| StepChanges { name: (*name).to_owned(), ..StepChanges::default() };
-        let mut found: Vec<StepChanges> = steps.iter().map(named).collect();
-        let mut untouched = 0;
-        for statement in after.statements() {
-            let Some(step) = statement.edited_by() else {
-                untouched += 1;
-                continue;
-            };
-            let step = usize::from(step.0);
-            if found.len() <= step {
-                found.resize(step + 1, StepChanges::default());
-            }
-            let Some(step) = found.get_mut(step) else { continue };
-            let counts = match statement.change() {
-                Change::Inserted(_) => &mut step.inserted,
-                // One step put it in, this one took it out: the file never had it.
-                Change::Deleted(_) if statement.origin().is_empty() => continue,
-                Change::Deleted(_) => &mut step.deleted,
-                Change::Edited(_) | Change::Untouched => &mut step.edited,
-            };
-            *counts.entry(Kind::of(statement.record())).or_default() += 1;
-        }
+        let (steps, untouched) = count(after, steps);
         Self {
             version: 1,
             file: after.source().name().to_owned(),
             units,
-            steps: found,
+            steps,
             untouched,
             before: totals(before, units_before).scaled(scale),
             after: totals(after, units),
@@ -101,6 +80,33 @@ impl Changes {
     pub fn is_empty(&self) -> bool {
         self.steps.iter().all(StepChanges::is_empty)
     }
+}
+
+/// What each of `steps` changed, and how many statements no step touched; see [`Changes::of`].
+pub fn count(after: &Program, steps: &[&str]) -> (Vec<StepChanges>, usize) {
+    let named = |name: &&str| StepChanges { name: (*name).to_owned(), ..StepChanges::default() };
+    let mut found: Vec<StepChanges> = steps.iter().map(named).collect();
+    let mut untouched = 0;
+    for statement in after.statements() {
+        let Some(step) = statement.edited_by() else {
+            untouched += 1;
+            continue;
+        };
+        let step = usize::from(step.0);
+        if found.len() <= step {
+            found.resize(step + 1, StepChanges::default());
+        }
+        let Some(step) = found.get_mut(step) else { continue };
+        let counts = match statement.change() {
+            Change::Inserted(_) => &mut step.inserted,
+            // One step put it in, this one took it out: the file never had it.
+            Change::Deleted(_) if statement.origin().is_empty() => continue,
+            Change::Deleted(_) => &mut step.deleted,
+            Change::Edited(_) | Change::Untouched => &mut step.edited,
+        };
+        *counts.entry(Kind::of(statement.record())).or_default() += 1;
+    }
+    (found, untouched)
 }
 
 fn totals(program: &Program, units: Units) -> Totals {

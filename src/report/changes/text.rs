@@ -1,6 +1,6 @@
 //! The changes of a recipe as text for people.
 
-use super::Changes;
+use super::{Changes, StepChanges};
 use crate::report::kind::Kind;
 use crate::report::render::text::one_line;
 use crate::report::stats::Totals;
@@ -11,7 +11,16 @@ use std::fmt::Write;
 /// The changes: a line for each step, and the program before and after.
 pub fn to_text(changes: &Changes) -> String {
     let mut out = format!("{}\n", one_line(&changes.file));
-    for (index, step) in changes.steps.iter().enumerate() {
+    out.push_str(&steps_to_text(&changes.steps));
+    let _ = writeln!(out, "  {} untouched", counted(changes.untouched, "statement", "statements"));
+    let _ = write!(out, "\n{}", totals(changes));
+    out
+}
+
+/// A line for each step.
+pub fn steps_to_text(steps: &[StepChanges]) -> String {
+    let mut out = String::new();
+    for (index, step) in steps.iter().enumerate() {
         let mut phrases = Vec::new();
         for (map, verb) in
             [(&step.edited, "edited"), (&step.inserted, "inserted"), (&step.deleted, "deleted")]
@@ -21,8 +30,6 @@ pub fn to_text(changes: &Changes) -> String {
         let phrases = if phrases.is_empty() { "no change".to_owned() } else { phrases.join(", ") };
         let _ = writeln!(out, "  {}. {}: {phrases}", index + 1, one_line(&step.name));
     }
-    let _ = writeln!(out, "  {} untouched", counted(changes.untouched, "statement", "statements"));
-    let _ = write!(out, "\n{}", totals(changes));
     out
 }
 

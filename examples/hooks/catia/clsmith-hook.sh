@@ -1,0 +1,15 @@
+#!/bin/sh
+# Corrects an APT source and posts it: clsmith-hook.sh part.aptsource
+# RECIPES, LOG and POST may come from the environment; change what stands here for your shop.
+set -eu
+here=$(dirname "$0")
+recipes=${RECIPES:-$here/../recipes.yaml}
+post=${POST:-$here/../post.py}
+
+if [ $# -ne 1 ]; then
+    echo "usage: $0 PROGRAM.aptsource" >&2
+    exit 2
+fi
+# exec: the exit code is clsmith's, and a signal reaches it.
+exec "${CLSMITH:-clsmith}" hook --select "$recipes" --log "${LOG:-$here/hook.jsonl}" --timeout 600 \
+    "$1" -- "$post" -o "${1%.*}.nc" {}

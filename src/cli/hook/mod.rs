@@ -1,0 +1,147 @@
+//! `clsmith hook`: between the CAM system's export and the post.
+
+mod desk;
+mod post;
+mod run;
+
+use super::exit::Exit;
+use super::files::{self, STANDARD};
+use super::findings::FindingArgs;
+use super::output::{Outputs, unless_nobody_reads};
+use super::progress::Progress;
+use super::shop::{Log, RecipeArgs};
+use super::terminal;
+use clap::{Args, ValueEnum};
+use clsmith::diagnostic::Diagnostic;
+use post::MARK;
+use run::{REFUSED, Run};
+use std::ffi::{OsStr, OsString};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+const EXAMPLES: &str = "\
+Examples:
+  clsmith hook --recipe shop.yaml part.cls -- mypost -o part.nc {}
+  clsmith hook --select recipes.yaml --log hook.jsonl part.cls -- mypost {}
+  clsmith hook --recipe shop.yaml --timeout 300 --on-error pass-original part.cls -- mypost --in={}
+  clsmith hook --recipe shop.yaml --keep corrected/ part.cls -- C:\\post\\mypost.exe \"a b\" {}
+
+`{}` stands for the corrected program, in any argument and any number of times. No shell is
+involved: every argument reaches the post as it is, blanks, quotes and line breaks included. The
+program lies in a private temporary folder under its own name; what the post leaves beside it
+there is put beside INPUT when the post has ended by itself. INPUT is never changed.
+
+Exit codes: the post's own, and
+  2    the command line is wrong; nothing ran
+  124  the post took longer than --timeout and was stopped with all it started
+  125  nothing was posted: the program, the recipe or a file around them is wrong
+  126  the post could not be started
+  127  the post was not found
+  128+n  the post was ended by signal n
+  130  stopped by Ctrl-C
+A post may itself end with one of these numbers; then the hook warns (CL0415), and the log tells
+the two apart.
+
+The log (--log) gets one line of JSON a run: time, input, recipe with all files it depends on
+(SHA-256), version, outcome, changes by step, findings by code, post, exit code, seconds.";
+
+/// What to do with a program that cannot be corrected.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum OnError {
+    /// Post nothing.
+    Stop,
+    /// Post the untouched file, and say so.
+    PassOriginal,
+}
+
+/// Corrects an exported program and runs the post-processor on the result
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Hook {
+    #[command(flatten)]
+    recipe: RecipeArgs,
+    /// When the program cannot be corrected: post nothing, or post it as it is
+    #[arg(long, value_enum, default_value = "stop", value_name = "WHAT")]
+    on_error: OnError,
+    /// Adds a line of JSON about this run to a file
+    #[arg(long, value_name = "FILE")]
+    log: Option<PathBuf>,
+    /// Longest time for the post; no limit if not given
+    #[arg(long, value_name = "SECONDS", value_parser = files::seconds)]
+    timeout: Option<Duration>,
+    /// Keeps what the post got: a file, or a folder that exists
+    #[arg(long, value_name = "PATH")]
+    keep: Option<PathBuf>,
+    /// Say nothing but findings
+    #[arg(short, long)]
+    quiet: bool,
+    #[command(flatten)]
+    findings: FindingArgs,
+    /// The exported program
+    #[arg(value_name = "INPUT")]
+    input: PathBuf,
+    /// The post-processor and its arguments; `{}` is the corrected program
+    #[arg(last = true, required = true, num_args = 1.., value_name = "POST")]
+    post: Vec<OsString>,
+}
+
+impl Hook {
+    pub fn run(&self) -> io::Result<Exit> {
+        let policy = match self.problem().map_or_else(|| self.findings.policy(), Err) {
+            Ok(policy) => policy,
+            Err(problem) => {
+                eprintln!("clsmith hook: {problem}");
+                return Ok(Exit::Usage);
+            }
+        };
+        let log = self.log.as_ref().map(|path| Log::open(path, self.recipe.files().chain([&self.input])));
+        let log = match log.transpose() {
+            Ok(log) => log,
+            Err(found) => {
+                self.show(&[*found])?;
+                if self.on_error == OnError::Stop {
+                    eprintln!("{}: nothing was posted", self.input.display());
+                    return Ok(Exit::Posted(REFUSED));
+                }
+                None
+            }
+        };
+        let outputs = Outputs::default();
+        let progress = Progress::new(self.quiet, outputs.interrupt());
+        outputs.stop_on_ctrl_c(progress.clearing())?;
+        Run::new(self, &outputs, log).whole(&policy, &progress)
+    }
+
+    /// What is wrong with the command line beyond what clap can say.
+    fn problem(&self) -> Option<String> {
+        if self.input == Path::new(STANDARD) || self.input.file_name().is_none() {
+            return Some("INPUT is a file; standard input has no name that the post could go by".into());
+        }
+        let arguments = self.post.get(1..).unwrap_or_default();
+        if !arguments.iter().any(|argument| post::is_marked(argument)) {
+            return Some(format!(
+                "no argument of the post holds `{MARK}`, so it would never see the program"
+            ));
+        }
+        None
+    }
+
+    fn show(&self, findings: &[Diagnostic]) -> io::Result<()> {
+        if findings.is_empty() {
+            return Ok(());
+        }
+        let mut err = io::stderr().lock();
+        let file = self.input.to_string_lossy();
+        unless_nobody_reads(self.findings.show(&mut err, terminal::errors_are_seen(), findings, Some(&file)))
+    }
+
+    fn name(&self) -> &OsStr {
+        self.input.file_name().unwrap_or(self.input.as_os_str())
+    }
+
+    /// Where the program that the post gets is kept.
+    fn kept_at(&self) -> Option<PathBuf> {
+        self.keep.as_ref().map(|keep| if keep.is_dir() { keep.join(self.name()) } else { keep.clone() })
+    }
+}

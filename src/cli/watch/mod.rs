@@ -1,0 +1,142 @@
+//! `clsmith watch`: corrects exports that land in a folder.
+//!
+//! It polls. Notifications are not sent for what other computers do on a network share, which is where exports land, and are
+//! lost when their queue is full; a look every few seconds at a folder with a few hundred files costs nothing.
+
+mod deliver;
+mod folders;
+mod look;
+mod refused;
+mod run;
+mod state;
+
+use super::exit::Exit;
+use super::files;
+use super::findings::FindingArgs;
+use super::output::{Outputs, unless_nobody_reads};
+use super::progress::Progress;
+use super::shop::{Log, RecipeArgs};
+use super::terminal;
+use clap::Args;
+use clsmith::choice::Choice;
+use clsmith::diagnostic::Diagnostic;
+use folders::Folders;
+use globset::{GlobBuilder, GlobMatcher};
+use run::Watching;
+use state::State;
+use std::io;
+use std::path::PathBuf;
+use std::time::Duration;
+
+const EXAMPLES: &str = "\
+Examples:
+  clsmith watch exports --recipe shop.yaml --out corrected '*.cls'
+  clsmith watch exports --select recipes.yaml --out corrected --log watch.jsonl '**/*.aptsource'
+  clsmith watch exports --recipe shop.yaml --out corrected --once '*.cls'
+                                                 what is there now, then end
+
+Looks every --poll seconds. A file is taken when its size and time have not changed for --settle
+seconds and it reads the same twice; a file that changes meanwhile is left for the next look. The
+corrected program appears whole under the same name in --out, over an earlier one. A program that
+cannot be corrected is moved to --refused with NAME.diagnostics.txt beside it; what stands there
+already is never overwritten.
+
+What was done is remembered by content in --state, one line of JSON each, so a restart, even after
+a crash, does nothing twice: only a file whose content has changed is done again. Another recipe
+alone is no reason. GLOB is a path below the folder: `*.cls` takes the folder's own files,
+`**/*.cls` those of its subfolders, too.
+
+Exit codes: 130 after Ctrl-C, which is how a watch ends; 1 if it cannot begin; with --once 0 if
+all were taken or were done before, 1 if one was refused, cannot be read or written, or is still
+changing.";
+
+/// Corrects programs that land in a folder
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Watch {
+    /// The folder that is watched
+    #[arg(value_name = "FOLDER")]
+    folder: PathBuf,
+    /// Which files are taken
+    #[arg(value_parser = glob, value_name = "GLOB")]
+    files: GlobMatcher,
+    #[command(flatten)]
+    recipe: RecipeArgs,
+    /// The folder for corrected programs
+    #[arg(long, value_name = "FOLDER")]
+    out: PathBuf,
+    /// The folder for programs that cannot be corrected [default: `refused` in --out]
+    #[arg(long, value_name = "FOLDER")]
+    refused: Option<PathBuf>,
+    /// What was done [default: .clsmith-watch.jsonl in --out]
+    #[arg(long, value_name = "FILE")]
+    state: Option<PathBuf>,
+    /// Adds a line of JSON about each program to a file
+    #[arg(long, value_name = "FILE")]
+    log: Option<PathBuf>,
+    /// Take what is there, then end
+    #[arg(long)]
+    once: bool,
+    /// Time from one look to the next
+    #[arg(long, default_value = "2", value_name = "SECONDS", value_parser = files::seconds)]
+    poll: Duration,
+    /// How long a file must not have changed
+    #[arg(long, default_value = "5", value_name = "SECONDS", value_parser = files::seconds)]
+    settle: Duration,
+    /// Say nothing but findings
+    #[arg(short, long)]
+    quiet: bool,
+    #[command(flatten)]
+    findings: FindingArgs,
+}
+
+impl Watch {
+    pub fn run(&self) -> io::Result<Exit> {
+        let policy = match self.findings.policy() {
+            Ok(policy) => policy,
+            Err(problem) => {
+                eprintln!("clsmith watch: {problem}");
+                return Ok(Exit::Usage);
+            }
+        };
+        let ready = Folders::of(self).and_then(|folders| {
+            // A recipe that is wrong is told now, not when the first program comes at night.
+            for choice in self.recipe.chooser()?.all() {
+                if let Choice::Recipe { recipe, setup, .. } = choice {
+                    files::recipe(&recipe, setup.as_deref())?;
+                }
+            }
+            let alone = |found: Box<Diagnostic>| vec![*found];
+            let log = self.log.as_ref().map(|path| Log::open(path, self.recipe.files()));
+            let (state, bad) = State::open(&folders.state).map_err(alone)?;
+            if bad > 0 {
+                let path = folders.state.display();
+                let lines = if bad == 1 { "1 line" } else { &format!("{bad} lines") };
+                eprintln!("{path}: {lines} cannot be read; the programs of these are done again");
+            }
+            Ok((folders, log.transpose().map_err(alone)?, state))
+        });
+        let (folders, log, state) = match ready {
+            Ok(ready) => ready,
+            Err(found) => {
+                self.show(&found, &self.folder.to_string_lossy())?;
+                return Ok(Exit::Errors);
+            }
+        };
+        let outputs = Outputs::default();
+        let progress = Progress::new(self.quiet, outputs.interrupt());
+        outputs.stop_on_ctrl_c(progress.clearing())?;
+        Watching::new(self, &folders, &outputs, &policy, &progress, (log, state)).run()
+    }
+
+    fn show(&self, findings: &[Diagnostic], file: &str) -> io::Result<()> {
+        let mut err = io::stderr().lock();
+        unless_nobody_reads(self.findings.show(&mut err, terminal::errors_are_seen(), findings, Some(file)))
+    }
+}
+
+fn glob(text: &str) -> Result<GlobMatcher, String> {
+    let glob =
+        GlobBuilder::new(text).literal_separator(true).build().map_err(|error| error.kind().to_string())?;
+    Ok(glob.compile_matcher())
+}

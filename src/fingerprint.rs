@@ -1,0 +1,182 @@
+//! SHA-256 of what goes into a run, so that a log can prove and a batch can skip what was done with the same things.
+//!
+//! [`Digest`] is of bytes; [`RecipePrint`] of a recipe and every file that it depends on, by content and not by name.
+
+use crate::diagnostic::{Diagnostic, codes};
+use crate::setup::{BodyShape, Setup};
+use crate::source::Source;
+use crate::transform::{Recipe, Step};
+use serde::de::{self, Deserialize, Deserializer};
+use serde::{Serialize, Serializer};
+use sha2::{Digest as _, Sha256};
+use std::fmt;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+use std::sync::Arc;
+
+/// The version of clsmith that makes the results: another one may make others of the same files.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// A SHA-256 digest; written as 64 hexadecimal digits, the same as `sha256sum` prints.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Digest([u8; 32]);
+
+impl Digest {
+    /// The digest of bytes.
+    pub fn of(bytes: &[u8]) -> Self {
+        Self(Sha256::digest(bytes).into())
+    }
+
+    /// The digest of all that a reader gives, without holding it in memory.
+    ///
+    /// # Errors
+    /// What the reader says.
+    pub fn of_reader(mut reader: impl Read) -> io::Result<Self> {
+        let mut hasher = Sha256::new();
+        let mut chunk = vec![0; 256 * 1024];
+        loop {
+            match reader.read(&mut chunk) {
+                Ok(0) => return Ok(Self(hasher.finalize().into())),
+                Ok(count) => hasher.update(chunk.get(..count).unwrap_or_default()),
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+            }
+        }
+    }
+
+    /// The digest of a file.
+    ///
+    /// # Errors
+    /// What the operating system says.
+    pub fn of_file(path: &Path) -> io::Result<Self> {
+        Self::of_reader(File::open(path)?)
+    }
+
+    /// The digest of bytes that come in chunks; how they are cut does not count.
+    pub fn of_chunks<'a>(chunks: impl IntoIterator<Item = &'a [u8]>) -> Self {
+        let mut hasher = Sha256::new();
+        chunks.into_iter().for_each(|chunk| hasher.update(chunk));
+        Self(hasher.finalize().into())
+    }
+
+    /// The digest of a list: each part counts with its length, so moving a byte from one part to the next changes it.
+    pub fn of_parts<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> Self {
+        let mut hasher = Sha256::new();
+        for part in parts {
+            hasher.update((part.len() as u64).to_le_bytes());
+            hasher.update(part);
+        }
+        Self(hasher.finalize().into())
+    }
+
+    /// The 32 bytes, for [`Digest::of_parts`].
+    pub fn bytes(&self) -> &[u8] {
+        &self.0
+    }
+}
+
+impl fmt::Display for Digest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.iter().try_for_each(|byte| write!(f, "{byte:02x}"))
+    }
+}
+
+impl fmt::Debug for Digest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+/// Text that is no SHA-256 digest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("a SHA-256 digest has 64 hexadecimal digits")]
+pub struct BadDigest;
+
+impl FromStr for Digest {
+    type Err = BadDigest;
+    fn from_str(text: &str) -> Result<Self, BadDigest> {
+        let digits: Option<Vec<u8>> =
+            text.chars().map(|digit| digit.to_digit(16).and_then(|digit| u8::try_from(digit).ok())).collect();
+        let digits = digits.filter(|digits| digits.len() == 64).ok_or(BadDigest)?;
+        let mut bytes = [0; 32];
+        for (byte, pair) in bytes.iter_mut().zip(digits.chunks_exact(2)) {
+            *byte = pair.iter().fold(0, |value, digit| value << 4 | digit);
+        }
+        Ok(Self(bytes))
+    }
+}
+
+impl Serialize for Digest {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+impl<'de> Deserialize<'de> for Digest {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        text.parse().map_err(de::Error::custom)
+    }
+}
+
+/// A file that a recipe depends on.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct FilePrint {
+    /// Its path as it was opened.
+    pub path: String,
+    /// Its content.
+    pub sha256: Digest,
+}
+
+/// A recipe and all files it depends on.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct RecipePrint {
+    /// The digest of all of them, in their order. Names do not count: a recipe that was moved is the same recipe.
+    pub sha256: Digest,
+    /// The recipe, its setup files, its material, its models and its stock.
+    pub files: Vec<FilePrint>,
+}
+
+impl RecipePrint {
+    /// The print of a recipe. `texts` are the files that were read for it and its setup, the recipe first; models and stock
+    /// that recipe and setup name are read here.
+    ///
+    /// # Errors
+    /// [`codes::UNREADABLE`] for a model or stock file that cannot be read.
+    pub fn of(texts: &[Arc<Source>], recipe: &Recipe, setup: &Setup) -> Result<Self, Box<Diagnostic>> {
+        let read = |source: &Arc<Source>| FilePrint {
+            path: source.name().to_owned(),
+            sha256: Digest::of(source.bytes()),
+        };
+        let mut files: Vec<FilePrint> = texts.iter().map(read).collect();
+        for path in named(recipe, setup) {
+            let name = path.to_string_lossy().into_owned();
+            let sha256 = Digest::of_file(&path).map_err(|error| {
+                Box::new(Diagnostic::new(codes::UNREADABLE, format!("{name} cannot be read: {error}")))
+            })?;
+            files.push(FilePrint { path: name, sha256 });
+        }
+        let sha256 = Digest::of_parts(files.iter().map(|file| file.sha256.bytes()));
+        Ok(Self { sha256, files })
+    }
+
+    /// What decides the result of a file: its content, this recipe, what the command line adds (dialect, codes denied), and the
+    /// version of clsmith.
+    pub fn key(&self, input: Digest, options: &str) -> Digest {
+        Digest::of_parts([input.bytes(), self.sha256.bytes(), options.as_bytes(), VERSION.as_bytes()])
+    }
+}
+
+/// Files that are no text: models of steps, and the stock.
+fn named(recipe: &Recipe, setup: &Setup) -> Vec<PathBuf> {
+    let recipe_file = Path::new(recipe.source.name());
+    let models = recipe.steps.iter().filter_map(Step::reads).map(|file| file.beside(recipe_file));
+    let bodies = setup.stock.iter().flat_map(|stock| &stock.bodies);
+    let stock = bodies.filter_map(|body| match &body.shape {
+        BodyShape::Stl { file, .. } | BodyShape::Saved(file) => Some(file.path.clone()),
+        BodyShape::Block { .. } | BodyShape::Cylinder { .. } => None,
+    });
+    models.chain(stock).collect()
+}
