@@ -79,7 +79,7 @@ impl Apply {
                 return Ok(Exit::Usage);
             }
         };
-        let Loaded { recipe, setup } = match files::recipe(&self.recipe, self.setup.as_deref()) {
+        let Loaded { recipe, setup, .. } = match files::recipe(&self.recipe, self.setup.as_deref()) {
             Ok(loaded) => loaded,
             Err(found) => {
                 self.show(&found, Some(&self.recipe.to_string_lossy()))?;

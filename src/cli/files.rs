@@ -5,9 +5,11 @@ use clsmith::program::{Dialect, LengthUnit};
 use clsmith::setup::Setup;
 use clsmith::source::Source;
 use clsmith::transform::Recipe;
+use std::cell::RefCell;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Duration;
 
 /// The path that stands for standard input or output.
 pub const STANDARD: &str = "-";
@@ -37,20 +39,28 @@ pub fn setup(path: &Path) -> Result<Setup, Vec<Diagnostic>> {
 pub struct Loaded {
     pub recipe: Recipe,
     pub setup: Setup,
+    /// The texts that were read for them, the recipe first.
+    pub texts: Vec<Arc<Source>>,
 }
 
 /// Reads a recipe, the setup file it names (beside it), and the one of the command line.
 pub fn recipe(path: &Path, setup: Option<&Path>) -> Result<Loaded, Vec<Diagnostic>> {
-    let source = read(path).map_err(|found| vec![*found])?;
-    let recipe = Recipe::load(&source)?;
-    let named = recipe.load_setup_file(|name| read(&beside(path, name)).map_err(|found| found.message))?;
+    let texts = RefCell::new(Vec::new());
+    let read = |path: &Path| {
+        let source = read(path)?;
+        texts.borrow_mut().push(Arc::clone(&source));
+        Ok(source)
+    };
+    let message = |found: Box<Diagnostic>| found.message;
+    let recipe = Recipe::load(&read(path).map_err(|found: Box<Diagnostic>| vec![*found])?)?;
+    let named = recipe.load_setup_file(|name| read(&beside(path, name)).map_err(message))?;
     let given = match setup {
-        Some(path) => self::setup(path)?,
+        Some(path) => Setup::load(&read(path).map_err(|found| vec![*found])?)?,
         None => Setup::default(),
     };
     let setup = recipe.setup_with(named, given);
-    let setup = setup.with_material_file(|path| read(path).map_err(|found| found.message))?;
-    Ok(Loaded { recipe, setup })
+    let setup = setup.with_material_file(|path| read(path).map_err(message))?;
+    Ok(Loaded { recipe, setup, texts: texts.into_inner() })
 }
 
 /// The path of a file that a recipe names: relative to the recipe's folder.
@@ -73,4 +83,12 @@ pub fn units(text: &str) -> Result<LengthUnit, String> {
         "inch" => Ok(LengthUnit::Inch),
         _ => Err("the units are mm and inch".into()),
     }
+}
+
+/// Reads a time in seconds, more than none.
+pub fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse().ok().filter(|&seconds: &f64| seconds > 0.0);
+    seconds
+        .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
+        .ok_or_else(|| "a time is a number of seconds above 0".into())
 }

@@ -44,17 +44,24 @@ impl Transforms {
 /// Prints the JSON Schema of recipes, for editors to complete and check from
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples:\n  clsmith schema > clsmith-recipe.schema.json\n  clsmith schema --setup > clsmith-setup.schema.json"
+    after_help = "Examples:\n  clsmith schema > clsmith-recipe.schema.json\n  clsmith schema --setup > clsmith-setup.schema.json\n  clsmith schema --jobs > clsmith-jobs.schema.json"
 )]
 pub struct Schema {
     /// The schema of setup files instead
     #[arg(long)]
     setup: bool,
+    /// The schema of jobs files instead, for `clsmith batch`
+    #[arg(long, conflicts_with = "setup")]
+    jobs: bool,
 }
 
 impl Schema {
     pub fn run(&self) -> io::Result<Exit> {
-        let schema = if self.setup { Setup::schema() } else { clsmith::recipe::schema::<transform::Step>() };
+        let schema = match self {
+            Self { jobs: true, .. } => clsmith::batch::jobs::schema(),
+            Self { setup: true, .. } => Setup::schema(),
+            _ => clsmith::recipe::schema::<transform::Step>(),
+        };
         print(&serde_json::to_string_pretty(&schema)?)
     }
 }

@@ -1,6 +1,9 @@
 //! Which findings stand, and how bad they are: `--deny`, `--allow`, `--notes`.
 
-use crate::diagnostic::codes::{OUTPUT_IS_INPUT, TOO_LARGE, UNREADABLE, UNWRITABLE};
+use crate::diagnostic::codes::{
+    BAD_RESULTS, INPUT_CHANGED, NOT_ONE_BATCH, NOTHING_MATCHES, OUTPUT_IN_USE, OUTPUT_IS_INPUT,
+    OUTPUTS_COLLIDE, OUTSIDE_OUTPUT, RESULTS_MISSING, TOO_LARGE, UNREADABLE, UNWRITABLE,
+};
 use crate::diagnostic::{CATALOGUE, Code, Diagnostic, Label, Severity, code};
 use crate::source::Span;
 use std::cmp::Ordering;
@@ -19,7 +22,20 @@ pub struct Policy {
 }
 
 /// Findings that end a run; dropping them would end it without a word.
-const NEVER_ALLOWED: &[Code] = &[UNREADABLE, UNWRITABLE, TOO_LARGE, OUTPUT_IS_INPUT];
+const NEVER_ALLOWED: &[Code] = &[
+    UNREADABLE,
+    UNWRITABLE,
+    TOO_LARGE,
+    OUTPUT_IS_INPUT,
+    NOTHING_MATCHES,
+    OUTPUTS_COLLIDE,
+    OUTSIDE_OUTPUT,
+    OUTPUT_IN_USE,
+    INPUT_CHANGED,
+    BAD_RESULTS,
+    NOT_ONE_BATCH,
+    RESULTS_MISSING,
+];
 
 impl Policy {
     /// Reads what `--deny` and `--allow` were given: codes in any case, and `warnings` to deny every warning.
