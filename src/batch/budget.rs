@@ -83,13 +83,6 @@ impl Queue {
     }
 }
 
-impl Ticket<'_> {
-    /// Whether the file needs more than the whole budget, and so runs alone.
-    pub fn is_over_budget(&self) -> bool {
-        self.need > self.queue.budget
-    }
-}
-
 impl Drop for Ticket<'_> {
     fn drop(&mut self) {
         let mut state = self.queue.lock();

@@ -59,7 +59,10 @@ pub(super) fn find(base: &Path, written: &OsStr, not_in: Option<&Path>) -> Resul
         return Err(NoMatch::Nothing);
     }
     let pattern = Pattern::new(rest).map_err(NoMatch::Bad)?;
-    let found = walk(&base.join(fixed), Path::new(fixed), &pattern, not_in)?;
+    // By its parts: without the separator at its end.
+    let fixed: PathBuf = Path::new(fixed).components().collect();
+    let root: PathBuf = base.join(&fixed).components().collect();
+    let found = walk(&root, &fixed, &pattern, not_in)?;
     if found.files.is_empty() { Err(NoMatch::Nothing) } else { Ok(found) }
 }
 

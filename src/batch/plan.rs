@@ -1,5 +1,6 @@
 //! Which file becomes which output. What cannot be right is refused here, before anything runs.
 
+use super::budget::need;
 use super::find::{self, Match, NoMatch};
 use super::jobs::{Asked, Jobs, Placed};
 use super::{Folder, Name, Shard};
@@ -127,6 +128,24 @@ impl Plan {
     /// Positions of the files that a shard does; all without one.
     pub fn of_shard(&self, shard: Option<Shard>) -> Vec<usize> {
         (0..self.files.len()).filter(|&index| shard.is_none_or(|shard| shard.has(index))).collect()
+    }
+
+    /// Files of a shard that may need more than `memory` bytes: each runs while no other does.
+    pub fn over_budget(&self, shard: Option<Shard>, memory: u64) -> Vec<Diagnostic> {
+        let mb = |bytes: u64| bytes.div_ceil(1_000_000);
+        let files = self.of_shard(shard).into_iter().filter_map(|index| self.files.get(index));
+        files
+            .filter(|file| need(file.size) > memory)
+            .map(|file| {
+                let message = format!(
+                    "{} may need {} MB of memory, more than the {} MB of the batch: it runs alone",
+                    file.input,
+                    mb(need(file.size)),
+                    mb(memory)
+                );
+                Diagnostic::new(codes::OVER_BUDGET, message)
+            })
+            .collect()
     }
 
     /// What identifies the batch: its files, outputs, recipes, options and clsmith's version. Shards of one batch have the

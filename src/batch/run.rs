@@ -50,9 +50,6 @@ pub trait Watch: Sync {
     /// A file begins; what is returned is told how far its steps are, and asked whether to stop.
     fn begins(&self, file: &Planned) -> Box<dyn machining::Watch + '_>;
 
-    /// Something to know before a file is begun: it needs more memory than there is.
-    fn warns(&self, finding: &Diagnostic);
-
     /// A file has ended; `before` if it was done by an earlier run.
     fn ended(&self, file: &Planned, record: &Record, findings: &[Diagnostic], before: bool);
 }
@@ -147,9 +144,6 @@ impl Batch<'_> {
         if self.interrupt.is_raised() {
             return None;
         }
-        if ticket.is_over_budget() {
-            watch.warns(&over_budget(file, ticket.need, self.memory));
-        }
         let steps = watch.begins(file);
         let ended = one::run(settings, file, work, known.get(&ticket.file), steps.as_ref());
         let (record, findings, key, before) = match ended {
@@ -214,17 +208,6 @@ impl End {
     fn has_failed(&self) -> bool {
         self.record.outcome == Outcome::Failed
     }
-}
-
-fn over_budget(file: &Planned, need: u64, memory: u64) -> Diagnostic {
-    let mb = |bytes: u64| bytes.div_ceil(1_000_000);
-    let message = format!(
-        "{} may need {} MB of memory, more than the {} MB of the batch: it runs alone",
-        file.input,
-        mb(need),
-        mb(memory)
-    );
-    Diagnostic::new(codes::OVER_BUDGET, message)
 }
 
 fn not_run(file: &Planned, work: &Work) -> Record {

@@ -9,7 +9,6 @@ use std::cell::RefCell;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Duration;
 
 /// The path that stands for standard input or output.
 pub const STANDARD: &str = "-";
@@ -83,12 +82,4 @@ pub fn units(text: &str) -> Result<LengthUnit, String> {
         "inch" => Ok(LengthUnit::Inch),
         _ => Err("the units are mm and inch".into()),
     }
-}
-
-/// Reads a time in seconds, more than none.
-pub fn seconds(text: &str) -> Result<Duration, String> {
-    let seconds = text.parse().ok().filter(|&seconds: &f64| seconds > 0.0);
-    seconds
-        .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
-        .ok_or_else(|| "a time is a number of seconds above 0".into())
 }

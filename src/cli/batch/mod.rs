@@ -15,7 +15,7 @@ use clap::Args;
 use clsmith::batch::jobs::{self, Asked, Jobs};
 use clsmith::batch::results::{self, Head};
 use clsmith::batch::{Batch as Run, Folder, Locked, Plan, Ran, Record, Shard, Work, summary};
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::program::Dialect;
 use clsmith::write::same_file;
 use progress::Bars;
@@ -103,6 +103,8 @@ struct Ready {
     works: Vec<Work>,
     folder: Locked,
     results: PathBuf,
+    /// Bytes for all files together.
+    memory: u64,
 }
 
 impl Batch {
@@ -133,9 +135,19 @@ impl Batch {
             Ok(ready) => ready,
             Err(found) => return self.refused(&found),
         };
-        self.show(&policy.apply(ready.plan.findings.clone()))?;
+        let mut warnings = ready.plan.findings.clone();
+        warnings.extend(ready.plan.over_budget(self.shard, ready.memory));
+        let warnings = policy.apply(warnings);
+        if warnings.iter().any(Diagnostic::is_error) {
+            return self.refused(&warnings);
+        }
+        self.show(&warnings)?;
+        // Old results would look like those of this batch, should it be killed.
+        if let Err(found) = make_way(&ready.results) {
+            return self.refused(&[found]);
+        }
         let outputs = Outputs::default();
-        let bars = Bars::new(self.quiet, &self.findings, &policy, outputs.interrupt());
+        let bars = Bars::new(self.quiet, &self.findings, outputs.interrupt());
         outputs.stop_gently(bars.clearing())?;
         let options = format!("{policy:?} {:?}", self.dialect);
         let mine = ready.plan.of_shard(self.shard);
@@ -148,7 +160,7 @@ impl Batch {
             options: &options,
             folder: &ready.folder,
             workers: self.workers(),
-            memory: self.memory(),
+            memory: ready.memory,
             fail_fast: self.fail_fast,
             resume: self.resume,
             interrupt: outputs.interrupt(),
@@ -221,7 +233,7 @@ impl Batch {
                     None => folder.lock().map_err(|found| vec![*found])?,
                     Some(found) => return Err(vec![found]),
                 };
-                Ok(Ready { plan, works, folder, results })
+                Ok(Ready { plan, works, folder, results, memory: self.memory() })
             }
             Ok(_) => Err(wrong),
             Err(found) => Err(wrong.into_iter().chain(found).collect()),
@@ -243,7 +255,9 @@ impl Batch {
         if !self.quiet {
             let seconds = Some(began.elapsed().as_secs_f64());
             let mut text = summary::to_text(&ran.records, ran.before, seconds);
-            text.push_str(&format!("\nresults: {}\n", ready.results.display()));
+            let (workers, memory) = (self.workers(), ByteSize::b(ready.memory).display().si());
+            text.push_str(&format!("\nat most {workers} files at once, in {memory}\n"));
+            text.push_str(&format!("results: {}\n", ready.results.display()));
             unless_nobody_reads(print_summary(&text, false))?;
         }
         self.show(&found)?;
@@ -274,9 +288,25 @@ impl Batch {
     }
 }
 
+/// Takes old results away, and finds out before the work whether new ones can be written.
+fn make_way(results: &Path) -> Result<(), Diagnostic> {
+    let unwritable = |why: &str| {
+        let message = format!("the results {} cannot be written: {why}", results.display());
+        Diagnostic::new(codes::UNWRITABLE, message)
+    };
+    let folder = results.parent().filter(|folder| !folder.as_os_str().is_empty());
+    if folder.is_some_and(|folder| !folder.is_dir()) {
+        return Err(unwritable("there is no such folder"));
+    }
+    match std::fs::remove_file(results) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(unwritable(&error.to_string())),
+        _ => Ok(()),
+    }
+}
+
 fn results_are_input(results: &Path) -> Diagnostic {
     let message = format!("writing the results to {} would overwrite an input", results.display());
-    Diagnostic::new(clsmith::diagnostic::codes::OUTPUT_IS_INPUT, message)
+    Diagnostic::new(codes::OUTPUT_IS_INPUT, message)
 }
 
 /// Memory that is available: to the machine, or to the container if that is less.

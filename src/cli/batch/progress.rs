@@ -6,7 +6,6 @@ use crate::cli::terminal;
 use clsmith::batch::{Outcome, Planned, Record, Watch};
 use clsmith::diagnostic::Diagnostic;
 use clsmith::machining;
-use clsmith::report::policy::Policy;
 use clsmith::write::Interrupt;
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io;
@@ -19,17 +18,16 @@ pub struct Bars<'a> {
     whole: ProgressBar,
     failed: AtomicUsize,
     findings: &'a FindingArgs,
-    policy: &'a Policy,
     interrupt: &'a Interrupt,
 }
 
 impl<'a> Bars<'a> {
-    pub fn new(quiet: bool, findings: &'a FindingArgs, policy: &'a Policy, interrupt: &'a Interrupt) -> Self {
+    pub fn new(quiet: bool, findings: &'a FindingArgs, interrupt: &'a Interrupt) -> Self {
         let seen = terminal::errors_are_seen() && !quiet;
         let target = if seen { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         let all = MultiProgress::with_draw_target(target);
         let whole = all.add(ProgressBar::new(0));
-        Self { all, whole, failed: AtomicUsize::new(0), findings, policy, interrupt }
+        Self { all, whole, failed: AtomicUsize::new(0), findings, interrupt }
     }
 
     /// Begins with the files that are to be done: by their bytes, since those take the time.
@@ -74,13 +72,6 @@ impl Watch for Bars<'_> {
             bar.enable_steady_tick(Duration::from_millis(200));
         }
         Box::new(FileBar { bar, interrupt: self.interrupt })
-    }
-
-    fn warns(&self, finding: &Diagnostic) {
-        let found = self.policy.apply(vec![finding.clone()]);
-        if !found.is_empty() {
-            self.show(&found, None);
-        }
     }
 
     fn ended(&self, file: &Planned, record: &Record, findings: &[Diagnostic], _before: bool) {
