@@ -1,18 +1,54 @@
 //! Memory: who may start, and who waits until there is room.
 
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom};
+use std::path::Path;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Bytes of memory for a byte of CL text: the file, its statements, the corrected text, and that text read back.
+/// Bytes of memory for a byte of CL text: the file, the changed text, and that text read back.
 ///
-/// Measured on whole runs of `apply` (see ARCHITECTURE.md); what a simulation takes for its stock is not in it.
-pub const PER_BYTE: u64 = 7;
+/// Measured on whole runs with steps that change every number (see ARCHITECTURE.md); what a simulation takes for its
+/// stock is not in it.
+pub const PER_BYTE: u64 = 4;
+
+/// Bytes of memory for a line: its statement, changed and read back, and lists that grow by doubling.
+pub const PER_LINE: u64 = 320;
 
 /// Bytes of memory that a file takes however small it is.
 pub const LEAST: u64 = 4 << 20;
 
-/// What a file of a size is taken to need, in bytes.
-pub fn need(size: u64) -> u64 {
-    size.saturating_mul(PER_BYTE).saturating_add(LEAST)
+/// So much of a file is looked at, in two places, to know how long its lines are.
+const SAMPLE: u64 = 64 * 1024;
+
+/// What a file of so many bytes and lines is taken to need, in bytes.
+pub fn need(bytes: u64, lines: u64) -> u64 {
+    bytes.saturating_mul(PER_BYTE).saturating_add(lines.saturating_mul(PER_LINE)).saturating_add(LEAST)
+}
+
+/// What a file is taken to need, in bytes: from its size, and the lines in samples of it. One that cannot be read needs
+/// little.
+pub fn need_of(path: &Path, bytes: u64) -> u64 {
+    need(bytes, lines(path, bytes).unwrap_or(0))
+}
+
+/// About how many lines a file has; rather too many.
+fn lines(path: &Path, bytes: u64) -> io::Result<u64> {
+    // Opening a pipe would wait for somebody to write.
+    if !std::fs::metadata(path)?.is_file() {
+        return Ok(0);
+    }
+    let mut file = File::open(path)?;
+    let mut most = 0.0_f64;
+    for place in [0, bytes / 2] {
+        file.seek(SeekFrom::Start(place))?;
+        let mut sample = Vec::new();
+        file.by_ref().take(SAMPLE).read_to_end(&mut sample)?;
+        let ends = memchr::memchr2_iter(b'\n', b'\r', &sample).count();
+        if !sample.is_empty() {
+            most = most.max(ends as f64 / sample.len() as f64);
+        }
+    }
+    Ok((most * bytes as f64).ceil() as u64)
 }
 
 /// Files that wait, the largest first, and the room that is left.

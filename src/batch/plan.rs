@@ -1,6 +1,6 @@
 //! Which file becomes which output. What cannot be right is refused here, before anything runs.
 
-use super::budget::need;
+use super::budget;
 use super::find::{self, Match, NoMatch};
 use super::jobs::{Asked, Jobs, Placed};
 use super::{Folder, Name, Shard};
@@ -68,6 +68,8 @@ pub struct Planned {
     pub output_name: Name,
     /// Bytes in it when the batch was planned.
     pub size: u64,
+    /// Bytes of memory that it is taken to need.
+    pub need: u64,
 }
 
 /// All files of a batch, in the order of their names, and what is worth saying about finding them.
@@ -135,12 +137,12 @@ impl Plan {
         let mb = |bytes: u64| bytes.div_ceil(1_000_000);
         let files = self.of_shard(shard).into_iter().filter_map(|index| self.files.get(index));
         files
-            .filter(|file| need(file.size) > memory)
+            .filter(|file| file.need > memory)
             .map(|file| {
                 let message = format!(
                     "{} may need {} MB of memory, more than the {} MB of the batch: it runs alone",
                     file.input,
-                    mb(need(file.size)),
+                    mb(file.need),
                     mb(memory)
                 );
                 Diagnostic::new(codes::OVER_BUDGET, message)
@@ -258,9 +260,11 @@ fn planned(job: usize, base: &Path, below: &Path, found: Match) -> Planned {
         |path: &Path| path.components().filter(|part| *part != Component::CurDir).collect::<PathBuf>();
     let path = base.join(&found.path);
     let output = plain(&below.join(found.below));
+    let size = std::fs::metadata(&path).map_or(0, |there| there.len());
     Planned {
         job,
-        size: std::fs::metadata(&path).map_or(0, |there| there.len()),
+        size,
+        need: budget::need_of(&path, size),
         path,
         input: Name::of(&plain(&found.path)),
         output_name: Name::of(&output),

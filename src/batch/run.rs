@@ -1,6 +1,6 @@
 //! All files of a batch, several at once.
 
-use super::budget::{self, Queue, Ticket};
+use super::budget::{Queue, Ticket};
 use super::one::{self, Ended, Settings};
 use super::plan::{Plan, Planned, Work};
 use super::{Changed, Counts, Done, Hashes, Journal, Locked, Outcome, Record};
@@ -12,12 +12,8 @@ use crate::report::policy::Policy;
 use crate::write::Interrupt;
 use std::collections::BTreeMap;
 use std::io;
-use std::num::NonZeroUsize;
 use std::path::Path;
 use std::sync::mpsc;
-
-/// What a thread has for recursion in rare large statements: as much as a main thread has.
-const STACK: usize = 8 << 20;
 
 /// A batch that is ready to run.
 pub struct Batch<'a> {
@@ -33,8 +29,8 @@ pub struct Batch<'a> {
     pub options: &'a str,
     /// Where outputs go.
     pub folder: &'a Locked,
-    /// How many files at once, and how many threads in all.
-    pub workers: NonZeroUsize,
+    /// The threads: so many files at once, and what steps do in parallel.
+    pub pool: &'a rayon::ThreadPool,
     /// Memory for all files together, in bytes.
     pub memory: u64,
     /// Whether no file is begun after one has failed.
@@ -84,8 +80,6 @@ impl Batch<'_> {
             Box::new(Diagnostic::new(codes::UNWRITABLE, message))
         };
         let journal = Journal::begin(self.folder, id, known.values()).map_err(unwritable)?;
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.workers.get()).stack_size(STACK).build();
-        let pool = pool.map_err(|error| unwritable(io::Error::other(error)))?;
         let settings = Settings {
             policy: self.policy,
             dialect: self.dialect,
@@ -93,30 +87,32 @@ impl Batch<'_> {
             folder: self.folder,
             interrupt: self.interrupt,
         };
-        let needs = mine
-            .iter()
-            .filter_map(|&index| self.plan.files.get(index).map(|file| (index, budget::need(file.size))));
+        let needs =
+            mine.iter().filter_map(|&index| self.plan.files.get(index).map(|file| (index, file.need)));
         let queue = Queue::new(needs, self.memory);
         let (tell, told) = mpsc::channel();
-        std::thread::scope(|scope| {
-            for _ in 0..self.workers.get().min(mine.len()) {
-                let (tell, queue, known, journal, pool) = (tell.clone(), &queue, &known, &journal, &pool);
-                scope.spawn(move || {
-                    while let Some(ticket) = queue.take() {
-                        // In the pool, so that all files and what their steps do in parallel have so many threads
-                        // together; the wait for room is outside, where it keeps no thread from its work.
-                        let ended = pool.install(|| self.one(settings, &ticket, known, journal, watch));
-                        let stop = ended.as_ref().is_none_or(|(_, end)| self.fail_fast && end.has_failed());
-                        if stop || self.interrupt.is_raised() {
-                            queue.close();
-                        }
-                        // The receiver lives as long as the scope.
-                        ended.map(|ended| tell.send(ended));
-                    }
-                });
+        let work = |tell: mpsc::Sender<_>| {
+            while let Some(ticket) = queue.take() {
+                // In the pool, so that all files and what their steps do in parallel have so many threads together; the
+                // wait for room is outside, where it keeps no thread from its work.
+                let ended = self.pool.install(|| self.one(settings, &ticket, &known, &journal, watch));
+                let stop = ended.as_ref().is_none_or(|(_, end)| self.fail_fast && end.has_failed());
+                if stop || self.interrupt.is_raised() {
+                    queue.close();
+                }
+                // The receiver lives longer than this.
+                ended.map(|ended| tell.send(ended));
             }
+        };
+        let work = &work;
+        std::thread::scope(|scope| {
+            for _ in 1..self.pool.current_num_threads().min(mine.len()) {
+                let tell = tell.clone();
+                // Where the system gives no more threads, those there are do it.
+                let _ = std::thread::Builder::new().spawn_scoped(scope, move || work(tell));
+            }
+            work(tell);
         });
-        drop(tell);
         Ok(self.gather(&mine, told.into_iter().collect()))
     }
 

@@ -46,6 +46,7 @@ impl Outputs {
                 std::process::exit(130);
             }
             interrupt.raise();
+            eprintln!("clsmith: stopping; Ctrl-C again ends it at once");
         })
         .map_err(io::Error::other)
     }

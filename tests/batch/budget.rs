@@ -1,15 +1,34 @@
 //! Who may start.
 
-use clsmith::batch::budget::{LEAST, PER_BYTE, Queue, need};
+use clsmith::batch::budget::{LEAST, PER_BYTE, PER_LINE, Queue, need, need_of};
 use proptest::prelude::*;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::time::Duration;
 
 #[test]
 fn a_need_grows_with_the_file() {
-    assert_eq!(need(0), LEAST);
-    assert_eq!(need(1000) - need(0), 1000 * PER_BYTE);
-    assert_eq!(need(u64::MAX), u64::MAX);
+    assert_eq!(need(0, 0), LEAST);
+    assert_eq!(need(1000, 20) - need(0, 0), 1000 * PER_BYTE + 20 * PER_LINE);
+    assert_eq!(need(u64::MAX, u64::MAX), u64::MAX);
+}
+
+#[test]
+fn lines_are_counted_in_samples() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("part.cls");
+    for line in
+        ["GOTO/1.0,2.0,3.0\n", "GOTO/1.0000,2.0000,3.0000,0.0000000,0.0000000,1.0000000\n", "GOTO/1,2,3\r"]
+    {
+        let text = line.repeat(20_000);
+        std::fs::write(&path, &text).unwrap();
+        let (told, right) = (need_of(&path, text.len() as u64), need(text.len() as u64, 20_000));
+        assert!(told.abs_diff(right) < right / 100, "{told} {right}");
+    }
+    // A long head of long lines does not hide that the rest is short.
+    let text = format!("{}{}", format!("$${}\n", "-".repeat(1000)).repeat(100), "RAPID\n".repeat(100_000));
+    std::fs::write(&path, &text).unwrap();
+    assert!(need_of(&path, text.len() as u64) >= need(text.len() as u64, 100_000));
+    assert_eq!(need_of(&folder.path().join("none"), 10), need(10, 0));
 }
 
 #[test]
@@ -29,14 +48,14 @@ fn the_largest_that_fits_is_first() {
 #[test]
 fn what_is_larger_than_all_there_is_runs_alone() {
     let queue = Queue::new([(0, 1000), (1, 5)], 100);
-    let large = queue.take().unwrap();
-    assert_eq!(large.file, 0);
+    let small = queue.take().unwrap();
+    assert_eq!(small.file, 1, "what fits is first");
     std::thread::scope(|scope| {
-        let small = scope.spawn(|| queue.take().map(|ticket| ticket.file));
+        let large = scope.spawn(|| queue.take().map(|ticket| ticket.file));
         std::thread::sleep(Duration::from_millis(30));
-        assert!(!small.is_finished(), "there is no room");
-        drop(large);
-        assert_eq!(small.join().unwrap(), Some(1));
+        assert!(!large.is_finished(), "somebody runs");
+        drop(small);
+        assert_eq!(large.join().unwrap(), Some(0));
     });
 }
 

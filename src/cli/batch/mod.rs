@@ -73,8 +73,8 @@ pub struct Batch {
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
     /// Files worked on at once, and threads in all; without it, as many as there are processors
-    #[arg(long, value_name = "N")]
-    jobs: Option<NonZeroUsize>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: Option<u16>,
     /// Memory for all files together: 512M, 2G, 1.5GiB; without it, half of what is available
     #[arg(long, value_name = "SIZE")]
     memory: Option<ByteSize>,
@@ -96,6 +96,9 @@ pub struct Batch {
     #[command(flatten)]
     findings: FindingArgs,
 }
+
+/// What a thread has for recursion in rare large statements: as much as a main thread.
+const STACK: usize = 8 << 20;
 
 /// All that is known before anything runs.
 struct Ready {
@@ -146,6 +149,8 @@ impl Batch {
         if let Err(found) = make_way(&ready.results) {
             return self.refused(&[found]);
         }
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.workers()).stack_size(STACK).build();
+        let pool = pool.map_err(io::Error::other)?;
         let outputs = Outputs::default();
         let bars = Bars::new(self.quiet, &self.findings, outputs.interrupt());
         outputs.stop_gently(bars.clearing())?;
@@ -159,7 +164,7 @@ impl Batch {
             dialect: self.dialect,
             options: &options,
             folder: &ready.folder,
-            workers: self.workers(),
+            pool: &pool,
             memory: ready.memory,
             fail_fast: self.fail_fast,
             resume: self.resume,
@@ -277,9 +282,9 @@ impl Batch {
         unless_nobody_reads(self.findings.show(&mut err, terminal::errors_are_seen(), found, None))
     }
 
-    fn workers(&self) -> NonZeroUsize {
-        let processors = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
-        self.jobs.unwrap_or_else(processors)
+    fn workers(&self) -> usize {
+        let processors = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+        self.jobs.map_or_else(processors, usize::from)
     }
 
     /// Bytes for all files together.
@@ -315,8 +320,9 @@ fn available() -> u64 {
     system.refresh_memory();
     let of_machine = system.available_memory();
     match system.cgroup_limits() {
-        Some(limits) if limits.total_memory > 0 => of_machine.min(limits.free_memory),
-        _ => of_machine,
+        // What the container holds of files it has read is given back when somebody needs it.
+        Some(limits) => of_machine.min(limits.total_memory.saturating_sub(limits.rss)),
+        None => of_machine,
     }
 }
 

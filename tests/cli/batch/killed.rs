@@ -35,7 +35,7 @@ fn random() -> (u128, impl FnMut() -> f64) {
 #[test]
 fn twenty_kills_change_nothing() {
     let shop = shop(30);
-    (0..6).for_each(|number| write(shop.path(), &format!("programs/long{number}.cls"), &long_part(1500)));
+    (0..6).for_each(|number| write(shop.path(), &format!("programs/long{number}.cls"), &long_part(600)));
     write(shop.path(), "programs/bad.cls", "GOTO/x\n");
     let began = Instant::now();
     assert_eq!(start(shop.path(), "whole").wait().unwrap().code(), Some(1));
@@ -75,7 +75,7 @@ fn twenty_kills_change_nothing() {
 #[test]
 fn ctrl_c_ends_it_gently() {
     let shop = shop(3);
-    (0..40).for_each(|number| write(shop.path(), &format!("programs/long{number}.cls"), &long_part(4000)));
+    (0..30).for_each(|number| write(shop.path(), &format!("programs/long{number}.cls"), &long_part(2000)));
     let mut run = start(shop.path(), "done");
     let journal = shop.path().join("done/.clsmith-batch.journal");
     let wait = Instant::now();
