@@ -78,7 +78,7 @@ pub fn batch(folder: &Path, out: &str, more: &[&str]) -> assert_cmd::assert::Ass
 /// All files below a folder with their bytes, but not what the batch keeps for itself.
 pub fn tree(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut found = everything(folder);
-    found.retain(|path, _| !path.as_os_str().as_encoded_bytes().starts_with(b".clsmith-batch"));
+    found.retain(|path, _| !path.file_name().unwrap().as_encoded_bytes().starts_with(b".clsmith-batch"));
     found
 }
 
