@@ -100,8 +100,10 @@ impl Batch<'_> {
                 if stop || self.interrupt.is_raised() {
                     queue.close();
                 }
-                // The receiver lives longer than this.
-                ended.map(|ended| tell.send(ended));
+                if let Some(ended) = ended {
+                    // The receiver lives longer than this.
+                    let _ = tell.send(ended);
+                }
             }
         };
         let work = &work;

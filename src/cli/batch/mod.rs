@@ -261,7 +261,7 @@ impl Batch {
             let seconds = Some(began.elapsed().as_secs_f64());
             let mut text = summary::to_text(&ran.records, ran.before, seconds);
             let (workers, memory) = (self.workers(), ByteSize::b(ready.memory).display().si());
-            text.push_str(&format!("\nat most {workers} files at once, in {memory}\n"));
+            text.push_str(&format!("\nat most {workers} at once, in {memory}\n"));
             text.push_str(&format!("results: {}\n", ready.results.display()));
             unless_nobody_reads(print_summary(&text, false))?;
         }
