@@ -4,6 +4,7 @@
 //! whose motions are a view; a [`recipe`] lists [`transform`]s; [`mod@write`] copies untouched bytes and patches changed
 //! numbers; [`report`] says what changed. ARCHITECTURE.md follows one GOTO through all of it.
 
+pub mod batch;
 pub mod check;
 pub mod chips;
 pub mod choice;

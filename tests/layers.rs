@@ -80,6 +80,24 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
             "report",
         ],
     ),
+    (
+        "batch",
+        &[
+            "source",
+            "diagnostic",
+            "program",
+            "write",
+            "values",
+            "yaml",
+            "setup",
+            "recipe",
+            "machining",
+            "transform",
+            "report",
+            "fingerprint",
+            "job",
+        ],
+    ),
 ];
 
 /// What no module of the library may use: the command line, the terminal, printing and exiting.

@@ -1,6 +1,7 @@
 //! The command line: one file for each command, over a library that knows nothing of it.
 
 mod apply;
+mod batch;
 mod check;
 mod chips;
 mod diff;
@@ -26,6 +27,8 @@ const EXAMPLES: &str = "\
 Examples:
   clsmith apply recipe.yaml part.cls -o out.cls    correct a program by a recipe
   clsmith apply recipe.yaml part.cls --diff        see what would change
+  clsmith batch --recipe recipe.yaml --out done 'programs/**/*.cls'
+                                                   correct many programs
   clsmith check part.cls                           what is wrong with a program
   clsmith stats part.cls                           what is in it
   clsmith simulate part.cls --setup shop.yaml      what its tools cut and bear
@@ -64,6 +67,8 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Apply(apply::Apply),
+    Batch(Box<batch::Batch>),
+    Merge(batch::Merge),
     Check(check::Check),
     Stats(stats::Stats),
     Simulate(simulate::Simulate),
@@ -84,6 +89,8 @@ pub fn main() -> ExitCode {
     let cli = Cli::parse();
     let done = match &cli.command {
         Command::Apply(command) => command.run(),
+        Command::Batch(command) => command.run(),
+        Command::Merge(command) => command.run(),
         Command::Check(command) => command.run(),
         Command::Stats(command) => command.run(),
         Command::Simulate(command) => command.run(),

@@ -35,6 +35,22 @@ impl Outputs {
         .map_err(io::Error::other)
     }
 
+    /// For work on many files: the first Ctrl-C asks it to stop, so that it can end what it began, the second ends the process
+    /// at once. `before` is done before any word.
+    pub fn stop_gently(&self, before: impl Fn() + Send + 'static) -> io::Result<()> {
+        let interrupt = self.interrupt.clone();
+        ctrlc::set_handler(move || {
+            before();
+            if interrupt.is_raised() {
+                eprintln!("clsmith: stopped");
+                std::process::exit(130);
+            }
+            interrupt.raise();
+            eprintln!("clsmith: stopping; Ctrl-C again ends it at once");
+        })
+        .map_err(io::Error::other)
+    }
+
     /// Writes an output; a finding when that fails for another reason than Ctrl-C or a reader that went away.
     pub fn write(
         &self,

@@ -44,7 +44,7 @@ impl Transforms {
 /// Prints the JSON Schema of recipes, for editors to complete and check from
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples:\n  clsmith schema > clsmith-recipe.schema.json\n  clsmith schema --setup > clsmith-setup.schema.json\n  clsmith schema --select > clsmith-select.schema.json"
+    after_help = "Examples:\n  clsmith schema > clsmith-recipe.schema.json\n  clsmith schema --setup > clsmith-setup.schema.json\n  clsmith schema --select > clsmith-select.schema.json\n  clsmith schema --jobs > clsmith-jobs.schema.json"
 )]
 pub struct Schema {
     /// The schema of setup files instead
@@ -53,11 +53,15 @@ pub struct Schema {
     /// The schema of files that choose the recipe (`hook --select`) instead
     #[arg(long, conflicts_with = "setup")]
     select: bool,
+    /// The schema of jobs files instead, for `clsmith batch`
+    #[arg(long, conflicts_with_all = ["setup", "select"])]
+    jobs: bool,
 }
 
 impl Schema {
     pub fn run(&self) -> io::Result<Exit> {
         let schema = match self {
+            Self { jobs: true, .. } => clsmith::batch::jobs::schema(),
             Self { setup: true, .. } => Setup::schema(),
             Self { select: true, .. } => clsmith::choice::schema(),
             _ => clsmith::recipe::schema::<transform::Step>(),

@@ -21,7 +21,7 @@ pub mod stats;
 pub mod step_report;
 pub mod steps;
 pub mod surfacing;
-mod table;
+pub(crate) mod table;
 pub mod unified;
 
 use crate::program::motion::Tool;

@@ -4,7 +4,7 @@ use crate::program::LengthUnit;
 use std::fmt::Write;
 
 /// Joins cells to columns; the first column is left-aligned, others right. Rows are indented by two blanks.
-pub(super) fn table(rows: &[Vec<String>]) -> String {
+pub(crate) fn table(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |column: usize| {
         rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max().unwrap_or(0)
@@ -26,7 +26,7 @@ pub(super) fn table(rows: &[Vec<String>]) -> String {
 }
 
 /// `1234567` as `1,234,567`.
-pub(super) fn count(value: u64) -> String {
+pub(crate) fn count(value: u64) -> String {
     grouped(&value.to_string())
 }
 
@@ -74,7 +74,7 @@ pub(super) fn unit_name(unit: LengthUnit) -> &'static str {
 }
 
 /// Seconds as `4.2 s`, `29:55` or `1:02:03`.
-pub(super) fn duration(seconds: f64) -> String {
+pub(crate) fn duration(seconds: f64) -> String {
     if !seconds.is_finite() {
         return "?".to_owned();
     }
@@ -90,7 +90,7 @@ pub(super) fn duration(seconds: f64) -> String {
 }
 
 /// `3 arcs`, `1 arc`.
-pub(super) fn counted(number: usize, one: &str, many: &str) -> String {
+pub(crate) fn counted(number: usize, one: &str, many: &str) -> String {
     format!("{} {}", count(number as u64), if number == 1 { one } else { many })
 }
 

@@ -6,6 +6,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 const CHUNK: usize = 256 * 1024;
+const SUFFIX: &str = ".tmp";
 
 /// Writes a file so that every reader sees either all of the old one or all of the new one.
 ///
@@ -30,20 +31,58 @@ pub fn write_atomically_unless(
     interrupt: &Interrupt,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
-    let old = match fs::metadata(path) {
-        Ok(old) if old.is_dir() => return Err(io::Error::from(io::ErrorKind::IsADirectory)),
-        Ok(old) if !old.is_file() => {
-            let file = File::options().write(true).open(path)?;
-            return fill(&file, interrupt, write);
-        }
-        Ok(old) if old.permissions().readonly() => {
-            return Err(io::Error::new(io::ErrorKind::PermissionDenied, "the file is write-protected"));
-        }
-        Ok(old) => Some(old),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => None,
-        Err(error) => return Err(error),
-    };
-    replace(&follow_links(path)?, old.as_ref(), interrupt, write)
+    Temporaries::default().write(path, interrupt, write)
+}
+
+/// How temporary files are called. Whoever has a name of their own can tell theirs after a power cut.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Temporaries {
+    prefix: String,
+}
+
+impl Default for Temporaries {
+    fn default() -> Self {
+        Self { prefix: ".clsmith-".to_owned() }
+    }
+}
+
+impl Temporaries {
+    /// Temporary files called `.clsmith-<owner>-*.tmp`.
+    pub fn of(owner: &str) -> Self {
+        Self { prefix: format!(".clsmith-{owner}-") }
+    }
+
+    /// Whether a file is, by its name, one of these that a process left behind when it was killed.
+    pub fn made(&self, name: &std::ffi::OsStr) -> bool {
+        let name = name.as_encoded_bytes();
+        name.starts_with(self.prefix.as_bytes()) && name.ends_with(SUFFIX.as_bytes())
+    }
+
+    /// As [`write_atomically_unless`].
+    ///
+    /// # Errors
+    /// As [`write_atomically_unless`].
+    pub fn write(
+        &self,
+        path: &Path,
+        interrupt: &Interrupt,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> io::Result<()> {
+        let old = match fs::metadata(path) {
+            Ok(old) if old.is_dir() => return Err(io::Error::from(io::ErrorKind::IsADirectory)),
+            Ok(old) if !old.is_file() => {
+                let file = File::options().write(true).open(path)?;
+                return fill(&file, interrupt, write);
+            }
+            Ok(old) if old.permissions().readonly() => {
+                return Err(io::Error::new(io::ErrorKind::PermissionDenied, "the file is write-protected"));
+            }
+            Ok(old) => Some(old),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+            Err(error) => return Err(error),
+        };
+        replace(self, &follow_links(path)?, old.as_ref(), interrupt, write)
+    }
 }
 
 /// [`write_atomically`] for a file that is not there yet.
@@ -67,6 +106,7 @@ pub fn write_new_atomically(
 }
 
 fn replace(
+    temporaries: &Temporaries,
     target: &Path,
     old: Option<&Metadata>,
     interrupt: &Interrupt,
@@ -74,7 +114,7 @@ fn replace(
 ) -> io::Result<()> {
     // The same folder, because a rename is only atomic within one file system.
     let folder = folder_of(target);
-    let temporary = create_in(folder)?;
+    let temporary = create_in(folder, &temporaries.prefix)?;
     fill(temporary.as_file(), interrupt, write)?;
     if let Some(old) = old {
         temporary.as_file().set_permissions(old.permissions())?;
@@ -96,10 +136,10 @@ fn fill(
     out.flush()
 }
 
-fn create_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+fn create_in(folder: &Path, prefix: &str) -> io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     // A fixed prefix: the target's own name in front could pass the length a file name may have.
-    builder.prefix(".clsmith-").suffix(".tmp");
+    builder.prefix(prefix).suffix(SUFFIX);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;

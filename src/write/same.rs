@@ -1,5 +1,6 @@
 //! Whether two paths lead to one file.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -14,6 +15,27 @@ pub fn same_file(a: &Path, b: &Path) -> bool {
     }
 }
 
+/// Many files at once, for [`same_file`] with any of them.
+#[derive(Debug, Clone, Default)]
+pub struct FileSet {
+    paths: BTreeSet<PathBuf>,
+    inodes: BTreeSet<(u64, u64)>,
+}
+
+impl FileSet {
+    /// Adds a file, whether it exists yet or not.
+    pub fn insert(&mut self, path: &Path) {
+        self.paths.extend(real(path));
+        self.inodes.extend(inode(path));
+    }
+
+    /// Whether writing to a path would change one of them.
+    pub fn contains(&self, path: &Path) -> bool {
+        real(path).is_some_and(|path| self.paths.contains(&path))
+            || inode(path).is_some_and(|inode| self.inodes.contains(&inode))
+    }
+}
+
 fn real(path: &Path) -> Option<PathBuf> {
     if let Ok(path) = fs::canonicalize(path) {
         return Some(path);
@@ -23,16 +45,17 @@ fn real(path: &Path) -> Option<PathBuf> {
     Some(folder.join(path.file_name()?))
 }
 
-#[cfg(unix)]
 fn same_inode(a: &Path, b: &Path) -> bool {
+    inode(a).is_some_and(|a| inode(b) == Some(a))
+}
+
+#[cfg(unix)]
+fn inode(path: &Path) -> Option<(u64, u64)> {
     use std::os::unix::fs::MetadataExt;
-    match (fs::metadata(a), fs::metadata(b)) {
-        (Ok(a), Ok(b)) => a.dev() == b.dev() && a.ino() == b.ino(),
-        _ => false,
-    }
+    fs::metadata(path).ok().map(|there| (there.dev(), there.ino()))
 }
 
 #[cfg(not(unix))]
-fn same_inode(_: &Path, _: &Path) -> bool {
-    false
+fn inode(_: &Path) -> Option<(u64, u64)> {
+    None
 }

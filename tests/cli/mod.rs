@@ -1,6 +1,7 @@
 //! The command as people run it.
 
 mod apply;
+mod batch;
 mod chips;
 mod hook;
 mod hook_examples;

@@ -84,4 +84,64 @@ super::area! {
         "The watch only takes files that lie in the folder it was given. This name is a link to somewhere else, and whoever may \
          write into the folder could have made it point at anything: it is left alone. Linked folders are not entered either, so \
          no circle of links can keep the watch busy.";
+    NOTHING_MATCHES = "CL0420", Error, "a pattern or path of a batch that leads to no file",
+        "Check the spelling and the folder it starts in; put the pattern in quotes, so that clsmith expands it and not the shell.",
+        "A batch was given a pattern that fits no file, a path where there is none, or a folder. `*` and `?` stay within a \
+         folder, `**` goes through all folders below; `programs/**/*.cls` is every CLS file below `programs`. Case counts \
+         (`*.cls` is not `PART.CLS`; write `*.{cls,CLS}`), hidden files count only where the pattern names their dot, and \
+         the output folder is never searched.\n\n\
+         Patterns of a jobs file start in the folder of the jobs file. Nothing runs: a batch that quietly does half of what \
+         it was asked is found out at the machine.";
+    OUTPUTS_COLLIDE = "CL0421", Error, "two outputs of a batch under one name",
+        "Give the jobs different `out` folders, or one pattern with `**`, which keeps the folders below its fixed part.",
+        "Each output is called like its input, with the folders below the part of the pattern in front of the first \
+         wildcard: `programs/**/*.cls` makes `a/x.cls` of `programs/a/x.cls`. A file that is named without a wildcard keeps only \
+         its own name, so `a/x.cls b/x.cls`, also when a shell made that of `*/x.cls`, are both `x.cls`. Names that differ \
+         in case only count as one, since they are one file on many disks and in many controls.\n\n\
+         Also refused are outputs under a name that the batch needs itself (results, journal) or that another output needs \
+         as a folder. Nothing runs, since which of the two stayed would depend on which came last.";
+    OUTSIDE_OUTPUT = "CL0422", Error, "an output that would leave the output folder",
+        "Remove the link, or choose an output folder without one; a job's `out` is a folder inside the output folder.",
+        "All outputs of a batch stay inside its output folder. A job's `out:` with `..` or a drive or root in front leads out \
+         of it; so does a symbolic link that stands in the folder where an output or one of its folders belongs. What is \
+         written there lands somewhere else, perhaps over a program that somebody released. The output folder itself may be a \
+         link: that one you named.";
+    OUTPUT_IN_USE = "CL0423", Error, "an output folder that another batch is writing to",
+        "Wait until the other batch is done, or choose another output folder.",
+        "A batch locks its output folder (`.clsmith-batch.lock`), so that two do not write the same files and journal at once. \
+         The lock belongs to the running process: when that ends or is killed, the lock is gone with it, and the file that \
+         stays does no harm. Shards of one batch may share a folder; the same shard twice, shards of different batches, and a \
+         shard beside a whole batch may not.";
+    INPUT_CHANGED = "CL0424", Error, "a file that was changed while it was read",
+        "Wait until the CAM system has finished the export, then run the batch again with --resume.",
+        "The file's size, time or content is not what it was when it was read. Most often an export was still being \
+         written, and what was read is the first part of a program: correct to the last line, and without its retract. So \
+         nothing was written for it.\n\n\
+         The same is said of a setup or model that was changed while a batch ran, since some files may have been done with \
+         the old one and some with the new.";
+    OVER_BUDGET = "CL0425", Warning, "a file that may need more memory than the batch has",
+        "Give the batch more with --memory, or split the program by operation.",
+        "Before a file of a batch begins, its need is estimated from its size, and it waits until that much of --memory \
+         is free. This one needs more than all of it, so it runs while no other does, and may take more memory than was \
+         granted. On a cluster such a job may be killed by the scheduler: ask for more memory there, too.";
+    LINK_LOOP = "CL0426", Warning, "a link to a folder that it is in",
+        "Remove the link if nobody needs it.",
+        "While looking for files, a symbolic link led back to a folder on its own path. Following it would find the same \
+         files again and again under ever longer names, so it was passed by; every file is still found under its short \
+         name.";
+    BAD_RESULTS = "CL0427", Error, "a file that is no results file of a batch",
+        "Give the `results*.jsonl` that `clsmith batch` wrote; if it was cut off when it was copied, copy it again.",
+        "Results are lines of JSON: the first says which batch and which part of it, each other one what became of a file. \
+         The line shown is none of these. Results are written whole or not at all, so a torn line was torn later, or the file \
+         is something else.";
+    NOT_ONE_BATCH = "CL0428", Error, "results that do not belong together",
+        "Merge one results file for each shard of one batch.",
+        "Results can be merged when they are of one batch (the same files, recipes, setups, options and version of clsmith), of \
+         one split (all of `--shard …/8`), and each part is given once. If machines saw different files or had different \
+         recipes, they did not do one batch, and nobody knows what the whole would be.";
+    RESULTS_MISSING = "CL0429", Error, "results of a batch that are not complete",
+        "Run the missing shards, with --resume, and merge again.",
+        "A shard of the batch, or a file of a shard, is not among the results: a machine has not finished, was stopped, or \
+         its results were not copied. Nothing is merged, since a result that looks whole and is not would let programs go \
+         to the machine uncorrected.";
 }

@@ -1,0 +1,157 @@
+//! What became of a file.
+
+use super::Name;
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::fingerprint::Digest;
+use crate::program::{Change, Program};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// How a file ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// Its output is written and differs from the input.
+    Corrected,
+    /// Its output is written and is the input, byte for byte.
+    Unchanged,
+    /// An error stands; nothing was written.
+    Failed,
+    /// Nobody began it, because another one failed and the batch was to stop then.
+    NotRun,
+}
+
+impl Outcome {
+    /// Whether the output is there.
+    pub fn is_written(self) -> bool {
+        matches!(self, Self::Corrected | Self::Unchanged)
+    }
+}
+
+/// Digests of what went in and what came out.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Hashes {
+    /// Of the CL file; `None` if it was not read.
+    pub input: Option<Digest>,
+    /// Of the recipe's text.
+    pub recipe: Digest,
+    /// Of all other files that the recipe depends on: setup, material, models, stock.
+    pub setup: Digest,
+    /// Of the output; `None` if none was written.
+    pub output: Option<Digest>,
+}
+
+/// How many statements the recipe changed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Changed {
+    /// Statements with a new text.
+    pub edited: usize,
+    /// Statements put in.
+    pub inserted: usize,
+    /// Statements of the file taken out.
+    pub deleted: usize,
+}
+
+impl Changed {
+    /// Counts the statements that differ from the source.
+    pub fn of(program: &Program) -> Self {
+        let mut changed = Self::default();
+        for statement in program.statements() {
+            match statement.change() {
+                Change::Untouched => {}
+                Change::Edited(_) => changed.edited += 1,
+                Change::Inserted(_) => changed.inserted += 1,
+                // One step put it in, a later one took it out: the file never had it.
+                Change::Deleted(_) if statement.origin().is_empty() => {}
+                Change::Deleted(_) => changed.deleted += 1,
+            }
+        }
+        changed
+    }
+
+    /// Whether nothing was changed.
+    pub fn is_nothing(self) -> bool {
+        self == Self::default()
+    }
+}
+
+/// How many findings there were.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Counts {
+    /// Errors.
+    pub errors: usize,
+    /// Warnings.
+    pub warnings: usize,
+    /// Notes; none unless they were asked for.
+    pub notes: usize,
+}
+
+/// Findings of one code and severity.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Found {
+    /// The code: `CL0003`.
+    pub code: String,
+    /// `error`, `warning` or `note`.
+    pub severity: String,
+    /// How many there are.
+    pub count: usize,
+    /// The message of the first.
+    pub first: String,
+    /// The line it is about, from 1; `None` if it is about the whole file, or about a line of another one.
+    pub line: Option<usize>,
+}
+
+/// What became of a file. Nothing in it depends on the machine, the threads or the order of files, but `seconds`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// The CL file, as the batch names it.
+    pub input: Name,
+    /// The output, below the output folder.
+    pub output: Name,
+    /// The recipe, as the batch names it.
+    pub recipe: Name,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Digests.
+    pub sha256: Hashes,
+    /// The clsmith that did it.
+    pub version: String,
+    /// What the recipe changed.
+    pub changed: Changed,
+    /// How many findings there were.
+    pub counts: Counts,
+    /// Findings by code.
+    pub findings: Vec<Found>,
+    /// How long it took; only in journals, and in results on request.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seconds: Option<f64>,
+}
+
+impl Record {
+    /// What identifies the record in its batch, and orders it.
+    pub fn key(&self) -> (&Name, &Name) {
+        (&self.input, &self.output)
+    }
+
+    /// Takes the findings down, as the policy left them.
+    pub(super) fn count(&mut self, findings: &[Diagnostic], source_name: &str) {
+        let mut by_code: BTreeMap<(&str, Severity), Found> = BTreeMap::new();
+        for found in findings {
+            match found.severity {
+                Severity::Error => self.counts.errors += 1,
+                Severity::Warning => self.counts.warnings += 1,
+                Severity::Note => self.counts.notes += 1,
+            }
+            let label = found.labels.first().filter(|label| label.source.name() == source_name);
+            let first = || Found {
+                code: found.code.id().to_owned(),
+                severity: found.severity.to_string(),
+                count: 0,
+                first: found.message.clone(),
+                line: label.map(|label| label.source.line_column(label.span.start).0),
+            };
+            by_code.entry((found.code.id(), found.severity)).or_insert_with(first).count += 1;
+        }
+        self.findings = by_code.into_values().collect();
+    }
+}

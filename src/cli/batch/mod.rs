@@ -1,0 +1,333 @@
+//! `clsmith batch` and `clsmith merge`.
+
+mod merge;
+mod progress;
+
+pub use merge::Merge;
+
+use super::exit::Exit;
+use super::files::{self, Loaded, STANDARD};
+use super::findings::FindingArgs;
+use super::output::{Outputs, print_summary, unless_nobody_reads};
+use super::terminal;
+use bytesize::ByteSize;
+use clap::Args;
+use clsmith::batch::jobs::{self, Asked, Jobs};
+use clsmith::batch::results::{self, Head};
+use clsmith::batch::{Batch as Run, Folder, Locked, Plan, Ran, Record, Shard, Work, summary};
+use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::program::Dialect;
+use clsmith::write::same_file;
+use progress::Bars;
+use std::io;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+const EXAMPLES: &str = "\
+Examples:
+  clsmith batch --recipe recipe.yaml --out done 'programs/**/*.cls'
+  clsmith batch jobs.yaml                              recipes, files and output folder from a file
+  clsmith batch jobs.yaml --resume                     go on after a power cut; do what is new or changed
+  clsmith batch jobs.yaml --memory 2G --jobs 4         bounds for memory and processors
+  clsmith batch jobs.yaml --shard 2/8                  the second of eight machines' parts
+  clsmith merge done/results-*-of-8.jsonl -o all.jsonl   the parts' results in one
+
+A jobs file (schema: clsmith schema --jobs); paths are relative to its folder:
+  out: done
+  jobs:
+    - { recipe: slow-entry.yaml, setup: vmc3.yaml, files: ['programs/**/*.cls'] }
+    - { recipe: to-inch.yaml, files: ['us/*.ncl'], out: us }
+
+Patterns: * and ? stay in a folder, ** goes through all below, {a,b} is either. Quote them. Outputs keep the
+folders below the part in front of the first wildcard. Hidden files count where the pattern names the dot,
+links are followed, the output folder is never searched.
+
+An output appears whole or not at all. A file with errors is not written; the others are, and the exit code
+is 1. What cannot be right (a pattern without files, two inputs for one output, an output that is an input or
+leaves the folder) is refused before anything runs.
+
+Results are JSON Lines, sorted by name, the same whatever the order, threads or shards; names that are no UTF-8
+are { \"lossy\": ..., \"hex\": ... }. The folder also gets .clsmith-batch.journal, which --resume reads.";
+
+/// Corrects many programs, in parallel within a memory budget
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Batch {
+    /// A jobs file (YAML); with --recipe, programs or patterns for them
+    #[arg(required = true, value_name = "JOBS|PATTERN")]
+    what: Vec<PathBuf>,
+    /// The recipe (YAML) for all programs, instead of a jobs file
+    #[arg(long, value_name = "FILE", requires = "out")]
+    recipe: Option<PathBuf>,
+    /// A setup file; overrides the recipe's setup
+    #[arg(long, value_name = "FILE", requires = "recipe")]
+    setup: Option<PathBuf>,
+    /// The output folder; overrides that of a jobs file. Made if it does not exist
+    #[arg(short, long, visible_alias = "output", value_name = "FOLDER")]
+    out: Option<PathBuf>,
+    /// Skip what is done and unchanged: input, recipe with its files, options, version and output are compared by content
+    #[arg(long)]
+    resume: bool,
+    /// Do part I of N, counted from 1: every Nth file of the sorted list
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+    /// Files worked on at once, and threads in all; without it, as many as there are processors
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: Option<u16>,
+    /// Memory for all files together: 512M, 2G, 1.5GiB; without it, half of what is available
+    #[arg(long, value_name = "SIZE")]
+    memory: Option<ByteSize>,
+    /// Begin no file after one has failed
+    #[arg(long)]
+    fail_fast: bool,
+    /// Where results go; without it, results.jsonl (a shard: results-I-of-N.jsonl) in the output folder
+    #[arg(long, value_name = "FILE")]
+    results: Option<PathBuf>,
+    /// Put the seconds each file took into the results, too; they are never twice the same
+    #[arg(long)]
+    times: bool,
+    /// The dialect of all programs, instead of finding it from their text
+    #[arg(long, value_parser = files::dialect, value_name = "NAME")]
+    dialect: Option<Dialect>,
+    /// Say nothing but findings
+    #[arg(short, long)]
+    quiet: bool,
+    #[command(flatten)]
+    findings: FindingArgs,
+}
+
+/// What a thread has for recursion in rare large statements: as much as a main thread.
+const STACK: usize = 8 << 20;
+
+/// All that is known before anything runs.
+struct Ready {
+    plan: Plan,
+    works: Vec<Work>,
+    folder: Locked,
+    results: PathBuf,
+    /// Bytes for all files together.
+    memory: u64,
+}
+
+impl Batch {
+    pub fn run(&self) -> io::Result<Exit> {
+        let usage = |problem: &str| {
+            eprintln!("clsmith batch: {problem}");
+            Ok(Exit::Usage)
+        };
+        if self.recipe.is_none() && self.what.len() > 1 {
+            return usage("give one jobs file; or a recipe with --recipe, and then programs or patterns");
+        }
+        if self.results.as_deref() == Some(Path::new(STANDARD)) {
+            return usage("results go into a file; read it when the batch is done");
+        }
+        let policy = match self.findings.policy() {
+            Ok(policy) => policy,
+            Err(problem) => return usage(&problem),
+        };
+        let jobs = match self.jobs() {
+            Ok(jobs) => jobs,
+            Err(found) => return self.refused(&found),
+        };
+        let Some(out) = self.out.clone().or_else(|| jobs.out.clone()) else {
+            return usage("the jobs file names no output folder (`out:`); give one with --out");
+        };
+        let began = Instant::now();
+        let ready = match self.ready(&jobs, &out) {
+            Ok(ready) => ready,
+            Err(found) => return self.refused(&found),
+        };
+        let mut warnings = ready.plan.findings.clone();
+        warnings.extend(ready.plan.over_budget(self.shard, ready.memory));
+        let warnings = policy.apply(warnings);
+        if warnings.iter().any(Diagnostic::is_error) {
+            return self.refused(&warnings);
+        }
+        self.show(&warnings)?;
+        // Old results would look like those of this batch, should it be killed.
+        if let Err(found) = make_way(&ready.results) {
+            return self.refused(&[found]);
+        }
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.workers()).stack_size(STACK).build();
+        let pool = pool.map_err(io::Error::other)?;
+        let outputs = Outputs::default();
+        let bars = Bars::new(self.quiet, &self.findings, outputs.interrupt());
+        outputs.stop_gently(bars.clearing())?;
+        let options = format!("{policy:?} {:?}", self.dialect);
+        let mine = ready.plan.of_shard(self.shard);
+        bars.begin(mine.iter().filter_map(|&index| ready.plan.files.get(index)));
+        let batch = Run {
+            plan: &ready.plan,
+            works: &ready.works,
+            policy: &policy,
+            dialect: self.dialect,
+            options: &options,
+            folder: &ready.folder,
+            pool: &pool,
+            memory: ready.memory,
+            fail_fast: self.fail_fast,
+            resume: self.resume,
+            interrupt: outputs.interrupt(),
+        };
+        let ran = batch.run(&bars);
+        bars.clear();
+        let ran = match ran {
+            Ok(ran) => ran,
+            Err(found) => return self.refused(&[*found]),
+        };
+        if ran.interrupted {
+            eprintln!("clsmith batch: stopped; go on with --resume");
+            return Ok(Exit::Interrupted);
+        }
+        let head = Head::new(
+            ready.plan.id(&ready.works, &options),
+            ready.plan.files.len(),
+            self.shard.map(|shard| (shard, mine.len())),
+        );
+        self.end(&ready, &head, &ran, &outputs, began)
+    }
+
+    /// What is asked for, by the jobs file or by the command line.
+    fn jobs(&self) -> Result<Jobs, Vec<Diagnostic>> {
+        let Some(recipe) = &self.recipe else {
+            let path = self.what.first().map(PathBuf::as_path).unwrap_or(Path::new(""));
+            return jobs::load(&files::read(path).map_err(|found| vec![*found])?, path);
+        };
+        let asked = |path: &PathBuf| Asked { written: path.clone().into_os_string(), place: None };
+        let job = jobs::Job {
+            recipe: recipe.clone(),
+            setup: self.setup.clone(),
+            files: self.what.iter().map(asked).collect(),
+            below: PathBuf::new(),
+            place: None,
+        };
+        Ok(Jobs { base: PathBuf::new(), out: None, jobs: vec![job] })
+    }
+
+    fn ready(&self, jobs: &Jobs, out: &Path) -> Result<Ready, Vec<Diagnostic>> {
+        let mut works = Vec::new();
+        let mut read: Vec<PathBuf> = Vec::new();
+        let mut wrong = Vec::new();
+        if self.recipe.is_none() {
+            read.extend(self.what.iter().cloned());
+        }
+        for job in &jobs.jobs {
+            let path = jobs.base.join(&job.recipe);
+            let setup = job.setup.as_ref().map(|setup| jobs.base.join(setup));
+            let work = files::recipe(&path, setup.as_deref()).and_then(|Loaded { recipe, setup, texts }| {
+                Work::new(&job.recipe, recipe, setup, &texts).map_err(|found| vec![*found])
+            });
+            read.extend([path].into_iter().chain(setup));
+            match work {
+                Ok(work) => {
+                    read.extend(work.print.files.iter().map(|file| PathBuf::from(&file.path)));
+                    works.push(work);
+                }
+                Err(found) => wrong.extend(found),
+            }
+        }
+        let folder = Folder::new(out, self.shard);
+        let results = self.results.clone().unwrap_or_else(|| folder.results());
+        match Plan::make(jobs, &folder, &results, &read) {
+            Ok(plan) if wrong.is_empty() => {
+                let given = self.results.iter().filter(|results| {
+                    plan.files.iter().map(|file| &file.path).chain(&read).any(|path| same_file(path, results))
+                });
+                let folder = match given.map(|results| results_are_input(results)).next() {
+                    None => folder.lock().map_err(|found| vec![*found])?,
+                    Some(found) => return Err(vec![found]),
+                };
+                Ok(Ready { plan, works, folder, results, memory: self.memory() })
+            }
+            Ok(_) => Err(wrong),
+            Err(found) => Err(wrong.into_iter().chain(found).collect()),
+        }
+    }
+
+    /// Writes the results and tells what came out.
+    fn end(
+        &self,
+        ready: &Ready,
+        head: &Head,
+        ran: &Ran,
+        outputs: &Outputs,
+        began: Instant,
+    ) -> io::Result<Exit> {
+        let bytes = results::to_bytes(head, &ran.records, self.times);
+        let mut found = ran.findings.clone();
+        found.extend(outputs.write(&ready.results, |out| out.write_all(&bytes))?);
+        if !self.quiet {
+            let seconds = Some(began.elapsed().as_secs_f64());
+            let mut text = summary::to_text(&ran.records, ran.before, seconds);
+            let (workers, memory) = (self.workers(), ByteSize::b(ready.memory).display().si());
+            text.push_str(&format!("\nat most {workers} at once, in {memory}\n"));
+            text.push_str(&format!("results: {}\n", ready.results.display()));
+            unless_nobody_reads(print_summary(&text, false))?;
+        }
+        self.show(&found)?;
+        Ok(if found.is_empty() { exit_of(&ran.records) } else { Exit::Errors })
+    }
+
+    fn refused(&self, found: &[Diagnostic]) -> io::Result<Exit> {
+        self.show(found)?;
+        Ok(Exit::Errors)
+    }
+
+    fn show(&self, found: &[Diagnostic]) -> io::Result<()> {
+        if found.is_empty() {
+            return Ok(());
+        }
+        let mut err = io::stderr().lock();
+        unless_nobody_reads(self.findings.show(&mut err, terminal::errors_are_seen(), found, None))
+    }
+
+    fn workers(&self) -> usize {
+        let processors = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+        self.jobs.map_or_else(processors, usize::from)
+    }
+
+    /// Bytes for all files together.
+    fn memory(&self) -> u64 {
+        self.memory.map_or_else(|| available() / 2, |size| size.as_u64())
+    }
+}
+
+/// Takes old results away, and finds out before the work whether new ones can be written.
+fn make_way(results: &Path) -> Result<(), Diagnostic> {
+    let unwritable = |why: &str| {
+        let message = format!("the results {} cannot be written: {why}", results.display());
+        Diagnostic::new(codes::UNWRITABLE, message)
+    };
+    let folder = results.parent().filter(|folder| !folder.as_os_str().is_empty());
+    if folder.is_some_and(|folder| !folder.is_dir()) {
+        return Err(unwritable("there is no such folder"));
+    }
+    match std::fs::remove_file(results) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(unwritable(&error.to_string())),
+        _ => Ok(()),
+    }
+}
+
+fn results_are_input(results: &Path) -> Diagnostic {
+    let message = format!("writing the results to {} would overwrite an input", results.display());
+    Diagnostic::new(codes::OUTPUT_IS_INPUT, message)
+}
+
+/// Memory that is available: to the machine, or to the container if that is less.
+fn available() -> u64 {
+    let mut system = sysinfo::System::new();
+    system.refresh_memory();
+    let of_machine = system.available_memory();
+    match system.cgroup_limits() {
+        // What the container holds of files it has read is given back when somebody needs it.
+        Some(limits) => of_machine.min(limits.total_memory.saturating_sub(limits.rss)),
+        None => of_machine,
+    }
+}
+
+/// Whether every file of a batch came out.
+fn exit_of(records: &[Record]) -> Exit {
+    let done = records.iter().all(|record| record.outcome.is_written());
+    if done { Exit::Done } else { Exit::Errors }
+}

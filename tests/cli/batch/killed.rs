@@ -1,0 +1,103 @@
+//! A batch that is killed at any moment goes on to the same result.
+
+use super::{ALL, batch, everything, long_part, shop, tree, write};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant, SystemTime};
+
+fn start(folder: &Path, out: &str) -> Child {
+    Command::new(env!("CARGO_BIN_EXE_clsmith"))
+        .current_dir(folder)
+        .args([
+            "batch", "--recipe", "r.yaml", "--resume", "--jobs", "2", "--memory", "64M", "-q", "--out", out,
+            ALL,
+        ])
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap()
+}
+
+/// Numbers from 0 to 1, other ones every day.
+fn random() -> (u128, impl FnMut() -> f64) {
+    let seed = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap().as_nanos();
+    let mut state = seed as u64;
+    let next = move || {
+        // Marsaglia's xorshift.
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    (seed, next)
+}
+
+/// How many files a journal says are done.
+fn journalled(out: &Path) -> usize {
+    let text = std::fs::read(out.join(".clsmith-batch.journal")).unwrap_or_default();
+    text.iter().filter(|&&byte| byte == b'\n').count().saturating_sub(1)
+}
+
+#[test]
+fn twenty_kills_change_nothing() {
+    let shop = shop(30);
+    (0..6).for_each(|number| write(shop.path(), &format!("programs/long{number}.cls"), &long_part(600)));
+    write(shop.path(), "programs/bad.cls", "GOTO/x\n");
+    assert_eq!(start(shop.path(), "whole").wait().unwrap().code(), Some(1));
+    let whole = tree(&shop.path().join("whole"));
+    assert_eq!(whole.len(), 37);
+    let (seed, mut random) = random();
+    let mut killed = 0;
+    // Killed four times over, then left in peace; five times.
+    for round in 0..5 {
+        let out = format!("killed{round}");
+        let folder = shop.path().join(&out);
+        for _ in 0..4 {
+            // At any number of files done, and a little later: moments by the clock would miss a run that has little left.
+            let done = journalled(&folder);
+            let until = done + (random() * (37 - done) as f64) as usize;
+            let mut run = start(shop.path(), &out);
+            while journalled(&folder) < until && run.try_wait().unwrap().is_none() {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            std::thread::sleep(Duration::from_millis(8).mul_f64(random()));
+            killed += usize::from(run.try_wait().unwrap().is_none());
+            run.kill().unwrap();
+            run.wait().unwrap();
+            // Whatever is there under its own name is whole.
+            for (name, bytes) in tree(&folder) {
+                assert!(whole[&name] == bytes, "{} after seed {seed}", name.display());
+            }
+        }
+        batch(shop.path(), &out, &["--resume"]).code(1);
+        let left = everything(&folder);
+        assert!(
+            left.keys().all(|name| !name.to_string_lossy().ends_with(".tmp")),
+            "seed {seed}: {:?}",
+            left.keys()
+        );
+        assert!(tree(&folder) == whole, "seed {seed}");
+    }
+    assert!(killed >= 10, "{killed} were still running, seed {seed}");
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_it_gently() {
+    let shop = shop(3);
+    (0..30).for_each(|number| write(shop.path(), &format!("programs/long{number}.cls"), &long_part(2000)));
+    let mut run = start(shop.path(), "done");
+    let journal = shop.path().join("done/.clsmith-batch.journal");
+    let wait = Instant::now();
+    while std::fs::read(&journal).map_or(0, |text| text.iter().filter(|&&byte| byte == b'\n').count()) < 3 {
+        assert!(wait.elapsed() < Duration::from_secs(20), "nothing was done");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    Command::new("kill").args(["-INT", &run.id().to_string()]).status().unwrap();
+    assert_eq!(run.wait().unwrap().code(), Some(130));
+    let left = everything(&shop.path().join("done"));
+    assert!(left.keys().all(|name| !name.to_string_lossy().ends_with(".tmp")), "{:?}", left.keys());
+    assert!(!shop.path().join("done/results.jsonl").exists());
+    let resumed = batch(shop.path(), "done", &["--resume"]).success();
+    assert!(super::stdout(&resumed).contains("done before"));
+}
