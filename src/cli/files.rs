@@ -37,20 +37,31 @@ pub fn setup(path: &Path) -> Result<Setup, Vec<Diagnostic>> {
 pub struct Loaded {
     pub recipe: Recipe,
     pub setup: Setup,
+    /// The setup files, for reports.
+    pub setup_files: Vec<Arc<Source>>,
 }
 
 /// Reads a recipe, the setup file it names (beside it), and the one of the command line.
 pub fn recipe(path: &Path, setup: Option<&Path>) -> Result<Loaded, Vec<Diagnostic>> {
     let source = read(path).map_err(|found| vec![*found])?;
     let recipe = Recipe::load(&source)?;
-    let named = recipe.load_setup_file(|name| read(&beside(path, name)).map_err(|found| found.message))?;
+    let mut setup_files = Vec::new();
+    let named = recipe.load_setup_file(|name| {
+        let source = read(&beside(path, name)).map_err(|found| found.message)?;
+        setup_files.push(Arc::clone(&source));
+        Ok(source)
+    })?;
     let given = match setup {
-        Some(path) => self::setup(path)?,
+        Some(path) => {
+            let source = read(path).map_err(|found| vec![*found])?;
+            setup_files.push(Arc::clone(&source));
+            Setup::load(&source)?
+        }
         None => Setup::default(),
     };
     let setup = recipe.setup_with(named, given);
     let setup = setup.with_material_file(|path| read(path).map_err(|found| found.message))?;
-    Ok(Loaded { recipe, setup })
+    Ok(Loaded { recipe, setup, setup_files })
 }
 
 /// The path of a file that a recipe names: relative to the recipe's folder.

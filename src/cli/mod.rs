@@ -9,6 +9,7 @@ mod findings;
 mod output;
 mod progress;
 mod reference;
+mod reports;
 mod section;
 mod simulate;
 mod stats;

@@ -5,9 +5,11 @@
 //! of one as a patch, and [`changes`] counts it. [`simulation`] presents what tools cut and bear. Everything is written into a writer that the caller hands in, or returned.
 
 pub mod changes;
+pub mod comparison;
 mod compensated;
 pub mod diff;
 pub mod explain;
+pub mod html;
 pub mod kind;
 pub mod picture;
 pub mod policy;
