@@ -3,6 +3,7 @@
 // In a test a panic is the message; clippy's own exception covers `#[test]` functions but not their helpers.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::indexing_slicing)]
 
+mod browser;
 mod check;
 mod chips;
 mod cli;

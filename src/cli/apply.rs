@@ -4,6 +4,7 @@ use super::exit::Exit;
 use super::files::{self, Loaded, STANDARD};
 use super::findings::FindingArgs;
 use super::output::{Outputs, unless_nobody_reads};
+use super::plot::as_file;
 use super::progress::Progress;
 use super::reports::ReportArgs;
 use super::terminal;
@@ -54,7 +55,7 @@ pub struct Apply {
     /// Show the changed lines on standard output as a patch; writes nothing unless -o is given
     #[arg(long)]
     diff: bool,
-    /// Draw what the steps did as SVG: ramps before and after
+    /// Draw what the steps did as SVG, or PNG where the file ends so: ramps before and after
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
     #[command(flatten)]
@@ -261,7 +262,8 @@ impl Apply {
             }
             return Ok(Exit::Done);
         };
-        match outputs.write(path, |out| out.write_all(text.as_bytes()))? {
+        let bytes = as_file(path, text)?;
+        match outputs.write(path, |out| out.write_all(&bytes))? {
             Some(found) => self.show(&[found], None).map(|()| Exit::Errors),
             None => Ok(Exit::Done),
         }

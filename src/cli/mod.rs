@@ -7,6 +7,7 @@ mod exit;
 mod files;
 mod findings;
 mod output;
+mod plot;
 mod progress;
 mod reference;
 mod reports;
@@ -29,6 +30,8 @@ Examples:
   clsmith section part.stl --radius 5 --step 0.5 --feed 800 -o part.cls
                                                    a program for a ball over a part
   clsmith diff part.cls out.cls                    what changed, by meaning
+  clsmith plot part.cls --after out.cls -o feed.svg
+                                                   feed and z, before and after
   clsmith transforms scale_feed                    what a recipe step does
 
 Exit codes:
@@ -58,6 +61,7 @@ enum Command {
     Simulate(simulate::Simulate),
     Section(Box<section::Section>),
     Diff(diff::Diff),
+    Plot(plot::Plot),
     Transforms(reference::Transforms),
     Schema(reference::Schema),
     Explain(reference::Explain),
@@ -75,6 +79,7 @@ pub fn main() -> ExitCode {
         Command::Simulate(command) => command.run(),
         Command::Section(command) => command.run(),
         Command::Diff(command) => command.run(),
+        Command::Plot(command) => command.run(),
         Command::Transforms(command) => command.run(),
         Command::Schema(command) => command.run(),
         Command::Explain(command) => command.run(),

@@ -12,6 +12,7 @@ pub mod explain;
 pub mod html;
 pub mod kind;
 pub mod picture;
+pub mod plot;
 pub mod policy;
 mod ramps;
 pub mod render;

@@ -3,6 +3,8 @@
 mod apply;
 mod other;
 mod section;
+mod plot;
+mod reports;
 mod simulate;
 
 use assert_cmd::Command;

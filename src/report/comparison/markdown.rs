@@ -83,58 +83,52 @@ pub(in crate::report) fn change(before: Option<f64>, after: Option<f64>) -> Stri
     if change.is_finite() && change.abs() >= 0.05 { format!("{change:+.1} %") } else { String::new() }
 }
 
-/// The head of the table of operations, and its rows.
-pub(in crate::report) fn operation_rows(comparison: &Comparison<'_>) -> (Vec<&'static str>, Vec<Vec<String>>) {
+/// A column of the table of operations: its name, and its text for one program.
+type Column = (&'static str, fn(&Figures) -> String);
+
+const FEEDS: Column = ("feed, mm/min", feeds);
+const CHIP: Column = ("thickest chip, mm", |figures| cell(figures.chip_thickness_mm, 4));
+const POWER: Column = ("power, kW", |figures| cell(figures.power_kw, 3));
+
+/// The head of the table of operations, and its rows. What is known of both programs takes two columns.
+pub(in crate::report) fn operation_rows(comparison: &Comparison<'_>) -> (Vec<String>, Vec<Vec<String>>) {
     let both = comparison.subject.before.is_some();
-    let chips = knows(comparison, |figures| figures.chip_thickness_mm.is_some());
-    let power = knows(comparison, |figures| figures.power_kw.is_some());
-    let mut head = vec!["operation", "tool", "motions"];
-    let cells = |row: &Row, value: &dyn Fn(&Figures) -> String| -> Vec<String> {
-        let [before, after] = [&row.before, &row.after].map(|side| side.as_ref().map(value).unwrap_or_default());
-        if both { vec![before, after] } else { vec![after] }
-    };
-    let mut column = |name: [&'static str; 2]| head.extend(if both { &name[..] } else { &name[..1] });
-    column(["time", "after"]);
+    let mut columns = vec![("time", time as fn(&Figures) -> String), FEEDS];
+    columns.extend(knows(comparison, |figures| figures.chip_thickness_mm.is_some()).then_some(CHIP));
+    columns.extend(knows(comparison, |figures| figures.power_kw.is_some()).then_some(POWER));
+    let mut head = ["operation", "tool", "motions"].map(str::to_owned).to_vec();
+    for (name, _) in &columns {
+        head.push((*name).to_owned());
+        if both {
+            head.push("after".to_owned());
+        }
+    }
     if both {
-        column(["change", "change"]);
-        head.pop();
+        head.insert(5, "change".to_owned());
     }
-    head_of(&mut head, both, "feed, mm/min");
-    if chips {
-        head_of(&mut head, both, "thickest chip, mm");
-    }
-    if power {
-        head_of(&mut head, both, "power, kW");
-    }
-    let rows = comparison.operations.iter().chain((comparison.operations.len() > 1).then_some(&comparison.whole));
-    let rows = rows.map(|row| {
-        let name = if std::ptr::eq(row, &raw const comparison.whole) { "all" } else { &row.name };
-        let mut out = vec![one_line(name), one_line(&row.tools.join(", "))];
-        let motions = row.after.as_ref().map_or(0, |figures| figures.motions);
-        out.push(count(motions as u64));
-        out.extend(cells(row, &time));
+    let row = |name: &str, row: &Row| {
+        let motions = row.after.as_ref().or(row.before.as_ref()).map_or(0, |figures| figures.motions);
+        let mut cells = vec![one_line(name), one_line(&row.tools.join(", ")), count(motions as u64)];
+        for (_, text) in &columns {
+            let told = |side: &Option<Figures>| side.as_ref().map(text).unwrap_or_default();
+            cells.extend(both.then(|| told(&row.before)));
+            cells.push(told(&row.after));
+        }
         if both {
             let seconds = |side: &Option<Figures>| side.as_ref().map(|figures| figures.feed_seconds);
-            out.push(change(seconds(&row.before), seconds(&row.after)));
+            cells.insert(5, change(seconds(&row.before), seconds(&row.after)));
         }
-        out.extend(cells(row, &feeds));
-        if chips {
-            out.extend(cells(row, &|figures| peak(figures.chip_thickness_mm).map(|chip| fixed(chip, 4)).unwrap_or_default()));
-        }
-        if power {
-            out.extend(cells(row, &|figures| peak(figures.power_kw).map(|power| fixed(power, 3)).unwrap_or_default()));
-        }
-        out
-    });
-    let rows = rows.collect();
+        cells
+    };
+    let mut rows: Vec<Vec<String>> = comparison.operations.iter().map(|one| row(&one.name, one)).collect();
+    if rows.len() > 1 {
+        rows.push(row("all", &comparison.whole));
+    }
     (head, rows)
 }
 
-fn head_of(head: &mut Vec<&'static str>, both: bool, name: &'static str) {
-    head.push(name);
-    if both {
-        head.push("after");
-    }
+fn cell(peak: Option<Peak>, decimals: usize) -> String {
+    peak.map(|peak| fixed(peak.value, decimals)).unwrap_or_default()
 }
 
 fn knows(comparison: &Comparison<'_>, what: impl Fn(&Figures) -> bool) -> bool {
@@ -189,6 +183,7 @@ fn steps(out: &mut String, comparison: &Comparison<'_>) {
 fn operations(out: &mut String, comparison: &Comparison<'_>) {
     out.push_str("### Operations\n\n");
     let (head, rows) = operation_rows(comparison);
+    let head: Vec<&str> = head.iter().map(String::as_str).collect();
     table(out, &head, rows.into_iter());
 }
 

@@ -25,7 +25,6 @@ use std::io::{self, Write};
 pub fn page(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
     let arrays = arrays::Arrays::of(comparison);
     for (at, text) in assets::template() {
-        out.write_all(text.as_bytes())?;
         match at {
             None => {}
             Some("title") => markup::text(out, comparison.subject.program.source().name())?,
@@ -36,6 +35,7 @@ pub fn page(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> 
             Some("data") => arrays.write(out)?,
             Some(section) => sections::write(section, comparison, &arrays.missing, out)?,
         }
+        out.write_all(text.as_bytes())?;
     }
     Ok(())
 }

@@ -86,6 +86,7 @@ fn steps(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
 
 fn operations(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
     let (head, rows) = operation_rows(comparison);
+    let head: Vec<&str> = head.iter().map(String::as_str).collect();
     table(out, &head, 2, &rows)
 }
 

@@ -55,7 +55,8 @@ class Chart {
       scales: { x: { time: false, range: (_, low, high) => [low, high] }, y: { range: (_, low, high) => this.range(low, high) } },
       axes: [{ size: 34 }, { label: `${title}, ${unit}`, size: 62, labelSize: 20 }],
       cursor: {
-        sync: { key: "clsmith" },
+        // The pointer is seen in all charts; a drag is only this chart's, which zooms all.
+        sync: { key: "clsmith", filters: { pub: (event) => event === "mousemove" || event === "mouseleave" } },
         drag: { x: true, y: false, setScale: false },
         bind: { dblclick: () => () => { charts.zoom(0, charts.end()); return null; } },
       },

@@ -4,7 +4,6 @@ const BACKGROUND = 0xf4f6f8;
 
 // What the eye can follow while it turns: more segments are drawn coarser until the view rests.
 const COARSE_SEGMENTS = 150000;
-const SLOW_MS = 40;
 
 // One program's path as segments.
 class PathLines {
@@ -18,14 +17,18 @@ class PathLines {
     this.motions = new Uint32Array(count);
     for (let i = 1, at = 0; i < x.length; i++) {
       if (isStart[i]) continue;
-      places.set([x[i - 1], y[i - 1], z[i - 1], x[i], y[i], z[i]], at * 6);
+      for (const [vertex, to] of [[i - 1, at * 6], [i, at * 6 + 3]]) {
+        places[to] = x[vertex];
+        places[to + 1] = y[vertex];
+        places[to + 2] = z[vertex];
+      }
       this.motions[at++] = motionOf[i];
     }
     this.places = places;
     this.geometry = new THREE.BufferGeometry();
     this.geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
     this.geometry.setAttribute("color", new THREE.BufferAttribute(this.colors, 4, true));
-    this.geometry.computeBoundingBox();
+    this.geometry.boundingBox = this.box();
     this.lines = new THREE.LineSegments(this.geometry, new THREE.LineBasicMaterial({ vertexColors: true }));
     this.lines.frustumCulled = false;
     this.rapids = true;
@@ -34,6 +37,22 @@ class PathLines {
   }
 
   get count() { return this.motions.length; }
+
+  // The box around what is at feed, or around all where nothing is.
+  box() {
+    const p = this.places, low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+    for (const all of [false, true]) {
+      if (low[0] <= high[0]) break;
+      for (let i = 0, at = 0; i < this.count; i++, at += 6) {
+        if (!all && this.program.flags[this.motions[i]] & RAPID) continue;
+        for (let axis = 0; axis < 3; axis++) {
+          low[axis] = Math.min(low[axis], p[at + axis], p[at + 3 + axis]);
+          high[axis] = Math.max(high[axis], p[at + axis], p[at + 3 + axis]);
+        }
+      }
+    }
+    return new THREE.Box3(new THREE.Vector3(...low), new THREE.Vector3(...high));
+  }
 
   color(coloring) {
     const { colors, motions, program } = this;
@@ -58,21 +77,25 @@ class PathLines {
     const step = Math.max(Math.ceil(this.count / COARSE_SEGMENTS), 1);
     const full = new Uint32Array(this.count * 2), coarse = [];
     let size = 0;
-    for (let i = 0, run = 0; i < this.count; i++) {
-      if (!this.shows(i)) { run = 0; continue; }
-      full[size++] = 2 * i;
-      full[size++] = 2 * i + 1;
-      const goesOn = run > 0 && run < step && this.joins(i);
-      if (goesOn) { coarse[coarse.length - 1] = 2 * i + 1; run++; } else { coarse.push(2 * i, 2 * i + 1); run = 1; }
+    // Rapids first: where they go along a cut, the cut is seen.
+    for (const wanted of [RAPID, 0]) {
+      for (let i = 0, run = 0; i < this.count; i++) {
+        if ((this.program.flags[this.motions[i]] & RAPID) !== wanted || !this.shows(i)) { run = 0; continue; }
+        full[size++] = 2 * i;
+        full[size++] = 2 * i + 1;
+        const goesOn = run > 0 && run < step && this.joins(i);
+        if (goesOn) { coarse[coarse.length - 1] = 2 * i + 1; run++; } else { coarse.push(2 * i, 2 * i + 1); run = 1; }
+      }
     }
     this.full = new THREE.BufferAttribute(full.subarray(0, size), 1);
     this.coarse = step > 1 ? new THREE.BufferAttribute(new Uint32Array(coarse), 1) : this.full;
     this.geometry.setIndex(this.full);
   }
 
+  // Whether a segment begins where the one before ended.
   joins(segment) {
-    const at = segment * 6, p = this.places, rapid = (i) => this.program.flags[this.motions[i]] & RAPID;
-    return p[at] === p[at - 3] && p[at + 1] === p[at - 2] && p[at + 2] === p[at - 1] && rapid(segment) === rapid(segment - 1);
+    const at = segment * 6, p = this.places;
+    return p[at] === p[at - 3] && p[at + 1] === p[at - 2] && p[at + 2] === p[at - 1];
   }
 
   show(rapids, limit) {
@@ -131,8 +154,8 @@ function stockMesh(heights, { first, cell, columns, rows, low }) {
 }
 
 class Scene3d {
-  constructor(parent, marker, paths, stock) {
-    Object.assign(this, { parent, marker, paths, stock, place: null, drawn: 0, took: 0 });
+  constructor(parent, marker, path, stock) {
+    Object.assign(this, { parent, marker, path, stock, place: null, half: [1, 1] });
     this.renderer = new THREE.WebGLRenderer({ antialias: true });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     parent.prepend(this.renderer.domElement);
@@ -141,7 +164,7 @@ class Scene3d {
     this.scene.add(new THREE.AmbientLight(0xffffff, 1.6));
     this.light = new THREE.DirectionalLight(0xffffff, 1.6);
     this.scene.add(this.light);
-    paths.forEach((path) => this.scene.add(path.lines));
+    this.scene.add(path.lines);
     if (stock) this.scene.add(stock);
     this.camera = new THREE.OrthographicCamera();
     this.camera.up.set(0, 0, 1);
@@ -152,15 +175,24 @@ class Scene3d {
     this.look(-0.6, -1, 0.9);
   }
 
-  // The middle and the size of what there is.
+  // Shows another path.
+  show(path) {
+    this.scene.remove(this.path.lines);
+    this.scene.add(path.lines);
+    this.path = path;
+  }
+
+  // The box around what there is.
   measure() {
     const low = new THREE.Vector3(Infinity, Infinity, Infinity), high = low.clone().negate();
-    for (const part of [...this.paths.map((path) => path.lines), this.stock]) {
-      if (!part || part.geometry.attributes.position.count === 0) continue;
+    for (const part of [this.path.lines, this.stock]) {
+      if (!part || part.geometry.boundingBox.isEmpty()) continue;
       low.min(part.geometry.boundingBox.min);
       high.max(part.geometry.boundingBox.max);
     }
     if (low.x > high.x) { low.set(-1, -1, -1); high.set(1, 1, 1); }
+    this.corners = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => new THREE.Vector3(
+      i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z));
     this.middle = low.clone().add(high).multiplyScalar(0.5);
     this.radius = Math.max(low.distanceTo(high) / 2, 1e-3);
   }
@@ -171,16 +203,18 @@ class Scene3d {
     this.controls.target.copy(this.middle);
     this.camera.position.copy(this.middle).addScaledVector(direction, this.radius * 4);
     this.camera.zoom = 1;
-    this.resize();
     this.controls.update();
+    this.camera.updateMatrixWorld();
+    const seen = this.corners.map((corner) => corner.clone().applyMatrix4(this.camera.matrixWorldInverse));
+    this.half = [Math.max(...seen.map(({ x }) => Math.abs(x)), 1e-3), Math.max(...seen.map(({ y }) => Math.abs(y)), 1e-3)];
+    this.resize();
   }
 
   resize() {
     const { clientWidth: width, clientHeight: height } = this.parent;
     if (width === 0 || height === 0) return;
     this.renderer.setSize(width, height);
-    const half = this.radius * 1.05, wide = width > height ? half * (width / height) : half;
-    const tall = width > height ? half : half * (height / width);
+    const scale = Math.max(this.half[0] / width, this.half[1] / height) * 1.08, [wide, tall] = [scale * width, scale * height];
     Object.assign(this.camera, { left: -wide, right: wide, top: tall, bottom: -tall, near: -this.radius * 8, far: this.radius * 16 });
     this.camera.updateProjectionMatrix();
     this.moved();
@@ -190,11 +224,10 @@ class Scene3d {
   moved() {
     this.light.position.copy(this.camera.position).sub(this.controls.target);
     this.mark();
-    this.request(this.took > SLOW_MS);
-    if (this.took > SLOW_MS) {
-      clearTimeout(this.rest);
-      this.rest = setTimeout(() => this.request(false), 250);
-    }
+    const coarse = this.path.coarse !== this.path.full;
+    this.request(coarse);
+    clearTimeout(this.rest);
+    if (coarse) this.rest = setTimeout(() => this.request(false), 250);
   }
 
   request(coarse) {
@@ -204,18 +237,8 @@ class Scene3d {
   }
 
   draw(coarse = false) {
-    this.paths.forEach((path) => path.setCoarse(coarse));
-    const start = performance.now();
+    this.path.setCoarse(coarse);
     this.renderer.render(this.scene, this.camera);
-    if (!coarse) {
-      // A pixel read waits for the drawing, so that slow ones are known.
-      if (this.drawn < 3) {
-        const gl = this.renderer.getContext();
-        gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
-      }
-      this.took = this.drawn < 3 ? performance.now() - start : this.took;
-      this.drawn++;
-    }
   }
 
   // Where a point is on the screen, in pixels of the element.
@@ -239,10 +262,10 @@ class Scene3d {
   }
 
   // The motion next to a pixel, no further than `most` pixels: of several, the one nearest to the eye.
-  pick(path, x, y, most = 8) {
+  pick(x, y, most = 8) {
     this.camera.updateMatrixWorld();
     const m = this.camera.projectionMatrix.clone().multiply(this.camera.matrixWorldInverse).elements;
-    const { clientWidth: w, clientHeight: h } = this.parent, p = path.places;
+    const { clientWidth: w, clientHeight: h } = this.parent, { path } = this, p = path.places;
     let found = -1, best = Infinity;
     for (let i = 0, at = 0; i < path.count; i++, at += 6) {
       const px = (o) => (m[0] * p[o] + m[4] * p[o + 1] + m[8] * p[o + 2] + m[12] + 1) / 2 * w;

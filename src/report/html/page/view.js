@@ -33,9 +33,9 @@ class View {
     this.settings = { rapids: true, upTo: false };
     this.limit = Infinity;
     try {
-      this.paths = programs.map((program) => new PathLines(program));
+      this.paths = new Map([[this.shown, new PathLines(this.shown)]]);
       const mesh = stock && facts.stock ? stockMesh(stock, facts.stock) : null;
-      this.scene = new Scene3d(this.parent, document.getElementById("marker"), this.paths, mesh);
+      this.scene = new Scene3d(this.parent, document.getElementById("marker"), this.paths.get(this.shown), mesh);
     } catch (error) {
       // Without WebGL all else still works.
       this.scene = null;
@@ -77,22 +77,28 @@ class View {
     this.mode = mode;
     const chosen = coloring(mode, this.programs);
     showLegend(document.getElementById("legend"), chosen);
+    this.coloring = chosen;
     this.paths?.forEach((path) => path.color(chosen));
     this.scene?.request(false);
   }
 
+  // Shows a program; its lines are made when they are first needed.
   show(program) {
     this.shown = program;
     if (this.sideSelect) this.sideSelect.value = program.name;
+    if (!this.scene) return;
+    if (!this.paths.has(program)) {
+      const path = new PathLines(program);
+      path.color(this.coloring);
+      this.paths.set(program, path);
+    }
+    this.scene.show(this.paths.get(program));
     this.filter();
   }
 
   filter() {
     if (!this.scene) return;
-    for (const path of this.paths) {
-      path.lines.visible = path.program === this.shown;
-      if (path.lines.visible) path.show(this.settings.rapids, this.settings.upTo ? this.limit : Infinity);
-    }
+    this.scene.path.show(this.settings.rapids, this.settings.upTo ? this.limit : Infinity);
     this.scene.request(false);
   }
 
@@ -112,8 +118,7 @@ class View {
     canvas.addEventListener("pointerup", (event) => {
       if (!down || Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 4) return;
       const { left, top } = canvas.getBoundingClientRect();
-      const path = this.paths.find((path) => path.program === this.shown);
-      const motion = this.scene.pick(path, event.clientX - left, event.clientY - top);
+      const motion = this.scene.pick(event.clientX - left, event.clientY - top);
       if (motion !== null) this.chosen(motion);
     });
   }
