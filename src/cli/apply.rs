@@ -133,7 +133,9 @@ impl Apply {
             [name, ..] if taken => {
                 return Some(format!("{name} - shares standard output with --diff or -o -"));
             }
-            [name, other, ..] => return Some(format!("{name} - and {other} - both write to standard output")),
+            [name, other, ..] => {
+                return Some(format!("{name} - and {other} - both write to standard output"));
+            }
             _ => {}
         }
         let target = self.inputs.first().and_then(|input| self.target(input));
@@ -179,7 +181,8 @@ impl Apply {
         let target = self.target(input);
         let setup_file = job.recipe.setup_file.as_deref().map(|name| files::beside(&self.recipe, name));
         let drawn = self.plot.iter().map(PathBuf::as_path).chain(self.reports.outputs());
-        let outs = target.iter().map(PathBuf::as_path).chain(drawn.filter(|path| *path != Path::new(STANDARD)));
+        let outs =
+            target.iter().map(PathBuf::as_path).chain(drawn.filter(|path| *path != Path::new(STANDARD)));
         if let Some(found) =
             outs.filter_map(|out| self.overwrites(out, setup_file.as_deref(), job.recipe)).next()
         {

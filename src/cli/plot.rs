@@ -219,9 +219,8 @@ impl Plot {
             Axis::Time => Along::Time,
             Axis::Path => Along::Path,
         };
-        plot::plot(&plotted, &quantities, along).map_err(|error| {
-            Stop::Found(vec![Diagnostic::new(codes::UNWRITABLE, error.to_string())])
-        })
+        plot::plot(&plotted, &quantities, along)
+            .map_err(|error| Stop::Found(vec![Diagnostic::new(codes::UNWRITABLE, error.to_string())]))
     }
 
     fn simulate(
@@ -254,7 +253,8 @@ impl Plot {
         let target = &self.output;
         match inputs.iter().find(|path| target != Path::new(STANDARD) && same_file(path, target)) {
             Some(hit) => {
-                let message = format!("writing {} would overwrite the input {}", target.display(), hit.display());
+                let message =
+                    format!("writing {} would overwrite the input {}", target.display(), hit.display());
                 Err(Stop::Found(vec![Diagnostic::new(codes::OUTPUT_IS_INPUT, message)]))
             }
             None => Ok(()),

@@ -94,7 +94,8 @@ impl Browser {
         let until = Instant::now() + PATIENCE;
         loop {
             let left = until.saturating_duration_since(Instant::now());
-            let message = self.messages.recv_timeout(left).unwrap_or_else(|_| panic!("{method} has no answer"));
+            let message =
+                self.messages.recv_timeout(left).unwrap_or_else(|_| panic!("{method} has no answer"));
             if message["id"] == self.last {
                 assert!(message["error"].is_null(), "{method}: {}", message["error"]);
                 return message["result"].clone();
@@ -166,8 +167,11 @@ impl Browser {
 
     pub fn key(&mut self, name: &str) {
         for kind in ["keyDown", "keyUp"] {
-            self.call("Input.dispatchKeyEvent", json!({ "type": kind, "key": name, "code": name,
-                "windowsVirtualKeyCode": if name == "ArrowRight" { 39 } else { 40 } }));
+            self.call(
+                "Input.dispatchKeyEvent",
+                json!({ "type": kind, "key": name, "code": name,
+                "windowsVirtualKeyCode": if name == "ArrowRight" { 39 } else { 40 } }),
+            );
         }
     }
 

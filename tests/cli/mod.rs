@@ -2,9 +2,9 @@
 
 mod apply;
 mod other;
-mod section;
 mod plot;
 mod reports;
+mod section;
 mod simulate;
 
 use assert_cmd::Command;

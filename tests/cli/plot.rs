@@ -47,7 +47,9 @@ fn what_cannot_be_drawn_is_told() {
     }
     std::fs::write(folder.path().join("broken.cls"), "GOTO/1,2,x.y.z\nGOTO/1..2,2,3\n").unwrap();
     std::fs::copy(folder.path().join("part.cls"), folder.path().join("part.svg")).unwrap();
-    for args in [&["broken.cls", "-o", "a.svg"][..], &["part.svg", "-o", "part.svg"], &["none.cls", "-o", "a.svg"]] {
+    for args in
+        [&["broken.cls", "-o", "a.svg"][..], &["part.svg", "-o", "part.svg"], &["none.cls", "-o", "a.svg"]]
+    {
         clsmith(folder.path()).arg("plot").args(args).assert().code(1);
     }
     assert_eq!(std::fs::read_to_string(folder.path().join("part.svg")).unwrap(), SLOT);

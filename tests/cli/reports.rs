@@ -24,10 +24,20 @@ fn read(folder: &TempDir, name: &str) -> String {
 #[test]
 fn apply_writes_page_and_summary() {
     let folder = job();
-    let run = |args: &[&str]| clsmith(folder.path()).args(["apply", "recipe.yaml", "part.cls"]).args(args).assert();
-    run(&["-o", "out.cls", "--report", "out.html", "--summary", "out.md", "-q"]).success().stdout("").stderr("");
+    let run =
+        |args: &[&str]| clsmith(folder.path()).args(["apply", "recipe.yaml", "part.cls"]).args(args).assert();
+    run(&["-o", "out.cls", "--report", "out.html", "--summary", "out.md", "-q"])
+        .success()
+        .stdout("")
+        .stderr("");
     let page = read(&folder, "out.html");
-    for part in ["<!doctype html>", "data-array=\"before.chip\"", "data-array=\"after.power\"", "setup_file: shop.yaml", "teeth: 4"] {
+    for part in [
+        "<!doctype html>",
+        "data-array=\"before.chip\"",
+        "data-array=\"after.power\"",
+        "setup_file: shop.yaml",
+        "teeth: 4",
+    ] {
         assert!(page.contains(part), "{part}");
     }
     let summary = read(&folder, "out.md");
@@ -44,7 +54,11 @@ fn apply_writes_page_and_summary() {
 #[test]
 fn a_report_without_stock_is_no_error() {
     let folder = job();
-    std::fs::write(folder.path().join("recipe.yaml"), "version: 1\nsteps:\n  - scale_feed: { factor: 0.5 }\n").unwrap();
+    std::fs::write(
+        folder.path().join("recipe.yaml"),
+        "version: 1\nsteps:\n  - scale_feed: { factor: 0.5 }\n",
+    )
+    .unwrap();
     let args = ["apply", "recipe.yaml", "part.cls", "-o", "out.cls", "--report", "out.html"];
     clsmith(folder.path()).args(args).assert().success();
     assert!(read(&folder, "out.html").contains("a simulation needs the stock"));
@@ -53,7 +67,8 @@ fn a_report_without_stock_is_no_error() {
 #[test]
 fn simulate_shows_one_program() {
     let folder = job();
-    let args = ["simulate", "part.cls", "--setup", "shop.yaml", "-q", "--report", "a.html", "--summary", "a.md"];
+    let args =
+        ["simulate", "part.cls", "--setup", "shop.yaml", "-q", "--report", "a.html", "--summary", "a.md"];
     clsmith(folder.path()).args(args).assert().success();
     let page = read(&folder, "a.html");
     assert!(page.contains("data-array=\"after.chip\"") && !page.contains("data-array=\"before.chip\""));
@@ -65,12 +80,16 @@ fn reports_share_no_file_with_anything() {
     let folder = job();
     for (args, said) in [
         (&["-o", "a.cls", "--report", "a.cls"][..], "--report and -o name one file"),
-        (&["-o", "a.cls", "--report", "a.html", "--summary", "a.html"], "--summary and --report name one file"),
+        (
+            &["-o", "a.cls", "--report", "a.html", "--summary", "a.html"],
+            "--summary and --report name one file",
+        ),
         (&["-o", "-", "--report", "-"], "--report - shares standard output"),
         (&["--dry-run", "--report", "-", "--summary", "-"], "both write to standard output"),
         (&["part.cls", "--dry-run", "--report", "a.html"], "--report shows one program"),
     ] {
-        let done = clsmith(folder.path()).args(["apply", "recipe.yaml", "part.cls"]).args(args).assert().code(2);
+        let done =
+            clsmith(folder.path()).args(["apply", "recipe.yaml", "part.cls"]).args(args).assert().code(2);
         let told = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
         assert!(told.contains(said), "{told}");
     }
@@ -87,7 +106,8 @@ fn reports_share_no_file_with_anything() {
 #[test]
 fn nothing_is_written_while_an_error_stands() {
     let folder = job();
-    std::fs::write(folder.path().join("part.cls"), SLOT.replace("GOTO/70.0000,15", "GOTO/70..0000,15")).unwrap();
+    std::fs::write(folder.path().join("part.cls"), SLOT.replace("GOTO/70.0000,15", "GOTO/70..0000,15"))
+        .unwrap();
     let args = ["apply", "recipe.yaml", "part.cls", "-o", "a.cls", "--report", "a.html", "--summary", "a.md"];
     clsmith(folder.path()).args(args).assert().code(1);
     assert_eq!(names(folder.path()).len(), 3);

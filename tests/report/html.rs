@@ -64,7 +64,10 @@ fn array(page: &str, name: &str, size: usize) -> Vec<u8> {
     let mut planes = Vec::new();
     DeflateDecoder::new(&STANDARD.decode(element).unwrap()[..]).read_to_end(&mut planes).unwrap();
     let count = planes.len() / size;
-    (0..count).flat_map(|index| (0..size).map(move |plane| (plane, index))).map(|(plane, index)| planes[plane * count + index]).collect()
+    (0..count)
+        .flat_map(|index| (0..size).map(move |plane| (plane, index)))
+        .map(|(plane, index)| planes[plane * count + index])
+        .collect()
 }
 
 fn floats(page: &str, name: &str) -> Vec<f32> {
@@ -74,14 +77,24 @@ fn floats(page: &str, name: &str) -> Vec<f32> {
 fn growing(page: &str, name: &str) -> Vec<u32> {
     let steps = array(page, name, 4);
     let steps = steps.chunks(4).map(|bytes| u32::from_le_bytes(bytes.try_into().unwrap()));
-    steps.scan(0u32, |sum, step| { *sum = sum.wrapping_add(step); Some(*sum) }).collect()
+    steps
+        .scan(0u32, |sum, step| {
+            *sum = sum.wrapping_add(step);
+            Some(*sum)
+        })
+        .collect()
 }
 
 fn rows(page: &str) -> Vec<String> {
     let text = array(page, "text", 1);
     let kinds = array(page, "kinds", 1);
     let lines = text.strip_suffix(b"\n").unwrap().split(|byte| *byte == b'\n');
-    lines.zip(kinds).map(|(line, kind)| format!("{}{}", [' ', '-', '+'][usize::from(kind)], String::from_utf8_lossy(line))).collect()
+    lines
+        .zip(kinds)
+        .map(|(line, kind)| {
+            format!("{}{}", [' ', '-', '+'][usize::from(kind)], String::from_utf8_lossy(line))
+        })
+        .collect()
 }
 
 const SLOWER: &str = "  - scale_feed: { factor: 0.5 }\n";
@@ -90,10 +103,15 @@ const SLOWER: &str = "  - scale_feed: { factor: 0.5 }\n";
 fn arrays_say_what_the_programs_say() {
     let page = page("part.cls", SLOT.as_bytes(), SLOWER, SHOP);
     let listing = rows(&page);
-    assert_eq!(listing[10..13], ["-FEDRAT/MMPM,800.0000", "+FEDRAT/MMPM,400.0000", " GOTO/20.0000,20.0000,-2.0000"]);
+    assert_eq!(
+        listing[10..13],
+        ["-FEDRAT/MMPM,800.0000", "+FEDRAT/MMPM,400.0000", " GOTO/20.0000,20.0000,-2.0000"]
+    );
     assert_eq!(listing.len(), SLOT.lines().count() + 1);
     // Two rapids (the first point comes from nowhere), five cuts, one rapid.
-    let feed = |name| floats(&page, name).iter().map(|feed| if feed.is_nan() { 0.0 } else { *feed }).collect::<Vec<_>>();
+    let feed = |name| {
+        floats(&page, name).iter().map(|feed| if feed.is_nan() { 0.0 } else { *feed }).collect::<Vec<_>>()
+    };
     assert_eq!(feed("before.feed"), [0.0, 800.0, 800.0, 800.0, 800.0, 800.0, 0.0]);
     assert_eq!(feed("after.feed"), [0.0, 400.0, 400.0, 400.0, 400.0, 400.0, 0.0]);
     assert_eq!(array(&page, "after.change", 1), [0, 1, 1, 1, 1, 1, 0]);
@@ -105,7 +123,10 @@ fn arrays_say_what_the_programs_say() {
         assert_eq!(rows[1], " GOTO/20.0000,20.0000,-2.0000");
     }
     // Where the path goes, from the first point, which stands at 20 over the stock.
-    assert_eq!(floats(&page, "after.z"), [0.0, -22.0, -22.0, -22.0, -22.0, -22.0, -22.0, 0.0].map(|z: f32| z + 22.0));
+    assert_eq!(
+        floats(&page, "after.z"),
+        [0.0, -22.0, -22.0, -22.0, -22.0, -22.0, -22.0, 0.0].map(|z: f32| z + 22.0)
+    );
     let chips = floats(&page, "after.chip");
     assert!((chips[2] - 0.025).abs() < 1e-5, "{chips:?}");
     // The slot lies 2 mm deep in a block of 10.
@@ -127,7 +148,10 @@ fn points_that_are_put_in_belong_to_the_motion_they_are_of() {
     // And back: the motion before is paired with the first that was made of it.
     let back = growing(&page, "before.pair");
     assert_eq!(back.len(), 7);
-    assert!(back.iter().enumerate().all(|(motion, pair)| pairs[*pair as usize] as usize == motion), "{back:?}");
+    assert!(
+        back.iter().enumerate().all(|(motion, pair)| pairs[*pair as usize] as usize == motion),
+        "{back:?}"
+    );
 }
 
 #[test]
@@ -157,7 +181,10 @@ fn markup(page: &str) -> String {
 #[test]
 fn nothing_of_a_file_becomes_markup() {
     let evil = "</script><script>alert(1)</script><img src=x onerror=alert(2)>\"'&amp;{{title}}";
-    let mut part = SLOT.replace("PAINT/COLOR,31\n", &format!("PAINT/COLOR,31\n$$ {evil}\n")).replace("TOOL PATH/SLOT", "TOOL PATH/<b>SLOT</b>").into_bytes();
+    let mut part = SLOT
+        .replace("PAINT/COLOR,31\n", &format!("PAINT/COLOR,31\n$$ {evil}\n"))
+        .replace("TOOL PATH/SLOT", "TOOL PATH/<b>SLOT</b>")
+        .into_bytes();
     part.splice(0..0, b"$$ \xff\xfe\x00\x1b[31m \xe2\x80\xae\r\n".iter().copied());
     let rewrite = format!("  # {evil}\n{SLOWER}");
     let page = page(&format!("{evil}.cls"), &part, &rewrite, "");
@@ -179,11 +206,13 @@ fn nothing_of_a_file_becomes_markup() {
 #[test]
 fn the_policy_knows_every_script_and_lets_nothing_else_run() {
     let page = page("part.cls", SLOT.as_bytes(), SLOWER, "");
-    let policy = page.split_once("Content-Security-Policy\" content=\"").unwrap().1.split_once('"').unwrap().0;
+    let policy =
+        page.split_once("Content-Security-Policy\" content=\"").unwrap().1.split_once('"').unwrap().0;
     assert!(policy.starts_with("default-src 'none';"), "{policy}");
     assert!(!policy.contains("unsafe") && !policy.contains("http") && !policy.contains("connect-src"));
     let hash = |text: &str| format!("'sha256-{}'", STANDARD.encode(Sha256::digest(text.as_bytes())));
-    let scripts: Vec<&str> = page.split("<script>").skip(1).map(|rest| rest.split_once("</script>").unwrap().0).collect();
+    let scripts: Vec<&str> =
+        page.split("<script>").skip(1).map(|rest| rest.split_once("</script>").unwrap().0).collect();
     assert!(scripts.iter().all(|script| policy.contains(&hash(script))));
     let style = page.split_once("<style>").unwrap().1.split_once("</style>").unwrap().0;
     assert!(policy.contains(&hash(style)));
@@ -198,7 +227,12 @@ fn what_is_not_known_is_said() {
     assert!(!page.contains("data-array=\"after.chip\"") && !page.contains("data-array=\"stock\""));
     // No tool that the simulation could take: said as well, and no reason to fail.
     let nameless = SLOT.replace("TLDATA/MILL,10.0000,0.0000,50.0000,0.0000,0.0000\n", "");
-    let page = self::page("part.cls", nameless.as_bytes(), SLOWER, "stock: { block: { from: [0, 0, -10], to: [60, 40, 0] } }\n");
+    let page = self::page(
+        "part.cls",
+        nameless.as_bytes(),
+        SLOWER,
+        "stock: { block: { from: [0, 0, -10], to: [60, 40, 0] } }\n",
+    );
     assert!(page.contains("Not shown"));
 }
 
@@ -226,7 +260,11 @@ fn every_fixture_makes_a_page() {
         }
         let page = page(source.name(), source.bytes(), SLOWER, "");
         // What is kept or new is the program as it stands, what is kept or old the one that was read.
-        let old: Vec<u8> = rows(&page).iter().filter(|row| !row.starts_with('+')).flat_map(|row| row.bytes().skip(1).chain([b'\n'])).collect();
+        let old: Vec<u8> = rows(&page)
+            .iter()
+            .filter(|row| !row.starts_with('+'))
+            .flat_map(|row| row.bytes().skip(1).chain([b'\n']))
+            .collect();
         let read = String::from_utf8_lossy(source.bytes()).replace("\r\n", "\n").replace('\r', "\n");
         assert_eq!(String::from_utf8_lossy(&old).trim_end(), read.trim_end(), "{}", path.display());
     }
@@ -242,7 +280,10 @@ fn the_libraries_are_those_that_the_readme_names() {
         if !name.contains(".min.") {
             continue;
         }
-        let sum: String = Sha256::digest(std::fs::read(entry.path()).unwrap()).iter().map(|byte| format!("{byte:02x}")).collect();
+        let sum: String = Sha256::digest(std::fs::read(entry.path()).unwrap())
+            .iter()
+            .map(|byte| format!("{byte:02x}"))
+            .collect();
         let line = readme.lines().find(|line| line.starts_with(&format!("| `{name}`"))).unwrap();
         assert!(line.contains(&sum), "{name}: {sum}");
         seen += 1;

@@ -21,7 +21,8 @@ fn without_a_setup() {
 #[test]
 fn names_of_files_are_no_markup() {
     let part = SLOT.replace("TOOL PATH/SLOT", "TOOL PATH/A|B*c*<img src=x>`[x](y)");
-    let text = told("a|b\n# [x](y).cls", part.as_bytes(), "  - scale_feed: { factor: 0.5 }\n", "", to_markdown);
+    let text =
+        told("a|b\n# [x](y).cls", part.as_bytes(), "  - scale_feed: { factor: 0.5 }\n", "", to_markdown);
     assert!(text.starts_with("## a\\|b \\# \\[x\\](y).cls\n"), "{text}");
     assert!(text.contains("| A\\|B\\*c\\*\\<img src=x\\>\\`\\[x\\](y) |"), "{text}");
     // Every row of a table has as many cells as its head.

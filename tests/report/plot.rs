@@ -27,7 +27,10 @@ fn ends(svg: &str) -> Vec<f64> {
     let lines = svg.split("<polyline").skip(1).filter_map(|rest| rest.split("points=\"").nth(1));
     let last = |points: &str| {
         let points = points.split_once('"').unwrap().0;
-        points.split_whitespace().map(|point| point.split_once(',').unwrap().0.parse::<f64>().unwrap()).fold(0.0, f64::max)
+        points
+            .split_whitespace()
+            .map(|point| point.split_once(',').unwrap().0.parse::<f64>().unwrap())
+            .fold(0.0, f64::max)
     };
     lines.map(last).collect()
 }
@@ -45,7 +48,10 @@ fn a_panel_for_each_quantity_and_a_line_for_each_program() {
     // Half the feed takes twice the time: before ends in the middle, but for the rapids.
     let feed = drawn(&[Quantity::Feed], Along::Time);
     let found = ends(&feed);
-    assert!(found.iter().any(|end| (630.0..680.0).contains(end)) && found.iter().any(|end| *end > 1170.0), "{found:?}");
+    assert!(
+        found.iter().any(|end| (630.0..680.0).contains(end)) && found.iter().any(|end| *end > 1170.0),
+        "{found:?}"
+    );
     // Along the path both end at the same place.
     let path = ends(&drawn(&[Quantity::Z], Along::Path));
     assert!(path.iter().filter(|end| **end > 1170.0).count() >= 2, "{path:?}");

@@ -227,7 +227,13 @@ impl Simulate {
             Some(path) => Some(self.draw(path, &simulated, &setup, policy, progress, findings)?),
             None => None,
         };
-        Ok(Ran { program, setup, setup_file, runs: Runs { after: Some(simulated), ..Runs::default() }, drawn })
+        Ok(Ran {
+            program,
+            setup,
+            setup_file,
+            runs: Runs { after: Some(simulated), ..Runs::default() },
+            drawn,
+        })
     }
 
     fn draw(

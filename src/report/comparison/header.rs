@@ -4,9 +4,6 @@ use super::Subject;
 use crate::source::Source;
 use sha2::{Digest, Sha256};
 
-/// A SHA-256, in hexadecimal digits.
-pub type Hash = String;
-
 /// What a part is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Recorded {
@@ -39,8 +36,8 @@ pub struct Part {
     pub what: Recorded,
     /// The file's name.
     pub name: String,
-    /// SHA-256 of its bytes.
-    pub sha256: Hash,
+    /// SHA-256 of its bytes, in hexadecimal digits.
+    pub sha256: String,
     /// Bytes.
     pub bytes: u64,
 }
@@ -69,6 +66,6 @@ pub(super) fn parts(subject: &Subject<'_>) -> Vec<Part> {
     parts
 }
 
-fn hex(bytes: &[u8]) -> Hash {
+fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -18,7 +18,8 @@ pub fn to_markdown(comparison: &Comparison<'_>) -> String {
     match &comparison.changes {
         Some(changes) if changes.is_empty() => out.push_str("Nothing was changed.\n\n"),
         Some(changes) => {
-            let changed: usize = changes.steps.iter().flat_map(maps).map(|map| map.values().sum::<usize>()).sum();
+            let changed: usize =
+                changes.steps.iter().flat_map(maps).map(|map| map.values().sum::<usize>()).sum();
             let _ = writeln!(
                 out,
                 "{} changed, {} untouched.\n",
@@ -170,7 +171,9 @@ pub(in crate::report) fn step_row(step: &StepChanges) -> [String; 3] {
 }
 
 fn steps(out: &mut String, comparison: &Comparison<'_>) {
-    let Some(changes) = comparison.changes.as_ref().filter(|changes| !changes.steps.is_empty()) else { return };
+    let Some(changes) = comparison.changes.as_ref().filter(|changes| !changes.steps.is_empty()) else {
+        return;
+    };
     out.push_str("### Steps\n\n");
     let rows = changes.steps.iter().enumerate().map(|(index, step)| {
         let mut row = vec![format!("{}. {}", index + 1, step.name)];
@@ -227,7 +230,9 @@ fn table(out: &mut String, head: &[&str], rows: impl Iterator<Item = Vec<String>
         format!("| {} |\n", cells.join(" | "))
     };
     out.push_str(&line(&mut head.iter().map(|cell| (*cell).to_owned())));
-    out.push_str(&line(&mut (0..head.len()).map(|column| if column == 0 { "---" } else { "---:" }.to_owned())));
+    out.push_str(&line(
+        &mut (0..head.len()).map(|column| if column == 0 { "---" } else { "---:" }.to_owned()),
+    ));
     for row in rows {
         out.push_str(&line(&mut row.iter().map(|cell| escaped(cell))));
     }
@@ -238,7 +243,10 @@ fn table(out: &mut String, head: &[&str], rows: impl Iterator<Item = Vec<String>
 fn escaped(text: &str) -> String {
     let mut out = String::new();
     for c in one_line(text).chars() {
-        if matches!(c, '\\' | '`' | '*' | '_' | '[' | ']' | '<' | '>' | '|' | '~' | '#' | '&' | '$' | '@' | '!') {
+        if matches!(
+            c,
+            '\\' | '`' | '*' | '_' | '[' | ']' | '<' | '>' | '|' | '~' | '#' | '&' | '$' | '@' | '!'
+        ) {
             out.push('\\');
         }
         out.push(c);

@@ -9,7 +9,7 @@ mod markdown;
 mod runs;
 
 pub use figures::{Figures, Peak};
-pub use header::{Hash, Part, Recorded};
+pub use header::{Part, Recorded};
 pub use markdown::to_markdown;
 pub use runs::Runs;
 

@@ -42,9 +42,9 @@ impl Arrays {
         let origin = origin(subject, program);
         let runs = comparison.runs;
         let mut after = Side::of(subject, program, runs.after.as_ref(), &listing.after, origin);
-        let mut before = subject.before.map(|before| {
-            Side::of(subject, before, runs.before.as_ref(), &listing.before, origin)
-        });
+        let mut before = subject
+            .before
+            .map(|before| Side::of(subject, before, runs.before.as_ref(), &listing.before, origin));
         if let Some(before) = &mut before {
             change::pair(before, &mut after, &listing);
         }
@@ -77,7 +77,11 @@ impl Arrays {
 
     /// Writes them as elements of the page.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        writeln!(out, "<script type=\"application/json\" id=\"facts\">{}</script>", markup::json(&self.facts))?;
+        writeln!(
+            out,
+            "<script type=\"application/json\" id=\"facts\">{}</script>",
+            markup::json(&self.facts)
+        )?;
         let elements: Vec<io::Result<String>> =
             self.arrays.par_iter().map(|(name, array)| array.element(name)).collect();
         elements.into_iter().try_for_each(|element| out.write_all(element?.as_bytes()))
@@ -88,7 +92,9 @@ impl Arrays {
 fn origin(subject: &Subject<'_>, program: &Program) -> [f64; 3] {
     let unit = subject.units_of(program).unit.in_mm();
     let first = Subject::motions(program).next();
-    first.map_or([0.0; 3], |motion| [motion.to.point.x, motion.to.point.y, motion.to.point.z].map(|at| (at * unit).round()))
+    first.map_or([0.0; 3], |motion| {
+        [motion.to.point.x, motion.to.point.y, motion.to.point.z].map(|at| (at * unit).round())
+    })
 }
 
 fn facts(

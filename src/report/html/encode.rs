@@ -37,7 +37,9 @@ impl Array {
             Self::F32(values) => planes(values.iter().map(|value| value.to_le_bytes())),
             Self::Growing(values) => {
                 let before = std::iter::once(0).chain(values.iter().copied());
-                planes(values.iter().zip(before).map(|(value, before)| value.wrapping_sub(before).to_le_bytes()))
+                planes(
+                    values.iter().zip(before).map(|(value, before)| value.wrapping_sub(before).to_le_bytes()),
+                )
             }
             Self::U16(values) => planes(values.iter().map(|value| value.to_le_bytes())),
             Self::U8(values) => values.clone(),

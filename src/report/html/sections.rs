@@ -43,7 +43,9 @@ fn lead(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
         Some(changes) if changes.is_empty() => {
             write!(out, "{dialect}. Nothing was changed: every byte of {name} is as it was.")
         }
-        Some(changes) => write!(out, "{dialect}. {} statements are as they were.", count(changes.untouched as u64)),
+        Some(changes) => {
+            write!(out, "{dialect}. {} statements are as they were.", count(changes.untouched as u64))
+        }
         None => write!(out, "{dialect}."),
     }
 }
@@ -92,7 +94,10 @@ fn operations(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()
 
 fn findings(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
     let subject = &comparison.subject;
-    let runs = [("the program before", &comparison.runs.before), ("the program as it stands", &comparison.runs.after)];
+    let runs = [
+        ("the program before", &comparison.runs.before),
+        ("the program as it stands", &comparison.runs.after),
+    ];
     let simulated = runs.into_iter().filter_map(|(of, run)| Some((of, run.as_ref()?)));
     some(out, "Of the run", subject.findings, comparison)?;
     for (of, simulated) in simulated {
@@ -103,7 +108,12 @@ fn findings(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> 
     Ok(())
 }
 
-fn some(out: &mut dyn Write, title: &str, found: &[Diagnostic], comparison: &Comparison<'_>) -> io::Result<()> {
+fn some(
+    out: &mut dyn Write,
+    title: &str,
+    found: &[Diagnostic],
+    comparison: &Comparison<'_>,
+) -> io::Result<()> {
     writeln!(out, "<h3>{}: {}</h3>", escaped(title), Counts::of(found))?;
     let options = HumanOptions { width: 120, ..HumanOptions::default() };
     let mut seen: BTreeMap<&str, usize> = BTreeMap::new();
@@ -119,7 +129,12 @@ fn some(out: &mut dyn Write, title: &str, found: &[Diagnostic], comparison: &Com
         // The last line counts findings, here always one.
         let drawn = drawn.trim_end().rsplit_once('\n').map_or("", |(drawn, _)| drawn.trim_matches('\n'));
         let severity = one.severity;
-        writeln!(out, "<div class=\"finding {severity}\"{}><pre>{}</pre></div>", place(one, comparison), escaped(drawn))?;
+        writeln!(
+            out,
+            "<div class=\"finding {severity}\"{}><pre>{}</pre></div>",
+            place(one, comparison),
+            escaped(drawn)
+        )?;
     }
     for (code, count) in seen.into_iter().filter(|(_, count)| *count > PER_CODE) {
         writeln!(out, "<p>{} more of {code} are not shown.</p>", count - PER_CODE)?;
@@ -147,10 +162,16 @@ fn assumptions(comparison: &Comparison<'_>, drawing: &[String], out: &mut dyn Wr
     let runs = comparison.runs;
     let mut missing: Vec<String> = Vec::new();
     if runs.after.is_none() {
-        missing.push("chips, loads and the stock that is left are not shown, since there was no simulation".to_owned());
+        missing.push(
+            "chips, loads and the stock that is left are not shown, since there was no simulation".to_owned(),
+        );
     }
     missing.extend(runs.missing.iter().cloned());
-    for (title, list) in [("Not shown", &missing), ("Taken for granted", &comparison.assumptions), ("How it is drawn", &drawing.to_vec())] {
+    for (title, list) in [
+        ("Not shown", &missing),
+        ("Taken for granted", &comparison.assumptions),
+        ("How it is drawn", &drawing.to_vec()),
+    ] {
         if list.is_empty() {
             continue;
         }
@@ -166,7 +187,8 @@ fn assumptions(comparison: &Comparison<'_>, drawing: &[String], out: &mut dyn Wr
 fn texts(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
     let subject = &comparison.subject;
     let recipe = subject.recipe.map(|recipe| ("Recipe", &recipe.source));
-    for (what, source) in recipe.into_iter().chain(subject.setup_files.iter().map(|source| ("Setup", source))) {
+    for (what, source) in recipe.into_iter().chain(subject.setup_files.iter().map(|source| ("Setup", source)))
+    {
         let text = String::from_utf8_lossy(source.bytes());
         writeln!(out, "<h3>{what}: {}</h3><pre>{}</pre>", escaped(&one_line(source.name())), escaped(&text))?;
     }

@@ -95,7 +95,8 @@ impl Side {
             let measured = moved(&motion, units, rapid);
             side.length.push(measured.length_mm as f32);
             side.seconds.push(measured.seconds.unwrap_or(0.0) as f32);
-            side.feed.push(measured.feed_mm_min.filter(|_| !motion.rapid).map_or(f32::NAN, |feed| feed as f32));
+            side.feed
+                .push(measured.feed_mm_min.filter(|_| !motion.rapid).map_or(f32::NAN, |feed| feed as f32));
             side.facts(&motion, rows);
         }
         if let Some(rows) = simulated.map(|simulated| &simulated.motions.rows) {
@@ -144,7 +145,8 @@ impl Side {
     /// Where a motion's vertices are, its beginning included.
     pub fn vertices_of(&self, motion: usize) -> &[[f32; 3]] {
         let end = self.ends.get(motion).map_or(0, |end| *end as usize);
-        let start = motion.checked_sub(1).and_then(|before| self.ends.get(before)).map_or(0, |end| *end as usize);
+        let start =
+            motion.checked_sub(1).and_then(|before| self.ends.get(before)).map_or(0, |end| *end as usize);
         let jumps = self.flags.get(motion).is_some_and(|flags| flags & JUMPS != 0);
         let first = if jumps { start } else { start.saturating_sub(1) };
         self.vertices.get(first..end).unwrap_or_default()

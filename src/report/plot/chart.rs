@@ -76,9 +76,8 @@ pub fn draw(right: &str, panels: &[Panel]) -> io::Result<String> {
 fn axis(panel: &Panel, names: bool) -> [f64; 2] {
     let values = panel.curves.iter().flat_map(|curve| &curve.stretches).filter_map(|stretch| stretch.values);
     let values = values.flatten().filter(|value| value.is_finite());
-    let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
-        [low.min(value), high.max(value)]
-    });
+    let [low, high] = values
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
     if panel.from_zero {
         let high = if high > 0.0 { high } else { 1.0 };
         return [0.0, high * if names { ROOM_WITH_NAMES } else { ROOM }];

@@ -3,33 +3,66 @@
 const SIDE_COLORS = { before: "#8a929b", after: "#005ab5" };
 const CHART_HEIGHT = 170;
 
-// The least and largest value in each of `count` stretches of from..to. A step holds over its motion, z goes straight between vertices.
+// Values that are looked at together where all of them fall into one stretch.
+const BLOCK = 64;
+
+// What a chart looks at: where values end along time or path, the values, and whether each holds (a step) or goes straight from the one
+// before; and the least and largest of each block.
+function curve(program, quantity, along) {
+  const holds = quantity !== "z";
+  const ends = holds ? program.along(along) : program.vertexAlong(along);
+  const values = holds ? program[quantity] : program.z;
+  if (!values) return null;
+  const start = (i) => (holds || i === 0 || program.isStart[i] ? values[i] : values[i - 1]);
+  program.blocks ??= {};
+  const blocks = (program.blocks[quantity] ??= blocksOf(values, start));
+  return { ends, values, start, blocks, holds, lift: holds ? 0 : facts.origin[2] };
+}
+
+function blocksOf(values, start) {
+  const count = Math.floor(values.length / BLOCK);
+  const low = new Float32Array(count).fill(Infinity), high = new Float32Array(count).fill(-Infinity);
+  for (let block = 0, i = 0; block < count; block++) {
+    for (const end = i + BLOCK; i < end; i++) {
+      for (const value of i % BLOCK ? [values[i]] : [values[i], start(i)]) {
+        if (value < low[block]) low[block] = value;
+        if (value > high[block]) high[block] = value;
+      }
+    }
+  }
+  return { low, high };
+}
+
+// The least and largest value in each of `count` stretches of from..to.
 function stretches(program, quantity, along, from, to, count) {
   const low = new Float64Array(count).fill(Infinity), high = new Float64Array(count).fill(-Infinity);
-  const steps = quantity !== "z";
-  const ends = steps ? program.along(along) : program.vertexAlong(along);
-  const values = steps ? program[quantity] : program.z;
-  const lift = steps ? 0 : facts.origin[2];
-  const scale = count / (to - from);
-  if (!values || !(scale > 0)) return { low, high };
-  const first = Math.max(countUpTo(ends, from) - 1, 0);
-  for (let i = first; i < ends.length; i++) {
-    const start = i > 0 ? ends[i - 1] : 0, end = ends[i];
-    if (start > to) break;
-    if (end < from) continue;
-    const next = values[i] + lift;
-    let before = steps || i === 0 || program.isStart[i] ? next : values[i - 1] + lift;
-    if (next !== next) continue;
-    const a = Math.max(Math.floor((start - from) * scale), 0), b = Math.min(Math.floor((end - from) * scale), count - 1);
-    for (let at = a; at <= b; at++) {
-      let one = before, other = next;
-      if (!steps && b > a) {
-        const share = (place) => Math.min(Math.max((from + place / scale - start) / (end - start), 0), 1);
-        one = before + (next - before) * share(at);
-        other = before + (next - before) * share(at + 1);
+  const scale = count / (to - from), shown = curve(program, quantity, along);
+  if (!shown || !(scale > 0)) return { low, high };
+  const { ends, values, start, blocks, holds, lift } = shown;
+  const take = (at, least, most) => {
+    if (least + lift < low[at]) low[at] = least + lift;
+    if (most + lift > high[at]) high[at] = most + lift;
+  };
+  for (let i = Math.max(countUpTo(ends, from) - 1, 0); i < ends.length; i++) {
+    const begin = i > 0 ? ends[i - 1] : 0;
+    if (begin > to) break;
+    const first = Math.floor((begin - from) * scale), block = i / BLOCK;
+    if (i % BLOCK === 0 && block < blocks.low.length && first >= 0
+        && Math.floor((ends[i + BLOCK - 1] - from) * scale) === first && first < count) {
+      take(first, blocks.low[block], blocks.high[block]);
+      i += BLOCK - 1;
+      continue;
+    }
+    const end = ends[i], one = start(i), other = values[i];
+    if (end < from || other !== other) continue;
+    const last = Math.min(Math.floor((end - from) * scale), count - 1);
+    for (let at = Math.max(first, 0); at <= last; at++) {
+      if (holds || first === last) {
+        take(at, Math.min(one, other), Math.max(one, other));
+        continue;
       }
-      low[at] = Math.min(low[at], one, other);
-      high[at] = Math.max(high[at], one, other);
+      const value = (place) => one + (other - one) * Math.min(Math.max((from + place / scale - begin) / (end - begin), 0), 1);
+      take(at, Math.min(value(at), value(at + 1)), Math.max(value(at), value(at + 1)));
     }
   }
   return { low, high };
