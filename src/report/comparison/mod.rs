@@ -108,7 +108,10 @@ impl<'a> Comparison<'a> {
             Changes::of(before, subject.program, &steps, subject.units)
         });
         let after = table(&subject, subject.program, runs.after.as_ref());
-        let before = subject.before.map(|before| table(&subject, before, runs.before.as_ref()));
+        // What nobody changed was simulated once.
+        let unchanged = changes.as_ref().is_some_and(Changes::is_empty);
+        let first = runs.before.as_ref().or(runs.after.as_ref().filter(|_| unchanged));
+        let before = subject.before.map(|before| table(&subject, before, first));
         let (operations, whole) = joined(before, after);
         Self {
             parts: header::parts(&subject),
