@@ -4,7 +4,9 @@ use super::exit::Exit;
 use super::files::{self, Loaded, STANDARD};
 use super::findings::FindingArgs;
 use super::output::{Outputs, unless_nobody_reads};
+use super::plot::as_file;
 use super::progress::Progress;
+use super::reports::ReportArgs;
 use super::terminal;
 use clap::Args;
 use clsmith::diagnostic::{Diagnostic, codes};
@@ -12,6 +14,7 @@ use clsmith::job::{Done, Job, is_changed};
 use clsmith::parse::parse;
 use clsmith::program::{Dialect, Program};
 use clsmith::report::changes::{self, Changes};
+use clsmith::report::comparison::Subject;
 use clsmith::report::{picture, step_report, unified};
 use clsmith::source::Source;
 use clsmith::transform::{Recipe, Step, StepReport};
@@ -28,6 +31,8 @@ Examples:
   clsmith apply recipe.yaml - -o - < part.cls        from standard input to standard output
   clsmith apply recipe.yaml programs/*.cls -o done/  several files into a folder
   clsmith apply ramps.yaml part.cls --dry-run --plot ramps.svg   draw corrected ramps, before and after
+  clsmith apply recipe.yaml part.cls -o out.cls --report out.html --summary out.md
+                                                     what changed, to look at and for a merge request
 
 Every output appears whole or not at all, and never over an input. With several inputs each stands for
 itself: those with errors are not written, the others are, and the exit code is 1.";
@@ -50,9 +55,11 @@ pub struct Apply {
     /// Show the changed lines on standard output as a patch; writes nothing unless -o is given
     #[arg(long)]
     diff: bool,
-    /// Draw what the steps did as SVG: ramps before and after
+    /// Draw what the steps did as SVG, or PNG where the file ends so: ramps before and after
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
+    #[command(flatten)]
+    reports: ReportArgs,
     /// A setup file; overrides the recipe's setup
     #[arg(long, value_name = "FILE")]
     setup: Option<PathBuf>,
@@ -79,13 +86,15 @@ impl Apply {
                 return Ok(Exit::Usage);
             }
         };
-        let Loaded { recipe, setup, .. } = match files::recipe(&self.recipe, self.setup.as_deref()) {
+        let Loaded { recipe, setup, texts } = match files::recipe(&self.recipe, self.setup.as_deref()) {
             Ok(loaded) => loaded,
             Err(found) => {
                 self.show(&found, Some(&self.recipe.to_string_lossy()))?;
                 return Ok(Exit::Errors);
             }
         };
+        // The recipe is the first of them.
+        let setup_files = texts.get(1..).unwrap_or_default();
         let outputs = Outputs::default();
         let progress = Progress::new(self.quiet, outputs.interrupt());
         outputs.stop_on_ctrl_c(progress.clearing())?;
@@ -97,7 +106,7 @@ impl Apply {
                 return Ok(Exit::Interrupted);
             }
             progress.begin(&input.to_string_lossy());
-            let done = self.one(&job, input, &outputs, &progress);
+            let done = self.one(&job, setup_files, input, &outputs, &progress);
             match done {
                 Ok(exit) => worst = worst.max(exit),
                 Err(error) if is_interrupt(&error) => return Ok(Exit::Interrupted),
@@ -117,19 +126,31 @@ impl Apply {
             return Some("--diff and -o - both write to standard output".into());
         }
         let several = self.inputs.len() > 1;
-        let plot_to_standard = self.plot.as_ref().is_some_and(standard);
-        if plot_to_standard && (self.diff || self.output.as_ref().is_some_and(standard)) {
-            return Some("--plot - shares standard output with --diff or -o -".into());
+        let extra: Vec<(&str, &Path)> =
+            self.plot.iter().map(|path| ("--plot", path.as_path())).chain(self.reports.named()).collect();
+        let taken = self.diff || self.output.as_ref().is_some_and(standard);
+        let on_standard: Vec<&str> =
+            extra.iter().filter(|(_, path)| *path == Path::new(STANDARD)).map(|(name, _)| *name).collect();
+        match on_standard.as_slice() {
+            [name, ..] if taken => {
+                return Some(format!("{name} - shares standard output with --diff or -o -"));
+            }
+            [name, other, ..] => {
+                return Some(format!("{name} - and {other} - both write to standard output"));
+            }
+            _ => {}
         }
         let target = self.inputs.first().and_then(|input| self.target(input));
-        if let (Some(plot), Some(target)) = (&self.plot, target)
-            && !plot_to_standard
-            && (*plot == target || same_file(plot, &target))
-        {
-            return Some("--plot and -o name one file".into());
+        let files = target.iter().map(|path| ("-o", path.as_path())).chain(extra.iter().copied());
+        let files: Vec<(&str, &Path)> = files.filter(|(_, path)| *path != Path::new(STANDARD)).collect();
+        for (index, (other, path)) in files.iter().enumerate() {
+            let same = |(_, earlier): &&(&str, &Path)| earlier == path || same_file(earlier, path);
+            if let Some((name, _)) = files.iter().take(index).find(same) {
+                return Some(format!("{other} and {name} name one file"));
+            }
         }
-        if several && self.plot.is_some() {
-            return Some("--plot draws one program; there are several".into());
+        if several && let Some((name, _)) = extra.first() {
+            return Some(format!("{name} shows one program; there are several"));
         }
         let folder = self.output.as_deref().filter(|path| !path.as_os_str().is_empty());
         if let Some(folder) = folder.filter(|folder| several && !folder.is_dir()) {
@@ -151,10 +172,19 @@ impl Apply {
         None
     }
 
-    fn one(&self, job: &Job<'_>, input: &Path, outputs: &Outputs, progress: &Progress) -> io::Result<Exit> {
+    fn one(
+        &self,
+        job: &Job<'_>,
+        setup_files: &[Arc<Source>],
+        input: &Path,
+        outputs: &Outputs,
+        progress: &Progress,
+    ) -> io::Result<Exit> {
         let target = self.target(input);
         let setup_file = job.recipe.setup_file.as_deref().map(|name| files::beside(&self.recipe, name));
-        let outs = target.iter().chain(self.plot.iter().filter(|path| *path != Path::new(STANDARD)));
+        let drawn = self.plot.iter().map(PathBuf::as_path).chain(self.reports.outputs());
+        let outs =
+            target.iter().map(PathBuf::as_path).chain(drawn.filter(|path| *path != Path::new(STANDARD)));
         if let Some(found) =
             outs.filter_map(|out| self.overwrites(out, setup_file.as_deref(), job.recipe)).next()
         {
@@ -197,10 +227,30 @@ impl Apply {
             self.show(&[found], Some(source.name()))?;
             return Ok(Exit::Errors);
         }
-        let drawn = match &self.plot {
+        let mut drawn = match &self.plot {
             Some(path) => self.draw(path, &reports, outputs)?,
             None => Exit::Done,
         };
+        if self.reports.is_wanted() {
+            let before = parse(&source, Some(program.dialect())).program;
+            let subject = Subject {
+                before: Some(&before),
+                program: &program,
+                recipe: Some(job.recipe),
+                setup: job.setup,
+                setup_files,
+                units: Some(job.recipe.units),
+                findings: &findings,
+                reports: &reports,
+            };
+            progress.begin(&format!("{}: report", source.name()));
+            let written = self.reports.write_all_of(subject, progress, outputs);
+            progress.clear();
+            if let Some(found) = written? {
+                self.show(&[found], Some(source.name()))?;
+                drawn = Exit::Errors;
+            }
+        }
         if !self.quiet {
             let target = target.as_deref().filter(|_| !self.dry_run);
             unless_nobody_reads(self.summary(job, &source, &program, &reports, target))?;
@@ -217,7 +267,8 @@ impl Apply {
             }
             return Ok(Exit::Done);
         };
-        match outputs.write(path, |out| out.write_all(text.as_bytes()))? {
+        let bytes = as_file(path, text)?;
+        match outputs.write(path, |out| out.write_all(&bytes))? {
             Some(found) => self.show(&[found], None).map(|()| Exit::Errors),
             None => Ok(Exit::Done),
         }

@@ -10,8 +10,10 @@ mod files;
 mod findings;
 mod hook;
 mod output;
+mod plot;
 mod progress;
 mod reference;
+mod reports;
 mod section;
 mod shop;
 mod simulate;
@@ -41,6 +43,8 @@ Examples:
   clsmith watch exports --recipe recipe.yaml --out corrected '*.cls'
                                                    correct what lands in a folder
   clsmith diff part.cls out.cls                    what changed, by meaning
+  clsmith plot part.cls --after out.cls -o feed.svg
+                                                   feed and z, before and after
   clsmith transforms scale_feed                    what a recipe step does
 
 Exit codes:
@@ -77,6 +81,7 @@ enum Command {
     Diff(diff::Diff),
     Hook(Box<hook::Hook>),
     Watch(Box<watch::Watch>),
+    Plot(plot::Plot),
     Transforms(reference::Transforms),
     Schema(reference::Schema),
     Explain(reference::Explain),
@@ -99,6 +104,7 @@ pub fn main() -> ExitCode {
         Command::Diff(command) => command.run(),
         Command::Hook(command) => command.run(),
         Command::Watch(command) => command.run(),
+        Command::Plot(command) => command.run(),
         Command::Transforms(command) => command.run(),
         Command::Schema(command) => command.run(),
         Command::Explain(command) => command.run(),

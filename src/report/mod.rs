@@ -7,11 +7,14 @@
 
 pub mod changes;
 pub mod chips;
+pub mod comparison;
 mod compensated;
 pub mod diff;
 pub mod explain;
+pub mod html;
 pub mod kind;
 pub mod picture;
+pub mod plot;
 pub mod policy;
 mod ramps;
 pub mod render;

@@ -6,6 +6,8 @@ mod chips;
 mod hook;
 mod hook_examples;
 mod other;
+mod plot;
+mod reports;
 mod section;
 mod select;
 mod simulate;

@@ -6,18 +6,22 @@ use crate::cli::exit::Exit;
 use crate::cli::files::{self, STANDARD};
 use crate::cli::findings::FindingArgs;
 use crate::cli::output::{Outputs, print_summary, unless_nobody_reads};
+use crate::cli::plot::as_file;
 use crate::cli::progress::Progress;
+use crate::cli::reports::ReportArgs;
 use crate::cli::terminal;
 use clap::Args;
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::machining::{Budget, Machining, Options};
 use clsmith::parse::parse;
 use clsmith::program::{Dialect, Program};
+use clsmith::report::comparison::{Runs, Subject};
 use clsmith::report::policy::Policy;
 use clsmith::report::simulation::{self, Simulated, plot};
 use clsmith::report::stats::Units;
 use clsmith::setup::Setup;
 use clsmith::sim::Mesh;
+use clsmith::source::Source;
 use clsmith::values::LengthUnit;
 use clsmith::write::is_interrupt;
 use std::io;
@@ -32,6 +36,7 @@ Examples:
   clsmith simulate part.cls --setup shop.yaml --target part.stl     gouges and excess against the part
   clsmith simulate op1.cls --setup shop.yaml --save-stock op1.clstock --stl left.stl
   clsmith simulate new.cls --setup shop.yaml --plot loads.svg --plot-before old.cls
+  clsmith simulate part.cls --setup shop.yaml --report loads.html   charts and the path in 3D, as a page
 
 The setup says stock, tools and material: see configs/README.md. Outputs appear whole or not at all, never
 over an input, and not while an error stands; a collision is one (`--allow CL0511` writes all the same).
@@ -61,12 +66,14 @@ pub struct Simulate {
     /// The stock that is left, as stock for the next program
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     save_stock: Option<PathBuf>,
-    /// Thickest chips and feeds along time, as SVG
+    /// Thickest chips and feeds along time, as SVG, or PNG where the file ends so
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     plot: Option<PathBuf>,
     /// A second program that is drawn behind the first one, in grey
     #[arg(long, value_name = "PROGRAM", requires = "plot", help_heading = "Outputs")]
     plot_before: Option<PathBuf>,
+    #[command(flatten)]
+    reports: ReportArgs,
     /// The part that shall be: a closed STL in the coordinates and the unit of the program
     #[arg(long, value_name = "FILE")]
     target: Option<PathBuf>,
@@ -99,6 +106,31 @@ pub struct Simulate {
 pub(super) fn length(text: &str) -> Result<f64, String> {
     let value = text.parse::<f64>().ok().filter(|value| *value > 0.0 && value.is_finite());
     value.ok_or_else(|| "this must be a number above 0".into())
+}
+
+/// A run, and what it was made of.
+struct Ran {
+    program: Program,
+    setup: Setup,
+    setup_file: Arc<Source>,
+    runs: Runs,
+    drawn: Option<Vec<u8>>,
+}
+
+impl Ran {
+    /// What reports tell of.
+    fn subject<'a>(&'a self, units: Option<LengthUnit>, findings: &'a [Diagnostic]) -> Subject<'a> {
+        Subject {
+            before: None,
+            program: &self.program,
+            recipe: None,
+            setup: &self.setup,
+            setup_files: std::slice::from_ref(&self.setup_file),
+            units,
+            findings,
+            reports: &[],
+        }
+    }
 }
 
 /// Why a run ended before its end.
@@ -138,7 +170,7 @@ impl Simulate {
         let mut findings = Vec::new();
         let done = self.simulate(&policy, &progress, &mut findings);
         progress.clear();
-        let (simulated, drawn) = match done {
+        let ran = match done {
             Ok(done) => done,
             Err(Stop::Interrupted) => return Ok(Exit::Interrupted),
             Err(Stop::Found(found)) => {
@@ -151,13 +183,15 @@ impl Simulate {
         if !findings.is_empty() {
             self.show(&findings)?;
         }
-        if !self.quiet {
-            unless_nobody_reads(self.summary(&simulated))?;
+        if !self.quiet
+            && let Some(simulated) = &ran.runs.after
+        {
+            unless_nobody_reads(self.summary(simulated))?;
         }
         if findings.iter().any(Diagnostic::is_error) {
             return self.nothing();
         }
-        match self.write(&simulated, drawn.as_deref(), &outputs) {
+        match self.write(&ran, &findings, &outputs) {
             Ok(None) => Ok(Exit::Done),
             Ok(Some(found)) => {
                 self.show(&[found])?;
@@ -174,8 +208,9 @@ impl Simulate {
         policy: &Policy,
         progress: &Progress,
         findings: &mut Vec<Diagnostic>,
-    ) -> Result<(Simulated, Option<String>), Stop> {
-        let setup = files::setup(&self.setup)?;
+    ) -> Result<Ran, Stop> {
+        let setup_file = files::read(&self.setup).map_err(|found| *found)?;
+        let setup = Setup::load(&setup_file)?;
         self.overwrites(&setup)?;
         let read = |path: &Path| files::read(path).map_err(|found| found.message);
         let setup = setup.with_material_file(read)?;
@@ -188,20 +223,38 @@ impl Simulate {
             simulated.compare(&mesh, &path.to_string_lossy(), self.tolerance);
             findings.append(&mut simulated.findings);
         }
-        if self.plot.is_none() {
-            return Ok((simulated, None));
-        }
+        let drawn = match &self.plot {
+            Some(path) => Some(self.draw(path, &simulated, &setup, policy, progress, findings)?),
+            None => None,
+        };
+        Ok(Ran {
+            program,
+            setup,
+            setup_file,
+            runs: Runs { after: Some(simulated), ..Runs::default() },
+            drawn,
+        })
+    }
+
+    fn draw(
+        &self,
+        path: &Path,
+        simulated: &Simulated,
+        setup: &Setup,
+        policy: &Policy,
+        progress: &Progress,
+        findings: &mut Vec<Diagnostic>,
+    ) -> Result<Vec<u8>, Stop> {
         let mut series = Vec::new();
         if let Some(path) = &self.plot_before {
             let before = self.program(path, policy, findings)?;
             // What goes wrong in the program behind is not what was asked.
-            let before = self.one(&before, &setup, progress, &mut Vec::new())?;
+            let before = self.one(&before, setup, progress, &mut Vec::new())?;
             series.push(before.series(path.to_string_lossy()));
         }
         series.push(simulated.series(simulated.file.as_str()));
         let failed = |error: io::Error| Diagnostic::new(codes::UNWRITABLE, error.to_string());
-        let drawn = plot::plot(&series).map_err(failed)?;
-        Ok((simulated, Some(drawn)))
+        Ok(plot::plot(&series).and_then(|svg| as_file(path, svg)).map_err(failed)?)
     }
 
     /// Reads a program; errors in its text stop the run.

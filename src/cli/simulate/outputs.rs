@@ -1,10 +1,11 @@
 //! What `clsmith simulate` writes, and where it may not.
 
-use super::{Simulate, Stop};
+use super::{Ran, Simulate, Stop};
 use crate::cli::files::STANDARD;
 use crate::cli::output::{Outputs, overwritten};
 use clsmith::diagnostic::Diagnostic;
-use clsmith::report::simulation::{self, Simulated};
+use clsmith::report::comparison::Comparison;
+use clsmith::report::simulation;
 use clsmith::setup::Setup;
 use clsmith::sim::{export, remains};
 use clsmith::write::same_file;
@@ -33,7 +34,7 @@ impl Simulate {
 
     pub(super) fn outputs(&self) -> impl Iterator<Item = &Path> {
         let all = [&self.csv, &self.json, &self.stl, &self.save_stock, &self.plot];
-        all.into_iter().filter_map(|path| path.as_deref())
+        all.into_iter().filter_map(|path| path.as_deref()).chain(self.reports.outputs())
     }
 
     /// No output may be an input, nor a file that the setup names.
@@ -50,17 +51,18 @@ impl Simulate {
     /// Writes what was asked for; a finding when that fails.
     pub(super) fn write(
         &self,
-        simulated: &Simulated,
-        drawn: Option<&str>,
+        ran: &Ran,
+        findings: &[Diagnostic],
         outputs: &Outputs,
     ) -> io::Result<Option<Diagnostic>> {
+        let Some(simulated) = &ran.runs.after else { return Ok(None) };
         type Writer<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
         let all: [(&Option<PathBuf>, Writer<'_>); 5] = [
             (&self.csv, Box::new(|out| simulation::to_csv(simulated, out))),
             (&self.json, Box::new(|out| out.write_all(simulation::to_json(simulated).as_bytes()))),
             (&self.stl, Box::new(|out| export::write_stl(&simulated.left, out))),
             (&self.save_stock, Box::new(|out| remains::write(&simulated.left, out))),
-            (&self.plot, Box::new(|out| out.write_all(drawn.unwrap_or_default().as_bytes()))),
+            (&self.plot, Box::new(|out| out.write_all(ran.drawn.as_deref().unwrap_or_default()))),
         ];
         for (path, write_all) in &all {
             let Some(path) = path else { continue };
@@ -68,6 +70,9 @@ impl Simulate {
                 return Ok(Some(found));
             }
         }
-        Ok(None)
+        if !self.reports.is_wanted() {
+            return Ok(None);
+        }
+        self.reports.write(&Comparison::of(ran.subject(self.units, findings), &ran.runs), outputs)
     }
 }

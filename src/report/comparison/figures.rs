@@ -1,0 +1,102 @@
+//! Sums over motions for a table, before and after.
+
+use crate::program::LengthUnit;
+use crate::program::motion::Motion;
+use crate::report::simulation::Row;
+
+/// One motion, measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::report) struct Moved {
+    pub rapid: bool,
+    pub length_mm: f64,
+    /// Feed of the tip, mm/min; of a rapid, the machine's.
+    pub feed_mm_min: Option<f64>,
+    pub seconds: Option<f64>,
+}
+
+/// Measures a motion as a simulation does.
+pub(in crate::report) fn moved(motion: &Motion, units: LengthUnit, rapid_feed: Option<f64>) -> Moved {
+    let length = motion.length();
+    let length_mm = length * units.in_mm();
+    let feed_mm_min = if motion.rapid {
+        rapid_feed
+    } else {
+        let rpm = motion.spindle_rpm().filter(|rpm| *rpm > 0.0);
+        let feed = motion.feed.and_then(|feed| feed.mm_per_minute(units, rpm, Some(length)));
+        feed.filter(|feed| *feed > 0.0)
+    };
+    let seconds = if length_mm > 0.0 { feed_mm_min.map(|feed| length_mm / feed * 60.0) } else { Some(0.0) };
+    Moved { rapid: motion.rapid, length_mm, feed_mm_min, seconds }
+}
+
+/// A largest value, and the motion that has it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Peak {
+    /// The value.
+    pub value: f64,
+    /// The motion's number, first points not counted.
+    pub motion: usize,
+}
+
+/// Sums and extremes over motions.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Figures {
+    /// Motions.
+    pub motions: usize,
+    /// Length at feed, mm.
+    pub feed_mm: f64,
+    /// Length at rapid, mm.
+    pub rapid_mm: f64,
+    /// Time at feed where it is known, s.
+    pub feed_seconds: f64,
+    /// Motions at feed whose time is not known.
+    pub untimed: usize,
+    /// Time at rapid, s; `None` when the machine's rapid feed is not known.
+    pub rapid_seconds: Option<f64>,
+    /// Slowest and fastest feed, mm/min.
+    pub feed: Option<[f64; 2]>,
+    /// Thickest chip, mm.
+    pub chip_thickness_mm: Option<Peak>,
+    /// Largest removal rate, mm3/min.
+    pub removal_rate_mm3_min: Option<Peak>,
+    /// Largest force, N.
+    pub force_n: Option<Peak>,
+    /// Largest torque, N m.
+    pub torque_nm: Option<Peak>,
+    /// Largest power, kW.
+    pub power_kw: Option<Peak>,
+}
+
+impl Figures {
+    pub(super) fn new(rapid_known: bool) -> Self {
+        Self { rapid_seconds: rapid_known.then_some(0.0), ..Self::default() }
+    }
+
+    /// Adds a motion and what it engaged.
+    pub(super) fn add(&mut self, motion: usize, moved: &Moved, row: Option<&Row>) {
+        self.motions += 1;
+        if moved.rapid {
+            self.rapid_mm += moved.length_mm;
+            self.rapid_seconds = self.rapid_seconds.zip(moved.seconds).map(|(sum, more)| sum + more);
+        } else {
+            self.feed_mm += moved.length_mm;
+            self.feed_seconds += moved.seconds.unwrap_or(0.0);
+            self.untimed += usize::from(moved.seconds.is_none());
+            if let Some(feed) = moved.feed_mm_min {
+                let [low, high] = self.feed.unwrap_or([feed; 2]);
+                self.feed = Some([low.min(feed), high.max(feed)]);
+            }
+        }
+        let Some(row) = row else { return };
+        let raise = |peak: &mut Option<Peak>, value: Option<f64>| {
+            if let Some(value) = value.filter(|value| peak.is_none_or(|peak| *value > peak.value)) {
+                *peak = Some(Peak { value, motion });
+            }
+        };
+        raise(&mut self.chip_thickness_mm, row.chip_thickness_mm);
+        raise(&mut self.removal_rate_mm3_min, row.removal_rate_mm3_min);
+        raise(&mut self.force_n, row.force_n);
+        raise(&mut self.torque_nm, row.torque_nm);
+        raise(&mut self.power_kw, row.power_kw);
+    }
+}

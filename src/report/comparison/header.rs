@@ -1,0 +1,71 @@
+//! What a comparison was made of: names and hashes, so that a page in a file can be told from another.
+
+use super::Subject;
+use crate::source::Source;
+use sha2::{Digest, Sha256};
+
+/// What a part is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Recorded {
+    /// The program as it was read.
+    Input,
+    /// The program as it stands.
+    Output,
+    /// The recipe.
+    Recipe,
+    /// A setup file.
+    Setup,
+}
+
+impl Recorded {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Input => "input",
+            Self::Output => "corrected",
+            Self::Recipe => "recipe",
+            Self::Setup => "setup",
+        }
+    }
+}
+
+/// One of the files that a comparison tells of.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Part {
+    /// What it is.
+    pub what: Recorded,
+    /// The file's name.
+    pub name: String,
+    /// SHA-256 of its bytes, in hexadecimal digits.
+    pub sha256: String,
+    /// Bytes.
+    pub bytes: u64,
+}
+
+pub(super) fn parts(subject: &Subject<'_>) -> Vec<Part> {
+    let file = |what, source: &Source| Part {
+        what,
+        name: source.name().to_owned(),
+        sha256: hex(Sha256::digest(source.bytes()).as_slice()),
+        bytes: source.bytes().len() as u64,
+    };
+    let source = subject.program.source();
+    let mut parts = vec![file(Recorded::Input, source)];
+    if subject.before.is_some() {
+        let mut hash = Sha256::new();
+        let mut bytes = 0;
+        for piece in subject.program.pieces() {
+            hash.update(piece);
+            bytes += piece.len() as u64;
+        }
+        let sha256 = hex(hash.finalize().as_slice());
+        parts.push(Part { what: Recorded::Output, name: source.name().to_owned(), sha256, bytes });
+    }
+    parts.extend(subject.recipe.map(|recipe| file(Recorded::Recipe, &recipe.source)));
+    parts.extend(subject.setup_files.iter().map(|source| file(Recorded::Setup, source)));
+    parts
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}

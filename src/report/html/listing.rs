@@ -1,0 +1,91 @@
+//! The text of the program, line by line, with the lines that steps changed or took out beside it.
+
+use crate::program::{Change, Program, Statement};
+
+/// No row.
+pub const NONE: u32 = u32::MAX;
+
+/// What a row is, as in a patch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u8)]
+pub enum RowKind {
+    /// In both programs.
+    Kept = 0,
+    /// Only in the one before.
+    Old = 1,
+    /// Only in the one after.
+    New = 2,
+}
+
+/// The rows, and where statements stand in them.
+#[derive(Debug, Default)]
+pub struct Listing {
+    /// The rows' bytes, each closed by LF.
+    pub text: Vec<u8>,
+    /// What each row is.
+    pub kinds: Vec<u8>,
+    /// The step (from 1) that made each row what it is; 0 for none.
+    pub steps: Vec<u16>,
+    /// First row of each statement of the program as it stands.
+    pub after: Vec<u32>,
+    /// First row of each statement of the program as it was read, in their order.
+    pub before: Vec<u32>,
+    /// The statement of the program as it stands of each as it was read.
+    pub origins: Vec<u32>,
+}
+
+impl Listing {
+    /// The listing of a program that steps changed, or none did.
+    pub fn of(program: &Program) -> Self {
+        let mut listing = Self::default();
+        for (index, statement) in program.statements().iter().enumerate() {
+            let row = listing.kinds.len() as u32;
+            let step = statement.edited_by().map_or(0, |step| step.0.saturating_add(1));
+            let was_read = !statement.origin().is_empty();
+            let mut now = NONE;
+            match statement.change() {
+                Change::Untouched => {
+                    now = row;
+                    listing.add(program.text(statement), RowKind::Kept, step);
+                }
+                Change::Edited(_) => {
+                    listing.add(old_text(program, statement), RowKind::Old, step);
+                    now = listing.kinds.len() as u32;
+                    listing.add(program.text(statement), RowKind::New, step);
+                }
+                Change::Inserted(_) => {
+                    now = row;
+                    listing.add(program.text(statement), RowKind::New, step);
+                }
+                Change::Deleted(_) if was_read => {
+                    listing.add(old_text(program, statement), RowKind::Old, step);
+                }
+                // One step put it in, a later one took it out: neither program has it.
+                Change::Deleted(_) => {}
+            }
+            listing.after.push(now);
+            if was_read && !matches!(statement.change(), Change::Inserted(_)) {
+                listing.before.push(row);
+                listing.origins.push(index as u32);
+            }
+        }
+        listing
+    }
+
+    fn add(&mut self, text: &[u8], kind: RowKind, step: u16) {
+        let mut rest = text;
+        while !rest.is_empty() {
+            let end = rest.iter().position(|byte| matches!(byte, b'\n' | b'\r')).unwrap_or(rest.len());
+            let (line, after) = rest.split_at(end);
+            rest = after.strip_prefix(b"\r\n").or_else(|| after.get(1..)).unwrap_or_default();
+            self.text.extend_from_slice(line);
+            self.text.push(b'\n');
+            self.kinds.push(kind as u8);
+            self.steps.push(step);
+        }
+    }
+}
+
+fn old_text<'p>(program: &'p Program, statement: &Statement) -> &'p [u8] {
+    program.source().slice(statement.origin())
+}

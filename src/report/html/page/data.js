@@ -1,0 +1,51 @@
+// Reads the arrays of the page: the way back of src/report/html/encode.rs.
+
+const facts = JSON.parse(document.getElementById("facts").textContent);
+
+function fromBase64(text) {
+  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
+  const letters = atob(text);
+  const bytes = new Uint8Array(letters.length);
+  for (let i = 0; i < letters.length; i++) bytes[i] = letters.charCodeAt(i);
+  return bytes;
+}
+
+async function inflate(bytes) {
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+// Bytes of one significance stand together.
+function fromPlanes(bytes, size) {
+  const count = bytes.length / size;
+  const sorted = new Uint8Array(bytes.length);
+  for (let plane = 0; plane < size; plane++) {
+    const start = plane * count;
+    for (let i = 0, at = plane; i < count; i++, at += size) sorted[at] = bytes[start + i];
+  }
+  return sorted.buffer;
+}
+
+const KINDS = {
+  f32: (bytes) => new Float32Array(fromPlanes(bytes, 4)),
+  growing: (bytes) => {
+    const values = new Uint32Array(fromPlanes(bytes, 4));
+    for (let i = 1; i < values.length; i++) values[i] += values[i - 1];
+    return values;
+  },
+  u16: (bytes) => new Uint16Array(fromPlanes(bytes, 2)),
+  u8: (bytes) => bytes,
+};
+
+// All arrays by name. Their elements leave the page: the text would take memory twice.
+async function readArrays() {
+  const found = {};
+  const read = async (element) => {
+    const { array, kind } = element.dataset;
+    const bytes = fromBase64(element.textContent);
+    element.remove();
+    found[array] = KINDS[kind](await inflate(bytes));
+  };
+  await Promise.all([...document.querySelectorAll("script[data-array]")].map(read));
+  return found;
+}

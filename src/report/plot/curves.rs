@@ -1,0 +1,166 @@
+//! Programs as curves.
+
+use super::chart::{Curve, Panel, Stretch, draw};
+use crate::program::geometry::Path;
+use crate::program::{LengthUnit, Program};
+use crate::report::comparison::moved;
+use crate::report::simulation::{Row, Simulated};
+use crate::sim::Trace;
+use std::io;
+
+/// Chords are no further from their arcs than this in a drawing, mm.
+const CHORD_MM: f64 = 0.05;
+
+/// What goes up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Feed.
+    Feed,
+    /// Thickest chip.
+    Chip,
+    /// Removal rate.
+    Removal,
+    /// Cutting force.
+    Force,
+    /// Torque.
+    Torque,
+    /// Power.
+    Power,
+    /// Height of the tip.
+    Z,
+}
+
+impl Quantity {
+    /// All of them.
+    pub const ALL: [Self; 7] =
+        [Self::Feed, Self::Chip, Self::Removal, Self::Force, Self::Torque, Self::Power, Self::Z];
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Feed => "feed",
+            Self::Chip => "chip",
+            Self::Removal => "removal",
+            Self::Force => "force",
+            Self::Torque => "torque",
+            Self::Power => "power",
+            Self::Z => "z",
+        }
+    }
+
+    /// Its name and unit at an axis.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Feed => "feed, mm/min",
+            Self::Chip => "thickest chip, mm",
+            Self::Removal => "removal rate, mm³/min",
+            Self::Force => "force, N",
+            Self::Torque => "torque, N m",
+            Self::Power => "power, kW",
+            Self::Z => "z, mm",
+        }
+    }
+
+    /// Whether a simulation is needed to know it.
+    pub fn is_simulated(self) -> bool {
+        !matches!(self, Self::Feed | Self::Z)
+    }
+
+    fn of(self, row: &Row) -> Option<f64> {
+        match self {
+            Self::Chip => row.chip_thickness_mm,
+            Self::Removal => row.removal_rate_mm3_min,
+            Self::Force => row.force_n,
+            Self::Torque => row.torque_nm,
+            Self::Power => row.power_kw,
+            Self::Feed | Self::Z => None,
+        }
+    }
+}
+
+/// What goes to the right.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Along {
+    /// Time. Motions whose time is not known take none.
+    Time,
+    /// The path.
+    Path,
+}
+
+/// A program to be drawn.
+#[derive(Debug, Clone, Copy)]
+pub struct Plotted<'a> {
+    /// What it is called.
+    pub name: &'a str,
+    /// The program.
+    pub program: &'a Program,
+    /// The unit of its lengths.
+    pub units: LengthUnit,
+    /// The machine's rapid feed, mm/min.
+    pub rapid_feed: Option<f64>,
+    /// Its simulation.
+    pub simulated: Option<&'a Simulated>,
+}
+
+/// Draws quantities of programs as SVG, a panel each. With several programs, all but the last are grey and stand behind it.
+///
+/// # Errors
+/// What the drawing library returns, which for a drawing in memory is nothing.
+pub fn plot(programs: &[Plotted<'_>], quantities: &[Quantity], along: Along) -> io::Result<String> {
+    let panel = |quantity: &Quantity| Panel {
+        up: quantity.title().to_owned(),
+        from_zero: *quantity != Quantity::Z,
+        curves: programs.iter().map(|program| curve(program, *quantity, along)).collect(),
+    };
+    let panels: Vec<Panel> = quantities.iter().map(panel).collect();
+    let right = match along {
+        Along::Time => "time, s",
+        Along::Path => "path, mm",
+    };
+    draw(right, &panels)
+}
+
+fn curve(plotted: &Plotted<'_>, quantity: Quantity, along: Along) -> Curve {
+    let mut trace = Trace::new(plotted.units.in_mm(), CHORD_MM, f64::INFINITY);
+    let mut stretches = Vec::new();
+    let mut pieces = Vec::new();
+    let (mut at, mut number) = (0.0, 0);
+    for motion in plotted.program.motions() {
+        trace.see(&motion);
+        if motion.path == Path::Start {
+            continue;
+        }
+        let moved = moved(&motion, plotted.units, plotted.rapid_feed);
+        let size = match along {
+            Along::Time => moved.seconds.unwrap_or(0.0),
+            Along::Path => moved.length_mm,
+        };
+        let (from, to) = (at, at + size);
+        let row = plotted.simulated.and_then(|simulated| simulated.motions.rows.get(number));
+        number += 1;
+        if size <= 0.0 {
+            continue;
+        }
+        at = to;
+        match quantity {
+            Quantity::Z => {
+                pieces.clear();
+                trace.pieces(&motion, 0, &mut pieces);
+                stretches.extend(pieces.iter().map(|step| Stretch {
+                    from: from + size * step.from,
+                    to: from + size * step.to,
+                    values: Some([step.piece.from.point.z, step.piece.to.point.z]),
+                }));
+            }
+            Quantity::Feed => {
+                let feed = moved.feed_mm_min.filter(|_| !moved.rapid);
+                stretches.push(Stretch { from, to, values: feed.map(|feed| [feed; 2]) });
+            }
+            _ => {
+                let value = row.and_then(|row| quantity.of(row));
+                stretches.push(Stretch { from, to, values: value.map(|value| [value; 2]) });
+            }
+        }
+    }
+    Curve { name: plotted.name.to_owned(), stretches }
+}

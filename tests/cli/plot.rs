@@ -1,0 +1,58 @@
+//! `clsmith plot`.
+
+use super::{clsmith, names};
+use crate::report::simulation::{SHOP, SLOT};
+use std::path::PathBuf;
+use tempfile::TempDir;
+
+fn job() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("part.cls"), SLOT).unwrap();
+    std::fs::write(folder.path().join("slow.cls"), SLOT.replace("MMPM,800", "MMPM,400")).unwrap();
+    std::fs::write(folder.path().join("shop.yaml"), SHOP).unwrap();
+    folder
+}
+
+#[test]
+fn svg_and_png() {
+    let folder = job();
+    clsmith(folder.path()).args(["plot", "part.cls", "-o", "a.svg"]).assert().success().stdout("").stderr("");
+    let svg = std::fs::read_to_string(folder.path().join("a.svg")).unwrap();
+    assert!(svg.contains("feed, mm/min") && svg.contains("z, mm") && svg.contains("time, s"));
+    let args = ["plot", "part.cls", "--after", "slow.cls", "--setup", "shop.yaml", "--along", "path"];
+    clsmith(folder.path()).args(args).args(["--of", "chip,load", "-o", "b.PNG", "-q"]).assert().success();
+    assert!(std::fs::read(folder.path().join("b.PNG")).unwrap().starts_with(b"\x89PNG"));
+    let piped = clsmith(folder.path()).args(["plot", "part.cls", "-o", "-"]).assert().success();
+    assert_eq!(String::from_utf8_lossy(&piped.get_output().stdout), svg);
+    // Other drawings are pictures as well.
+    clsmith(folder.path())
+        .args(["simulate", "part.cls", "--setup", "shop.yaml", "-q", "--plot", "c.png"])
+        .assert()
+        .success();
+    assert!(std::fs::read(folder.path().join("c.png")).unwrap().starts_with(b"\x89PNG"));
+}
+
+#[test]
+fn what_cannot_be_drawn_is_told() {
+    let folder = job();
+    for (args, said) in [
+        (&["part.cls", "-o", "a.pdf"][..], "ends neither in .svg nor in .png"),
+        (&["part.cls", "-o", "a.svg", "--of", "chip"], "needs --setup"),
+        (&["-", "--after", "-", "-o", "a.svg"], "read only once"),
+        (&["part.cls", "-o", "a.svg", "--of", "speed"], "possible values"),
+    ] {
+        let done = clsmith(folder.path()).arg("plot").args(args).assert().code(2);
+        let told = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+        assert!(told.contains(said), "{told}");
+    }
+    std::fs::write(folder.path().join("broken.cls"), "GOTO/1,2,x.y.z\nGOTO/1..2,2,3\n").unwrap();
+    std::fs::copy(folder.path().join("part.cls"), folder.path().join("part.svg")).unwrap();
+    for args in
+        [&["broken.cls", "-o", "a.svg"][..], &["part.svg", "-o", "part.svg"], &["none.cls", "-o", "a.svg"]]
+    {
+        clsmith(folder.path()).arg("plot").args(args).assert().code(1);
+    }
+    assert_eq!(std::fs::read_to_string(folder.path().join("part.svg")).unwrap(), SLOT);
+    let left = ["broken.cls", "part.cls", "part.svg", "shop.yaml", "slow.cls"].map(PathBuf::from);
+    assert_eq!(names(folder.path()), left);
+}
