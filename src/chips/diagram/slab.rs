@@ -7,6 +7,7 @@
 
 use super::cells::{Bracket, Cells, Roots};
 use super::moving;
+use crate::chips::cover::GRAZES;
 use crate::chips::family::{Curve, Family, Window};
 use crate::chips::interval::Interval;
 use crate::chips::trig::{Angle, Trig};
@@ -116,12 +117,12 @@ fn certain(family: &Family, window: &Window<'_>, circles: &mut Circles, finest: 
         roots(edge_cells, &edge, finest)?
     };
     let (bottom, _) = window.curve(Curve::Bottom);
-    let bottom_roots = roots(bottom_cells, &bottom, finest)?;
+    let bottom_roots = end_roots(bottom_cells, &bottom, finest)?;
     let nothing = Roots { brackets: Vec::new(), positive: true };
     let mut top_roots = nothing.clone();
     if family.has_top() {
         let (curve, _) = window.curve(Curve::Top);
-        top_roots = roots(top_cells, &curve, finest)?;
+        top_roots = end_roots(top_cells, &curve, finest)?;
     }
     if bottom_roots.brackets.is_empty() && top_roots.brackets.is_empty() {
         return Some([edge_roots, bottom_roots, top_roots, nothing]);
@@ -139,6 +140,15 @@ fn certain(family: &Family, window: &Window<'_>, circles: &mut Circles, finest: 
     }
     apart(&bottom_roots, Curve::Bottom, &top_roots, Curve::Top, window).then_some(())?;
     Some([edge_roots, bottom_roots, top_roots, face_roots])
+}
+
+/// The roots of an end of the flutes.
+fn end_roots(cells: &mut Cells, curve: &Trig<Interval>, finest: f64) -> Option<Roots> {
+    // An upright end in the layer's height cuts everything off, however rounding has it.
+    if curve.magnitude() <= GRAZES {
+        return Some(Roots { brackets: Vec::new(), positive: false });
+    }
+    roots(cells, curve, finest)
 }
 
 fn roots(cells: &mut Cells, curve: &Trig<Interval>, finest: f64) -> Option<Roots> {
