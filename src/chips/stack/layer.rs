@@ -1,6 +1,5 @@
 //! A layer of the workpiece.
 
-use super::cleared::Cleared;
 use super::tiles::{Room, Tile};
 use crate::chips::Polygon;
 use crate::chips::area::{Grid, Region};
@@ -22,7 +21,7 @@ pub struct Layer {
     most_corners: usize,
     material: Tile,
     /// The cutter's section at the end of the last cut: nothing is left inside.
-    cleared: Cleared,
+    cleared: Vec<[f64; 2]>,
     room: Room,
 }
 
@@ -73,26 +72,21 @@ impl Layer {
 
     /// Takes out the material that a cutter meets between two places.
     ///
-    /// First everything inside its first place goes, which is no part of the chip. Where the last cut ended in the same section, only
-    /// what its chords may have left is there, and counts as chip. The chip is what is left of the material inside the advancing borders.
-    /// Areas are exact for corners rounded to the [`Grid`], and what is as thin as a step or two is left out.
+    /// First everything inside its first place goes, which is no part of the chip; nothing is there when the last cut ended in the same
+    /// section. The chip is what is left of the material inside the advancing borders. Areas are exact for corners rounded to the
+    /// [`Grid`], and what is as thin as a step or two is left out.
     pub fn remove(&mut self, cover: &Cover) -> Removed {
         let mut removed = Removed::default();
-        let mut cut = self.joined(&cover.advancing);
-        if !self.cleared.is(&cover.first) {
-            if self.cleared.is_along(&cover.first) {
-                // What is left between the chords of both sections goes with the chip.
-                cut.add(&self.grid, &cover.first);
-            } else {
-                let first = Region::new(&self.grid, [cover.first.as_slice()]);
-                removed.inside_mm2 = self.take(&first).0.area_mm2(&self.grid);
-            }
+        if cover.first != self.cleared {
+            let first = Region::new(&self.grid, [cover.first.as_slice()]);
+            removed.inside_mm2 = self.take(&first).0.area_mm2(&self.grid);
         }
+        let cut = self.joined(&cover.advancing);
         let (taken, pieces) = self.take(&cut);
         if !taken.is_empty() {
             (removed.pieces, removed.area_mm2) = self.room.clipper.pieces(&taken, pieces > 1, &self.grid);
         }
-        self.cleared.set(&cover.last);
+        self.cleared.clone_from(&cover.last);
         removed
     }
 
