@@ -93,7 +93,8 @@ fn an_axis_in_the_layers_is_told_at_its_line() {
 
 #[test]
 fn far_from_the_stock_nothing_is_told() {
-    let body = "GOTO/10.0000,500.0000,300.0000,0.0000000,1.0000000,0.0000000\n\
+    let body = "GOTO/10.0000,500.0000,300.0000,0.0000000,0.0000000,1.0000000\n\
+        GOTO/10.0000,500.0000,300.0000,0.0000000,1.0000000,0.0000000\n\
         GOTO/10.0000,500.0000,300.0000,0.0000000,0.0000000,1.0000000\n";
     let (_, ran) = run(&nx(FLAT, body), SETUP, &whole()).unwrap();
     assert_eq!(codes(&ran), [""; 0]);

@@ -52,7 +52,10 @@ pub(super) fn engaged(diagram: &Diagram, rim: &Rim, pieces: &[Polygon]) -> (Vec<
         }
     }
     let zero = ahead(&ellipse);
-    (joined(arcs).into_iter().map(|[from, to]| degrees(from - zero, to - from)).collect(), advance)
+    let mut arcs: Vec<[f64; 2]> =
+        joined(arcs).into_iter().map(|[from, to]| degrees(from - zero, to - from)).collect();
+    arcs.sort_by(|[a, _], [b, _]| a.total_cmp(b));
+    (arcs, advance)
 }
 
 /// The angle of a place on the ellipse, radians; `None` off it.
