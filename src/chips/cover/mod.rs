@@ -1,7 +1,7 @@
 //! The area that the cutter covers on a layer between two places.
 //!
 //! Whatever is covered but not at the beginning was entered at some time through the section's edge where that advances. So the covered
-//! area is the first section together with the images of the diagram's advancing regions. Each region ([`bands`]) maps to the plane
+//! area is the first section together with the images of the diagram's advancing regions. Each region (`bands`) maps to the plane
 //! without folding, f having one sign in it: its border's image winds around a point as often as the edge enters it, and the union is
 //! what any of the borders winds around.
 

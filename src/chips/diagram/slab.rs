@@ -2,7 +2,7 @@
 //!
 //! Over an interval of time every curve is enclosed by interval arithmetic. When each cell of the circle has a curve of one sign, or one
 //! that only rises or falls, its roots are known to be functions of time, one in each bracket; when the brackets of different curves are
-//! apart, so is the order of the roots. Otherwise the interval is halved, down to [`SHORTEST`], where something happens: a fold (a branch of
+//! apart, so is the order of the roots. Otherwise the interval is halved, down to an eight-millionth of the step, where something happens: a fold (a branch of
 //! the envelope begins or ends), a split, a branch that runs into the bottom disc's chord.
 
 use super::cells::{Bracket, Cells, Roots};
@@ -12,7 +12,7 @@ use crate::chips::family::{Curve, Family, Window};
 use crate::chips::interval::Interval;
 use crate::chips::trig::{Angle, Trig};
 
-/// Shortest interval of time that is halved: a sixteen-millionth of the step.
+/// Shortest interval of time that is halved: an eight-millionth of the step.
 const SHORTEST: f64 = 1.0 / (1 << 23) as f64;
 
 /// Narrowest cells for an interval of the whole step, radians; those of shorter ones go with the root of time, as folds do.
@@ -52,7 +52,7 @@ pub enum Proof {
     Elsewhere,
 }
 
-/// A time at which the topology changes, known to a sixteen-millionth of the step.
+/// A time at which the topology changes, known to an eight-millionth of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event {
     /// When.
