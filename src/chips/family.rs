@@ -119,6 +119,11 @@ impl Family {
         self.step.way.norm() <= 1e-6 * self.step.mill.radius * self.step.turn
     }
 
+    /// Whether a curve means anything for this mill.
+    pub(super) fn has(&self, curve: Curve) -> bool {
+        curve != Curve::Top || self.has_top()
+    }
+
     /// Whether the upper end of the flutes may reach the layer.
     pub(super) fn has_top(&self) -> bool {
         self.step.mill.flutes.is_finite()

@@ -1,7 +1,6 @@
 //! The workpiece as a stack of layers.
 
 mod bodies;
-mod cleared;
 mod layer;
 mod mesh;
 mod tiles;

@@ -35,7 +35,7 @@ proptest! {
         towards in prop::array::uniform2(0.0..90.0f64),
         way in prop::array::uniform3(-5.0..5.0f64),
         z in -3.0..10.0f64,
-        theta in 0.0..6.28f64,
+        theta in 0.0..std::f64::consts::TAU,
         t in 0.01..0.99f64,
     ) {
         let f = family(4.0, place([0.0; 3], axis(tilts[0], towards[0])), place(way, axis(tilts[1], towards[1])), z);

@@ -211,27 +211,6 @@ fn a_step_in_full_material_is_two_circles_hull_less_the_first() {
 }
 
 #[test]
-fn a_section_with_other_corners_is_the_same_place() {
-    let disc = |corners| brute::area(&brute::dense_union(&[circle([30.5, 30.0], 5.0, corners)]));
-    for (corners, inside) in [(90, false), (97, false), (72, false), (90, true)] {
-        let mut stack = plate(60.0, 256);
-        let layer = &mut stack.layers_mut()[0];
-        layer.remove(&step([30.0, 30.0], [30.5, 30.0], 5.0, 90));
-        let before = layer.area_mm2();
-        // Another heading, other corners; in the last case 0.05 mm beside.
-        let from = [30.5, if inside { 30.05 } else { 30.0 }];
-        let removed = layer.remove(&step(from, [30.9, from[1] + 0.3], 5.0, corners));
-        assert_eq!(removed.inside_mm2 > 0.0, inside, "{corners}: {removed:?}");
-        assert!((before - layer.area_mm2() - removed.area_mm2 - removed.inside_mm2).abs() < 1e-5);
-        assert!((removed.inside_mm2 - if inside { 0.05 * 10.0 } else { 0.0 }).abs() < 1e-2);
-        // What the old chords left is chip.
-        let slack = (disc(corners.max(90)) - disc(corners.min(90))).abs() + 1e-2;
-        assert!((removed.area_mm2 - 5.0).abs() < slack, "{corners}: {}", removed.area_mm2);
-        assert!(layer.remove(&Cover { first: circle(from, 4.99, 90), ..Cover::default() }).inside_mm2 < 1e-6);
-    }
-}
-
-#[test]
 fn one_step_may_leave_two_pieces() {
     let walls = vec![block([0.0; 3], [2.0, 40.0, 1.0]), block([8.0, 0.0, 0.0], [10.0, 40.0, 1.0])];
     let mut stack = stack_of(walls, 0.0, 1.0).unwrap();

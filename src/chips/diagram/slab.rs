@@ -2,16 +2,17 @@
 //!
 //! Over an interval of time every curve is enclosed by interval arithmetic. When each cell of the circle has a curve of one sign, or one
 //! that only rises or falls, its roots are known to be functions of time, one in each bracket; when the brackets of different curves are
-//! apart, so is the order of the roots. Otherwise the interval is halved, down to [`SHORTEST`], where something happens: a fold (a branch of
+//! apart, so is the order of the roots. Otherwise the interval is halved, down to an eight-millionth of the step, where something happens: a fold (a branch of
 //! the envelope begins or ends), a split, a branch that runs into the bottom disc's chord.
 
 use super::cells::{Bracket, Cells, Roots};
 use super::moving;
+use crate::chips::cover::GRAZES;
 use crate::chips::family::{Curve, Family, Window};
 use crate::chips::interval::Interval;
 use crate::chips::trig::{Angle, Trig};
 
-/// Shortest interval of time that is halved: a sixteen-millionth of the step.
+/// Shortest interval of time that is halved: an eight-millionth of the step.
 const SHORTEST: f64 = 1.0 / (1 << 23) as f64;
 
 /// Narrowest cells for an interval of the whole step, radians; those of shorter ones go with the root of time, as folds do.
@@ -51,7 +52,7 @@ pub enum Proof {
     Elsewhere,
 }
 
-/// A time at which the topology changes, known to a sixteen-millionth of the step.
+/// A time at which the topology changes, known to an eight-millionth of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event {
     /// When.
@@ -116,12 +117,12 @@ fn certain(family: &Family, window: &Window<'_>, circles: &mut Circles, finest: 
         roots(edge_cells, &edge, finest)?
     };
     let (bottom, _) = window.curve(Curve::Bottom);
-    let bottom_roots = roots(bottom_cells, &bottom, finest)?;
+    let bottom_roots = end_roots(bottom_cells, &bottom, finest)?;
     let nothing = Roots { brackets: Vec::new(), positive: true };
     let mut top_roots = nothing.clone();
     if family.has_top() {
         let (curve, _) = window.curve(Curve::Top);
-        top_roots = roots(top_cells, &curve, finest)?;
+        top_roots = end_roots(top_cells, &curve, finest)?;
     }
     if bottom_roots.brackets.is_empty() && top_roots.brackets.is_empty() {
         return Some([edge_roots, bottom_roots, top_roots, nothing]);
@@ -139,6 +140,15 @@ fn certain(family: &Family, window: &Window<'_>, circles: &mut Circles, finest: 
     }
     apart(&bottom_roots, Curve::Bottom, &top_roots, Curve::Top, window).then_some(())?;
     Some([edge_roots, bottom_roots, top_roots, face_roots])
+}
+
+/// The roots of an end of the flutes.
+fn end_roots(cells: &mut Cells, curve: &Trig<Interval>, finest: f64) -> Option<Roots> {
+    // An upright end in the layer's height cuts everything off, however rounding has it.
+    if curve.magnitude() <= GRAZES {
+        return Some(Roots { brackets: Vec::new(), positive: false });
+    }
+    roots(cells, curve, finest)
 }
 
 fn roots(cells: &mut Cells, curve: &Trig<Interval>, finest: f64) -> Option<Roots> {

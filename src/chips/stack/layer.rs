@@ -1,6 +1,5 @@
 //! A layer of the workpiece.
 
-use super::cleared::Cleared;
 use super::tiles::{Room, Tile};
 use crate::chips::Polygon;
 use crate::chips::area::{Grid, Region};
@@ -8,6 +7,9 @@ use crate::chips::cover::Cover;
 
 /// Corners from which on a piece of a layer is halved: large enough that the edge of one cut fits in a piece.
 pub(super) const MOST_CORNERS: usize = 256;
+
+/// Borders that are cut along at once.
+const GROUP: usize = 12;
 
 /// What is left of the workpiece between two heights.
 #[derive(Debug, Clone)]
@@ -19,7 +21,7 @@ pub struct Layer {
     most_corners: usize,
     material: Tile,
     /// The cutter's section at the end of the last cut: nothing is left inside.
-    cleared: Cleared,
+    cleared: Vec<[f64; 2]>,
     room: Room,
 }
 
@@ -70,28 +72,33 @@ impl Layer {
 
     /// Takes out the material that a cutter meets between two places.
     ///
-    /// First everything inside its first place goes, which is no part of the chip. Where the last cut ended in the same section, only what
-    /// its chords may have left is there, and counts as chip. The chip is what is left of the material inside the advancing borders. Areas are exact for corners rounded to the
+    /// First everything inside its first place goes, which is no part of the chip; nothing is there when the last cut ended in the same
+    /// section. The chip is what is left of the material inside the advancing borders. Areas are exact for corners rounded to the
     /// [`Grid`], and what is as thin as a step or two is left out.
     pub fn remove(&mut self, cover: &Cover) -> Removed {
         let mut removed = Removed::default();
-        let borders = cover.advancing.iter().map(Vec::as_slice);
-        let mut cut = Region::new(&self.grid, borders);
-        if !self.cleared.is(&cover.first) {
-            if self.cleared.is_along(&cover.first) {
-                // What is left between the chords of both sections goes with the chip.
-                cut.add(&self.grid, &cover.first);
-            } else {
-                let first = Region::new(&self.grid, [cover.first.as_slice()]);
-                removed.inside_mm2 = self.take(&first).0.area_mm2(&self.grid);
-            }
+        if cover.first != self.cleared {
+            let first = Region::new(&self.grid, [cover.first.as_slice()]);
+            removed.inside_mm2 = self.take(&first).0.area_mm2(&self.grid);
         }
+        let cut = self.joined(&cover.advancing);
         let (taken, pieces) = self.take(&cut);
         if !taken.is_empty() {
             (removed.pieces, removed.area_mm2) = self.room.clipper.pieces(&taken, pieces > 1, &self.grid);
         }
-        self.cleared.set(&cover.last);
+        self.cleared.clone_from(&cover.last);
         removed
+    }
+
+    /// What many borders wind around, by groups: borders that run along each other cost by the square of their number.
+    fn joined(&mut self, borders: &[Vec<[f64; 2]>]) -> Region {
+        if borders.len() <= GROUP {
+            return Region::new(&self.grid, borders.iter().map(Vec::as_slice));
+        }
+        let (one, other) = borders.split_at(borders.len() / 2);
+        let (mut all, other) = (self.joined(one), self.joined(other));
+        all.append(&other);
+        self.room.clipper.joined(&all)
     }
 
     /// Takes out everything that borders wind around; from how many tiles.

@@ -64,22 +64,31 @@ fn meet([x0, y0, z0]: [f64; 3], [x1, y1, z1]: [f64; 3], height: f64) -> [f64; 2]
 
 /// Pieces as closed borders. At every place as many pieces begin as end, so each way leads back to where it began.
 fn borders(mut pieces: Vec<Piece>) -> Vec<Vec<[f64; 2]>> {
-    let order = |[ax, ay]: &[f64; 2], [bx, by]: &[f64; 2]| ax.total_cmp(bx).then(ay.total_cmp(by));
+    let order =
+        |a: &[f64; 2], b: &[f64; 2]| a.iter().zip(b).map(|(a, b)| a.total_cmp(b)).find(|order| order.is_ne());
+    let order = |a: &[f64; 2], b: &[f64; 2]| order(a, b).unwrap_or(std::cmp::Ordering::Equal);
     pieces.sort_unstable_by(|a, b| order(&a[0], &b[0]).then(order(&a[1], &b[1])));
-    // For the first of the pieces that begin at a place, the first of them not yet used.
+    // The first piece not yet used of those that begin at the same place.
     let mut next: Vec<usize> = (0..pieces.len()).collect();
-    let mut go = |place: [f64; 2]| {
-        let next = next.get_mut(pieces.partition_point(|[from, _]| order(from, &place).is_lt()))?;
-        let [_, to] = pieces.get(*next).filter(|[from, _]| *from == place)?;
-        *next += 1;
-        Some(*to)
-    };
+    let mut used = vec![false; pieces.len()];
     let mut found = Vec::new();
-    for [start, _] in &pieces {
-        let (mut at, mut border) = (*start, Vec::new());
-        while let Some(to) = go(at) {
-            border.push(at);
-            at = to;
+    for start in 0..pieces.len() {
+        let mut border = Vec::new();
+        let mut at = Some(start);
+        while let Some(index) = at.filter(|index| used.get(*index) == Some(&false)) {
+            let Some([from, to]) = pieces.get(index) else { break };
+            border.push(*from);
+            if let Some(used) = used.get_mut(index) {
+                *used = true;
+            }
+            let first = pieces.partition_point(|[other, _]| order(other, to).is_lt());
+            // All before the counter are used.
+            let free = next.get(first).copied().unwrap_or(first);
+            let more = pieces.iter().enumerate().skip(free).take_while(|(_, [other, _])| other == to);
+            at = more.map(|(index, _)| index).find(|index| used.get(*index) == Some(&false));
+            if let Some((next, at)) = next.get_mut(first).zip(at) {
+                *next = at;
+            }
         }
         if border.len() >= 3 {
             found.push(border);

@@ -102,8 +102,14 @@ impl<'m, 'p> Gathering<'m, 'p> {
             feed_mm_min: self.feed(cut.motion),
             volume_mm3: cut.volume_mm3(),
             inside_mm3,
-            chip_thickness_mm: (pace.known || cut.volume_mm3() <= 0.0)
-                .then(|| layers.iter().filter_map(|layer| layer.chip_thickness_mm).fold(0.0, f64::max)),
+            chip_thickness_mm: match layers
+                .iter()
+                .filter_map(|layer| layer.chip_thickness_mm)
+                .reduce(f64::max)
+            {
+                _ if cut.volume_mm3() <= 0.0 => Some(0.0),
+                most => most.filter(|_| pace.known),
+            },
             layers,
             tool,
         };
