@@ -87,6 +87,9 @@ pub fn cut(
     chips
 }
 
+/// Widest ring along a section, mm, that counts as what chords leave.
+const COARSEST: f64 = 0.005;
+
 /// Takes one step out of a layer; `None` when nothing is removed.
 fn layer_chip(layer: &mut Layer, step: &Step, rim: &Rim) -> Option<LayerChip> {
     let z = layer.z();
@@ -102,7 +105,7 @@ fn layer_chip(layer: &mut Layer, step: &Step, rim: &Rim) -> Option<LayerChip> {
     }
     let removed = layer.remove(&cover);
     // Where chords of two steps' sections meet, less than their tolerance is left.
-    let rounding = rim.tolerance() * std::f64::consts::TAU * step.mill().radius;
+    let rounding = rim.tolerance().min(COARSEST) * std::f64::consts::TAU * step.mill().radius;
     let inside_mm2 = if removed.inside_mm2 > rounding { removed.inside_mm2 } else { 0.0 };
     if removed.area_mm2 <= 0.0 && inside_mm2 <= 0.0 {
         return None;

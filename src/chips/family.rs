@@ -119,6 +119,11 @@ impl Family {
         self.step.way.norm() <= 1e-6 * self.step.mill.radius * self.step.turn
     }
 
+    /// Whether a curve means anything for this mill.
+    pub(super) fn has(&self, curve: Curve) -> bool {
+        curve != Curve::Top || self.has_top()
+    }
+
     /// Whether the upper end of the flutes may reach the layer.
     pub(super) fn has_top(&self) -> bool {
         self.step.mill.flutes.is_finite()
@@ -267,6 +272,16 @@ pub(super) struct Window<'f> {
 }
 
 impl Window<'_> {
+    /// Half the length of the interval.
+    pub fn half(&self) -> f64 {
+        self.offset.magnitude()
+    }
+
+    /// A curve at the time in the middle.
+    pub fn now(&self, curve: Curve) -> Trig<Interval> {
+        Trig(self.family.expand(curve, &self.middle).0)
+    }
+
     /// A curve at all these times: enclosures of its coefficients, and of their derivatives by time.
     pub fn curve(&self, curve: Curve) -> (Trig<Interval>, Trig<Interval>) {
         let (mut all, rate) = self.family.expand(curve, &self.whole);

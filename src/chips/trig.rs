@@ -66,7 +66,7 @@ impl Trig<Interval> {
 
 impl Trig<f64> {
     /// The angle in `[lo, hi]` at which it is zero, given that it rises (or falls) there; an end where it has the same sign all over.
-    /// To the last bits: Newton's steps, and halves where those leave the bracket.
+    /// To some last bits, but for a double root: Newton's steps, and halves where those leave the bracket.
     pub fn root(&self, lo: f64, hi: f64, rising: bool) -> f64 {
         let sign = if rising { 1.0 } else { -1.0 };
         let at = |x: f64| {
@@ -84,7 +84,8 @@ impl Trig<f64> {
             }
             let next = x - value / slope;
             let next = if next > lo && next < hi { next } else { 0.5 * (lo + hi) };
-            if (next - x).abs() <= 1e-15 * (1.0 + x.abs()) || hi - lo <= 1e-15 * (1.0 + x.abs()) {
+            // Newton's next step would be the square of this one.
+            if (next - x).abs() <= 1e-9 || hi - lo <= 1e-15 {
                 return next;
             }
             x = next;

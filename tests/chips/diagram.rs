@@ -35,7 +35,7 @@ proptest! {
         towards in prop::array::uniform2(0.0..90.0f64),
         way in prop::array::uniform3(-5.0..5.0f64),
         z in -3.0..10.0f64,
-        theta in 0.0..6.28f64,
+        theta in 0.0..std::f64::consts::TAU,
         t in 0.01..0.99f64,
     ) {
         let f = family(4.0, place([0.0; 3], axis(tilts[0], towards[0])), place(way, axis(tilts[1], towards[1])), z);
@@ -79,17 +79,23 @@ fn a_cutter_that_turns_back_in_the_layer_folds_its_envelope() {
     // The axis pivots about a point in the layer that the way passes: the section grows, stops and shrinks.
     let f = family(5.0, place([0.0; 3], axis(30.0, 20.0)), place([3.0, 1.0, 1.0], axis(45.0, 100.0)), 3.0);
     let diagram = Diagram::new(&f);
-    let folds = diagram.branches(16).iter().filter(|b| b.begins == End::Fold || b.ends == End::Fold).count();
-    assert!(folds >= 2, "{:?}", diagram.events());
+    // Two begin together, and one of them ends together with one that was there.
+    let ends: Vec<(End, End)> = diagram.branches(16).iter().map(|b| (b.begins, b.ends)).collect();
+    assert_eq!(ends.len(), 4, "{ends:?} {:?}", diagram.events());
+    assert_eq!(ends.iter().filter(|(begins, _)| *begins == End::Fold).count(), 2, "{ends:?}");
+    assert_eq!(ends.iter().filter(|(_, ends)| *ends == End::Fold).count(), 2, "{ends:?}");
     assert!(diagram.is_resolved());
 }
 
 #[test]
 fn turning_about_the_tip_from_upright_is_told_apart() {
-    for z in [0.0, 0.1, 4.0] {
+    for z in [0.1, 4.0] {
         let f = family(5.0, place([0.0; 3], axis(0.0, 0.0)), place([0.0; 3], axis(25.0, 0.0)), z);
         assert!(Diagram::new(&f).is_resolved(), "z {z}");
     }
+    // In the tip's own layer f is zero twice over along the chord's ends, which no proof of signs can tell.
+    let f = family(5.0, place([0.0; 3], axis(0.0, 0.0)), place([0.0; 3], axis(25.0, 0.0)), 0.0);
+    assert!(!Diagram::new(&f).is_resolved());
 }
 
 #[test]

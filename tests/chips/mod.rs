@@ -4,7 +4,6 @@ mod area;
 mod brute;
 mod cover;
 mod diagram;
-mod engagement;
 mod sections;
 mod solid;
 mod stack;

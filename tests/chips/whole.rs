@@ -107,6 +107,67 @@ fn a_chip_may_be_two_pieces() {
 }
 
 #[test]
+fn a_wall_between_two_places_of_the_edge_is_not_engaged() {
+    // The slot ends with the edge half through the wall: acos(2 / 5) from straight ahead nothing is left.
+    let stock = block([0.0, -20.0, -4.0], [22.0, 20.0, 0.0]);
+    let (_, chips) = chips(&stock, 4.0, &[piece(upright(-6.0, 0.0, -4.0), upright(20.0, 0.0, -4.0))]);
+    let layer = &chips[0].as_ref().unwrap().layers[0];
+    let free = (2.0f64 / 5.0).acos().to_degrees();
+    assert_eq!(layer.arcs_deg.len(), 2, "{:?}", layer.arcs_deg);
+    let ends: Vec<f64> = layer.arcs_deg.iter().flatten().copied().collect();
+    for (found, expected) in ends.iter().zip([-90.0, -free, free, 90.0]) {
+        assert!((found - expected).abs() < 2.0, "{ends:?}");
+    }
+    assert!((layer.advance_mm - 26.0 * free.to_radians().cos()).abs() < 0.4, "{}", layer.advance_mm);
+}
+
+#[test]
+fn an_edge_that_has_left_the_layer_is_not_engaged() {
+    // Up along a tilted axis, with flutes of 1 mm: at the end they are far above.
+    let mill = FlatMill { radius: 5.0, flutes: 1.0 };
+    let mut stack = Stack::new(&block([-30.0, -30.0, -4.0], [30.0, 30.0, 0.0]), 2.0).unwrap();
+    let way = piece(place([0.0, 0.0, -4.0], axis(20.0, 0.0)), place([20.0, 0.0, 50.0], axis(20.0, 0.0)));
+    for chip in cut(&mut stack, &[mill], &[way], 0.001) {
+        for layer in chip.unwrap().layers {
+            assert!(layer.arcs_deg.is_empty() && layer.advance_mm == 0.0, "{layer:?}");
+        }
+    }
+}
+
+#[test]
+fn a_bottom_at_a_layers_height_leaves_it_alone() {
+    // Layer middles at -0.5, -1.5, ...: down to one, and along it.
+    let stock = block([-20.0, -20.0, -4.0], [20.0, 20.0, 0.0]);
+    let (_, chips) = chips(
+        &stock,
+        1.0,
+        &[
+            piece(upright(0.0, 0.0, 1.0), upright(0.0, 0.0, -1.5)),
+            piece(upright(0.0, 0.0, -1.5), upright(4.0, 0.0, -1.5)),
+        ],
+    );
+    for chip in chips {
+        let layers = chip.unwrap().layers;
+        assert_eq!(layers.iter().map(|layer| layer.layer).collect::<Vec<_>>(), [3]);
+        assert_eq!(layers[0].inside_mm2, 0.0);
+    }
+}
+
+#[test]
+fn a_thin_disc_that_swings_through_a_layer_is_cut_soon() {
+    let mill = FlatMill { radius: 10.0, flutes: 1.0 };
+    let mut stack = Stack::new(&block([-30.0, -30.0, -4.0], [30.0, 30.0, -3.0]), 1.0).unwrap();
+    let from = place([5.3035, -0.1236, -6.8933], [0.3797, -0.0545, 0.9235]);
+    let to = place([6.9967, -1.3920, -5.1990], [0.2005, -0.2829, 0.9379]);
+    let begun = std::time::Instant::now();
+    let chip = cut(&mut stack, &[mill], &[piece(from, to)], 0.002).remove(0).unwrap();
+    let dense = brute::area(&fresh(&mill, &piece(from, to), -3.5, 2000));
+    let area: f64 = chip.layers.iter().map(|layer| layer.area_mm2).sum();
+    assert!((area - dense).abs() < 2e-3 * dense + 0.05, "{area} {dense}");
+    assert!(begun.elapsed().as_secs() < 60);
+}
+
+#[test]
 fn thinner_layers_converge() {
     let stock = block([-20.0, -20.0, -6.0], [20.0, 20.0, 0.0]);
     let p = piece(place([0.0, 0.0, -3.0], axis(20.0, 30.0)), place([2.0, 1.0, -3.5], axis(28.0, 50.0)));

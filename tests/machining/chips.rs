@@ -93,7 +93,8 @@ fn an_axis_in_the_layers_is_told_at_its_line() {
 
 #[test]
 fn far_from_the_stock_nothing_is_told() {
-    let body = "GOTO/10.0000,500.0000,300.0000,0.0000000,1.0000000,0.0000000\n\
+    let body = "GOTO/10.0000,500.0000,300.0000,0.0000000,0.0000000,1.0000000\n\
+        GOTO/10.0000,500.0000,300.0000,0.0000000,1.0000000,0.0000000\n\
         GOTO/10.0000,500.0000,300.0000,0.0000000,0.0000000,1.0000000\n";
     let (_, ran) = run(&nx(FLAT, body), SETUP, &whole()).unwrap();
     assert_eq!(codes(&ran), [""; 0]);
@@ -166,9 +167,9 @@ fn real(end: &str, tool: &str, units: LengthUnit, lines: usize) {
     for motion in
         parsed.program.motions().filter(|motion| !motion.rapid && line(motion.last_statement()) <= lines)
     {
-        for side in 0..3 {
-            bounds[0][side] = bounds[0][side].min(motion.to.point[side] * unit);
-            bounds[1][side] = bounds[1][side].max(motion.to.point[side] * unit);
+        let [low, high] = &mut bounds;
+        for ((low, high), at) in low.iter_mut().zip(high).zip(motion.to.point.iter()) {
+            (*low, *high) = (low.min(at * unit), high.max(at * unit));
         }
     }
     let [low, high] = bounds.map(|corner| format!("{corner:?}"));

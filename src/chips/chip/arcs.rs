@@ -18,6 +18,12 @@ const SAME: f64 = 1e-4;
 pub(super) fn engaged(diagram: &Diagram, rim: &Rim, pieces: &[Polygon]) -> (Vec<[f64; 2]>, f64) {
     let family = diagram.family();
     let ellipse = family.ellipse(1.0);
+    // An edge that the layer no longer meets at the end has no place on it.
+    let ends = [Curve::Bottom, Curve::Top].map(|curve| family.has(curve).then(|| family.curve(curve, 1.0)));
+    let there = |theta: f64| {
+        let angle = Angle::of(theta);
+        ends.iter().flatten().all(|end| end.value(&angle) >= -1e-9)
+    };
     let edge = family.curve(Curve::Edge, 1.0);
     let near = 2.0 * rim.tolerance() + 1e-5;
     let mut arcs: Vec<[f64; 2]> = Vec::new();
@@ -29,7 +35,10 @@ pub(super) fn engaged(diagram: &Diagram, rim: &Rim, pieces: &[Polygon]) -> (Vec<
             if let (Some(from), Some(to)) = (angle(&ellipse, *a, near), angle(&ellipse, *b, near)) {
                 let width = (to - from).rem_euclid(TAU);
                 let middle = from + 0.5 * width;
-                if width < 0.5 * TAU && edge.value(&Angle::of(middle)) < 0.0 {
+                let between = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+                // A wall between two places of the ellipse is no part of it.
+                let along = angle(&ellipse, between, near).is_some();
+                if width < 0.5 * TAU && along && there(middle) && edge.value(&Angle::of(middle)) < 0.0 {
                     arcs.push([from.rem_euclid(TAU), from.rem_euclid(TAU) + width]);
                     for theta in [from, middle, to] {
                         advance = advance.max(family.advance(&ellipse, &edge, theta));
@@ -43,7 +52,10 @@ pub(super) fn engaged(diagram: &Diagram, rim: &Rim, pieces: &[Polygon]) -> (Vec<
         }
     }
     let zero = ahead(&ellipse);
-    (joined(arcs).into_iter().map(|[from, to]| degrees(from - zero, to - from)).collect(), advance)
+    let mut arcs: Vec<[f64; 2]> =
+        joined(arcs).into_iter().map(|[from, to]| degrees(from - zero, to - from)).collect();
+    arcs.sort_by(|[a, _], [b, _]| a.total_cmp(b));
+    (arcs, advance)
 }
 
 /// The angle of a place on the ellipse, radians; `None` off it.

@@ -6,6 +6,9 @@ use crate::chips::family::{Curve, Family};
 use crate::chips::trig::Trig;
 use std::f64::consts::TAU;
 
+/// Heights (as a share of the radius) at which an upright end of the flutes lies in the layer: the layer is then beyond it.
+pub(in crate::chips) const GRAZES: f64 = 1e-9;
+
 /// How an end of the flutes stands to the ellipse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cut {
@@ -36,7 +39,7 @@ impl Cuts {
             }
             let Trig([constant, ..]) = family.curve(curve, 0.5 * (stretch.t[0] + stretch.t[1]));
             // Without a root the constant decides.
-            if constant > 0.0 { Cut::Free } else { Cut::All }
+            if constant > GRAZES { Cut::Free } else { Cut::All }
         }))
     }
 }
@@ -46,7 +49,7 @@ fn cut_off(curve: &Trig<f64>) -> Result<[f64; 2], bool> {
     let Trig([k0, k1, k2, ..]) = *curve;
     let swing = k1.hypot(k2);
     if k0.abs() >= swing {
-        return Err(k0 < 0.0);
+        return Err(k0 <= GRAZES);
     }
     let middle = k2.atan2(k1) + 0.5 * TAU;
     let half = (k0 / swing).acos();

@@ -5,15 +5,20 @@ use super::{Cover, Rim};
 use crate::chips::family::Family;
 use geo::{ConvexHull, MultiPoint};
 
-/// Hulls of the sections at both ends of each slice.
-pub(super) fn cover(family: &Family, rim: &Rim, slices: usize) -> Cover {
+/// The sections at the ends of slices.
+pub(super) fn sections(family: &Family, rim: &Rim, slices: usize) -> Vec<Vec<[f64; 2]>> {
     let slices = slices.max(1);
     let section = |index: usize| outline(family, rim, index as f64 / slices as f64, Cuts::SEEN, &[]);
-    let first = section(0);
+    (0..=slices).map(section).collect()
+}
+
+/// Hulls of the sections at both ends of each slice.
+pub(super) fn cover(family: &Family, rim: &Rim, slices: usize) -> Cover {
+    let mut sections = sections(family, rim, slices).into_iter();
+    let first = sections.next().unwrap_or_default();
     let mut last = first.clone();
     let mut advancing = Vec::new();
-    for index in 1..=slices {
-        let next = section(index);
+    for next in sections {
         let points: Vec<geo::Point> =
             last.iter().chain(&next).map(|place| geo::Point::from(*place)).collect();
         // A section that comes or goes within the slice is taken to be there all through it.

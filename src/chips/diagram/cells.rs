@@ -200,23 +200,3 @@ fn known(curve: &Trig<Interval>, cell: &Cell) -> Known {
     let close = told(curve.value(&centre) + slope * offset + bend * square, slope + bend * offset);
     close.or(quick)
 }
-
-/// Makes a bracket about as narrow as the root's way during the time allows: the signs at its ends stay certain.
-pub fn narrow(bracket: &mut Bracket, curve: &Trig<Interval>) {
-    let sign = |x: f64| curve.value(&Angle::over(Interval::point(x))).sign();
-    let (below, above) = if bracket.rising { (Some(-1), Some(1)) } else { (Some(1), Some(-1)) };
-    let Bracket { lo, hi, rising } = *bracket;
-    let root = Trig(curve.0.map(Interval::middle)).root(lo, hi, rising);
-    // From next to the root outward.
-    let mut reach = (hi - lo) * 1e-12;
-    let (mut left, mut right) = (false, false);
-    while reach < hi - lo && !(left && right) {
-        if !left && root - reach > lo && sign(root - reach) == below {
-            (bracket.lo, left) = (root - reach, true);
-        }
-        if !right && root + reach < hi && sign(root + reach) == above {
-            (bracket.hi, right) = (root + reach, true);
-        }
-        reach *= 8.0;
-    }
-}

@@ -4,13 +4,14 @@
 //! off. Their topology is proved by interval arithmetic: see [`slab`].
 
 mod cells;
+mod moving;
 pub mod slab;
 pub mod stretch;
 
 use super::family::{Curve, Family};
 use super::trig::Angle;
 use slab::{Event, Proof};
-use stretch::Stretch;
+use stretch::{Stretch, Track};
 
 /// The diagram of a step on a layer.
 #[derive(Debug, Clone, PartialEq)]
@@ -99,36 +100,36 @@ impl Diagram {
         let mut done: Vec<Branch> = Vec::new();
         let mut growing: Vec<Branch> = Vec::new();
         for stretch in &self.stretches {
-            let mut next: Vec<Branch> = Vec::new();
-            for track in stretch.tracks.iter().filter(|track| track.curve == Curve::Edge) {
-                let at = |index: usize| {
-                    let [from, to] = stretch.t;
-                    // Denser towards both ends, where folds have their bend.
-                    let share = 0.5 - 0.5 * (std::f64::consts::PI * index as f64 / steps.max(1) as f64).cos();
-                    let t = from + (to - from) * share;
-                    [stretch.theta(&self.family, track, t), t]
-                };
-                let points: Vec<[f64; 2]> = (0..=steps.max(1)).map(at).collect();
-                let start = points.first().copied().unwrap_or_default();
-                let event = self.event(stretch.t[0]);
-                let before = growing.iter().position(|branch| goes_on(branch, start, event));
-                match before.map(|index| growing.swap_remove(index)) {
+            let edges = stretch.tracks.iter().filter(|track| track.curve == Curve::Edge);
+            let mut next: Vec<Vec<[f64; 2]>> =
+                edges.map(|track| self.points(stretch, track, steps)).collect();
+            let event = self.events.iter().find(|event| event.t == stretch.t[0]);
+            let (ending, beginning) = folding(event, &growing, &next);
+            let mut going: Vec<Branch> = Vec::new();
+            let fresh = taken(&mut next, &beginning);
+            let folded = taken(&mut growing, &ending);
+            done.extend(folded.into_iter().map(|branch| Branch { ends: End::Fold, ..branch }));
+            going.extend(fresh.into_iter().map(|points| Branch {
+                points,
+                begins: End::Fold,
+                ends: End::Edge,
+            }));
+            for points in next {
+                let start = points.first().map_or(0.0, |[theta, _]| *theta);
+                let near = |branch: &Branch| stretch::distance(last(branch), start) < NEAR;
+                match growing.iter().position(near).map(|index| growing.swap_remove(index)) {
                     Some(mut branch) => {
                         branch.points.extend(points.into_iter().skip(1));
-                        next.push(branch);
+                        going.push(branch);
                     }
                     None => {
-                        let begins = end(event, start);
-                        next.push(Branch { points, begins, ends: End::Edge });
+                        let begins = if stretch.t[0] <= 0.0 { End::Edge } else { End::Open };
+                        going.push(Branch { points, begins, ends: End::Edge });
                     }
                 }
             }
-            for mut branch in growing.drain(..) {
-                let last = branch.points.last().copied().unwrap_or_default();
-                branch.ends = end(self.event(last[1]), last);
-                done.push(branch);
-            }
-            growing = next;
+            done.extend(growing.drain(..).map(|branch| Branch { ends: End::Open, ..branch }));
+            growing = going;
         }
         done.append(&mut growing);
         let key = |branch: &Branch| branch.points.first().copied().unwrap_or_default();
@@ -136,35 +137,53 @@ impl Diagram {
         done
     }
 
-    fn event(&self, t: f64) -> Option<&Event> {
-        self.events.iter().find(|event| event.t == t)
+    /// Points of a track, denser towards both ends, where folds have their bend.
+    fn points(&self, stretch: &Stretch, track: &Track, steps: usize) -> Vec<[f64; 2]> {
+        let [from, to] = stretch.t;
+        let steps = steps.max(1);
+        let at = |index: usize| {
+            let share = 0.5 - 0.5 * (std::f64::consts::PI * index as f64 / steps as f64).cos();
+            let t = from + (to - from) * share;
+            [stretch.theta(&self.family, track, t), t]
+        };
+        (0..=steps).map(at).collect()
     }
 }
 
-/// Whether a branch up to an event goes on at a place behind it: it is there, and not in the event's box.
-fn goes_on(branch: &Branch, [theta, _]: [f64; 2], event: Option<&Event>) -> bool {
-    let Some([last, _]) = branch.points.last() else { return false };
-    stretch::distance(*last, theta) < 1e-4 && !event.is_some_and(|event| inside(event, theta))
+/// A branch that goes on behind an event is this near to where it was, radians.
+const NEAR: f64 = 1e-2;
+
+fn last(branch: &Branch) -> f64 {
+    branch.points.last().map_or(0.0, |[theta, _]| *theta)
 }
 
-fn inside(event: &Event, theta: f64) -> bool {
-    match event.proof {
-        Proof::Fold { angles: [lo, hi], .. } | Proof::Open { angles: [lo, hi] } => {
-            let (middle, half) = (0.5 * (lo + hi), 0.5 * (hi - lo));
-            stretch::distance(theta, middle) <= half + 1e-4
+/// Which branches end in a fold, and which tracks begin in one: two each, nearest to the fold's box.
+fn folding(event: Option<&Event>, growing: &[Branch], next: &[Vec<[f64; 2]>]) -> (Vec<usize>, Vec<usize>) {
+    let Some(Event { proof: Proof::Fold { angles: [lo, hi], begins }, .. }) = event else {
+        return (Vec::new(), Vec::new());
+    };
+    let middle = 0.5 * (lo + hi);
+    let nearest = |angles: Vec<f64>| {
+        let mut order: Vec<usize> = (0..angles.len()).collect();
+        let off = |index: &usize| angles.get(*index).map_or(f64::INFINITY, |x| stretch::distance(*x, middle));
+        order.sort_by(|a, b| off(a).total_cmp(&off(b)));
+        order.truncate(2);
+        order.sort_unstable();
+        order
+    };
+    match (*begins, growing.len(), next.len()) {
+        (true, before, after) if after == before + 2 => {
+            let start = |points: &Vec<[f64; 2]>| points.first().map_or(0.0, |[theta, _]| *theta);
+            (Vec::new(), nearest(next.iter().map(start).collect()))
         }
-        Proof::Elsewhere => false,
+        (false, before, after) if before == after + 2 => {
+            (nearest(growing.iter().map(last).collect()), Vec::new())
+        }
+        _ => (Vec::new(), Vec::new()),
     }
 }
 
-fn end(event: Option<&Event>, [theta, t]: [f64; 2]) -> End {
-    match event {
-        Some(event) if inside(event, theta) => match event.proof {
-            Proof::Fold { .. } => End::Fold,
-            _ => End::Open,
-        },
-        None if t <= 0.0 || t >= 1.0 => End::Edge,
-        _ if t <= 0.0 || t >= 1.0 => End::Edge,
-        _ => End::Open,
-    }
+/// Takes out what stands at some places, in order.
+fn taken<T>(from: &mut Vec<T>, places: &[usize]) -> Vec<T> {
+    places.iter().rev().map(|place| from.remove(*place)).collect()
 }

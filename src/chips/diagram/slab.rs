@@ -2,22 +2,24 @@
 //!
 //! Over an interval of time every curve is enclosed by interval arithmetic. When each cell of the circle has a curve of one sign, or one
 //! that only rises or falls, its roots are known to be functions of time, one in each bracket; when the brackets of different curves are
-//! apart, so is the order of the roots. Otherwise the interval is halved, down to [`SHORTEST`], where something happens: a fold (a branch of
+//! apart, so is the order of the roots. Otherwise the interval is halved, down to an eight-millionth of the step, where something happens: a fold (a branch of
 //! the envelope begins or ends), a split, a branch that runs into the bottom disc's chord.
 
-use super::cells::{Bracket, Cells, Roots, narrow};
+use super::cells::{Bracket, Cells, Roots};
+use super::moving;
+use crate::chips::cover::GRAZES;
 use crate::chips::family::{Curve, Family, Window};
 use crate::chips::interval::Interval;
 use crate::chips::trig::{Angle, Trig};
 
-/// Shortest interval of time that is halved: a sixteen-millionth of the step.
+/// Shortest interval of time that is halved: an eight-millionth of the step.
 const SHORTEST: f64 = 1.0 / (1 << 23) as f64;
 
 /// Narrowest cells for an interval of the whole step, radians; those of shorter ones go with the root of time, as folds do.
 const FINEST: f64 = 0.1;
 
 /// Events at most; a diagram with more has curves that coincide.
-const MOST_EVENTS: usize = 64;
+const MOST_EVENTS: usize = 512;
 
 /// Slabs at most, likewise.
 const MOST_SLABS: usize = 4096;
@@ -50,7 +52,7 @@ pub enum Proof {
     Elsewhere,
 }
 
-/// A time at which the topology changes, known to a sixteen-millionth of the step.
+/// A time at which the topology changes, known to an eight-millionth of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event {
     /// When.
@@ -73,8 +75,9 @@ pub struct Slabs {
 /// Cuts the whole step into slabs.
 pub fn slabs(family: &Family) -> Slabs {
     let mut found = Slabs::default();
-    let all = || Circles(Curve::ALL.map(|_| Cells::new()));
-    explore(family, Interval { lo: 0.0, hi: 1.0 }, all(), &mut found);
+    let circle = Cells::new();
+    let circles = Circles([circle.clone(), circle.clone(), circle.clone(), circle]);
+    explore(family, Interval { lo: 0.0, hi: 1.0 }, circles, &mut found);
     found
 }
 
@@ -108,20 +111,18 @@ fn explore(family: &Family, t: Interval, mut circles: Circles, found: &mut Slabs
 fn certain(family: &Family, window: &Window<'_>, circles: &mut Circles, finest: f64) -> Option<[Roots; 4]> {
     let [edge_cells, bottom_cells, top_cells, face_cells] = &mut circles.0;
     let (edge, _) = window.curve(Curve::Edge);
-    let mut edge_roots = if edge.magnitude() <= family.still() {
+    let edge_roots = if edge.magnitude() <= family.still() {
         Roots { brackets: Vec::new(), positive: true }
     } else {
         roots(edge_cells, &edge, finest)?
     };
     let (bottom, _) = window.curve(Curve::Bottom);
-    let mut bottom_roots = roots(bottom_cells, &bottom, finest)?;
+    let bottom_roots = end_roots(bottom_cells, &bottom, finest)?;
     let nothing = Roots { brackets: Vec::new(), positive: true };
     let mut top_roots = nothing.clone();
-    let mut top = None;
     if family.has_top() {
         let (curve, _) = window.curve(Curve::Top);
-        top_roots = roots(top_cells, &curve, finest)?;
-        top = Some(curve);
+        top_roots = end_roots(top_cells, &curve, finest)?;
     }
     if bottom_roots.brackets.is_empty() && top_roots.brackets.is_empty() {
         return Some([edge_roots, bottom_roots, top_roots, nothing]);
@@ -129,20 +130,25 @@ fn certain(family: &Family, window: &Window<'_>, circles: &mut Circles, finest: 
     let (face, _) = window.curve(Curve::Face);
     // A disc that slides in its own plane neither advances nor retreats anywhere.
     let slides = face.magnitude() <= family.still() / family.step().mill().radius;
-    let mut face_roots = if slides { nothing } else { roots(face_cells, &face, finest)? };
+    let face_roots = if slides { nothing } else { roots(face_cells, &face, finest)? };
     // Turning about the tip, f is zero all along the bottom disc's rim: the order of two curves that are one does not matter.
     let pivots = family.pivots_about_tip();
-    let others = [(&mut edge_roots, edge, pivots), (&mut face_roots, face, false)];
+    let others = [(&edge_roots, Curve::Edge, pivots), (&face_roots, Curve::Face, false)];
     for (other, curve, same) in others {
-        (same || apart(&mut bottom_roots, &bottom, other, &curve)).then_some(())?;
-        if let Some(top) = &top {
-            apart(&mut top_roots, top, other, &curve).then_some(())?;
-        }
+        (same || apart(&bottom_roots, Curve::Bottom, other, curve, window)).then_some(())?;
+        apart(&top_roots, Curve::Top, other, curve, window).then_some(())?;
     }
-    if let Some(top) = &top {
-        apart(&mut bottom_roots, &bottom, &mut top_roots, top).then_some(())?;
-    }
+    apart(&bottom_roots, Curve::Bottom, &top_roots, Curve::Top, window).then_some(())?;
     Some([edge_roots, bottom_roots, top_roots, face_roots])
+}
+
+/// The roots of an end of the flutes.
+fn end_roots(cells: &mut Cells, curve: &Trig<Interval>, finest: f64) -> Option<Roots> {
+    // An upright end in the layer's height cuts everything off, however rounding has it.
+    if curve.magnitude() <= GRAZES {
+        return Some(Roots { brackets: Vec::new(), positive: false });
+    }
+    roots(cells, curve, finest)
 }
 
 fn roots(cells: &mut Cells, curve: &Trig<Interval>, finest: f64) -> Option<Roots> {
@@ -156,16 +162,12 @@ fn roots(cells: &mut Cells, curve: &Trig<Interval>, finest: f64) -> Option<Roots
     cells.roots(curve)
 }
 
-/// Whether no bracket of one curve meets one of the other, narrowing them where they do.
-fn apart(a: &mut Roots, a_curve: &Trig<Interval>, b: &mut Roots, b_curve: &Trig<Interval>) -> bool {
-    for a in &mut a.brackets {
-        for b in &mut b.brackets {
-            if meet(a, b) {
-                narrow(a, a_curve);
-                narrow(b, b_curve);
-                if meet(a, b) {
-                    return false;
-                }
+/// Whether no root of one curve meets one of the other.
+fn apart(a: &Roots, a_curve: Curve, b: &Roots, b_curve: Curve, window: &Window<'_>) -> bool {
+    for a in &a.brackets {
+        for b in &b.brackets {
+            if meet(a, b) && !moving::apart(a, a_curve, b_curve, window) {
+                return false;
             }
         }
     }

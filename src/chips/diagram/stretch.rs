@@ -26,7 +26,7 @@ pub struct Stretch {
     pub t: [f64; 2],
     /// Ends of its slabs, one for each.
     ends: Vec<f64>,
-    /// The roots of edge, bottom and top, in the order of their angles at the beginning.
+    /// The roots of edge, bottom and top.
     pub tracks: Vec<Track>,
 }
 
@@ -39,7 +39,7 @@ impl Stretch {
     }
 
     fn of(slab: &Slab) -> Self {
-        let mut tracks: Vec<Track> = [Curve::Edge, Curve::Bottom, Curve::Top]
+        let tracks: Vec<Track> = [Curve::Edge, Curve::Bottom, Curve::Top]
             .into_iter()
             .zip(&slab.roots)
             .flat_map(|(curve, roots)| {
@@ -50,8 +50,6 @@ impl Stretch {
                 })
             })
             .collect();
-        let start = |track: &Track| track.brackets.first().map_or(0.0, |bracket| bracket.lo.rem_euclid(TAU));
-        tracks.sort_by(|a, b| start(a).total_cmp(&start(b)));
         Self { t: slab.t, ends: vec![slab.t[1]], tracks }
     }
 
@@ -63,30 +61,28 @@ impl Stretch {
         let t = self.t[1];
         let here: Vec<f64> = self.tracks.iter().map(|track| self.theta(family, track, t)).collect();
         let there: Vec<f64> = next.tracks.iter().map(|track| next.theta(family, track, t)).collect();
-        let count = here.len();
-        let fits = |shift: usize| {
-            (0..count).all(|index| {
-                let other = (index + shift) % count;
-                let same = self.tracks.get(index).zip(next.tracks.get(other));
-                let angles = here.get(index).zip(there.get(other));
-                same.is_some_and(|(a, b)| a.curve == b.curve && a.rising == b.rising)
-                    && angles.is_some_and(|(a, b)| distance(*a, *b) < SAME)
-            })
-        };
-        let Some(shift) = (0..count.max(1)).find(|shift| fits(*shift)) else { return Err(next) };
-        let mut others = next.tracks;
-        others.rotate_left(shift.min(count));
-        for ((track, mut other), angle) in self.tracks.iter_mut().zip(others).zip(here) {
-            // On the same turn of the circle.
-            let turns = other
-                .brackets
-                .first()
-                .map_or(0.0, |bracket| ((angle - 0.5 * (bracket.lo + bracket.hi)) / TAU).round() * TAU);
-            for bracket in &mut other.brackets {
-                bracket.lo += turns;
-                bracket.hi += turns;
+        // Which track goes on in which: the nearest root of the same curve and sense, each once.
+        let mut left: Vec<usize> = (0..there.len()).collect();
+        let mut order = Vec::with_capacity(here.len());
+        for (track, angle) in self.tracks.iter().zip(&here) {
+            let fits = |index: &usize| {
+                let other = next.tracks.get(*index).zip(there.get(*index));
+                other.is_some_and(|(other, there)| {
+                    other.curve == track.curve
+                        && other.rising == track.rising
+                        && distance(*angle, *there) < SAME
+                })
+            };
+            let Some(place) = left.iter().position(fits) else { return Err(next) };
+            order.push(left.swap_remove(place));
+        }
+        for ((track, index), angle) in self.tracks.iter_mut().zip(order).zip(here) {
+            let Some(other) = next.tracks.get(index) else { continue };
+            for bracket in &other.brackets {
+                // On the same turn of the circle.
+                let turns = ((angle - 0.5 * (bracket.lo + bracket.hi)) / TAU).round() * TAU;
+                track.brackets.push(Bracket { lo: bracket.lo + turns, hi: bracket.hi + turns, ..*bracket });
             }
-            track.brackets.append(&mut other.brackets);
         }
         self.t[1] = next.t[1];
         self.ends.extend(next.ends);

@@ -8,6 +8,9 @@ use crate::chips::cover::Cover;
 /// Corners from which on a piece of a layer is halved: large enough that the edge of one cut fits in a piece.
 pub(super) const MOST_CORNERS: usize = 256;
 
+/// Borders that are cut along at once.
+const GROUP: usize = 12;
+
 /// What is left of the workpiece between two heights.
 #[derive(Debug, Clone)]
 pub struct Layer {
@@ -78,13 +81,24 @@ impl Layer {
             let first = Region::new(&self.grid, [cover.first.as_slice()]);
             removed.inside_mm2 = self.take(&first).0.area_mm2(&self.grid);
         }
-        let borders = cover.advancing.iter().map(Vec::as_slice);
-        let (taken, pieces) = self.take(&Region::new(&self.grid, borders));
+        let cut = self.joined(&cover.advancing);
+        let (taken, pieces) = self.take(&cut);
         if !taken.is_empty() {
             (removed.pieces, removed.area_mm2) = self.room.clipper.pieces(&taken, pieces > 1, &self.grid);
         }
         self.cleared.clone_from(&cover.last);
         removed
+    }
+
+    /// What many borders wind around, by groups: borders that run along each other cost by the square of their number.
+    fn joined(&mut self, borders: &[Vec<[f64; 2]>]) -> Region {
+        if borders.len() <= GROUP {
+            return Region::new(&self.grid, borders.iter().map(Vec::as_slice));
+        }
+        let (one, other) = borders.split_at(borders.len() / 2);
+        let (mut all, other) = (self.joined(one), self.joined(other));
+        all.append(&other);
+        self.room.clipper.joined(&all)
     }
 
     /// Takes out everything that borders wind around; from how many tiles.

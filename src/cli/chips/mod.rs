@@ -39,7 +39,8 @@ Chips are those of flat end mills in three and five axes; other tools are told a
 axis is more than 80 degrees from z. The setup says stock, tools and machine: see configs/README.md. Lengths of the
 command line are in mm. Outputs appear whole or not at all, never over an input, and not while an error stands.
 The columns of the CSV: line, operation, tool, length_mm, feed_mm_min, z_mm, thickness_mm, area_mm2, volume_mm3,
-inside_mm2, pieces, chip_thickness_mm, engaged_deg, arcs_deg. An empty cell is a value that is not known.";
+inside_mm2, pieces, chip_thickness_mm, engaged_deg, arcs_deg. Engagement and thickness are those at the motion's end.
+An empty cell is a value that is not known, as where the cutter has left the chip by then.";
 
 /// Finds the exact undeformed chip of every motion, layer by layer, in three and five axes
 #[derive(Debug, Args)]
@@ -189,9 +190,10 @@ impl Chips {
         let units = Units::of(&program, self.units).unit;
         let machining = Machining::new(&program, &setup, units, findings)?;
         let options = ChipOptions {
+            layer: self.layer,
             tolerance: self.tolerance,
             lines: self.lines.clone(),
-            ..ChipOptions::new(self.layer)
+            one_by_one: false,
         };
         let scenes = if self.svg.is_some() || self.diagram.is_some() { usize::from(self.moves) } else { 0 };
         let keep = Keep { borders: self.json.is_some() || self.stl.is_some(), scenes, at: self.at };

@@ -1,7 +1,7 @@
 //! Boundary construction diagrams: theta across, time up, as the figures of the paper that they come from.
 
 use super::ChipReport;
-use super::gather::{Scene, SceneLayer};
+use super::scene::{Scene, SceneLayer};
 use super::sheet::{ADVANCING, Area, BRANCH, EDGE, OUTSIDE, RETREATING, Sample, error, sheet};
 use crate::chips::Step;
 use crate::chips::diagram::{Branch, Diagram, End, Region};

@@ -2,7 +2,7 @@
 
 use super::LayerRow;
 use crate::chips::Polygon;
-use crate::chips::area::{Clipper, Grid, Region};
+use crate::chips::area::{Clipper, Grid, Region, signed_area};
 use crate::chips::chip::LayerChip;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -52,11 +52,23 @@ pub(super) fn fuse<'a>(
     layers.into_values().map(whole).collect()
 }
 
+/// Holes thinner than this, mm, are what chords left between one piece of path and the next.
+const THINNEST: f64 = 0.005;
+
+/// Whether a border encloses something thicker than chords leave.
+fn is_thick(border: &[[f64; 2]]) -> bool {
+    let next = border.iter().cycle().skip(1);
+    let around: f64 = border.iter().zip(next).map(|([ax, ay], [bx, by])| (bx - ax).hypot(by - ay)).sum();
+    signed_area(border).abs() > THINNEST * around / 2.0
+}
+
 /// Polygons beside each other as few.
 fn together(parts: &[&[Polygon]], grid: &Grid) -> Vec<Polygon> {
     let polygons = parts.iter().flat_map(|part| part.iter());
     let borders = polygons.flat_map(|polygon| std::iter::once(&polygon.outer).chain(&polygon.holes));
-    Clipper::default().polygons(&Region::new(grid, borders.map(Vec::as_slice)), grid).0
+    let mut whole = Clipper::default().polygons(&Region::new(grid, borders.map(Vec::as_slice)), grid).0;
+    whole.iter_mut().for_each(|polygon| polygon.holes.retain(|hole| is_thick(hole)));
+    whole
 }
 
 /// Arcs of a circle in degrees as few that do not overlap, in order, each beginning in -180..180.

@@ -1,51 +1,18 @@
 //! The rows and sums, motion by motion.
 
 use super::fuse::fuse;
-use super::{ChipReport, Keep, LayerRow, OperationChips, Row, Skipped, Totals};
+use super::scene::{Scene, scene};
+use super::{ChipReport, Keep, OperationChips, Row, Skipped, Totals};
 use crate::chips::chip::LayerChip;
-use crate::chips::{FlatMill, Polygon};
 use crate::machining::Machining;
-use crate::machining::chips::{ChipCut, ChipOptions, ChipsRan, LeftOut, flat};
+use crate::machining::chips::{ChipCut, ChipOptions, ChipsRan, LeftOut};
 use crate::program::geometry::Path;
 use crate::program::motion::Motion;
 use crate::program::operation;
 use crate::report::table::counted;
 use crate::report::tool_name;
-use crate::sim::{Cutter, Piece, Step};
+use crate::sim::{Cutter, Step};
 use std::collections::BTreeSet;
-
-/// A move and the workpiece around it, for pictures.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Scene {
-    /// Line of the motion.
-    pub line: usize,
-    /// Its mill.
-    pub mill: FlatMill,
-    /// Its pieces in order.
-    pub pieces: Vec<Piece>,
-    /// The layers that it cuts, from below.
-    pub layers: Vec<SceneLayer>,
-}
-
-/// A layer of a scene.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SceneLayer {
-    /// Height of its middle, mm.
-    pub z: f64,
-    /// Its thickness, mm.
-    pub thickness_mm: f64,
-    /// The workpiece after the move.
-    pub workpiece: Vec<Polygon>,
-    /// The chip.
-    pub chip: Vec<Polygon>,
-}
-
-impl SceneLayer {
-    /// Whether a height is in the layer.
-    pub fn holds(&self, z: f64) -> bool {
-        (z - self.z).abs() <= self.thickness_mm / 2.0
-    }
-}
 
 /// What grows while motions go by.
 pub(super) struct Gathering<'m, 'p> {
@@ -135,8 +102,14 @@ impl<'m, 'p> Gathering<'m, 'p> {
             feed_mm_min: self.feed(cut.motion),
             volume_mm3: cut.volume_mm3(),
             inside_mm3,
-            chip_thickness_mm: (pace.known || cut.volume_mm3() <= 0.0)
-                .then(|| layers.iter().filter_map(|layer| layer.chip_thickness_mm).fold(0.0, f64::max)),
+            chip_thickness_mm: match layers
+                .iter()
+                .filter_map(|layer| layer.chip_thickness_mm)
+                .reduce(f64::max)
+            {
+                _ if cut.volume_mm3() <= 0.0 => Some(0.0),
+                most => most.filter(|_| pace.known),
+            },
             layers,
             tool,
         };
@@ -302,24 +275,4 @@ impl Pace<'_> {
         let way = Some(way(step)).filter(|way| *way > STANDS)?;
         Some(teeth.thickness(layer.advance_mm / way * self.per_turn?, 1.0))
     }
-}
-
-/// The picture of a motion that was cut just now.
-fn scene(cut: &ChipCut<'_>, rows: &[LayerRow], machining: &Machining<'_>) -> Option<Scene> {
-    let cutter = machining.tooling().cutters().get(cut.cutter?)?;
-    let layer = |row: &LayerRow| {
-        let stands = cut.stack.layers().iter().find(|layer| layer.number() == row.number);
-        SceneLayer {
-            z: row.z,
-            thickness_mm: row.thickness_mm,
-            workpiece: stands.map(|layer| layer.polygons()).unwrap_or_default(),
-            chip: row.polygons.clone(),
-        }
-    };
-    Some(Scene {
-        line: cut.line,
-        mill: flat(cutter).ok()?,
-        pieces: cut.pieces.iter().map(|(step, _)| step.piece).collect(),
-        layers: rows.iter().filter(|row| row.area_mm2 > 0.0).map(layer).collect(),
-    })
 }

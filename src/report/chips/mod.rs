@@ -10,15 +10,16 @@ mod fuse;
 mod gather;
 mod picture;
 mod row;
+mod scene;
 mod sheet;
 mod solids;
 mod sums;
 mod text;
 
 pub use diagrams::diagrams;
-pub use gather::{Scene, SceneLayer};
 pub use picture::picture;
 pub use row::{LayerRow, Row, to_csv, to_json};
+pub use scene::{Scene, SceneLayer};
 pub use solids::to_stl;
 pub use sums::{Largest, OperationChips, Totals};
 pub use text::to_text;

@@ -2,7 +2,7 @@
 //! single move stand side by side.
 
 use super::ChipReport;
-use super::gather::{Scene, SceneLayer};
+use super::scene::{Scene, SceneLayer};
 use super::sheet::{Area, CHIP, EDGE, Sample, WORKPIECE, error, sheet};
 use crate::chips::area::{Clipper, Grid, Region};
 use crate::chips::cover::{Cover, Rim};

@@ -178,8 +178,8 @@ struct Cells<'a> {
     pieces: usize,
     #[serde(serialize_with = "micro_some")]
     chip_thickness_mm: Option<f64>,
-    #[serde(serialize_with = "micro")]
-    engaged_deg: f64,
+    #[serde(serialize_with = "micro_some")]
+    engaged_deg: Option<f64>,
     arcs_deg: String,
 }
 
@@ -212,6 +212,8 @@ pub fn to_csv(report: &ChipReport, out: &mut dyn Write) -> io::Result<()> {
     for row in &report.rows {
         for layer in &row.layers {
             let arcs = layer.arcs_deg.iter().map(|[from, to]| format!("{} {}", rounded(*from), rounded(*to)));
+            // What has left the chip at the motion's end is engaged no longer; how it was before is not known.
+            let known = layer.area_mm2 <= 0.0 || !layer.arcs_deg.is_empty();
             let cells = Cells {
                 line: row.line,
                 operation: &row.operation,
@@ -225,7 +227,7 @@ pub fn to_csv(report: &ChipReport, out: &mut dyn Write) -> io::Result<()> {
                 inside_mm2: layer.inside_mm2,
                 pieces: layer.count,
                 chip_thickness_mm: layer.chip_thickness_mm,
-                engaged_deg: layer.engaged_deg(),
+                engaged_deg: known.then(|| layer.engaged_deg()),
                 arcs_deg: arcs.collect::<Vec<_>>().join("; "),
             };
             writer.serialize(cells).map_err(io_error)?;

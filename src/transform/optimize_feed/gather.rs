@@ -4,7 +4,7 @@ use super::around;
 use super::feeds::{Block, Load, Piece};
 use super::limits::{Limits, Turning};
 use crate::diagnostic::{Diagnostic, codes};
-use crate::machining::{Cut, Engaged, Grain, Machining, Options, Source, Watch};
+use crate::machining::{Cut, Machining, Options, Ran, Watch};
 use crate::program::geometry::Path;
 use crate::program::motion::Motion;
 use crate::program::record::SpindleDirection;
@@ -40,23 +40,19 @@ pub(super) struct Mark {
 /// Simulates a program and gathers its blocks. `touches` says which motions may get another feed. `None` when `watch` stopped it.
 pub(super) fn gather(
     machining: &Machining<'_>,
-    (options, source): (&Options, Source),
+    options: &Options,
     limits: &Limits,
     watch: &dyn Watch,
     mut touches: impl FnMut(&Motion) -> bool,
-) -> Result<Option<(Gathered, Engaged)>, Box<Diagnostic>> {
+) -> Result<Option<(Gathered, Ran)>, Box<Diagnostic>> {
     let mut gathered = Gathered::default();
     let mut before = Before::default();
-    let ran = machining.engage(options, source, watch, &mut |cut| {
+    let ran = machining.run(options, watch, &mut |cut| {
         let touched = touches(cut.motion);
         gathered.add(machining, limits, cut, touched, &mut before);
     })?;
     Ok(ran.map(|ran| {
-        let reach = match ran.grain {
-            Grain::Cell(cell) => AROUND * cell,
-            Grain::Layer(_) => SHORT,
-        };
-        around::widen(&mut gathered.blocks, reach);
+        around::widen(&mut gathered.blocks, AROUND * ran.cell);
         (gathered, ran)
     }))
 }
@@ -64,9 +60,6 @@ pub(super) fn gather(
 /// Cells of path before and after a piece in which other pieces tell of its load: a piece shorter than that may pass between two
 /// columns.
 const AROUND: f64 = 1.5;
-
-/// The same for layers, mm: what a shorter piece removes may be as thin as what chords leave.
-const SHORT: f64 = 0.1;
 
 /// The motion before, as far as it decides whether a chain of blocks breaks.
 #[derive(Debug, Default)]

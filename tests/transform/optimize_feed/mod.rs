@@ -2,7 +2,6 @@
 
 mod acceleration;
 mod feeds;
-mod layers;
 mod properties;
 mod split;
 mod split_files;
