@@ -4,7 +4,7 @@
 //! the cutter is a family of [`section`]s, and what the family covers is bounded by its first and last edge and its envelope, which
 //! the boundary construction [`diagram`] finds ("An accurate and efficient approach to geometric modeling of undeformed chips in
 //! five-axis CNC milling", Computer-Aided Design 88, 2017). [`cover`] turns the diagram into areas, [`stack`] keeps the
-//! workpiece, [`chip`] is what one piece of path removes.
+//! workpiece, [`chip`] is what one piece of path removes, and [`engagement()`] what feeds are made from.
 //!
 //! Everything is in millimetres, radians and the workpiece frame.
 
@@ -12,6 +12,7 @@ pub mod area;
 pub mod chip;
 pub mod cover;
 pub mod diagram;
+mod engagement;
 pub mod family;
 mod interval;
 mod jet;
@@ -24,6 +25,7 @@ pub use area::Polygon;
 pub use chip::{Chip, LayerChip, cut};
 pub use cover::{Cover, Rim};
 pub use diagram::Diagram;
+pub use engagement::engagement;
 pub use family::Family;
 pub use section::{FlatMill, Refusal, Step};
 pub use stack::{Layer, Removed, Stack, StackError};

@@ -5,6 +5,7 @@
 //! with what it engaged; [`Machining::chips`](chips) does so in layers, with the exact chips of flat end mills.
 
 pub mod chips;
+mod engage;
 mod faults;
 mod plan;
 mod run;
@@ -12,6 +13,7 @@ mod stock;
 mod tooling;
 mod watch;
 
+pub use engage::{Engaged, Grain, Source};
 pub use plan::{Budget, Plan};
 pub use run::{Cut, Ran, chord_mm};
 pub use tooling::Tooling;

@@ -55,10 +55,13 @@ fn optimized(report: &Report) -> String {
         count(report.feeds_changed as u64),
         count(report.points_added as u64),
     );
+    let grain = match (report.cell_mm, report.layer_mm) {
+        (_, Some(layer)) => format!("layers of {} mm; for them", significant(layer)),
+        (cell, None) => format!("cell {} mm; for the grid", significant(cell.unwrap_or_default())),
+    };
     let _ = writeln!(
         out,
-        "  cell {} mm; for the grid, the {name} may be up to {} {} above what is told",
-        significant(report.cell_mm),
+        "  {grain}, the {name} may be up to {} {} above what is told",
         significant(report.uncertainty),
         report.unit,
     );

@@ -3,6 +3,10 @@
 //! It does not depend on feed, spindle or teeth; chip thickness, removal rate and forces are computed from it for any of
 //! them.
 
+use super::Piece;
+use super::sweep::pace;
+use std::f64::consts::{PI, TAU};
+
 /// Angular bins around the cutter; 3 degrees each.
 pub const BINS: usize = 120;
 
@@ -105,6 +109,24 @@ impl Engagement {
         }
     }
 
+    /// Nothing engaged on a piece of path, by a cutter of a radius and a length of flutes (mm).
+    pub fn of_piece(piece: &Piece, size: [f64; 2]) -> Self {
+        let travel = piece.to.point - piece.from.point;
+        let length = travel.norm();
+        let along = if length > 0.0 { travel.dot(&piece.from.axis) / length } else { 0.0 };
+        Self::none((1.0 - along * along).max(0.0).sqrt(), along, pace(piece, size))
+    }
+
+    /// Adds what is engaged at an angle, radians from the feed's direction, left positive.
+    pub fn touch(&mut self, angle: f64, contact: &Bin) {
+        if self.bins.is_empty() {
+            self.bins = vec![Bin::EMPTY; BINS];
+        }
+        if let Some(bin) = self.bins.get_mut(bin_of(angle)) {
+            bin.absorb(contact);
+        }
+    }
+
     /// Adds what a following piece of the same motion engaged.
     pub fn absorb(&mut self, other: &Self) {
         let whole = self.length_mm + other.length_mm;
@@ -148,6 +170,12 @@ impl Engagement {
     pub fn share(&self) -> f64 {
         self.bins.iter().map(|bin| f64::from(bin.share)).fold(0.0, f64::max)
     }
+}
+
+/// The bin of an angle in radians.
+pub(super) fn bin_of(angle: f64) -> usize {
+    let turn = (angle + PI) / TAU * BINS as f64;
+    (turn.max(0.0) as usize).min(BINS - 1)
 }
 
 /// The smallest interval that holds both.

@@ -6,7 +6,7 @@
 use super::Cutter;
 use super::dexel::Dexels;
 use super::engagement::Engagement;
-use super::sweep::{Circumstances, Partial, Straight, Sweep, Tilted, pace};
+use super::sweep::{Circumstances, Partial, Straight, Sweep, Tilted};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
@@ -118,12 +118,8 @@ fn upright(axis: &Vector3<f64>) -> bool {
 }
 
 fn nothing(piece: &Piece, cutters: &[Cutter]) -> Engagement {
-    let travel = piece.to.point - piece.from.point;
-    let length = travel.norm();
-    let axis: Vector3<f64> = piece.from.axis;
-    let along = if length > 0.0 { travel.dot(&axis) / length } else { 0.0 };
-    let way = cutters.get(piece.cutter).map_or(length, |cutter| pace(piece, cutter));
-    Engagement::none((1.0 - along * along).max(0.0).sqrt(), along, way)
+    let size = cutters.get(piece.cutter).map_or([0.0; 2], |cutter| [cutter.radius(), cutter.flute_length()]);
+    Engagement::of_piece(piece, size)
 }
 
 /// Whether a piece is followed by one of the same cutter that turns by less than 30 degrees.

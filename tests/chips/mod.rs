@@ -4,6 +4,7 @@ mod area;
 mod brute;
 mod cover;
 mod diagram;
+mod engagement;
 mod sections;
 mod solid;
 mod stack;

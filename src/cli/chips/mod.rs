@@ -190,10 +190,9 @@ impl Chips {
         let units = Units::of(&program, self.units).unit;
         let machining = Machining::new(&program, &setup, units, findings)?;
         let options = ChipOptions {
-            layer: self.layer,
             tolerance: self.tolerance,
             lines: self.lines.clone(),
-            one_by_one: false,
+            ..ChipOptions::new(self.layer)
         };
         let scenes = if self.svg.is_some() || self.diagram.is_some() { usize::from(self.moves) } else { 0 };
         let keep = Keep { borders: self.json.is_some() || self.stl.is_some(), scenes, at: self.at };

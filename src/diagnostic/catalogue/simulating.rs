@@ -125,4 +125,10 @@ super::area! {
         "Give a height inside a layer that one of the moves cuts; the JSON and the CSV list them.",
         "`--at Z` chooses the layer that a picture shows by a height in mm, in the coordinates of the stock. None of the moves that are asked \
          for removes anything on the layer with this height, or the stock has no layer there.";
+    NOT_IN_LAYERS = "CL0526", Error, "a motion whose engagement layers cannot tell",
+        "Leave out `engagement: layers`: the columns know every cutter and every axis.",
+        "With `engagement: layers` feeds are made from the exact chips of flat end mills, layer by layer. A tool with a corner radius, a ball, \
+         a taper or a point has no such chip, nor has a motion whose axis is more than 80 degrees from z or turns by half a turn. Nothing \
+         is guessed: without the engagement of one motion, its feed and what it leaves for later motions would both be wrong, so \
+         the step stops.";
 }

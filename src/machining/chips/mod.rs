@@ -25,6 +25,8 @@ pub struct ChipOptions {
     pub tolerance: f64,
     /// Lines of the file whose motions are asked for. What comes before them is cut, what comes after them is not run.
     pub lines: RangeInclusive<usize>,
+    /// Longest piece of a motion that is cut on its own, mm; infinite for whole motions.
+    pub longest: f64,
     /// Whether motions asked for are run one by one, so that the sink sees the workpiece right after each; takes longer.
     pub one_by_one: bool,
 }
@@ -32,7 +34,7 @@ pub struct ChipOptions {
 impl ChipOptions {
     /// Layers of this thickness (mm), the whole program, chords within 0.002 mm.
     pub fn new(layer: f64) -> Self {
-        Self { layer, tolerance: 0.002, lines: 1..=usize::MAX, one_by_one: false }
+        Self { layer, tolerance: 0.002, lines: 1..=usize::MAX, longest: f64::INFINITY, one_by_one: false }
     }
 }
 

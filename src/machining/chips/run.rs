@@ -113,7 +113,7 @@ impl<'r> Running<'r> {
             machining,
             options,
             stack,
-            trace: Trace::new(machining.units.in_mm(), options.tolerance, f64::INFINITY),
+            trace: Trace::new(machining.units.in_mm(), options.tolerance, options.longest),
             mills,
             faults: Faults::default(),
             steps: Vec::new(),

@@ -1,8 +1,7 @@
 //! What one band of columns contributes to the engagement of one piece.
 
 use crate::sim::Engagement;
-use crate::sim::engagement::{BINS, Bin, hull};
-use std::f64::consts::{PI, TAU};
+use crate::sim::engagement::{BINS, Bin, bin_of, hull};
 
 /// A contact of the cutter with removed material.
 #[derive(Debug, Clone, Copy)]
@@ -65,11 +64,6 @@ impl Known {
     };
 }
 
-fn bin_of(angle: f32) -> usize {
-    let turn = (f64::from(angle) + PI) / TAU * BINS as f64;
-    (turn.max(0.0) as usize).min(BINS - 1)
-}
-
 impl Partial {
     pub fn new() -> Self {
         Self {
@@ -121,7 +115,7 @@ impl Partial {
         };
         let index = self.known.iter().position(worse).unwrap_or(self.next_known);
         if let Some(known) = self.known.get_mut(index) {
-            *known = Known { place, steepness, bin: bin_of(angle) };
+            *known = Known { place, steepness, bin: bin_of(f64::from(angle)) };
         }
         self.next_known = (index + 1) % KNOWN;
     }
@@ -145,7 +139,7 @@ impl Partial {
 
     pub fn add(&mut self, contact: &Contact) {
         let bins = self.bins.get_or_insert_with(|| Box::new([Bin::EMPTY; BINS]));
-        let Some(bin) = bins.get_mut(bin_of(contact.angle)) else { return };
+        let Some(bin) = bins.get_mut(bin_of(f64::from(contact.angle))) else { return };
         bin.absorb(&Bin {
             low: contact.length,
             high: contact.length,

@@ -4,7 +4,7 @@ use super::around;
 use super::feeds::{Block, Load, Piece};
 use super::limits::{Limits, Turning};
 use crate::diagnostic::{Diagnostic, codes};
-use crate::machining::{Cut, Machining, Options, Ran, Watch};
+use crate::machining::{Cut, Engaged, Grain, Machining, Options, Source, Watch};
 use crate::program::geometry::Path;
 use crate::program::motion::Motion;
 use crate::program::record::SpindleDirection;
@@ -40,19 +40,23 @@ pub(super) struct Mark {
 /// Simulates a program and gathers its blocks. `touches` says which motions may get another feed. `None` when `watch` stopped it.
 pub(super) fn gather(
     machining: &Machining<'_>,
-    options: &Options,
+    (options, source): (&Options, Source),
     limits: &Limits,
     watch: &dyn Watch,
     mut touches: impl FnMut(&Motion) -> bool,
-) -> Result<Option<(Gathered, Ran)>, Box<Diagnostic>> {
+) -> Result<Option<(Gathered, Engaged)>, Box<Diagnostic>> {
     let mut gathered = Gathered::default();
     let mut before = Before::default();
-    let ran = machining.run(options, watch, &mut |cut| {
+    let ran = machining.engage(options, source, watch, &mut |cut| {
         let touched = touches(cut.motion);
         gathered.add(machining, limits, cut, touched, &mut before);
     })?;
     Ok(ran.map(|ran| {
-        around::widen(&mut gathered.blocks, AROUND * ran.cell);
+        let reach = match ran.grain {
+            Grain::Cell(cell) => AROUND * cell,
+            Grain::Layer(_) => SHORT,
+        };
+        around::widen(&mut gathered.blocks, reach);
         (gathered, ran)
     }))
 }
@@ -60,6 +64,9 @@ pub(super) fn gather(
 /// Cells of path before and after a piece in which other pieces tell of its load: a piece shorter than that may pass between two
 /// columns.
 const AROUND: f64 = 1.5;
+
+/// The same for layers, mm: what a shorter piece removes may be as thin as what chords leave.
+const SHORT: f64 = 0.1;
 
 /// The motion before, as far as it decides whether a chain of blocks breaks.
 #[derive(Debug, Default)]

@@ -2,7 +2,7 @@
 
 use super::feeds::Load;
 use super::parameters::Criterion;
-use crate::machining::Tooling;
+use crate::machining::{Grain, Tooling};
 use crate::program::record::SpindleDirection;
 use crate::sim::{Cutter, Engagement, LoadModel, Loads, Material};
 
@@ -14,7 +14,7 @@ const SPECK: f64 = 1e-3;
 pub(super) struct Limits {
     limits: Vec<(Criterion, f64)>,
     models: Vec<Option<[LoadModel; 2]>>,
-    cell: f64,
+    grain: Grain,
 }
 
 /// The spindle while a piece is cut.
@@ -31,10 +31,10 @@ impl Limits {
         limits: Vec<(Criterion, f64)>,
         tooling: &Tooling,
         material: Option<Material>,
-        cell: f64,
+        grain: Grain,
     ) -> Self {
         let models = material.map(|material| tooling.load_models(material)).unwrap_or_default();
-        Self { limits, models, cell }
+        Self { limits, models, grain }
     }
 
     /// The limits.
@@ -44,7 +44,12 @@ impl Limits {
 
     /// Whether a piece cuts more than rounding leaves.
     pub fn cuts(&self, found: &Engagement) -> bool {
-        found.removed_mm3 > SPECK * self.cell.powi(3)
+        let speck = match self.grain {
+            Grain::Cell(cell) => SPECK * cell.powi(3),
+            // Films are none of a chip's pieces.
+            Grain::Layer(_) => 0.0,
+        };
+        found.removed_mm3 > speck
     }
 
     /// The load of a piece that a cutter engages.
@@ -99,13 +104,19 @@ impl Limits {
     }
 
     /// The engagement with everything that the grid may have missed: shares at their bounds, and half a cell of ground more on
-    /// either side.
+    /// either side, or half a layer more above and below.
     fn bounded(&self, found: &Engagement) -> Engagement {
         let mut bounded = found.clone();
         bounded.bins.iter_mut().for_each(|bin| bin.share = bin.share_bound);
-        let width = found.radial_depth_mm();
-        if width > 0.0 {
-            bounded.removed_mm3 *= 1.0 + self.cell / width.max(self.cell);
+        let more = |extent: f64, grain: f64| if extent > 0.0 { grain / extent.max(grain) } else { 0.0 };
+        match self.grain {
+            Grain::Cell(cell) => bounded.removed_mm3 *= 1.0 + more(found.radial_depth_mm(), cell),
+            Grain::Layer(layer) => {
+                bounded.removed_mm3 *= 1.0 + more(found.axial_depth_mm(), layer);
+                // A tooth bears the same wherever on the flank it is engaged.
+                let engaged = bounded.bins.iter_mut().filter(|bin| bin.is_engaged() && bin.radial > 0.0);
+                engaged.for_each(|bin| bin.high += layer as f32);
+            }
         }
         bounded
     }

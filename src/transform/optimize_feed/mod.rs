@@ -21,5 +21,5 @@ mod split_text;
 mod step;
 mod verify;
 
-pub use parameters::{Criterion, Limit, OptimizeFeed, Split, WindowName};
+pub use parameters::{Criterion, EngagementName, Limit, OptimizeFeed, Split, WindowName};
 pub use report::{OperationReport, Report};

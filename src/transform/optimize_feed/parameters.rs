@@ -1,6 +1,7 @@
 //! The parameters of `optimize_feed`.
 
 use super::feeds::{Rules, SplitRule, Window};
+use crate::machining::Source;
 use crate::program::MotionClass;
 use crate::recipe::{Where, not_empty};
 use crate::values::{Count, Factor, Fraction, NonNegative, Positive};
@@ -54,8 +55,15 @@ pub struct OptimizeFeed {
     /// Feeds are rounded down to multiples of this, in the recipe's unit per minute; 0 for as many decimals as the file prints.
     #[serde(default = "round_down_to")]
     pub round_down_to: NonNegative,
-    /// Distance of the simulation's columns, in the recipe's unit; else a fortieth of the smallest cutter's diameter.
+    /// What tells where the cutter is engaged.
+    #[serde(default)]
+    pub engagement: EngagementName,
+    /// Distance of the simulation's columns, in the recipe's unit; else a fortieth of the smallest cutter's diameter. Only with
+    /// `engagement: dexels`.
     pub cell: Option<Positive>,
+    /// Thickness of the layers, in the recipe's unit; else a fortieth of the smallest cutter's diameter. Material lower than a layer may
+    /// be missed. Only with `engagement: layers`.
+    pub layer: Option<Positive>,
     /// Classes of motion that may get another feed.
     #[serde(default = "motions")]
     #[schemars(length(min = 1))]
@@ -138,6 +146,18 @@ pub enum WindowName {
     HalfBlocks,
 }
 
+/// What tells where the cutter is engaged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum EngagementName {
+    /// Columns of material along z: every cutter, every axis, shank and holder.
+    #[default]
+    Dexels,
+    /// The exact chips of flat end mills in layers across z, in three and five axes up to 80 degrees from z: directions and shares are not
+    /// rounded to a grid. Another tool stops the step; shank and holder are not looked at.
+    Layers,
+}
+
 /// When blocks are broken into parts; lengths in the recipe's unit.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -175,6 +195,18 @@ impl OptimizeFeed {
         };
         let first = Limit { criterion: self.criterion, target: self.target };
         std::iter::once(&first).chain(self.limits.iter().flatten()).map(in_mm).collect()
+    }
+
+    /// What engagement is found with, in millimetres; the parameter that has no meaning with it, if one is given.
+    pub(super) fn source(&self, mm: f64) -> Result<Source, &'static str> {
+        match self.engagement {
+            EngagementName::Dexels if self.layer.is_some() => Err("layer"),
+            EngagementName::Dexels => Ok(Source::Dexels),
+            EngagementName::Layers if self.cell.is_some() => Err("cell"),
+            EngagementName::Layers => {
+                Ok(Source::Layers { thickness: self.layer.map(|layer| layer.get() * mm) })
+            }
+        }
     }
 
     /// The rules for feeds, in millimetres; `None` when neither step nor machine says a highest feed.

@@ -6,6 +6,7 @@ use super::gather::{Gathered, Mark};
 use super::report::{OperationReport, Report};
 use super::step::Job;
 use crate::diagnostic::{Diagnostic, codes};
+use crate::machining::Grain;
 use crate::program::{Change, Program, Record, Statement, StepId, operation};
 use crate::transform::Context;
 use std::collections::BTreeSet;
@@ -56,9 +57,13 @@ impl Job {
         program: &Program,
         before: &Gathered,
         after: &Gathered,
-        cell: f64,
+        grain: Grain,
         step: StepId,
     ) -> Report {
+        let (cell, layer) = match grain {
+            Grain::Cell(cell) => (Some(cell), None),
+            Grain::Layer(layer) => (None, Some(layer)),
+        };
         let (criterion, target) = self.limits.first().copied().unwrap_or_default();
         let uncertainty = touched(after)
             .filter_map(|(_, mark)| mark.measured.first())
@@ -94,6 +99,7 @@ impl Job {
             unit: criterion.unit(),
             target,
             cell_mm: cell,
+            layer_mm: layer,
             uncertainty,
             acceleration: self.rules.max_acceleration,
             whole: of(None),

@@ -12,9 +12,13 @@ pub struct Report {
     pub unit: &'static str,
     /// The target.
     pub target: f64,
-    /// Distance of the simulation's columns, mm.
-    pub cell_mm: f64,
-    /// How far the criterion may be above what is told, for the grid: the largest difference between estimate and bound over all
+    /// Distance of the simulation's columns, mm, where they told the engagement.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cell_mm: Option<f64>,
+    /// Thickness of layers, mm, where they did.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub layer_mm: Option<f64>,
+    /// How far the criterion may be above what is told, for the grid or the layers: the largest difference between estimate and bound over all
     /// blocks that the step may touch, after.
     pub uncertainty: f64,
     /// Change of feed along the path that times are computed with, (mm/min)/s; `None`: feeds change at once.

@@ -6,7 +6,7 @@ use super::limits::Limits;
 use super::parameters::{Criterion, OptimizeFeed};
 use super::split::{Splits, split};
 use crate::diagnostic::{Diagnostic, codes};
-use crate::machining::{Machining, Options, Ran};
+use crate::machining::{Engaged, Machining, Options, Source};
 use crate::program::motion::Motion;
 use crate::program::{LengthUnit, Program, Statement};
 use crate::setup::Setup;
@@ -45,7 +45,7 @@ impl Transform for OptimizeFeed {
             &program,
             &before,
             &after,
-            ran.cell,
+            ran.grain,
             context.step,
         )));
         Ok(program)
@@ -64,6 +64,7 @@ pub(super) struct Job {
     pub(super) limits: Vec<(Criterion, f64)>,
     pub(super) rules: Rules,
     options: Options,
+    source: Source,
     units: LengthUnit,
 }
 
@@ -80,6 +81,10 @@ impl Job {
                 context.fail(format!("the lowest feed {low} is above the highest {high}"), &["min_feed"])
             );
         }
+        let source = step.source(mm).map_err(|key| {
+            let other = if key == "cell" { "dexels" } else { "layers" };
+            context.fail(format!("`{key}` has a meaning with `engagement: {other}` only"), &[key])
+        })?;
         let longest = rules.split.map_or(PIECE, |split| split.shortest.min(PIECE));
         let limits = step.all_limits(mm);
         let options = Options {
@@ -88,7 +93,7 @@ impl Job {
             forces: limits.iter().any(|(criterion, _)| criterion.needs_material()),
             ..Options::default()
         };
-        Ok(Self { limits, rules, options, units: context.file_units(program) })
+        Ok(Self { limits, rules, options, source, units: context.file_units(program) })
     }
 
     /// Simulates a program.
@@ -97,7 +102,7 @@ impl Job {
         step: &OptimizeFeed,
         program: &Program,
         context: &mut Context<'_>,
-    ) -> Result<(Gathered, Ran), Box<Diagnostic>> {
+    ) -> Result<(Gathered, Engaged), Box<Diagnostic>> {
         let setup: &Setup = context.setup;
         let mut notes = Vec::new();
         let machining = Machining::new(program, setup, self.units, &mut notes).map_err(|found| {
@@ -120,13 +125,15 @@ impl Job {
         } else {
             None
         };
-        let plan = machining.plan(&self.options).map_err(|found| self.at_cell(*found, context))?;
-        let limits = Limits::new(self.limits.clone(), machining.tooling(), material, plan.cell);
+        let grain =
+            machining.grain(&self.options, self.source).map_err(|found| self.at_grain(*found, context))?;
+        let limits = Limits::new(self.limits.clone(), machining.tooling(), material, grain);
         let mut selection = Selection::new(&step.r#where, program, context);
         let watch = context.watch;
-        let gathered = gather(&machining, &self.options, &limits, watch, |motion: &Motion| {
+        let gathered = gather(&machining, (&self.options, self.source), &limits, watch, |motion: &Motion| {
             !motion.rapid && step.motions.contains(&motion.class) && selection.contains(motion, context)
-        })?;
+        });
+        let gathered = gathered.map_err(|found| self.at_grain(*found, context))?;
         selection.report(context);
         let Some((mut gathered, ran)) = gathered else {
             return Err(context.fail("it was stopped before it was done", &[]));
@@ -149,8 +156,13 @@ impl Job {
         Box::new(found.label(&context.recipe.source, place, "asked for by this step"))
     }
 
-    fn at_cell(&self, found: Diagnostic, context: &Context<'_>) -> Box<Diagnostic> {
-        let place = context.recipe.step_value_place(usize::from(context.step.0), &["cell"]);
+    fn at_grain(&self, found: Diagnostic, context: &Context<'_>) -> Box<Diagnostic> {
+        let keys = match self.source {
+            Source::Dexels => ["cell"],
+            Source::Layers { .. } if found.code == codes::LAYERS => ["layer"],
+            Source::Layers { .. } => ["engagement"],
+        };
+        let place = context.recipe.step_value_place(usize::from(context.step.0), &keys);
         Box::new(found.label(&context.recipe.source, place, "asked for here"))
     }
 
@@ -247,7 +259,7 @@ fn several(mut found: Vec<Diagnostic>, findings: &mut Vec<Diagnostic>) -> Box<Di
 
 impl Job {
     /// A program that cuts nothing anywhere is in the wrong place over its stock, and all of it would run at the feed of air.
-    fn nothing_cut(&self, program: &Program, ran: &Ran, context: &Context<'_>) -> Box<Diagnostic> {
+    fn nothing_cut(&self, program: &Program, ran: &Engaged, context: &Context<'_>) -> Box<Diagnostic> {
         let mut points = program.motions().filter(|motion| !motion.rapid).map(|motion| motion.to.point);
         let path = points.next().map(|first| points.fold((first, first), |(a, b), p| (a.inf(&p), b.sup(&p))));
         let mm = self.units.in_mm();
@@ -258,11 +270,9 @@ impl Job {
                 low.x, low.y, low.z, high.x, high.y, high.z
             )
         });
-        let layout = ran.left.layout();
-        let [x, y] = layout.center(0, 0).map(|center| center - layout.cell / 2.0);
+        let [x, y, z] = ran.lowest;
         let message = format!(
-            "no motion of this program cuts the stock: is it in the right place? In mm, the stock's lowest corner is at ({x:.1}, {y:.1}, {:.1}){path}",
-            layout.base
+            "no motion of this program cuts the stock: is it in the right place? In mm, the stock's lowest corner is at ({x:.1}, {y:.1}, {z:.1}){path}"
         );
         context.fail(message, &[])
     }

@@ -2,6 +2,7 @@
 
 mod acceleration;
 mod feeds;
+mod layers;
 mod properties;
 mod split;
 mod split_files;

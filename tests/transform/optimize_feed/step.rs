@@ -6,7 +6,7 @@ use clsmith::diagnostic::Diagnostic;
 use clsmith::report::render::human::HumanOptions;
 
 /// A program of one operation with a flat cutter of 10 mm at 5000 rev/min.
-fn program(body: &str) -> String {
+pub fn program(body: &str) -> String {
     format!(
         "TOOL PATH/SLOT,TOOL,EM10\n\
          TLDATA/MILL,10.0000,0.0000,75.0000,0.0000,0.0000\n\
@@ -25,7 +25,7 @@ fn program(body: &str) -> String {
 /// One pass through 100 mm of a block, 3 mm deep.
 const PASS: &str = "FEDRAT/MMPM,500.0000\nGOTO/110.0000,0.0000,-3.0000\n";
 
-fn recipe(step: &str) -> String {
+pub fn recipe(step: &str) -> String {
     format!(
         "version: 1\n\
          setup:\n\
@@ -37,14 +37,14 @@ fn recipe(step: &str) -> String {
     )
 }
 
-fn corrected(step: &str, text: &str) -> String {
+pub fn corrected(step: &str, text: &str) -> String {
     let (text, findings) = try_apply(&recipe(step), text).unwrap_or_else(|found| panic!("{found:?}"));
     assert!(findings.iter().all(|found| !found.is_error()), "{findings:?}");
     text
 }
 
 /// Feeds that a text programs, in order.
-fn feeds(text: &str) -> Vec<f64> {
+pub fn feeds(text: &str) -> Vec<f64> {
     let feed = |line: &str| {
         line.strip_prefix("FEDRAT/").map(|rest| rest.split(',').nth(1).unwrap().parse().unwrap())
     };
@@ -55,7 +55,7 @@ fn stopped(recipe: &str, text: &str) -> Vec<Diagnostic> {
     try_apply(recipe, text).unwrap_err()
 }
 
-fn snapshot(name: &str, recipe: &str, text: &str) {
+pub fn snapshot(name: &str, recipe: &str, text: &str) {
     let found = stopped(recipe, text);
     let mut out = Vec::new();
     clsmith::report::render::human::render(&mut out, &found, None, &HumanOptions::default()).unwrap();

@@ -64,14 +64,15 @@ pub(in crate::sim) struct Tilted {
     layout: Layout,
 }
 
-/// Length of the way that shares relate to: the tip's, or, where it stands still, that of the flutes' outermost point.
-pub(in crate::sim) fn pace(piece: &Piece, cutter: &Cutter) -> f64 {
+/// Length of the way that shares relate to: the tip's, or, where it stands still, that of the outermost point of flutes of a radius and
+/// a length.
+pub(in crate::sim) fn pace(piece: &Piece, [radius, flutes]: [f64; 2]) -> f64 {
     let travel = (piece.to.point - piece.from.point).norm();
     if travel > STILL {
         return travel;
     }
     let angle = piece.from.axis.cross(&piece.to.axis).norm().atan2(piece.from.axis.dot(&piece.to.axis));
-    angle * cutter.radius().hypot(cutter.flute_length())
+    angle * radius.hypot(flutes)
 }
 
 impl Tilted {
@@ -131,7 +132,7 @@ impl Tilted {
         Self {
             touches: Touches {
                 profile: cutter.profile.clone(),
-                pace: (pace(piece, cutter) / count).max(1e-12),
+                pace: (pace(piece, [cutter.radius(), cutter.flute_length()]) / count).max(1e-12),
                 direction,
                 cell: layout.cell,
                 detail: around.detail,
