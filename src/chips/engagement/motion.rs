@@ -128,21 +128,26 @@ impl Motion {
             let (gap, face) = self.gap(place, t);
             (gap - self.near, face)
         };
-        let (mut before, mut face) = out(0.0);
-        let mut at = 0.0;
-        if before > 0.0 {
-            let mut looks = (1..=self.looks).map(|look| look as f64 / self.looks as f64);
-            loop {
-                let next = looks.next()?;
-                let (gap, near) = out(next);
-                if gap <= 0.0 {
-                    (at, face) = between(out, (at, before, face), (next, gap));
-                    break;
-                }
-                (at, before, face) = (next, gap, near);
-            }
+        let advances =
+            |at: f64, face: Face| Some(self.contact(place, at, face)).filter(|contact| contact.share > 0.0);
+        let (mut at, (mut before, mut face)) = (0.0, out(0.0));
+        if before <= 0.0
+            && let Some(contact) = advances(0.0, face)
+        {
+            return Some(contact);
         }
-        Some(self.contact(place, at, face)).filter(|contact| contact.share > 0.0)
+        for look in 1..=self.looks {
+            let next = look as f64 / self.looks as f64;
+            let (gap, near) = out(next);
+            if before > 0.0 && gap <= 0.0 {
+                let (at, face) = between(out, (at, before, face), (next, gap));
+                if let Some(contact) = advances(at, face) {
+                    return Some(contact);
+                }
+            }
+            (at, before, face) = (next, gap, near);
+        }
+        None
     }
 
     fn contact(&self, place: &Vector3<f64>, t: f64, face: Face) -> Contact {

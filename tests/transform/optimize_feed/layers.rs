@@ -17,7 +17,9 @@ fn wall() -> String {
         let (sin, cos) = (15.0 * share).to_radians().sin_cos();
         let _ = writeln!(body, "GOTO/{x:.4},{y:.4},-6.0000,0.0000000,{:.7},{cos:.7}", -sin);
     }
-    program(&body).replace("GOTO/-10.0000,0.0000,-3.0000", "GOTO/-10.0000,-34.0000,-6.0000")
+    program(&body)
+        .replace("GOTO/-10.0000,0.0000,-3.0000", "GOTO/-10.0000,-34.0000,-6.0000")
+        .replace("GOTO/0.0000,0.0000,50.0000", "GOTO/32.0000,-80.0000,50.0000")
 }
 
 const LAYERS: &str = "target: 0.06, max_feed: 9000, engagement: layers, layer: 0.25, min_change: 0.02";
