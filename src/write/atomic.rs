@@ -97,7 +97,7 @@ pub fn write_new_atomically(
         return Err(io::Error::from(io::ErrorKind::AlreadyExists));
     }
     let folder = folder_of(path);
-    let temporary = create_in(folder)?;
+    let temporary = create_in(folder, &Temporaries::default().prefix)?;
     fill(temporary.as_file(), &Interrupt::new(), write)?;
     temporary.as_file().sync_all()?;
     temporary.persist_noclobber(path).map_err(|failed| failed.error)?;
