@@ -1,7 +1,7 @@
 //! A comparison as one HTML page that needs nothing else: no network, no other file.
 //!
 //! Tables, findings and texts stand in the page as they are; charts, the path in 3D and the listing are drawn by the scripts in `page/`
-//! from arrays that travel as compressed base64 ([`encode`]). Charts are uPlot's, the 3D is three.js's; both are part of the page, with
+//! from arrays that travel as compressed base64 (`encode`). Charts are uPlot's, the 3D is three.js's; both are part of the page, with
 //! their licences (`vendor/`). Everything that comes from a file is escaped, and the page's own policy lets no other script run than the
 //! page's, which it knows by their hashes. The same comparison makes the same bytes.
 

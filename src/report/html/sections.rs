@@ -81,7 +81,7 @@ fn steps(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
     let rows: Vec<Vec<String>> = changes.steps.iter().enumerate().map(row).collect();
     table(out, &["step", "edited", "inserted", "deleted"], 4, &rows)?;
     for report in comparison.subject.reports {
-        write!(out, "<pre>{}</pre>\n", escaped(step_report::to_text(report).trim_matches('\n')))?;
+        writeln!(out, "<pre>{}</pre>", escaped(step_report::to_text(report).trim_matches('\n')))?;
     }
     Ok(())
 }

@@ -56,8 +56,11 @@ pub struct Side {
     pub statement: Vec<u32>,
 }
 
+/// A quantity's name, and where a motion's row has it.
+type Load = (&'static str, fn(&Row) -> Option<f64>);
+
 /// The quantities of a simulation that charts show.
-const LOADS: [(&str, fn(&Row) -> Option<f64>); 5] = [
+const LOADS: [Load; 5] = [
     ("chip", |row| row.chip_thickness_mm),
     ("removal", |row| row.removal_rate_mm3_min),
     ("force", |row| row.force_n),
