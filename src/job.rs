@@ -2,9 +2,12 @@
 
 use crate::check;
 use crate::diagnostic::{Diagnostic, codes};
+use crate::fingerprint::RecipePrint;
 use crate::machining::Watch;
 use crate::parse::parse;
 use crate::program::{Change, Dialect, Program, Statement};
+use crate::provenance;
+use crate::recipe::Provenance;
 use crate::report::policy::Policy;
 use crate::setup::Setup;
 use crate::source::{Source, TooLarge};
@@ -18,6 +21,8 @@ pub struct Job<'r> {
     pub recipe: &'r Recipe,
     /// The setup that counts.
     pub setup: &'r Setup,
+    /// The recipe's print, for the header of a recipe with `provenance:`; without it the header tells the recipe's name alone.
+    pub print: Option<&'r RecipePrint>,
     /// Which findings stop the job.
     pub policy: &'r Policy,
     /// The dialect, where it is forced.
@@ -54,15 +59,25 @@ impl Job<'_> {
         };
         let reports = outcome.reports;
         let mut new = outcome.findings;
-        if is_changed(&outcome.program) {
-            match self.worse(source, &outcome.program) {
+        if self.recipe.provenance != Provenance::Comments {
+            new.extend(provenance::stale(&outcome.program));
+        }
+        let program = match provenance::add(outcome.program, self.recipe, self.print) {
+            Ok(program) => program,
+            Err(found) => {
+                new.push(*found);
+                return self.done(None, findings, new);
+            }
+        };
+        if is_changed(&program) {
+            match self.worse(source, &program) {
                 Ok(worse) => new.extend(worse),
                 Err(too_large) => {
                     new.push(Diagnostic::new(codes::TOO_LARGE, too_large.to_string()));
                 }
             }
         }
-        Done { reports, ..self.done(Some(outcome.program), findings, new) }
+        Done { reports, ..self.done(Some(program), findings, new) }
     }
 
     fn done(&self, program: Option<Program>, mut findings: Vec<Diagnostic>, new: Vec<Diagnostic>) -> Done {

@@ -120,6 +120,7 @@ fn correct(
     let job = Job {
         recipe: &work.recipe,
         setup: &work.setup,
+        print: Some(&work.print),
         policy: settings.policy,
         dialect: settings.dialect,
         watch,

@@ -10,14 +10,17 @@ use super::reports::ReportArgs;
 use super::terminal;
 use clap::Args;
 use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::fingerprint::RecipePrint;
 use clsmith::job::{Done, Job, is_changed};
 use clsmith::parse::parse;
 use clsmith::program::{Dialect, Program};
+use clsmith::recipe::Provenance;
 use clsmith::report::changes::{self, Changes};
 use clsmith::report::comparison::Subject;
 use clsmith::report::{picture, step_report, unified};
 use clsmith::source::Source;
 use clsmith::transform::{Recipe, Step, StepReport};
+use clsmith::undo::RunReport;
 use clsmith::write::{is_interrupt, same_file};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -33,6 +36,8 @@ Examples:
   clsmith apply ramps.yaml part.cls --dry-run --plot ramps.svg   draw corrected ramps, before and after
   clsmith apply recipe.yaml part.cls -o out.cls --report out.html --summary out.md
                                                      what changed, to look at and for a merge request
+  clsmith apply recipe.yaml part.cls -o out.cls --provenance comments --json out.json
+                                                     what changed, in the program itself; `undo` needs out.json
 
 Every output appears whole or not at all, and never over an input. With several inputs each stands for
 itself: those with errors are not written, the others are, and the exit code is 1.";
@@ -60,6 +65,12 @@ pub struct Apply {
     plot: Option<PathBuf>,
     #[command(flatten)]
     reports: ReportArgs,
+    /// What changed as JSON, with all that `clsmith undo` needs to give the original back
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// What the output says about the run, in comments: none, header or comments; overrides the recipe
+    #[arg(long, value_parser = files::provenance, value_name = "WHAT")]
+    provenance: Option<Provenance>,
     /// A setup file; overrides the recipe's setup
     #[arg(long, value_name = "FILE")]
     setup: Option<PathBuf>,
@@ -86,10 +97,20 @@ impl Apply {
                 return Ok(Exit::Usage);
             }
         };
-        let Loaded { recipe, setup, texts } = match files::recipe(&self.recipe, self.setup.as_deref()) {
+        let Loaded { mut recipe, setup, texts } = match files::recipe(&self.recipe, self.setup.as_deref()) {
             Ok(loaded) => loaded,
             Err(found) => {
                 self.show(&found, Some(&self.recipe.to_string_lossy()))?;
+                return Ok(Exit::Errors);
+            }
+        };
+        recipe.provenance = self.provenance.unwrap_or(recipe.provenance);
+        // It reads models and stock once more, so not for nothing.
+        let wanted = self.json.is_some() || recipe.provenance != Provenance::None;
+        let print = match wanted.then(|| RecipePrint::of(&texts, &recipe, &setup)).transpose() {
+            Ok(print) => print,
+            Err(found) => {
+                self.show(&[*found], Some(&self.recipe.to_string_lossy()))?;
                 return Ok(Exit::Errors);
             }
         };
@@ -99,7 +120,14 @@ impl Apply {
         let progress = Progress::new(self.quiet, outputs.interrupt());
         outputs.stop_on_ctrl_c(progress.clearing())?;
         let watch = &progress;
-        let job = Job { recipe: &recipe, setup: &setup, policy: &policy, dialect: self.dialect, watch };
+        let job = Job {
+            recipe: &recipe,
+            setup: &setup,
+            print: print.as_ref(),
+            policy: &policy,
+            dialect: self.dialect,
+            watch,
+        };
         let mut worst = Exit::Done;
         for input in &self.inputs {
             if outputs.interrupt().is_raised() {
@@ -126,8 +154,7 @@ impl Apply {
             return Some("--diff and -o - both write to standard output".into());
         }
         let several = self.inputs.len() > 1;
-        let extra: Vec<(&str, &Path)> =
-            self.plot.iter().map(|path| ("--plot", path.as_path())).chain(self.reports.named()).collect();
+        let extra: Vec<(&str, &Path)> = self.named().chain(self.reports.named()).collect();
         let taken = self.diff || self.output.as_ref().is_some_and(standard);
         let on_standard: Vec<&str> =
             extra.iter().filter(|(_, path)| *path == Path::new(STANDARD)).map(|(name, _)| *name).collect();
@@ -172,6 +199,12 @@ impl Apply {
         None
     }
 
+    /// Options beside those of reports that name a file to write.
+    fn named(&self) -> impl Iterator<Item = (&'static str, &Path)> {
+        let both = [("--plot", &self.plot), ("--json", &self.json)];
+        both.into_iter().filter_map(|(name, path)| Some((name, path.as_deref()?)))
+    }
+
     fn one(
         &self,
         job: &Job<'_>,
@@ -182,7 +215,7 @@ impl Apply {
     ) -> io::Result<Exit> {
         let target = self.target(input);
         let setup_file = job.recipe.setup_file.as_deref().map(|name| files::beside(&self.recipe, name));
-        let drawn = self.plot.iter().map(PathBuf::as_path).chain(self.reports.outputs());
+        let drawn = self.named().map(|(_, path)| path).chain(self.reports.outputs());
         let outs =
             target.iter().map(PathBuf::as_path).chain(drawn.filter(|path| *path != Path::new(STANDARD)));
         if let Some(found) =
@@ -227,6 +260,13 @@ impl Apply {
             self.show(&[found], Some(source.name()))?;
             return Ok(Exit::Errors);
         }
+        if let (Some(path), Some(print)) = (&self.json, job.print)
+            && let Some(found) =
+                self.run_report(path, &program, job.recipe, print, target.as_deref(), outputs)?
+        {
+            self.show(&[found], Some(source.name()))?;
+            return Ok(Exit::Errors);
+        }
         let mut drawn = match &self.plot {
             Some(path) => self.draw(path, &reports, outputs)?,
             None => Exit::Done,
@@ -256,6 +296,24 @@ impl Apply {
             unless_nobody_reads(self.summary(job, &source, &program, &reports, target))?;
         }
         Ok(drawn)
+    }
+
+    /// Writes what the run did as JSON; a finding when that fails.
+    fn run_report(
+        &self,
+        path: &Path,
+        program: &Program,
+        recipe: &Recipe,
+        print: &RecipePrint,
+        target: Option<&Path>,
+        outputs: &Outputs,
+    ) -> io::Result<Option<Diagnostic>> {
+        let before = parse(program.source(), Some(program.dialect())).program;
+        let changes = Changes::of(&before, program, &recipe.step_names(), Some(recipe.units));
+        let file = target.filter(|target| !self.dry_run && *target != Path::new(STANDARD));
+        let file = file.map(|file| file.to_string_lossy().into_owned());
+        let report = RunReport::of(program, file, print, recipe.provenance, &changes);
+        outputs.write(path, |out| report.write(out))
     }
 
     /// Draws what the steps have to show.
@@ -318,7 +376,7 @@ impl Apply {
             return show_reports(&mut err, reports);
         }
         let before = parse(source, Some(program.dialect())).program;
-        let steps: Vec<&str> = job.recipe.steps.iter().map(|step| step.name()).collect();
+        let steps = job.recipe.step_names();
         let found = Changes::of(&before, program, &steps, Some(job.recipe.units));
         err.write_all(changes::to_text(&found).as_bytes())?;
         show_reports(&mut err, reports)?;

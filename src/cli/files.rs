@@ -2,6 +2,7 @@
 
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::program::{Dialect, LengthUnit};
+use clsmith::recipe::Provenance;
 use clsmith::setup::Setup;
 use clsmith::source::Source;
 use clsmith::transform::Recipe;
@@ -74,6 +75,12 @@ pub fn dialect(name: &str) -> Result<Dialect, String> {
         let names: Vec<&str> = Dialect::ALL.iter().map(|dialect| dialect.name()).collect();
         format!("the dialects are {}", names.join(", "))
     })
+}
+
+/// Reads `--provenance`.
+pub fn provenance(name: &str) -> Result<Provenance, String> {
+    let found = Provenance::ALL.into_iter().find(|provenance| provenance.name() == name);
+    found.ok_or_else(|| "this is none, header or comments".into())
 }
 
 /// Reads `--units`.

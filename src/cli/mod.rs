@@ -19,6 +19,7 @@ mod shop;
 mod simulate;
 mod stats;
 mod terminal;
+mod undo;
 mod watch;
 
 use clap::{CommandFactory, Parser, Subcommand};
@@ -45,6 +46,8 @@ Examples:
   clsmith diff part.cls out.cls                    what changed, by meaning
   clsmith plot part.cls --after out.cls -o feed.svg
                                                    feed and z, before and after
+  clsmith undo out.cls --report out.json -o part.cls
+                                                   the original back, from the report of `apply --json`
   clsmith transforms scale_feed                    what a recipe step does
 
 Exit codes:
@@ -82,6 +85,7 @@ enum Command {
     Hook(Box<hook::Hook>),
     Watch(Box<watch::Watch>),
     Plot(plot::Plot),
+    Undo(undo::Undo),
     Transforms(reference::Transforms),
     Schema(reference::Schema),
     Explain(reference::Explain),
@@ -105,6 +109,7 @@ pub fn main() -> ExitCode {
         Command::Hook(command) => command.run(),
         Command::Watch(command) => command.run(),
         Command::Plot(command) => command.run(),
+        Command::Undo(command) => command.run(),
         Command::Transforms(command) => command.run(),
         Command::Schema(command) => command.run(),
         Command::Explain(command) => command.run(),

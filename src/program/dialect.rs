@@ -1,5 +1,6 @@
 //! The dialects of CL text: how they are told apart, and the facts that differ between them.
 
+use super::own::OwnComment;
 use super::record::Record;
 use super::syntax::{Form, Syntax};
 use std::fmt;
@@ -163,6 +164,10 @@ impl Detector {
     }
 
     fn comment(&mut self, text: &[u8]) -> Option<Dialect> {
+        if OwnComment::of(text).is_some() {
+            // It holds names of the user, whatever they are.
+            return None;
+        }
         let has = |mark: &[u8]| memchr::memmem::find(text, mark).is_some();
         self.catia |= has(b"CATIA APT VERSION");
         self.icam |= has(b"ICAM - ") || has(b"ICAM_");

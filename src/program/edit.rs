@@ -13,6 +13,14 @@ impl Program {
         TextPlace { start, length: text.len() as u32 }
     }
 
+    fn keep_inserted(&mut self, text: &[u8], step: StepId) -> TextPlace {
+        let place = self.keep(text);
+        if let Some(history) = &mut self.history {
+            history.add(place, None, step);
+        }
+        place
+    }
+
     /// Gives a statement a new text and the record that was read from it. Equal text is no change.
     pub(crate) fn replace(&mut self, index: usize, text: &[u8], record: Record, step: StepId) {
         let same = self.statement(index).is_none_or(|statement| self.text(statement) == text);
@@ -21,6 +29,9 @@ impl Program {
         }
         let place = self.keep(text);
         if let Some(statement) = self.statements.get_mut(index) {
+            if let Some(history) = &mut self.history {
+                history.add(place, Some(statement.text), step);
+            }
             statement.text = place;
             statement.record = record;
             statement.change = match statement.change {
@@ -51,13 +62,13 @@ impl Program {
         for (index, statement) in old.into_iter().enumerate() {
             while let Some((_, text, record)) = new.next_if(|(before, _, _)| *before <= index) {
                 let origin = Span { start: statement.origin.start, end: statement.origin.start };
-                let text = self.keep(&text);
+                let text = self.keep_inserted(&text, step);
                 merged.push(Statement { record, text, origin, change: Change::Inserted(step) });
             }
             merged.push(statement);
         }
         for (_, text, record) in new {
-            let text = self.keep(&text);
+            let text = self.keep_inserted(&text, step);
             merged.push(Statement {
                 record,
                 text,

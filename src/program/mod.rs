@@ -7,8 +7,10 @@ pub mod class;
 mod dialect;
 mod edit;
 pub mod geometry;
+mod history;
 pub mod motion;
 pub mod operation;
+mod own;
 pub mod record;
 mod statement;
 mod syntax;
@@ -16,6 +18,8 @@ pub mod units;
 
 pub use class::MotionClass;
 pub use dialect::{ArcRule, Detector, Dialect};
+pub use history::Edit;
+pub use own::{OWN_WORD, OwnComment};
 pub use record::{Record, Role};
 pub use statement::{Change, Statement, StepId};
 pub use syntax::{Field, FieldKind, Form, Group, Syntax, folded};
@@ -32,12 +36,13 @@ pub struct Program {
     edits: Vec<u8>,
     statements: Vec<Statement>,
     dialect: Dialect,
+    history: Option<Box<history::History>>,
 }
 
 impl Program {
     /// An empty program over a source; the parser fills it.
     pub(crate) fn new(source: Arc<Source>) -> Self {
-        Self { source, edits: Vec::new(), statements: Vec::new(), dialect: Dialect::Iso }
+        Self { source, edits: Vec::new(), statements: Vec::new(), dialect: Dialect::Iso, history: None }
     }
 
     pub(crate) fn set_dialect(&mut self, dialect: Dialect) {
@@ -82,8 +87,12 @@ impl Program {
 
     /// The text of a statement as it stands now, line end included.
     pub fn text(&self, statement: &Statement) -> &[u8] {
-        let start = statement.text.start as usize;
-        let length = statement.text.length as usize;
+        self.text_at(statement.text)
+    }
+
+    fn text_at(&self, place: TextPlace) -> &[u8] {
+        let start = place.start as usize;
+        let length = place.length as usize;
         let source = self.source.bytes();
         let (bytes, start) = if start < source.len() {
             (source, start)

@@ -4,11 +4,13 @@
 //! where in the file each of them stands.
 
 mod explain;
+mod provenance;
 mod select;
 mod text;
 
 pub use crate::values;
 pub use crate::yaml::Segment;
+pub use provenance::Provenance;
 pub(crate) use select::not_empty;
 pub use select::{Facts, FeedRange, Where};
 pub use text::schema;
@@ -37,6 +39,8 @@ pub struct Recipe<S> {
     pub setup_file: Option<String>,
     /// The recipe's own `setup:`, in millimetres; see [`Recipe::setup_with`].
     pub setup: Setup,
+    /// What the corrected file says about its run.
+    pub provenance: Provenance,
     /// The steps in the order in which they are applied.
     pub steps: Vec<S>,
     document: Arc<Document>,
@@ -60,6 +64,7 @@ impl<S: DeserializeOwned> Recipe<S> {
             units: text.units,
             setup_file: text.setup_file,
             setup,
+            provenance: text.provenance,
             step_places: text.steps.iter().map(|_| OnceLock::new()).collect(),
             steps: text.steps,
             document,

@@ -1,5 +1,6 @@
 //! A recipe as it is written: what serde reads, and what the JSON schema tells editors.
 
+use super::Provenance;
 use super::values::LengthUnit;
 use crate::setup::SetupText;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -22,6 +23,9 @@ pub(super) struct RecipeText<S> {
     /// What stands around the program: machine, stock, tools, material.
     #[serde(default)]
     pub setup: SetupText,
+    /// What the corrected file says about the run that made it.
+    #[serde(default)]
+    pub provenance: Provenance,
     /// The transforms, applied one after the other.
     pub steps: Vec<S>,
 }

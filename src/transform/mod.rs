@@ -34,12 +34,34 @@ pub use scale_feed::ScaleFeed;
 pub use selection::Selection;
 
 use crate::diagnostic::Diagnostic;
-use crate::program::Program;
+use crate::program::{Program, StepId};
+use crate::recipe::Provenance;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// A recipe of clsmith's own steps.
 pub type Recipe = crate::recipe::Recipe<Step>;
+
+/// The name under which reports list the comments of `provenance:`, which come after the last step.
+pub const PROVENANCE: &str = "provenance";
+
+impl Recipe {
+    /// Names for what changed a program, by [`StepId`]: the steps, and at last the comments, if the
+    /// recipe asks for any.
+    pub fn step_names(&self) -> Vec<&'static str> {
+        let comments = (self.provenance != Provenance::None).then_some(PROVENANCE);
+        self.steps.iter().map(Step::name).chain(comments).collect()
+    }
+
+    /// The step after the last one, which signs the comments.
+    pub fn provenance_step(&self) -> StepId {
+        step_id(self.steps.len())
+    }
+}
+
+fn step_id(index: usize) -> StepId {
+    StepId(u16::try_from(index).unwrap_or(u16::MAX))
+}
 
 /// What a step does.
 pub trait Transform {

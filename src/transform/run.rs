@@ -1,10 +1,10 @@
 //! Running a recipe on a program.
 
-use super::{Context, Recipe, Step, StepReport};
+use super::{Context, Recipe, Step, StepReport, step_id};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::machining::{Unwatched, Watch};
-use crate::program::{LengthUnit, Program, StepId};
-use crate::recipe::Segment;
+use crate::program::{LengthUnit, Program};
+use crate::recipe::{Provenance, Segment};
 use crate::setup::Setup;
 
 /// What a recipe made of a program.
@@ -38,8 +38,11 @@ pub fn run_watched(
 ) -> Result<Outcome, Vec<Diagnostic>> {
     let mut findings: Vec<Diagnostic> = unsaid_units(recipe, &program).into_iter().collect();
     let mut reports = Vec::new();
+    if recipe.provenance == Provenance::Comments {
+        program.keep_history();
+    }
     for (index, step) in recipe.steps.iter().enumerate() {
-        let id = StepId(u16::try_from(index).unwrap_or(u16::MAX));
+        let id = step_id(index);
         let mut context = Context {
             step: id,
             recipe,

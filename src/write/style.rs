@@ -37,6 +37,12 @@ impl Style {
             // A step before may have changed every one of them; its numbers still show the style.
             seen = Seen::of(program, |change| !matches!(change, Change::Deleted(_)));
         }
+        if seen.lines == 0 {
+            // No point and no feed: what its first line ends in.
+            let bytes = program.source().bytes();
+            let first = memchr::memchr(b'\n', bytes).and_then(|end| bytes.get(..end)).unwrap_or_default();
+            (seen.lines, seen.crlf) = (1, usize::from(first.ends_with(b"\r")));
+        }
         let solidworks = program.dialect() == crate::program::Dialect::SolidWorks;
         Self {
             zeros: if solidworks || seen.cut_zeros > seen.padded { Zeros::Cut } else { Zeros::Kept },

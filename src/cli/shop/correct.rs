@@ -113,9 +113,10 @@ pub fn correct(
         Err(found) => return Correction::without_recipe(vec![*found]),
     };
     let used = RecipeRecord { path: path.to_string_lossy().into_owned(), chosen_by: by, print };
-    let job = Job { recipe: &recipe, setup: &setup, policy, dialect: args.dialect, watch };
+    let print = Some(&used.print);
+    let job = Job { recipe: &recipe, setup: &setup, print, policy, dialect: args.dialect, watch };
     let Done { program, findings, reports } = job.run(source);
-    let names: Vec<&str> = recipe.steps.iter().map(|step| step.name()).collect();
+    let names = recipe.step_names();
     let steps = program.as_ref().map_or_else(Vec::new, |program| changes::count(program, &names).0);
     let outcome = match &program {
         Some(program) if is_changed(program) => Outcome::Corrected,

@@ -144,4 +144,34 @@ super::area! {
         "A shard of the batch, or a file of a shard, is not among the results: a machine has not finished, was stopped, or \
          its results were not copied. Nothing is merged, since a result that looks whole and is not would let programs go \
          to the machine uncorrected.";
+    NO_RUN_REPORT = "CL0430", Error, "a file that is no report of a run",
+        "Give the file that `clsmith apply --json FILE` wrote in the run that is to be undone.",
+        "`clsmith undo` needs the report that the run itself wrote with `apply --json`: it holds the old bytes of every place that the \
+         recipe changed. The page of `--report` and the table of `--summary` are for people and do not hold them, nor do the log \
+         of a hook or the results of a batch. A report that was cut off, by a full disk or a broken transfer, is of no use: half of the \
+         old bytes is not a program. The original itself is the other way back: clsmith never writes over its input.";
+    NEWER_RUN_REPORT = "CL0431", Error, "a report of a newer clsmith",
+        "Undo with the version of clsmith that made the file, or a newer one.",
+        "The report's structure has a version, and this one is higher than what this clsmith knows. Its undo may need what this clsmith \
+         cannot read, and guessing would give a program that looks right. The key `clsmith` in the report names the version that \
+         wrote it.";
+    OTHER_FILE = "CL0432", Error, "a file that is not the one that the report tells of",
+        "Find the file that the run wrote, or the report that belongs to this file; nothing is written meanwhile.",
+        "The report names the SHA-256 of the file that the run wrote, and this file has another: it was edited afterwards, corrected once \
+         more, or belongs to another report. Putting old bytes at their places in it would mix two programs. The report has a \
+         checksum of each 1024 bytes, so the finding says between which lines the first difference lies; line ends that something \
+         converted on the way are told apart.\n\n\
+         After two runs, undo the second with its report first, and its result with the report of the first.";
+    BAD_UNDO = "CL0433", Error, "a report that does not give the original back",
+        "Take the original itself; clsmith never writes over its input.",
+        "The file is the one that the run wrote, but the old bytes in the report do not give the original: its places do not lie in the \
+         file one after the other, or the result's SHA-256 is not the one that the report names. The report was changed after the run wrote \
+         it. Nothing is written, since a program that is nearly the original is worse than none.";
+    STALE_COMMENTS = "CL0434", Warning, "comments of an earlier run that are not true any more",
+        "Let this recipe say `provenance: comments`, too; its own lines then follow the earlier ones.",
+        "The file was corrected before by a recipe with `provenance: comments`, so comments in it tell what that run changed: \
+         `$$ clsmith scale_feed: 250.0000 -> 200.0000`. This run has changed some of the same records again and was not asked for comments, so the \
+         numbers there are not those of the records below them. clsmith does not take comments out of a file by itself. With \
+         `provenance: comments` in this recipe, or `--provenance comments`, the new lines stand below the earlier ones and the file tells \
+         its whole history.";
 }

@@ -103,8 +103,7 @@ impl<'a> Comparison<'a> {
     /// Brings everything together.
     pub fn of(subject: Subject<'a>, runs: &'a Runs) -> Self {
         let changes = subject.before.map(|before| {
-            let steps: Vec<&str> =
-                subject.recipe.iter().flat_map(|recipe| &recipe.steps).map(|step| step.name()).collect();
+            let steps = subject.recipe.map(Recipe::step_names).unwrap_or_default();
             Changes::of(before, subject.program, &steps, subject.units)
         });
         let after = table(&subject, subject.program, runs.after.as_ref());

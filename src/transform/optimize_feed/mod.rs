@@ -11,6 +11,7 @@ mod geometry;
 mod limits;
 mod margin;
 mod merge;
+mod note;
 mod parameters;
 mod parts;
 mod proof;

@@ -15,6 +15,7 @@ use crate::transform::{Context, Selection, StepReport, Transform};
 use crate::values::Positive;
 use crate::write::Editor;
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 /// Longest piece of path that is looked at on its own where blocks may not be split, mm: margins and half blocks need to know
 /// where in a block the material is.
@@ -35,12 +36,13 @@ impl Transform for OptimizeFeed {
         }
         // Assumptions and crashes are told once, of the program as it came.
         context.findings.extend(ran.findings);
-        let Written { program, excused } = job.write(program, &before, context)?;
+        let Written { mut program, excused, parts } = job.write(program, &before, context)?;
         let told = std::mem::take(&mut context.findings);
         let proof = job.look(self, &program, context);
         context.findings = told;
         let (after, _) = proof?;
         job.prove(&program, &after, &excused, context)?;
+        job.note(&mut program, &before, &after, &parts);
         context.reports.push(StepReport::OptimizeFeed(job.report(
             &program,
             &before,
@@ -57,6 +59,8 @@ struct Written {
     program: Program,
     /// Numbers of the motions that pass a target at the lowest feed allowed.
     excused: BTreeSet<usize>,
+    /// For each motion before, its motions now.
+    parts: Vec<Range<usize>>,
 }
 
 /// The parameters in millimetres.
@@ -65,7 +69,7 @@ pub(super) struct Job {
     pub(super) rules: Rules,
     options: Options,
     source: Source,
-    units: LengthUnit,
+    pub(super) units: LengthUnit,
 }
 
 impl Job {
@@ -228,7 +232,7 @@ impl Job {
         });
         let mut editor = Editor::new(program, step);
         plan.write(&mut editor, &mut context.findings)?;
-        Ok(Written { program: editor.finish()?, excused })
+        Ok(Written { program: editor.finish()?, excused, parts })
     }
 
     /// Blocks that pass the target at the lowest feed allowed.

@@ -1,0 +1,40 @@
+//! Comments of an earlier run that a run without comments makes untrue.
+
+use super::place::Places;
+use crate::diagnostic::{Diagnostic, codes};
+use crate::program::{Change, OwnComment, Program, Statement};
+use std::collections::BTreeSet;
+
+/// A finding when steps changed records that carry comments of an earlier run, which now tell of other numbers than the file
+/// has. For a run that writes no comments of its own.
+pub fn stale(program: &Program) -> Option<Diagnostic> {
+    let own = |statement: &Statement| OwnComment::of(program.text(statement)) == Some(OwnComment::Change);
+    let mut commented = BTreeSet::new();
+    let mut last = None;
+    for (index, statement) in program.live() {
+        if own(statement) {
+            last = Some(last.unwrap_or(index));
+        } else if last.take().is_some() {
+            commented.insert(index);
+        }
+    }
+    if commented.is_empty() {
+        return None;
+    }
+    let places = Places::of(program);
+    let changed = |statement: &Statement| statement.change() != Change::Untouched && !own(statement);
+    let all = program.statements().iter().enumerate();
+    let mut hit =
+        all.filter(|(index, statement)| changed(statement) && commented.contains(&places.before(*index)));
+    let (_, first) = hit.next()?;
+    let more = hit.count();
+    let message = match more {
+        0 => "an earlier run's comment tells of this record as it was then".to_owned(),
+        more => format!("earlier runs' comments tell of this record and {more} more as they were then"),
+    };
+    Some(Diagnostic::new(codes::STALE_COMMENTS, message).label(
+        program.source(),
+        first.origin(),
+        "changed again",
+    ))
+}

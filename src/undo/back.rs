@@ -1,0 +1,163 @@
+//! Reading a report, and giving the original back.
+
+use super::Patch;
+use super::report::{FORMAT, FORMAT_VERSION, Output, Sized};
+use crate::diagnostic::{Diagnostic, codes};
+use crate::fingerprint::Digest;
+use crate::source::{Source, Span};
+use serde::Deserialize;
+use std::sync::Arc;
+
+/// What undo has to know of a run.
+#[derive(Debug, Clone, Deserialize)]
+pub struct Undo {
+    /// The file as it came.
+    pub input: Sized,
+    /// The file as it was written.
+    pub output: Output,
+    /// The way back.
+    pub undo: Patch,
+}
+
+/// An original.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Undone {
+    /// Its bytes.
+    pub bytes: Vec<u8>,
+    /// Its digest, which is the one in the report.
+    pub sha256: Digest,
+    /// How many places differ.
+    pub places: usize,
+}
+
+/// What every version of the report has.
+#[derive(Deserialize)]
+struct Head {
+    format: Option<String>,
+    version: Option<u32>,
+}
+
+impl Undo {
+    /// Reads the report of a run.
+    ///
+    /// # Errors
+    /// [`codes::NO_RUN_REPORT`] for anything else, [`codes::NEWER_RUN_REPORT`] for one of a clsmith to come.
+    pub fn read(report: &Arc<Source>) -> Result<Self, Box<Diagnostic>> {
+        let bytes = report.bytes();
+        let head: Head = serde_json::from_slice(bytes).map_err(|error| unreadable(report, &error))?;
+        if head.format.as_deref() != Some(FORMAT) {
+            let message = "this is JSON, but not the report of a run of `clsmith apply`";
+            return Err(no_report(report, 0, message));
+        }
+        match head.version {
+            Some(FORMAT_VERSION) => {}
+            Some(newer) => {
+                let message =
+                    format!("the report has version {newer}; this clsmith reads version {FORMAT_VERSION}");
+                let found = Diagnostic::new(codes::NEWER_RUN_REPORT, message);
+                return Err(Box::new(found.label(report, Span::new(0, 0), "")));
+            }
+            None => return Err(no_report(report, 0, "the report does not say its version")),
+        }
+        serde_json::from_slice(bytes).map_err(|error| unreadable(report, &error))
+    }
+
+    /// The original of a corrected file.
+    ///
+    /// # Errors
+    /// [`codes::OTHER_FILE`] when it is not, byte for byte, the file that the run wrote, from the place where it differs;
+    /// [`codes::BAD_UNDO`] when what comes out is not the original.
+    pub fn original(&self, corrected: &Arc<Source>, report: &Arc<Source>) -> Result<Undone, Box<Diagnostic>> {
+        let found = Digest::of(corrected.bytes());
+        if found != self.output.sha256 {
+            return Err(self.other(corrected, found));
+        }
+        let bytes = self.undo.undo(corrected.bytes());
+        let bytes = bytes.filter(|bytes| Digest::of(bytes) == self.input.sha256).ok_or_else(|| {
+            let message = "what the report has of the original does not give the file that it names";
+            let found = Diagnostic::new(codes::BAD_UNDO, message);
+            Box::new(found.label(report, Span::new(0, 0), "changed since the run wrote it"))
+        })?;
+        Ok(Undone { bytes, sha256: self.input.sha256, places: self.undo.0.len() })
+    }
+
+    /// Why a file is not the one that the run wrote.
+    fn other(&self, file: &Arc<Source>, digest: Digest) -> Box<Diagnostic> {
+        if digest == self.input.sha256 {
+            let message = "this is the original already, as it was before the run";
+            let help = "There is nothing to undo; was the corrected file meant?";
+            return Box::new(Diagnostic::new(codes::OTHER_FILE, message).help(help));
+        }
+        if let Some(ends) = self.other_line_ends(file.bytes()) {
+            let message =
+                format!("only the line ends differ from the file that the run wrote: here they are {ends}");
+            let help = "An editor, a version control system or a transfer in text mode has changed them; take the file that clsmith wrote.";
+            return Box::new(Diagnostic::new(codes::OTHER_FILE, message).help(help));
+        }
+        let at = self.output.crc32.first_difference(file.bytes());
+        let line = |byte: usize| file.line_column(Span::new(byte, byte).start).0;
+        let (bytes, wrote) = (file.bytes().len(), self.output.bytes);
+        let (message, label) = if at.start == bytes && bytes < wrote {
+            (format!("the file ends after {bytes} bytes; the run wrote {wrote}"), "here it ends")
+        } else {
+            let (from, to) = (line(at.start), line(at.end.saturating_sub(1).max(at.start)));
+            let size = if bytes == wrote {
+                String::new()
+            } else {
+                format!(", and it has {bytes} bytes, not {wrote}")
+            };
+            (
+                format!(
+                    "the file is not the one that the run wrote: it differs between line {from} and {to}{size}"
+                ),
+                "from about here",
+            )
+        };
+        let line_end = file.line(line(at.start)).map_or(at.start, |line| line.end as usize);
+        let span = Span::new(at.start, line_end.max(at.start));
+        Box::new(Diagnostic::new(codes::OTHER_FILE, message).label(file, span, label))
+    }
+
+    /// What the line ends are, where nothing else differs.
+    fn other_line_ends(&self, bytes: &[u8]) -> Option<&'static str> {
+        let mut lf = Vec::with_capacity(bytes.len());
+        let mut before = 0;
+        for &byte in bytes {
+            if byte == b'\n' && before == b'\r' {
+                lf.pop();
+            }
+            lf.push(byte);
+            before = byte;
+        }
+        let crlf: Vec<u8> = lf
+            .iter()
+            .flat_map(|byte| if *byte == b'\n' { &b"\r\n"[..] } else { std::slice::from_ref(byte) })
+            .copied()
+            .collect();
+        let ours = |bytes: &[u8]| Digest::of(bytes) == self.output.sha256;
+        if ours(&crlf) {
+            return Some("LF");
+        }
+        ours(&lf).then_some("CRLF")
+    }
+}
+
+fn unreadable(report: &Arc<Source>, error: &serde_json::Error) -> Box<Diagnostic> {
+    let head = report.bytes().trim_ascii_start();
+    if head.first() == Some(&b'<') {
+        let message = "this is a page for people; undo reads what `apply --json` writes";
+        return no_report(report, 0, message);
+    }
+    let line = report.line(error.line().max(1)).unwrap_or_default();
+    let at = (line.start as usize + error.column().saturating_sub(1)).min(report.bytes().len());
+    let message = match error.classify() {
+        serde_json::error::Category::Eof => "the report ends in the middle: it was cut off".to_owned(),
+        serde_json::error::Category::Data => format!("the report of a run lacks what undo needs: {error}"),
+        _ => format!("this is no JSON: {error}"),
+    };
+    no_report(report, at, message)
+}
+
+fn no_report(report: &Arc<Source>, at: usize, message: impl Into<String>) -> Box<Diagnostic> {
+    Box::new(Diagnostic::new(codes::NO_RUN_REPORT, message).label(report, Span::new(at, at), ""))
+}
