@@ -39,6 +39,7 @@ fn run(recipe: &Recipe, setup: &Setup, source: &Arc<Source>) -> String {
     let done = Job {
         recipe,
         setup,
+        print: None,
         policy: &Policy::default(),
         dialect: None,
         watch: &clsmith::machining::Unwatched,

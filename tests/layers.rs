@@ -64,6 +64,11 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ),
     ("fingerprint", &["source", "diagnostic", "setup", "transform"]),
     (
+        "provenance",
+        &["source", "diagnostic", "program", "parse", "write", "recipe", "transform", "fingerprint"],
+    ),
+    ("undo", &["source", "diagnostic", "program", "recipe", "report", "fingerprint"]),
+    (
         "job",
         &[
             "source",
@@ -78,6 +83,8 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
             "check",
             "transform",
             "report",
+            "fingerprint",
+            "provenance",
         ],
     ),
     (

@@ -27,7 +27,7 @@ fuzz_target!(|bytes: &[u8]| {
     let part = Source::new("part.cls", PART.to_vec()).expect("a small file");
     let (setup, policy) = (Setup::default(), Policy::default());
     let watch = &clsmith::machining::Unwatched;
-    let job = Job { recipe: &recipe, setup: &setup, policy: &policy, dialect: None, watch };
+    let job = Job { recipe: &recipe, setup: &setup, print: None, policy: &policy, dialect: None, watch };
     let Some(program) = job.run(&part).program else { return };
     let again = Source::new("again.cls", program.to_bytes()).expect("a small file");
     let read = parse(&again, Some(program.dialect()));

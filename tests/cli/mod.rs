@@ -11,6 +11,7 @@ mod reports;
 mod section;
 mod select;
 mod simulate;
+mod undo;
 mod watch;
 
 use assert_cmd::Command;

@@ -18,7 +18,7 @@ steps:
 fn changes() -> Changes {
     let recipe = Recipe::load(&Source::new("recipe.yaml", RECIPE.into()).unwrap()).unwrap();
     let outcome = run(&recipe, &Setup::default(), program(POCKET)).unwrap();
-    let names: Vec<&str> = recipe.steps.iter().map(|step| step.name()).collect();
+    let names = recipe.step_names();
     Changes::of(&program(POCKET), &outcome.program, &names, None)
 }
 

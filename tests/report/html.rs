@@ -30,8 +30,14 @@ pub fn told<T>(
     let recipe = Recipe::load(&Source::new("recipe.yaml", text.into_bytes()).unwrap()).unwrap();
     let setup = if shop.is_empty() { Setup::default() } else { setup(shop) };
     let source = Source::new(name, part.to_vec()).unwrap();
-    let job =
-        Job { recipe: &recipe, setup: &setup, policy: &Policy::default(), dialect: None, watch: &Unwatched };
+    let job = Job {
+        recipe: &recipe,
+        setup: &setup,
+        print: None,
+        policy: &Policy::default(),
+        dialect: None,
+        watch: &Unwatched,
+    };
     let Done { program, findings, reports } = job.run(&source);
     let program = program.unwrap_or_else(|| panic!("{findings:?}"));
     let before = parse(&source, Some(program.dialect())).program;

@@ -111,7 +111,8 @@ fn what_a_person_reads() {
         let policy = Policy::default();
         let setup = recipe.setup_with(Setup::default(), Setup::default());
         let watch = &clsmith::machining::Unwatched;
-        let done = Job { recipe: &recipe, setup: &setup, policy: &policy, dialect: None, watch }.run(&source);
+        let done = Job { recipe: &recipe, setup: &setup, print: None, policy: &policy, dialect: None, watch }
+            .run(&source);
         let program = done.program.unwrap();
         assert!(is_changed(&program));
         let mut out = Vec::new();

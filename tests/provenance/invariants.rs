@@ -1,0 +1,84 @@
+//! What comments must never do, over all fixtures and the corpus.
+
+use super::done;
+use crate::support::{self, fixtures};
+use clsmith::job::Done;
+use clsmith::parse::parse;
+use clsmith::program::{OwnComment, Program};
+use clsmith::source::Source;
+use std::sync::Arc;
+
+const RECIPES: &[&str] = &[
+    "  - scale_feed: { factor: 0.8 }",
+    "  - clamp_feed: { max: 100 }",
+    "  - move_origin: { translate: [1, -2, 3.5] }\n  - scale_feed: { factor: 0.7, where: { motions: [engage, cut] } }",
+    "  - convert_units: { from: mm, to: inch }",
+    "  - convert_units: { from: inch, to: mm }\n  - scale_feed: { factor: 1.1 }",
+    "  - rewrite: { rules: [{ match: 'RAPID', insert_before: OPSTOP }, { match: 'COOLNT/ON', delete: true }] }",
+];
+
+/// Where clsmith's own comments stand in a program: before which statement, counted without them.
+fn without_comments(program: &Program) -> Vec<u8> {
+    let live = program.live().map(|(_, statement)| program.text(statement));
+    live.filter(|text| OwnComment::of(text).is_none()).flatten().copied().collect()
+}
+
+/// Corrects with and without comments: the same but for the comments, the same findings, and each comment fits.
+fn compare(steps: &str, source: &Arc<Source>) -> bool {
+    let name = source.name();
+    let Done { program: plain, findings: before, .. } =
+        done(&format!("version: 1\nsteps:\n{steps}\n"), source);
+    let Done { program, findings, .. } = done(&super::with_comments(steps), source);
+    assert_eq!(program.is_some(), plain.is_some(), "{name}: {findings:?}");
+    let (Some(program), Some(plain)) = (program, plain) else { return false };
+    let codes = |found: &[clsmith::diagnostic::Diagnostic]| {
+        found.iter().map(|found| (found.code.id(), found.message.clone())).collect::<Vec<_>>()
+    };
+    assert_eq!(codes(&findings), codes(&before), "{name}");
+    let bytes = program.to_bytes();
+    let again = parse(&support::text(&bytes), None);
+    assert_eq!(again.program.dialect(), parse(source, None).program.dialect(), "{name}");
+    assert!(without_comments(&again.program) == plain.to_bytes(), "{name}: only comments differ");
+    let motions =
+        |program: &Program| program.motions().map(|motion| (motion.to, motion.rapid)).collect::<Vec<_>>();
+    assert!(motions(&again.program) == motions(&plain), "{name}: the path is the same");
+    for (_, statement) in again.program.live() {
+        let text = again.program.text(statement);
+        if OwnComment::of(text).is_some() {
+            assert!(text.is_ascii() && text.trim_ascii_end().len() <= clsmith::provenance::WIDTH, "{name}");
+        }
+    }
+    bytes != plain.to_bytes()
+}
+
+#[test]
+fn comments_change_nothing_but_the_comments() {
+    let mut commented = 0;
+    for (_, path) in fixtures() {
+        let source = support::source(&path);
+        for steps in RECIPES {
+            commented += usize::from(compare(steps, &source));
+        }
+    }
+    assert!(commented > 80, "{commented}");
+}
+
+#[test]
+fn comments_change_nothing_but_the_comments_in_real_files() {
+    for path in support::corpus() {
+        let source = support::source(&path);
+        compare(RECIPES[0], &source);
+    }
+}
+
+#[test]
+fn a_second_run_adds_nothing_where_nothing_is_left_to_do() {
+    for (_, path) in fixtures() {
+        let source = support::source(&path);
+        let clamp = super::with_comments(RECIPES[1]);
+        let Some(once) = done(&clamp, &source).program else { continue };
+        let once = support::text(once.to_bytes());
+        let twice = done(&clamp, &once).program.unwrap();
+        assert!(twice.to_bytes() == once.bytes(), "{}", source.name());
+    }
+}
