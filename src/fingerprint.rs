@@ -3,7 +3,7 @@
 //! [`Digest`] is of bytes; [`RecipePrint`] of a recipe and every file that it depends on, by content and not by name.
 
 use crate::diagnostic::{Diagnostic, codes};
-use crate::setup::{BodyShape, Setup};
+use crate::setup::Setup;
 use crate::source::Source;
 use crate::transform::{Recipe, Step};
 use serde::de::{self, Deserialize, Deserializer};
@@ -173,10 +173,5 @@ impl RecipePrint {
 fn named(recipe: &Recipe, setup: &Setup) -> Vec<PathBuf> {
     let recipe_file = Path::new(recipe.source.name());
     let models = recipe.steps.iter().filter_map(Step::reads).map(|file| file.beside(recipe_file));
-    let bodies = setup.stock.iter().flat_map(|stock| &stock.bodies);
-    let stock = bodies.filter_map(|body| match &body.shape {
-        BodyShape::Stl { file, .. } | BodyShape::Saved(file) => Some(file.path.clone()),
-        BodyShape::Block { .. } | BodyShape::Cylinder { .. } => None,
-    });
-    models.chain(stock).collect()
+    models.chain(setup.stock_files().map(Path::to_path_buf)).collect()
 }

@@ -1,9 +1,9 @@
 //! One file of a batch: read, correct, look whether it is still the same, write.
 
 use super::plan::{Planned, Work, outside};
-use super::{Changed, Counts, Done, Hashes, Locked, Outcome, Record};
+use super::{Changed, Done, Locked, Outcome, Record};
 use crate::diagnostic::{Code, Diagnostic, codes};
-use crate::fingerprint::{Digest, VERSION};
+use crate::fingerprint::Digest;
 use crate::job::{self, Job};
 use crate::machining::Watch;
 use crate::program::{Dialect, Program};
@@ -50,23 +50,7 @@ pub(super) fn run(
         return Ended::Before(Record { recipe: work.name.clone(), ..done.record.clone() });
     }
     let started = Instant::now();
-    let mut record = Record {
-        input: file.input.clone(),
-        output: file.output_name.clone(),
-        recipe: work.name.clone(),
-        outcome: Outcome::Failed,
-        sha256: Hashes {
-            input: None,
-            recipe: work.recipe_digest(),
-            setup: work.setup_digest(),
-            output: None,
-        },
-        version: VERSION.to_owned(),
-        changed: Changed::default(),
-        counts: Counts::default(),
-        findings: Vec::new(),
-        seconds: None,
-    };
+    let mut record = Record::new(file, work, Outcome::Failed);
     let findings = match correct(settings, file, work, &mut record, watch) {
         Ok(findings) => findings,
         Err(Stop::Interrupted) => return Ended::Interrupted,

@@ -1,8 +1,9 @@
 //! What became of a file.
 
 use super::Name;
+use super::plan::{Planned, Work};
 use crate::diagnostic::{Diagnostic, Severity};
-use crate::fingerprint::Digest;
+use crate::fingerprint::{Digest, VERSION};
 use crate::program::{Change, Program};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -128,6 +129,27 @@ pub struct Record {
 }
 
 impl Record {
+    /// A file of which nothing is known yet but how it ends if nothing more is learnt.
+    pub(super) fn new(file: &Planned, work: &Work, outcome: Outcome) -> Self {
+        Self {
+            input: file.input.clone(),
+            output: file.output_name.clone(),
+            recipe: work.name.clone(),
+            outcome,
+            sha256: Hashes {
+                input: None,
+                recipe: work.recipe_digest(),
+                setup: work.setup_digest(),
+                output: None,
+            },
+            version: VERSION.to_owned(),
+            changed: Changed::default(),
+            counts: Counts::default(),
+            findings: Vec::new(),
+            seconds: None,
+        }
+    }
+
     /// What identifies the record in its batch, and orders it.
     pub fn key(&self) -> (&Name, &Name) {
         (&self.input, &self.output)

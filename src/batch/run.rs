@@ -3,9 +3,9 @@
 use super::budget::{Queue, Ticket};
 use super::one::{self, Ended, Settings};
 use super::plan::{Plan, Planned, Work};
-use super::{Changed, Counts, Done, Hashes, Journal, Locked, Outcome, Record};
+use super::{Done, Journal, Locked, Outcome, Record};
 use crate::diagnostic::{Diagnostic, codes};
-use crate::fingerprint::{Digest, VERSION};
+use crate::fingerprint::Digest;
 use crate::machining;
 use crate::program::Dialect;
 use crate::report::policy::Policy;
@@ -162,7 +162,8 @@ impl Batch<'_> {
         for &index in mine {
             let Some(file) = self.plan.files.get(index) else { continue };
             let Some(End { record, before, lost }) = ended.remove(&index) else {
-                ran.records.extend(self.works.get(file.job).map(|work| not_run(file, work)));
+                let work = self.works.get(file.job);
+                ran.records.extend(work.map(|work| Record::new(file, work, Outcome::NotRun)));
                 continue;
             };
             ran.before += usize::from(before);
@@ -205,25 +206,5 @@ struct End {
 impl End {
     fn has_failed(&self) -> bool {
         self.record.outcome == Outcome::Failed
-    }
-}
-
-fn not_run(file: &Planned, work: &Work) -> Record {
-    Record {
-        input: file.input.clone(),
-        output: file.output_name.clone(),
-        recipe: work.name.clone(),
-        outcome: Outcome::NotRun,
-        sha256: Hashes {
-            input: None,
-            recipe: work.recipe_digest(),
-            setup: work.setup_digest(),
-            output: None,
-        },
-        version: VERSION.to_owned(),
-        changed: Changed::default(),
-        counts: Counts::default(),
-        findings: Vec::new(),
-        seconds: None,
     }
 }

@@ -3,13 +3,13 @@
 use super::exit::Exit;
 use super::files::{self, Loaded, STANDARD};
 use super::findings::FindingArgs;
-use super::output::{Outputs, unless_nobody_reads};
+use super::output::{Outputs, overwritten, unless_nobody_reads};
 use super::plot::as_file;
 use super::progress::Progress;
 use super::reports::ReportArgs;
 use super::terminal;
 use clap::Args;
-use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::diagnostic::Diagnostic;
 use clsmith::fingerprint::RecipePrint;
 use clsmith::job::{Done, Job, is_changed};
 use clsmith::parse::parse;
@@ -216,11 +216,8 @@ impl Apply {
         let target = self.target(input);
         let setup_file = job.recipe.setup_file.as_deref().map(|name| files::beside(&self.recipe, name));
         let drawn = self.named().map(|(_, path)| path).chain(self.reports.outputs());
-        let outs =
-            target.iter().map(PathBuf::as_path).chain(drawn.filter(|path| *path != Path::new(STANDARD)));
-        if let Some(found) =
-            outs.filter_map(|out| self.overwrites(out, setup_file.as_deref(), job.recipe)).next()
-        {
+        let outs = target.iter().map(PathBuf::as_path).chain(drawn);
+        if let Some(found) = self.overwrites(outs, setup_file.as_deref(), job) {
             self.show(&[found], Some(&input.to_string_lossy()))?;
             return Ok(Exit::Errors);
         }
@@ -341,15 +338,18 @@ impl Apply {
         Some(output.clone())
     }
 
-    /// No output may be any of the inputs, the recipe, the setup, or a model that a step reads.
-    fn overwrites(&self, target: &Path, setup_file: Option<&Path>, recipe: &Recipe) -> Option<Diagnostic> {
+    /// No output may be an input, the recipe, the setup, or a model, stock or material that these read.
+    fn overwrites<'a>(
+        &self,
+        outs: impl Iterator<Item = &'a Path>,
+        setup_file: Option<&Path>,
+        job: &Job<'_>,
+    ) -> Option<Diagnostic> {
         let given = self.inputs.iter().chain([&self.recipe]).chain(&self.setup).map(PathBuf::as_path);
-        let read = recipe.steps.iter().filter_map(Step::reads);
+        let read = job.recipe.steps.iter().filter_map(Step::reads);
         let models: Vec<PathBuf> = read.map(|file| file.beside(&self.recipe)).collect();
-        let all = given.chain(setup_file).chain(models.iter().map(PathBuf::as_path));
-        let hit = all.filter(|path| *path != Path::new(STANDARD)).find(|path| same_file(path, target))?;
-        let message = format!("writing {} would overwrite the input {}", target.display(), hit.display());
-        Some(Diagnostic::new(codes::OUTPUT_IS_INPUT, message))
+        let all = given.chain(setup_file).chain(models.iter().map(PathBuf::as_path)).chain(job.setup.files());
+        overwritten(outs, &all.collect::<Vec<_>>())
     }
 
     fn show(&self, findings: &[Diagnostic], file: Option<&str>) -> io::Result<()> {

@@ -18,6 +18,7 @@ mod section;
 mod shop;
 mod simulate;
 mod stats;
+mod stop;
 mod terminal;
 mod undo;
 mod watch;

@@ -3,8 +3,9 @@
 use super::exit::Exit;
 use super::files::{self, STANDARD};
 use super::findings::FindingArgs;
-use super::output::{Outputs, unless_nobody_reads};
+use super::output::{Outputs, overwritten, unless_nobody_reads};
 use super::progress::Progress;
+use super::stop::Stop;
 use super::terminal;
 use clap::{Args, ValueEnum};
 use clsmith::diagnostic::{Diagnostic, codes};
@@ -14,9 +15,8 @@ use clsmith::program::{Dialect, Program};
 use clsmith::report::plot::{self, Along, Plotted, Quantity};
 use clsmith::report::simulation::Simulated;
 use clsmith::report::stats::Units;
-use clsmith::setup::{BodyShape, MaterialChoice, Setup};
+use clsmith::setup::Setup;
 use clsmith::values::LengthUnit;
-use clsmith::write::same_file;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -117,12 +117,6 @@ pub fn as_file(path: &Path, svg: String) -> io::Result<Vec<u8>> {
     if is_png(path) { plot::png(&svg) } else { Ok(svg.into_bytes()) }
 }
 
-/// Why no picture was drawn.
-enum Stop {
-    Found(Vec<Diagnostic>),
-    Interrupted,
-}
-
 impl Plot {
     pub fn run(&self) -> io::Result<Exit> {
         let policy = match self.problem().map_or_else(|| self.findings.policy(), Err) {
@@ -179,16 +173,16 @@ impl Plot {
     fn draw(&self, progress: &Progress, findings: &mut Vec<Diagnostic>) -> Result<String, Stop> {
         let setup = match &self.setup {
             Some(path) => {
-                let setup = files::setup(path).map_err(Stop::Found)?;
+                let setup = files::setup(path)?;
                 let read = |path: &Path| files::read(path).map_err(|found| found.message);
-                setup.with_material_file(read).map_err(Stop::Found)?
+                setup.with_material_file(read)?
             }
             None => Setup::default(),
         };
         self.overwrites(&setup)?;
         let mut programs = Vec::new();
         for path in std::iter::once(&self.program).chain(&self.after) {
-            let source = files::read(path).map_err(|found| Stop::Found(vec![*found]))?;
+            let source = files::read(path).map_err(|found| *found)?;
             let parsed = parse(&source, self.dialect);
             findings.extend(parsed.diagnostics);
             if findings.iter().any(Diagnostic::is_error) {
@@ -220,7 +214,7 @@ impl Plot {
             Axis::Path => Along::Path,
         };
         plot::plot(&plotted, &quantities, along)
-            .map_err(|error| Stop::Found(vec![Diagnostic::new(codes::UNWRITABLE, error.to_string())]))
+            .map_err(|error| Diagnostic::new(codes::UNWRITABLE, error.to_string()).into())
     }
 
     fn simulate(
@@ -231,32 +225,18 @@ impl Plot {
         findings: &mut Vec<Diagnostic>,
     ) -> Result<Simulated, Stop> {
         let units = Units::of(program, self.units).unit;
-        let machining = Machining::new(program, setup, units, findings).map_err(Stop::Found)?;
+        let machining = Machining::new(program, setup, units, findings)?;
         progress.begin(program.source().name());
-        let run = Simulated::of(&machining, &Options::default(), progress).map_err(Stop::Found)?;
-        run.ok_or(Stop::Interrupted)
+        Simulated::of(&machining, &Options::default(), progress)?.ok_or(Stop::Interrupted)
     }
 
     /// The output may be no input, nor a file that the setup names.
     fn overwrites(&self, setup: &Setup) -> Result<(), Stop> {
         let mut inputs = vec![self.program.as_path()];
         inputs.extend([&self.after, &self.setup].into_iter().filter_map(|path| path.as_deref()));
-        let bodies = setup.stock.iter().flat_map(|stock| &stock.bodies);
-        inputs.extend(bodies.filter_map(|body| match &body.shape {
-            BodyShape::Stl { file, .. } | BodyShape::Saved(file) => Some(file.path.as_path()),
-            BodyShape::Block { .. } | BodyShape::Cylinder { .. } => None,
-        }));
-        if let Some(MaterialChoice::File(file)) = &setup.material {
-            inputs.push(&file.path);
-        }
-        inputs.retain(|path| *path != Path::new(STANDARD));
-        let target = &self.output;
-        match inputs.iter().find(|path| target != Path::new(STANDARD) && same_file(path, target)) {
-            Some(hit) => {
-                let message =
-                    format!("writing {} would overwrite the input {}", target.display(), hit.display());
-                Err(Stop::Found(vec![Diagnostic::new(codes::OUTPUT_IS_INPUT, message)]))
-            }
+        inputs.extend(setup.files());
+        match overwritten(std::iter::once(self.output.as_path()), &inputs) {
+            Some(found) => Err(found.into()),
             None => Ok(()),
         }
     }

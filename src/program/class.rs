@@ -25,6 +25,12 @@ pub enum MotionClass {
     Drill,
 }
 
+impl MotionClass {
+    /// Every class, in the order of a motion's life.
+    pub const ALL: [Self; 7] =
+        [Self::Rapid, Self::Approach, Self::Engage, Self::Cut, Self::StepOver, Self::Retract, Self::Drill];
+}
+
 impl fmt::Display for MotionClass {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {

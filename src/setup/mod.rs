@@ -74,18 +74,22 @@ impl Setup {
         })
     }
 
-    /// The files that it names: stock and material.
-    pub fn files(&self) -> impl Iterator<Item = &Path> {
+    /// The files that its stock is read from.
+    pub fn stock_files(&self) -> impl Iterator<Item = &Path> {
         let bodies = self.stock.iter().flat_map(|stock| &stock.bodies);
-        let bodies = bodies.filter_map(|body| match &body.shape {
+        bodies.filter_map(|body| match &body.shape {
             BodyShape::Stl { file, .. } | BodyShape::Saved(file) => Some(file.path.as_path()),
             BodyShape::Block { .. } | BodyShape::Cylinder { .. } => None,
-        });
+        })
+    }
+
+    /// The files that it names: stock and material.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
         let material = self.material.iter().filter_map(|material| match material {
             MaterialChoice::File(file) => Some(file.path.as_path()),
             _ => None,
         });
-        bodies.chain(material)
+        self.stock_files().chain(material)
     }
 
     /// JSON schema of a setup file, for editors.

@@ -168,15 +168,17 @@ proptest! {
             prop_assert!(intervals.windows(2).all(|pair| pair[1][1] < pair[0][0]));
             for step in -90..90 {
                 let z = f64::from(step) * 0.13 + 0.0071;
+                let any = bodies.iter().any(|body| inside(body, [x, y, z]));
+                if dexels.contains([x, y, z]) == any {
+                    continue;
+                }
                 let height = z - layout.base;
                 // Close to an end, `f32` decides.
                 let close = intervals.iter().flatten().any(|end| (f64::from(*end) - height).abs() < 1e-4);
-                let any = bodies.iter().any(|body| inside(body, [x, y, z]));
                 // So it does beside a face that stands upright.
                 let beside = [[1e-6, 0.0], [-1e-6, 0.0], [0.0, 1e-6], [0.0, -1e-6]];
                 let near = |[dx, dy]: [f64; 2]| bodies.iter().any(|body| inside(body, [x + dx, y + dy, z])) != any;
-                let close = close || beside.into_iter().any(near);
-                prop_assert!(close || dexels.contains([x, y, z]) == any, "{} {} {}", x, y, z);
+                prop_assert!(close || beside.into_iter().any(near), "{} {} {}", x, y, z);
             }
         }
     }

@@ -8,6 +8,7 @@ use crate::cli::files::{self, STANDARD};
 use crate::cli::findings::FindingArgs;
 use crate::cli::output::{Outputs, print_summary, unless_nobody_reads};
 use crate::cli::progress::Progress;
+use crate::cli::stop::Stop;
 use crate::cli::terminal;
 use clap::Args;
 use clsmith::diagnostic::Diagnostic;
@@ -102,24 +103,6 @@ pub struct Chips {
 fn height(text: &str) -> Result<f64, String> {
     let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
     value.ok_or_else(|| "this must be a number".into())
-}
-
-/// Why a run ended before its end.
-enum Stop {
-    Found(Vec<Diagnostic>),
-    Interrupted,
-}
-
-impl From<Vec<Diagnostic>> for Stop {
-    fn from(found: Vec<Diagnostic>) -> Self {
-        Self::Found(found)
-    }
-}
-
-impl From<Diagnostic> for Stop {
-    fn from(found: Diagnostic) -> Self {
-        Self::Found(vec![found])
-    }
 }
 
 impl Chips {

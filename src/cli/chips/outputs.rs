@@ -1,8 +1,9 @@
 //! What `clsmith chips` writes, and where it may not.
 
-use super::{Chips, Stop};
+use super::Chips;
 use crate::cli::files::STANDARD;
 use crate::cli::output::{self, Outputs};
+use crate::cli::stop::Stop;
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::report::chips::{self, ChipReport};
 use clsmith::setup::Setup;

@@ -9,6 +9,7 @@ use crate::cli::output::{Outputs, print_summary, unless_nobody_reads};
 use crate::cli::plot::as_file;
 use crate::cli::progress::Progress;
 use crate::cli::reports::ReportArgs;
+use crate::cli::stop::Stop;
 use crate::cli::terminal;
 use clap::Args;
 use clsmith::diagnostic::{Diagnostic, codes};
@@ -130,24 +131,6 @@ impl Ran {
             findings,
             reports: &[],
         }
-    }
-}
-
-/// Why a run ended before its end.
-enum Stop {
-    Found(Vec<Diagnostic>),
-    Interrupted,
-}
-
-impl From<Vec<Diagnostic>> for Stop {
-    fn from(found: Vec<Diagnostic>) -> Self {
-        Self::Found(found)
-    }
-}
-
-impl From<Diagnostic> for Stop {
-    fn from(found: Diagnostic) -> Self {
-        Self::Found(vec![found])
     }
 }
 

@@ -1,8 +1,9 @@
 //! What `clsmith simulate` writes, and where it may not.
 
-use super::{Ran, Simulate, Stop};
+use super::{Ran, Simulate};
 use crate::cli::files::STANDARD;
 use crate::cli::output::{Outputs, overwritten};
+use crate::cli::stop::Stop;
 use clsmith::diagnostic::Diagnostic;
 use clsmith::report::comparison::Comparison;
 use clsmith::report::simulation;

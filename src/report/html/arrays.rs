@@ -2,10 +2,10 @@
 
 use super::encode::Array;
 use super::listing::Listing;
-use super::side::{CLASSES, Side};
+use super::side::Side;
 use super::stock::Heights;
 use super::{change, markup};
-use crate::program::Program;
+use crate::program::{MotionClass, Program};
 use crate::report::comparison::{Comparison, Subject};
 use crate::report::table::{count, short};
 use rayon::prelude::*;
@@ -115,7 +115,7 @@ fn facts(
     json!({
         "sides": sides,
         "steps": steps,
-        "classes": CLASSES.map(|class| class.to_string().replace('_', " ")),
+        "classes": MotionClass::ALL.map(|class| class.to_string().replace('_', " ")),
         "origin": origin,
         "stock": stock.map(|stock| json!({
             "first": stock.first, "cell": stock.cell, "columns": stock.columns, "rows": stock.rows, "low": stock.low,

@@ -1,6 +1,6 @@
 //! The text of the program, line by line, with the lines that steps changed or took out beside it.
 
-use crate::program::{Change, Program, Statement};
+use crate::program::{Change, Program, Record, Statement};
 
 /// No row.
 pub const NONE: u32 = u32::MAX;
@@ -44,6 +44,11 @@ impl Listing {
             let was_read = !statement.origin().is_empty();
             let mut now = NONE;
             match statement.change() {
+                // It is on the first line, with the statement that begins there.
+                Change::Untouched if matches!(statement.record(), Record::ByteOrderMark) => {
+                    now = row;
+                    listing.text.extend_from_slice(program.text(statement));
+                }
                 Change::Untouched => {
                     now = row;
                     listing.add(program.text(statement), RowKind::Kept, step);

@@ -185,17 +185,6 @@ fn vertex(place: &Place, [x, y, z]: [f64; 3]) -> [f32; 3] {
     [place.point.x - x, place.point.y - y, place.point.z - z].map(|value| value as f32)
 }
 
-/// The classes in the order of their numbers.
-pub const CLASSES: [MotionClass; 7] = [
-    MotionClass::Rapid,
-    MotionClass::Approach,
-    MotionClass::Engage,
-    MotionClass::Cut,
-    MotionClass::StepOver,
-    MotionClass::Retract,
-    MotionClass::Drill,
-];
-
 fn class_number(class: MotionClass) -> u8 {
-    CLASSES.iter().position(|other| *other == class).unwrap_or(0) as u8
+    MotionClass::ALL.iter().position(|other| *other == class).unwrap_or(0) as u8
 }

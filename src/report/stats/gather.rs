@@ -9,16 +9,6 @@ use crate::program::{LengthUnit, MotionClass, Program, Record, operation};
 use crate::setup::Setup;
 use std::sync::Arc;
 
-const CLASSES: [MotionClass; 7] = [
-    MotionClass::Rapid,
-    MotionClass::Approach,
-    MotionClass::Engage,
-    MotionClass::Cut,
-    MotionClass::StepOver,
-    MotionClass::Retract,
-    MotionClass::Drill,
-];
-
 /// What grows while motions go by.
 struct Gathering<'p> {
     program: &'p Program,
@@ -49,7 +39,7 @@ pub(super) fn gather(program: &Program, setup: &Setup, units: Units) -> Stats {
         unit: units.unit,
         rapid,
         totals,
-        classes: CLASSES.map(|class| ClassStats { class, totals }).into(),
+        classes: MotionClass::ALL.map(|class| ClassStats { class, totals }).into(),
         feeds: Feeds::default(),
         feed: None,
         spindle_rpm: None,

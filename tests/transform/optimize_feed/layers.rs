@@ -67,7 +67,8 @@ fn a_full_slot_runs_at_target_times_teeth_times_speed() {
 fn a_five_axis_wall_keeps_its_target_when_columns_look_again() {
     let once = corrected(LAYERS, &wall());
     let found = feeds(&once);
-    assert!(found.len() > 3 && found.iter().all(|feed| *feed > 1200.0), "{once}");
+    // The way to the block is air, which keeps its feed.
+    assert!(found.len() > 3 && found.iter().skip(1).all(|feed| *feed > 1200.0), "{once}");
     let chips = chips(&once, LAYERS);
     assert_eq!(chips.len(), 9);
     for [estimate, bound] in &chips {
