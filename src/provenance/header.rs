@@ -28,7 +28,7 @@ pub(super) fn lines(
         texts.extend([first, second].map(|half| format!("{hashed} sha256 {half}")));
     };
     // What the print is of, so that nobody compares it with the digest of the recipe's text alone.
-    named("recipe", recipe.source.name(), "recipe and its files", print.map(|print| print.sha256));
+    named("recipe", recipe.source.name(), "recipe and files", print.map(|print| print.sha256));
     named("input", program.source().name(), "input", Some(Digest::of(program.source().bytes())));
     let before = places.header();
     texts.iter().map(|text| Line { before, text: form::line(dialect, text) }).collect()

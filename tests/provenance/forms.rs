@@ -170,6 +170,12 @@ fn shown(name: &str, part: &str, moves: bool) {
     let text = text(&with_comments(&steps), part);
     let ends = part.contains("\r\n");
     assert!(text.split_inclusive('\n').all(|line| line.ends_with("\r\n") == ends), "{name}");
+    // Both digests stand there in full.
+    let halves = text
+        .lines()
+        .filter_map(|line| line.split_once("clsmith ")?.1.split_once("sha256 "))
+        .map(|(_, half)| half);
+    assert_eq!(halves.filter(|half| half.trim_end().len() == 32).count(), 4, "{text}");
     snapshots("provenance").bind(|| insta::assert_snapshot!(name, text));
 }
 
