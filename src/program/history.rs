@@ -73,9 +73,9 @@ impl Program {
     }
 
     /// Says something about what a step just made of a statement; nothing where it made nothing, or no history is kept.
-    pub(crate) fn note(&mut self, index: usize, note: String) {
+    pub(crate) fn note(&mut self, index: usize, by: StepId, note: String) {
         let Some(statement) = self.statements.get(index) else { return };
-        let changed = matches!(statement.change, Change::Edited(_) | Change::Inserted(_));
+        let changed = matches!(statement.change, Change::Edited(step) | Change::Inserted(step) if step == by);
         if let Some(history) = self.history.as_mut().filter(|_| changed) {
             history.notes.insert(statement.text.start, note.into_boxed_str());
         }

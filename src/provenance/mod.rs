@@ -5,7 +5,7 @@
 //! changed stays as it is: so a second run that finds nothing to do writes the same bytes. One that does change something puts
 //! its lines below those of the runs before it, which stay: header by header and record by record they are the file's history,
 //! and each run can be undone in turn. A record's lines stand directly before it, or before the group that no reader must
-//! find parted ([`place`](mod@place)).
+//! find parted (`place`).
 
 mod changes;
 mod feeds;

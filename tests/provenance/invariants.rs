@@ -5,6 +5,7 @@ use crate::support::{self, fixtures};
 use clsmith::job::Done;
 use clsmith::parse::parse;
 use clsmith::program::{OwnComment, Program};
+use clsmith::report::diff::Diff;
 use clsmith::source::Source;
 use std::sync::Arc;
 
@@ -42,6 +43,8 @@ fn compare(steps: &str, source: &Arc<Source>) -> bool {
     let motions =
         |program: &Program| program.motions().map(|motion| (motion.to, motion.rapid)).collect::<Vec<_>>();
     assert!(motions(&again.program) == motions(&plain), "{name}: the path is the same");
+    let plain_again = parse(&support::text(plain.to_bytes()), None).program;
+    assert!(Diff::of(&plain_again, &again.program).same_meaning, "{name}: `diff` finds the same meaning");
     for (_, statement) in again.program.live() {
         let text = again.program.text(statement);
         if OwnComment::of(text).is_some() {

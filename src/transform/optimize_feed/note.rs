@@ -4,7 +4,7 @@
 use super::gather::{Gathered, Mark};
 use super::parameters::Criterion;
 use super::step::Job;
-use crate::program::{LengthUnit, Program};
+use crate::program::{LengthUnit, Program, StepId};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ impl Job {
     /// Adds the notes; nothing for a program that keeps no history. `parts` are the motions that each motion of `before` is now.
     pub(super) fn note(
         &self,
-        program: &mut Program,
+        (program, step): (&mut Program, StepId),
         before: &Gathered,
         after: &Gathered,
         parts: &[Range<usize>],
@@ -36,7 +36,7 @@ impl Job {
         }
         after.marks.iter().for_each(|mark| add(mark.motion, 1, estimate(mark)));
         for (statement, [old, new]) in loads.into_iter().filter(|(_, loads)| *loads != [0.0; 2]) {
-            program.note(statement, text(criterion, self.units, old, new));
+            program.note(statement, step, text(criterion, self.units, old, new));
         }
     }
 }

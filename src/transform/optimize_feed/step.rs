@@ -42,7 +42,7 @@ impl Transform for OptimizeFeed {
         context.findings = told;
         let (after, _) = proof?;
         job.prove(&program, &after, &excused, context)?;
-        job.note(&mut program, &before, &after, &parts);
+        job.note((&mut program, context.step), &before, &after, &parts);
         context.reports.push(StepReport::OptimizeFeed(job.report(
             &program,
             &before,
