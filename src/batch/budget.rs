@@ -14,6 +14,10 @@ pub const PER_BYTE: u64 = 4;
 /// Bytes of memory for a line: its statement, changed and read back, and lists that grow by doubling.
 pub const PER_LINE: u64 = 320;
 
+/// Bytes of memory for a comment before a line, where a recipe asks for them and changes every line: the texts before, the
+/// comment's own, its statement, and both read back. Measured on a program whose every number changes.
+pub const PER_COMMENT: u64 = 480;
+
 /// Bytes of memory that a file takes however small it is.
 pub const LEAST: u64 = 4 << 20;
 
@@ -29,6 +33,11 @@ pub fn need(bytes: u64, lines: u64) -> u64 {
 /// little.
 pub fn need_of(path: &Path, bytes: u64) -> u64 {
     need(bytes, lines(path, bytes).unwrap_or(0))
+}
+
+/// What the comments of a recipe with `provenance: comments` may need beside that: one for every line.
+pub fn comments_of(path: &Path, bytes: u64) -> u64 {
+    lines(path, bytes).unwrap_or(0).saturating_mul(PER_COMMENT)
 }
 
 /// About how many lines a file has; rather too many.

@@ -6,6 +6,7 @@ use super::jobs::{Asked, Jobs, Placed};
 use super::{Folder, Name, Shard};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::fingerprint::{Digest, RecipePrint, VERSION};
+use crate::recipe::Provenance;
 use crate::setup::Setup;
 use crate::source::Source;
 use crate::transform::Recipe;
@@ -125,6 +126,15 @@ impl Plan {
         wrong.extend(plan.links(folder));
         wrong.extend(plan.ours(folder, results));
         if wrong.is_empty() { Ok(plan) } else { Err(wrong) }
+    }
+
+    /// Makes room for the comments of recipes that ask for them. `works` are the jobs' recipes, in their order.
+    pub fn expect_comments(&mut self, works: &[Work]) {
+        let asks =
+            |job: usize| works.get(job).is_some_and(|work| work.recipe.provenance == Provenance::Comments);
+        for file in self.files.iter_mut().filter(|file| asks(file.job)) {
+            file.need = file.need.saturating_add(budget::comments_of(&file.path, file.size));
+        }
     }
 
     /// Positions of the files that a shard does; all without one.

@@ -57,6 +57,12 @@ pub fn parse(source: &Arc<Source>, dialect: Option<Dialect>) -> Parsed {
             at += length;
             continue;
         }
+        if let Some(length) = shortcut::own_comment(rest) {
+            reader.program.push(Record::Comment, Span::new(at, at + length));
+            reader.last_was_points = false;
+            at += length;
+            continue;
+        }
         match reader.read(at, rest) {
             Ok(length) => at += length,
             Err(refusal) => return reader.refuse(*refusal),
@@ -95,6 +101,9 @@ pub fn whole(text: &[u8]) -> Result<Record, BadRecord> {
         && length == text.len()
     {
         return Ok(Record::Goto(goto));
+    }
+    if shortcut::own_comment(text) == Some(text.len()) {
+        return Ok(Record::Comment);
     }
     let (record, syntax) = record(text)?;
     let length = syntax.text.len();

@@ -1,8 +1,9 @@
-//! A shortcut for plain GOTO lines, which are most of every file.
+//! A shortcut for plain GOTO lines, which are most of every file, and for the comments that clsmith itself puts before them.
 //!
 //! It may only agree with the grammar or decline: the property test `shortcut_agrees_with_the_grammar` holds it to that.
 
 use crate::number::plain_decimal;
+use crate::program::OWN_WORD;
 use crate::program::record::{Goto, has_direction};
 use nalgebra::{Point3, Vector3};
 use std::ops::Range;
@@ -28,6 +29,20 @@ pub(super) fn goto_numbers(text: &[u8]) -> Option<Vec<(Range<usize>, f64)>> {
     let numbers = scan.places.into_iter().zip(scan.values).take(scan.count);
     Some(numbers.map(|((start, end), value)| (start..end, value)).collect())
 }
+
+/// The length, with its line end, of a comment of clsmith's own at the start of a text. Longer ones than it writes are left to
+/// the grammar.
+pub(super) fn own_comment(text: &[u8]) -> Option<usize> {
+    text.strip_prefix(b"$$ ")?.strip_prefix(OWN_WORD.as_bytes())?.strip_prefix(b" ")?;
+    let line = text.get(..OWN_LENGTH).unwrap_or(text);
+    match memchr::memchr2(b'\n', b'\r', line) {
+        Some(end) => Some(end + if text.get(end..end + 2) == Some(b"\r\n") { 2 } else { 1 }),
+        None => (line.len() == text.len()).then_some(text.len()),
+    }
+}
+
+/// Bytes of a comment that the shortcut takes.
+const OWN_LENGTH: usize = 128;
 
 struct Scan {
     values: [f64; 6],
@@ -102,7 +117,7 @@ fn line_end(text: &[u8], at: usize) -> Option<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::goto;
+    use super::{goto, own_comment};
     use crate::parse::statement_of;
     use crate::program::Record;
     use proptest::prelude::*;
@@ -219,5 +234,36 @@ mod tests {
         ] {
             assert!(!agrees(text.as_bytes()).unwrap(), "{text}");
         }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn own_comments_are_comments_to_the_grammar(text in "\\$\\$ ?clsmith ?[ -~]{0,140}[$]?(\r\n|\n|\r|)(GOTO/1,2,3\n)?") {
+            if let Some(length) = own_comment(text.as_bytes()) {
+                let (syntax, end) = crate::parse::statement_of(text.as_bytes());
+                prop_assert_eq!(syntax.form, crate::program::Form::Comment);
+                prop_assert_eq!(end, length);
+                prop_assert!(!syntax.open);
+                prop_assert_eq!(Record::read(&syntax).unwrap(), Record::Comment);
+            }
+        }
+    }
+
+    #[test]
+    fn own_comments_are_taken() {
+        for (text, length) in [
+            ("$$ clsmith 0.1.0 x\nGOTO/1,2,3\n", Some(19)),
+            ("$$ clsmith a: b\r\n", Some(17)),
+            ("$$ clsmith a", Some(12)),
+        ] {
+            assert_eq!(own_comment(text.as_bytes()), length, "{text}");
+        }
+        for text in ["$$ clsmiths\n", "$$-> clsmith \n", " $$ clsmith x\n", "REMARK clsmith x\n"] {
+            assert_eq!(own_comment(text.as_bytes()), None, "{text}");
+        }
+        let long = format!("$$ clsmith {}", "x".repeat(200));
+        assert_eq!(own_comment(long.as_bytes()), None);
     }
 }

@@ -152,3 +152,19 @@ fn the_report_shares_no_file_with_anything() {
     run(&["--dry-run", "--json", "a.json"], 0);
     assert!(read(folder.path(), "a.json").contains("\"output\":{\"file\":null,"));
 }
+
+#[test]
+fn a_batch_makes_room_for_comments() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = format!("UNITS/MM\nFEDRAT/100,MMPM\n{}", "GOTO/1.0,2.0,3.0\n".repeat(20_000));
+    std::fs::write(folder.path().join("part.apt"), text).unwrap();
+    let run = |provenance: &str| {
+        let recipe =
+            format!("version: 1\nprovenance: {provenance}\nsteps: [{{ scale_feed: {{ factor: 0.5 }} }}]\n");
+        std::fs::write(folder.path().join("recipe.yaml"), recipe).unwrap();
+        let args = ["batch", "--recipe", "recipe.yaml", "--out", provenance, "--memory", "16MB", "part.apt"];
+        let done = clsmith(folder.path()).args(args).assert().success();
+        String::from_utf8_lossy(&done.get_output().stderr).contains("CL0425")
+    };
+    assert_eq!([run("header"), run("comments")], [false, true]);
+}

@@ -230,7 +230,7 @@ impl Batch {
         let folder = Folder::new(out, self.shard);
         let results = self.results.clone().unwrap_or_else(|| folder.results());
         match Plan::make(jobs, &folder, &results, &read) {
-            Ok(plan) if wrong.is_empty() => {
+            Ok(mut plan) if wrong.is_empty() => {
                 let given = self.results.iter().filter(|results| {
                     plan.files.iter().map(|file| &file.path).chain(&read).any(|path| same_file(path, results))
                 });
@@ -238,6 +238,7 @@ impl Batch {
                     None => folder.lock().map_err(|found| vec![*found])?,
                     Some(found) => return Err(vec![found]),
                 };
+                plan.expect_comments(&works);
                 Ok(Ready { plan, works, folder, results, memory: self.memory() })
             }
             Ok(_) => Err(wrong),
