@@ -16,8 +16,9 @@ pub use rim::Rim;
 
 use super::diagram::Diagram;
 use super::diagram::stretch::Stretch;
-use super::family::{Curve, Family};
-use outline::{Cuts, outline};
+use super::family::{Curve, Ellipse, Family};
+use super::trig::Trig;
+use outline::{Cuts, outline, outline_with_caps};
 
 /// Slices for a diagram that is not resolved: a turn of a radian with a lever of 50 mm is missed by 0.4 micrometres.
 const SLICES: usize = 128;
@@ -32,6 +33,20 @@ pub struct Cover {
     /// Borders of everything that the edge enters on its way; an area is covered where they wind around it at all (their
     /// winding numbers are nowhere negative). Parts of `first` may be covered again.
     pub advancing: Vec<Vec<[f64; 2]>>,
+    /// How both sections came about; `None` where that is not known.
+    pub seams: Option<[Seam; 2]>,
+    /// What the ends of the envelope's branches, which are corners of `first`, add to it: parts of it along its border.
+    pub caps: Vec<Vec<[f64; 2]>>,
+}
+
+/// All that a section depends on but for the ends of the envelope's branches. A step that goes on from another one begins with the seam
+/// that the other one ended with, to the bit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Seam {
+    ellipse: Ellipse,
+    ends: [Option<Trig<f64>>; 2],
+    cuts: Cuts,
+    directions: usize,
 }
 
 impl Cover {
@@ -44,10 +59,15 @@ impl Cover {
         }
         let stretches = diagram.stretches();
         let (Some(begin), Some(end)) = (stretches.first(), stretches.last()) else { return Self::default() };
+        let cuts = [begin, end].map(|stretch| Cuts::of(family, stretch));
+        let [before, behind] = cuts;
+        let (first, caps) = outline_with_caps(family, rim, 0.0, before, &nodes(family, &[begin], 0.0));
         let mut cover = Self {
-            first: outline(family, rim, 0.0, Cuts::of(family, begin), &nodes(family, &[begin], 0.0)),
-            last: outline(family, rim, 1.0, Cuts::of(family, end), &nodes(family, &[end], 1.0)),
+            first,
+            last: outline(family, rim, 1.0, behind, &nodes(family, &[end], 1.0)),
             advancing: Vec::new(),
+            seams: Some([Seam::of(family, rim, 0.0, before), Seam::of(family, rim, 1.0, behind)]),
+            caps,
         };
         for (index, stretch) in stretches.iter().enumerate() {
             let before = index.checked_sub(1).and_then(|index| stretches.get(index));
@@ -88,6 +108,14 @@ impl Cover {
     /// Whether nothing is entered.
     pub fn is_empty(&self) -> bool {
         self.advancing.is_empty()
+    }
+}
+
+impl Seam {
+    fn of(family: &Family, rim: &Rim, t: f64, cuts: Cuts) -> Self {
+        let ellipse = Ellipse { velocity: [0.0; 2], ..family.ellipse(t) };
+        let ends = [Curve::Bottom, Curve::Top].map(|curve| family.has(curve).then(|| family.curve(curve, t)));
+        Self { ellipse, ends, cuts, directions: rim.count() }
     }
 }
 
