@@ -18,6 +18,7 @@ use super::diagram::Diagram;
 use super::diagram::stretch::Stretch;
 use super::family::{Curve, Ellipse, Family};
 use super::trig::Trig;
+use bands::Root;
 use outline::{Cuts, outline, outline_with_caps};
 
 /// Slices for a diagram that is not resolved: a turn of a radian with a lever of 50 mm is missed by 0.4 micrometres.
@@ -58,23 +59,23 @@ impl Cover {
             return sliced::cover(family, rim, SLICES);
         }
         let stretches = diagram.stretches();
+        let roots: Vec<Vec<Root<'_>>> = stretches.iter().map(|stretch| Root::all(family, stretch)).collect();
         let (Some(begin), Some(end)) = (stretches.first(), stretches.last()) else { return Self::default() };
         let cuts = [begin, end].map(|stretch| Cuts::of(family, stretch));
         let [before, behind] = cuts;
-        let (first, caps) = outline_with_caps(family, rim, 0.0, before, &nodes(family, &[begin], 0.0));
+        let (first, caps) = outline_with_caps(family, rim, 0.0, before, &nodes(None, roots.first()));
         let mut cover = Self {
             first,
-            last: outline(family, rim, 1.0, behind, &nodes(family, &[end], 1.0)),
+            last: outline(family, rim, 1.0, behind, &nodes(roots.last(), None)),
             advancing: Vec::new(),
             seams: Some([Seam::of(family, rim, 0.0, before), Seam::of(family, rim, 1.0, behind)]),
             caps,
         };
-        for (index, stretch) in stretches.iter().enumerate() {
-            let before = index.checked_sub(1).and_then(|index| stretches.get(index));
-            let after = stretches.get(index + 1);
-            let bottom = nodes(family, &with(before, stretch), stretch.t[0]);
-            let top = nodes(family, &with(after, stretch), stretch.t[1]);
-            if let Some(before) = before {
+        let mut before: Option<(&Stretch, &Vec<Root<'_>>)> = None;
+        for (index, (stretch, here)) in stretches.iter().zip(&roots).enumerate() {
+            let bottom = nodes(before.map(|(_, roots)| roots), Some(here));
+            let top = nodes(Some(here), roots.get(index + 1));
+            if let Some((before, _)) = before {
                 // The section itself closes whatever the resolution of the event leaves open, and is what appears at once when an upright
                 // cutter's bottom reaches the layer.
                 let (old, new) = (Cuts::of(family, before), Cuts::of(family, stretch));
@@ -83,7 +84,8 @@ impl Cover {
                     cover.add(outline(family, rim, stretch.t[0], old, &bottom));
                 }
             }
-            bands::borders(family, rim, stretch, [&bottom, &top], &mut cover.advancing);
+            bands::borders(family, rim, stretch, here, [&bottom, &top], &mut cover.advancing);
+            before = Some((stretch, here));
         }
         cover
     }
@@ -119,17 +121,15 @@ impl Seam {
     }
 }
 
-fn with<'s>(other: Option<&'s Stretch>, stretch: &'s Stretch) -> Vec<&'s Stretch> {
-    other.into_iter().chain([stretch]).collect()
-}
-
-/// Angles of the envelope's branches at a time: corners of borders on both sides of it, which must be corners of both.
-fn nodes(family: &Family, stretches: &[&Stretch], t: f64) -> Vec<f64> {
-    let angles = stretches.iter().flat_map(|stretch| {
-        let edges = stretch.tracks.iter().filter(|track| track.curve == Curve::Edge);
-        edges.map(|track| stretch.theta(family, track, t).rem_euclid(std::f64::consts::TAU))
-    });
-    let mut angles: Vec<f64> = angles.collect();
+/// Angles of the envelope's branches where one stretch ends and another begins: corners of borders on both sides, which must be corners of
+/// both.
+fn nodes(before: Option<&Vec<Root<'_>>>, behind: Option<&Vec<Root<'_>>>) -> Vec<f64> {
+    let edges = |roots: Option<&Vec<Root<'_>>>, end: fn([f64; 2]) -> f64| -> Vec<f64> {
+        let roots = roots.into_iter().flatten().filter(|root| root.curve() == Curve::Edge);
+        roots.map(|root| end(root.ends()).rem_euclid(std::f64::consts::TAU)).collect()
+    };
+    let mut angles = edges(before, |[_, end]| end);
+    angles.extend(edges(behind, |[begin, _]| begin));
     angles.sort_by(f64::total_cmp);
     angles.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
     angles

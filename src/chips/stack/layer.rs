@@ -6,7 +6,7 @@ use crate::chips::area::{Grid, Region};
 use crate::chips::cover::{Cover, Seam};
 
 /// Corners from which on a piece of a layer is halved: large enough that the edge of one cut fits in a piece.
-pub(super) const MOST_CORNERS: usize = 256;
+pub(super) const MOST_CORNERS: usize = 128;
 
 /// Borders that are cut along at once.
 const GROUP: usize = 12;
