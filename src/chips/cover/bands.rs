@@ -181,7 +181,8 @@ impl Walk<'_> {
             let (sin, cos) = angle.sin_cos();
             [cos, sin]
         };
-        let mut corners: Vec<(f64, [f64; 2])> = vec![(from, direction(from))];
+        let mut corners: Vec<(f64, [f64; 2])> = Vec::with_capacity(self.rim.count() + nodes.len() + 2);
+        corners.push((from, direction(from)));
         corners.extend(self.rim.between(from, to));
         for node in nodes {
             let angle = from + (node - from).rem_euclid(TAU);

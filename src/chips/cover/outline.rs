@@ -119,7 +119,8 @@ fn corners(family: &Family, rim: &Rim, t: f64, cuts: Cuts, nodes: &[f64]) -> Vec
     };
     let around = rim.between(-1e-9, TAU - 1e-9);
     let around = around.map(|(angle, direction)| Corner { angle, direction, is_node: false });
-    let mut corners: Vec<Corner> = around.chain(nodes.iter().map(|angle| Corner::at(*angle, true))).collect();
+    let mut corners: Vec<Corner> = Vec::with_capacity(rim.count() + nodes.len() + 4);
+    corners.extend(around.chain(nodes.iter().map(|angle| Corner::at(*angle, true))));
     corners.retain(|corner| kept(corner.angle));
     for angle in removed.iter().flatten() {
         // An end of one chord that the other has cut off is no corner.
