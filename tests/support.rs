@@ -4,7 +4,10 @@ use clsmith::program::geometry::{Arc, Path as ClPath};
 use clsmith::program::motion::{Motion, ProblemKind, Tool};
 use clsmith::program::{Dialect, Program};
 use clsmith::source::Source;
+use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::process::{Child, ExitStatus};
+use std::time::Duration;
 
 /// Files of the corpus beside the project, APT part programs left out; empty where the corpus is absent.
 pub fn corpus() -> Vec<PathBuf> {
@@ -24,6 +27,39 @@ pub fn corpus_all() -> Vec<PathBuf> {
     }
     files.sort();
     files
+}
+
+/// Another program that a test runs, by any of its names; `None`, and said, where it is not installed. `CI=true` wants it.
+pub fn installed(names: &[&str]) -> Option<PathBuf> {
+    let folders = std::env::var_os("PATH").unwrap_or_default();
+    let found = std::env::split_paths(&folders)
+        .flat_map(|folder| names.iter().map(move |name| folder.join(name)))
+        .find(|path| path.is_file());
+    let wanted = std::env::var("CI").is_ok_and(|ci| ci == "true" || ci == "1");
+    assert!(found.is_some() || !wanted, "CI=true, and {} is not installed", names[0]);
+    if found.is_none() {
+        // Past the harness, which keeps what tests print to itself.
+        let _ = writeln!(std::io::stderr(), "skipped: {} is not installed, and a test needs it", names[0]);
+    }
+    found
+}
+
+/// Waits for a process; how it ended, and the peak of its memory in bytes as Linux keeps it, 0 elsewhere.
+pub fn wait_with_peak(mut child: Child) -> (ExitStatus, u64) {
+    let file = format!("/proc/{}/status", child.id());
+    let peak = || {
+        let text = std::fs::read_to_string(&file).ok()?;
+        let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+        Some(line.split_whitespace().next()?.parse::<u64>().ok()? * 1024)
+    };
+    let mut most = 0;
+    loop {
+        most = peak().unwrap_or(0).max(most);
+        if let Some(status) = child.try_wait().unwrap() {
+            return (status, most);
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
 }
 
 /// A file of the corpus by the end of its path.

@@ -130,6 +130,23 @@ impl Family {
     }
 
     fn at<S: Scalar>(&self, t: S) -> At<S> {
+        let (tip, axis) = self.pose(t);
+        self.section(tip, axis)
+    }
+
+    /// The family at a number's time; at the end with the place to the bit.
+    fn instant(&self, t: f64) -> At<f64> {
+        let (mut tip, mut axis) = self.pose(t);
+        if t == 1.0 {
+            let [last_tip, last_axis] = self.step.end;
+            let jets = tip.iter_mut().chain(&mut axis);
+            jets.zip(last_tip.iter().chain(&last_axis)).for_each(|(jet, exact)| jet.v = *exact);
+        }
+        self.section(tip, axis)
+    }
+
+    /// Tip and axis.
+    fn pose<S: Scalar>(&self, t: S) -> ([Jet<S>; 3], [Jet<S>; 3]) {
         let step = &self.step;
         let zero = S::of(0.0);
         let line = |from: f64, way: f64| Jet { v: S::of(from) + S::of(way) * t, d: S::of(way), dd: zero };
@@ -149,6 +166,10 @@ impl Family {
             turned(step.from.y, step.across.y),
             turned(step.from.z, step.across.z),
         ];
+        (tip, axis)
+    }
+
+    fn section<S: Scalar>(&self, tip: [Jet<S>; 3], axis: [Jet<S>; 3]) -> At<S> {
         let [bx, by, az] = axis;
         let up = az.recip();
         let height = (Jet::constant(self.z) - tip[2]) * up;
@@ -161,7 +182,7 @@ impl Family {
 
     /// The ellipse at a time.
     pub fn ellipse(&self, t: f64) -> Ellipse {
-        let At { axis, centre: [x, y], shape, .. } = self.at(t);
+        let At { axis, centre: [x, y], shape, .. } = self.instant(t);
         let radius = self.step.mill.radius;
         Ellipse {
             centre: [x.v, y.v],
@@ -242,7 +263,7 @@ impl Family {
 
     /// A curve at a time.
     pub(super) fn curve(&self, curve: Curve, t: f64) -> Trig<f64> {
-        Trig(self.expand(curve, &self.at(t)).0)
+        Trig(self.expand(curve, &self.instant(t)).0)
     }
 
     /// The family over all times of an interval.

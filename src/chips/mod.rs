@@ -25,7 +25,7 @@ pub use area::Polygon;
 pub use chip::{Chip, LayerChip, cut};
 pub use cover::{Cover, Rim};
 pub use diagram::Diagram;
-pub use engagement::engagement;
+pub use engagement::{engagement, largest_share};
 pub use family::Family;
 pub use section::{FlatMill, Refusal, Step};
 pub use stack::{Layer, Removed, Stack, StackError};

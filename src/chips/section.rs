@@ -65,6 +65,8 @@ pub struct Step {
     pub(super) across: Vector3<f64>,
     /// Radians.
     pub(super) turn: f64,
+    /// Tip (mm) and axis at the end as they were given: to the bit what a step that goes on from there begins with.
+    pub(super) end: [Vector3<f64>; 2],
     /// -1 for a mirrored step.
     pub(super) up: f64,
 }
@@ -103,7 +105,8 @@ impl Step {
         let turn = if turn < 1e-10 { 0.0 } else { turn };
         let across = (to - from * from.dot(&to)).try_normalize(0.0).filter(|_| turn > 0.0);
         let tip = upright(piece.from.point.coords);
-        Ok(Self { mill, tip, way, from, across: across.unwrap_or_default(), turn, up })
+        let end = [upright(piece.to.point.coords), to];
+        Ok(Self { mill, tip, way, from, across: across.unwrap_or_default(), turn, end, up })
     }
 
     /// The mill.

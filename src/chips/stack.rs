@@ -19,19 +19,15 @@ pub const MOST_LAYERS: usize = 100_000;
 /// Why there is no stack of a stock.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum StackError {
-    /// A layer without thickness.
-    #[error("layers must have a positive thickness, not {thickness} mm")]
+    /// A layer without thickness, or thicker than the stock.
+    #[error("a layer must have a thickness, and not more than the stock is high: {height} mm")]
     Thickness {
-        /// The thickness asked for, mm.
-        thickness: f64,
+        /// Height of the stock, mm.
+        height: f64,
     },
     /// Thinner layers than there is memory for.
-    #[error(
-        "layers of {thickness} mm are {layers} in the stock, more than the {MOST_LAYERS} that are allowed"
-    )]
+    #[error("they would be {layers}, more than the {MOST_LAYERS} that are allowed")]
     TooMany {
-        /// The thickness asked for, mm.
-        thickness: f64,
         /// Layers that it makes.
         layers: f64,
     },
@@ -78,15 +74,16 @@ impl Stack {
     /// # Errors
     /// See [`Stack::new`].
     pub fn with_corners(stock: &Stock, thickness: f64, corners: usize) -> Result<Self, StackError> {
-        if !(thickness > 0.0 && thickness.is_finite()) {
-            return Err(StackError::Thickness { thickness });
-        }
         let bounds = stock.bounds();
         let ([x0, y0, z0], [x1, y1, z1]) = bounds;
+        let height = z1 - z0;
+        if !(thickness > 0.0 && thickness <= height * (1.0 + 1e-9)) {
+            return Err(StackError::Thickness { height });
+        }
         // A rounding more than a whole number of layers is no layer.
-        let count = ((z1 - z0) / thickness - 1e-9).ceil().max(1.0);
+        let count = (height / thickness - 1e-9).ceil().max(1.0);
         if count > MOST_LAYERS as f64 {
-            return Err(StackError::TooMany { thickness, layers: count });
+            return Err(StackError::TooMany { layers: count });
         }
         let size = (x1 - x0).max(y1 - y0);
         let grid = Grid::around([x0, y0], [x1, y1]).ok_or(StackError::TooLarge { size })?;

@@ -31,8 +31,7 @@ impl Angle<f64> {
 impl Angle<Interval> {
     /// Of all angles of an interval, radians.
     pub fn over(x: Interval) -> Self {
-        let (sin, cos) = x.sin_cos();
-        let (sin2, cos2) = Interval { lo: 2.0 * x.lo, hi: 2.0 * x.hi }.sin_cos();
+        let [(sin, cos), (sin2, cos2)] = x.sin_cos_with_doubles();
         Self { cos, sin, cos2, sin2 }
     }
 }

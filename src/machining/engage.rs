@@ -59,7 +59,9 @@ impl Machining<'_> {
             Source::Layers { thickness: None } => {
                 let diameters = self.tooling.cutters().iter().map(|cutter| 2.0 * cutter.radius());
                 let smallest = diameters.fold(f64::INFINITY, f64::min);
-                Ok(Grain::Layer(if smallest.is_finite() { smallest / LAYERS_ACROSS } else { 0.1 }))
+                let ([.., low], [.., high]) = self.stock.bounds();
+                let usual = if smallest.is_finite() { smallest / LAYERS_ACROSS } else { 0.1 };
+                Ok(Grain::Layer(usual.min(high - low)))
             }
         }
     }

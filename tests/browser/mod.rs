@@ -1,6 +1,7 @@
 //! The report's page in a real browser.
 
 mod chromium;
+mod million;
 
 use crate::cli::clsmith;
 use crate::report::simulation::{SHOP, SLOT};

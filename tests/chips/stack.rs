@@ -37,6 +37,7 @@ fn step(from: [f64; 2], to: [f64; 2], radius: f64, corners: usize) -> Cover {
         first: circle(from, radius, corners),
         last: circle(to, radius, corners),
         advancing: vec![advancing],
+        ..Cover::default()
     }
 }
 
@@ -312,7 +313,7 @@ proptest! {
         let mut gone = start;
         for (first, advancing) in cuts {
             let before = layer.area_mm2();
-            let cover = Cover { first, advancing, last: Vec::new() };
+            let cover = Cover { first, advancing, ..Cover::default() };
             let removed = layer.remove(&cover);
             let after = layer.area_mm2();
             prop_assert!((before - after - removed.area_mm2 - removed.inside_mm2).abs() < 1e-3);

@@ -1,6 +1,6 @@
 //! Polygon booleans: those of [`i_overlay`], with the room they need kept from one to the next.
 
-use super::region::twice_area;
+use super::region::{is_thick, twice_area};
 use super::{Grid, Polygon, Region};
 use i_overlay::core::extract::BooleanExtractionBuffer;
 use i_overlay::core::fill_rule::FillRule;
@@ -55,7 +55,7 @@ impl Clipper {
         joined
     }
 
-    /// The connected pieces of everything that borders wind around, and their area in mm2.
+    /// The connected pieces of everything that borders wind around, and their area in mm2; without slivers as thin as rounding.
     pub fn polygons(&mut self, area: &Region, grid: &Grid) -> (Vec<Polygon>, f64) {
         let Room { overlay, buffer } = self.room();
         overlay.clear();
@@ -66,7 +66,10 @@ impl Clipper {
         };
         let places = |contour: Vec<IntPoint>| contour.into_iter().map(|point| grid.place(point)).collect();
         let mut twice = 0;
-        let pieces = shapes.into_iter().filter_map(|shape| {
+        let pieces = shapes.into_iter().filter_map(|mut shape| {
+            // Without its outer border, a piece is none.
+            shape.first().filter(|outer| is_thick(outer))?;
+            shape.retain(|contour| is_thick(contour));
             twice += shape.iter().map(|contour| twice_area(contour)).sum::<i128>();
             let mut borders = shape.into_iter().map(places);
             Some(Polygon { outer: borders.next()?, holes: borders.collect() })

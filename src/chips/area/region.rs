@@ -133,18 +133,10 @@ impl Region {
         }
     }
 
-    /// Leaves out borders that enclose nothing thicker than rounding, and returns twice the area of the rest in square steps.
-    pub(super) fn drop_slivers(&mut self) -> i128 {
-        let mut twice = 0;
+    /// Leaves out borders that enclose nothing thicker than rounding.
+    pub(super) fn drop_slivers(&mut self) {
         let FlatContoursBuffer { points, ranges } = &mut self.borders;
-        ranges.retain(|range| {
-            let contour = points.get(range.clone()).unwrap_or_default();
-            let area = twice_area(contour);
-            let keep = area.abs() > THINNEST * way_around(contour);
-            twice += if keep { area } else { 0 };
-            keep
-        });
-        twice
+        ranges.retain(|range| points.get(range.clone()).is_some_and(is_thick));
     }
 
     /// Makes the points from `start` on a border, unless it encloses nothing.
@@ -160,6 +152,11 @@ impl Region {
 
 /// Thickness up to which a border is a sliver: corners are rounded to half a step, and crossings a step or two more.
 const THINNEST: i128 = 2;
+
+/// Whether a border encloses something thicker than rounding.
+pub(super) fn is_thick(contour: &[IntPoint]) -> bool {
+    twice_area(contour).abs() > THINNEST * way_around(contour)
+}
 
 fn neighbours(contour: &[IntPoint]) -> impl Iterator<Item = (&IntPoint, &IntPoint)> {
     contour.iter().zip(contour.iter().skip(1).chain(contour.first()))

@@ -19,9 +19,42 @@ const PIECES: f64 = 16.0;
 #[derive(Clone, Copy)]
 enum Side<'s> {
     /// A root: a branch of the envelope, or an end of a chord.
-    Root(&'s Track),
+    Root(&'s Root<'s>),
     /// Where the speed of the chord between two roots changes its sign.
-    Still(&'s Track, &'s Track),
+    Still(&'s Root<'s>, &'s Root<'s>),
+}
+
+/// A track with its angles at the stretch's beginning, middle and end, which are asked for most.
+pub(super) struct Root<'s> {
+    track: &'s Track,
+    t: [f64; 3],
+    angles: [f64; 3],
+}
+
+impl<'s> Root<'s> {
+    /// The roots of a stretch.
+    pub fn all(family: &Family, stretch: &'s Stretch) -> Vec<Self> {
+        let [from, to] = stretch.t;
+        let t = [from, 0.5 * (from + to), to];
+        let root = |track| Self { track, t, angles: t.map(|t| stretch.theta(family, track, t)) };
+        stretch.tracks.iter().map(root).collect()
+    }
+
+    /// Whose root it is.
+    pub fn curve(&self) -> Curve {
+        self.track.curve
+    }
+
+    /// Its angles at the beginning and the end, radians.
+    pub fn ends(&self) -> [f64; 2] {
+        let [first, _, last] = self.angles;
+        [first, last]
+    }
+
+    fn middle(&self) -> f64 {
+        let [_, middle, _] = self.angles;
+        middle
+    }
 }
 
 /// An advancing part of the outline, all through a stretch.
@@ -37,15 +70,13 @@ pub(super) fn borders(
     family: &Family,
     rim: &Rim,
     stretch: &Stretch,
+    roots: &[Root<'_>],
     nodes: [&[f64]; 2],
     out: &mut Vec<Vec<[f64; 2]>>,
 ) {
     let middle = 0.5 * (stretch.t[0] + stretch.t[1]);
-    let mut roots: Vec<(f64, &Track)> = stretch
-        .tracks
-        .iter()
-        .map(|track| (stretch.theta(family, track, middle).rem_euclid(TAU), track))
-        .collect();
+    let mut roots: Vec<(f64, &Root<'_>)> =
+        roots.iter().map(|root| (root.middle().rem_euclid(TAU), root)).collect();
     roots.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     let walk = Walk { family, rim, stretch, nodes };
     if roots.is_empty() {
@@ -64,8 +95,9 @@ pub(super) fn borders(
         }
     }
     for (curve, sign) in [(Curve::Bottom, 1.0), (Curve::Top, -1.0)] {
-        let of =
-            |rising: bool| roots.iter().find(|(_, track)| track.curve == curve && track.rising == rising);
+        let of = |rising: bool| {
+            roots.iter().find(|(_, root)| root.curve() == curve && root.track.rising == rising)
+        };
         let (Some((from, a)), Some((to, b))) = (of(false), of(true)) else { continue };
         let face = family.curve(Curve::Face, middle);
         let speed = |angle: f64| sign * face.value(&Angle::of(angle));
@@ -127,14 +159,10 @@ impl Walk<'_> {
     fn edge(&self, band: &Band<'_>, t: f64, nodes: &[f64]) -> Vec<[f64; 2]> {
         match (band.straight, band.left, band.right) {
             (false, Side::Root(left), Side::Root(right)) => {
-                let angle = |track: &Track| self.stretch.theta(self.family, track, t);
-                let (from, to) = (angle(left), angle(right));
+                let (from, to) = (self.theta(left, t), self.theta(right, t));
                 let width = (to - from).rem_euclid(TAU);
                 // Two roots that have met enclose nothing or everything; rounding must not decide which.
-                let middle = 0.5 * (self.stretch.t[0] + self.stretch.t[1]);
-                let usual = (self.stretch.theta(self.family, right, middle)
-                    - self.stretch.theta(self.family, left, middle))
-                .rem_euclid(TAU);
+                let usual = (right.middle() - left.middle()).rem_euclid(TAU);
                 let width = match width {
                     width if width > TAU - 1e-3 && usual < 0.5 * TAU => 0.0,
                     width if width < 1e-3 && (usual > 0.5 * TAU || usual == 0.0) => TAU,
@@ -153,7 +181,8 @@ impl Walk<'_> {
             let (sin, cos) = angle.sin_cos();
             [cos, sin]
         };
-        let mut corners: Vec<(f64, [f64; 2])> = vec![(from, direction(from))];
+        let mut corners: Vec<(f64, [f64; 2])> = Vec::with_capacity(self.rim.count() + nodes.len() + 2);
+        corners.push((from, direction(from)));
         corners.extend(self.rim.between(from, to));
         for node in nodes {
             let angle = from + (node - from).rem_euclid(TAU);
@@ -169,17 +198,23 @@ impl Walk<'_> {
         corners.into_iter().map(|(_, direction)| ellipse.point(direction)).collect()
     }
 
+    fn theta(&self, root: &Root<'_>, t: f64) -> f64 {
+        let mut known = root.t.iter().zip(&root.angles);
+        let known = known.find_map(|(at, angle)| (*at == t).then_some(*angle));
+        known.unwrap_or_else(|| self.stretch.theta(self.family, root.track, t))
+    }
+
     fn point(&self, side: &Side<'_>, t: f64) -> [f64; 2] {
         let ellipse = self.family.ellipse(t);
-        let root = |track: &Track| Angle::of(self.stretch.theta(self.family, track, t));
+        let angle = |root: &Root<'_>| Angle::of(self.theta(root, t));
         match side {
-            Side::Root(track) => {
-                let Angle { cos, sin, .. } = root(track);
+            Side::Root(root) => {
+                let Angle { cos, sin, .. } = angle(root);
                 ellipse.point([cos, sin])
             }
             Side::Still(a, b) => {
                 let face = self.family.curve(Curve::Face, t);
-                let (a, b) = (root(a), root(b));
+                let (a, b) = (angle(a), angle(b));
                 let (at_a, at_b) = (face.value(&a), face.value(&b));
                 let share = at_a / (at_a - at_b);
                 let share = if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.5 };
@@ -217,10 +252,10 @@ impl Walk<'_> {
             let t = begin.0 + (end.0 - begin.0) * share;
             (t, self.point(side, t))
         };
-        // Off the middle as well: a curve may cross its chord there.
-        let (middle, beside) = (at(0.5), at(0.31));
         let close = |(_, point): (f64, [f64; 2])| off(point, begin.1, end.1) <= 0.5 * self.rim.tolerance();
-        if depth == 0 || (close(middle) && close(beside)) {
+        let middle = at(0.5);
+        // Off the middle as well: a curve may cross its chord there.
+        if depth == 0 || (close(middle) && close(at(0.31))) {
             return;
         }
         self.halve(side, begin, middle, depth - 1, out);
@@ -234,5 +269,6 @@ fn off([x, y]: [f64; 2], [ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {
     let (dx, dy) = (bx - ax, by - ay);
     let square = dx * dx + dy * dy;
     let along = if square > 0.0 { (((x - ax) * dx + (y - ay) * dy) / square).clamp(0.0, 1.0) } else { 0.0 };
-    (x - ax - along * dx).hypot(y - ay - along * dy)
+    let (x, y) = (x - ax - along * dx, y - ay - along * dy);
+    (x * x + y * y).sqrt()
 }

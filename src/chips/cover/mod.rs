@@ -16,8 +16,10 @@ pub use rim::Rim;
 
 use super::diagram::Diagram;
 use super::diagram::stretch::Stretch;
-use super::family::{Curve, Family};
-use outline::{Cuts, outline};
+use super::family::{Curve, Ellipse, Family};
+use super::trig::Trig;
+use bands::Root;
+use outline::{Cuts, outline, outline_with_caps};
 
 /// Slices for a diagram that is not resolved: a turn of a radian with a lever of 50 mm is missed by 0.4 micrometres.
 const SLICES: usize = 128;
@@ -32,6 +34,20 @@ pub struct Cover {
     /// Borders of everything that the edge enters on its way; an area is covered where they wind around it at all (their
     /// winding numbers are nowhere negative). Parts of `first` may be covered again.
     pub advancing: Vec<Vec<[f64; 2]>>,
+    /// How both sections came about; `None` where that is not known.
+    pub seams: Option<[Seam; 2]>,
+    /// What the ends of the envelope's branches, which are corners of `first`, add to it: parts of it along its border.
+    pub caps: Vec<Vec<[f64; 2]>>,
+}
+
+/// All that a section depends on but for the ends of the envelope's branches. A step that goes on from another one begins with the seam
+/// that the other one ended with, to the bit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Seam {
+    ellipse: Ellipse,
+    ends: [Option<Trig<f64>>; 2],
+    cuts: Cuts,
+    directions: usize,
 }
 
 impl Cover {
@@ -43,18 +59,23 @@ impl Cover {
             return sliced::cover(family, rim, SLICES);
         }
         let stretches = diagram.stretches();
+        let roots: Vec<Vec<Root<'_>>> = stretches.iter().map(|stretch| Root::all(family, stretch)).collect();
         let (Some(begin), Some(end)) = (stretches.first(), stretches.last()) else { return Self::default() };
+        let cuts = [begin, end].map(|stretch| Cuts::of(family, stretch));
+        let [before, behind] = cuts;
+        let (first, caps) = outline_with_caps(family, rim, 0.0, before, &nodes(None, roots.first()));
         let mut cover = Self {
-            first: outline(family, rim, 0.0, Cuts::of(family, begin), &nodes(family, &[begin], 0.0)),
-            last: outline(family, rim, 1.0, Cuts::of(family, end), &nodes(family, &[end], 1.0)),
+            first,
+            last: outline(family, rim, 1.0, behind, &nodes(roots.last(), None)),
             advancing: Vec::new(),
+            seams: Some([Seam::of(family, rim, 0.0, before), Seam::of(family, rim, 1.0, behind)]),
+            caps,
         };
-        for (index, stretch) in stretches.iter().enumerate() {
-            let before = index.checked_sub(1).and_then(|index| stretches.get(index));
-            let after = stretches.get(index + 1);
-            let bottom = nodes(family, &with(before, stretch), stretch.t[0]);
-            let top = nodes(family, &with(after, stretch), stretch.t[1]);
-            if let Some(before) = before {
+        let mut before: Option<(&Stretch, &Vec<Root<'_>>)> = None;
+        for (index, (stretch, here)) in stretches.iter().zip(&roots).enumerate() {
+            let bottom = nodes(before.map(|(_, roots)| roots), Some(here));
+            let top = nodes(Some(here), roots.get(index + 1));
+            if let Some((before, _)) = before {
                 // The section itself closes whatever the resolution of the event leaves open, and is what appears at once when an upright
                 // cutter's bottom reaches the layer.
                 let (old, new) = (Cuts::of(family, before), Cuts::of(family, stretch));
@@ -63,7 +84,8 @@ impl Cover {
                     cover.add(outline(family, rim, stretch.t[0], old, &bottom));
                 }
             }
-            bands::borders(family, rim, stretch, [&bottom, &top], &mut cover.advancing);
+            bands::borders(family, rim, stretch, here, [&bottom, &top], &mut cover.advancing);
+            before = Some((stretch, here));
         }
         cover
     }
@@ -91,17 +113,23 @@ impl Cover {
     }
 }
 
-fn with<'s>(other: Option<&'s Stretch>, stretch: &'s Stretch) -> Vec<&'s Stretch> {
-    other.into_iter().chain([stretch]).collect()
+impl Seam {
+    fn of(family: &Family, rim: &Rim, t: f64, cuts: Cuts) -> Self {
+        let ellipse = Ellipse { velocity: [0.0; 2], ..family.ellipse(t) };
+        let ends = [Curve::Bottom, Curve::Top].map(|curve| family.has(curve).then(|| family.curve(curve, t)));
+        Self { ellipse, ends, cuts, directions: rim.count() }
+    }
 }
 
-/// Angles of the envelope's branches at a time: corners of borders on both sides of it, which must be corners of both.
-fn nodes(family: &Family, stretches: &[&Stretch], t: f64) -> Vec<f64> {
-    let angles = stretches.iter().flat_map(|stretch| {
-        let edges = stretch.tracks.iter().filter(|track| track.curve == Curve::Edge);
-        edges.map(|track| stretch.theta(family, track, t).rem_euclid(std::f64::consts::TAU))
-    });
-    let mut angles: Vec<f64> = angles.collect();
+/// Angles of the envelope's branches where one stretch ends and another begins: corners of borders on both sides, which must be corners of
+/// both.
+fn nodes(before: Option<&Vec<Root<'_>>>, behind: Option<&Vec<Root<'_>>>) -> Vec<f64> {
+    let edges = |roots: Option<&Vec<Root<'_>>>, end: fn([f64; 2]) -> f64| -> Vec<f64> {
+        let roots = roots.into_iter().flatten().filter(|root| root.curve() == Curve::Edge);
+        roots.map(|root| end(root.ends()).rem_euclid(std::f64::consts::TAU)).collect()
+    };
+    let mut angles = edges(before, |[_, end]| end);
+    angles.extend(edges(behind, |[begin, _]| begin));
     angles.sort_by(f64::total_cmp);
     angles.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
     angles

@@ -58,6 +58,49 @@ fn cut_off(curve: &Trig<f64>) -> Result<[f64; 2], bool> {
 
 /// The section at a time, counter-clockwise; empty where there is none. `nodes` are further angles at which it has corners.
 pub(super) fn outline(family: &Family, rim: &Rim, t: f64, cuts: Cuts, nodes: &[f64]) -> Vec<[f64; 2]> {
+    let ellipse = family.ellipse(t);
+    corners(family, rim, t, cuts, nodes).into_iter().map(|corner| ellipse.point(corner.direction)).collect()
+}
+
+/// The section at a time, and what `nodes` add to the one without: a piece between the corners before and behind.
+pub(super) fn outline_with_caps(
+    family: &Family,
+    rim: &Rim,
+    t: f64,
+    cuts: Cuts,
+    nodes: &[f64],
+) -> (Vec<[f64; 2]>, Vec<Vec<[f64; 2]>>) {
+    let ellipse = family.ellipse(t);
+    let corners = corners(family, rim, t, cuts, nodes);
+    let start = corners.iter().position(|corner| !corner.is_node).unwrap_or_default();
+    let mut caps: Vec<Vec<[f64; 2]>> = Vec::new();
+    let mut cap: Vec<[f64; 2]> = Vec::new();
+    for corner in corners.iter().cycle().skip(start).take(corners.len() + 1) {
+        let place = ellipse.point(corner.direction);
+        cap.push(place);
+        if !corner.is_node {
+            let done = std::mem::replace(&mut cap, vec![place]);
+            caps.extend((done.len() > 2).then_some(done));
+        }
+    }
+    (corners.iter().map(|corner| ellipse.point(corner.direction)).collect(), caps)
+}
+
+/// A corner of a section.
+struct Corner {
+    angle: f64,
+    direction: [f64; 2],
+    is_node: bool,
+}
+
+impl Corner {
+    fn at(angle: f64, is_node: bool) -> Self {
+        let (sin, cos) = angle.sin_cos();
+        Self { angle, direction: [cos, sin], is_node }
+    }
+}
+
+fn corners(family: &Family, rim: &Rim, t: f64, cuts: Cuts, nodes: &[f64]) -> Vec<Corner> {
     let mut removed: Vec<[f64; 2]> = Vec::new();
     for (curve, cut) in [Curve::Bottom, Curve::Top].into_iter().zip(cuts.0) {
         match cut {
@@ -71,26 +114,23 @@ pub(super) fn outline(family: &Family, rim: &Rim, t: f64, cuts: Cuts, nodes: &[f
             },
         }
     }
-    let ellipse = family.ellipse(t);
     let kept = |angle: f64| {
         removed.iter().all(|[from, to]| (angle - from).rem_euclid(TAU) > to - from || to - from >= TAU)
     };
-    let mut corners: Vec<(f64, [f64; 2])> = rim.between(-1e-9, TAU - 1e-9).collect();
-    corners.extend(nodes.iter().map(|angle| {
-        let (sin, cos) = angle.sin_cos();
-        (*angle, [cos, sin])
-    }));
-    corners.retain(|(angle, _)| kept(*angle));
+    let around = rim.between(-1e-9, TAU - 1e-9);
+    let around = around.map(|(angle, direction)| Corner { angle, direction, is_node: false });
+    let mut corners: Vec<Corner> = Vec::with_capacity(rim.count() + nodes.len() + 4);
+    corners.extend(around.chain(nodes.iter().map(|angle| Corner::at(*angle, true))));
+    corners.retain(|corner| kept(corner.angle));
     for angle in removed.iter().flatten() {
         // An end of one chord that the other has cut off is no corner.
         let others = removed.iter().filter(|ends| !ends.contains(angle));
         let inside = others.clone().any(|[from, to]| (angle - from).rem_euclid(TAU) <= to - from);
         if !inside {
-            let (sin, cos) = angle.sin_cos();
-            corners.push((angle.rem_euclid(TAU), [cos, sin]));
+            corners.push(Corner { angle: angle.rem_euclid(TAU), ..Corner::at(*angle, false) });
         }
     }
-    corners.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-    corners.dedup_by(|(a, _), (b, _)| (*a - *b).abs() < 1e-9);
-    corners.into_iter().map(|(_, direction)| ellipse.point(direction)).collect()
+    corners.sort_by(|a, b| a.angle.total_cmp(&b.angle));
+    corners.dedup_by(|a, b| (a.angle - b.angle).abs() < 1e-9);
+    corners
 }

@@ -31,5 +31,5 @@ pub(super) fn cover(family: &Family, rim: &Rim, slices: usize) -> Cover {
         }
         last = next;
     }
-    Cover { first, last, advancing }
+    Cover { first, last, advancing, ..Cover::default() }
 }

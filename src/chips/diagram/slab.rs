@@ -2,8 +2,8 @@
 //!
 //! Over an interval of time every curve is enclosed by interval arithmetic. When each cell of the circle has a curve of one sign, or one
 //! that only rises or falls, its roots are known to be functions of time, one in each bracket; when the brackets of different curves are
-//! apart, so is the order of the roots. Otherwise the interval is halved, down to an eight-millionth of the step, where something happens: a fold (a branch of
-//! the envelope begins or ends), a split, a branch that runs into the bottom disc's chord.
+//! apart, so is the order of the roots. Otherwise the interval is halved, down to an eight-millionth of the step, where something
+//! happens: a fold (a branch of the envelope begins or ends), a split, a branch that runs into the bottom disc's chord.
 
 use super::cells::{Bracket, Cells, Roots};
 use super::moving;

@@ -12,7 +12,7 @@
 mod motion;
 mod samples;
 
-use super::chip::Chip;
+use super::chip::{Chip, LayerChip};
 use super::section::FlatMill;
 use crate::sim::{Bin, Engagement, Piece};
 use motion::Motion;
@@ -46,6 +46,19 @@ pub fn engagement(chip: &Chip, mill: &FlatMill, piece: &Piece, tolerance: f64) -
         }
     }
     found
+}
+
+/// The largest share of the way of a piece with which the cutter's surface advances into the chip on one layer, anywhere on the piece;
+/// `None` where no sample of the chip is reached by what advances (a film that chords left).
+///
+/// The thickest chip of a tooth follows: this share of the feed of a tooth. Between samples, a fiftieth of the radius apart, it may be
+/// larger by the square of that.
+pub fn largest_share(layer: &LayerChip, mill: &FlatMill, piece: &Piece, tolerance: f64) -> Option<f64> {
+    let length = Engagement::of_piece(piece, [mill.radius, mill.flutes]).length_mm;
+    let motion = Motion::new(mill, piece, length, 2.0 * tolerance + 1e-5);
+    let slab = Slab { z: layer.z, thickness: layer.thickness };
+    let samples = layer.pieces.iter().flat_map(|polygon| samples::samples(&motion, &slab, polygon));
+    samples.map(|sample| sample.share).reduce(f64::max)
 }
 
 fn give(found: &mut Engagement, motion: &Motion, sample: &Sample) {

@@ -3,10 +3,10 @@
 use super::tiles::{Room, Tile};
 use crate::chips::Polygon;
 use crate::chips::area::{Grid, Region};
-use crate::chips::cover::Cover;
+use crate::chips::cover::{Cover, Seam};
 
 /// Corners from which on a piece of a layer is halved: large enough that the edge of one cut fits in a piece.
-pub(super) const MOST_CORNERS: usize = 256;
+pub(super) const MOST_CORNERS: usize = 128;
 
 /// Borders that are cut along at once.
 const GROUP: usize = 12;
@@ -20,8 +20,9 @@ pub struct Layer {
     grid: Grid,
     most_corners: usize,
     material: Tile,
-    /// The cutter's section at the end of the last cut: nothing is left inside.
+    /// The cutter's section at the end of the last cut, and its seam: nothing is left inside.
     cleared: Vec<[f64; 2]>,
+    seam: Option<Seam>,
     room: Room,
 }
 
@@ -46,8 +47,8 @@ impl Layer {
     ) -> Self {
         let mut room = Room::default();
         let material = Tile::new(room.clipper.joined(&area), most, &mut room);
-        let (cleared, room) = Default::default();
-        Self { number, bottom, thickness, grid, most_corners: most, material, cleared, room }
+        let (cleared, seam, room) = Default::default();
+        Self { number, bottom, thickness, grid, most_corners: most, material, cleared, seam, room }
     }
 
     /// Its number, from below.
@@ -73,20 +74,26 @@ impl Layer {
     /// Takes out the material that a cutter meets between two places.
     ///
     /// First everything inside its first place goes, which is no part of the chip; nothing is there when the last cut ended in the same
-    /// section. The chip is what is left of the material inside the advancing borders. Areas are exact for corners rounded to the
+    /// section, but for the caps, thinner than what chords leave, which the chip gets. The chip is what is left of the material inside the advancing borders. Areas are exact for corners rounded to the
     /// [`Grid`], and what is as thin as a step or two is left out.
     pub fn remove(&mut self, cover: &Cover) -> Removed {
         let mut removed = Removed::default();
-        if cover.first != self.cleared {
+        let [seam, next] = cover.seams.map_or([None; 2], |seams| seams.map(Some));
+        let goes_on = seam.is_some() && seam == self.seam;
+        if !goes_on && cover.first != self.cleared {
             let first = Region::new(&self.grid, [cover.first.as_slice()]);
             removed.inside_mm2 = self.take(&first).0.area_mm2(&self.grid);
         }
-        let cut = self.joined(&cover.advancing);
+        let mut cut = self.joined(&cover.advancing);
+        if goes_on {
+            cover.caps.iter().for_each(|cap| cut.add(&self.grid, cap));
+        }
         let (taken, pieces) = self.take(&cut);
         if !taken.is_empty() {
             (removed.pieces, removed.area_mm2) = self.room.clipper.pieces(&taken, pieces > 1, &self.grid);
         }
         self.cleared.clone_from(&cover.last);
+        self.seam = next;
         removed
     }
 

@@ -40,8 +40,8 @@ Chips are those of flat end mills in three and five axes; other tools are told a
 axis is more than 80 degrees from z. The setup says stock, tools and machine: see configs/README.md. Lengths of the
 command line are in mm. Outputs appear whole or not at all, never over an input, and not while an error stands.
 The columns of the CSV: line, operation, tool, length_mm, feed_mm_min, z_mm, thickness_mm, area_mm2, volume_mm3,
-inside_mm2, pieces, chip_thickness_mm, engaged_deg, arcs_deg. Engagement and thickness are those at the motion's end.
-An empty cell is a value that is not known, as where the cutter has left the chip by then.";
+inside_mm2, pieces, chip_thickness_mm, engaged_deg, arcs_deg. Thickness is the largest on the way, engagement that at the
+motion's end. An empty cell is a value that is not known, as engagement where the cutter has left the chip by then.";
 
 /// Finds the exact undeformed chip of every motion, layer by layer, in three and five axes
 #[derive(Debug, Args)]
@@ -81,7 +81,7 @@ pub struct Chips {
     #[arg(long, value_name = "N", default_value = "6", value_parser = clap::value_parser!(u8).range(1..=24))]
     moves: u8,
     /// How far straight pieces of a border, and chords of arcs, may be from the curve
-    #[arg(long, value_name = "MM", default_value = "0.002", value_parser = super::simulate::length)]
+    #[arg(long, value_name = "MM", default_value = "0.002", value_parser = tolerance)]
     tolerance: f64,
     /// Threads; as many as there are cores if not given. The result is the same
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -103,6 +103,12 @@ pub struct Chips {
 fn height(text: &str) -> Result<f64, String> {
     let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
     value.ok_or_else(|| "this must be a number".into())
+}
+
+/// A distance of chords from their curve, mm: no finer than the grid of areas and no coarser than a picture needs.
+fn tolerance(text: &str) -> Result<f64, String> {
+    let value = text.parse::<f64>().ok().filter(|value| (1e-5..=0.1).contains(value));
+    value.ok_or_else(|| "this must be a number of millimetres from 0.00001 to 0.1".into())
 }
 
 impl Chips {

@@ -113,7 +113,7 @@ super::area! {
          engagement could be measured from. CAM systems write such points between operations; in the middle of a \
          cut they stop some controls for a moment and leave a mark.";
     LAYERS = "CL0523", Error, "stock that cannot be cut into such layers",
-        "Choose another `--layer`, or describe the stock as a block, a cylinder or a closed STL.",
+        "Stock in layers is a block, a cylinder or a closed STL without allowance, at least as high as one layer.",
         "The workpiece is a stack of layers of equal thickness, from its lowest to its highest point; each is the section of the stock at the \
          layer's middle. A layer must be thinner than the stock is high, there must not be more of them than memory can hold, and the \
          section must consist of closed borders.";

@@ -1,23 +1,26 @@
 //! The rows and sums, motion by motion.
 
 use super::fuse::fuse;
+use super::pace::{Pace, STANDS, way};
 use super::scene::{Scene, scene};
 use super::{ChipReport, Keep, OperationChips, Row, Skipped, Totals};
 use crate::chips::chip::LayerChip;
 use crate::machining::Machining;
-use crate::machining::chips::{ChipCut, ChipOptions, ChipsRan, LeftOut};
+use crate::machining::chips::{ChipCut, ChipOptions, ChipsRan, LeftOut, flat};
 use crate::program::geometry::Path;
 use crate::program::motion::Motion;
 use crate::program::operation;
 use crate::report::table::counted;
 use crate::report::tool_name;
-use crate::sim::{Cutter, Step};
+use crate::sim::Step;
 use std::collections::BTreeSet;
 
 /// What grows while motions go by.
 pub(super) struct Gathering<'m, 'p> {
     machining: &'m Machining<'p>,
     keep: Keep,
+    /// Of the borders' chords, mm.
+    tolerance: f64,
     rapid: Option<f64>,
     names: Vec<String>,
     operations: Vec<OperationChips>,
@@ -36,13 +39,14 @@ pub(super) struct Gathering<'m, 'p> {
 }
 
 impl<'m, 'p> Gathering<'m, 'p> {
-    pub fn new(machining: &'m Machining<'p>, keep: Keep) -> Self {
+    pub fn new(machining: &'m Machining<'p>, keep: Keep, tolerance: f64) -> Self {
         let names = operation::operations(machining.program()).into_iter().map(|found| found.name);
         let names: Vec<String> = names.collect();
         let operation = |name: &String| OperationChips { name: name.clone(), ..OperationChips::default() };
         Self {
             machining,
             keep,
+            tolerance,
             rapid: machining.setup().machine.rapid_feed.map(|feed| feed.get()),
             operations: names.iter().map(operation).collect(),
             names,
@@ -157,7 +161,8 @@ impl<'m, 'p> Gathering<'m, 'p> {
         let cutter = cut.cutter.and_then(|index| self.machining.tooling().cutters().get(index));
         let rpm = cut.motion.spindle_rpm().filter(|rpm| *rpm > 0.0);
         let per_turn = self.feed(cut.motion).zip(rpm).map(|(feed, rpm)| feed / rpm);
-        let mut pace = Pace { cutter, per_turn, known: false };
+        let mill = cutter.and_then(|cutter| flat(cutter).ok());
+        let mut pace = Pace { cutter, mill, per_turn, tolerance: self.tolerance, known: false };
         let cuts = |(step, chip): &(Step, Result<crate::chips::chip::Chip, _>)| {
             let removes =
                 chip.as_ref().is_ok_and(|chip| chip.layers.iter().any(|layer| layer.area_mm2 > 0.0));
@@ -241,38 +246,5 @@ impl<'m, 'p> Gathering<'m, 'p> {
             said.push(format!("{motions} nowhere and cut nothing"));
         }
         said
-    }
-}
-
-/// Ways of the tip below this, mm, are none.
-const STANDS: f64 = 1e-7;
-
-/// Length of the tip's way, mm.
-fn way(step: &Step) -> f64 {
-    (step.piece.to.point - step.piece.from.point).norm()
-}
-
-/// What makes a thickness of an advance.
-struct Pace<'m> {
-    cutter: Option<&'m Cutter>,
-    /// Feed of a turn, mm.
-    per_turn: Option<f64>,
-    /// Whether thicknesses are known on the whole motion.
-    known: bool,
-}
-
-impl Pace<'_> {
-    /// The thickest chip of a tooth on a layer of a piece, mm; the flank's normal stands square to the axis. Not known where the cutter has
-    /// left the chip at the end of the piece.
-    fn thickness(&self, step: &Step, layer: &LayerChip) -> Option<f64> {
-        if layer.area_mm2 <= 0.0 {
-            return Some(0.0);
-        }
-        if layer.advance_mm <= 0.0 {
-            return None;
-        }
-        let teeth = self.cutter?.teeth.as_ref()?;
-        let way = Some(way(step)).filter(|way| *way > STANDS)?;
-        Some(teeth.thickness(layer.advance_mm / way * self.per_turn?, 1.0))
     }
 }

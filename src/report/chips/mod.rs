@@ -8,6 +8,7 @@ mod compact;
 mod diagrams;
 mod fuse;
 mod gather;
+mod pace;
 mod picture;
 mod row;
 mod scene;
@@ -90,13 +91,14 @@ impl ChipReport {
         watch: &dyn Watch,
     ) -> Result<Option<Self>, Vec<Diagnostic>> {
         let options = ChipOptions { one_by_one: options.one_by_one || keep.scenes > 0, ..options.clone() };
-        let mut gathering = gather::Gathering::new(machining, keep);
+        let mut gathering = gather::Gathering::new(machining, keep, options.tolerance);
         let ran = machining.chips(&options, watch, &mut |cut| gathering.add(cut));
         let Some(ran) = ran.map_err(|found| vec![*found])? else { return Ok(None) };
         if gathering.rows.is_empty() && gathering.skipped.is_empty() {
             let (from, to) = (*options.lines.start(), *options.lines.end());
             let message = match to {
                 usize::MAX => format!("no motion ends on line {from} or after it"),
+                to if to == from => format!("no motion ends on line {from}"),
                 to => format!("no motion ends on lines {from} to {to}"),
             };
             return Err(vec![Diagnostic::new(codes::NO_MOTION_ASKED, message)]);

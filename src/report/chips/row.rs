@@ -50,9 +50,9 @@ pub struct LayerRow {
     pub area_mm2: f64,
     /// Material that stood inside the cutter where the motion began and is part of no chip, mm2.
     pub inside_mm2: f64,
-    /// The thickest chip of a tooth, mm; not known either where the cutter has left the layer's chip before the motion ends.
+    /// The thickest chip of a tooth anywhere on the way, mm.
     pub chip_thickness_mm: Option<f64>,
-    /// Where the edge was engaged ([`crate::chips::chip::LayerChip::arcs_deg`]); of several pieces of path, all that any of them was.
+    /// Where the edge was engaged at the end ([`crate::chips::chip::LayerChip::arcs_deg`]); of several pieces of path, all that any of them was.
     pub arcs_deg: Vec<[f64; 2]>,
     /// How many separate pieces the chip is in.
     pub count: usize,

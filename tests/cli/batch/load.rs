@@ -1,11 +1,12 @@
 //! Load: 2,000 programs of mixed sizes and one of 500 MB, within a stated memory.
 
 use super::{ALL, RECIPE, lines, write};
+use crate::support::wait_with_peak;
 use std::fs::{self, File};
 use std::io::{BufWriter, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// The budget that is stated, in bytes.
 const MEMORY: u64 = 5_000_000_000;
@@ -36,18 +37,11 @@ fn points(path: &Path, bytes: usize) {
     out.flush().unwrap();
 }
 
-/// Peak of the memory of a process, as Linux keeps it, while it runs.
-fn peak(process: u32) -> Option<u64> {
-    let text = fs::read_to_string(format!("/proc/{process}/status")).ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    Some(line.split_whitespace().next()?.parse::<u64>().ok()? * 1024)
-}
-
 /// Runs a batch; its peak memory and seconds.
 fn run(folder: &Path, out: &str, more: &[&str]) -> (u64, f64) {
     let began = Instant::now();
     let memory = MEMORY.to_string();
-    let mut run = Command::new(env!("CARGO_BIN_EXE_clsmith"))
+    let run = Command::new(env!("CARGO_BIN_EXE_clsmith"))
         .current_dir(folder)
         .args(["batch", "--recipe", "r.yaml", "-q", "--memory", &memory, "--out", out])
         .args(more)
@@ -55,14 +49,7 @@ fn run(folder: &Path, out: &str, more: &[&str]) -> (u64, f64) {
         .stderr(Stdio::null())
         .spawn()
         .unwrap();
-    let mut most = 0;
-    let status = loop {
-        most = peak(run.id()).unwrap_or(0).max(most);
-        if let Some(status) = run.try_wait().unwrap() {
-            break status;
-        }
-        std::thread::sleep(Duration::from_millis(5));
-    };
+    let (status, most) = wait_with_peak(run);
     assert!(status.success());
     (most, began.elapsed().as_secs_f64())
 }
@@ -81,7 +68,8 @@ fn load(recipe: &str) {
     for (out, more) in [("done", &["--jobs", "4"][..]), ("again", &["--jobs", "1"]), ("done", &["--resume"])]
     {
         let (most, seconds) = run(shop.path(), out, more);
-        println!("{out} {more:?}: {seconds:.1} s, peak memory {:.0} MB", most as f64 / 1e6);
+        let (rate, most_mb) = (2001.0 / seconds, most as f64 / 1e6);
+        println!("{out} {more:?}: {seconds:.1} s, {rate:.0} files/s, peak memory {most_mb:.0} MB");
         assert!(most < MEMORY + BESIDE, "{most} bytes");
     }
     let results = |out: &str| fs::read(shop.path().join(out).join("results.jsonl")).unwrap();

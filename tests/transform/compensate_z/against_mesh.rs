@@ -72,6 +72,8 @@ fn a_pass_over_the_ridge_and_a_flat_cutter() {
     )
     .unwrap();
     assert!(ball.gouge() <= 0.0052 && ball.report.passes[0].motions_after > 4);
+    // Shorter, since what no ball cuts is looked at place by place.
+    let pass = in_plane(&[(22.0, 8.0), (30.0, 12.0), (38.0, 8.0)], [0.0, 20.0], 0.0);
     let flat_tool = operation(&[pass]).replace("TLDATA/MILL,10.0000,5.0000", "TLDATA/MILL,10.0000,0.0000");
     let flat = compensate_beside(path, "against: { mesh: roof.stl }", &flat_tool).unwrap();
     let top =

@@ -5,6 +5,9 @@ const BACKGROUND = 0xf4f6f8;
 // What the eye can follow while it turns: more segments are drawn coarser until the view rests.
 const COARSE_SEGMENTS = 150000;
 
+// The longest a reader waits for all segments (ms). A browser without a graphics card would take a minute for a million.
+const LONGEST_DRAW = 1500;
+
 // One program's path as segments.
 class PathLines {
   constructor(program) {
@@ -74,7 +77,7 @@ class PathLines {
 
   // The vertices to draw: every segment, and a coarse path that leaves points out where it goes on.
   index() {
-    const step = Math.max(Math.ceil(this.count / COARSE_SEGMENTS), 1);
+    const step = this.step = Math.max(Math.ceil(this.count / COARSE_SEGMENTS), 1);
     const full = new Uint32Array(this.count * 2), coarse = [];
     let size = 0;
     // Rapids first: where they go along a cut, the cut is seen.
@@ -103,6 +106,8 @@ class PathLines {
     [this.rapids, this.limit] = [rapids, limit];
     this.index();
   }
+
+  get isLarge() { return this.coarse !== this.full; }
 
   setCoarse(coarse) { this.geometry.setIndex(coarse ? this.coarse : this.full); }
 }
@@ -155,7 +160,7 @@ function stockMesh(heights, { first, cell, columns, rows, low }) {
 
 class Scene3d {
   constructor(parent, marker, path, stock) {
-    Object.assign(this, { parent, marker, path, stock, place: null, half: [1, 1] });
+    Object.assign(this, { parent, marker, path, stock, place: null, half: [1, 1], cost: Infinity, measured: 0 });
     this.renderer = new THREE.WebGLRenderer({ antialias: true });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     parent.prepend(this.renderer.domElement);
@@ -224,11 +229,25 @@ class Scene3d {
   moved() {
     this.light.position.copy(this.camera.position).sub(this.controls.target);
     this.mark();
-    const coarse = this.path.coarse !== this.path.full;
-    this.request(coarse);
-    clearTimeout(this.rest);
-    if (coarse) this.rest = setTimeout(() => this.request(false), 250);
+    this.refresh();
   }
+
+  // Draws soon: a large path coarse first, and whole once the view rests, if that does not take too long.
+  refresh() {
+    clearTimeout(this.rest);
+    this.request(this.path.isLarge);
+    if (this.path.isLarge) this.rest = setTimeout(() => this.whole(), 250);
+  }
+
+  whole() {
+    // The first frame tells too much: it takes the path to the graphics card, too.
+    if (!this.affordsAll && this.measured < 2) return this.refresh();
+    if (this.affordsAll) this.request(false);
+    this.rested?.(!this.affordsAll);
+  }
+
+  // Whether all segments are drawn in a time that a reader waits for, as far as frames so far tell.
+  get affordsAll() { return !this.path.isLarge || this.cost * this.path.full.count <= LONGEST_DRAW; }
 
   request(coarse) {
     this.wantsCoarse = coarse;
@@ -236,9 +255,17 @@ class Scene3d {
     this.requested = requestAnimationFrame(() => { this.requested = 0; this.draw(this.wantsCoarse); });
   }
 
-  draw(coarse = false) {
+  draw(coarse = !this.affordsAll) {
     this.path.setCoarse(coarse);
+    const began = performance.now();
     this.renderer.render(this.scene, this.camera);
+    if (!this.path.isLarge) return;
+    // A pixel that is read waits for the drawing, which else goes on behind our back.
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    const vertices = Math.max(this.path.geometry.index.count, 1);
+    this.cost = Math.min(this.cost, (performance.now() - began) / vertices);
+    this.measured++;
   }
 
   // Where a point is on the screen, in pixels of the element.

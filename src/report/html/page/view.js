@@ -36,6 +36,7 @@ class View {
       this.paths = new Map([[this.shown, new PathLines(this.shown)]]);
       const mesh = stock && facts.stock ? stockMesh(stock, facts.stock) : null;
       this.scene = new Scene3d(this.parent, document.getElementById("marker"), this.paths.get(this.shown), mesh);
+      this.scene.rested = (coarse) => this.tellCoarse(coarse);
     } catch (error) {
       // Without WebGL all else still works.
       this.scene = null;
@@ -65,7 +66,7 @@ class View {
     choice(bar, "colour", "color", modes, (mode) => this.colors(mode));
     box(bar, "rapids", "rapids", true, (on) => { this.settings.rapids = on; this.filter(); });
     box(bar, "up to the place", "up-to", false, (on) => { this.settings.upTo = on; this.filter(); });
-    if (stock && this.scene) box(bar, "stock left", "stock", true, (on) => { this.scene.stock.visible = on; this.scene.request(false); });
+    if (stock && this.scene) box(bar, "stock left", "stock", true, (on) => { this.scene.stock.visible = on; this.scene.refresh(); });
     for (const [name, ...direction] of [["3D", -0.6, -1, 0.9], ["top", 0, -0.0001, 1], ["front", 0, -1, 0], ["right", 1, 0, 0]]) {
       const button = Object.assign(document.createElement("button"), { type: "button", textContent: name });
       button.addEventListener("click", () => this.scene?.look(...direction));
@@ -79,7 +80,7 @@ class View {
     showLegend(document.getElementById("legend"), chosen);
     this.coloring = chosen;
     this.paths?.forEach((path) => path.color(chosen));
-    this.scene?.request(false);
+    this.scene?.refresh();
   }
 
   // Shows a program; its lines are made when they are first needed.
@@ -99,7 +100,15 @@ class View {
   filter() {
     if (!this.scene) return;
     this.scene.path.show(this.settings.rapids, this.settings.upTo ? this.limit : Infinity);
-    this.scene.request(false);
+    this.scene.refresh();
+  }
+
+  // A path that is not shown whole is told.
+  tellCoarse(coarse) {
+    const note = document.getElementById("view-note");
+    note.textContent = `This browser draws slowly: lines go from every ${this.scene.path.step}th point to the next. Clicks find every motion.`;
+    note.className = "coarse";
+    note.hidden = !coarse;
   }
 
   mark(motion, point) {

@@ -1,0 +1,42 @@
+//! What makes the thickness of a tooth's chip of how the cutter's surface advances.
+
+use crate::chips::chip::LayerChip;
+use crate::chips::{FlatMill, largest_share};
+use crate::sim::{Cutter, Step};
+
+/// Ways of the tip below this, mm, are none.
+pub(super) const STANDS: f64 = 1e-7;
+
+/// Length of the tip's way, mm.
+pub(super) fn way(step: &Step) -> f64 {
+    (step.piece.to.point - step.piece.from.point).norm()
+}
+
+/// What makes a thickness of an advance.
+pub(super) struct Pace<'m> {
+    pub cutter: Option<&'m Cutter>,
+    pub mill: Option<FlatMill>,
+    /// Feed of a turn, mm.
+    pub per_turn: Option<f64>,
+    /// Of the borders' chords, mm.
+    pub tolerance: f64,
+    /// Whether thicknesses are known on the whole motion.
+    pub known: bool,
+}
+
+impl Pace<'_> {
+    /// The thickest chip of a tooth on a layer of a piece, mm; the flank's normal stands square to the axis. Not known of a film that chords
+    /// left.
+    pub fn thickness(&self, step: &Step, layer: &LayerChip) -> Option<f64> {
+        if layer.area_mm2 <= 0.0 {
+            return Some(0.0);
+        }
+        let teeth = self.cutter?.teeth.as_ref()?;
+        let way = Some(way(step)).filter(|way| *way > STANDS)?;
+        let on_the_way = largest_share(layer, self.mill.as_ref()?, &step.piece, self.tolerance);
+        // At the end it is known closer than by samples.
+        let at_end = Some(layer.advance_mm / way).filter(|share| *share > 0.0);
+        let share = [on_the_way, at_end].into_iter().flatten().reduce(f64::max)?;
+        Some(teeth.thickness(share * self.per_turn?, 1.0))
+    }
+}
