@@ -27,7 +27,7 @@ pub fn to_text(records: &[Record], before: usize, seconds: Option<f64>) -> Strin
     }
     let failed: Vec<&Record> = records.iter().filter(|record| record.outcome == Outcome::Failed).collect();
     if !failed.is_empty() {
-        text.push_str("\nFailed, and not written:\n");
+        text.push_str("\nFailed, and not written (what an earlier run wrote of them stays):\n");
     }
     for record in failed.iter().take(LISTED) {
         let error = record.findings.iter().find(|found| found.severity == "error");

@@ -106,9 +106,12 @@ impl Apply {
         };
         recipe.provenance = self.provenance.unwrap_or(recipe.provenance);
         // It reads models and stock once more, so not for nothing.
-        let wanted = self.json.is_some() || recipe.provenance != Provenance::None;
+        let needed = self.json.is_some() || recipe.provenance != Provenance::None;
+        let wanted = needed || self.reports.is_wanted();
         let print = match wanted.then(|| RecipePrint::of(&texts, &recipe, &setup)).transpose() {
             Ok(print) => print,
+            // A page says itself what it cannot read, and goes without.
+            Err(_) if !needed => None,
             Err(found) => {
                 self.show(&[*found], Some(&self.recipe.to_string_lossy()))?;
                 return Ok(Exit::Errors);
@@ -250,13 +253,7 @@ impl Apply {
             )?;
             out.flush()?;
         }
-        if !self.dry_run
-            && let Some(target) = &target
-            && let Some(found) = write(&program, target, outputs)?
-        {
-            self.show(&[found], Some(source.name()))?;
-            return Ok(Exit::Errors);
-        }
+        // The program comes last: one that was replaced without its report could not be undone.
         if let (Some(path), Some(print)) = (&self.json, job.print)
             && let Some(found) =
                 self.run_report(path, &program, job.recipe, print, target.as_deref(), outputs)?
@@ -264,12 +261,14 @@ impl Apply {
             self.show(&[found], Some(source.name()))?;
             return Ok(Exit::Errors);
         }
-        let mut drawn = match &self.plot {
-            Some(path) => self.draw(path, &reports, outputs)?,
-            None => Exit::Done,
-        };
+        if let Some(path) = &self.plot
+            && self.draw(path, &reports, outputs)? != Exit::Done
+        {
+            return Ok(Exit::Errors);
+        }
         if self.reports.is_wanted() {
             let before = parse(&source, Some(program.dialect())).program;
+            let digits = job.print.map(|print| print.sha256.to_string());
             let subject = Subject {
                 before: Some(&before),
                 program: &program,
@@ -279,20 +278,28 @@ impl Apply {
                 units: Some(job.recipe.units),
                 findings: &findings,
                 reports: &reports,
+                print: digits.as_deref(),
             };
             progress.begin(&format!("{}: report", source.name()));
             let written = self.reports.write_all_of(subject, progress, outputs);
             progress.clear();
             if let Some(found) = written? {
                 self.show(&[found], Some(source.name()))?;
-                drawn = Exit::Errors;
+                return Ok(Exit::Errors);
             }
+        }
+        if !self.dry_run
+            && let Some(target) = &target
+            && let Some(found) = write(&program, target, outputs)?
+        {
+            self.show(&[found], Some(source.name()))?;
+            return Ok(Exit::Errors);
         }
         if !self.quiet {
             let target = target.as_deref().filter(|_| !self.dry_run);
             unless_nobody_reads(self.summary(job, &source, &program, &reports, target))?;
         }
-        Ok(drawn)
+        Ok(Exit::Done)
     }
 
     /// Writes what the run did as JSON; a finding when that fails.

@@ -9,6 +9,7 @@ mod exit;
 mod files;
 mod findings;
 mod hook;
+mod measuring;
 mod output;
 mod plot;
 mod progress;

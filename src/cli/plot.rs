@@ -12,7 +12,7 @@ use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::machining::{Machining, Options};
 use clsmith::parse::parse;
 use clsmith::program::{Dialect, Program};
-use clsmith::report::plot::{self, Along, Plotted, Quantity};
+use clsmith::report::plot::{self, Along, Panel, Plotted, Quantity};
 use clsmith::report::simulation::Simulated;
 use clsmith::report::stats::Units;
 use clsmith::setup::Setup;
@@ -117,6 +117,25 @@ pub fn as_file(path: &Path, svg: String) -> io::Result<Vec<u8>> {
     if is_png(path) { plot::png(&svg) } else { Ok(svg.into_bytes()) }
 }
 
+/// A drawing, and what is missing in it.
+struct Drawn {
+    /// `None` where no panel has a curve.
+    svg: Option<String>,
+    /// A sentence for each panel without a curve.
+    empty: Vec<String>,
+}
+
+/// Says that a panel is empty, and how it would not be.
+fn nothing_of(plotted: &[Plotted<'_>], quantity: Quantity, along: Along) -> String {
+    let name = quantity.name();
+    if along == Along::Path {
+        return format!("the panel of {name} is empty: nothing is known of it");
+    }
+    let helps = !plot::panels(plotted, &[quantity], Along::Path).iter().all(Panel::is_empty);
+    let help = if helps { "; try --along path" } else { "" };
+    format!("the panel of {name} is empty: nothing is known of it along time{help}")
+}
+
 impl Plot {
     pub fn run(&self) -> io::Result<Exit> {
         let policy = match self.problem().map_or_else(|| self.findings.policy(), Err) {
@@ -133,7 +152,7 @@ impl Plot {
         let drawn = self.draw(&progress, &mut findings);
         progress.clear();
         let drawn = match drawn {
-            Ok(svg) => Some(svg),
+            Ok(drawn) => Some(drawn),
             Err(Stop::Interrupted) => return Ok(Exit::Interrupted),
             Err(Stop::Found(found)) => {
                 findings.extend(found);
@@ -144,7 +163,14 @@ impl Plot {
         if !findings.is_empty() {
             self.show(&findings)?;
         }
-        let Some(svg) = drawn.filter(|_| !findings.iter().any(Diagnostic::is_error)) else {
+        let Some(Drawn { svg, empty }) = drawn.filter(|_| !findings.iter().any(Diagnostic::is_error)) else {
+            return Ok(Exit::Errors);
+        };
+        if svg.is_none() || !self.quiet {
+            empty.iter().for_each(|sentence| eprintln!("clsmith plot: {sentence}"));
+        }
+        let Some(svg) = svg else {
+            eprintln!("clsmith plot: there is nothing to draw, nothing was written");
             return Ok(Exit::Errors);
         };
         let bytes = as_file(&self.output, svg)?;
@@ -170,7 +196,7 @@ impl Plot {
         Some(format!("--of {} is simulated, and needs --setup with stock and tools", quantity.name()))
     }
 
-    fn draw(&self, progress: &Progress, findings: &mut Vec<Diagnostic>) -> Result<String, Stop> {
+    fn draw(&self, progress: &Progress, findings: &mut Vec<Diagnostic>) -> Result<Drawn, Stop> {
         let setup = match &self.setup {
             Some(path) => {
                 let setup = files::setup(path)?;
@@ -213,8 +239,17 @@ impl Plot {
             Axis::Time => Along::Time,
             Axis::Path => Along::Path,
         };
-        plot::plot(&plotted, &quantities, along)
-            .map_err(|error| Diagnostic::new(codes::UNWRITABLE, error.to_string()).into())
+        let panels = plot::panels(&plotted, &quantities, along);
+        let empty = |(quantity, panel): (&Quantity, &Panel)| {
+            panel.is_empty().then(|| nothing_of(&plotted, *quantity, along))
+        };
+        let empty: Vec<String> = quantities.iter().zip(&panels).filter_map(empty).collect();
+        if empty.len() == panels.len() {
+            return Ok(Drawn { svg: None, empty });
+        }
+        let svg = plot::draw(along.title(), &panels)
+            .map_err(|error| Diagnostic::new(codes::UNWRITABLE, error.to_string()))?;
+        Ok(Drawn { svg: Some(svg), empty })
     }
 
     fn simulate(

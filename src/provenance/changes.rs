@@ -39,8 +39,8 @@ struct Run {
     put_in: bool,
     first: usize,
     count: usize,
-    /// What is said of a single one.
-    single: String,
+    /// What is said of a single one, from the longest to the shortest.
+    single: Vec<String>,
     note: Option<String>,
 }
 
@@ -93,11 +93,15 @@ impl Writer<'_> {
 
     fn edit(&mut self, index: usize, statement: &Statement, edit: &Edit<'_>) {
         let before = edit.before.unwrap_or_default();
-        let note = edit.note.map(|note| format!(", {note}")).unwrap_or_default();
         let name = self.name(index, statement);
-        let room = self.room(edit.by).saturating_sub(name.len() + note.len());
-        let difference = words::difference(statement.record(), before, edit.after, room);
-        self.line(index, edit.by, &format!("{name}{difference}{note}"));
+        let room = self.room(edit.by);
+        let with_note = |note: String| {
+            let left = room.saturating_sub(name.len() + note.len());
+            let difference = words::difference(statement.record(), before, edit.after, left);
+            format!("{name}{difference}{note}")
+        };
+        let texts = form::notes(edit.note).into_iter().map(with_note).collect();
+        self.line(index, edit.by, &form::fitting(texts, room));
     }
 
     fn inserted(&mut self, index: usize, statement: &Statement, by: StepId) {
@@ -117,8 +121,8 @@ impl Writer<'_> {
                 let name = self.name(index, statement);
                 let text = first.map_or(self.program.text(statement), |first| first.after);
                 let single = match self.feed_put_in(statement.record(), text, by).filter(|_| is_feed) {
-                    Some(feed) => format!("{name}{feed}"),
-                    None => format!("{name}put in"),
+                    Some(feed) => feed.into_iter().map(|feed| format!("{name}{feed}")).collect(),
+                    None => vec![format!("{name}put in")],
                 };
                 let note = first.and_then(|first| first.note).map(str::to_owned);
                 self.run = Some(Run { by, put_in: true, first: index, count: 1, single, note });
@@ -130,11 +134,14 @@ impl Writer<'_> {
         }
     }
 
-    /// What a FEDRAT that was put in changes.
-    fn feed_put_in(&self, record: &Record, text: &[u8], by: StepId) -> Option<String> {
+    /// What a FEDRAT that was put in changes: in full, and without `put in` for where room is scant.
+    fn feed_put_in(&self, record: &Record, text: &[u8], by: StepId) -> Option<[String; 2]> {
         let new = feeds::number(record, text)?;
         let old = self.feeds.before(by)?;
-        Some(if old == new { format!("put in, {new} comes back") } else { format!("{old} -> {new}, put in") })
+        Some(match old == new {
+            true => [format!("put in, {new} comes back"), format!("{new} comes back")],
+            false => [format!("{old} -> {new}, put in"), format!("{old} -> {new}")],
+        })
     }
 
     fn deleted(&mut self, index: usize, statement: &Statement, by: StepId) {
@@ -144,7 +151,7 @@ impl Writer<'_> {
                 self.end_run();
                 let text = words::one_line(self.program.source().slice(statement.origin()));
                 let room = self.room(by).saturating_sub("taken out: ".len());
-                let single = format!("taken out: {}", form::shortened(&text, room));
+                let single = vec![format!("taken out: {}", form::shortened(&text, room))];
                 self.run = Some(Run { by, put_in: false, first: index, count: 1, single, note: None });
             }
         }
@@ -153,9 +160,12 @@ impl Writer<'_> {
     fn end_run(&mut self) {
         let Some(run) = self.run.take() else { return };
         let done = if run.put_in { "put in" } else { "taken out" };
-        let what = if run.count == 1 { run.single } else { format!("{} records {done}", run.count) };
-        let note = run.note.map(|note| format!(", {note}")).unwrap_or_default();
-        self.line(run.first, run.by, &format!("{what}{note}"));
+        let what = if run.count == 1 { run.single } else { vec![format!("{} records {done}", run.count)] };
+        let notes = form::notes(run.note.as_deref());
+        // `put in` goes before any of the note does.
+        let texts = notes.iter().flat_map(|note| what.iter().map(move |what| format!("{what}{note}")));
+        let text = form::fitting(texts.collect(), self.room(run.by));
+        self.line(run.first, run.by, &text);
     }
 
     /// Comments of an earlier run stay with the record that they are about, where one was put in between.

@@ -19,10 +19,34 @@ pub(super) fn prefix(dialect: Dialect) -> String {
     format!("{} {OWN_WORD} ", mark(dialect))
 }
 
-/// A comment of one line, cut to the width.
+/// A comment of one line. Callers make their text fit; what is still too long loses whole parts at its end.
 pub(super) fn line(dialect: Dialect, text: &str) -> Vec<u8> {
     let line = format!("{}{}", prefix(dialect), safe(text));
-    line.chars().take(WIDTH).collect::<String>().trim_end().as_bytes().to_vec()
+    without_last_parts(&line).trim_end().as_bytes().to_vec()
+}
+
+/// As many parts (`, `) of an ASCII line as fit; of a single one that is too long as many words, for half a number is another.
+fn without_last_parts(line: &str) -> &str {
+    let mut kept = line;
+    while kept.len() > WIDTH {
+        let Some((before, _)) = kept.rsplit_once(", ").or_else(|| kept.rsplit_once(' ')) else { break };
+        kept = before;
+    }
+    kept
+}
+
+/// The first text that fits into so many columns, or the last one. `texts` go from the longest to the shortest.
+pub(super) fn fitting(texts: Vec<String>, room: usize) -> String {
+    let last = texts.last().cloned().unwrap_or_default();
+    texts.into_iter().find(|text| text.chars().count() <= room).unwrap_or(last)
+}
+
+/// What may follow a text, from the longest to the shortest: a note, of `h 0.040 -> 0.065 mm` then `h 0.065 mm` alone, nothing.
+pub(super) fn notes(note: Option<&str>) -> Vec<String> {
+    let Some(note) = note else { return vec![String::new()] };
+    let short = note.split_once(' ').zip(note.split_once(" -> "));
+    let short = short.map(|((symbol, _), (_, after))| format!(", {symbol} {after}"));
+    [Some(format!(", {note}")), short, Some(String::new())].into_iter().flatten().collect()
 }
 
 /// Text of the user or of the file as a comment can hold it: the printable characters of ASCII, which stand in every code page,

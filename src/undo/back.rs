@@ -6,6 +6,7 @@ use crate::diagnostic::{Diagnostic, codes};
 use crate::fingerprint::Digest;
 use crate::source::{Source, Span};
 use serde::Deserialize;
+use serde_json::Value;
 use std::sync::Arc;
 
 /// What undo has to know of a run.
@@ -30,11 +31,13 @@ pub struct Undone {
     pub places: usize,
 }
 
-/// What every version of the report has.
+/// What every version of the report has, and what tells the other files of clsmith; `version` is text in some of them.
 #[derive(Deserialize)]
 struct Head {
-    format: Option<String>,
-    version: Option<u32>,
+    format: Option<Value>,
+    version: Option<Value>,
+    clsmith_batch: Option<Value>,
+    command: Option<Value>,
 }
 
 impl Undo {
@@ -44,13 +47,21 @@ impl Undo {
     /// [`codes::NO_RUN_REPORT`] for anything else, [`codes::NEWER_RUN_REPORT`] for one of a clsmith to come.
     pub fn read(report: &Arc<Source>) -> Result<Self, Box<Diagnostic>> {
         let bytes = report.bytes();
-        let head: Head = serde_json::from_slice(bytes).map_err(|error| unreadable(report, &error))?;
-        if head.format.as_deref() != Some(FORMAT) {
-            let message = "this is JSON, but not the report of a run of `clsmith apply`";
+        // Only the first value: results of batches and logs have one on each line.
+        let head = Head::deserialize(&mut serde_json::Deserializer::from_slice(bytes))
+            .map_err(|error| unreadable(report, &error))?;
+        if head.format.as_ref().and_then(Value::as_str) != Some(FORMAT) {
+            let message = if head.clsmith_batch.is_some() {
+                "these are the results of a batch, which are no run report; undo reads what `apply --json` writes"
+            } else if head.command.is_some() {
+                "this is a log, which is no run report; undo reads what `apply --json` writes"
+            } else {
+                "this is JSON, but not the report of a run of `clsmith apply`"
+            };
             return Err(no_report(report, 0, message));
         }
         match head.version {
-            Some(FORMAT_VERSION) => {}
+            Some(version) if version.as_u64() == Some(u64::from(FORMAT_VERSION)) => {}
             Some(newer) => {
                 let message =
                     format!("the report has version {newer}; this clsmith reads version {FORMAT_VERSION}");

@@ -20,7 +20,7 @@ pub struct Style {
     pub feed_decimals: usize,
     /// Numbers stand right-aligned in columns.
     pub columns: bool,
-    /// `\n` or `\r\n`: what most of the sampled lines end in.
+    /// `\n`, `\r\n` or a lone `\r`: what most of the sampled lines end in.
     pub line_end: &'static str,
     /// Decimals that changed lengths and feeds get beyond their own; 0 unless a step converts to a larger unit.
     pub finer: usize,
@@ -40,8 +40,12 @@ impl Style {
         if seen.lines == 0 {
             // No point and no feed: what its first line ends in.
             let bytes = program.source().bytes();
-            let first = memchr::memchr(b'\n', bytes).and_then(|end| bytes.get(..end)).unwrap_or_default();
-            (seen.lines, seen.crlf) = (1, usize::from(first.ends_with(b"\r")));
+            let end: &[u8] = match memchr::memchr2(b'\n', b'\r', bytes).and_then(|end| bytes.get(end..)) {
+                Some([b'\r', b'\n', ..]) => b"\r\n",
+                Some([b'\r', ..]) => b"\r",
+                _ => b"\n",
+            };
+            seen.end(end);
         }
         let solidworks = program.dialect() == crate::program::Dialect::SolidWorks;
         Self {
@@ -50,7 +54,11 @@ impl Style {
             direction_decimals: seen.directions.unwrap_or(7).max(6),
             feed_decimals: seen.feed.unwrap_or(4),
             columns: program.dialect().has_columns(),
-            line_end: if seen.crlf * 2 > seen.lines { "\r\n" } else { "\n" },
+            line_end: match seen.lines {
+                lines if seen.crlf * 2 > lines => "\r\n",
+                lines if seen.cr * 2 > lines => "\r",
+                _ => "\n",
+            },
             finer: 0,
         }
     }
@@ -106,6 +114,7 @@ struct Seen {
     axes: usize,
     lines: usize,
     crlf: usize,
+    cr: usize,
     lengths: Option<usize>,
     directions: Option<usize>,
     feed: Option<usize>,
@@ -134,9 +143,15 @@ impl Seen {
         seen
     }
 
-    fn measure(&mut self, record: &Record, text: &[u8]) {
+    /// Counts what a line ends in.
+    fn end(&mut self, text: &[u8]) {
         self.lines += 1;
         self.crlf += usize::from(text.ends_with(b"\r\n"));
+        self.cr += usize::from(text.ends_with(b"\r"));
+    }
+
+    fn measure(&mut self, record: &Record, text: &[u8]) {
+        self.end(text);
         for ((at, _), role) in parse::numbers(text).into_iter().zip(parse::roles(record, text)) {
             let number = text.get(at).unwrap_or_default();
             let decimals = number::decimals(number);

@@ -422,3 +422,63 @@ fn lines_of_runs_at_the_same_time_do_not_mix() {
     });
     assert_eq!(log(folder.path()).len(), 8);
 }
+
+#[cfg(unix)]
+#[test]
+fn what_cannot_be_put_beside_the_export_is_no_success() {
+    let folder = example("pocket");
+    fs::write(folder.path().join("part.nc"), "of yesterday").unwrap();
+    let script = script(folder.path(), "mkfifo \"${1%.cls}.nc\"");
+    let done = hook(folder.path()).args(["part.cls", "--"]).arg(&script).arg("{}").assert().code(125);
+    assert!(stderr(&done).contains("CL0401"), "{}", stderr(&done));
+    assert_eq!(line(folder.path())["exit"], 125);
+    nothing_remains(folder.path());
+}
+
+#[test]
+fn an_export_that_is_still_written_is_not_posted() {
+    use std::io::Write;
+    use std::sync::atomic::{AtomicBool, Ordering};
+    let folder = example("pocket");
+    let script = script(folder.path(), "cp \"$1\" posted");
+    let ended = AtomicBool::new(false);
+    let done = std::thread::scope(|scope| {
+        scope.spawn(|| {
+            while !ended.load(Ordering::Relaxed) {
+                let mut export =
+                    fs::File::options().append(true).open(folder.path().join("part.cls")).unwrap();
+                export.write_all(b"$$ more\n").unwrap();
+                std::thread::sleep(Duration::from_micros(200));
+            }
+        });
+        let mut command = hook(folder.path());
+        let done =
+            command.args(["--on-error", "pass-original", "part.cls", "--"]).arg(&script).arg("{}").assert();
+        ended.store(true, Ordering::Relaxed);
+        done
+    });
+    let done = done.code(125);
+    assert!(stderr(&done).contains("CL0424"), "{}", stderr(&done));
+    assert!(!folder.path().join("posted").exists());
+}
+
+#[test]
+fn a_line_that_a_full_disk_has_cut_does_not_spoil_the_next() {
+    let folder = example("pocket");
+    let script = script(folder.path(), "true");
+    fs::write(folder.path().join("log.jsonl"), "{\"cut").unwrap();
+    hook(folder.path()).args(["part.cls", "--"]).arg(&script).arg("{}").assert().code(0);
+    let text = fs::read_to_string(folder.path().join("log.jsonl")).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines[0], "{\"cut");
+    assert_eq!(serde_json::from_str::<Value>(lines[1]).unwrap()["exit"], 0);
+}
+
+#[test]
+fn a_folder_to_keep_in_is_made() {
+    let folder = example("pocket");
+    let script = script(folder.path(), "true");
+    let mut command = hook(folder.path());
+    command.args(["--keep", "kept/", "part.cls", "--"]).arg(&script).arg("{}").assert().code(0);
+    assert!(folder.path().join("kept/part.cls").exists());
+}

@@ -33,6 +33,27 @@ fn svg_and_png() {
 }
 
 #[test]
+fn empty_panels_are_told() {
+    let folder = job();
+    let part = SLOT.replace("FEDRAT/MMPM,800.0000\n", "");
+    std::fs::write(folder.path().join("unfed.cls"), part).unwrap();
+    let run =
+        |args: &[&str]| clsmith(folder.path()).args(["plot", "unfed.cls", "-o", "a.svg"]).args(args).assert();
+    let told =
+        |done: assert_cmd::assert::Assert| String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+    let said = told(run(&[]).code(1));
+    assert!(
+        said.contains("the panel of z is empty: nothing is known of it along time; try --along path"),
+        "{said}"
+    );
+    assert!(said.contains("there is nothing to draw"), "{said}");
+    assert!(!folder.path().join("a.svg").exists());
+    let said = told(run(&["--along", "path"]).success());
+    assert!(said.contains("the panel of feed is empty") && !said.contains("panel of z"), "{said}");
+    assert!(folder.path().join("a.svg").exists());
+}
+
+#[test]
 fn what_cannot_be_drawn_is_told() {
     let folder = job();
     for (args, said) in [

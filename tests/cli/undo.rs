@@ -154,6 +154,17 @@ fn the_report_shares_no_file_with_anything() {
 }
 
 #[test]
+fn no_program_is_written_without_its_reports() {
+    let folder = example("pocket");
+    std::fs::write(folder.path().join("out.cls"), "as it was").unwrap();
+    for option in ["--json", "--report", "--summary"] {
+        let args = ["apply", "recipe.yaml", "part.cls", "-o", "out.cls", option, "nowhere/report", "-q"];
+        clsmith(folder.path()).args(args).assert().code(1);
+        assert_eq!(read(folder.path(), "out.cls"), "as it was", "{option}");
+    }
+}
+
+#[test]
 fn a_batch_makes_room_for_comments() {
     let folder = tempfile::tempdir().unwrap();
     let text = format!("UNITS/MM\nFEDRAT/100,MMPM\n{}", "GOTO/1.0,2.0,3.0\n".repeat(20_000));

@@ -476,8 +476,44 @@ fn the_watchs_command_line_is_checked() {
     let run = |args: &[&str]| clsmith(folder.path()).arg("watch").args(args).assert().code(2);
     run(&["exports", "--out", "out", "*.cls"]);
     run(&["exports", "--recipe", "recipe.yaml", "*.cls"]);
-    run(&["exports", "--out", "out", "--recipe", "recipe.yaml"]);
     run(&["exports", "--out", "out", "--recipe", "recipe.yaml", "[.cls"]);
     run(&["exports", "--out", "out", "--recipe", "recipe.yaml", "--settle", "-1", "*.cls"]);
     run(&["exports", "--out", "out", "--recipe", "recipe.yaml", "--allow", "CL0419", "*.cls"]);
+}
+
+#[test]
+fn without_a_pattern_exports_are_taken_by_their_usual_names() {
+    let folder = shop();
+    fs::write(folder.path().join("exports/notes.txt"), "no program").unwrap();
+    once(folder.path(), &["--recipe", "recipe.yaml"]).assert().code(0);
+    assert_eq!(seen(&folder.path().join("out")), ["part.cls", "refused"]);
+}
+
+#[test]
+fn no_export_replaces_what_the_watch_keeps() {
+    let folder = shop();
+    let exports = folder.path().join("exports");
+    let program = fs::read(exports.join("part.cls")).unwrap();
+    fs::write(exports.join("part.cls"), "GOTO/x\n").unwrap();
+    recipe(folder.path(), "**/*.cls").assert().code(1);
+    let refused = folder.path().join("out/refused/part.cls");
+    assert_eq!(fs::read(&refused).unwrap(), b"GOTO/x\n");
+    fs::create_dir(exports.join("refused")).unwrap();
+    fs::write(exports.join("refused/part.cls"), &program).unwrap();
+    let done = recipe(folder.path(), "**/*.cls").assert().code(1);
+    assert!(stderr(&done).contains("CL0404"), "{}", stderr(&done));
+    assert_eq!(fs::read(&refused).unwrap(), b"GOTO/x\n");
+}
+
+#[cfg(unix)]
+#[test]
+fn outputs_do_not_leave_their_folder_through_links() {
+    use std::os::unix::fs::symlink;
+    let folder = shop();
+    fs::create_dir_all(folder.path().join("out")).unwrap();
+    fs::write(folder.path().join("precious"), "mine").unwrap();
+    symlink("../precious", folder.path().join("out/part.cls")).unwrap();
+    let done = recipe(folder.path(), "*.cls").assert().code(1);
+    assert!(stderr(&done).contains("CL0422"), "{}", stderr(&done));
+    assert_eq!(fs::read(folder.path().join("precious")).unwrap(), b"mine");
 }

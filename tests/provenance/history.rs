@@ -25,6 +25,25 @@ fn a_run_that_changes_nothing_writes_nothing() {
 }
 
 #[test]
+fn what_a_rule_put_beside_a_record_is_found_again_behind_its_comment() {
+    let rule = "  - rewrite: { rules: [{ match: 'GOTO/10.0000,$...', insert_before: [STOP, 'DELAY/2'], \
+        insert_after: [OPSTOP, 'COOLNT/OFF'] }] }";
+    let once = text(&with_comments(rule), PART);
+    assert!(once.contains("\n$$ clsmith rewrite: 2 records put in\nOPSTOP\nCOOLNT/OFF\n"), "{once}");
+    assert_eq!(text(&with_comments(rule), &once), once);
+}
+
+#[test]
+fn comments_end_as_the_lines_of_the_file_do() {
+    for part in [PART.replace('\n', "\r"), "PARTNO A\rSTOP\rFINI\r".to_owned()] {
+        let steps = "  - rewrite: { rules: [{ match: FINI, insert_before: OPSTOP }] }";
+        let done = text(&with_comments(steps), &part);
+        assert!(done.contains("\r$$ clsmith rewrite: put in\rOPSTOP\rFINI\r"), "{done:?}");
+        assert!(!done.contains('\n'), "{done:?}");
+    }
+}
+
+#[test]
 fn the_lines_of_each_run_follow_those_of_the_run_before() {
     let once = text(&with_comments(HALF), PART);
     let twice = text(&with_comments(HALF), &once);

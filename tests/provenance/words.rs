@@ -118,3 +118,55 @@ fn optimize_feed_says_what_it_knows_of_the_chip() {
         String::from_utf8(done.program.unwrap_or_else(|| panic!("{:?}", done.findings)).to_bytes()).unwrap();
     assert!(text.contains("$$ clsmith scale_feed: 320.0000 -> 480.0000\n"), "{text}");
 }
+
+/// A light cut, a way through air and a slot, all at one feed.
+const TWO_CUTS: &str = "\
+TOOL PATH/SLOT,TOOL,EM10\n\
+TLDATA/MILL,10.0000,0.0000,50.0000,0.0000,0.0000\n\
+MSYS/0.0000,0.0000,0.0000,1.0000000,0.0000000,0.0000000,0.0000000,1.0000000,0.0000000\n\
+LOAD/TOOL,1,ADJUST,1\n\
+SPINDL/RPM,8000,CLW\n\
+RAPID\n\
+GOTO/-10.0000,-3.0000,-2.0000,0.0000000,0.0000000,1.0000000\n\
+FEDRAT/MMPM,1920.0000\n\
+GOTO/50.0000,-3.0000,-2.0000\n\
+GOTO/50.0000,12.0000,-2.0000\n\
+GOTO/-10.0000,12.0000,-2.0000\n\
+END-OF-PATH\n";
+
+/// What `optimize_feed` says in a file, with the text of the whole file.
+fn optimized(part: &str, more: &str) -> (Vec<String>, String) {
+    let recipe = format!(
+        "version: 1\nprovenance: comments\nsetup:\n  machine: {{ max_feed: 5000 }}\n  \
+         stock: {{ block: {{ from: [0, 0, -10], to: [40, 20, 0] }} }}\n  \
+         tools: [{{ match: {{}}, teeth: 4, flute_length: 20 }}]\n\
+         steps:\n  - optimize_feed: {{ target: 0.065{more} }}\n"
+    );
+    let text = super::text(&recipe, part);
+    let lines = text.lines().filter(|line| line.starts_with("$$ clsmith optimize_feed: "));
+    (lines.map(str::to_owned).collect(), text)
+}
+
+#[test]
+fn no_number_of_a_comment_is_cut() {
+    let (lines, text) = optimized(TWO_CUTS, "");
+    assert!(lines.iter().all(|line| line.len() <= clsmith::provenance::WIDTH), "{text}");
+    // With `, put in` it would have 74 columns.
+    let slot = lines.iter().find(|line| line.contains("1920.0000 -> 2080.0000")).unwrap();
+    let (_, load) = slot.split_once("1920.0000 -> 2080.0000, h 0.060 -> 0.06").unwrap();
+    assert_eq!(load.len(), 1, "{slot}");
+    assert!(lines.iter().any(|line| line.ends_with(": put in, 1920.0000 comes back")), "{text}");
+}
+
+#[test]
+fn parts_of_a_split_motion_have_no_load_of_the_whole() {
+    let slot = TWO_CUTS
+        .replace("GOTO/-10.0000,-3.0000", "GOTO/60.0000,12.0000")
+        .replace("GOTO/50.0000,-3.0000,-2.0000\nGOTO/50.0000,12.0000,-2.0000\n", "");
+    let (lines, text) = optimized(&slot, ", air_feed: 4000, split: { above: 10, shortest: 2, at_most: 8 }");
+    // The first part is in air and has no load to tell; the others have their own, and none before.
+    let feeds = lines.iter().filter(|line| line.contains(" -> ")).collect::<Vec<_>>();
+    assert!(feeds[0].ends_with(": 1920.0000 -> 4000.0000"), "{text}");
+    assert!(feeds[1].contains(": 1920.0000 -> 2080.0000, put in, h 0.06"), "{text}");
+    assert!(feeds.iter().all(|line| line.matches(" -> ").count() == 1), "{text}");
+}

@@ -50,6 +50,7 @@ pub fn told<T>(
         units: Some(recipe.units),
         findings: &findings,
         reports: &reports,
+        print: None,
     };
     let runs = Runs::of(&subject, &Options::default(), &Unwatched).unwrap();
     tell(&Comparison::of(subject, &runs))

@@ -4,11 +4,11 @@
 #
 # Set these before, or change them here. Both are lists: a path with blanks is one element. `{}` is the corrected program;
 # no argument may begin with < > | & or 2>, which Tcl's exec takes for itself.
-if {![info exists clsmith_hook]} {
-    set clsmith_hook [list clsmith hook --select S:/cam/clsmith/recipes.yaml --log S:/cam/clsmith/hook.jsonl --timeout 600]
+if {![info exists ::clsmith_hook]} {
+    set ::clsmith_hook [list clsmith hook --select S:/cam/clsmith/recipes.yaml --log S:/cam/clsmith/hook.jsonl --timeout 600]
 }
-if {![info exists clsmith_post]} {
-    set clsmith_post [list C:/posts/mypost.exe \{\}]
+if {![info exists ::clsmith_post]} {
+    set ::clsmith_post [list C:/posts/mypost.exe \{\}]
 }
 
 # The file that NX has written: directory and name without suffix, as NX sets them before the first event.

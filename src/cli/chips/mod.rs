@@ -4,27 +4,21 @@ mod lines;
 mod outputs;
 
 use crate::cli::exit::Exit;
-use crate::cli::files::{self, STANDARD};
+use crate::cli::files;
 use crate::cli::findings::FindingArgs;
-use crate::cli::output::{Outputs, print_summary, unless_nobody_reads};
-use crate::cli::progress::Progress;
+use crate::cli::measuring::{Measuring, Under};
 use crate::cli::stop::Stop;
-use crate::cli::terminal;
 use clap::Args;
-use clsmith::diagnostic::Diagnostic;
 use clsmith::machining::Machining;
 use clsmith::machining::chips::ChipOptions;
-use clsmith::parse::parse;
 use clsmith::program::Dialect;
 use clsmith::report::chips::{self, ChipReport, Keep};
-use clsmith::report::policy::Policy;
 use clsmith::report::stats::Units;
 use clsmith::values::LengthUnit;
-use clsmith::write::is_interrupt;
 use outputs::Drawn;
 use std::io;
 use std::ops::RangeInclusive;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -113,71 +107,29 @@ fn tolerance(text: &str) -> Result<f64, String> {
 
 impl Chips {
     pub fn run(&self) -> io::Result<Exit> {
-        let policy = match self.problem().map_or_else(|| self.findings.policy(), Err) {
-            Ok(policy) => policy,
-            Err(problem) => {
-                eprintln!("clsmith chips: {problem}");
-                return Ok(Exit::Usage);
-            }
+        let measuring = Measuring {
+            command: "chips",
+            program: &self.program,
+            outputs: self.outputs().collect(),
+            quiet: self.quiet,
+            threads: self.threads,
+            findings: &self.findings,
         };
-        if let Some(threads) = self.threads {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into());
-            pool.build_global().map_err(io::Error::other)?;
-        }
-        let outputs = Outputs::default();
-        let progress = Progress::new(self.quiet, outputs.interrupt());
-        outputs.stop_on_ctrl_c(progress.clearing())?;
-        let mut findings = Vec::new();
-        let done = self.find(&policy, &progress, &mut findings);
-        progress.clear();
-        let (report, drawn) = match done {
-            Ok(done) => done,
-            Err(Stop::Interrupted) => return Ok(Exit::Interrupted),
-            Err(Stop::Found(found)) => {
-                findings.extend(found);
-                self.show(&policy.apply(findings))?;
-                return self.nothing();
-            }
-        };
-        let findings = policy.apply(findings);
-        if !findings.is_empty() {
-            self.show(&findings)?;
-        }
-        if !self.quiet {
-            unless_nobody_reads(self.summary(&report))?;
-        }
-        if findings.iter().any(Diagnostic::is_error) {
-            return self.nothing();
-        }
-        match self.write(&report, &drawn, &outputs) {
-            Ok(None) => Ok(Exit::Done),
-            Ok(Some(found)) => {
-                self.show(&[found])?;
-                Ok(Exit::Errors)
-            }
-            Err(error) if is_interrupt(&error) => Ok(Exit::Interrupted),
-            Err(error) => Err(error),
-        }
+        measuring.run(
+            self.problem(),
+            |under| self.find(under),
+            |(report, _)| chips::to_text(report),
+            |(report, drawn), _, outputs| self.write(report, drawn, outputs),
+        )
     }
 
-    /// Everything but writing: the chips, and the drawings if some are wanted. What does not stop the run is added to `findings`.
-    fn find(
-        &self,
-        policy: &Policy,
-        progress: &Progress,
-        findings: &mut Vec<Diagnostic>,
-    ) -> Result<(ChipReport, Drawn), Stop> {
+    /// Everything but writing: the chips, and the drawings if some are wanted. What does not stop the run is added to the findings.
+    fn find(&self, under: &mut Under<'_>) -> Result<(ChipReport, Drawn), Stop> {
         let setup = files::setup(&self.setup)?;
         self.overwrites(&setup)?;
-        let source = files::read(&self.program).map_err(|found| *found)?;
-        let parsed = parse(&source, self.dialect);
-        findings.extend(parsed.diagnostics);
-        if policy.apply(findings.clone()).iter().any(Diagnostic::is_error) {
-            return Err(Stop::Found(Vec::new()));
-        }
-        let program = parsed.program;
+        let program = under.program(&self.program, self.dialect)?;
         let units = Units::of(&program, self.units).unit;
-        let machining = Machining::new(&program, &setup, units, findings)?;
+        let machining = Machining::new(&program, &setup, units, under.findings)?;
         let options = ChipOptions {
             tolerance: self.tolerance,
             lines: self.lines.clone(),
@@ -185,30 +137,11 @@ impl Chips {
         };
         let scenes = if self.svg.is_some() || self.diagram.is_some() { usize::from(self.moves) } else { 0 };
         let keep = Keep { borders: self.json.is_some() || self.stl.is_some(), scenes, at: self.at };
-        progress.begin(program.source().name());
-        let mut report = ChipReport::of(&machining, &options, keep, progress)?.ok_or(Stop::Interrupted)?;
-        findings.append(&mut report.findings);
+        under.progress.begin(program.source().name());
+        let mut report =
+            ChipReport::of(&machining, &options, keep, under.progress)?.ok_or(Stop::Interrupted)?;
+        under.findings.append(&mut report.findings);
         let drawn = self.drawn(&report)?;
         Ok((report, drawn))
-    }
-
-    /// The summary on standard output, or on standard error when an output goes there.
-    fn summary(&self, report: &ChipReport) -> io::Result<()> {
-        let text = chips::to_text(report);
-        print_summary(&text, self.outputs().any(|path| path == Path::new(STANDARD)))
-    }
-
-    fn nothing(&self) -> io::Result<Exit> {
-        if !self.quiet && self.outputs().next().is_some() {
-            eprintln!("{}: nothing was written", self.program.display());
-        }
-        Ok(Exit::Errors)
-    }
-
-    fn show(&self, findings: &[Diagnostic]) -> io::Result<()> {
-        let mut err = io::stderr().lock();
-        let file = self.program.to_string_lossy();
-        let seen = terminal::errors_are_seen();
-        unless_nobody_reads(self.findings.show(&mut err, seen, findings, Some(&file)))
     }
 }

@@ -35,7 +35,8 @@ there is put beside INPUT when the post has ended by itself. INPUT is never chan
 Exit codes: the post's own, and
   2    the command line is wrong; nothing ran
   124  the post took longer than --timeout and was stopped with all it started
-  125  nothing was posted: the program, the recipe or a file around them is wrong
+  125  nothing was posted: the program, the recipe or a file around them is wrong; or what the post
+       left could not be put beside the export
   126  the post could not be started
   127  the post was not found
   128+n  the post was ended by signal n
@@ -70,7 +71,7 @@ pub struct Hook {
     /// Longest time for the post; no limit if not given
     #[arg(long, value_name = "SECONDS", value_parser = files::seconds)]
     timeout: Option<Duration>,
-    /// Keeps what the post got: a file, or a folder that exists
+    /// Keeps what the post got: a file, or a folder (one that exists, or a path that ends in a slash)
     #[arg(long, value_name = "PATH")]
     keep: Option<PathBuf>,
     /// Say nothing but findings
@@ -140,8 +141,15 @@ impl Hook {
         self.input.file_name().unwrap_or(self.input.as_os_str())
     }
 
+    /// The folder in which it is kept, where the path's last slash says that it is one.
+    fn kept_in(&self) -> Option<&Path> {
+        let ends = |keep: &&PathBuf| keep.as_os_str().as_encoded_bytes().ends_with(b"/");
+        self.keep.as_ref().filter(ends).map(PathBuf::as_path)
+    }
+
     /// Where the program that the post gets is kept.
     fn kept_at(&self) -> Option<PathBuf> {
-        self.keep.as_ref().map(|keep| if keep.is_dir() { keep.join(self.name()) } else { keep.clone() })
+        let is_folder = |keep: &PathBuf| keep.is_dir() || self.kept_in().is_some();
+        self.keep.as_ref().map(|keep| if is_folder(keep) { keep.join(self.name()) } else { keep.clone() })
     }
 }

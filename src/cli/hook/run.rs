@@ -5,7 +5,7 @@ use super::post::{self, Ended};
 use super::{Hook, OnError};
 use crate::cli::exit::Exit;
 use crate::cli::files;
-use crate::cli::output::{Outputs, unless_nobody_reads};
+use crate::cli::output::{Outputs, unless_nobody_reads, unwritable};
 use crate::cli::progress::Progress;
 use crate::cli::shop::{self, Correction, InputRecord, Log, Outcome, OutputRecord, Record};
 use crate::cli::terminal::plain;
@@ -120,8 +120,14 @@ impl<'h> Run<'h> {
         if let Some(found) = self.keep(&source)? {
             self.found(vec![found])?;
             if !passes_original {
+                self.correction.outcome = Outcome::Refused;
                 return self.end(REFUSED);
             }
+        }
+        if let Some(found) = self.changed_meanwhile() {
+            self.found(vec![found])?;
+            self.correction.outcome = Outcome::Refused;
+            return self.end(REFUSED);
         }
         let exit = self.post(&source)?;
         self.end(exit)
@@ -143,12 +149,27 @@ impl<'h> Run<'h> {
         Ok(())
     }
 
+    /// What there is to say when the export is not what was read any more: who writes it was not done.
+    fn changed_meanwhile(&self) -> Option<Diagnostic> {
+        let input = &self.hook.input;
+        let now = (input.as_path() != Path::new("-")).then(|| Digest::of_file(input).ok());
+        (now? != self.input.sha256).then(|| {
+            let message = format!("{} was changed while it was read", self.input.path);
+            Diagnostic::new(codes::INPUT_CHANGED, message)
+        })
+    }
+
     /// Keeps what the post is to get.
     fn keep(&self, source: &Arc<Source>) -> io::Result<Option<Diagnostic>> {
         let Some(target) = self.hook.kept_at() else { return Ok(None) };
         if let Some(hit) = self.read_files().into_iter().find(|path| same_file(path, &target)) {
             let message = format!("keeping {} would overwrite {}", target.display(), hit.display());
             return Ok(Some(Diagnostic::new(codes::OUTPUT_IS_INPUT, message)));
+        }
+        if let Some(folder) = self.hook.kept_in()
+            && let Err(error) = std::fs::create_dir_all(folder)
+        {
+            return Ok(Some(unwritable(folder, &error)));
         }
         let written = self.outputs.write_held(&target, |out| {
             self.correction.pieces(source).try_for_each(|piece| out.write_all(piece))
@@ -194,7 +215,7 @@ impl<'h> Run<'h> {
         let begun = Instant::now();
         let ended = post::run(program, &arguments, self.hook.timeout, self.outputs.interrupt())?;
         let mut record = PostRecord::new(&self.hook.post, &ended, begun.elapsed().as_secs_f64());
-        let (exit, found) = judge(&program.to_string_lossy(), self.hook, &ended);
+        let (mut exit, found) = judge(&program.to_string_lossy(), self.hook, &ended);
         let mut found: Vec<Diagnostic> = found.into_iter().collect();
         if matches!(ended, Ended::Exit(_)) {
             let mut protected = self.read_files();
@@ -205,6 +226,10 @@ impl<'h> Run<'h> {
                 put.iter().for_each(|path| eprintln!("{}: from the post", plain(&path.to_string_lossy())));
             }
             record.left = put.iter().map(|path| path.to_string_lossy().into_owned()).collect();
+            // Who looks at the code alone must not take an older NC program for the new one.
+            if exit == 0 && faults.iter().any(Diagnostic::is_error) {
+                exit = REFUSED;
+            }
             found.extend(faults);
         }
         found.extend(desk.clear().err().map(|found| *found));

@@ -10,7 +10,7 @@ use clsmith::write::same_file;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{self, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -129,6 +129,17 @@ fn errors(findings: &[Diagnostic], file: &str) -> Vec<String> {
         .collect()
 }
 
+/// Ends a line that a full disk has cut, so that it does not spoil the next one. Pipes and devices have no end to look at.
+fn end_line(file: &mut File) -> io::Result<()> {
+    if !file.metadata()?.is_file() || file.seek(SeekFrom::End(0))? == 0 {
+        return Ok(());
+    }
+    let mut last = [0];
+    file.seek(SeekFrom::End(-1))?;
+    file.read_exact(&mut last)?;
+    if last == *b"\n" { Ok(()) } else { file.write_all(b"\n") }
+}
+
 /// A log that lines are added to.
 pub struct Log {
     path: PathBuf,
@@ -146,7 +157,8 @@ impl Log {
                 format!("the log {} would be written into the input {}", path.display(), input.display());
             return Err(Box::new(Diagnostic::new(codes::OUTPUT_IS_INPUT, message)));
         }
-        let file = File::options().append(true).create(true).open(path);
+        let file = File::options().read(true).append(true).create(true).open(path);
+        let file = file.and_then(|mut file| end_line(&mut file).map(|()| file));
         let file = file.map_err(|error| Box::new(unwritable(path, &error)))?;
         Ok(Self { path: path.to_path_buf(), file })
     }

@@ -3,28 +3,24 @@
 mod outputs;
 
 use crate::cli::exit::Exit;
-use crate::cli::files::{self, STANDARD};
+use crate::cli::files;
 use crate::cli::findings::FindingArgs;
-use crate::cli::output::{Outputs, print_summary, unless_nobody_reads};
+use crate::cli::measuring::{Measuring, Under};
 use crate::cli::plot::as_file;
 use crate::cli::progress::Progress;
 use crate::cli::reports::ReportArgs;
 use crate::cli::stop::Stop;
-use crate::cli::terminal;
 use clap::Args;
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::machining::{Budget, Machining, Options};
-use clsmith::parse::parse;
 use clsmith::program::{Dialect, Program};
 use clsmith::report::comparison::{Runs, Subject};
-use clsmith::report::policy::Policy;
 use clsmith::report::simulation::{self, Simulated, plot};
 use clsmith::report::stats::Units;
 use clsmith::setup::Setup;
 use clsmith::sim::Mesh;
 use clsmith::source::Source;
 use clsmith::values::LengthUnit;
-use clsmith::write::is_interrupt;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -130,84 +126,47 @@ impl Ran {
             units,
             findings,
             reports: &[],
+            print: None,
         }
     }
 }
 
 impl Simulate {
     pub fn run(&self) -> io::Result<Exit> {
-        let policy = match self.problem().map_or_else(|| self.findings.policy(), Err) {
-            Ok(policy) => policy,
-            Err(problem) => {
-                eprintln!("clsmith simulate: {problem}");
-                return Ok(Exit::Usage);
-            }
+        let measuring = Measuring {
+            command: "simulate",
+            program: &self.program,
+            outputs: self.outputs().collect(),
+            quiet: self.quiet,
+            threads: self.threads,
+            findings: &self.findings,
         };
-        if let Some(threads) = self.threads {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into());
-            pool.build_global().map_err(io::Error::other)?;
-        }
-        let outputs = Outputs::default();
-        let progress = Progress::new(self.quiet, outputs.interrupt());
-        outputs.stop_on_ctrl_c(progress.clearing())?;
-        let mut findings = Vec::new();
-        let done = self.simulate(&policy, &progress, &mut findings);
-        progress.clear();
-        let ran = match done {
-            Ok(done) => done,
-            Err(Stop::Interrupted) => return Ok(Exit::Interrupted),
-            Err(Stop::Found(found)) => {
-                findings.extend(found);
-                self.show(&policy.apply(findings))?;
-                return self.nothing();
-            }
-        };
-        let findings = policy.apply(findings);
-        if !findings.is_empty() {
-            self.show(&findings)?;
-        }
-        if !self.quiet
-            && let Some(simulated) = &ran.runs.after
-        {
-            unless_nobody_reads(self.summary(simulated))?;
-        }
-        if findings.iter().any(Diagnostic::is_error) {
-            return self.nothing();
-        }
-        match self.write(&ran, &findings, &outputs) {
-            Ok(None) => Ok(Exit::Done),
-            Ok(Some(found)) => {
-                self.show(&[found])?;
-                Ok(Exit::Errors)
-            }
-            Err(error) if is_interrupt(&error) => Ok(Exit::Interrupted),
-            Err(error) => Err(error),
-        }
+        measuring.run(
+            self.problem(),
+            |under| self.simulate(under),
+            |ran| ran.runs.after.as_ref().map(simulation::to_text).unwrap_or_default(),
+            |ran, findings, outputs| self.write(ran, findings, outputs),
+        )
     }
 
-    /// Everything but writing: the simulation, and the drawing if one is wanted. What does not stop the run is added to `findings`.
-    fn simulate(
-        &self,
-        policy: &Policy,
-        progress: &Progress,
-        findings: &mut Vec<Diagnostic>,
-    ) -> Result<Ran, Stop> {
+    /// Everything but writing: the simulation, and the drawing if one is wanted. What does not stop the run is added to the findings.
+    fn simulate(&self, under: &mut Under<'_>) -> Result<Ran, Stop> {
         let setup_file = files::read(&self.setup).map_err(|found| *found)?;
         let setup = Setup::load(&setup_file)?;
         self.overwrites(&setup)?;
         let read = |path: &Path| files::read(path).map_err(|found| found.message);
         let setup = setup.with_material_file(read)?;
-        let program = self.program(&self.program, policy, findings)?;
+        let program = under.program(&self.program, self.dialect)?;
         let units = Units::of(&program, self.units).unit;
         let target = self.target.as_deref().map(|path| target(path, units)).transpose()?;
-        let mut simulated = self.one(&program, &setup, progress, findings)?;
-        findings.append(&mut simulated.findings);
+        let mut simulated = self.one(&program, &setup, under.progress, under.findings)?;
+        under.findings.append(&mut simulated.findings);
         if let (Some(mesh), Some(path)) = (target, &self.target) {
             simulated.compare(&mesh, &path.to_string_lossy(), self.tolerance);
-            findings.append(&mut simulated.findings);
+            under.findings.append(&mut simulated.findings);
         }
         let drawn = match &self.plot {
-            Some(path) => Some(self.draw(path, &simulated, &setup, policy, progress, findings)?),
+            Some(path) => Some(self.draw(path, &simulated, &setup, under)?),
             None => None,
         };
         Ok(Ran {
@@ -224,31 +183,18 @@ impl Simulate {
         path: &Path,
         simulated: &Simulated,
         setup: &Setup,
-        policy: &Policy,
-        progress: &Progress,
-        findings: &mut Vec<Diagnostic>,
+        under: &mut Under<'_>,
     ) -> Result<Vec<u8>, Stop> {
         let mut series = Vec::new();
         if let Some(path) = &self.plot_before {
-            let before = self.program(path, policy, findings)?;
+            let before = under.program(path, self.dialect)?;
             // What goes wrong in the program behind is not what was asked.
-            let before = self.one(&before, setup, progress, &mut Vec::new())?;
+            let before = self.one(&before, setup, under.progress, &mut Vec::new())?;
             series.push(before.series(path.to_string_lossy()));
         }
         series.push(simulated.series(simulated.file.as_str()));
         let failed = |error: io::Error| Diagnostic::new(codes::UNWRITABLE, error.to_string());
         Ok(plot::plot(&series).and_then(|svg| as_file(path, svg)).map_err(failed)?)
-    }
-
-    /// Reads a program; errors in its text stop the run.
-    fn program(&self, path: &Path, policy: &Policy, findings: &mut Vec<Diagnostic>) -> Result<Program, Stop> {
-        let source = files::read(path).map_err(|found| *found)?;
-        let parsed = parse(&source, self.dialect);
-        findings.extend(parsed.diagnostics);
-        if policy.apply(findings.clone()).iter().any(Diagnostic::is_error) {
-            return Err(Stop::Found(Vec::new()));
-        }
-        Ok(parsed.program)
     }
 
     fn one(
@@ -265,26 +211,6 @@ impl Simulate {
             Options { cell: self.cell, budget: Budget { bytes, ..Budget::default() }, ..Options::default() };
         progress.begin(program.source().name());
         Simulated::of(&machining, &options, progress)?.ok_or(Stop::Interrupted)
-    }
-
-    /// The summary on standard output, or on standard error when an output goes there.
-    fn summary(&self, simulated: &Simulated) -> io::Result<()> {
-        let text = simulation::to_text(simulated);
-        print_summary(&text, self.outputs().any(|path| path == Path::new(STANDARD)))
-    }
-
-    fn nothing(&self) -> io::Result<Exit> {
-        if !self.quiet && self.outputs().next().is_some() {
-            eprintln!("{}: nothing was written", self.program.display());
-        }
-        Ok(Exit::Errors)
-    }
-
-    fn show(&self, findings: &[Diagnostic]) -> io::Result<()> {
-        let mut err = io::stderr().lock();
-        let file = self.program.to_string_lossy();
-        let seen = terminal::errors_are_seen();
-        unless_nobody_reads(self.findings.show(&mut err, seen, findings, Some(&file)))
     }
 }
 

@@ -1,5 +1,6 @@
 //! What a watch does with a program once its recipe is through: write it or move it aside, tell, remember, log.
 
+use super::folders::LOCK;
 use super::look::Export;
 use super::refused::{Moved, aside};
 use super::run::{Status, Taken, Watching};
@@ -43,6 +44,9 @@ impl Watching<'_> {
             let message = format!("writing {} would overwrite an input", target.display());
             return Ok(Err(vec![Diagnostic::new(codes::OUTPUT_IS_INPUT, message)]));
         }
+        if let Some(found) = self.must_not(export, &target) {
+            return Ok(Err(vec![found]));
+        }
         let new = Digest::of_chunks(correction.pieces(source));
         // After a crash between output and state the output stands already, and nobody must see it change.
         if Digest::of_file(&target).ok() != Some(new) {
@@ -69,6 +73,29 @@ impl Watching<'_> {
         Ok(Ok(Status::Done))
     }
 
+    /// Why a corrected program must not be written: where refused ones lie, over what the watch keeps, or through a link.
+    fn must_not(&self, export: &Export, target: &Path) -> Option<Diagnostic> {
+        let folders = self.folders;
+        let kept = [Some(&folders.state), self.watch.log.as_ref()];
+        let is_kept = kept.into_iter().flatten().any(|kept| same_file(target, kept) || target == kept);
+        let is_lock = export.name.as_os_str() == LOCK;
+        if is_kept || is_lock || target.starts_with(&folders.refused) {
+            let message = format!(
+                "writing {} would overwrite what this watch keeps: refused programs, state, log or lock",
+                target.display()
+            );
+            return Some(Diagnostic::new(codes::OUTPUT_IS_INPUT, message));
+        }
+        let mut parts = export.name.ancestors().filter(|part| !part.as_os_str().is_empty());
+        let link = parts.find(|part| {
+            fs::symlink_metadata(folders.out.join(part)).is_ok_and(|there| there.file_type().is_symlink())
+        })?;
+        let link = folders.out.join(link);
+        let message =
+            format!("{} is a link; what is written there would leave the output folder", link.display());
+        Some(Diagnostic::new(codes::OUTSIDE_OUTPUT, message))
+    }
+
     /// Moves a program that cannot be corrected aside.
     pub fn refuse(
         &mut self,
@@ -93,6 +120,11 @@ impl Watching<'_> {
         self.worst = self.worst.max(Exit::Errors);
         self.watch.show(&correction.findings, &name)?;
         eprintln!("{}: refused -> {}", plain(&name), plain(&to.to_string_lossy()));
+        let before = self.folders.out.join(&export.name);
+        if before.is_file() {
+            let before = before.to_string_lossy();
+            eprintln!("{}: {} is of an earlier export", plain(&name), plain(&before));
+        }
         if let Some(found) = stays {
             self.watch.show(&[*found], &name)?;
             // It stays among the exports, and must not be refused again for ever.

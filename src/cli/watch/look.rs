@@ -55,8 +55,9 @@ impl From<&Metadata> for Stamp {
 /// All files in a folder that a pattern fits, in the order of their names, and what was wrong with others.
 pub fn look(watched: &Path, glob: &GlobMatcher) -> (Vec<Export>, Vec<Diagnostic>) {
     let (mut found, mut faults) = (Vec::new(), Vec::new());
-    // A pattern without a slash can only fit the folder's own files.
-    let is_deep = glob.glob().glob().contains('/');
+    // A pattern without a slash or two stars can only fit the folder's own files.
+    let pattern = glob.glob().glob();
+    let is_deep = pattern.contains('/') || pattern.contains("**");
     let mut folders = vec![watched.to_path_buf()];
     while let Some(folder) = folders.pop() {
         let entries = fs::read_dir(&folder).and_then(|entries| entries.collect::<io::Result<Vec<_>>>());

@@ -39,12 +39,13 @@ Looks every --poll seconds. A file is taken when its size and time have not chan
 seconds and it reads the same twice; a file that changes meanwhile is left for the next look. The
 corrected program appears whole under the same name in --out, over an earlier one. A program that
 cannot be corrected is moved to --refused with NAME.diagnostics.txt beside it; what stands there
-already is never overwritten.
+already is never overwritten, and what an earlier export became stays in --out.
 
 What was done is remembered by content in --state, one line of JSON each, so a restart, even after
 a crash, does nothing twice: only a file whose content has changed is done again. Another recipe
 alone is no reason. GLOB is a path below the folder: `*.cls` takes the folder's own files,
-`**/*.cls` those of its subfolders, too.
+`**/*.cls` those of its subfolders, too; without it, files with the usual endings of CL data (.cls,
+.clsf, .apt, .aptsource, .ncl, .ncl.1, .cl, .clt) are taken.
 
 Exit codes: 130 after Ctrl-C, which is how a watch ends; 1 if it cannot begin; with --once 0 if
 all were taken or were done before, 1 if one was refused, cannot be read or written, or is still
@@ -58,7 +59,7 @@ pub struct Watch {
     #[arg(value_name = "FOLDER")]
     folder: PathBuf,
     /// Which files are taken
-    #[arg(value_parser = glob, value_name = "GLOB")]
+    #[arg(value_parser = glob, value_name = "GLOB", default_value = EXPORTS)]
     files: GlobMatcher,
     #[command(flatten)]
     recipe: RecipeArgs,
@@ -134,6 +135,9 @@ impl Watch {
         unless_nobody_reads(self.findings.show(&mut err, terminal::errors_are_seen(), findings, Some(file)))
     }
 }
+
+/// What CAM systems call their exports; Creo counts versions behind the suffix.
+const EXPORTS: &str = "*.{cls,clsf,apt,aptsource,ncl,cl,clt,CLS,CLSF,APT,APTSOURCE,NCL,CL,CLT,ncl.[0-9]*}";
 
 fn glob(text: &str) -> Result<GlobMatcher, String> {
     let glob =

@@ -3,6 +3,7 @@
 use super::Subject;
 use crate::source::Source;
 use sha2::{Digest, Sha256};
+use std::path::Path;
 
 /// What a part is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,7 +23,7 @@ impl Recorded {
     pub fn name(self) -> &'static str {
         match self {
             Self::Input => "input",
-            Self::Output => "corrected",
+            Self::Output => "corrected program",
             Self::Recipe => "recipe",
             Self::Setup => "setup",
         }
@@ -34,7 +35,7 @@ impl Recorded {
 pub struct Part {
     /// What it is.
     pub what: Recorded,
-    /// The file's name.
+    /// The file's name; of [`Recorded::Output`], which stands for the bytes wherever they go, the input's without folders.
     pub name: String,
     /// SHA-256 of its bytes, in hexadecimal digits.
     pub sha256: String,
@@ -59,7 +60,9 @@ pub(super) fn parts(subject: &Subject<'_>) -> Vec<Part> {
             bytes += piece.len() as u64;
         }
         let sha256 = hex(hash.finalize().as_slice());
-        parts.push(Part { what: Recorded::Output, name: source.name().to_owned(), sha256, bytes });
+        let input = Path::new(source.name()).file_name().map(|name| name.to_string_lossy().into_owned());
+        let name = format!("(of {})", input.as_deref().unwrap_or(source.name()));
+        parts.push(Part { what: Recorded::Output, name, sha256, bytes });
     }
     parts.extend(subject.recipe.map(|recipe| file(Recorded::Recipe, &recipe.source)));
     parts.extend(subject.setup_files.iter().map(|source| file(Recorded::Setup, source)));

@@ -6,6 +6,7 @@ use crate::report::changes::StepChanges;
 use crate::report::kind::Kind;
 use crate::report::render::text::one_line;
 use crate::report::table::{count, counted, duration, fixed, short};
+use crate::transform::PROVENANCE;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -18,12 +19,18 @@ pub fn to_markdown(comparison: &Comparison<'_>) -> String {
     match &comparison.changes {
         Some(changes) if changes.is_empty() => out.push_str("Nothing was changed.\n\n"),
         Some(changes) => {
-            let changed: usize =
-                changes.steps.iter().flat_map(maps).map(|map| map.values().sum::<usize>()).sum();
+            let sum = |comments: bool| -> usize {
+                let steps = changes.steps.iter().filter(|step| (step.name == PROVENANCE) == comments);
+                steps.flat_map(maps).map(|map| map.values().sum::<usize>()).sum()
+            };
+            let said = match sum(true) {
+                0 => String::new(),
+                said => format!("{} about the run, ", counted(said, "comment", "comments")),
+            };
             let _ = writeln!(
                 out,
-                "{} changed, {} untouched.\n",
-                counted(changed, "statement", "statements"),
+                "{} changed, {said}{} untouched.\n",
+                counted(sum(false), "statement", "statements"),
                 count(changes.untouched as u64)
             );
         }
@@ -39,6 +46,9 @@ pub fn to_markdown(comparison: &Comparison<'_>) -> String {
     for part in &comparison.parts {
         let _ = writeln!(out, "<br>{} {} sha256 {}", part.what.name(), escaped(&part.name), part.sha256);
     }
+    if let Some(print) = comparison.subject.print {
+        let _ = writeln!(out, "<br>recipe and files sha256 {}", escaped(print));
+    }
     out.push_str("</sub>\n");
     out
 }
@@ -46,9 +56,8 @@ pub fn to_markdown(comparison: &Comparison<'_>) -> String {
 /// A name of a column, the value in it, and its decimals.
 type Measure = (&'static str, fn(&Figures) -> Option<f64>, fn(f64) -> String);
 
-/// What is told of the whole program.
+/// What is told of the whole program after its time at feed.
 const WHOLE: &[Measure] = &[
-    ("time at feed", |figures| Some(figures.feed_seconds), duration),
     ("time at rapid", |figures| figures.rapid_seconds, duration),
     ("length at feed, mm", |figures| Some(figures.feed_mm), |value| fixed(value, 1)),
     ("length at rapid, mm", |figures| Some(figures.rapid_mm), |value| fixed(value, 1)),
@@ -74,7 +83,11 @@ pub(in crate::report) fn whole_rows(comparison: &Comparison<'_>) -> Vec<[String;
         (before.is_some() || after.is_some())
             .then(|| [(*name).to_owned(), cell(before), cell(after), change(before, after)])
     };
-    WHOLE.iter().filter_map(told).collect()
+    let seconds = |side: &Option<Figures>| side.as_ref().map(|figures| figures.feed_seconds);
+    let timed = |side: &Option<Figures>| side.as_ref().map(time).unwrap_or_default();
+    let change = change(seconds(&row.before), seconds(&row.after));
+    let feed = ["time at feed".to_owned(), timed(&row.before), timed(&row.after), change];
+    std::iter::once(feed).chain(WHOLE.iter().filter_map(told)).collect()
 }
 
 /// `+12.5 %`; nothing where that means nothing.

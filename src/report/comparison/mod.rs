@@ -19,6 +19,7 @@ pub(in crate::report) use markdown::{operation_rows, step_row, whole_rows};
 use super::changes::Changes;
 use super::simulation::Simulated;
 use super::stats::{Units, UnitsFrom};
+use super::table::counted;
 use crate::diagnostic::Diagnostic;
 use crate::program::motion::Motion;
 use crate::program::operation::operations;
@@ -48,6 +49,8 @@ pub struct Subject<'a> {
     pub findings: &'a [Diagnostic],
     /// What steps say about themselves.
     pub reports: &'a [StepReport],
+    /// SHA-256 of the recipe and all files that it depends on, in hexadecimal digits, where it was taken.
+    pub print: Option<&'a str>,
 }
 
 /// A program and its figures, before and after where there is a before.
@@ -114,7 +117,7 @@ impl<'a> Comparison<'a> {
         let (operations, whole) = joined(before, after);
         Self {
             parts: header::parts(&subject),
-            assumptions: assumptions(&subject, runs),
+            assumptions: assumptions(&subject, &whole, runs),
             changes,
             operations,
             whole,
@@ -186,7 +189,20 @@ fn joined(before: Option<Table>, after: Table) -> (Vec<Row>, Row) {
     (rows, whole)
 }
 
-fn assumptions(subject: &Subject<'_>, runs: &Runs) -> Vec<String> {
+/// How many motions at feed the times leave out.
+fn untimed(whole: &Row) -> Option<String> {
+    let of = |side: &Option<Figures>| side.map_or(0, |figures| figures.untimed);
+    let (before, after) = (of(&whole.before), of(&whole.after));
+    let motions = |number| counted(number, "motion", "motions");
+    let left_out = match (before, after) {
+        (0, 0) => return None,
+        _ if before == after || whole.before.is_none() => motions(after),
+        _ => format!("{} before and {after} after", motions(before)),
+    };
+    Some(format!("the time at feed leaves out {left_out} whose feed is not known in mm/min"))
+}
+
+fn assumptions(subject: &Subject<'_>, whole: &Row, runs: &Runs) -> Vec<String> {
     let mut said = Vec::new();
     match subject.units_of(subject.program) {
         Units { from: UnitsFrom::Assumed, .. } => {
@@ -201,6 +217,9 @@ fn assumptions(subject: &Subject<'_>, runs: &Runs) -> Vec<String> {
         Units { from: UnitsFrom::File, .. } => {}
     }
     said.push("times are without dwells, and without the machine's acceleration".to_owned());
+    if let Some(sentence) = untimed(whole) {
+        said.push(sentence);
+    }
     if subject.rapid_feed().is_none() {
         said.push("the machine's rapid feed is not known, so rapids take no time".to_owned());
     }

@@ -52,6 +52,9 @@ fn lead(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
 
 fn parts(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "<p>clsmith {}</p>", env!("CARGO_PKG_VERSION"))?;
+    if let Some(print) = comparison.subject.print {
+        writeln!(out, "<p>Recipe and files: SHA-256 {}</p>", escaped(print))?;
+    }
     let row = |part: &crate::report::comparison::Part| {
         vec![part.what.name().to_owned(), one_line(&part.name), count(part.bytes), part.sha256.clone()]
     };

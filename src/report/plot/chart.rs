@@ -49,6 +49,14 @@ pub struct Panel {
     pub curves: Vec<Curve>,
 }
 
+impl Panel {
+    /// Whether no curve has a value anywhere.
+    pub fn is_empty(&self) -> bool {
+        let mut stretches = self.curves.iter().flat_map(|curve| &curve.stretches);
+        !stretches.any(|stretch| stretch.values.is_some())
+    }
+}
+
 /// Draws panels one above the other, over one axis to the right. Names of curves stand in the first.
 ///
 /// # Errors

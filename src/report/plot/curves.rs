@@ -87,6 +87,16 @@ pub enum Along {
     Path,
 }
 
+impl Along {
+    /// Its name and unit at an axis.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Time => "time, s",
+            Self::Path => "path, mm",
+        }
+    }
+}
+
 /// A program to be drawn.
 #[derive(Debug, Clone, Copy)]
 pub struct Plotted<'a> {
@@ -107,17 +117,17 @@ pub struct Plotted<'a> {
 /// # Errors
 /// What the drawing library returns, which for a drawing in memory is nothing.
 pub fn plot(programs: &[Plotted<'_>], quantities: &[Quantity], along: Along) -> io::Result<String> {
+    draw(along.title(), &panels(programs, quantities, along))
+}
+
+/// What [`plot`] draws: a panel for each quantity, in their order.
+pub fn panels(programs: &[Plotted<'_>], quantities: &[Quantity], along: Along) -> Vec<Panel> {
     let panel = |quantity: &Quantity| Panel {
         up: quantity.title().to_owned(),
         from_zero: *quantity != Quantity::Z,
         curves: programs.iter().map(|program| curve(program, *quantity, along)).collect(),
     };
-    let panels: Vec<Panel> = quantities.iter().map(panel).collect();
-    let right = match along {
-        Along::Time => "time, s",
-        Along::Path => "path, mm",
-    };
-    draw(right, &panels)
+    quantities.iter().map(panel).collect()
 }
 
 fn curve(plotted: &Plotted<'_>, quantity: Quantity, along: Along) -> Curve {

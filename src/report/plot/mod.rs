@@ -8,5 +8,5 @@ mod curves;
 mod png;
 
 pub use chart::{Curve, Panel, Stretch, draw};
-pub use curves::{Along, Plotted, Quantity, plot};
+pub use curves::{Along, Plotted, Quantity, panels, plot};
 pub use png::png;

@@ -1,5 +1,5 @@
 //! What is said of each FEDRAT that the step wrote, for the comments of `provenance:`: the largest load of the motions that it
-//! governs, before and after.
+//! governs, before and after. The load of a motion that was split is none of its parts' own, so these have only the one after.
 
 use super::gather::{Gathered, Mark};
 use super::parameters::Criterion;
@@ -7,6 +7,15 @@ use super::step::Job;
 use crate::program::{LengthUnit, Program, StepId};
 use std::collections::BTreeMap;
 use std::ops::Range;
+
+/// The largest loads that a FEDRAT governs.
+#[derive(Default)]
+struct Loads {
+    before: f64,
+    after: f64,
+    /// It governs a part of a motion that was split.
+    split: bool,
+}
 
 impl Job {
     /// Adds the notes; nothing for a program that keeps no history. `parts` are the motions that each motion of `before` is now.
@@ -21,28 +30,34 @@ impl Job {
             return;
         };
         let governors: Vec<Option<usize>> = program.motions().map(|motion| motion.feed_from).collect();
-        let mut loads: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
+        let governor = |motion: usize| governors.get(motion).copied().flatten();
+        let mut loads: BTreeMap<usize, Loads> = BTreeMap::new();
         let estimate = |mark: &Mark| mark.measured.first().map_or(0.0, |[estimate, _]| *estimate);
-        let mut add = |motion: usize, which: usize, load: f64| {
-            let Some(governor) = governors.get(motion).copied().flatten() else { return };
-            if let Some(largest) = loads.entry(governor).or_default().get_mut(which) {
-                *largest = largest.max(load);
-            }
-        };
         for mark in &before.marks {
-            for motion in parts.get(mark.motion).cloned().unwrap_or_default() {
-                add(motion, 0, estimate(mark));
+            let parts = parts.get(mark.motion).cloned().unwrap_or_default();
+            let split = parts.len() > 1;
+            for governor in parts.filter_map(governor) {
+                let loads = loads.entry(governor).or_default();
+                loads.before = loads.before.max(estimate(mark));
+                loads.split |= split;
             }
         }
-        after.marks.iter().for_each(|mark| add(mark.motion, 1, estimate(mark)));
-        for (statement, [old, new]) in loads.into_iter().filter(|(_, loads)| *loads != [0.0; 2]) {
-            program.note(statement, step, text(criterion, self.units, old, new));
+        for mark in &after.marks {
+            if let Some(governor) = governor(mark.motion) {
+                let loads = loads.entry(governor).or_default();
+                loads.after = loads.after.max(estimate(mark));
+            }
+        }
+        for (statement, loads) in loads {
+            if let Some(text) = text(criterion, self.units, &loads) {
+                program.note(statement, step, text);
+            }
         }
     }
 }
 
-/// `h 0.040 -> 0.065`; the unit where it is not the file's.
-fn text(criterion: Criterion, file: LengthUnit, old: f64, new: f64) -> String {
+/// `h 0.040 -> 0.065`, of split motions `h 0.065`; the unit where it is not the file's. `None` where no load would be told.
+fn text(criterion: Criterion, file: LengthUnit, loads: &Loads) -> Option<String> {
     let (symbol, decimals) = match criterion {
         Criterion::ChipThickness => ("h", 3),
         Criterion::RemovalRate => ("Q", 0),
@@ -52,5 +67,9 @@ fn text(criterion: Criterion, file: LengthUnit, old: f64, new: f64) -> String {
     };
     let told = criterion == Criterion::ChipThickness && file == LengthUnit::Mm;
     let unit = if told { String::new() } else { format!(" {}", criterion.unit()) };
-    format!("{symbol} {old:.decimals$} -> {new:.decimals$}{unit}")
+    let [none, old, new] = [0.0, loads.before, loads.after].map(|load| format!("{load:.decimals$}"));
+    match loads.split {
+        true => (new != none).then(|| format!("{symbol} {new}{unit}")),
+        false => (old != none || new != none).then(|| format!("{symbol} {old} -> {new}{unit}")),
+    }
 }

@@ -8,7 +8,7 @@ use super::search::{Active, Hit};
 use super::subject::Subject;
 use super::template::{Filling, Template};
 use crate::diagnostic::{Diagnostic, codes};
-use crate::program::{Change, Program, Record, Statement};
+use crate::program::{Change, OwnComment, Program, Record, Statement};
 use crate::transform::Context;
 use crate::write::Editor;
 
@@ -147,6 +147,7 @@ impl<'w> Work<'w> {
 
 /// Whether what is to be inserted before or behind a statement already stands there, or is the statement itself.
 fn stands(wanted: &[Vec<u8>], program: &Program, statement: usize, before: bool) -> bool {
+    let with_own = wanted.iter().any(|text| OwnComment::of(text).is_some());
     let wanted: Vec<Subject<'_>> = wanted.iter().map(|text| Subject::of(text)).collect();
     if wanted.is_empty() {
         return true;
@@ -156,7 +157,7 @@ fn stands(wanted: &[Vec<u8>], program: &Program, statement: usize, before: bool)
     if own.is_some_and(|own| wanted.iter().any(|wanted| same_statement(wanted, &own))) {
         return true;
     }
-    let mut found = neighbours(program, statement, before, wanted.len());
+    let mut found = neighbours(program, statement, before, wanted.len(), with_own);
     if before {
         found.reverse();
     }
@@ -164,13 +165,22 @@ fn stands(wanted: &[Vec<u8>], program: &Program, statement: usize, before: bool)
         && wanted.iter().zip(&found).all(|(wanted, found)| same_statement(wanted, found))
 }
 
-/// Up to `count` statements before or behind one, the nearest first.
-fn neighbours(program: &Program, statement: usize, before: bool, count: usize) -> Vec<Subject<'_>> {
+/// Up to `count` statements before or behind one, the nearest first. Comments of clsmith's own runs are passed over: they stand
+/// between a statement and what an earlier run put beside it. `with_own` is for rules that write such a comment themselves.
+fn neighbours(
+    program: &Program,
+    statement: usize,
+    before: bool,
+    count: usize,
+    with_own: bool,
+) -> Vec<Subject<'_>> {
     let (head, tail) = program.statements().split_at_checked(statement).unwrap_or_default();
     let subject = |statement: &Statement| Subject::of(program.text(statement));
+    let is_own = |other: &Statement| OwnComment::of(program.text(other)).is_some();
+    let counts = |other: &&Statement| other.is_live() && (with_own || !is_own(other));
     match before {
-        true => head.iter().rev().filter(|other| other.is_live()).take(count).map(subject).collect(),
-        false => tail.iter().skip(1).filter(|other| other.is_live()).take(count).map(subject).collect(),
+        true => head.iter().rev().filter(counts).take(count).map(subject).collect(),
+        false => tail.iter().skip(1).filter(counts).take(count).map(subject).collect(),
     }
 }
 
