@@ -223,16 +223,17 @@ fn by_places(stock: ([f64; 3], [f64; 3]), pieces: &[Piece; 2], length: f64, apar
 
 #[test]
 fn large_turns_on_a_short_way_share_as_places_tell() {
-    let cases: [([f64; 2], f64, [f64; 3], f64, f64); 3] = [
-        ([17.845, 27.523], 14.685, [0.2645, -0.977, 1.8678], 1.043, -4.3515),
-        ([33.596, 0.0], 36.522, [0.5601, -0.4166, 0.0], -1.8406, -4.8817),
-        ([32.5, 3.08], 0.0, [0.0, 0.381, 0.0], -9.0, -1.0),
+    // Tilts and direction, way, side and depth.
+    let cases = [
+        ([17.845, 27.523, 14.685], [0.2645, -0.977, 1.8678], [1.043, -4.3515]),
+        ([33.596, 0.0, 36.522], [0.5601, -0.4166, 0.0], [-1.8406, -4.8817]),
+        ([32.5, 3.08, 0.0], [0.0, 0.381, 0.0], [-9.0, -1.0]),
     ];
-    for (tilts, towards, way, side, depth) in cases {
+    for ([lean, leans, towards], way, [side, depth]) in cases {
         let bounds = ([-8.0, side, -7.0], [8.0, 13.0, 0.0]);
-        let above = place([-17.0, 0.0, depth], axis(tilts[0], towards));
-        let from = place([0.0, 0.0, depth], axis(tilts[0], towards));
-        let to = place([way[0], way[1], depth + 0.3 * way[2]], axis(tilts[1], 0.0));
+        let above = place([-17.0, 0.0, depth], axis(lean, towards));
+        let from = place([0.0, 0.0, depth], axis(lean, towards));
+        let to = place([way[0], way[1], depth + 0.3 * way[2]], axis(leans, 0.0));
         let pieces = [piece(above, from), piece(from, to)];
         let layers = &engaged(&block(bounds.0, bounds.1), 0.1, &pieces)[1];
         let places = by_places(bounds, &pieces, layers.length_mm, 0.1);

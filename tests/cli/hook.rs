@@ -364,7 +364,7 @@ fn nothing_that_a_run_reads_is_overwritten() {
         let done = command.args(["--keep", keep, "part.cls", "--"]).arg(&path).arg("{}").assert().code(125);
         assert!(stderr(&done).contains("CL0404"), "{keep}: {}", stderr(&done));
     }
-    let done = hook(folder.path()).args(["part.cls", "--"]).arg(&path).arg("{}").assert().code(0);
+    let done = hook(folder.path()).args(["part.cls", "--"]).arg(&path).arg("{}").assert().code(125);
     assert!(stderr(&done).contains("CL0404"), "{}", stderr(&done));
     for log in ["part.cls", "recipe.yaml"] {
         let mut command = clsmith(folder.path());
