@@ -51,6 +51,19 @@ impl Folder {
         })
     }
 
+    /// Where results go that somebody wants in a file of this name: each shard's in one of its own beside it, `all-2-of-8.jsonl`,
+    /// for shards are given the same command line.
+    pub fn results_at(&self, path: &Path) -> PathBuf {
+        let Some(shard) = self.shard else { return path.to_path_buf() };
+        let mut name = path.file_stem().unwrap_or_default().to_os_string();
+        name.push(format!("-{}", shard.in_names()));
+        if let Some(end) = path.extension() {
+            name.push(".");
+            name.push(end);
+        }
+        path.with_file_name(name)
+    }
+
     /// How this batch calls its temporary files.
     pub fn temporaries(&self) -> Temporaries {
         Temporaries::of(&match self.shard {

@@ -28,10 +28,15 @@ pub fn merge(parts: Vec<Results>) -> Result<(Head, Vec<Record>), Vec<Diagnostic>
     if !wrong.is_empty() {
         return Err(wrong);
     }
-    wrong.extend(twice(&parts));
+    let twice = twice(&parts);
+    let each_once = twice.is_empty();
+    wrong.extend(twice);
     wrong.extend(missing_shards(&parts, count(first)));
     wrong.extend(parts.iter().filter_map(short));
-    wrong.extend(same_files(&parts));
+    // A part that is there twice has every file twice; one finding says it.
+    if each_once {
+        wrong.extend(same_files(&parts));
+    }
     wrong.extend(not_run(&parts));
     let head = Head { shard: None, ..first.head.clone() };
     let mut records: Vec<Record> = parts.into_iter().flat_map(|part| part.records).collect();

@@ -187,7 +187,13 @@ impl Plan {
                 };
                 wrong.push(Diagnostic::new(
                     codes::OUTPUTS_COLLIDE,
-                    format!("{recipes} would both be written to {}", file.output_name),
+                    match other.output_name == file.output_name {
+                        true => format!("{recipes} would both be written to {}", file.output_name),
+                        false => format!(
+                            "{recipes} would be written to {} and {}, which are one file on many disks",
+                            other.output_name, file.output_name
+                        ),
+                    },
                 ));
             }
         }

@@ -81,7 +81,7 @@ pub struct Batch {
     /// Begin no file after one has failed
     #[arg(long)]
     fail_fast: bool,
-    /// Where results go; without it, results.jsonl (a shard: results-I-of-N.jsonl) in the output folder
+    /// Where results go; without it, results.jsonl in the output folder. A shard adds -I-of-N to the name
     #[arg(long, value_name = "FILE")]
     results: Option<PathBuf>,
     /// Put the seconds each file took into the results, too; they are never twice the same
@@ -228,10 +228,11 @@ impl Batch {
             }
         }
         let folder = Folder::new(out, self.shard);
-        let results = self.results.clone().unwrap_or_else(|| folder.results());
+        let named = self.results.as_ref().map(|path| folder.results_at(path));
+        let results = named.clone().unwrap_or_else(|| folder.results());
         match Plan::make(jobs, &folder, &results, &read) {
             Ok(mut plan) if wrong.is_empty() => {
-                let given = self.results.iter().filter(|results| {
+                let given = named.iter().filter(|results| {
                     plan.files.iter().map(|file| &file.path).chain(&read).any(|path| same_file(path, results))
                 });
                 let folder = match given.map(|results| results_are_input(results)).next() {

@@ -1,5 +1,6 @@
 //! `clsmith hook`: between the CAM system's export and the post.
 
+mod codes;
 mod desk;
 mod post;
 mod run;
@@ -13,8 +14,9 @@ use super::shop::{Log, RecipeArgs};
 use super::terminal;
 use clap::{Args, ValueEnum};
 use clsmith::diagnostic::Diagnostic;
+use codes::REFUSED;
 use post::MARK;
-use run::{REFUSED, Run};
+use run::Run;
 use std::ffi::{OsStr, OsString};
 use std::io;
 use std::path::{Path, PathBuf};

@@ -1,5 +1,6 @@
 //! One run of the hook, from the export to the line in the log.
 
+use super::codes::{REFUSED, STOPPED, judge};
 use super::desk::Desk;
 use super::post::{self, Ended};
 use super::{Hook, OnError};
@@ -21,19 +22,6 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
-
-/// The post took too long.
-const TIMED_OUT: i32 = 124;
-/// Nothing was posted.
-pub const REFUSED: i32 = 125;
-/// The post could not be started.
-const NOT_STARTED: i32 = 126;
-/// The post is not there.
-const MISSING: i32 = 127;
-/// And the number of a signal.
-const SIGNAL: i32 = 128;
-/// Ctrl-C.
-const STOPPED: i32 = 130;
 
 /// What is known of a run so far; in the end it becomes a line of the log.
 pub struct Run<'h> {
@@ -215,7 +203,7 @@ impl<'h> Run<'h> {
         let begun = Instant::now();
         let ended = post::run(program, &arguments, self.hook.timeout, self.outputs.interrupt())?;
         let mut record = PostRecord::new(&self.hook.post, &ended, begun.elapsed().as_secs_f64());
-        let (mut exit, found) = judge(&program.to_string_lossy(), self.hook, &ended);
+        let (mut exit, found) = judge(&program.to_string_lossy(), self.hook.timeout, &ended);
         let mut found: Vec<Diagnostic> = found.into_iter().collect();
         if matches!(ended, Ended::Exit(_)) {
             let mut protected = self.read_files();
@@ -278,31 +266,6 @@ impl<'h> Run<'h> {
         }
         Ok(Exit::Posted(exit))
     }
-}
-
-/// The exit code, and what there is to say about how the post ended.
-fn judge(name: &str, hook: &Hook, ended: &Ended) -> (i32, Option<Diagnostic>) {
-    let (exit, code, message) = match ended {
-        Ended::Exit(code) if (TIMED_OUT..=MISSING).contains(code) || (SIGNAL + 1..256).contains(code) => {
-            let message = format!("{name} itself ended with {code}, which the hook uses, too");
-            (*code, codes::EXIT_CODE_SHARED, message)
-        }
-        Ended::Exit(code) => return (*code, None),
-        Ended::Stopped => return (STOPPED, None),
-        Ended::Signal(signal) => {
-            (SIGNAL + signal, codes::POST_KILLED, format!("{name} was ended by signal {signal}"))
-        }
-        Ended::TimedOut => {
-            let limit = hook.timeout.unwrap_or_default().as_secs_f64();
-            let message = format!("{name} had not ended after {limit} s and was stopped");
-            (TIMED_OUT, codes::POST_TIMED_OUT, message)
-        }
-        Ended::Missing(error) => (MISSING, codes::POST_MISSING, format!("{name} cannot be found: {error}")),
-        Ended::NotStarted(error) => {
-            (NOT_STARTED, codes::POST_NOT_STARTED, format!("{name} cannot be started: {error}"))
-        }
-    };
-    (exit, Some(Diagnostic::new(code, message)))
 }
 
 impl PostRecord {

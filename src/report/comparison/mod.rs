@@ -19,7 +19,7 @@ pub(in crate::report) use markdown::{operation_rows, step_row, whole_rows};
 use super::changes::Changes;
 use super::simulation::Simulated;
 use super::stats::{Units, UnitsFrom};
-use super::table::counted;
+use super::table::{counted, duration};
 use crate::diagnostic::Diagnostic;
 use crate::program::motion::Motion;
 use crate::program::operation::operations;
@@ -202,6 +202,16 @@ fn untimed(whole: &Row) -> Option<String> {
     Some(format!("the time at feed leaves out {left_out} whose feed is not known in mm/min"))
 }
 
+/// What the machine's acceleration makes of the time at feed and rapid, where the setup says it.
+fn accelerated(runs: &Runs) -> Option<String> {
+    let of = |simulated: &Option<Simulated>| simulated.as_ref().and_then(|one| one.accelerated_seconds);
+    let after = duration(of(&runs.after)?);
+    Some(match of(&runs.before) {
+        Some(before) => format!("with it the program takes {} before and {after} after", duration(before)),
+        None => format!("with it the program takes {after}"),
+    })
+}
+
 fn assumptions(subject: &Subject<'_>, whole: &Row, runs: &Runs) -> Vec<String> {
     let mut said = Vec::new();
     match subject.units_of(subject.program) {
@@ -217,6 +227,7 @@ fn assumptions(subject: &Subject<'_>, whole: &Row, runs: &Runs) -> Vec<String> {
         Units { from: UnitsFrom::File, .. } => {}
     }
     said.push("times are without dwells, and without the machine's acceleration".to_owned());
+    said.extend(accelerated(runs));
     if let Some(sentence) = untimed(whole) {
         said.push(sentence);
     }

@@ -88,3 +88,18 @@ fn shards_read_each_others_journals() {
     let third = batch(shop.path(), "done", &["--resume", "--shard", "3/3"]).success();
     assert!(stdout(&third).contains("2 done before"), "{}", stdout(&third));
 }
+
+#[test]
+fn shards_that_are_given_one_name_for_results_write_each_its_own() {
+    let shop = shop(6);
+    let records = |name: &str| {
+        let text = fs::read_to_string(shop.path().join(name)).unwrap();
+        text.lines().skip(1).count()
+    };
+    for shard in ["1/2", "2/2"] {
+        batch(shop.path(), "parts", &["--results", "all.jsonl", "--shard", shard]).success();
+    }
+    batch(shop.path(), "whole", &[]).success();
+    assert_eq!(records("all-1-of-2.jsonl") + records("all-2-of-2.jsonl"), records("whole/results.jsonl"));
+    assert!(!shop.path().join("all.jsonl").exists());
+}

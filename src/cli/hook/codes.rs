@@ -1,0 +1,43 @@
+//! Exit codes of the hook: those of `timeout` and the shell, and else the post's own.
+
+use super::post::Ended;
+use clsmith::diagnostic::{Diagnostic, codes};
+use std::time::Duration;
+
+/// The post took too long.
+const TIMED_OUT: i32 = 124;
+/// Nothing was posted.
+pub const REFUSED: i32 = 125;
+/// The post could not be started.
+const NOT_STARTED: i32 = 126;
+/// The post is not there.
+const MISSING: i32 = 127;
+/// And the number of a signal.
+const SIGNAL: i32 = 128;
+/// Ctrl-C.
+pub const STOPPED: i32 = 130;
+
+/// The exit code, and what there is to say about how the post ended.
+pub fn judge(name: &str, timeout: Option<Duration>, ended: &Ended) -> (i32, Option<Diagnostic>) {
+    let (exit, code, message) = match ended {
+        Ended::Exit(code) if (TIMED_OUT..=MISSING).contains(code) || (SIGNAL + 1..256).contains(code) => {
+            let message = format!("{name} itself ended with {code}, which the hook uses, too");
+            (*code, codes::EXIT_CODE_SHARED, message)
+        }
+        Ended::Exit(code) => return (*code, None),
+        Ended::Stopped => return (STOPPED, None),
+        Ended::Signal(signal) => {
+            (SIGNAL + signal, codes::POST_KILLED, format!("{name} was ended by signal {signal}"))
+        }
+        Ended::TimedOut => {
+            let limit = timeout.unwrap_or_default().as_secs_f64();
+            let message = format!("{name} had not ended after {limit} s and was stopped");
+            (TIMED_OUT, codes::POST_TIMED_OUT, message)
+        }
+        Ended::Missing(error) => (MISSING, codes::POST_MISSING, format!("{name} cannot be found: {error}")),
+        Ended::NotStarted(error) => {
+            (NOT_STARTED, codes::POST_NOT_STARTED, format!("{name} cannot be started: {error}"))
+        }
+    };
+    (exit, Some(Diagnostic::new(code, message)))
+}
