@@ -74,6 +74,11 @@ fn is_still_done(settings: Settings<'_>, file: &Planned, work: &Work, done: &Don
         && Digest::of_file(&output).is_ok_and(|now| done.record.sha256.output == Some(now))
 }
 
+/// An input that somebody wrote to while it was read.
+pub fn changed(name: &str) -> Diagnostic {
+    Diagnostic::new(codes::INPUT_CHANGED, format!("{name} was changed while it was read"))
+}
+
 enum Stop {
     Found(Box<Diagnostic>),
     Interrupted,
@@ -114,8 +119,7 @@ fn correct(
         return Err(Stop::Interrupted);
     }
     if !is_unchanged(&file.path, &stamp, began, digest).map_err(unreadable)? {
-        let message = format!("{name} was changed while it was read");
-        return Err(Stop::found(codes::INPUT_CHANGED, message));
+        return Err(Stop::Found(Box::new(changed(&name))));
     }
     if let Some(program) = done.program {
         write(settings, file, &program)?;

@@ -265,7 +265,8 @@ impl Plan {
 }
 
 /// A link stands where the output folder has a folder or file of its own.
-pub(super) fn outside(link: &Path) -> Diagnostic {
+/// An output that a link would take out of its folder.
+pub fn outside(link: &Path) -> Diagnostic {
     let message =
         format!("{} is a link; what is written there would leave the output folder", link.display());
     Diagnostic::new(codes::OUTSIDE_OUTPUT, message)

@@ -63,26 +63,20 @@ impl Interval {
 
     /// Sine and cosine of every angle in it, radians.
     pub fn sin_cos(self) -> (Self, Self) {
-        let (ends, slack) = (self.ends(), TRIG_ERROR * (1.0 + self.magnitude()));
-        (
-            ends.map(|(sin, _)| sin).range(self, FRAC_PI_2, slack),
-            ends.map(|(_, cos)| cos).range(self, 0.0, slack),
-        )
+        let [single, _] = self.sin_cos_with_doubles();
+        single
     }
 
     /// Sine and cosine of every angle in it, and of their doubles.
     pub fn sin_cos_with_doubles(self) -> [(Self, Self); 2] {
-        let (ends, slack) = (self.ends(), 2.0 * TRIG_ERROR * (1.0 + self.magnitude()));
+        let ends = Ends([self.lo.sin_cos(), self.hi.sin_cos()]);
+        let slack = 2.0 * TRIG_ERROR * (1.0 + self.magnitude());
         let double = Self { lo: 2.0 * self.lo, hi: 2.0 * self.hi };
         let sin = ends.map(|(sin, _)| sin).range(self, FRAC_PI_2, slack);
         let cos = ends.map(|(_, cos)| cos).range(self, 0.0, slack);
         let sin2 = ends.map(|(sin, cos)| 2.0 * sin * cos).range(double, FRAC_PI_2, slack);
         let cos2 = ends.map(|(sin, cos)| cos * cos - sin * sin).range(double, 0.0, slack);
         [(sin, cos), (sin2, cos2)]
-    }
-
-    fn ends(self) -> Ends<(f64, f64)> {
-        Ends([self.lo.sin_cos(), self.hi.sin_cos()])
     }
 }
 
@@ -158,5 +152,70 @@ impl Neg for Interval {
     type Output = Self;
     fn neg(self) -> Self {
         Self { lo: -self.hi, hi: -self.lo }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Interval;
+    use proptest::prelude::*;
+
+    fn interval(width: f64) -> impl Strategy<Value = Interval> {
+        (-9.0..9.0f64, prop_oneof![Just(0.0), 0.0..1e-9, 0.0..width])
+            .prop_map(|(lo, width)| Interval { lo, hi: lo + width })
+    }
+
+    fn holds(interval: Interval, value: f64) -> bool {
+        interval.lo <= value && value <= interval.hi
+    }
+
+    proptest! {
+        #[test]
+        fn results_hold_what_numbers_of_the_operands_make(
+            (a, b) in (interval(3.0), interval(3.0)),
+            shares in prop::array::uniform2(0.0..=1.0f64),
+        ) {
+            let [x, y] = [(a, shares[0]), (b, shares[1])].map(|(i, share)| (i.lo + share * (i.hi - i.lo)).min(i.hi));
+            prop_assert!(holds(a + b, x + y) && holds(a - b, x - y) && holds(a * b, x * y) && holds(-a, -x));
+            prop_assert!(a.sign().is_none() || holds(a.recip(), 1.0 / x));
+        }
+
+        #[test]
+        fn sines_and_cosines_are_held_and_no_wider_than_they_are(angles in interval(8.0)) {
+            const LOOKS: usize = 2000;
+            let [(sin, cos), (sin2, cos2)] = angles.sin_cos_with_doubles();
+            let functions = [
+                (sin, f64::sin as fn(f64) -> f64, 1.0),
+                (cos, f64::cos, 1.0),
+                (sin2, f64::sin, 2.0),
+                (cos2, f64::cos, 2.0),
+            ];
+            for (found, function, times) in functions {
+                let at = |look: usize| angles.lo + (angles.hi - angles.lo) * look as f64 / LOOKS as f64;
+                let values = (0..=LOOKS).map(|look| function(times * at(look).min(angles.hi)));
+                let (low, high) = values.fold((2.0f64, -2.0f64), |(low, high), v| (low.min(v), high.max(v)));
+                prop_assert!(found.lo <= low && high <= found.hi, "{found:?} {low} {high}");
+                // Between two looks a curve bends away by the square of their distance, times an eighth of its bend.
+                let missed = (times * (angles.hi - angles.lo) / LOOKS as f64).powi(2) + 1e-13;
+                prop_assert!(low - found.lo <= missed && found.hi - high <= missed, "{found:?} {low} {high}");
+            }
+        }
+    }
+
+    #[test]
+    fn crests_and_troughs_at_the_very_end_count() {
+        use std::f64::consts::{FRAC_PI_2, PI};
+        for turn in [-2.0 * PI, 0.0, 2.0 * PI] {
+            for (angles, is_cos, extreme) in [
+                (Interval { lo: turn - 0.3, hi: turn }, true, 1.0),
+                (Interval { lo: turn + PI, hi: turn + PI + 0.3 }, true, -1.0),
+                (Interval { lo: turn + FRAC_PI_2, hi: turn + 2.0 }, false, 1.0),
+                (Interval { lo: turn - 2.0, hi: turn - FRAC_PI_2 }, false, -1.0),
+            ] {
+                let (sin, cos) = angles.sin_cos();
+                let found = if is_cos { cos } else { sin };
+                assert!(holds(found, extreme), "{angles:?} {found:?}");
+            }
+        }
     }
 }

@@ -12,6 +12,7 @@ pub mod area;
 pub mod chip;
 pub mod cover;
 pub mod diagram;
+pub mod ellipse;
 mod engagement;
 pub mod family;
 mod interval;

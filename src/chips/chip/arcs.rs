@@ -3,7 +3,8 @@
 use crate::chips::Polygon;
 use crate::chips::cover::Rim;
 use crate::chips::diagram::Diagram;
-use crate::chips::family::{Curve, Ellipse, Family};
+use crate::chips::ellipse::Ellipse;
+use crate::chips::family::{Curve, Family};
 use crate::chips::trig::{Angle, Trig};
 use std::f64::consts::TAU;
 

@@ -16,7 +16,8 @@ pub use rim::Rim;
 
 use super::diagram::Diagram;
 use super::diagram::stretch::Stretch;
-use super::family::{Curve, Ellipse, Family};
+use super::ellipse::Ellipse;
+use super::family::{Curve, Family};
 use super::trig::Trig;
 use bands::Root;
 use outline::{Cuts, outline, outline_with_caps};

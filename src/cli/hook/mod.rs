@@ -1,7 +1,7 @@
 //! `clsmith hook`: between the CAM system's export and the post.
 
-mod codes;
 mod desk;
+mod exit_codes;
 mod post;
 mod run;
 
@@ -14,7 +14,7 @@ use super::shop::{Log, RecipeArgs};
 use super::terminal;
 use clap::{Args, ValueEnum};
 use clsmith::diagnostic::Diagnostic;
-use codes::REFUSED;
+use exit_codes::REFUSED;
 use post::MARK;
 use run::Run;
 use std::ffi::{OsStr, OsString};

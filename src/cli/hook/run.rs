@@ -1,7 +1,7 @@
 //! One run of the hook, from the export to the line in the log.
 
-use super::codes::{REFUSED, STOPPED, judge};
 use super::desk::Desk;
+use super::exit_codes::{REFUSED, STOPPED, judge};
 use super::post::{self, Ended};
 use super::{Hook, OnError};
 use crate::cli::exit::Exit;
@@ -10,6 +10,7 @@ use crate::cli::output::{Outputs, unless_nobody_reads, unwritable};
 use crate::cli::progress::Progress;
 use crate::cli::shop::{self, Correction, InputRecord, Log, Outcome, OutputRecord, Record};
 use crate::cli::terminal::plain;
+use clsmith::batch;
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::fingerprint::Digest;
 use clsmith::report::policy::Policy;
@@ -139,12 +140,8 @@ impl<'h> Run<'h> {
 
     /// What there is to say when the export is not what was read any more: who writes it was not done.
     fn changed_meanwhile(&self) -> Option<Diagnostic> {
-        let input = &self.hook.input;
-        let now = (input.as_path() != Path::new("-")).then(|| Digest::of_file(input).ok());
-        (now? != self.input.sha256).then(|| {
-            let message = format!("{} was changed while it was read", self.input.path);
-            Diagnostic::new(codes::INPUT_CHANGED, message)
-        })
+        let now = Digest::of_file(&self.hook.input).ok();
+        (now != self.input.sha256).then(|| batch::changed(&self.input.path))
     }
 
     /// Keeps what the post is to get.

@@ -8,6 +8,7 @@ use crate::cli::exit::Exit;
 use crate::cli::output::unwritable;
 use crate::cli::shop::{Correction, InputRecord, Outcome, OutputRecord, Record};
 use crate::cli::terminal::plain;
+use clsmith::batch;
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::fingerprint::Digest;
 use clsmith::report::render::human;
@@ -90,10 +91,7 @@ impl Watching<'_> {
         let link = parts.find(|part| {
             fs::symlink_metadata(folders.out.join(part)).is_ok_and(|there| there.file_type().is_symlink())
         })?;
-        let link = folders.out.join(link);
-        let message =
-            format!("{} is a link; what is written there would leave the output folder", link.display());
-        Some(Diagnostic::new(codes::OUTSIDE_OUTPUT, message))
+        Some(batch::outside(&folders.out.join(link)))
     }
 
     /// Moves a program that cannot be corrected aside.

@@ -1,30 +1,29 @@
 //! `clsmith apply`.
 
+mod problem;
+mod written;
+
 use super::exit::Exit;
 use super::files::{self, Loaded, STANDARD};
 use super::findings::FindingArgs;
 use super::output::{Outputs, overwritten, unless_nobody_reads};
-use super::plot::as_file;
 use super::progress::Progress;
 use super::reports::ReportArgs;
 use super::terminal;
 use clap::Args;
 use clsmith::diagnostic::Diagnostic;
 use clsmith::fingerprint::RecipePrint;
-use clsmith::job::{Done, Job, is_changed};
-use clsmith::parse::parse;
-use clsmith::program::{Dialect, Program};
+use clsmith::job::{Done, Job};
+use clsmith::program::Dialect;
 use clsmith::recipe::Provenance;
-use clsmith::report::changes::{self, Changes};
-use clsmith::report::comparison::Subject;
-use clsmith::report::{picture, step_report, unified};
+use clsmith::report::unified;
 use clsmith::source::Source;
-use clsmith::transform::{Recipe, Step, StepReport};
-use clsmith::undo::RunReport;
-use clsmith::write::{is_interrupt, same_file};
+use clsmith::transform::Step;
+use clsmith::write::is_interrupt;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use written::{Ran, write};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -147,67 +146,6 @@ impl Apply {
         Ok(worst)
     }
 
-    /// What is wrong with the command line beyond what clap can say.
-    fn problem(&self) -> Option<String> {
-        let standard = |path: &PathBuf| path == Path::new(STANDARD);
-        if self.inputs.iter().filter(|path| standard(path)).count() > 1 {
-            return Some("standard input can be read only once".into());
-        }
-        if self.diff && self.output.as_ref().is_some_and(standard) {
-            return Some("--diff and -o - both write to standard output".into());
-        }
-        let several = self.inputs.len() > 1;
-        let extra: Vec<(&str, &Path)> = self.named().chain(self.reports.named()).collect();
-        let taken = self.diff || self.output.as_ref().is_some_and(standard);
-        let on_standard: Vec<&str> =
-            extra.iter().filter(|(_, path)| *path == Path::new(STANDARD)).map(|(name, _)| *name).collect();
-        match on_standard.as_slice() {
-            [name, ..] if taken => {
-                return Some(format!("{name} - shares standard output with --diff or -o -"));
-            }
-            [name, other, ..] => {
-                return Some(format!("{name} - and {other} - both write to standard output"));
-            }
-            _ => {}
-        }
-        let target = self.inputs.first().and_then(|input| self.target(input));
-        let files = target.iter().map(|path| ("-o", path.as_path())).chain(extra.iter().copied());
-        let files: Vec<(&str, &Path)> = files.filter(|(_, path)| *path != Path::new(STANDARD)).collect();
-        for (index, (other, path)) in files.iter().enumerate() {
-            let same = |(_, earlier): &&(&str, &Path)| earlier == path || same_file(earlier, path);
-            if let Some((name, _)) = files.iter().take(index).find(same) {
-                return Some(format!("{other} and {name} name one file"));
-            }
-        }
-        if several && let Some((name, _)) = extra.first() {
-            return Some(format!("{name} shows one program; there are several"));
-        }
-        let folder = self.output.as_deref().filter(|path| !path.as_os_str().is_empty());
-        if let Some(folder) = folder.filter(|folder| several && !folder.is_dir()) {
-            let folder = folder.display();
-            return Some(format!("with several inputs, -o names a folder that exists; `{folder}` is none"));
-        }
-        if several && self.output.is_some() {
-            // Case aside: on some disks `A.cls` and `a.cls` are one file.
-            let name = |input: &PathBuf| {
-                input.file_name().map(|name| name.to_string_lossy().to_lowercase()).unwrap_or_default()
-            };
-            let mut names: Vec<String> = self.inputs.iter().map(name).collect();
-            names.sort();
-            let twice = names.iter().zip(names.iter().skip(1)).find(|(one, next)| one == next);
-            if let Some((name, _)) = twice {
-                return Some(format!("two inputs are called {name}; their outputs would be one file"));
-            }
-        }
-        None
-    }
-
-    /// Options beside those of reports that name a file to write.
-    fn named(&self) -> impl Iterator<Item = (&'static str, &Path)> {
-        let both = [("--plot", &self.plot), ("--json", &self.json)];
-        both.into_iter().filter_map(|(name, path)| Some((name, path.as_deref()?)))
-    }
-
     fn one(
         &self,
         job: &Job<'_>,
@@ -253,40 +191,18 @@ impl Apply {
             )?;
             out.flush()?;
         }
+        let run = Ran {
+            job,
+            setup_files,
+            source: &source,
+            program: &program,
+            findings: &findings,
+            reports: &reports,
+        };
         // The program comes last: one that was replaced without its report could not be undone.
-        if let (Some(path), Some(print)) = (&self.json, job.print)
-            && let Some(found) =
-                self.run_report(path, &program, job.recipe, print, target.as_deref(), outputs)?
-        {
+        if let Some(found) = self.write_beside(&run, target.as_deref(), outputs, progress)? {
             self.show(&[found], Some(source.name()))?;
             return Ok(Exit::Errors);
-        }
-        if let Some(path) = &self.plot
-            && self.draw(path, &reports, outputs)? != Exit::Done
-        {
-            return Ok(Exit::Errors);
-        }
-        if self.reports.is_wanted() {
-            let before = parse(&source, Some(program.dialect())).program;
-            let digits = job.print.map(|print| print.sha256.to_string());
-            let subject = Subject {
-                before: Some(&before),
-                program: &program,
-                recipe: Some(job.recipe),
-                setup: job.setup,
-                setup_files,
-                units: Some(job.recipe.units),
-                findings: &findings,
-                reports: &reports,
-                print: digits.as_deref(),
-            };
-            progress.begin(&format!("{}: report", source.name()));
-            let written = self.reports.write_all_of(subject, progress, outputs);
-            progress.clear();
-            if let Some(found) = written? {
-                self.show(&[found], Some(source.name()))?;
-                return Ok(Exit::Errors);
-            }
         }
         if !self.dry_run
             && let Some(target) = &target
@@ -297,43 +213,9 @@ impl Apply {
         }
         if !self.quiet {
             let target = target.as_deref().filter(|_| !self.dry_run);
-            unless_nobody_reads(self.summary(job, &source, &program, &reports, target))?;
+            unless_nobody_reads(self.summary(&run, target))?;
         }
         Ok(Exit::Done)
-    }
-
-    /// Writes what the run did as JSON; a finding when that fails.
-    fn run_report(
-        &self,
-        path: &Path,
-        program: &Program,
-        recipe: &Recipe,
-        print: &RecipePrint,
-        target: Option<&Path>,
-        outputs: &Outputs,
-    ) -> io::Result<Option<Diagnostic>> {
-        let before = parse(program.source(), Some(program.dialect())).program;
-        let changes = Changes::of(&before, program, &recipe.step_names(), Some(recipe.units));
-        let file = target.filter(|target| !self.dry_run && *target != Path::new(STANDARD));
-        let file = file.map(|file| file.to_string_lossy().into_owned());
-        let report = RunReport::of(program, file, print, recipe.provenance, &changes);
-        outputs.write(path, |out| report.write(out))
-    }
-
-    /// Draws what the steps have to show.
-    fn draw(&self, path: &Path, reports: &[StepReport], outputs: &Outputs) -> io::Result<Exit> {
-        let panels: Vec<_> = reports.iter().flat_map(step_report::panels).collect();
-        let Some(text) = picture::draw(&panels)? else {
-            if !self.quiet {
-                eprintln!("{}: not drawn, no step has anything to show", path.display());
-            }
-            return Ok(Exit::Done);
-        };
-        let bytes = as_file(path, text)?;
-        match outputs.write(path, |out| out.write_all(&bytes))? {
-            Some(found) => self.show(&[found], None).map(|()| Exit::Errors),
-            None => Ok(Exit::Done),
-        }
     }
 
     /// The output of an input; `None` when nothing is to be written.
@@ -363,40 +245,4 @@ impl Apply {
         let mut err = io::stderr().lock();
         unless_nobody_reads(self.findings.show(&mut err, terminal::errors_are_seen(), findings, file))
     }
-
-    fn summary(
-        &self,
-        job: &Job<'_>,
-        source: &Arc<Source>,
-        program: &Program,
-        reports: &[StepReport],
-        target: Option<&Path>,
-    ) -> io::Result<()> {
-        let mut err = io::stderr().lock();
-        let to = match target {
-            Some(path) if path == Path::new(STANDARD) => " -> standard output".to_owned(),
-            Some(path) => format!(" -> {}", path.display()),
-            None => String::new(),
-        };
-        if !is_changed(program) {
-            writeln!(err, "{}{to}: nothing to change, every byte as it was", source.name())?;
-            return show_reports(&mut err, reports);
-        }
-        let before = parse(source, Some(program.dialect())).program;
-        let steps = job.recipe.step_names();
-        let found = Changes::of(&before, program, &steps, Some(job.recipe.units));
-        err.write_all(changes::to_text(&found).as_bytes())?;
-        show_reports(&mut err, reports)?;
-        if to.is_empty() { Ok(()) } else { writeln!(err, "{to}", to = to.trim_start()) }
-    }
-}
-
-/// What the steps say about themselves, also when they had nothing to change.
-fn show_reports(err: &mut impl Write, reports: &[StepReport]) -> io::Result<()> {
-    reports.iter().try_for_each(|report| err.write_all(step_report::to_text(report).as_bytes()))
-}
-
-/// Writes the program; a finding when that fails.
-fn write(program: &Program, target: &Path, outputs: &Outputs) -> io::Result<Option<Diagnostic>> {
-    outputs.write(target, |out| program.pieces().try_for_each(|piece| out.write_all(piece)))
 }
