@@ -7,8 +7,11 @@
 // A benchmark that cannot make its block has nothing to measure.
 #![allow(clippy::expect_used)]
 
-use clsmith::chips::{Cover, Diagram, Family, FlatMill, Polygon, Rim, Stack, Step, cut};
-use clsmith::sim::{Body, Piece, Place, Stock};
+use clsmith::layered_chips::{
+    BoundaryDiagram, FlatMill, LayerStack, LayerSweptArea, MillStep, Polygon, RimDirections, SectionFamily,
+    cut_chips,
+};
+use clsmith::sim::{PathPiece, SolidBody, Stock, ToolPose};
 use geo::{Area, BooleanOps, Coord, LineString, MultiPolygon};
 use nalgebra::{Point3, Vector3};
 use std::hint::black_box;
@@ -35,32 +38,34 @@ fn timed<T>(start: Instant, work: impl FnOnce() -> T) -> (T, f64) {
 }
 
 /// A path that winds, with an axis that leans and swings.
-fn path(count: usize) -> Vec<Piece> {
+fn path(count: usize) -> Vec<PathPiece> {
     let place = |index: usize| {
         let s = index as f64 * 0.5;
         let (lean, towards) = (0.25 + 0.2 * (s / 9.0).sin(), s / 15.0);
         let axis = Vector3::new(lean.sin() * towards.cos(), lean.sin() * towards.sin(), lean.cos());
-        Place { point: Point3::new(s, 12.0 * (s / 20.0).sin(), -8.0 + (s / 11.0).cos()), axis }
+        ToolPose { point: Point3::new(s, 12.0 * (s / 20.0).sin(), -8.0 + (s / 11.0).cos()), axis }
     };
-    (0..count).map(|index| Piece { from: place(index), to: place(index + 1), cutter: 0 }).collect()
+    (0..count).map(|index| PathPiece { from: place(index), to: place(index + 1), cutter: 0 }).collect()
 }
 
 fn layers() -> impl Iterator<Item = f64> {
     (0..20).map(|index| -9.75 + 0.5 * f64::from(index))
 }
 
-fn diagrams(pieces: &[Piece]) -> Vec<Diagram> {
-    let steps = pieces.iter().map(|piece| Step::new(MILL, piece).expect("a step that can be modelled"));
-    steps.flat_map(|step| layers().map(move |z| Diagram::new(&Family::new(&step, z)))).collect()
+fn diagrams(pieces: &[PathPiece]) -> Vec<BoundaryDiagram> {
+    let steps = pieces.iter().map(|piece| MillStep::new(MILL, piece).expect("a step that can be modelled"));
+    steps
+        .flat_map(|step| layers().map(move |z| BoundaryDiagram::new(&SectionFamily::new(&step, z))))
+        .collect()
 }
 
-fn covers(pieces: &[Piece], tolerance: f64) -> Vec<Cover> {
+fn covers(pieces: &[PathPiece], tolerance: f64) -> Vec<LayerSweptArea> {
     let mut all = Vec::new();
     for piece in pieces {
-        let step = Step::new(MILL, piece).expect("a step that can be modelled");
-        let rim = Rim::new(&step, tolerance);
+        let step = MillStep::new(MILL, piece).expect("a step that can be modelled");
+        let rim = RimDirections::new(&step, tolerance);
         for z in layers() {
-            all.push(Cover::new(&Diagram::new(&Family::new(&step, z)), &rim));
+            all.push(LayerSweptArea::new(&BoundaryDiagram::new(&SectionFamily::new(&step, z)), &rim));
         }
     }
     all
@@ -83,10 +88,10 @@ fn union(sections: &[Vec<[f64; 2]>]) -> MultiPolygon {
 }
 
 /// Area covered but not at first, from `count` sections.
-fn dense(piece: &Piece, z: f64, count: usize, tolerance: f64) -> f64 {
-    let step = Step::new(MILL, piece).expect("a step that can be modelled");
-    let (family, rim) = (Family::new(&step, z), Rim::new(&step, tolerance));
-    let mut sections = Cover::sections(&family, &rim, count);
+fn dense(piece: &PathPiece, z: f64, count: usize, tolerance: f64) -> f64 {
+    let step = MillStep::new(MILL, piece).expect("a step that can be modelled");
+    let (family, rim) = (SectionFamily::new(&step, z), RimDirections::new(&step, tolerance));
+    let mut sections = LayerSweptArea::sections_at_slices(&family, &rim, count);
     let first = sections.first().cloned().unwrap_or_default();
     sections.retain(|border| border.len() > 2);
     union(&sections).difference(&polygon(&first)).unsigned_area()
@@ -105,14 +110,15 @@ fn main() {
         all.len()
     );
 
-    let block = Body::Block { from: [-20.0, -30.0, -10.0], to: [220.0, 30.0, 0.0] };
+    let block = SolidBody::Block { from: [-20.0, -30.0, -10.0], to: [220.0, 30.0, 0.0] };
     let stock = Stock::new(vec![block], 0.0).expect("a block");
-    let mut stack = Stack::new(&stock, 0.5).expect("layers");
+    let mut stack = LayerStack::new(&stock, 0.5).expect("layers");
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
-    let (chips, took) = timed(start, || pool.install(|| cut(&mut stack, &[MILL], &pieces, TOLERANCE)));
+    let (chips, took) = timed(start, || pool.install(|| cut_chips(&mut stack, &[MILL], &pieces, TOLERANCE)));
     let sections: usize = chips.iter().flatten().map(|chip| chip.layers.len()).sum();
     let volume: f64 = chips.iter().flatten().map(|chip| chip.volume_mm3()).sum();
-    let borders: usize = stack.layers().iter().flat_map(|layer| layer.polygons()).map(|p| corners(&p)).sum();
+    let borders: usize =
+        stack.layers().iter().flat_map(|layer| layer.remaining_polygons()).map(|p| corners(&p)).sum();
     println!(
         "chips taken from a block: {:.0} layer sections a second, {:.0} moves a second ({sections} sections, {volume:.0} mm3, {borders} corners left)",
         sections as f64 / took,
@@ -120,28 +126,31 @@ fn main() {
     );
 
     // A few steps against the brute force.
-    let few: Vec<(&Piece, f64)> =
+    let few: Vec<(&PathPiece, f64)> =
         pieces.iter().step_by(37).flat_map(|piece| [(piece, -6.25), (piece, -2.25)]).collect();
     let truth: Vec<f64> = few.iter().map(|(piece, z)| dense(piece, *z, 4000, TOLERANCE / 20.0)).collect();
     let error = |found: &[f64]| {
         let off = found.iter().zip(&truth).map(|(found, truth)| (found / truth - 1.0).abs());
         off.fold(0.0, f64::max)
     };
-    let area = |cover: &Cover| {
-        let mut one = Stack::new(
-            &Stock::new(vec![Body::Block { from: [-100.0, -100.0, 0.0], to: [300.0, 100.0, 1.0] }], 0.0)
+    let area = |cover: &LayerSweptArea| {
+        let mut one = LayerStack::new(
+            &Stock::new(vec![SolidBody::Block { from: [-100.0, -100.0, 0.0], to: [300.0, 100.0, 1.0] }], 0.0)
                 .expect("a block"),
             1.0,
         )
         .expect("a layer");
-        let layer = one.layers_mut().first_mut().map(|layer| layer.remove(cover));
+        let layer = one.layers_mut().first_mut().map(|layer| layer.remove_swept_area(cover));
         layer.map_or(0.0, |removed| removed.area_mm2)
     };
     let ours: Vec<f64> = few
         .iter()
         .map(|(piece, z)| {
-            let step = Step::new(MILL, piece).expect("a step that can be modelled");
-            area(&Cover::new(&Diagram::new(&Family::new(&step, *z)), &Rim::new(&step, TOLERANCE)))
+            let step = MillStep::new(MILL, piece).expect("a step that can be modelled");
+            area(&LayerSweptArea::new(
+                &BoundaryDiagram::new(&SectionFamily::new(&step, *z)),
+                &RimDirections::new(&step, TOLERANCE),
+            ))
         })
         .collect();
     let goal = error(&ours);

@@ -88,7 +88,7 @@ fn measure(stage: &str, path: &Path) -> Duration {
                 Source::new("part.cls", std::fs::read(path).expect("the file")).expect("below 4 GiB");
             let parsed = parse(&source, None);
             clsmith::write::write_atomically(&path.with_extension("out"), |out| {
-                parsed.program.pieces().try_for_each(|piece| out.write_all(piece))
+                parsed.program.byte_chunks().try_for_each(|piece| out.write_all(piece))
             })
             .expect("the output");
             start.elapsed()

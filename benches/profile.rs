@@ -5,7 +5,9 @@
 // A benchmark that cannot make its profile has nothing to measure.
 #![allow(clippy::expect_used)]
 
-use clsmith::surface::profile::{Chain, Point, Side, chords, compensate, recover, unreachable};
+use clsmith::surface::profile::{
+    Chain, ChordSide, Point, compensate_profile, find_unreachable_parts, fit_chords, recover_profile,
+};
 use std::hint::black_box;
 
 const RUNS: usize = 5;
@@ -17,17 +19,21 @@ fn main() {
     let points: usize =
         std::env::var("CLSMITH_BENCH_POINTS").ok().and_then(|text| text.parse().ok()).unwrap_or(1_000_000);
     let work: [(&str, Work); 5] = [
-        ("compensate", |profile, _| compensate(profile, 5.0).expect("a radius").pieces().len()),
-        ("recover", |_, tip| recover(tip, 5.0).expect("a radius").pieces().len()),
-        ("unreachable", |profile, _| unreachable(profile, 5.0, 0.01).expect("a radius").len()),
-        ("chords 0.01", |_, tip| chords(tip, 0.01, false, Side::Both).expect("a tolerance").pieces().len()),
-        ("arcs 0.01", |_, tip| chords(tip, 0.01, true, Side::Both).expect("a tolerance").pieces().len()),
+        ("compensate", |profile, _| compensate_profile(profile, 5.0).expect("a radius").pieces().len()),
+        ("recover", |_, tip| recover_profile(tip, 5.0).expect("a radius").pieces().len()),
+        ("unreachable", |profile, _| find_unreachable_parts(profile, 5.0, 0.01).expect("a radius").len()),
+        ("chords 0.01", |_, tip| {
+            fit_chords(tip, 0.01, false, ChordSide::Both).expect("a tolerance").pieces().len()
+        }),
+        ("arcs 0.01", |_, tip| {
+            fit_chords(tip, 0.01, true, ChordSide::Both).expect("a tolerance").pieces().len()
+        }),
     ];
     let shapes =
         [("gentle hills", hills(points)), ("waves", waves(points)), ("steps that overhang", saw(points))];
     for (shape, profile) in shapes {
         println!("{points} points, {shape}");
-        let tip = compensate(&profile, 5.0).expect("a radius");
+        let tip = compensate_profile(&profile, 5.0).expect("a radius");
         for (name, work) in &work {
             let mut best = f64::INFINITY;
             let mut count = 0;
@@ -47,7 +53,7 @@ fn hills(points: usize) -> Chain {
         let u = 1000.0 * index as f64 / points as f64;
         Point::new(u, 20.0 * (u * 0.02).sin())
     };
-    Chain::polyline(&(0..points).map(at).collect::<Vec<_>>()).expect("a profile")
+    Chain::from_points(&(0..points).map(at).collect::<Vec<_>>()).expect("a profile")
 }
 
 /// Waves of a millimetre to a metre: hollows both wider and tighter than the ball.
@@ -56,7 +62,7 @@ fn waves(points: usize) -> Chain {
         let u = 1000.0 * index as f64 / points as f64;
         Point::new(u, 20.0 * (u * 0.02).sin() + 2.0 * (u * 0.31).sin() + 0.2 * (u * 3.1).sin())
     };
-    Chain::polyline(&(0..points).map(at).collect::<Vec<_>>()).expect("a profile")
+    Chain::from_points(&(0..points).map(at).collect::<Vec<_>>()).expect("a profile")
 }
 
 /// Every fourth piece goes back, so that the profile overhangs everywhere.
@@ -65,7 +71,7 @@ fn saw(points: usize) -> Chain {
         let u = 1000.0 * (index as f64 - if index % 4 == 3 { 1.5 } else { 0.0 }) / points as f64;
         Point::new(u, 20.0 * (u * 0.02).sin() + 0.001 * (index % 4) as f64)
     };
-    Chain::polyline(&(0..points).map(at).collect::<Vec<_>>()).expect("a profile")
+    Chain::from_points(&(0..points).map(at).collect::<Vec<_>>()).expect("a profile")
 }
 
 /// Processor time of this process in seconds where the system tells it, else time by the clock.

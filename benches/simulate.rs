@@ -7,14 +7,14 @@
 // A benchmark that cannot make its cutter has nothing to measure.
 #![allow(clippy::expect_used, clippy::indexing_slicing)]
 
-use clsmith::sim::{Cutter, Dexels, Layout, Piece, Place, Profile, Simulation, Teeth};
+use clsmith::sim::{CutterModel, DexelGrid, Dexels, Meridian, PathPiece, Simulation, Teeth, ToolPose};
 use nalgebra::{Point3, Vector3};
 use std::hint::black_box;
 use std::time::Instant;
 
 fn block(cell: f64) -> Dexels {
-    let layout = Layout::covering([0.0, 0.0, -25.0], [100.0, 100.0, 0.0], cell);
-    let mut stock = Dexels::empty(layout);
+    let layout = DexelGrid::covering_box([0.0, 0.0, -25.0], [100.0, 100.0, 0.0], cell);
+    let mut stock = Dexels::with_empty_columns(layout);
     for row in 0..layout.rows {
         for column in 0..layout.columns {
             stock.set_column(column, row, &[[0.0, 25.0]]);
@@ -24,7 +24,7 @@ fn block(cell: f64) -> Dexels {
 }
 
 /// 82 passes of 200 moves with a step-over between them.
-fn zigzag(lean: f64) -> Vec<Piece> {
+fn zigzag(lean: f64) -> Vec<PathPiece> {
     let depth = |x: f64, y: f64| -5.0 - 3.0 * (x / 8.0 + y / 5.0).sin();
     let mut points = Vec::new();
     for pass in 0..82 {
@@ -38,11 +38,14 @@ fn zigzag(lean: f64) -> Vec<Piece> {
         let (a, b) = (lean * (point.x / 11.0).sin(), lean * (point.y / 13.0).cos());
         Vector3::new(a.sin(), b.sin(), 1.0).normalize()
     };
-    let place = |point: &Point3<f64>| Place {
+    let place = |point: &Point3<f64>| ToolPose {
         point: *point,
         axis: if lean > 0.0 { axis(point) } else { Vector3::z() },
     };
-    points.windows(2).map(|pair| Piece { from: place(&pair[0]), to: place(&pair[1]), cutter: 0 }).collect()
+    points
+        .windows(2)
+        .map(|pair| PathPiece { from: place(&pair[0]), to: place(&pair[1]), cutter: 0 })
+        .collect()
 }
 
 /// Seconds of the processor that this process has used (Linux), else none.
@@ -55,16 +58,16 @@ fn processor_seconds() -> Option<f64> {
 }
 
 /// Moves per second; the best of some runs.
-fn rate(cutter: &Cutter, pieces: &[Piece], cell: f64, runs: u32, by_processor: bool) -> f64 {
+fn rate(cutter: &CutterModel, pieces: &[PathPiece], cell: f64, runs: u32, by_processor: bool) -> f64 {
     let mut best = 0.0_f64;
     for _ in 0..runs {
         let mut simulation = Simulation::new(block(cell), false);
-        let teeth = Teeth::even(4, 0.0).expect("four teeth");
+        let teeth = Teeth::evenly_spaced(4, 0.0).expect("four teeth");
         let (start, used) = (Instant::now(), processor_seconds());
         let mut largest = 0.0_f64;
         for batch in pieces.chunks(1024) {
-            for found in simulation.run(batch, std::slice::from_ref(cutter)) {
-                largest = largest.max(found.share() * 1000.0 / 5000.0 / teeth.count() as f64);
+            for found in simulation.sweep_pieces(batch, std::slice::from_ref(cutter)) {
+                largest = largest.max(found.max_advance_ratio() * 1000.0 / 5000.0 / teeth.count() as f64);
             }
         }
         black_box(largest);
@@ -80,8 +83,8 @@ fn main() {
         .ok()
         .map(|cells| cells.split(',').filter_map(|cell| cell.parse().ok()).collect())
         .unwrap_or_else(|| vec![0.25, 0.1]);
-    let cutter = |corner: f64| Cutter {
-        profile: Profile::new(10.0, corner, 0.0, 0.0, 40.0).expect("a cutter"),
+    let cutter = |corner: f64| CutterModel {
+        profile: Meridian::new(10.0, corner, 0.0, 0.0, 40.0).expect("a cutter"),
         collars: Vec::new(),
         teeth: None,
     };

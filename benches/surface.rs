@@ -7,8 +7,8 @@
 #![allow(clippy::expect_used)]
 
 use clsmith::sim::Mesh;
-use clsmith::surface::drop::{Cutter, DropCutter};
-use clsmith::surface::section::Sections;
+use clsmith::surface::drop_cutter::{DropCutter, DropCutterShape};
+use clsmith::surface::mesh_section::VerticalMeshSections;
 use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::time::Instant;
@@ -81,26 +81,28 @@ fn main() {
     for side in [100, 300] {
         let mesh = waves(side);
         for (name, corner) in [("ball", 5.0), ("bull R1", 1.0), ("flat", 0.0)] {
-            let cutter = Cutter::new(10.0, corner).expect("a cutter");
+            let cutter = DropCutterShape::new(10.0, corner).expect("a cutter");
             let sort = timed(|| DropCutter::new(&mesh, cutter));
             let drop = DropCutter::new(&mesh, cutter);
             let rate = |places: &[[f64; 2]]| {
                 let heights =
-                    || places.iter().filter_map(|[x, y]| drop.height(*x, *y)).map(|drop| drop.tip_z);
+                    || places.iter().filter_map(|[x, y]| drop.drop_at(*x, *y)).map(|drop| drop.tip_z);
                 places.len() as f64 / timed(|| heights().sum::<f64>()).max(1e-9)
             };
             let (rows, strewn) = (rate(&rows), rate(&strewn));
             let passes: Vec<[[f64; 2]; 2]> =
                 (0..20).map(|j| 2.5 + 5.0 * f64::from(j)).map(|y| [[0.0, y], [100.0, y]]).collect();
-            let followed = timed(|| passes.iter().map(|pass| drop.follow(pass, 0.01)).collect::<Vec<_>>());
+            let followed =
+                timed(|| passes.iter().map(|pass| drop.follow_line(pass, 0.01)).collect::<Vec<_>>());
             let follow = 2000.0 / followed.max(1e-9);
             println!("{name:<10}{:>10}{sort:>10.2}{rows:>14.0}{strewn:>14.0}{follow:>16.0}", side * side * 2);
         }
-        let cut = timed(|| Sections::new(&mesh, 0.3));
-        let sections = Sections::new(&mesh, 0.3);
+        let cut = timed(|| VerticalMeshSections::new(&mesh, 0.3));
+        let sections = VerticalMeshSections::new(&mesh, 0.3);
         let count = 200;
         let rate = f64::from(count)
-            / timed(|| (0..count).map(|i| sections.at(0.3 * f64::from(i)).len()).sum::<usize>()).max(1e-9);
+            / timed(|| (0..count).map(|i| sections.section_at(0.3 * f64::from(i)).len()).sum::<usize>())
+                .max(1e-9);
         println!("{:<10}{:>10}{cut:>10.2}{rate:>14.0}", "sections", side * side * 2);
     }
 }

@@ -1,6 +1,6 @@
 //! SHA-256 of what goes into a run, so that a log can prove and a batch can skip what was done with the same things.
 //!
-//! [`Digest`] is of bytes; [`RecipePrint`] of a recipe and every file that it depends on, by content and not by name.
+//! [`Digest`] is of bytes; [`RecipeFingerprint`] of a recipe and every file that it depends on, by content and not by name.
 
 use crate::diagnostic::{Diagnostic, codes};
 use crate::setup::Setup;
@@ -25,7 +25,7 @@ pub struct Digest([u8; 32]);
 
 impl Digest {
     /// The digest of bytes.
-    pub fn of(bytes: &[u8]) -> Self {
+    pub fn from_bytes(bytes: &[u8]) -> Self {
         Self(Sha256::digest(bytes).into())
     }
 
@@ -33,7 +33,7 @@ impl Digest {
     ///
     /// # Errors
     /// What the reader says.
-    pub fn of_reader(mut reader: impl Read) -> io::Result<Self> {
+    pub fn from_reader(mut reader: impl Read) -> io::Result<Self> {
         let mut hasher = Sha256::new();
         let mut chunk = vec![0; 256 * 1024];
         loop {
@@ -50,19 +50,19 @@ impl Digest {
     ///
     /// # Errors
     /// What the operating system says.
-    pub fn of_file(path: &Path) -> io::Result<Self> {
-        Self::of_reader(File::open(path)?)
+    pub fn from_file(path: &Path) -> io::Result<Self> {
+        Self::from_reader(File::open(path)?)
     }
 
     /// The digest of bytes that come in chunks; how they are cut does not count.
-    pub fn of_chunks<'a>(chunks: impl IntoIterator<Item = &'a [u8]>) -> Self {
+    pub fn from_chunks<'a>(chunks: impl IntoIterator<Item = &'a [u8]>) -> Self {
         let mut hasher = Sha256::new();
         chunks.into_iter().for_each(|chunk| hasher.update(chunk));
         Self(hasher.finalize().into())
     }
 
     /// The digest of a list: each part counts with its length, so moving a byte from one part to the next changes it.
-    pub fn of_parts<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> Self {
+    pub fn from_parts<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> Self {
         let mut hasher = Sha256::new();
         for part in parts {
             hasher.update((part.len() as u64).to_le_bytes());
@@ -71,7 +71,7 @@ impl Digest {
         Self(hasher.finalize().into())
     }
 
-    /// The 32 bytes, for [`Digest::of_parts`].
+    /// The 32 bytes, for [`Digest::from_parts`].
     pub fn bytes(&self) -> &[u8] {
         &self.0
     }
@@ -92,14 +92,14 @@ impl fmt::Debug for Digest {
 /// Text that is no SHA-256 digest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("a SHA-256 digest has 64 hexadecimal digits")]
-pub struct BadDigest;
+pub struct DigestParseError;
 
 impl FromStr for Digest {
-    type Err = BadDigest;
-    fn from_str(text: &str) -> Result<Self, BadDigest> {
+    type Err = DigestParseError;
+    fn from_str(text: &str) -> Result<Self, DigestParseError> {
         let digits: Option<Vec<u8>> =
             text.chars().map(|digit| digit.to_digit(16).and_then(|digit| u8::try_from(digit).ok())).collect();
-        let digits = digits.filter(|digits| digits.len() == 64).ok_or(BadDigest)?;
+        let digits = digits.filter(|digits| digits.len() == 64).ok_or(DigestParseError)?;
         let mut bytes = [0; 32];
         for (byte, pair) in bytes.iter_mut().zip(digits.chunks_exact(2)) {
             *byte = pair.iter().fold(0, |value, digit| value << 4 | digit);
@@ -123,7 +123,7 @@ impl<'de> Deserialize<'de> for Digest {
 
 /// A file that a recipe depends on.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct FilePrint {
+pub struct FileFingerprint {
     /// Its path as it was opened.
     pub path: String,
     /// Its content.
@@ -132,46 +132,51 @@ pub struct FilePrint {
 
 /// A recipe and all files it depends on.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct RecipePrint {
+pub struct RecipeFingerprint {
     /// The digest of all of them, in their order. Names do not count: a recipe that was moved is the same recipe.
     pub sha256: Digest,
     /// The recipe, its setup files, its material, its models and its stock.
-    pub files: Vec<FilePrint>,
+    pub files: Vec<FileFingerprint>,
 }
 
-impl RecipePrint {
+impl RecipeFingerprint {
     /// The print of a recipe. `texts` are the files that were read for it and its setup, the recipe first; models and stock
     /// that recipe and setup name are read here.
     ///
     /// # Errors
     /// [`codes::UNREADABLE`] for a model or stock file that cannot be read.
-    pub fn of(texts: &[Arc<Source>], recipe: &Recipe, setup: &Setup) -> Result<Self, Box<Diagnostic>> {
-        let read = |source: &Arc<Source>| FilePrint {
+    pub fn read_files(
+        texts: &[Arc<Source>],
+        recipe: &Recipe,
+        setup: &Setup,
+    ) -> Result<Self, Box<Diagnostic>> {
+        let read = |source: &Arc<Source>| FileFingerprint {
             path: source.name().to_owned(),
-            sha256: Digest::of(source.bytes()),
+            sha256: Digest::from_bytes(source.bytes()),
         };
-        let mut files: Vec<FilePrint> = texts.iter().map(read).collect();
-        for path in named(recipe, setup) {
+        let mut files: Vec<FileFingerprint> = texts.iter().map(read).collect();
+        for path in list_binary_files(recipe, setup) {
             let name = path.to_string_lossy().into_owned();
-            let sha256 = Digest::of_file(&path).map_err(|error| {
+            let sha256 = Digest::from_file(&path).map_err(|error| {
                 Box::new(Diagnostic::new(codes::UNREADABLE, format!("{name} cannot be read: {error}")))
             })?;
-            files.push(FilePrint { path: name, sha256 });
+            files.push(FileFingerprint { path: name, sha256 });
         }
-        let sha256 = Digest::of_parts(files.iter().map(|file| file.sha256.bytes()));
+        let sha256 = Digest::from_parts(files.iter().map(|file| file.sha256.bytes()));
         Ok(Self { sha256, files })
     }
 
     /// What decides the result of a file: its content, this recipe, what the command line adds (dialect, codes denied), and the
     /// version of clsmith.
-    pub fn key(&self, input: Digest, options: &str) -> Digest {
-        Digest::of_parts([input.bytes(), self.sha256.bytes(), options.as_bytes(), VERSION.as_bytes()])
+    pub fn result_key(&self, input: Digest, options: &str) -> Digest {
+        Digest::from_parts([input.bytes(), self.sha256.bytes(), options.as_bytes(), VERSION.as_bytes()])
     }
 }
 
 /// Files that are no text: models of steps, and the stock.
-fn named(recipe: &Recipe, setup: &Setup) -> Vec<PathBuf> {
+fn list_binary_files(recipe: &Recipe, setup: &Setup) -> Vec<PathBuf> {
     let recipe_file = Path::new(recipe.source.name());
-    let models = recipe.steps.iter().filter_map(Step::reads).map(|file| file.beside(recipe_file));
+    let models =
+        recipe.steps.iter().filter_map(Step::input_file).map(|file| file.resolve_beside(recipe_file));
     models.chain(setup.stock_files().map(Path::to_path_buf)).collect()
 }

@@ -2,38 +2,38 @@
 
 use crate::check;
 use crate::diagnostic::{Diagnostic, codes};
-use crate::fingerprint::RecipePrint;
-use crate::machining::Watch;
+use crate::fingerprint::RecipeFingerprint;
 use crate::parse::parse;
-use crate::program::{Change, Dialect, Program, Statement};
+use crate::program::{Dialect, Program, Statement, StatementChange};
 use crate::provenance;
 use crate::recipe::Provenance;
-use crate::report::policy::Policy;
+use crate::report::finding_policy::FindingPolicy;
 use crate::setup::Setup;
-use crate::source::{Source, TooLarge};
+use crate::simulation_run::RunWatcher;
+use crate::source::{Source, SourceTooLarge};
 use crate::transform::{self, Recipe, StepReport};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// A recipe with everything it needs, ready for any number of files.
-pub struct Job<'r> {
+pub struct CorrectionJob<'r> {
     /// The recipe.
     pub recipe: &'r Recipe,
     /// The setup that counts.
     pub setup: &'r Setup,
     /// The recipe's print, for the header of a recipe with `provenance:`; without it the header tells the recipe's name alone.
-    pub print: Option<&'r RecipePrint>,
+    pub print: Option<&'r RecipeFingerprint>,
     /// Which findings stop the job.
-    pub policy: &'r Policy,
+    pub policy: &'r FindingPolicy,
     /// The dialect, where it is forced.
     pub dialect: Option<Dialect>,
     /// Who watches steps that take long.
-    pub watch: &'r dyn Watch,
+    pub watch: &'r dyn RunWatcher,
 }
 
 /// What came of a file.
 #[derive(Debug)]
-pub struct Done {
+pub struct JobOutcome {
     /// The corrected program; `None` when an error stands, and then nothing may be written.
     pub program: Option<Program>,
     /// What was found, as the policy leaves it.
@@ -42,75 +42,90 @@ pub struct Done {
     pub reports: Vec<StepReport>,
 }
 
-impl Job<'_> {
+impl CorrectionJob<'_> {
     /// Corrects one file.
     ///
     /// A changed program is printed, read back and checked; what is worse in it than in the original counts as a finding,
     /// so no step can break a program and say nothing.
-    pub fn run(&self, source: &Arc<Source>) -> Done {
+    pub fn correct_source(&self, source: &Arc<Source>) -> JobOutcome {
         let parsed = parse(source, self.dialect);
         let findings = self.policy.apply(parsed.diagnostics);
         if findings.iter().any(Diagnostic::is_error) {
-            return Done { program: None, findings, reports: Vec::new() };
+            return JobOutcome { program: None, findings, reports: Vec::new() };
         }
-        let outcome = match transform::run_watched(self.recipe, self.setup, parsed.program, self.watch) {
+        let outcome = match transform::run_recipe_watched(self.recipe, self.setup, parsed.program, self.watch)
+        {
             Ok(outcome) => outcome,
-            Err(stopped) => return self.done(None, findings, stopped),
+            Err(stopped) => return self.finish_outcome(None, findings, stopped),
         };
         let reports = outcome.reports;
         let mut new = outcome.findings;
         if self.recipe.provenance != Provenance::Comments {
-            new.extend(provenance::stale(&outcome.program));
+            new.extend(provenance::find_stale_comments(&outcome.program));
         }
-        let program = match provenance::add(outcome.program, self.recipe, self.print) {
+        let program = match provenance::add_comments(outcome.program, self.recipe, self.print) {
             Ok(program) => program,
             Err(found) => {
                 new.push(*found);
-                return self.done(None, findings, new);
+                return self.finish_outcome(None, findings, new);
             }
         };
-        if is_changed(&program) {
-            match self.worse(source, &program) {
+        if is_program_changed(&program) {
+            match self.find_new_findings(source, &program) {
                 Ok(worse) => new.extend(worse),
                 Err(too_large) => {
                     new.push(Diagnostic::new(codes::TOO_LARGE, too_large.to_string()));
                 }
             }
         }
-        Done { reports, ..self.done(Some(program), findings, new) }
+        JobOutcome { reports, ..self.finish_outcome(Some(program), findings, new) }
     }
 
-    fn done(&self, program: Option<Program>, mut findings: Vec<Diagnostic>, new: Vec<Diagnostic>) -> Done {
+    fn finish_outcome(
+        &self,
+        program: Option<Program>,
+        mut findings: Vec<Diagnostic>,
+        new: Vec<Diagnostic>,
+    ) -> JobOutcome {
         findings.extend(self.policy.apply(new));
         let stopped = findings.iter().any(Diagnostic::is_error);
-        Done { program: program.filter(|_| !stopped), findings, reports: Vec::new() }
+        JobOutcome { program: program.filter(|_| !stopped), findings, reports: Vec::new() }
     }
 
     /// Findings of the corrected text that the original did not have. Their places are in the corrected text.
-    fn worse(&self, source: &Arc<Source>, program: &Program) -> Result<Vec<Diagnostic>, TooLarge> {
+    fn find_new_findings(
+        &self,
+        source: &Arc<Source>,
+        program: &Program,
+    ) -> Result<Vec<Diagnostic>, SourceTooLarge> {
         let name = format!("{} (corrected)", source.name());
         let corrected_source = Source::new(name, program.to_bytes())?;
         let (corrected, found) = check::read_and_check(&corrected_source, Some(program.dialect()));
-        if let Some(differs) = first_difference(program, &corrected) {
+        if let Some(differs) = find_first_difference(program, &corrected) {
             let span = corrected.statement(differs).map(Statement::origin).unwrap_or_default();
             let message = "the corrected program does not read back as what the steps made";
             let finding = Diagnostic::new(codes::UNREADABLE_EDIT, message);
-            return Ok(vec![finding.label(&corrected_source, span, "from here")]);
+            return Ok(vec![finding.with_label(&corrected_source, span, "from here")]);
         }
         if found.is_empty() {
             return Ok(found);
         }
         // Statement by statement the corrected text is the program: so each of its findings has a place in the original.
-        let origins: Vec<Place> = program.live().map(|(_, statement)| Place::of(statement)).collect();
+        let origins: Vec<StatementOrigin> = program
+            .live_statements()
+            .map(|(_, statement)| StatementOrigin::from_statement(statement))
+            .collect();
         let (original, known_findings) = check::read_and_check(source, Some(program.dialect()));
-        let mut known: BTreeMap<(&str, String, Option<Place>), usize> = BTreeMap::new();
+        let mut known: BTreeMap<(&str, String, Option<StatementOrigin>), usize> = BTreeMap::new();
         for found in known_findings {
-            let place =
-                statement_of(&original, &found).and_then(|index| original.statement(index)).map(Place::of);
+            let place = find_statement_of_finding(&original, &found)
+                .and_then(|index| original.statement(index))
+                .map(StatementOrigin::from_statement);
             *known.entry((found.code.id(), found.message, place)).or_default() += 1;
         }
         let is_new = |found: &Diagnostic| {
-            let place = statement_of(&corrected, found).and_then(|index| origins.get(index)).copied();
+            let place =
+                find_statement_of_finding(&corrected, found).and_then(|index| origins.get(index)).copied();
             match known.get_mut(&(found.code.id(), found.message.clone(), place)) {
                 Some(count) if *count > 0 => {
                     *count -= 1;
@@ -125,21 +140,21 @@ impl Job<'_> {
 
 /// Where a statement comes from: its place in the original, and whether it stood there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Place {
+struct StatementOrigin {
     start: u32,
     inserted: bool,
 }
 
-impl Place {
-    fn of(statement: &Statement) -> Self {
-        let inserted = matches!(statement.change(), Change::Inserted(_));
+impl StatementOrigin {
+    fn from_statement(statement: &Statement) -> Self {
+        let inserted = matches!(statement.change(), StatementChange::Inserted(_));
         Self { start: statement.origin().start, inserted }
     }
 }
 
 /// The first statement of the text read back that does not mean what the program's statement means; the writer's proof.
-fn first_difference(program: &Program, read_back: &Program) -> Option<usize> {
-    let mut live = program.live();
+fn find_first_difference(program: &Program, read_back: &Program) -> Option<usize> {
+    let mut live = program.live_statements();
     for (index, statement) in read_back.statements().iter().enumerate() {
         if live.next().is_none_or(|(_, before)| before.record() != statement.record()) {
             return Some(index);
@@ -149,12 +164,12 @@ fn first_difference(program: &Program, read_back: &Program) -> Option<usize> {
 }
 
 /// The statement that a finding in a freshly read program is about; `None` for the whole file.
-fn statement_of(program: &Program, found: &Diagnostic) -> Option<usize> {
+fn find_statement_of_finding(program: &Program, found: &Diagnostic) -> Option<usize> {
     let at = found.labels.first()?.span.start;
     program.statements().partition_point(|statement| statement.origin().start <= at).checked_sub(1)
 }
 
 /// Whether any statement differs from the source.
-pub fn is_changed(program: &Program) -> bool {
-    program.statements().iter().any(|statement| statement.change() != Change::Untouched)
+pub fn is_program_changed(program: &Program) -> bool {
+    program.statements().iter().any(|statement| statement.change() != StatementChange::Untouched)
 }

@@ -17,7 +17,7 @@ const EXACT_INTEGER: u64 = 1 << 53;
 /// The result is correctly rounded: with a mantissa below 2^53 and at most 22 decimals one division of two exact numbers
 /// is (Clinger 1990). Anything else (exponents, more digits, no digit at all) is declined with `None`.
 #[inline]
-pub fn plain_decimal(text: &[u8]) -> Option<(f64, usize)> {
+pub fn parse_plain_decimal(text: &[u8]) -> Option<(f64, usize)> {
     let (negative, mut at) = match text.first()? {
         b'-' => (true, 1),
         _ => (false, 0),
@@ -48,8 +48,8 @@ pub fn plain_decimal(text: &[u8]) -> Option<(f64, usize)> {
 /// Reads the whole of `text` as a CL number.
 ///
 /// `None` when it is none, or too large for `f64`.
-pub fn parse(text: &[u8]) -> Option<f64> {
-    if let Some((value, length)) = plain_decimal(text)
+pub fn parse_number(text: &[u8]) -> Option<f64> {
+    if let Some((value, length)) = parse_plain_decimal(text)
         && length == text.len()
     {
         return Some(value);
@@ -66,7 +66,7 @@ pub fn parse(text: &[u8]) -> Option<f64> {
 }
 
 /// Number of digits after the decimal point of a number text.
-pub fn decimals(text: &[u8]) -> usize {
+pub fn count_decimals(text: &[u8]) -> usize {
     match text.iter().position(|&byte| byte == b'.') {
         Some(point) => text.iter().skip(point + 1).take_while(|byte| byte.is_ascii_digit()).count(),
         None => 0,
@@ -75,7 +75,7 @@ pub fn decimals(text: &[u8]) -> usize {
 
 /// How a file writes its numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Zeros {
+pub enum ZeroStyle {
     /// A fixed number of decimals, zeros kept: `12.5000` (NX, CATIA, Creo, CLT, FF).
     #[default]
     Kept,
@@ -85,43 +85,44 @@ pub enum Zeros {
 
 /// What a printed number has to satisfy.
 #[derive(Debug, Clone, Copy)]
-pub struct Form {
-    /// Decimals to print at least (with [`Zeros::Cut`]: before zeros are cut).
+pub struct NumberFormat {
+    /// Decimals to print at least (with [`ZeroStyle::Cut`]: before zeros are cut).
     pub decimals: usize,
     /// Largest allowed difference between the wanted and the printed value.
     pub tolerance: f64,
     /// Zero style.
-    pub zeros: Zeros,
-    /// Whether a whole number carries its point (`120.`) with [`Zeros::Cut`].
+    pub zeros: ZeroStyle,
+    /// Whether a whole number carries its point (`120.`) with [`ZeroStyle::Cut`].
     pub point: bool,
 }
 
 /// `f64` text never needs more decimals than this to differ from its neighbours at machine sizes.
 const MOST_DECIMALS: usize = 15;
 
-impl Form {
+impl NumberFormat {
     /// Prints `wanted`, reading back what it printed: decimals are added until the value is within the tolerance and within
     /// a tenth of `edit` (how far the number moved; 0 for a new number), so that no edit is rounded away.
-    pub fn print(&self, wanted: f64, edit: f64) -> String {
+    pub fn format_number(&self, wanted: f64, edit: f64) -> String {
         let allowed = if edit == 0.0 { self.tolerance } else { self.tolerance.min(edit.abs() * 0.1) };
         let mut text = String::new();
         for decimals in self.decimals..=MOST_DECIMALS.max(self.decimals) {
             text = format!("{wanted:.decimals$}");
-            let error = parse(text.as_bytes()).map_or(f64::INFINITY, |printed| (printed - wanted).abs());
+            let error =
+                parse_number(text.as_bytes()).map_or(f64::INFINITY, |printed| (printed - wanted).abs());
             // Half an ulp of slack: 0.00005 is not exactly half of 0.0001.
             if error <= allowed * (1.0 + 1e-9) {
                 break;
             }
         }
-        let text = without_negative_zero(text);
+        let text = strip_negative_zero(text);
         match self.zeros {
-            Zeros::Kept => text,
-            Zeros::Cut => cut_zeros(&text, self.point),
+            ZeroStyle::Kept => text,
+            ZeroStyle::Cut => cut_zeros(&text, self.point),
         }
     }
 }
 
-fn without_negative_zero(text: String) -> String {
+fn strip_negative_zero(text: String) -> String {
     match text.strip_prefix('-') {
         Some(rest) if rest.bytes().all(|byte| matches!(byte, b'0' | b'.')) => rest.to_owned(),
         _ => text,

@@ -33,12 +33,12 @@ impl Span {
     }
 
     /// The span as a range of `usize`.
-    pub fn range(self) -> std::ops::Range<usize> {
+    pub fn to_range(self) -> std::ops::Range<usize> {
         self.start as usize..self.end as usize
     }
 
     /// A span inside this one, given by offsets from its start.
-    pub fn part(self, from: usize, to: usize) -> Self {
+    pub fn sub_span(self, from: usize, to: usize) -> Self {
         let start = self.start as usize;
         Self::new(start + from, (start + to).min(self.end as usize))
     }
@@ -60,7 +60,7 @@ pub struct Source {
 /// A file is too large for 32-bit spans.
 #[derive(Debug, Clone, Copy, thiserror::Error)]
 #[error("the file has {bytes} bytes; clsmith reads files below 4 GiB")]
-pub struct TooLarge {
+pub struct SourceTooLarge {
     /// Size of the refused file.
     pub bytes: usize,
 }
@@ -69,10 +69,10 @@ impl Source {
     /// Takes the bytes of a file; `name` is what diagnostics call it.
     ///
     /// # Errors
-    /// [`TooLarge`] from 4 GiB on.
-    pub fn new(name: impl Into<String>, bytes: Vec<u8>) -> Result<Arc<Self>, TooLarge> {
+    /// [`SourceTooLarge`] from 4 GiB on.
+    pub fn new(name: impl Into<String>, bytes: Vec<u8>) -> Result<Arc<Self>, SourceTooLarge> {
         if bytes.len() >= u32::MAX as usize {
-            return Err(TooLarge { bytes: bytes.len() });
+            return Err(SourceTooLarge { bytes: bytes.len() });
         }
         Ok(Arc::new(Self { name: name.into(), bytes, line_starts: OnceLock::new() }))
     }
@@ -89,20 +89,20 @@ impl Source {
 
     /// The bytes of a span; empty when the span does not lie in this file.
     pub fn slice(&self, span: Span) -> &[u8] {
-        self.bytes.get(span.range()).unwrap_or_default()
+        self.bytes.get(span.to_range()).unwrap_or_default()
     }
 
     /// 1-based line and column (in bytes) of an offset. Lines end at LF, CRLF or a lone CR.
     pub fn line_column(&self, offset: u32) -> (usize, usize) {
-        let starts = self.line_starts.get_or_init(|| line_starts(&self.bytes));
+        let starts = self.line_starts.get_or_init(|| find_line_starts(&self.bytes));
         let line = starts.partition_point(|&start| start <= offset).max(1);
         let start = starts.get(line - 1).copied().unwrap_or(0);
         (line, (offset - start) as usize + 1)
     }
 
     /// The span of a 1-based line, without its line end. `None` past the last line.
-    pub fn line(&self, line: usize) -> Option<Span> {
-        let starts = self.line_starts.get_or_init(|| line_starts(&self.bytes));
+    pub fn line_span(&self, line: usize) -> Option<Span> {
+        let starts = self.line_starts.get_or_init(|| find_line_starts(&self.bytes));
         let start = *starts.get(line.checked_sub(1)?)? as usize;
         let end = starts.get(line).map_or(self.bytes.len(), |&next| next as usize);
         let text = self.bytes.get(start..end)?;
@@ -117,7 +117,7 @@ impl fmt::Debug for Source {
     }
 }
 
-fn line_starts(bytes: &[u8]) -> Vec<u32> {
+fn find_line_starts(bytes: &[u8]) -> Vec<u32> {
     let mut starts = vec![0];
     for at in memchr::memchr2_iter(b'\n', b'\r', bytes) {
         let crlf = bytes.get(at) == Some(&b'\r') && bytes.get(at + 1) == Some(&b'\n');

@@ -2,10 +2,10 @@
 
 use crate::support;
 use clsmith::diagnostic::Diagnostic;
-use clsmith::job::Job;
+use clsmith::job::CorrectionJob;
 use clsmith::program::LengthUnit;
-use clsmith::report::policy::Policy;
-use clsmith::setup::{Material, Setup};
+use clsmith::report::finding_policy::FindingPolicy;
+use clsmith::setup::{Setup, WorkMaterial};
 use clsmith::source::Source;
 use clsmith::transform::Recipe;
 use std::path::{Path, PathBuf};
@@ -31,23 +31,28 @@ fn recipe(path: &Path) -> (Recipe, Setup) {
         Recipe::load(&support::source(path)).unwrap_or_else(|found| panic!("{}: {found:?}", path.display()));
     let read = |name: &str| Ok(support::source(&path.parent().unwrap().join(name)));
     let named = recipe.load_setup_file(read).unwrap();
-    let setup = recipe.setup_with(named, Setup::default());
+    let setup = recipe.merge_setups(named, Setup::default());
     (recipe, setup)
 }
 
 fn run(recipe: &Recipe, setup: &Setup, source: &Arc<Source>) -> String {
-    let done = Job {
+    let done = CorrectionJob {
         recipe,
         setup,
         print: None,
-        policy: &Policy::default(),
+        policy: &FindingPolicy::default(),
         dialect: None,
-        watch: &clsmith::machining::Unwatched,
+        watch: &clsmith::simulation_run::SilentWatcher,
     }
-    .run(source);
+    .correct_source(source);
     assert!(!done.findings.iter().any(Diagnostic::is_error), "{:?}", done.findings);
     let mut patch = Vec::new();
-    clsmith::report::unified::write(&mut patch, &done.program.unwrap(), &Default::default()).unwrap();
+    clsmith::report::unified_diff::write_unified_diff(
+        &mut patch,
+        &done.program.unwrap(),
+        &Default::default(),
+    )
+    .unwrap();
     String::from_utf8_lossy(&patch).into_owned()
 }
 
@@ -144,12 +149,12 @@ fn shipped_configurations_load_and_run() {
         assert!(!setup.tools.is_empty(), "{}", path.display());
         for entry in setup.tools.iter().filter(|entry| entry.number.is_some()) {
             let tool = support::named_tool(entry.number, None);
-            let cutter = setup.cutter(&tool, LengthUnit::Mm).unwrap().cutter;
+            let cutter = setup.resolve_cutter(&tool, LengthUnit::Mm).unwrap().cutter;
             assert!(cutter.teeth.is_some(), "{}: tool {:?}", path.display(), entry.number);
         }
     }
     for path in files(&folder("configs/materials")) {
-        let material = Material::load(&support::source(&path)).unwrap();
+        let material = WorkMaterial::load(&support::source(&path)).unwrap();
         assert!(material.name.is_some(), "{}", path.display());
     }
 }

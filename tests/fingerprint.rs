@@ -1,6 +1,6 @@
 //! Digests of what goes into a run.
 
-use clsmith::fingerprint::{Digest, RecipePrint};
+use clsmith::fingerprint::{Digest, RecipeFingerprint};
 use clsmith::setup::Setup;
 use clsmith::source::Source;
 use clsmith::transform::Recipe;
@@ -9,11 +9,11 @@ use std::path::Path;
 #[test]
 fn a_digest_is_the_one_that_sha256sum_prints() {
     let abc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
-    assert_eq!(Digest::of(b"abc").to_string(), abc);
-    assert_eq!(Digest::of_reader(&b"abc"[..]).unwrap().to_string(), abc);
-    assert_eq!(abc.parse(), Ok(Digest::of(b"abc")));
-    let json = serde_json::to_string(&Digest::of(b"abc")).unwrap();
-    assert_eq!(serde_json::from_str::<Digest>(&json).unwrap(), Digest::of(b"abc"));
+    assert_eq!(Digest::from_bytes(b"abc").to_string(), abc);
+    assert_eq!(Digest::from_reader(&b"abc"[..]).unwrap().to_string(), abc);
+    assert_eq!(abc.parse(), Ok(Digest::from_bytes(b"abc")));
+    let json = serde_json::to_string(&Digest::from_bytes(b"abc")).unwrap();
+    assert_eq!(serde_json::from_str::<Digest>(&json).unwrap(), Digest::from_bytes(b"abc"));
     for bad in ["", "xyz", &abc[1..], &format!("{abc}0"), &abc.replace('b', "g")] {
         assert!(bad.parse::<Digest>().is_err(), "{bad}");
     }
@@ -21,18 +21,18 @@ fn a_digest_is_the_one_that_sha256sum_prints() {
 
 #[test]
 fn parts_do_not_run_together() {
-    assert_ne!(Digest::of_parts([&b"ab"[..], b"c"]), Digest::of_parts([&b"a"[..], b"bc"]));
-    assert_ne!(Digest::of_parts([&b"ab"[..]]), Digest::of_parts([&b"ab"[..], b""]));
+    assert_ne!(Digest::from_parts([&b"ab"[..], b"c"]), Digest::from_parts([&b"a"[..], b"bc"]));
+    assert_ne!(Digest::from_parts([&b"ab"[..]]), Digest::from_parts([&b"ab"[..], b""]));
 }
 
 /// The print of a recipe that names a stock, read from a folder.
-fn print(folder: &Path, recipe: &str) -> RecipePrint {
+fn print(folder: &Path, recipe: &str) -> RecipeFingerprint {
     let path = folder.join("recipe.yaml");
     std::fs::write(&path, recipe).unwrap();
     let source = Source::new(path.to_string_lossy(), recipe.as_bytes().to_vec()).unwrap();
     let recipe = Recipe::load(&source).unwrap();
-    let setup = recipe.setup_with(Setup::default(), Setup::default());
-    RecipePrint::of(&[source], &recipe, &setup).unwrap()
+    let setup = recipe.merge_setups(Setup::default(), Setup::default());
+    RecipeFingerprint::read_files(&[source], &recipe, &setup).unwrap()
 }
 
 #[test]
@@ -53,9 +53,9 @@ fn a_recipe_counts_with_every_file_it_depends_on() {
         std::fs::copy(here.path().join(name), there.path().join(name)).unwrap();
     }
     assert_ne!(first.sha256, print(here.path(), &RECIPE.replace("radius: 5", "radius: 6")).sha256);
-    let input = Digest::of(b"part");
-    assert_ne!(first.key(input, ""), first.key(Digest::of(b"other"), ""));
-    assert_ne!(first.key(input, ""), first.key(input, "--dialect nx"));
+    let input = Digest::from_bytes(b"part");
+    assert_ne!(first.result_key(input, ""), first.result_key(Digest::from_bytes(b"other"), ""));
+    assert_ne!(first.result_key(input, ""), first.result_key(input, "--dialect nx"));
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn a_model_that_is_missing_is_told() {
     let recipe = "version: 1\nsetup: { stock: { stl: nowhere.stl } }\nsteps: []\n";
     let source = Source::new("recipe.yaml", recipe.as_bytes().to_vec()).unwrap();
     let recipe = Recipe::load(&source).unwrap();
-    let found = RecipePrint::of(&[source], &recipe, &recipe.setup).unwrap_err();
+    let found = RecipeFingerprint::read_files(&[source], &recipe, &recipe.setup).unwrap_err();
     assert_eq!(found.code.id(), "CL0401");
     assert!(found.message.contains("nowhere.stl"), "{}", found.message);
 }

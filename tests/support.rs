@@ -1,7 +1,7 @@
 //! What the areas share: the corpus, where it is present, and snapshots.
 
-use clsmith::program::geometry::{Arc, Path as ClPath};
-use clsmith::program::motion::{Motion, ProblemKind, Tool};
+use clsmith::program::geometry::{CircularArc, MotionPath as ClPath};
+use clsmith::program::motion::{ActiveTool, Motion, MotionProblemKind};
 use clsmith::program::{Dialect, Program};
 use clsmith::source::Source;
 use std::io::Write;
@@ -125,7 +125,7 @@ pub fn program_of(dialect: Dialect, source: impl AsRef<[u8]>) -> Program {
 }
 
 /// All motions of a program, and the problems met on the way.
-pub fn motions(program: &Program) -> (Vec<Motion>, Vec<ProblemKind>) {
+pub fn motions(program: &Program) -> (Vec<Motion>, Vec<MotionProblemKind>) {
     let mut motions = program.motions();
     let found = motions.by_ref().collect();
     (found, motions.take_problems().into_iter().map(|problem| problem.kind).collect())
@@ -139,7 +139,7 @@ pub fn clean_motions(program: &Program) -> Vec<Motion> {
 }
 
 /// The only arc among motions that hold just one.
-pub fn only_arc(motions: &[Motion]) -> &Arc {
+pub fn only_arc(motions: &[Motion]) -> &CircularArc {
     let mut arcs = motions.iter().filter_map(|motion| match &motion.path {
         ClPath::Arc(arc) => Some(arc.as_ref()),
         _ => None,
@@ -150,8 +150,8 @@ pub fn only_arc(motions: &[Motion]) -> &Arc {
 }
 
 /// A tool of which only number and name are known.
-pub fn named_tool(number: Option<u32>, name: Option<&str>) -> Tool {
-    let mut tool = Tool::default();
+pub fn named_tool(number: Option<u32>, name: Option<&str>) -> ActiveTool {
+    let mut tool = ActiveTool::default();
     tool.number = number;
     tool.name = name.map(str::to_owned);
     tool

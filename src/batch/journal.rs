@@ -1,6 +1,6 @@
 //! What a batch has done, written down as it goes, so that one that was killed can go on.
 
-use super::{Locked, Name, Record};
+use super::{BatchRecord, LockedFolder, PortablePath};
 use crate::fingerprint::Digest;
 use crate::write::Interrupt;
 use serde::{Deserialize, Serialize};
@@ -12,15 +12,15 @@ use std::sync::{Mutex, PoisonError};
 
 /// A file that was done, and all that its result depends on.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Done {
-    /// Of input, recipe with its files, options and version: [`RecipePrint::key`](crate::fingerprint::RecipePrint::key).
+pub struct JournalEntry {
+    /// Of input, recipe with its files, options and version: [`RecipeFingerprint::result_key`](crate::fingerprint::RecipeFingerprint::result_key).
     pub key: Digest,
     /// What became of it.
-    pub record: Record,
+    pub record: BatchRecord,
 }
 
 #[derive(Serialize, Deserialize)]
-struct Head {
+struct JournalHead {
     clsmith_journal: u32,
     batch: Digest,
 }
@@ -30,19 +30,19 @@ struct Head {
 /// A line comes after its output is on the disk, so it never promises too much. It may be lost or torn by a power cut: then
 /// its file is done again.
 #[derive(Debug)]
-pub struct Journal {
+pub struct BatchJournal {
     file: Mutex<Option<File>>,
 }
 
-impl Journal {
+impl BatchJournal {
     /// What was done in a folder before, by this shard or any other: the last word on each file.
-    pub fn read(folder: &Locked) -> BTreeMap<(Name, Name), Done> {
+    pub fn read_entries(folder: &LockedFolder) -> BTreeMap<(PortablePath, PortablePath), JournalEntry> {
         let mut done = BTreeMap::new();
-        for path in folder.folder().all_journals() {
+        for path in folder.folder().list_journals() {
             let Ok(file) = File::open(path) else { continue };
             for line in BufReader::new(file).split(b'\n').map_while(Result::ok) {
                 // What is no whole line was not finished.
-                if let Ok(entry) = serde_json::from_slice::<Done>(&line) {
+                if let Ok(entry) = serde_json::from_slice::<JournalEntry>(&line) {
                     done.insert((entry.record.input.clone(), entry.record.output.clone()), entry);
                 }
             }
@@ -54,18 +54,18 @@ impl Journal {
     ///
     /// # Errors
     /// What the operating system says.
-    pub fn begin<'d>(
-        folder: &Locked,
+    pub fn begin_journal<'d>(
+        folder: &LockedFolder,
         batch: Digest,
-        known: impl IntoIterator<Item = &'d Done>,
+        known: impl IntoIterator<Item = &'d JournalEntry>,
     ) -> io::Result<Self> {
-        let path = folder.folder().journal();
-        let mut text = line(&Head { clsmith_journal: 1, batch })?;
+        let path = folder.folder().journal_path();
+        let mut text = json_line(&JournalHead { clsmith_journal: 1, batch })?;
         for done in known {
-            text.extend(line(done)?);
+            text.extend(json_line(done)?);
         }
         // At once: whoever is killed here has the old journal or the new one.
-        folder.folder().temporaries().write(&path, &Interrupt::new(), |out| out.write_all(&text))?;
+        folder.folder().temporary_files().write_file(&path, &Interrupt::new(), |out| out.write_all(&text))?;
         Ok(Self { file: Mutex::new(Some(File::options().append(true).open(path)?)) })
     }
 
@@ -73,10 +73,10 @@ impl Journal {
     ///
     /// # Errors
     /// What the operating system says, once: after that nothing more is written.
-    pub fn add(&self, done: &Done) -> io::Result<()> {
+    pub fn add_entry(&self, done: &JournalEntry) -> io::Result<()> {
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         let Some(open) = file.as_mut() else { return Ok(()) };
-        let written = line(done).and_then(|line| open.write_all(&line));
+        let written = json_line(done).and_then(|line| open.write_all(&line));
         if written.is_err() {
             *file = None;
         }
@@ -85,12 +85,12 @@ impl Journal {
 }
 
 /// The batch that a journal is of.
-pub(super) fn batch_of(path: &Path) -> Option<Digest> {
+pub(super) fn read_batch_id(path: &Path) -> Option<Digest> {
     let first = BufReader::new(File::open(path).ok()?).split(b'\n').next()?.ok()?;
-    serde_json::from_slice::<Head>(&first).ok().map(|head| head.batch)
+    serde_json::from_slice::<JournalHead>(&first).ok().map(|head| head.batch)
 }
 
-fn line(value: &impl Serialize) -> io::Result<Vec<u8>> {
+fn json_line(value: &impl Serialize) -> io::Result<Vec<u8>> {
     let mut line = serde_json::to_vec(value)?;
     line.push(b'\n');
     Ok(line)

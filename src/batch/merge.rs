@@ -1,109 +1,114 @@
 //! Results of shards put together.
 
-use super::results::{Head, Results};
-use super::{Name, Outcome, Record, Shard};
-use crate::diagnostic::{Code, Diagnostic, codes};
+use super::batch_results::{BatchResults, ResultsHead};
+use super::{BatchRecord, FileOutcome, PortablePath, Shard};
+use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
 use std::collections::BTreeMap;
 
 /// The results of the whole batch: the same bytes as if one machine had done all of it.
 ///
 /// # Errors
 /// Parts of another batch or of another split, parts or files that are there twice, parts or files that are missing.
-pub fn merge(parts: Vec<Results>) -> Result<(Head, Vec<Record>), Vec<Diagnostic>> {
+pub fn merge_results(parts: Vec<BatchResults>) -> Result<(ResultsHead, Vec<BatchRecord>), Vec<Diagnostic>> {
     let Some(first) = parts.first() else {
-        return Err(vec![missing("there are no results to merge".into())]);
+        return Err(vec![report_missing("there are no results to merge".into())]);
     };
     let mut wrong = Vec::new();
     for other in parts.iter().skip(1) {
         let differs = if other.head.batch != first.head.batch {
             "another batch: other files, recipes, options or version"
-        } else if count(other) != count(first) {
+        } else if shard_count(other) != shard_count(first) {
             "another split of the batch"
         } else {
             continue;
         };
         let message = format!("{} is of {differs} than {}", other.source.name(), first.source.name());
-        wrong.push(at(other, codes::NOT_ONE_BATCH, message, "differs"));
+        wrong.push(report_at_head(other, codes::NOT_ONE_BATCH, message, "differs"));
     }
     if !wrong.is_empty() {
         return Err(wrong);
     }
-    let twice = twice(&parts);
+    let twice = find_repeated_shards(&parts);
     let each_once = twice.is_empty();
     wrong.extend(twice);
-    wrong.extend(missing_shards(&parts, count(first)));
-    wrong.extend(parts.iter().filter_map(short));
+    wrong.extend(find_missing_shards(&parts, shard_count(first)));
+    wrong.extend(parts.iter().filter_map(check_record_count));
     // A part that is there twice has every file twice; one finding says it.
     if each_once {
-        wrong.extend(same_files(&parts));
+        wrong.extend(find_repeated_files(&parts));
     }
-    wrong.extend(not_run(&parts));
-    let head = Head { shard: None, ..first.head.clone() };
-    let mut records: Vec<Record> = parts.into_iter().flat_map(|part| part.records).collect();
-    records.sort_by(|a, b| a.key().cmp(&b.key()));
+    wrong.extend(find_files_not_run(&parts));
+    let head = ResultsHead { shard: None, ..first.head.clone() };
+    let mut records: Vec<BatchRecord> = parts.into_iter().flat_map(|part| part.records).collect();
+    records.sort_by(|a, b| a.sort_key().cmp(&b.sort_key()));
     if wrong.is_empty() && records.len() != head.files {
-        wrong.push(missing(format!("the batch has {} files, the parts {}", head.files, records.len())));
+        wrong.push(report_missing(format!(
+            "the batch has {} files, the parts {}",
+            head.files,
+            records.len()
+        )));
     }
     if wrong.is_empty() { Ok((head, records)) } else { Err(wrong) }
 }
 
-fn count(results: &Results) -> u32 {
+fn shard_count(results: &BatchResults) -> u32 {
     results.head.shard.as_ref().map_or(1, |shard| shard.part.count())
 }
 
-fn index(results: &Results) -> u32 {
+fn shard_index(results: &BatchResults) -> u32 {
     results.head.shard.as_ref().map_or(1, |shard| shard.part.index())
 }
 
-fn at(results: &Results, code: Code, message: String, label: &str) -> Diagnostic {
-    let head = results.source.line(1).unwrap_or_default();
-    Diagnostic::new(code, message).label(&results.source, head, label)
+fn report_at_head(results: &BatchResults, code: DiagnosticCode, message: String, label: &str) -> Diagnostic {
+    let head = results.source.line_span(1).unwrap_or_default();
+    Diagnostic::new(code, message).with_label(&results.source, head, label)
 }
 
-fn missing(message: String) -> Diagnostic {
+fn report_missing(message: String) -> Diagnostic {
     Diagnostic::new(codes::RESULTS_MISSING, message)
 }
 
-fn twice(parts: &[Results]) -> Vec<Diagnostic> {
-    let mut seen: BTreeMap<u32, &Results> = BTreeMap::new();
+fn find_repeated_shards(parts: &[BatchResults]) -> Vec<Diagnostic> {
+    let mut seen: BTreeMap<u32, &BatchResults> = BTreeMap::new();
     let mut wrong = Vec::new();
     for part in parts {
-        if let Some(other) = seen.insert(index(part), part) {
+        if let Some(other) = seen.insert(shard_index(part), part) {
             let message = format!(
                 "{} and {} are both of shard {}/{}",
                 other.source.name(),
                 part.source.name(),
-                index(part),
-                count(part)
+                shard_index(part),
+                shard_count(part)
             );
-            wrong.push(at(part, codes::NOT_ONE_BATCH, message, "there already"));
+            wrong.push(report_at_head(part, codes::NOT_ONE_BATCH, message, "there already"));
         }
     }
     wrong
 }
 
-fn missing_shards(parts: &[Results], count: u32) -> Option<Diagnostic> {
-    let there: Vec<u32> = parts.iter().map(index).collect();
+fn find_missing_shards(parts: &[BatchResults], count: u32) -> Option<Diagnostic> {
+    let there: Vec<u32> = parts.iter().map(shard_index).collect();
     let gone =
         (1..=count).filter(|index| !there.contains(index)).filter_map(|index| Shard::new(index, count));
     let gone: Vec<String> = gone.map(|shard| shard.to_string()).collect();
     let shown = gone.iter().take(10).map(String::as_str).collect::<Vec<_>>().join(", ");
     let more = if gone.len() > 10 { format!(" and {} more", gone.len() - 10) } else { String::new() };
-    (!gone.is_empty()).then(|| missing(format!("results are missing of shard {shown}{more}")))
+    (!gone.is_empty()).then(|| report_missing(format!("results are missing of shard {shown}{more}")))
 }
 
-fn short(part: &Results) -> Option<Diagnostic> {
+fn check_record_count(part: &BatchResults) -> Option<Diagnostic> {
     let files = part.head.shard.as_ref().map_or(part.head.files, |shard| shard.files);
     let message = || format!("{} has {} of {files} files", part.source.name(), part.records.len());
-    (files != part.records.len()).then(|| at(part, codes::RESULTS_MISSING, message(), "more were promised"))
+    (files != part.records.len())
+        .then(|| report_at_head(part, codes::RESULTS_MISSING, message(), "more were promised"))
 }
 
-fn same_files(parts: &[Results]) -> Vec<Diagnostic> {
-    let mut seen: BTreeMap<(&Name, &Name), &Results> = BTreeMap::new();
+fn find_repeated_files(parts: &[BatchResults]) -> Vec<Diagnostic> {
+    let mut seen: BTreeMap<(&PortablePath, &PortablePath), &BatchResults> = BTreeMap::new();
     let mut wrong = Vec::new();
     for (part, record) in parts.iter().flat_map(|part| part.records.iter().map(move |record| (part, record)))
     {
-        if let Some(other) = seen.insert(record.key(), part) {
+        if let Some(other) = seen.insert(record.sort_key(), part) {
             let (other, here) = (other.source.name(), part.source.name());
             let message = format!("{} is in {here} and in {other}", record.input);
             wrong.push(Diagnostic::new(codes::NOT_ONE_BATCH, message));
@@ -112,12 +117,12 @@ fn same_files(parts: &[Results]) -> Vec<Diagnostic> {
     wrong
 }
 
-fn not_run(parts: &[Results]) -> Vec<Diagnostic> {
+fn find_files_not_run(parts: &[BatchResults]) -> Vec<Diagnostic> {
     let all = parts.iter().flat_map(|part| part.records.iter().map(move |record| (part, record)));
-    all.filter(|(_, record)| record.outcome == Outcome::NotRun)
+    all.filter(|(_, record)| record.outcome == FileOutcome::NotRun)
         .map(|(part, record)| {
-            missing(format!("{} was not run; {} says so", record.input, part.source.name()))
-                .help("The batch was to stop at the first failure. Run the shard again with --resume.")
+            report_missing(format!("{} was not run; {} says so", record.input, part.source.name()))
+                .with_help("The batch was to stop at the first failure. Run the shard again with --resume.")
         })
         .collect()
 }

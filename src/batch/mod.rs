@@ -1,30 +1,32 @@
 //! Many files through recipes: what to do, in which order, within which memory, and how to go on after a power cut.
 //!
-//! [`jobs`] says what is wanted, [`Plan`] which file becomes which output (and refuses before anything runs), [`Shard`]
-//! which part of it this machine does, [`Folder`] that nobody else writes there, [`Journal`] what is done already, and
-//! [`Batch`] does the rest. Every file leaves a [`Record`]; [`results`] writes them, [`merge`] puts those of shards
+//! [`jobs_file`] says what is wanted, [`BatchPlan`] which file becomes which output (and refuses before anything runs), [`Shard`]
+//! which part of it this machine does, [`OutputFolder`] that nobody else writes there, [`BatchJournal`] what is done already, and
+//! [`BatchRun`] does the rest. Every file leaves a [`BatchRecord`]; [`batch_results`] writes them, [`merge`] puts those of shards
 //! together. Records say nothing of time, threads or order, so two runs of one batch can be compared byte for byte.
 
-pub mod budget;
-mod find;
-mod folder;
-pub mod jobs;
+mod batch_plan;
+mod batch_record;
+pub mod batch_results;
+mod batch_run;
+mod file_run;
+pub mod jobs_file;
 mod journal;
+pub mod memory_budget;
 pub mod merge;
-mod name;
-mod one;
-mod plan;
-mod record;
-pub mod results;
-mod run;
+mod output_folder;
+mod path_pattern;
+mod portable_path;
 mod shard;
 pub mod summary;
 
-pub use folder::{Folder, Locked};
-pub use journal::{Done, Journal};
-pub use name::Name;
-pub use one::changed;
-pub use plan::{Plan, Planned, Work, outside};
-pub use record::{Changed, Counts, Found, Hashes, Outcome, Record};
-pub use run::{Batch, Ran, Watch};
+pub use batch_plan::{BatchPlan, PlannedFile, PreparedRecipe, report_outside_link};
+pub use batch_record::{
+    BatchFinding, BatchFindingCounts, BatchRecord, FileDigests, FileOutcome, StatementChangeCounts,
+};
+pub use batch_run::{BatchOutcome, BatchRun, BatchWatcher};
+pub use file_run::report_input_changed;
+pub use journal::{BatchJournal, JournalEntry};
+pub use output_folder::{LockedFolder, OutputFolder};
+pub use portable_path::PortablePath;
 pub use shard::Shard;

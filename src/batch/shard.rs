@@ -31,12 +31,12 @@ impl Shard {
     }
 
     /// Whether file `position` (from 0) of the sorted list belongs to this part.
-    pub fn has(self, position: usize) -> bool {
+    pub fn contains(self, position: usize) -> bool {
         position as u64 % u64::from(self.count) == u64::from(self.index - 1)
     }
 
     /// As part of a file's name: `2-of-8`.
-    pub fn in_names(self) -> String {
+    pub fn file_name_part(self) -> String {
         format!("{}-of-{}", self.index, self.count)
     }
 }

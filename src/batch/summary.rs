@@ -1,7 +1,7 @@
 //! A batch for people.
 
-use super::{Outcome, Record};
-use crate::report::table::{count, counted, duration, table};
+use super::{BatchRecord, FileOutcome};
+use crate::report::text_format::{format_count, format_counted, format_duration, format_table};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -10,22 +10,23 @@ const LISTED: usize = 20;
 
 /// The summary: how many files ended how, by recipe; findings by code; files that failed. `before` of them were done by
 /// an earlier run; `seconds` is how long this one took, if anybody knows.
-pub fn to_text(records: &[Record], before: usize, seconds: Option<f64>) -> String {
-    let mut text = counted(records.len(), "file", "files");
+pub fn summary_to_text(records: &[BatchRecord], before: usize, seconds: Option<f64>) -> String {
+    let mut text = format_counted(records.len(), "file", "files");
     if let Some(seconds) = seconds {
-        let _ = write!(text, " in {}", duration(seconds));
+        let _ = write!(text, " in {}", format_duration(seconds));
     }
     if before > 0 {
-        let _ = write!(text, ", {} done before", count(before as u64));
+        let _ = write!(text, ", {} done before", format_count(before as u64));
     }
     text.push_str("\n\n");
-    text.push_str(&table(&recipes(records)));
-    let found = findings(records);
+    text.push_str(&format_table(&recipe_rows(records)));
+    let found = finding_rows(records);
     if found.len() > 1 {
         text.push('\n');
-        text.push_str(&table(&found));
+        text.push_str(&format_table(&found));
     }
-    let failed: Vec<&Record> = records.iter().filter(|record| record.outcome == Outcome::Failed).collect();
+    let failed: Vec<&BatchRecord> =
+        records.iter().filter(|record| record.outcome == FileOutcome::Failed).collect();
     if !failed.is_empty() {
         text.push_str("\nFailed, and not written (what an earlier run wrote of them stays):\n");
     }
@@ -38,35 +39,35 @@ pub fn to_text(records: &[Record], before: usize, seconds: Option<f64>) -> Strin
         let _ = writeln!(text, "  {}: {}", record.input, why.replace(char::is_control, "?"));
     }
     if failed.len() > LISTED {
-        let _ = writeln!(text, "  and {} more", count((failed.len() - LISTED) as u64));
+        let _ = writeln!(text, "  and {} more", format_count((failed.len() - LISTED) as u64));
     }
     text
 }
 
-fn recipes(records: &[Record]) -> Vec<Vec<String>> {
-    let mut by_recipe: BTreeMap<String, Vec<&Record>> = BTreeMap::new();
+fn recipe_rows(records: &[BatchRecord]) -> Vec<Vec<String>> {
+    let mut by_recipe: BTreeMap<String, Vec<&BatchRecord>> = BTreeMap::new();
     for record in records {
         by_recipe.entry(record.recipe.to_string()).or_default().push(record);
     }
     let head =
         ["recipe", "files", "corrected", "unchanged", "failed", "not run", "statements changed", "warnings"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
-    let row = |name: String, records: &[&Record]| {
+    let row = |name: String, records: &[&BatchRecord]| {
         let ended = |outcome| records.iter().filter(|record| record.outcome == outcome).count();
-        let sum = |of: fn(&Record) -> usize| records.iter().map(|record| of(record)).sum::<usize>();
+        let sum = |of: fn(&BatchRecord) -> usize| records.iter().map(|record| of(record)).sum::<usize>();
         let numbers = [
             records.len(),
-            ended(Outcome::Corrected),
-            ended(Outcome::Unchanged),
-            ended(Outcome::Failed),
-            ended(Outcome::NotRun),
+            ended(FileOutcome::Corrected),
+            ended(FileOutcome::Unchanged),
+            ended(FileOutcome::Failed),
+            ended(FileOutcome::NotRun),
             sum(|record| record.changed.edited + record.changed.inserted + record.changed.deleted),
             sum(|record| record.counts.warnings),
         ];
-        [name].into_iter().chain(numbers.map(|number| count(number as u64))).collect::<Vec<_>>()
+        [name].into_iter().chain(numbers.map(|number| format_count(number as u64))).collect::<Vec<_>>()
     };
     if by_recipe.len() > 1 {
-        let all: Vec<&Record> = records.iter().collect();
+        let all: Vec<&BatchRecord> = records.iter().collect();
         rows.extend(by_recipe.into_iter().map(|(name, records)| row(name, &records)));
         rows.push(row("all".to_owned(), &all));
     } else {
@@ -76,7 +77,7 @@ fn recipes(records: &[Record]) -> Vec<Vec<String>> {
 }
 
 /// Codes, how often, in how many files, and where first.
-fn findings(records: &[Record]) -> Vec<Vec<String>> {
+fn finding_rows(records: &[BatchRecord]) -> Vec<Vec<String>> {
     let mut by_code: BTreeMap<(&str, &str), (usize, usize, String)> = BTreeMap::new();
     for record in records {
         for found in &record.findings {
@@ -91,7 +92,7 @@ fn findings(records: &[Record]) -> Vec<Vec<String>> {
     }
     let mut rows = vec![["finding", "times", "files", "first in"].map(str::to_owned).to_vec()];
     rows.extend(by_code.into_iter().map(|((code, severity), (times, files, first))| {
-        vec![format!("{code} {severity}"), count(times as u64), count(files as u64), first]
+        vec![format!("{code} {severity}"), format_count(times as u64), format_count(files as u64), first]
     }));
     rows
 }

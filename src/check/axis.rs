@@ -1,8 +1,8 @@
 //! Tool axes and axes of arcs: unit length, MULTAX, and jumps.
 
-use super::{Findings, Lint};
+use super::{Lint, LintFindings};
 use crate::diagnostic::codes;
-use crate::program::geometry::Path;
+use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::program::{Dialect, Record, Statement};
 use nalgebra::Vector3;
@@ -16,10 +16,10 @@ const NO_AXIS_FROM: f64 = 0.1;
 
 /// Axes that are no unit vectors.
 #[derive(Default)]
-pub(super) struct UnitAxis;
+pub(super) struct UnitAxisLint;
 
-impl Lint for UnitAxis {
-    fn statement(&mut self, index: usize, statement: &Statement, found: &mut Findings<'_>) {
+impl Lint for UnitAxisLint {
+    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
         let (axis, place) = match statement.record() {
             Record::Goto(goto) => match &goto.axis {
                 Some(axis) => (axis, 3..6),
@@ -36,18 +36,18 @@ impl Lint for UnitAxis {
         };
         // Squares first: 1.6 million roots are saved in a large file.
         if (axis.norm_squared() - 1.0).abs() > UNIT_TOLERANCE {
-            report(index, axis, place, found);
+            report_axis(index, axis, place, found);
         }
     }
 }
 
-fn report(index: usize, axis: &Vector3<f64>, place: Range<usize>, found: &mut Findings<'_>) {
+fn report_axis(index: usize, axis: &Vector3<f64>, place: Range<usize>, found: &mut LintFindings<'_>) {
     let length = axis.norm();
     let off = (length - 1.0).abs();
     if off <= UNIT_TOLERANCE {
         return;
     }
-    let span = found.numbers(index, place);
+    let span = found.numbers_span(index, place);
     if off > NO_AXIS_FROM {
         let message = format!("these numbers are no axis: their length is {length:.4}, not 1");
         found.report(codes::NO_AXIS, span, message, "not a direction");
@@ -62,14 +62,14 @@ const SAME_AXIS: f64 = 1e-8;
 
 /// An axis that changes without MULTAX, in the dialects that write it.
 #[derive(Default)]
-pub(super) struct WithoutMultax {
+pub(super) struct MultaxLint {
     on: bool,
     axis: Option<Vector3<f64>>,
     reported: bool,
 }
 
-impl Lint for WithoutMultax {
-    fn statement(&mut self, index: usize, statement: &Statement, found: &mut Findings<'_>) {
+impl Lint for MultaxLint {
+    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
         match statement.record() {
             Record::MultiAxis(on) => (self.on, self.reported) = (*on, false),
             Record::ToolAxis(axis) => self.axis = Some(**axis),
@@ -84,7 +84,7 @@ impl Lint for WithoutMultax {
                     let message = "the tool axis changes here, but MULTAX is not on";
                     found.report(
                         codes::AXIS_WITHOUT_MULTAX,
-                        found.numbers(index, 3..6),
+                        found.numbers_span(index, 3..6),
                         message,
                         "another axis",
                     );
@@ -104,31 +104,34 @@ const JUMP_COSINE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// Axes that turn far within one feed motion.
 #[derive(Default)]
-pub(super) struct Jump {
+pub(super) struct AxisJumpLint {
     /// The axis was set by a record of its own, or an operation begins: the next motion does not interpolate it.
     set: bool,
 }
 
-impl Lint for Jump {
-    fn statement(&mut self, _index: usize, statement: &Statement, _found: &mut Findings<'_>) {
+impl Lint for AxisJumpLint {
+    fn check_statement(&mut self, _index: usize, statement: &Statement, _found: &mut LintFindings<'_>) {
         self.set |= matches!(statement.record(), Record::ToolAxis(_) | Record::OperationStart(_));
     }
 
-    fn motion(&mut self, motion: &Motion, found: &mut Findings<'_>) {
+    fn check_motion(&mut self, motion: &Motion, found: &mut LintFindings<'_>) {
         if std::mem::take(&mut self.set) {
             return;
         }
         let (from, to) = (motion.from.axis, motion.to.axis);
         let cosine = from.dot(&to);
         // Axes that are no axes have their own finding.
-        if cosine >= JUMP_COSINE || matches!(motion.path, Path::Start) || from.norm() < 0.9 || to.norm() < 0.9
+        if cosine >= JUMP_COSINE
+            || matches!(motion.path, MotionPath::Start)
+            || from.norm() < 0.9
+            || to.norm() < 0.9
         {
             return;
         }
-        if found.cuts(motion) {
+        if found.is_cutting_motion(motion) {
             let degrees = (cosine / (from.norm() * to.norm())).clamp(-1.0, 1.0).acos().to_degrees();
             let message = format!("the tool axis turns by {degrees:.1} degrees in this feed motion");
-            let span = found.numbers(motion.last_statement(), 3..6);
+            let span = found.numbers_span(motion.last_statement(), 3..6);
             found.report(codes::AXIS_JUMP, span, message, "");
         }
     }

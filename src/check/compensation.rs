@@ -1,35 +1,35 @@
 //! Cutter compensation: left on, switched in an arc, on at rapid, changing sides.
 
-use super::{Findings, Lint};
-use crate::diagnostic::{Code, codes};
-use crate::program::geometry::Path;
+use super::{Lint, LintFindings};
+use crate::diagnostic::{DiagnosticCode, codes};
+use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
-use crate::program::record::{CutterCompensation, Side};
+use crate::program::record::{CompensationSide, CutterCompensation};
 use crate::program::{Record, Statement};
 
-pub(super) const CODES: &[Code] =
+pub(super) const CODES: &[DiagnosticCode] =
     &[codes::CUTCOM_LEFT_ON, codes::CUTCOM_AT_ARC, codes::CUTCOM_RAPID, codes::CUTCOM_CHANGES_SIDE];
 
 /// Follows CUTCOM through the program.
 #[derive(Default)]
-pub(super) struct Compensation {
-    on: Option<(Side, usize)>,
+pub(super) struct CompensationLint {
+    on: Option<(CompensationSide, usize)>,
     /// The CUTCOM that the next motion carries out.
     switched: Option<usize>,
     rapid_reported: bool,
 }
 
-impl Compensation {
-    fn set(&mut self, index: usize, to: CutterCompensation, found: &mut Findings<'_>) {
+impl CompensationLint {
+    fn apply_compensation(&mut self, index: usize, to: CutterCompensation, found: &mut LintFindings<'_>) {
         match to {
             CutterCompensation::On(side) => {
                 if let Some((_, before)) = self.on.filter(|(before, _)| *before != side) {
                     let message = "cutter compensation changes its side without being switched off";
-                    let second = (found.whole(before), "switched on here");
-                    found.report_two(
+                    let second = (found.statement_span(before), "switched on here");
+                    found.report_at_two_spans(
                         codes::CUTCOM_CHANGES_SIDE,
                         message,
-                        (found.whole(index), "the other side"),
+                        (found.statement_span(index), "the other side"),
                         second,
                     );
                 }
@@ -45,46 +45,51 @@ impl Compensation {
         }
     }
 
-    fn end(&mut self, what: &str, found: &mut Findings<'_>) {
+    fn report_left_on(&mut self, what: &str, found: &mut LintFindings<'_>) {
         if let Some((_, at)) = self.on.take() {
             let message = format!("cutter compensation is still on at the end of {what}");
-            found.report(codes::CUTCOM_LEFT_ON, found.whole(at), message, "switched on here");
+            found.report(codes::CUTCOM_LEFT_ON, found.statement_span(at), message, "switched on here");
         }
         self.switched = None;
     }
 }
 
-impl Lint for Compensation {
-    fn statement(&mut self, index: usize, statement: &Statement, found: &mut Findings<'_>) {
+impl Lint for CompensationLint {
+    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
         match statement.record() {
-            Record::CutterCompensation(to) => self.set(index, *to, found),
-            Record::OperationStart(_) | Record::OperationEnd => self.end("the operation", found),
-            Record::ProgramEnd => self.end("the program", found),
+            Record::CutterCompensation(to) => self.apply_compensation(index, *to, found),
+            Record::OperationStart(_) | Record::OperationEnd => self.report_left_on("the operation", found),
+            Record::ProgramEnd => self.report_left_on("the program", found),
             _ => {}
         }
     }
 
-    fn motion(&mut self, motion: &Motion, found: &mut Findings<'_>) {
+    fn check_motion(&mut self, motion: &Motion, found: &mut LintFindings<'_>) {
         if let Some(at) = self.switched.take()
-            && let Path::Arc(_) = motion.path
+            && let MotionPath::Arc(_) = motion.path
         {
-            let first = (found.whole(at), "switched here");
-            let second = (found.end_point(motion), "the end of the arc");
+            let first = (found.statement_span(at), "switched here");
+            let second = (found.end_point_span(motion), "the end of the arc");
             let message = "cutter compensation is switched in an arc";
-            found.report_two(codes::CUTCOM_AT_ARC, message, first, second);
+            found.report_at_two_spans(codes::CUTCOM_AT_ARC, message, first, second);
         }
         if motion.rapid
             && !self.rapid_reported
             && let Some((_, at)) = self.on
         {
             self.rapid_reported = true;
-            let first = (found.end_point(motion), "a rapid");
-            let second = (found.whole(at), "switched on here");
-            found.report_two(codes::CUTCOM_RAPID, "cutter compensation is on in this rapid", first, second);
+            let first = (found.end_point_span(motion), "a rapid");
+            let second = (found.statement_span(at), "switched on here");
+            found.report_at_two_spans(
+                codes::CUTCOM_RAPID,
+                "cutter compensation is on in this rapid",
+                first,
+                second,
+            );
         }
     }
 
-    fn finish(&mut self, found: &mut Findings<'_>) {
-        self.end("the program", found);
+    fn finish(&mut self, found: &mut LintFindings<'_>) {
+        self.report_left_on("the program", found);
     }
 }

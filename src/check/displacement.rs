@@ -3,7 +3,7 @@
 use crate::number;
 use crate::program::geometry::SAME_POINT;
 use crate::program::record::Goto;
-use crate::program::{Change, Program, Record, Statement, StepId};
+use crate::program::{Program, Record, Statement, StatementChange, StepId};
 use nalgebra::{Point3, Vector3};
 
 /// What happened to the points that a step signed.
@@ -23,34 +23,38 @@ pub(super) struct Displacement {
 
 impl Displacement {
     /// Compares every point that `step` edited with the file's bytes. Linear, and without the grammar.
-    pub(super) fn of(program: &Program, step: StepId) -> Self {
-        let mut tally = Tally { old_axis: Vector3::z(), new_axis: Vector3::z(), ..Tally::default() };
-        for (_, statement) in program.live() {
-            let edited = statement.change() == Change::Edited(step);
+    pub(super) fn measure_step(program: &Program, step: StepId) -> Self {
+        let mut tally = DisplacementTally {
+            old_axis: Vector3::z(),
+            new_axis: Vector3::z(),
+            ..DisplacementTally::default()
+        };
+        for (_, statement) in program.live_statements() {
+            let edited = statement.change() == StatementChange::Edited(step);
             match statement.record() {
                 Record::Goto(goto) => {
                     tally.points += 1;
                     if edited {
-                        tally.point(goto, as_read(program, statement));
+                        tally.add_point(goto, original_point(program, statement));
                     }
                 }
                 record => tally.others |= edited && record.is_motion(),
             }
         }
-        tally.result()
+        tally.to_displacement()
     }
 }
 
 /// A point before and after.
 #[derive(Clone, Copy)]
-struct Pair {
+struct PointPair {
     old: Point3<f64>,
     new: Point3<f64>,
 }
 
 /// What the comparison has counted so far.
 #[derive(Default)]
-struct Tally {
+struct DisplacementTally {
     /// Points of the program.
     points: usize,
     /// Those that are elsewhere.
@@ -60,7 +64,7 @@ struct Tally {
     raised: bool,
     uneven: bool,
     first: Option<Vector3<f64>>,
-    last: [Option<Pair>; 2],
+    last: [Option<PointPair>; 2],
     old_axis: Vector3<f64>,
     new_axis: Vector3<f64>,
     /// Length of the moves that kept their length, and of those that did not.
@@ -71,15 +75,15 @@ struct Tally {
     swapped: f64,
 }
 
-impl Tally {
-    fn point(&mut self, goto: &Goto, as_read: Option<(Point3<f64>, Option<Vector3<f64>>)>) {
+impl DisplacementTally {
+    fn add_point(&mut self, goto: &Goto, as_read: Option<(Point3<f64>, Option<Vector3<f64>>)>) {
         let Some((old, axis)) = as_read else {
             self.others = true;
             return;
         };
         self.old_axis = axis.unwrap_or(self.old_axis);
         self.new_axis = goto.axis.unwrap_or(self.new_axis);
-        let pair = Pair { old, new: goto.point };
+        let pair = PointPair { old, new: goto.point };
         let shift = pair.new - pair.old;
         self.moved += usize::from(shift.norm_squared() > 0.0);
         self.raised |= shift.z != 0.0;
@@ -91,7 +95,7 @@ impl Tally {
             let differ = (old.norm() - new.norm()).abs() > 4.0 * SAME_POINT + 1e-6 * old.norm();
             *(if differ { &mut self.stretched } else { &mut self.kept }) += old.norm();
             if let Some(before) = before {
-                self.turn((last.old - before.old).cross(&old), (last.new - before.new).cross(&new));
+                self.add_turn((last.old - before.old).cross(&old), (last.new - before.new).cross(&new));
             }
         }
         self.last = [last, Some(pair)];
@@ -99,7 +103,7 @@ impl Tally {
 
     /// A mirror turns the sign of axis · (a × b), a rotation does not. Weighed by area: the turns of nearly straight moves are
     /// rounding.
-    fn turn(&mut self, old: Vector3<f64>, new: Vector3<f64>) {
+    fn add_turn(&mut self, old: Vector3<f64>, new: Vector3<f64>) {
         let (old, new) = (self.old_axis.dot(&old), self.new_axis.dot(&new));
         let area = old.abs().min(new.abs());
         if old * new > 0.0 {
@@ -109,7 +113,7 @@ impl Tally {
         }
     }
 
-    fn result(&self) -> Displacement {
+    fn to_displacement(&self) -> Displacement {
         let compared = self.moved > 0;
         let placed = compared && (!self.uneven || self.moved * 2 >= self.points);
         let moved = placed || !compared && self.others;
@@ -124,7 +128,7 @@ impl Tally {
 }
 
 /// Point and axis of a GOTO as the file has it.
-fn as_read(program: &Program, statement: &Statement) -> Option<(Point3<f64>, Option<Vector3<f64>>)> {
+fn original_point(program: &Program, statement: &Statement) -> Option<(Point3<f64>, Option<Vector3<f64>>)> {
     let text = program.source().slice(statement.origin());
     let slash = memchr::memchr(b'/', text)?;
     let mut numbers = [0.0; 6];
@@ -132,7 +136,7 @@ fn as_read(program: &Program, statement: &Statement) -> Option<(Point3<f64>, Opt
     let fields =
         text.get(slash + 1..)?.split(|byte| matches!(byte, b',' | b' ' | b'\t' | b'\r' | b'\n' | b'$'));
     for field in fields.filter(|field| !field.is_empty()) {
-        *numbers.get_mut(count)? = number::parse(field)?;
+        *numbers.get_mut(count)? = number::parse_number(field)?;
         count += 1;
     }
     let [x, y, z, i, j, k] = numbers;

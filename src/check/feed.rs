@@ -1,12 +1,12 @@
 //! Feeds: missing, zero, implausible, per revolution of a spindle that stands, inverse time.
 
-use super::{Findings, Lint};
-use crate::diagnostic::{Code, codes};
+use super::{Lint, LintFindings};
+use crate::diagnostic::{DiagnosticCode, codes};
 use crate::program::motion::Motion;
-use crate::program::{Feed, FeedUnit, Role};
+use crate::program::{Feed, FeedUnit, NumberRole};
 use std::collections::HashSet;
 
-pub(super) const CODES: &[Code] = &[
+pub(super) const CODES: &[DiagnosticCode] = &[
     codes::CUT_WITHOUT_FEED,
     codes::ZERO_FEED,
     codes::IMPLAUSIBLE_FEED,
@@ -23,59 +23,64 @@ const COARSEST: f64 = 25.0;
 
 /// Each FEDRAT (and each cycle's feed) is looked at once, at the first cut that uses it.
 #[derive(Default)]
-pub(super) struct Feeds {
+pub(super) struct FeedLint {
     missing: bool,
     last: Option<usize>,
     seen: HashSet<usize>,
 }
 
-impl Lint for Feeds {
-    fn motion(&mut self, motion: &Motion, found: &mut Findings<'_>) {
-        if motion.feed.is_some() && motion.feed_from == self.last || !found.cuts(motion) {
+impl Lint for FeedLint {
+    fn check_motion(&mut self, motion: &Motion, found: &mut LintFindings<'_>) {
+        if motion.feed.is_some() && motion.feed_from == self.last || !found.is_cutting_motion(motion) {
             return;
         }
         let (Some(feed), Some(from)) = (motion.feed, motion.feed_from) else {
             if !self.missing && !found.facts.wire {
                 self.missing = true;
-                let span = found.end_point(motion);
+                let span = found.end_point_span(motion);
                 found.report(codes::CUT_WITHOUT_FEED, span, "no feed is in force at this motion", "");
             }
             return;
         };
         self.last = Some(from);
         if self.seen.insert(from) {
-            look(feed, from, motion, found);
+            check_feed(feed, from, motion, found);
         }
     }
 }
 
-fn look(feed: Feed, from: usize, motion: &Motion, found: &mut Findings<'_>) {
+fn check_feed(feed: Feed, from: usize, motion: &Motion, found: &mut LintFindings<'_>) {
     let unit = feed.unit_or_default();
     if feed.value == 0.0 {
-        let at = (found.role(from, Role::Feed), "a feed of zero");
-        let cut = (found.end_point(motion), "the first cut with it");
-        return found.report_two(codes::ZERO_FEED, "a cut is programmed with a feed of zero", at, cut);
+        let at = (found.role_span(from, NumberRole::Feed), "a feed of zero");
+        let cut = (found.end_point_span(motion), "the first cut with it");
+        return found.report_at_two_spans(
+            codes::ZERO_FEED,
+            "a cut is programmed with a feed of zero",
+            at,
+            cut,
+        );
     }
     if unit == FeedUnit::InverseTime {
-        let span = found.role(from, Role::Feed);
+        let span = found.role_span(from, NumberRole::Feed);
         return found.report(codes::INVERSE_TIME, span, "this feed is inverse time (1/min)", "");
     }
-    if let Some(what) = implausible(feed, found) {
-        let span = found.role(from, Role::Feed);
+    if let Some(what) = describe_implausible(feed, found) {
+        let span = found.role_span(from, NumberRole::Feed);
         found.report(codes::IMPLAUSIBLE_FEED, span, format!("a feed of {what} is hardly meant"), "");
     }
-    if unit.per_revolution() && !motion.spindle.as_ref().is_some_and(|spindle| spindle.on) {
-        let at = (found.role(from, Role::Feed), "per revolution");
-        let cut = (found.end_point(motion), "no spindle turns at this motion");
+    if unit.is_per_revolution() && !motion.spindle.as_ref().is_some_and(|spindle| spindle.on) {
+        let at = (found.role_span(from, NumberRole::Feed), "per revolution");
+        let cut = (found.end_point_span(motion), "no spindle turns at this motion");
         let message = "the feed is per revolution, but the spindle stands";
-        found.report_two(codes::FEED_PER_REVOLUTION_WITHOUT_SPINDLE, message, at, cut);
+        found.report_at_two_spans(codes::FEED_PER_REVOLUTION_WITHOUT_SPINDLE, message, at, cut);
     }
 }
 
-fn implausible(feed: Feed, found: &Findings<'_>) -> Option<String> {
+fn describe_implausible(feed: Feed, found: &LintFindings<'_>) -> Option<String> {
     let unit = feed.unit_or_default();
-    let value = feed.value * unit.length(found.facts.units.unwrap_or_default())?.in_mm();
+    let value = feed.value * unit.length_unit(found.facts.units.unwrap_or_default())?.mm_per_unit();
     let (slow, fast, word) =
-        if unit.per_revolution() { (0.0, COARSEST, "mm/rev") } else { (SLOWEST, FASTEST, "mm/min") };
+        if unit.is_per_revolution() { (0.0, COARSEST, "mm/rev") } else { (SLOWEST, FASTEST, "mm/min") };
     (value < slow || value > fast).then(|| format!("{} {word}", (value * 1e4).round() / 1e4))
 }

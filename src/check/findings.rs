@@ -1,17 +1,17 @@
 //! What lints report with: facts about the whole file, and precise places in it.
 
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Diagnostic, DiagnosticCode};
 use crate::parse;
-use crate::program::geometry::{Path, SAME_POINT};
+use crate::program::geometry::{MotionPath, SAME_POINT};
 use crate::program::motion::Motion;
 use crate::program::record::ToolWord;
-use crate::program::{Change, LengthUnit, Program, Record, Role, Syntax};
+use crate::program::{LengthUnit, NumberRole, Program, Record, StatementChange, StatementSyntax};
 use crate::source::Span;
 use std::ops::Range;
 
 /// What a lint may have to know of the whole file before it meets the statement in question.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Facts {
+pub(crate) struct ProgramFacts {
     /// A SPINDL stands somewhere.
     pub(crate) spindle: bool,
     /// A tool is loaded, named or described somewhere.
@@ -24,19 +24,21 @@ pub(crate) struct Facts {
     pub(crate) units: Option<LengthUnit>,
 }
 
-impl Facts {
-    fn of(program: &Program) -> Self {
+impl ProgramFacts {
+    fn from_program(program: &Program) -> Self {
         let mut facts = Self::default();
-        for (_, statement) in program.live() {
+        for (_, statement) in program.live_statements() {
             match statement.record() {
                 Record::Spindle(_) => facts.spindle = true,
                 Record::ToolCall(_) => facts.tool = true,
                 Record::ToolData(data) => {
                     facts.tool = true;
                     facts.wire |= data.word == ToolWord::TlDataOther
-                        && memchr::memmem::find(program.text(statement), b"WEDM").is_some();
+                        && memchr::memmem::find(program.statement_text(statement), b"WEDM").is_some();
                 }
-                Record::Known => facts.coolant |= coolant(program.text(statement)) == Some(true),
+                Record::Known => {
+                    facts.coolant |= coolant_switch(program.statement_text(statement)) == Some(true)
+                }
                 Record::Units(units) => facts.units = facts.units.or(Some(*units)),
                 _ => {}
             }
@@ -47,7 +49,7 @@ impl Facts {
 
 /// Whether a statement switches coolant on or off; `None` when it is no COOLNT, or one with an empty list (CATIA through
 /// ICAM), of which only the post knows what it means.
-pub(crate) fn coolant(text: &[u8]) -> Option<bool> {
+pub(crate) fn coolant_switch(text: &[u8]) -> Option<bool> {
     let rest = text.trim_ascii_start().strip_prefix(b"COOLNT")?;
     let word = rest.trim_ascii_start().strip_prefix(b"/").unwrap_or_default().trim_ascii();
     (!word.is_empty()).then_some(word != b"OFF")
@@ -55,15 +57,15 @@ pub(crate) fn coolant(text: &[u8]) -> Option<bool> {
 
 /// The findings so far, and how to point at statements.
 #[derive(Debug)]
-pub(crate) struct Findings<'p> {
+pub(crate) struct LintFindings<'p> {
     pub(crate) program: &'p Program,
-    pub(crate) facts: Facts,
+    pub(crate) facts: ProgramFacts,
     list: Vec<Diagnostic>,
 }
 
-impl<'p> Findings<'p> {
+impl<'p> LintFindings<'p> {
     pub(crate) fn new(program: &'p Program) -> Self {
-        Self { program, facts: Facts::of(program), list: Vec::new() }
+        Self { program, facts: ProgramFacts::from_program(program), list: Vec::new() }
     }
 
     /// The findings in the order of the file; those about the whole file last.
@@ -81,104 +83,111 @@ impl<'p> Findings<'p> {
     /// Reports one finding at one place.
     pub(crate) fn report(
         &mut self,
-        code: Code,
+        code: DiagnosticCode,
         span: Span,
         message: impl Into<String>,
         label: impl Into<String>,
     ) {
-        let found = Diagnostic::new(code, message).label(self.program.source(), span, label);
+        let found = Diagnostic::new(code, message).with_label(self.program.source(), span, label);
         self.push(found);
     }
 
     /// Reports one finding at two places, the first of them the primary.
-    pub(crate) fn report_two(
+    pub(crate) fn report_at_two_spans(
         &mut self,
-        code: Code,
+        code: DiagnosticCode,
         message: impl Into<String>,
         first: (Span, &str),
         second: (Span, &str),
     ) {
         let source = self.program.source();
-        let found =
-            Diagnostic::new(code, message).label(source, first.0, first.1).label(source, second.0, second.1);
+        let found = Diagnostic::new(code, message)
+            .with_label(source, first.0, first.1)
+            .with_label(source, second.0, second.1);
         self.push(found);
     }
 
     /// The text of a statement as it stands.
-    pub(crate) fn text(&self, index: usize) -> &'p [u8] {
-        self.program.statement(index).map(|statement| self.program.text(statement)).unwrap_or_default()
+    pub(crate) fn statement_text(&self, index: usize) -> &'p [u8] {
+        self.program
+            .statement(index)
+            .map(|statement| self.program.statement_text(statement))
+            .unwrap_or_default()
     }
 
     /// A statement, taken apart by the grammar. Slow: only where there is something to report.
-    pub(crate) fn syntax(&self, index: usize) -> Syntax<'p> {
-        parse::syntax(self.text(index))
+    pub(crate) fn statement_syntax(&self, index: usize) -> StatementSyntax<'p> {
+        parse::syntax(self.statement_text(index))
     }
 
     /// A statement's bytes in the source, without the blanks and line ends around them.
-    pub(crate) fn whole(&self, index: usize) -> Span {
+    pub(crate) fn statement_span(&self, index: usize) -> Span {
         let Some(statement) = self.program.statement(index) else { return Span::default() };
         let text = self.program.source().slice(statement.origin());
         let end = text.trim_ascii_end().len();
         let start = end - text.trim_ascii().len().min(end);
-        statement.origin().part(start, end)
+        statement.origin().sub_span(start, end)
     }
 
     /// A place in a statement's text. A statement that a step changed has no such place in the source: all of it is meant.
-    pub(crate) fn place(&self, index: usize, at: &Range<usize>) -> Span {
+    pub(crate) fn text_span(&self, index: usize, at: &Range<usize>) -> Span {
         match self.program.statement(index) {
-            Some(statement) if statement.change() == Change::Untouched && !at.is_empty() => {
-                statement.origin().part(at.start, at.end)
+            Some(statement) if statement.change() == StatementChange::Untouched && !at.is_empty() => {
+                statement.origin().sub_span(at.start, at.end)
             }
-            _ => self.whole(index),
+            _ => self.statement_span(index),
         }
     }
 
     /// The major word of a statement.
-    pub(crate) fn word(&self, index: usize) -> Span {
-        self.place(index, &self.syntax(index).word)
+    pub(crate) fn word_span(&self, index: usize) -> Span {
+        self.text_span(index, &self.statement_syntax(index).word)
     }
 
     /// The numbers of a statement from the first to the last of a range, as one place.
-    pub(crate) fn numbers(&self, index: usize, range: Range<usize>) -> Span {
-        let plain = plain_numbers(self.text(index));
-        let numbers =
-            plain.unwrap_or_else(|| self.syntax(index).numbers().into_iter().map(|(at, _)| at).collect());
+    pub(crate) fn numbers_span(&self, index: usize, range: Range<usize>) -> Span {
+        let plain = plain_number_ranges(self.statement_text(index));
+        let numbers = plain.unwrap_or_else(|| {
+            self.statement_syntax(index).numbers().into_iter().map(|(at, _)| at).collect()
+        });
         let last = range.end.min(numbers.len()).checked_sub(1);
         match (numbers.get(range.start), last.and_then(|last| numbers.get(last))) {
-            (Some(first), Some(last)) => self.place(index, &(first.start..last.end)),
-            _ => self.whole(index),
+            (Some(first), Some(last)) => self.text_span(index, &(first.start..last.end)),
+            _ => self.statement_span(index),
         }
     }
 
     /// The first number of a statement that has a role.
-    pub(crate) fn role(&self, index: usize, role: Role) -> Span {
-        let syntax = self.syntax(index);
-        let roles = self.program.statement(index).map(|statement| statement.record().roles(&syntax));
+    pub(crate) fn role_span(&self, index: usize, role: NumberRole) -> Span {
+        let syntax = self.statement_syntax(index);
+        let roles = self.program.statement(index).map(|statement| statement.record().number_roles(&syntax));
         match roles.and_then(|roles| roles.iter().position(|&found| found == role)) {
-            Some(at) => self.numbers(index, at..at + 1),
-            None => self.whole(index),
+            Some(at) => self.numbers_span(index, at..at + 1),
+            None => self.statement_span(index),
         }
     }
 
     /// The point that a motion ends with.
-    pub(crate) fn end_point(&self, motion: &Motion) -> Span {
+    pub(crate) fn end_point_span(&self, motion: &Motion) -> Span {
         let at = motion.last_statement();
         match self.program.statement(at).map(|statement| statement.record()) {
             // Centre, radius, the 2 of `2,INTOF` where it stands, and the two ends of the LINE.
-            Some(Record::DriveArc(arc)) if arc.beyond_half => self.numbers(at, 8..11),
-            Some(Record::DriveArc(_)) => self.numbers(at, 7..10),
-            _ => self.numbers(at, 0..3),
+            Some(Record::DriveArc(arc)) if arc.beyond_half => self.numbers_span(at, 8..11),
+            Some(Record::DriveArc(_)) => self.numbers_span(at, 7..10),
+            _ => self.numbers_span(at, 0..3),
         }
     }
 
     /// Whether a motion is one at feed that goes somewhere. The way home is none: posts drive it as they like.
-    pub(crate) fn cuts(&self, motion: &Motion) -> bool {
+    pub(crate) fn is_cutting_motion(&self, motion: &Motion) -> bool {
         if motion.rapid {
             return false;
         }
         match motion.path {
-            Path::Start => false,
-            Path::Line if (motion.to.point - motion.from.point).norm_squared() <= SAME_POINT * SAME_POINT => {
+            MotionPath::Start => false,
+            MotionPath::Line
+                if (motion.to.point - motion.from.point).norm_squared() <= SAME_POINT * SAME_POINT =>
+            {
                 false
             }
             _ => !matches!(
@@ -189,7 +198,7 @@ impl<'p> Findings<'p> {
     }
 
     /// A length with its unit, where the file says one.
-    pub(crate) fn length(&self, value: f64) -> String {
+    pub(crate) fn format_length(&self, value: f64) -> String {
         let unit = match self.facts.units {
             Some(LengthUnit::Mm) => " mm",
             Some(LengthUnit::Inch) => " in",
@@ -201,14 +210,14 @@ impl<'p> Findings<'p> {
     }
 
     /// A length in the file's unit from one in millimetres.
-    pub(crate) fn millimetres(&self, value: f64) -> f64 {
-        value / self.facts.units.unwrap_or_default().in_mm()
+    pub(crate) fn mm_to_file_unit(&self, value: f64) -> f64 {
+        value / self.facts.units.unwrap_or_default().mm_per_unit()
     }
 }
 
 /// Where the numbers of a plain GOTO stand, without the grammar: a file may have a finding in each of a million. `None` for
 /// anything that is not digits, commas and blanks after the slash, continued lines included.
-fn plain_numbers(text: &[u8]) -> Option<Vec<Range<usize>>> {
+fn plain_number_ranges(text: &[u8]) -> Option<Vec<Range<usize>>> {
     let slash = memchr::memchr(b'/', text)?;
     let rest = text.get(slash + 1..)?.trim_ascii_end();
     let mut numbers = Vec::with_capacity(6);
@@ -228,17 +237,17 @@ fn plain_numbers(text: &[u8]) -> Option<Vec<Range<usize>>> {
 
 #[cfg(test)]
 mod tests {
-    use super::plain_numbers;
+    use super::plain_number_ranges;
 
     #[test]
     fn plain_numbers_stand_where_the_grammar_finds_them() {
         for text in ["GOTO/1.5,-2,3\n", "GOTO  /    1.0,  2.0 , -.5  \r\n", "CIRCLE/ 1,2,3,0,0,1,5\n"] {
             let grammar: Vec<_> =
                 crate::parse::syntax(text.as_bytes()).numbers().into_iter().map(|(at, _)| at).collect();
-            assert_eq!(plain_numbers(text.as_bytes()), Some(grammar), "{text}");
+            assert_eq!(plain_number_ranges(text.as_bytes()), Some(grammar), "{text}");
         }
         for text in ["GOTO/1.0,$\n2.0,3.0\n", "SPINDL/RPM,1\n", "GOTO/1 2,3\n", "GOTO/1,,3\n", "RAPID\n"] {
-            assert_eq!(plain_numbers(text.as_bytes()), None, "{text}");
+            assert_eq!(plain_number_ranges(text.as_bytes()), None, "{text}");
         }
     }
 }

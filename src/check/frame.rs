@@ -1,8 +1,8 @@
 //! Frames whose axes are not perpendicular unit vectors, or mirror.
 
-use super::{Findings, Lint};
+use super::{Lint, LintFindings};
 use crate::diagnostic::codes;
-use crate::number::decimals;
+use crate::number::count_decimals;
 use crate::program::record::FrameWord;
 use crate::program::{Record, Statement};
 use crate::source::Span;
@@ -10,13 +10,13 @@ use nalgebra::Matrix3;
 
 /// Frames of records, and CATIA's in comments.
 #[derive(Default)]
-pub(super) struct Frames {
+pub(super) struct FrameLint {
     /// Rows of a CATIA0 matrix: their statements and numbers.
     rows: Option<Vec<(usize, [f64; 4])>>,
 }
 
-impl Lint for Frames {
-    fn statement(&mut self, index: usize, statement: &Statement, found: &mut Findings<'_>) {
+impl Lint for FrameLint {
+    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
         match statement.record() {
             Record::Frame(frame) => {
                 let axes = match (frame.word, frame.numbers.as_slice()) {
@@ -30,7 +30,7 @@ impl Lint for Frames {
                     }
                     _ => return,
                 };
-                look(&axes, &[index], found);
+                check_axes(&axes, &[index], found);
             }
             Record::FrameMark => self.rows = Some(Vec::new()),
             Record::MatrixRow(row) => {
@@ -40,7 +40,7 @@ impl Lint for Frames {
                     let axes = Matrix3::new(a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]);
                     let places = [*first, *second, *third];
                     self.rows = None;
-                    look(&axes, &places, found);
+                    check_axes(&axes, &places, found);
                 }
             }
             Record::Comment => {}
@@ -49,16 +49,16 @@ impl Lint for Frames {
     }
 }
 
-fn look(axes: &Matrix3<f64>, places: &[usize], found: &mut Findings<'_>) {
+fn check_axes(axes: &Matrix3<f64>, places: &[usize], found: &mut LintFindings<'_>) {
     let off = (axes.transpose() * axes - Matrix3::identity()).abs().max();
     // The grammar is asked for the decimals only where they matter.
-    if off > 1e-12 && off > tolerance(places, found) {
+    if off > 1e-12 && off > rounding_tolerance(places, found) {
         let message = format!("the axes of this frame are off perpendicular unit vectors by {off:.6}");
-        found.report(codes::FRAME_SKEWED, span(places, found), message, "");
+        found.report(codes::FRAME_SKEWED, frame_span(places, found), message, "");
     } else if axes.determinant() < 0.0 {
         found.report(
             codes::FRAME_LEFT_HANDED,
-            span(places, found),
+            frame_span(places, found),
             "the axes of this frame are left-handed",
             "",
         );
@@ -67,18 +67,20 @@ fn look(axes: &Matrix3<f64>, places: &[usize], found: &mut Findings<'_>) {
 
 /// What rounding explains: each component is off by half its last decimal, and a product of two axes by twice the root of
 /// three of that. Three decimals are granted to files that cut their zeros.
-fn tolerance(places: &[usize], found: &Findings<'_>) -> f64 {
+fn rounding_tolerance(places: &[usize], found: &LintFindings<'_>) -> f64 {
     let of = |index: &usize| {
-        let syntax = found.syntax(*index);
-        syntax.numbers().iter().map(|(at, _)| decimals(syntax.bytes(at))).max().unwrap_or(0)
+        let syntax = found.statement_syntax(*index);
+        syntax.numbers().iter().map(|(at, _)| count_decimals(syntax.bytes_at(at))).max().unwrap_or(0)
     };
     let printed = places.iter().map(of).max().unwrap_or(0).clamp(3, 12);
     2.0 * 10f64.powi(-(printed as i32))
 }
 
-fn span(places: &[usize], found: &Findings<'_>) -> Span {
+fn frame_span(places: &[usize], found: &LintFindings<'_>) -> Span {
     match (places.first(), places.last()) {
-        (Some(first), Some(last)) => Span { start: found.whole(*first).start, end: found.whole(*last).end },
+        (Some(first), Some(last)) => {
+            Span { start: found.statement_span(*first).start, end: found.statement_span(*last).end }
+        }
         _ => Span::default(),
     }
 }

@@ -1,17 +1,17 @@
 //! Spindle and coolant: cuts without them.
 
-use super::findings::coolant;
-use super::{Findings, Lint};
-use crate::diagnostic::{Code, codes};
+use super::findings::coolant_switch;
+use super::{Lint, LintFindings};
+use crate::diagnostic::{DiagnosticCode, codes};
 use crate::program::motion::Motion;
 use crate::program::{Record, Statement};
 
-pub(super) const CODES: &[Code] =
+pub(super) const CODES: &[DiagnosticCode] =
     &[codes::CUT_WITHOUT_SPINDLE, codes::NO_SPINDLE, codes::ZERO_SPEED, codes::SPINDLE_NOT_RESTARTED];
 
 /// Cuts while the spindle stands.
 #[derive(Default)]
-pub(super) struct Spindles {
+pub(super) struct SpindleLint {
     /// The last SPINDL/OFF, while it is in force.
     off: Option<usize>,
     /// Whether the stop in force was reported.
@@ -21,15 +21,15 @@ pub(super) struct Spindles {
     changed: Option<usize>,
 }
 
-impl Lint for Spindles {
-    fn statement(&mut self, index: usize, statement: &Statement, found: &mut Findings<'_>) {
+impl Lint for SpindleLint {
+    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
         match statement.record() {
             Record::Spindle(spindle) => {
                 self.off = (!spindle.on).then_some(index);
                 self.reported = false;
                 self.changed = None;
                 if spindle.on && spindle.speed == Some(0.0) {
-                    let span = found.numbers(index, 0..1);
+                    let span = found.numbers_span(index, 0..1);
                     found.report(codes::ZERO_SPEED, span, "the spindle is started with speed 0", "");
                 }
             }
@@ -43,16 +43,20 @@ impl Lint for Spindles {
         }
     }
 
-    fn motion(&mut self, motion: &Motion, found: &mut Findings<'_>) {
+    fn check_motion(&mut self, motion: &Motion, found: &mut LintFindings<'_>) {
         let turns = motion.spindle.as_ref().is_some_and(|spindle| spindle.on);
-        if turns && self.changed.is_none() || self.reported || found.facts.wire || !found.cuts(motion) {
+        if turns && self.changed.is_none()
+            || self.reported
+            || found.facts.wire
+            || !found.is_cutting_motion(motion)
+        {
             return;
         }
-        let span = found.end_point(motion);
+        let span = found.end_point_span(motion);
         if let (true, Some(changed)) = (turns, self.changed.take()) {
             let message = "the tool was changed, and no SPINDL comes before this cut";
-            let change = (found.numbers(changed, 0..1), "the tool change");
-            return found.report_two(
+            let change = (found.numbers_span(changed, 0..1), "the tool change");
+            return found.report_at_two_spans(
                 codes::SPINDLE_NOT_RESTARTED,
                 message,
                 (span, "the first cut after it"),
@@ -72,8 +76,13 @@ impl Lint for Spindles {
             }
             None => found.report(codes::CUT_WITHOUT_SPINDLE, span, message, "it is started later"),
             Some(off) => {
-                let off = (found.whole(off), "switched off here");
-                found.report_two(codes::CUT_WITHOUT_SPINDLE, message, (span, "the first cut after it"), off);
+                let off = (found.statement_span(off), "switched off here");
+                found.report_at_two_spans(
+                    codes::CUT_WITHOUT_SPINDLE,
+                    message,
+                    (span, "the first cut after it"),
+                    off,
+                );
             }
         }
     }
@@ -81,27 +90,27 @@ impl Lint for Spindles {
 
 /// Cuts without the coolant that the file uses elsewhere.
 #[derive(Default)]
-pub(super) struct Coolant {
+pub(super) struct CoolantLint {
     on: bool,
     reported: bool,
 }
 
-impl Lint for Coolant {
-    fn statement(&mut self, _index: usize, statement: &Statement, found: &mut Findings<'_>) {
+impl Lint for CoolantLint {
+    fn check_statement(&mut self, _index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
         if let Record::Known = statement.record()
-            && let Some(on) = coolant(found.program.text(statement))
+            && let Some(on) = coolant_switch(found.program.statement_text(statement))
         {
             self.reported &= self.on == on;
             self.on = on;
         }
     }
 
-    fn motion(&mut self, motion: &Motion, found: &mut Findings<'_>) {
-        if self.on || self.reported || !found.facts.coolant || !found.cuts(motion) {
+    fn check_motion(&mut self, motion: &Motion, found: &mut LintFindings<'_>) {
+        if self.on || self.reported || !found.facts.coolant || !found.is_cutting_motion(motion) {
             return;
         }
         self.reported = true;
-        let span = found.end_point(motion);
+        let span = found.end_point_span(motion);
         found.report(
             codes::NO_COOLANT,
             span,

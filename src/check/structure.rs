@@ -1,57 +1,59 @@
 //! Structure: operations that are open or empty, and the end of the program.
 
-use super::{Findings, Lint};
+use super::{Lint, LintFindings};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::motion::Motion;
 use crate::program::{Dialect, Record, Statement, operation};
 
 /// Operations that are not closed or do nothing, in the dialects that close them.
 #[derive(Default)]
-pub(super) struct Operations {
+pub(super) struct OperationLint {
     open: Option<usize>,
     moved: bool,
 }
 
-impl Operations {
-    fn left_open(&mut self, found: &mut Findings<'_>) {
+impl OperationLint {
+    fn report_left_open(&mut self, found: &mut LintFindings<'_>) {
         if let Some(at) = self.open.take() {
-            let message = format!("the operation{} is not closed", name(at, found));
-            found.report(codes::OPERATION_OPEN, found.whole(at), message, "starts here");
+            let message = format!("the operation{} is not closed", quoted_operation_name(at, found));
+            found.report(codes::OPERATION_OPEN, found.statement_span(at), message, "starts here");
         }
     }
 }
 
-impl Lint for Operations {
-    fn statement(&mut self, index: usize, statement: &Statement, found: &mut Findings<'_>) {
+impl Lint for OperationLint {
+    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
         if !closes_operations(found.program.dialect()) {
             return;
         }
         match statement.record() {
             Record::OperationStart(_) => {
-                self.left_open(found);
+                self.report_left_open(found);
                 (self.open, self.moved) = (Some(index), false);
             }
             Record::OperationEnd => {
                 if let Some(at) = self.open.take().filter(|_| !self.moved) {
-                    let message = format!("nothing moves in the operation{}", name(at, found));
-                    found.report(codes::EMPTY_OPERATION, found.whole(at), message, "");
+                    let message =
+                        format!("nothing moves in the operation{}", quoted_operation_name(at, found));
+                    found.report(codes::EMPTY_OPERATION, found.statement_span(at), message, "");
                 }
             }
             _ => {}
         }
     }
 
-    fn motion(&mut self, _motion: &Motion, _found: &mut Findings<'_>) {
+    fn check_motion(&mut self, _motion: &Motion, _found: &mut LintFindings<'_>) {
         self.moved = true;
     }
 
-    fn finish(&mut self, found: &mut Findings<'_>) {
-        self.left_open(found);
+    fn finish(&mut self, found: &mut LintFindings<'_>) {
+        self.report_left_open(found);
     }
 }
 
-fn name(at: usize, found: &Findings<'_>) -> String {
-    let name = found.program.statement(at).and_then(|statement| operation::name(found.program, statement));
+fn quoted_operation_name(at: usize, found: &LintFindings<'_>) -> String {
+    let name =
+        found.program.statement(at).and_then(|statement| operation::operation_name(found.program, statement));
     name.filter(|name| !name.is_empty()).map(|name| format!(" `{name}`")).unwrap_or_default()
 }
 
@@ -62,7 +64,7 @@ fn closes_operations(dialect: Dialect) -> bool {
 
 /// FINI: missing, or with something after it.
 #[derive(Default)]
-pub(super) struct End {
+pub(super) struct ProgramEndLint {
     end: Option<usize>,
     /// The first statement after the end, and how many there are.
     after: Option<(usize, usize)>,
@@ -70,8 +72,8 @@ pub(super) struct End {
     motions: usize,
 }
 
-impl Lint for End {
-    fn statement(&mut self, index: usize, statement: &Statement, _found: &mut Findings<'_>) {
+impl Lint for ProgramEndLint {
+    fn check_statement(&mut self, index: usize, statement: &Statement, _found: &mut LintFindings<'_>) {
         match statement.record() {
             Record::ProgramEnd => {
                 self.end.get_or_insert(index);
@@ -85,7 +87,7 @@ impl Lint for End {
         }
     }
 
-    fn finish(&mut self, found: &mut Findings<'_>) {
+    fn finish(&mut self, found: &mut LintFindings<'_>) {
         match (self.end, self.after) {
             (Some(end), Some((first, count))) => {
                 let message = match (count, self.motions) {
@@ -95,25 +97,31 @@ impl Lint for End {
                         format!("{count} statements follow the end of the program, {motions} of them motions")
                     }
                 };
-                let end = (found.whole(end), "the program ends here");
-                found.report_two(
+                let end = (found.statement_span(end), "the program ends here");
+                found.report_at_two_spans(
                     codes::AFTER_END,
                     message,
-                    (found.whole(first), "never read by a post"),
+                    (found.statement_span(first), "never read by a post"),
                     end,
                 );
             }
-            (None, _) if found.program.dialect().ends_with_fini() => missing(found),
+            (None, _) if found.program.dialect().ends_with_fini() => report_missing_end(found),
             _ => {}
         }
     }
 }
 
-fn missing(found: &mut Findings<'_>) {
+fn report_missing_end(found: &mut LintFindings<'_>) {
     let message = format!("{} programs end with FINI, this one does not", found.program.dialect());
-    let last = found.program.live().rev().find(|(_, statement)| !matches!(statement.record(), Record::Blank));
+    let last = found
+        .program
+        .live_statements()
+        .rev()
+        .find(|(_, statement)| !matches!(statement.record(), Record::Blank));
     match last.map(|(index, _)| index) {
-        Some(last) => found.report(codes::MISSING_END, found.whole(last), message, "the last statement"),
+        Some(last) => {
+            found.report(codes::MISSING_END, found.statement_span(last), message, "the last statement")
+        }
         None => found.push(Diagnostic::new(codes::MISSING_END, message)),
     }
 }

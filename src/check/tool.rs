@@ -1,14 +1,14 @@
 //! Tools: none, without a shape, with an impossible one, with two, with two numbers.
 
-use super::{Findings, Lint};
-use crate::diagnostic::{Code, codes};
-use crate::program::motion::{Motion, Tool};
+use super::{Lint, LintFindings};
+use crate::diagnostic::{DiagnosticCode, codes};
+use crate::program::motion::{ActiveTool, Motion};
 use crate::program::record::{ToolData, ToolWord};
-use crate::program::{Record, Role, Statement};
+use crate::program::{NumberRole, Record, Statement};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-pub(super) const CODES: &[Code] = &[
+pub(super) const CODES: &[DiagnosticCode] = &[
     codes::CUT_WITHOUT_TOOL,
     codes::NO_TOOL,
     codes::TOOL_SHAPE_MISSING,
@@ -21,9 +21,9 @@ const SAME_SHAPE: f64 = 1e-4;
 
 /// The tools that cut, looked at once each time they change.
 #[derive(Default)]
-pub(super) struct Shapes {
+pub(super) struct ToolShapeLint {
     none_reported: bool,
-    last: Option<Arc<Tool>>,
+    last: Option<Arc<ActiveTool>>,
     /// The statement of the shape in force.
     data: Option<usize>,
     /// Whether the shape in force has cut.
@@ -36,8 +36,8 @@ pub(super) struct Shapes {
     without_shape: HashSet<Option<u32>>,
 }
 
-impl Lint for Shapes {
-    fn statement(&mut self, index: usize, statement: &Statement, found: &mut Findings<'_>) {
+impl Lint for ToolShapeLint {
+    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
         match statement.record() {
             Record::ToolData(_) => (self.data, self.used, self.outdated) = (Some(index), false, false),
             Record::ToolCall(call) => {
@@ -46,44 +46,51 @@ impl Lint for Shapes {
                 self.turret = false;
             }
             // A lathe's turret turns to a tool that has no number of its own here: the number in force is another tool's.
-            Record::Known if found.program.text(statement).trim_ascii_start().starts_with(b"TURRET") => {
+            Record::Known
+                if found.program.statement_text(statement).trim_ascii_start().starts_with(b"TURRET") =>
+            {
                 self.turret = true;
             }
             _ => {}
         }
     }
 
-    fn motion(&mut self, motion: &Motion, found: &mut Findings<'_>) {
-        let Some(tool) = &motion.tool else { return self.none(motion, found) };
+    fn check_motion(&mut self, motion: &Motion, found: &mut LintFindings<'_>) {
+        let Some(tool) = &motion.tool else { return self.report_no_tool(motion, found) };
         let same = self.last.as_ref().is_some_and(|last| Arc::ptr_eq(last, tool));
-        if same || !found.cuts(motion) {
+        if same || !found.is_cutting_motion(motion) {
             return;
         }
         self.last = Some(Arc::clone(tool));
         self.used = true;
         match (&tool.data, self.data) {
             (Some(data), Some(at)) if data.word != ToolWord::TlDataOther && !self.outdated => {
-                impossible(data, at, found);
-                self.compare(tool, data, at, found);
+                report_impossible_shape(data, at, found);
+                self.compare_shapes(tool, data, at, found);
             }
             (None, _) if self.without_shape.insert(tool.number) => {
                 let name =
                     tool.number.map_or_else(|| "this tool".to_owned(), |number| format!("tool {number}"));
                 let message = format!("the file does not tell the shape of {name}");
-                found.report(codes::TOOL_SHAPE_MISSING, found.end_point(motion), message, "its first cut");
+                found.report(
+                    codes::TOOL_SHAPE_MISSING,
+                    found.end_point_span(motion),
+                    message,
+                    "its first cut",
+                );
             }
             _ => {}
         }
     }
 }
 
-impl Shapes {
-    fn none(&mut self, motion: &Motion, found: &mut Findings<'_>) {
-        if self.none_reported || !found.cuts(motion) {
+impl ToolShapeLint {
+    fn report_no_tool(&mut self, motion: &Motion, found: &mut LintFindings<'_>) {
+        if self.none_reported || !found.is_cutting_motion(motion) {
             return;
         }
         self.none_reported = true;
-        let span = found.end_point(motion);
+        let span = found.end_point_span(motion);
         if found.facts.tool {
             found.report(
                 codes::CUT_WITHOUT_TOOL,
@@ -96,7 +103,13 @@ impl Shapes {
         }
     }
 
-    fn compare(&mut self, tool: &Tool, data: &ToolData, at: usize, found: &mut Findings<'_>) {
+    fn compare_shapes(
+        &mut self,
+        tool: &ActiveTool,
+        data: &ToolData,
+        at: usize,
+        found: &mut LintFindings<'_>,
+    ) {
         let Some(number) = tool.number.filter(|_| !self.turret) else { return };
         let Some((before, place)) = self.shapes.get(&number) else {
             self.shapes.insert(number, (data.clone(), at));
@@ -113,38 +126,43 @@ impl Shapes {
         } else {
             return;
         };
-        let text = |value: Option<f64>| found.length(value.unwrap_or_default());
+        let text = |value: Option<f64>| found.format_length(value.unwrap_or_default());
         let message = format!("tool {number} has the {what} {} here, and {} before", text(now), text(was));
-        let first = (found.role(at, Role::Length), "now");
-        let second = (found.role(*place, Role::Length), "before");
-        found.report_two(codes::TOOL_SHAPES_DIFFER, message, first, second);
+        let first = (found.role_span(at, NumberRole::Length), "now");
+        let second = (found.role_span(*place, NumberRole::Length), "before");
+        found.report_at_two_spans(codes::TOOL_SHAPES_DIFFER, message, first, second);
         self.shapes.insert(number, (data.clone(), at));
     }
 }
 
-fn impossible(data: &ToolData, at: usize, found: &mut Findings<'_>) {
+fn report_impossible_shape(data: &ToolData, at: usize, found: &mut LintFindings<'_>) {
     let Some(diameter) = data.diameter else { return };
     if diameter <= 0.0 {
-        let span = found.role(at, Role::Length);
+        let span = found.role_span(at, NumberRole::Length);
         found.report(codes::IMPOSSIBLE_TOOL, span, "a tool without a diameter cuts", "no diameter");
     } else if let Some(corner) = data.corner_radius.filter(|corner| *corner > diameter / 2.0 + SAME_SHAPE) {
         let message = format!(
             "a corner radius of {} does not fit a diameter of {}",
-            found.length(corner),
-            found.length(diameter)
+            found.format_length(corner),
+            found.format_length(diameter)
         );
-        found.report(codes::IMPOSSIBLE_TOOL, found.numbers(at, 1..2), message, "more than half the diameter");
+        found.report(
+            codes::IMPOSSIBLE_TOOL,
+            found.numbers_span(at, 1..2),
+            message,
+            "more than half the diameter",
+        );
     }
 }
 
 /// TOOLNO and the load after it.
 #[derive(Default)]
-pub(super) struct Numbers {
+pub(super) struct ToolNumberLint {
     named: Option<(u32, usize)>,
 }
 
-impl Lint for Numbers {
-    fn statement(&mut self, index: usize, statement: &Statement, found: &mut Findings<'_>) {
+impl Lint for ToolNumberLint {
+    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
         let Record::ToolCall(call) = statement.record() else { return };
         if !call.loads {
             self.named = Some((call.number, index));
@@ -152,14 +170,14 @@ impl Lint for Numbers {
         }
         if let Some((number, at)) = self.named.take().filter(|(number, _)| *number != call.number) {
             let message = format!("tool {} is loaded, but tool {number} was described", call.number);
-            let first = (found.numbers(index, 0..1), "loaded");
-            let second = (found.numbers(at, 0..1), "described");
-            found.report_two(codes::TOOL_NUMBERS_DIFFER, message, first, second);
+            let first = (found.numbers_span(index, 0..1), "loaded");
+            let second = (found.numbers_span(at, 0..1), "described");
+            found.report_at_two_spans(codes::TOOL_NUMBERS_DIFFER, message, first, second);
         }
     }
 
-    fn motion(&mut self, motion: &Motion, found: &mut Findings<'_>) {
-        if self.named.is_some() && found.cuts(motion) {
+    fn check_motion(&mut self, motion: &Motion, found: &mut LintFindings<'_>) {
+        if self.named.is_some() && found.is_cutting_motion(motion) {
             self.named = None;
         }
     }

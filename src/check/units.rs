@@ -1,48 +1,58 @@
 //! Units of lengths and feeds that contradict each other.
 
-use super::{Findings, Lint};
+use super::{Lint, LintFindings};
 use crate::diagnostic::codes;
 use crate::program::motion::Motion;
-use crate::program::{LengthUnit, Record, Role, Statement};
+use crate::program::{LengthUnit, NumberRole, Record, Statement};
 
 /// UNITS records.
 #[derive(Default)]
-pub(super) struct Lengths {
+pub(super) struct LengthUnitLint {
     stated: Option<(LengthUnit, usize)>,
     moved: bool,
 }
 
-impl Lint for Lengths {
-    fn statement(&mut self, index: usize, statement: &Statement, found: &mut Findings<'_>) {
+impl Lint for LengthUnitLint {
+    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
         let Record::Units(units) = statement.record() else { return };
         match self.stated {
             Some((before, at)) if before != *units => {
                 let message = "the unit of lengths changes here";
-                let first = (found.whole(index), "this unit");
-                found.report_two(codes::UNITS_DIFFER, message, first, (found.whole(at), "the unit before"));
+                let first = (found.statement_span(index), "this unit");
+                found.report_at_two_spans(
+                    codes::UNITS_DIFFER,
+                    message,
+                    first,
+                    (found.statement_span(at), "the unit before"),
+                );
             }
             None if self.moved => {
-                found.report(codes::UNITS_LATE, found.whole(index), "motions stand before this unit", "");
+                found.report(
+                    codes::UNITS_LATE,
+                    found.statement_span(index),
+                    "motions stand before this unit",
+                    "",
+                );
             }
             _ => {}
         }
         self.stated = Some((*units, index));
     }
 
-    fn motion(&mut self, _motion: &Motion, _found: &mut Findings<'_>) {
+    fn check_motion(&mut self, _motion: &Motion, _found: &mut LintFindings<'_>) {
         self.moved = true;
     }
 }
 
 /// Feeds in another unit than the lengths, or than the feeds before.
 #[derive(Default)]
-pub(super) struct FeedUnits {
+pub(super) struct FeedUnitLint {
     first: Option<LengthUnit>,
     reported: bool,
 }
 
-impl Lint for FeedUnits {
-    fn statement(&mut self, index: usize, statement: &Statement, found: &mut Findings<'_>) {
+impl Lint for FeedUnitLint {
+    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
         let feed = match statement.record() {
             Record::Feed(feed) => Some(*feed),
             Record::Cycle(cycle) => cycle.feed,
@@ -50,7 +60,8 @@ impl Lint for FeedUnits {
         };
         let Some(unit) = feed.and_then(|feed| feed.unit) else { return };
         // PERMIN and PERREV take the file's unit and cannot contradict it.
-        let (Some(mm), Some(inch)) = (unit.length(LengthUnit::Mm), unit.length(LengthUnit::Inch)) else {
+        let (Some(mm), Some(inch)) = (unit.length_unit(LengthUnit::Mm), unit.length_unit(LengthUnit::Inch))
+        else {
             return;
         };
         if mm != inch || self.reported {
@@ -66,7 +77,12 @@ impl Lint for FeedUnits {
                 "the feeds before are"
             };
             let message = format!("this feed is in {}, but {whose} in {}", name(mm), name(expected));
-            found.report(codes::FEED_UNITS_MIXED, found.role(index, Role::Feed), message, unit.word());
+            found.report(
+                codes::FEED_UNITS_MIXED,
+                found.role_span(index, NumberRole::Feed),
+                message,
+                unit.word(),
+            );
         }
     }
 }

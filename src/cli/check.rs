@@ -1,8 +1,8 @@
 //! `clsmith check`.
 
-use super::exit::Exit;
-use super::files;
-use super::findings::{FindingArgs, Format};
+use super::command_exit::CommandExit;
+use super::finding_args::{FindingArgs, FindingFormat};
+use super::input_files;
 use super::terminal;
 use clap::Args;
 use clsmith::check::read_and_check;
@@ -22,31 +22,31 @@ Examples:
 /// Finds what is wrong with programs, with the exact place
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct Check {
+pub struct CheckArgs {
     /// The programs; `-` is standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// The dialect, instead of finding it from the text
-    #[arg(long, value_parser = files::dialect, value_name = "NAME")]
+    #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
     dialect: Option<Dialect>,
     #[command(flatten)]
     findings: FindingArgs,
 }
 
-impl Check {
-    pub fn run(&self) -> io::Result<Exit> {
-        let policy = match self.findings.policy() {
+impl CheckArgs {
+    pub fn run(&self) -> io::Result<CommandExit> {
+        let policy = match self.findings.build_policy() {
             Ok(policy) => policy,
             Err(problem) => {
                 eprintln!("clsmith check: {problem}");
-                return Ok(Exit::Usage);
+                return Ok(CommandExit::Usage);
             }
         };
         let mut out = io::stdout().lock();
         let mut all = Vec::new();
-        let mut worst = Exit::Done;
+        let mut worst = CommandExit::Done;
         for path in &self.files {
-            let (name, found) = match files::read(path) {
+            let (name, found) = match input_files::read_source(path) {
                 Ok(source) => {
                     let (_, found) = read_and_check(&source, self.dialect);
                     (source.name().to_owned(), found)
@@ -55,20 +55,25 @@ impl Check {
             };
             let found = policy.apply(found);
             if found.iter().any(Diagnostic::is_error) {
-                worst = Exit::Errors;
+                worst = CommandExit::Errors;
             }
             match self.findings.format {
                 // One document for all files.
-                Format::Json | Format::Sarif => all.extend(found),
-                Format::Human | Format::Line => {
-                    self.findings.show(&mut out, terminal::output_is_seen(), &found, Some(&name))?;
+                FindingFormat::Json | FindingFormat::Sarif => all.extend(found),
+                FindingFormat::Human | FindingFormat::Line => {
+                    self.findings.write_findings(
+                        &mut out,
+                        terminal::is_stdout_terminal(),
+                        &found,
+                        Some(&name),
+                    )?;
                 }
             }
         }
-        if matches!(self.findings.format, Format::Json | Format::Sarif) {
+        if matches!(self.findings.format, FindingFormat::Json | FindingFormat::Sarif) {
             let file =
                 self.files.first().filter(|_| self.files.len() == 1).map(|path| path.to_string_lossy());
-            self.findings.show(&mut out, terminal::output_is_seen(), &all, file.as_deref())?;
+            self.findings.write_findings(&mut out, terminal::is_stdout_terminal(), &all, file.as_deref())?;
         }
         out.flush()?;
         Ok(worst)

@@ -1,8 +1,8 @@
 //! `clsmith diff`.
 
-use super::exit::Exit;
-use super::files;
-use super::findings::FindingArgs;
+use super::command_exit::CommandExit;
+use super::finding_args::FindingArgs;
+use super::input_files;
 use super::terminal;
 use clap::Args;
 use clsmith::diagnostic::Diagnostic;
@@ -24,7 +24,7 @@ cannot be read.";
 /// Compares two programs by meaning: geometry, feeds, records
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct Diff {
+pub struct DiffArgs {
     /// The first program; `-` is standard input
     a: PathBuf,
     /// The second program
@@ -39,46 +39,46 @@ pub struct Diff {
     #[arg(long, default_value_t = 20, value_name = "N")]
     most: usize,
     /// The dialect of both, instead of finding it from the text
-    #[arg(long, value_parser = files::dialect, value_name = "NAME")]
+    #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
     dialect: Option<Dialect>,
     #[command(flatten)]
     findings: FindingArgs,
 }
 
-impl Diff {
-    pub fn run(&self) -> io::Result<Exit> {
-        let policy = match self.findings.policy() {
+impl DiffArgs {
+    pub fn run(&self) -> io::Result<CommandExit> {
+        let policy = match self.findings.build_policy() {
             Ok(policy) => policy,
             Err(problem) => {
                 eprintln!("clsmith diff: {problem}");
-                return Ok(Exit::Usage);
+                return Ok(CommandExit::Usage);
             }
         };
-        if self.a == self.b && self.a == Path::new(files::STANDARD) {
+        if self.a == self.b && self.a == Path::new(input_files::STANDARD) {
             eprintln!("clsmith diff: standard input can be read only once");
-            return Ok(Exit::Usage);
+            return Ok(CommandExit::Usage);
         }
         let mut programs = Vec::new();
         for path in [&self.a, &self.b] {
-            let (program, found) = self.program(path);
+            let (program, found) = self.read_program(path);
             let found = policy.apply(found);
             if !found.is_empty() {
                 let name = path.to_string_lossy();
-                self.findings.show(
+                self.findings.write_findings(
                     &mut io::stderr().lock(),
-                    terminal::errors_are_seen(),
+                    terminal::is_stderr_terminal(),
                     &found,
                     Some(&name),
                 )?;
             }
             programs.extend(program.filter(|_| !found.iter().any(Diagnostic::is_error)));
         }
-        let [a, b] = programs.as_slice() else { return Ok(Exit::Errors) };
-        let found = diff::Diff::of(a, b);
+        let [a, b] = programs.as_slice() else { return Ok(CommandExit::Errors) };
+        let found = diff::ProgramDiff::from_programs(a, b);
         let text = if self.json {
             diff::to_json(&found)
         } else if self.summary {
-            diff::summary(&found)
+            diff::summarize_diff(&found)
         } else {
             diff::to_text(&found, if self.most == 0 { usize::MAX } else { self.most })
         };
@@ -88,11 +88,11 @@ impl Diff {
             out.write_all(b"\n")?;
         }
         out.flush()?;
-        Ok(if found.same_meaning { Exit::Done } else { Exit::Differ })
+        Ok(if found.same_meaning { CommandExit::Done } else { CommandExit::Differ })
     }
 
-    fn program(&self, path: &Path) -> (Option<Program>, Vec<Diagnostic>) {
-        match files::read(path) {
+    fn read_program(&self, path: &Path) -> (Option<Program>, Vec<Diagnostic>) {
+        match input_files::read_source(path) {
             Ok(source) => {
                 let parsed = parse(&source, self.dialect);
                 (Some(parsed.program), parsed.diagnostics)

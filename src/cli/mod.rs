@@ -4,28 +4,28 @@ mod apply;
 mod batch;
 mod check;
 mod chips;
+mod command_exit;
+mod command_outputs;
+mod command_stop;
 mod diff;
-mod exit;
-mod files;
-mod findings;
+mod finding_args;
 mod hook;
-mod measuring;
-mod output;
+mod input_files;
+mod measuring_command;
 mod plot;
 mod progress;
 mod reference;
-mod reports;
+mod report_args;
 mod section;
-mod shop;
 mod simulate;
 mod stats;
-mod stop;
 mod terminal;
+mod unattended;
 mod undo;
 mod watch;
 
 use clap::{CommandFactory, Parser, Subcommand};
-use exit::Exit;
+use command_exit::CommandExit;
 use std::process::ExitCode;
 
 const EXAMPLES: &str = "\
@@ -70,61 +70,61 @@ Exit codes:
 #[command(name = "clsmith", version, after_help = EXAMPLES, max_term_width = 100)]
 struct Cli {
     #[command(subcommand)]
-    command: Command,
+    command: CliCommand,
 }
 
 #[derive(Debug, Subcommand)]
-enum Command {
-    Apply(apply::Apply),
-    Batch(Box<batch::Batch>),
-    Merge(batch::Merge),
-    Check(check::Check),
-    Stats(stats::Stats),
-    Simulate(simulate::Simulate),
-    Chips(Box<chips::Chips>),
-    Section(Box<section::Section>),
-    Diff(diff::Diff),
-    Hook(Box<hook::Hook>),
-    Watch(Box<watch::Watch>),
-    Plot(plot::Plot),
-    Undo(undo::Undo),
-    Transforms(reference::Transforms),
-    Schema(reference::Schema),
-    Explain(reference::Explain),
-    Completions(reference::Completions),
-    Man(reference::Man),
+enum CliCommand {
+    Apply(apply::ApplyArgs),
+    Batch(Box<batch::BatchArgs>),
+    Merge(batch::MergeArgs),
+    Check(check::CheckArgs),
+    Stats(stats::StatsArgs),
+    Simulate(simulate::SimulateArgs),
+    Chips(Box<chips::ChipsArgs>),
+    Section(Box<section::SectionArgs>),
+    Diff(diff::DiffArgs),
+    Hook(Box<hook::HookArgs>),
+    Watch(Box<watch::WatchArgs>),
+    Plot(plot::PlotArgs),
+    Undo(undo::UndoArgs),
+    Transforms(reference::TransformsArgs),
+    Schema(reference::SchemaArgs),
+    Explain(reference::ExplainArgs),
+    Completions(reference::CompletionsArgs),
+    Man(reference::ManArgs),
 }
 
 /// Runs the command of the process's arguments.
-pub fn main() -> ExitCode {
+pub fn run_command_line() -> ExitCode {
     let cli = Cli::parse();
     let done = match &cli.command {
-        Command::Apply(command) => command.run(),
-        Command::Batch(command) => command.run(),
-        Command::Merge(command) => command.run(),
-        Command::Check(command) => command.run(),
-        Command::Stats(command) => command.run(),
-        Command::Simulate(command) => command.run(),
-        Command::Chips(command) => command.run(),
-        Command::Section(command) => command.run(),
-        Command::Diff(command) => command.run(),
-        Command::Hook(command) => command.run(),
-        Command::Watch(command) => command.run(),
-        Command::Plot(command) => command.run(),
-        Command::Undo(command) => command.run(),
-        Command::Transforms(command) => command.run(),
-        Command::Schema(command) => command.run(),
-        Command::Explain(command) => command.run(),
-        Command::Completions(command) => command.run(&mut Cli::command()),
-        Command::Man(command) => command.run(Cli::command()),
+        CliCommand::Apply(command) => command.run(),
+        CliCommand::Batch(command) => command.run(),
+        CliCommand::Merge(command) => command.run(),
+        CliCommand::Check(command) => command.run(),
+        CliCommand::Stats(command) => command.run(),
+        CliCommand::Simulate(command) => command.run(),
+        CliCommand::Chips(command) => command.run(),
+        CliCommand::Section(command) => command.run(),
+        CliCommand::Diff(command) => command.run(),
+        CliCommand::Hook(command) => command.run(),
+        CliCommand::Watch(command) => command.run(),
+        CliCommand::Plot(command) => command.run(),
+        CliCommand::Undo(command) => command.run(),
+        CliCommand::Transforms(command) => command.run(),
+        CliCommand::Schema(command) => command.run(),
+        CliCommand::Explain(command) => command.run(),
+        CliCommand::Completions(command) => command.run(&mut Cli::command()),
+        CliCommand::Man(command) => command.run(Cli::command()),
     };
     match done {
-        Ok(exit) => exit.leave(),
+        Ok(exit) => exit.exit_process(),
         // A reader that has seen enough (`clsmith ... | head`) is no error of ours, but the work was not done either.
-        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Exit::NobodyReads.into(),
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => CommandExit::NobodyReads.into(),
         Err(error) => {
             eprintln!("clsmith: {error}");
-            Exit::Errors.into()
+            CommandExit::Errors.into()
         }
     }
 }

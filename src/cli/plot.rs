@@ -1,22 +1,22 @@
 //! `clsmith plot`.
 
-use super::exit::Exit;
-use super::files::{self, STANDARD};
-use super::findings::FindingArgs;
-use super::output::{Outputs, overwritten, unless_nobody_reads};
-use super::progress::Progress;
-use super::stop::Stop;
+use super::command_exit::CommandExit;
+use super::command_outputs::{CommandOutputs, find_overwritten_input, ignore_closed_pipe};
+use super::command_stop::CommandStop;
+use super::finding_args::FindingArgs;
+use super::input_files::{self, STANDARD};
+use super::progress::CommandProgress;
 use super::terminal;
 use clap::{Args, ValueEnum};
 use clsmith::diagnostic::{Diagnostic, codes};
-use clsmith::machining::{Machining, Options};
+use clsmith::parameters::LengthUnit;
 use clsmith::parse::parse;
 use clsmith::program::{Dialect, Program};
-use clsmith::report::plot::{self, Along, Panel, Plotted, Quantity};
-use clsmith::report::simulation::Simulated;
-use clsmith::report::stats::Units;
+use clsmith::report::plot::{self, CurvePanel, PlotAbscissa, PlotQuantity, PlottedProgram};
+use clsmith::report::simulation::SimulationReport;
+use clsmith::report::stats::ResolvedLengthUnit;
 use clsmith::setup::Setup;
-use clsmith::values::LengthUnit;
+use clsmith::simulation_run::{Machining, SimulationRunOptions};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -32,7 +32,7 @@ the output says what it is, .svg or .png; `-` is SVG on standard output. The sam
 /// Draws feed, chips, loads or z of a program along time or path, as SVG or PNG
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct Plot {
+pub struct PlotArgs {
     /// The program; `-` is standard input
     #[arg(value_name = "PROGRAM")]
     program: PathBuf,
@@ -44,18 +44,18 @@ pub struct Plot {
     setup: Option<PathBuf>,
     /// What to draw, a panel each
     #[arg(long, value_enum, value_name = "WHAT", value_delimiter = ',', default_value = "feed,z")]
-    of: Vec<What>,
+    of: Vec<PlotQuantityArg>,
     /// What goes to the right
     #[arg(long, value_enum, value_name = "AXIS", default_value = "time")]
-    along: Axis,
+    along: PlotAxisArg,
     /// Where to write: a file that ends in .svg or .png, or `-` for SVG on standard output
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// The dialect, instead of finding it from the text
-    #[arg(long, value_parser = files::dialect, value_name = "NAME")]
+    #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
     dialect: Option<Dialect>,
     /// Unit of lengths of a file that does not state it: mm or inch
-    #[arg(long, value_parser = files::units, value_name = "UNIT")]
+    #[arg(long, value_parser = input_files::parse_length_unit, value_name = "UNIT")]
     units: Option<LengthUnit>,
     /// No progress, findings only
     #[arg(short, long)]
@@ -66,7 +66,7 @@ pub struct Plot {
 
 /// What goes up.
 #[derive(Debug, Clone, Copy, ValueEnum)]
-enum What {
+enum PlotQuantityArg {
     /// Programmed feed, mm/min
     Feed,
     /// Thickest chip, mm
@@ -84,23 +84,23 @@ enum What {
     Z,
 }
 
-impl What {
-    fn quantity(self) -> Quantity {
+impl PlotQuantityArg {
+    fn quantity(self) -> PlotQuantity {
         match self {
-            Self::Feed => Quantity::Feed,
-            Self::Chip => Quantity::Chip,
-            Self::Removal => Quantity::Removal,
-            Self::Force => Quantity::Force,
-            Self::Torque => Quantity::Torque,
-            Self::Power => Quantity::Power,
-            Self::Z => Quantity::Z,
+            Self::Feed => PlotQuantity::Feed,
+            Self::Chip => PlotQuantity::Chip,
+            Self::Removal => PlotQuantity::Removal,
+            Self::Force => PlotQuantity::Force,
+            Self::Torque => PlotQuantity::Torque,
+            Self::Power => PlotQuantity::Power,
+            Self::Z => PlotQuantity::Z,
         }
     }
 }
 
 /// What goes to the right.
 #[derive(Debug, Clone, Copy, ValueEnum)]
-enum Axis {
+enum PlotAxisArg {
     /// Time, s; without dwells and acceleration
     Time,
     /// Length of the path, mm
@@ -113,12 +113,12 @@ pub fn is_png(path: &Path) -> bool {
 }
 
 /// A drawing as the file's ending wants it.
-pub fn as_file(path: &Path, svg: String) -> io::Result<Vec<u8>> {
-    if is_png(path) { plot::png(&svg) } else { Ok(svg.into_bytes()) }
+pub fn encode_drawing(path: &Path, svg: String) -> io::Result<Vec<u8>> {
+    if is_png(path) { plot::render_png(&svg) } else { Ok(svg.into_bytes()) }
 }
 
 /// A drawing, and what is missing in it.
-struct Drawn {
+struct PlotDrawing {
     /// `None` where no panel has a curve.
     svg: Option<String>,
     /// A sentence for each panel without a curve.
@@ -126,62 +126,68 @@ struct Drawn {
 }
 
 /// Says that a panel is empty, and how it would not be.
-fn nothing_of(plotted: &[Plotted<'_>], quantity: Quantity, along: Along) -> String {
+fn explain_empty_panel(
+    plotted: &[PlottedProgram<'_>],
+    quantity: PlotQuantity,
+    along: PlotAbscissa,
+) -> String {
     let name = quantity.name();
-    if along == Along::Path {
+    if along == PlotAbscissa::Path {
         return format!("the panel of {name} is empty: nothing is known of it");
     }
-    let helps = !plot::panels(plotted, &[quantity], Along::Path).iter().all(Panel::is_empty);
+    let helps =
+        !plot::build_panels(plotted, &[quantity], PlotAbscissa::Path).iter().all(CurvePanel::is_empty);
     let help = if helps { "; try --along path" } else { "" };
     format!("the panel of {name} is empty: nothing is known of it along time{help}")
 }
 
-impl Plot {
-    pub fn run(&self) -> io::Result<Exit> {
-        let policy = match self.problem().map_or_else(|| self.findings.policy(), Err) {
+impl PlotArgs {
+    pub fn run(&self) -> io::Result<CommandExit> {
+        let policy = match self.find_usage_problem().map_or_else(|| self.findings.build_policy(), Err) {
             Ok(policy) => policy,
             Err(problem) => {
                 eprintln!("clsmith plot: {problem}");
-                return Ok(Exit::Usage);
+                return Ok(CommandExit::Usage);
             }
         };
-        let outputs = Outputs::default();
-        let progress = Progress::new(self.quiet, outputs.interrupt());
-        outputs.stop_on_ctrl_c(progress.clearing())?;
+        let outputs = CommandOutputs::default();
+        let progress = CommandProgress::new(self.quiet, outputs.interrupt());
+        outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
         let mut findings = Vec::new();
-        let drawn = self.draw(&progress, &mut findings);
-        progress.clear();
+        let drawn = self.draw_panels(&progress, &mut findings);
+        progress.clear_bar();
         let drawn = match drawn {
             Ok(drawn) => Some(drawn),
-            Err(Stop::Interrupted) => return Ok(Exit::Interrupted),
-            Err(Stop::Found(found)) => {
+            Err(CommandStop::Interrupted) => return Ok(CommandExit::Interrupted),
+            Err(CommandStop::Found(found)) => {
                 findings.extend(found);
                 None
             }
         };
         let findings = policy.apply(findings);
         if !findings.is_empty() {
-            self.show(&findings)?;
+            self.show_findings(&findings)?;
         }
-        let Some(Drawn { svg, empty }) = drawn.filter(|_| !findings.iter().any(Diagnostic::is_error)) else {
-            return Ok(Exit::Errors);
+        let Some(PlotDrawing { svg, empty }) = drawn.filter(|_| !findings.iter().any(Diagnostic::is_error))
+        else {
+            return Ok(CommandExit::Errors);
         };
         if svg.is_none() || !self.quiet {
             empty.iter().for_each(|sentence| eprintln!("clsmith plot: {sentence}"));
         }
         let Some(svg) = svg else {
             eprintln!("clsmith plot: there is nothing to draw, nothing was written");
-            return Ok(Exit::Errors);
+            return Ok(CommandExit::Errors);
         };
-        let bytes = as_file(&self.output, svg)?;
-        match outputs.write(&self.output, |out| out.write_all(&bytes))? {
-            Some(found) => self.show(&[found]).map(|()| Exit::Errors),
-            None => Ok(Exit::Done),
+        let bytes = encode_drawing(&self.output, svg)?;
+        match outputs.write_output(&self.output, |out| out.write_all(&bytes))? {
+            Some(found) => self.show_findings(&[found]).map(|()| CommandExit::Errors),
+            None => Ok(CommandExit::Done),
         }
     }
 
     /// What is wrong with the command line beyond what clap can say.
-    fn problem(&self) -> Option<String> {
+    fn find_usage_problem(&self) -> Option<String> {
         let standard = Path::new(STANDARD);
         let is_svg = self.output.extension().is_some_and(|end| end.eq_ignore_ascii_case("svg"));
         if self.output != standard && !is_svg && !is_png(&self.output) {
@@ -196,90 +202,95 @@ impl Plot {
         Some(format!("--of {} is simulated, and needs --setup with stock and tools", quantity.name()))
     }
 
-    fn draw(&self, progress: &Progress, findings: &mut Vec<Diagnostic>) -> Result<Drawn, Stop> {
+    fn draw_panels(
+        &self,
+        progress: &CommandProgress,
+        findings: &mut Vec<Diagnostic>,
+    ) -> Result<PlotDrawing, CommandStop> {
         let setup = match &self.setup {
             Some(path) => {
-                let setup = files::setup(path)?;
-                let read = |path: &Path| files::read(path).map_err(|found| found.message);
-                setup.with_material_file(read)?
+                let setup = input_files::read_setup(path)?;
+                let read = |path: &Path| input_files::read_source(path).map_err(|found| found.message);
+                setup.read_material_file(read)?
             }
             None => Setup::default(),
         };
-        self.overwrites(&setup)?;
+        self.check_outputs(&setup)?;
         let mut programs = Vec::new();
         for path in std::iter::once(&self.program).chain(&self.after) {
-            let source = files::read(path).map_err(|found| *found)?;
+            let source = input_files::read_source(path).map_err(|found| *found)?;
             let parsed = parse(&source, self.dialect);
             findings.extend(parsed.diagnostics);
             if findings.iter().any(Diagnostic::is_error) {
-                return Err(Stop::Found(Vec::new()));
+                return Err(CommandStop::Found(Vec::new()));
             }
             programs.push(parsed.program);
         }
-        let quantities: Vec<Quantity> = self.of.iter().map(|what| what.quantity()).collect();
+        let quantities: Vec<PlotQuantity> = self.of.iter().map(|what| what.quantity()).collect();
         let wanted = quantities.iter().any(|quantity| quantity.is_simulated());
-        let mut runs: Vec<Option<Simulated>> = Vec::new();
+        let mut runs: Vec<Option<SimulationReport>> = Vec::new();
         for program in &programs {
-            let run = wanted.then(|| self.simulate(program, &setup, progress, findings));
+            let run = wanted.then(|| self.simulate_program(program, &setup, progress, findings));
             runs.push(run.transpose()?);
         }
         let plotted = |(program, run)| {
             let program: &Program = program;
-            let run: &Option<Simulated> = run;
-            Plotted {
+            let run: &Option<SimulationReport> = run;
+            PlottedProgram {
                 name: program.source().name(),
                 program,
-                units: Units::of(program, self.units).unit,
+                units: ResolvedLengthUnit::from_program(program, self.units).unit,
                 rapid_feed: setup.machine.rapid_feed.map(|feed| feed.get()),
                 simulated: run.as_ref(),
             }
         };
-        let plotted: Vec<Plotted<'_>> = programs.iter().zip(&runs).map(plotted).collect();
+        let plotted: Vec<PlottedProgram<'_>> = programs.iter().zip(&runs).map(plotted).collect();
         let along = match self.along {
-            Axis::Time => Along::Time,
-            Axis::Path => Along::Path,
+            PlotAxisArg::Time => PlotAbscissa::Time,
+            PlotAxisArg::Path => PlotAbscissa::Path,
         };
-        let panels = plot::panels(&plotted, &quantities, along);
-        let empty = |(quantity, panel): (&Quantity, &Panel)| {
-            panel.is_empty().then(|| nothing_of(&plotted, *quantity, along))
+        let panels = plot::build_panels(&plotted, &quantities, along);
+        let empty = |(quantity, panel): (&PlotQuantity, &CurvePanel)| {
+            panel.is_empty().then(|| explain_empty_panel(&plotted, *quantity, along))
         };
         let empty: Vec<String> = quantities.iter().zip(&panels).filter_map(empty).collect();
         if empty.len() == panels.len() {
-            return Ok(Drawn { svg: None, empty });
+            return Ok(PlotDrawing { svg: None, empty });
         }
-        let svg = plot::draw(along.title(), &panels)
+        let svg = plot::draw_curve_panels(along.axis_title(), &panels)
             .map_err(|error| Diagnostic::new(codes::UNWRITABLE, error.to_string()))?;
-        Ok(Drawn { svg: Some(svg), empty })
+        Ok(PlotDrawing { svg: Some(svg), empty })
     }
 
-    fn simulate(
+    fn simulate_program(
         &self,
         program: &Program,
         setup: &Setup,
-        progress: &Progress,
+        progress: &CommandProgress,
         findings: &mut Vec<Diagnostic>,
-    ) -> Result<Simulated, Stop> {
-        let units = Units::of(program, self.units).unit;
+    ) -> Result<SimulationReport, CommandStop> {
+        let units = ResolvedLengthUnit::from_program(program, self.units).unit;
         let machining = Machining::new(program, setup, units, findings)?;
-        progress.begin(program.source().name());
-        Simulated::of(&machining, &Options::default(), progress)?.ok_or(Stop::Interrupted)
+        progress.begin_bar(program.source().name());
+        SimulationReport::simulate_program(&machining, &SimulationRunOptions::default(), progress)?
+            .ok_or(CommandStop::Interrupted)
     }
 
     /// The output may be no input, nor a file that the setup names.
-    fn overwrites(&self, setup: &Setup) -> Result<(), Stop> {
+    fn check_outputs(&self, setup: &Setup) -> Result<(), CommandStop> {
         let mut inputs = vec![self.program.as_path()];
         inputs.extend([&self.after, &self.setup].into_iter().filter_map(|path| path.as_deref()));
-        inputs.extend(setup.files());
-        match overwritten(std::iter::once(self.output.as_path()), &inputs) {
+        inputs.extend(setup.referenced_files());
+        match find_overwritten_input(std::iter::once(self.output.as_path()), &inputs) {
             Some(found) => Err(found.into()),
             None => Ok(()),
         }
     }
 
-    fn show(&self, findings: &[Diagnostic]) -> io::Result<()> {
+    fn show_findings(&self, findings: &[Diagnostic]) -> io::Result<()> {
         let mut err = io::stderr().lock();
         let file = self.program.to_string_lossy();
-        let seen = terminal::errors_are_seen();
-        unless_nobody_reads(self.findings.show(&mut err, seen, findings, Some(&file)))
+        let seen = terminal::is_stderr_terminal();
+        ignore_closed_pipe(self.findings.write_findings(&mut err, seen, findings, Some(&file)))
     }
 }

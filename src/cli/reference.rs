@@ -1,41 +1,41 @@
 //! Commands that print what clsmith knows about itself: `transforms`, `schema`, `explain`, `completions`, `man`.
 
-use super::exit::Exit;
+use super::command_exit::CommandExit;
 use clap::Args;
-use clsmith::report::{explain, policy, steps};
+use clsmith::report::{explain, finding_policy, step_descriptions};
 use clsmith::setup::Setup;
 use clsmith::transform;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-fn print(text: &str) -> io::Result<Exit> {
+fn print_text(text: &str) -> io::Result<CommandExit> {
     let mut out = io::stdout().lock();
     out.write_all(text.as_bytes())?;
     if !text.ends_with('\n') {
         out.write_all(b"\n")?;
     }
-    Ok(Exit::Done)
+    Ok(CommandExit::Done)
 }
 
 /// Lists the steps of recipes, or describes one
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  clsmith transforms\n  clsmith transforms move_origin")]
-pub struct Transforms {
+pub struct TransformsArgs {
     /// The step to describe
     name: Option<String>,
 }
 
-impl Transforms {
-    pub fn run(&self) -> io::Result<Exit> {
-        let Some(name) = &self.name else { return print(&steps::list()) };
-        match steps::describe(name) {
-            Some(text) => print(&text),
+impl TransformsArgs {
+    pub fn run(&self) -> io::Result<CommandExit> {
+        let Some(name) = &self.name else { return print_text(&step_descriptions::list_steps()) };
+        match step_descriptions::describe_step(name) {
+            Some(text) => print_text(&text),
             None => {
                 eprintln!(
                     "clsmith transforms: `{name}` is no step; the steps are {}",
                     transform::NAMES.join(", ")
                 );
-                Ok(Exit::Usage)
+                Ok(CommandExit::Usage)
             }
         }
     }
@@ -46,7 +46,7 @@ impl Transforms {
 #[command(
     after_help = "Examples:\n  clsmith schema > clsmith-recipe.schema.json\n  clsmith schema --setup > clsmith-setup.schema.json\n  clsmith schema --select > clsmith-select.schema.json\n  clsmith schema --jobs > clsmith-jobs.schema.json"
 )]
-pub struct Schema {
+pub struct SchemaArgs {
     /// The schema of setup files instead
     #[arg(long)]
     setup: bool,
@@ -58,34 +58,34 @@ pub struct Schema {
     jobs: bool,
 }
 
-impl Schema {
-    pub fn run(&self) -> io::Result<Exit> {
+impl SchemaArgs {
+    pub fn run(&self) -> io::Result<CommandExit> {
         let schema = match self {
-            Self { jobs: true, .. } => clsmith::batch::jobs::schema(),
+            Self { jobs: true, .. } => clsmith::batch::jobs_file::jobs_schema(),
             Self { setup: true, .. } => Setup::schema(),
-            Self { select: true, .. } => clsmith::choice::schema(),
-            _ => clsmith::recipe::schema::<transform::Step>(),
+            Self { select: true, .. } => clsmith::recipe_rules::rules_schema(),
+            _ => clsmith::recipe::recipe_schema::<transform::Step>(),
         };
-        print(&serde_json::to_string_pretty(&schema)?)
+        print_text(&serde_json::to_string_pretty(&schema)?)
     }
 }
 
 /// Explains a code of a finding, or lists all codes
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  clsmith explain CL0001\n  clsmith explain")]
-pub struct Explain {
+pub struct ExplainArgs {
     /// The code
     code: Option<String>,
 }
 
-impl Explain {
-    pub fn run(&self) -> io::Result<Exit> {
-        let Some(code) = &self.code else { return print(&explain::list()) };
-        match policy::parse_code(code) {
-            Ok(code) => print(&explain::explain(code)),
+impl ExplainArgs {
+    pub fn run(&self) -> io::Result<CommandExit> {
+        let Some(code) = &self.code else { return print_text(&explain::list_codes()) };
+        match finding_policy::parse_code(code) {
+            Ok(code) => print_text(&explain::explain_code(code)),
             Err(problem) => {
                 eprintln!("clsmith explain: {problem}");
-                Ok(Exit::Usage)
+                Ok(CommandExit::Usage)
             }
         }
     }
@@ -96,33 +96,33 @@ impl Explain {
 #[command(
     after_help = "Examples:\n  clsmith completions bash > /etc/bash_completion.d/clsmith\n  clsmith completions powershell >> $PROFILE"
 )]
-pub struct Completions {
+pub struct CompletionsArgs {
     /// The shell
     #[arg(value_enum)]
     shell: clap_complete::Shell,
 }
 
-impl Completions {
-    pub fn run(&self, command: &mut clap::Command) -> io::Result<Exit> {
+impl CompletionsArgs {
+    pub fn run(&self, command: &mut clap::Command) -> io::Result<CommandExit> {
         // Into memory first: clap_complete takes a closed pipe for a bug.
         let mut script = Vec::new();
         clap_complete::generate(self.shell, command, "clsmith", &mut script);
         io::stdout().lock().write_all(&script)?;
-        Ok(Exit::Done)
+        Ok(CommandExit::Done)
     }
 }
 
 /// Prints the manual page, or writes one for each command into a folder
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  clsmith man | man -l -\n  clsmith man --out man1/")]
-pub struct Man {
+pub struct ManArgs {
     /// A folder for the pages of all commands
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
 }
 
-impl Man {
-    pub fn run(&self, command: clap::Command) -> io::Result<Exit> {
+impl ManArgs {
+    pub fn run(&self, command: clap::Command) -> io::Result<CommandExit> {
         match &self.out {
             Some(folder) => clap_mangen::generate_to(command, folder)?,
             None => {
@@ -131,6 +131,6 @@ impl Man {
                 io::stdout().lock().write_all(&page)?;
             }
         }
-        Ok(Exit::Done)
+        Ok(CommandExit::Done)
     }
 }

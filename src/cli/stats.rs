@@ -1,16 +1,16 @@
 //! `clsmith stats`.
 
-use super::exit::Exit;
-use super::files;
-use super::findings::FindingArgs;
+use super::command_exit::CommandExit;
+use super::finding_args::FindingArgs;
+use super::input_files;
 use super::terminal;
 use clap::Args;
 use clsmith::diagnostic::Diagnostic;
+use clsmith::parameters::LengthUnit;
 use clsmith::parse::parse;
 use clsmith::program::Dialect;
 use clsmith::report::stats;
 use clsmith::setup::Setup;
-use clsmith::values::LengthUnit;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
@@ -24,7 +24,7 @@ Examples:
 /// Says what is in programs: operations, tools, lengths, times, feeds, box
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct Stats {
+pub struct StatsArgs {
     /// The programs; `-` is standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
@@ -32,10 +32,10 @@ pub struct Stats {
     #[arg(long)]
     json: bool,
     /// The dialect, instead of finding it from the text
-    #[arg(long, value_parser = files::dialect, value_name = "NAME")]
+    #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
     dialect: Option<Dialect>,
     /// Unit of lengths of a file that does not state it: mm or inch
-    #[arg(long, value_parser = files::units, value_name = "UNIT")]
+    #[arg(long, value_parser = input_files::parse_length_unit, value_name = "UNIT")]
     units: Option<LengthUnit>,
     /// A setup file
     #[arg(long, value_name = "FILE")]
@@ -44,42 +44,42 @@ pub struct Stats {
     findings: FindingArgs,
 }
 
-impl Stats {
-    pub fn run(&self) -> io::Result<Exit> {
-        let policy = match self.findings.policy() {
+impl StatsArgs {
+    pub fn run(&self) -> io::Result<CommandExit> {
+        let policy = match self.findings.build_policy() {
             Ok(policy) => policy,
             Err(problem) => {
                 eprintln!("clsmith stats: {problem}");
-                return Ok(Exit::Usage);
+                return Ok(CommandExit::Usage);
             }
         };
-        let setup = match self.setup.as_deref().map(files::setup).transpose() {
+        let setup = match self.setup.as_deref().map(input_files::read_setup).transpose() {
             Ok(setup) => setup.unwrap_or_else(Setup::default),
             Err(found) => {
-                self.show(&found, None)?;
-                return Ok(Exit::Errors);
+                self.show_findings(&found, None)?;
+                return Ok(CommandExit::Errors);
             }
         };
         let mut out = io::stdout().lock();
-        let mut exit = Exit::Done;
+        let mut exit = CommandExit::Done;
         for (index, path) in self.files.iter().enumerate() {
-            let source = match files::read(path) {
+            let source = match input_files::read_source(path) {
                 Ok(source) => source,
                 Err(found) => {
-                    self.show(&[*found], Some(&path.to_string_lossy()))?;
-                    exit = Exit::Errors;
+                    self.show_findings(&[*found], Some(&path.to_string_lossy()))?;
+                    exit = CommandExit::Errors;
                     continue;
                 }
             };
             let parsed = parse(&source, self.dialect);
             let found = policy.apply(parsed.diagnostics);
             if !found.is_empty() {
-                self.show(&found, Some(source.name()))?;
+                self.show_findings(&found, Some(source.name()))?;
             }
             if found.iter().any(Diagnostic::is_error) {
-                exit = Exit::Errors;
+                exit = CommandExit::Errors;
             }
-            let stats = stats::Stats::assuming(&parsed.program, &setup, self.units);
+            let stats = stats::ProgramStats::with_assumed_unit(&parsed.program, &setup, self.units);
             if self.json {
                 out.write_all(stats::to_json(&stats).as_bytes())?;
             } else {
@@ -93,7 +93,7 @@ impl Stats {
         Ok(exit)
     }
 
-    fn show(&self, findings: &[Diagnostic], file: Option<&str>) -> io::Result<()> {
-        self.findings.show(&mut io::stderr().lock(), terminal::errors_are_seen(), findings, file)
+    fn show_findings(&self, findings: &[Diagnostic], file: Option<&str>) -> io::Result<()> {
+        self.findings.write_findings(&mut io::stderr().lock(), terminal::is_stderr_terminal(), findings, file)
     }
 }

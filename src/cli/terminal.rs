@@ -5,7 +5,7 @@ use std::io::IsTerminal;
 
 /// When to use colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Color {
+pub enum ColorMode {
     /// On a terminal, unless NO_COLOR is set.
     Auto,
     /// Always.
@@ -14,9 +14,9 @@ pub enum Color {
     Never,
 }
 
-impl Color {
+impl ColorMode {
     /// Whether to write colours to a stream that is a terminal or not.
-    pub fn wanted(self, is_terminal: bool) -> bool {
+    pub fn is_wanted(self, is_terminal: bool) -> bool {
         match self {
             Self::Always => true,
             Self::Never => false,
@@ -26,17 +26,17 @@ impl Color {
 }
 
 /// Whether standard error is a terminal.
-pub fn errors_are_seen() -> bool {
+pub fn is_stderr_terminal() -> bool {
     std::io::stderr().is_terminal()
 }
 
 /// Whether standard output is a terminal.
-pub fn output_is_seen() -> bool {
+pub fn is_stdout_terminal() -> bool {
     std::io::stdout().is_terminal()
 }
 
 /// Columns to draw in: those COLUMNS says, else 100.
-pub fn width() -> usize {
+pub fn width_columns() -> usize {
     std::env::var("COLUMNS")
         .ok()
         .and_then(|columns| columns.parse().ok())
@@ -45,7 +45,7 @@ pub fn width() -> usize {
 }
 
 /// Whether lines and arrows may be other than ASCII: the locale says UTF-8, or nothing at all.
-pub fn unicode() -> bool {
+pub fn has_unicode() -> bool {
     let locale = ["LC_ALL", "LC_CTYPE", "LANG"]
         .into_iter()
         .filter_map(|name| std::env::var(name).ok())
@@ -54,6 +54,6 @@ pub fn unicode() -> bool {
 }
 
 /// A name as it may be shown: one from outside must not be able to talk to the terminal.
-pub fn plain(name: &str) -> String {
+pub fn escape_controls(name: &str) -> String {
     name.replace(char::is_control, "?")
 }

@@ -1,9 +1,9 @@
 //! `clsmith undo`.
 
-use super::exit::Exit;
-use super::files::{self, STANDARD};
-use super::findings::FindingArgs;
-use super::output::{Outputs, overwritten, unless_nobody_reads};
+use super::command_exit::CommandExit;
+use super::command_outputs::{CommandOutputs, find_overwritten_input, ignore_closed_pipe};
+use super::finding_args::FindingArgs;
+use super::input_files::{self, STANDARD};
 use super::terminal;
 use clap::Args;
 use clsmith::diagnostic::Diagnostic;
@@ -27,7 +27,7 @@ batches are none.";
 /// Gives the original back, from a corrected program and the report of the run
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct Undo {
+pub struct UndoArgs {
     /// The corrected program; `-` is standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
@@ -44,40 +44,40 @@ pub struct Undo {
     findings: FindingArgs,
 }
 
-impl Undo {
-    pub fn run(&self) -> io::Result<Exit> {
-        if let Err(problem) = self.findings.policy() {
+impl UndoArgs {
+    pub fn run(&self) -> io::Result<CommandExit> {
+        if let Err(problem) = self.findings.build_policy() {
             eprintln!("clsmith undo: {problem}");
-            return Ok(Exit::Usage);
+            return Ok(CommandExit::Usage);
         }
         if [&self.file, &self.report].iter().all(|path| *path == Path::new(STANDARD)) {
             eprintln!("clsmith undo: standard input can be read only once");
-            return Ok(Exit::Usage);
+            return Ok(CommandExit::Usage);
         }
-        let outputs = Outputs::default();
+        let outputs = CommandOutputs::default();
         outputs.stop_on_ctrl_c(|| {})?;
-        match self.undo(&outputs)? {
-            None => Ok(Exit::Done),
+        match self.write_original(&outputs)? {
+            None => Ok(CommandExit::Done),
             Some(found) => {
                 let name = self.file.to_string_lossy();
                 let mut err = io::stderr().lock();
-                let seen = terminal::errors_are_seen();
-                unless_nobody_reads(self.findings.show(&mut err, seen, &[found], Some(&name)))?;
-                Ok(Exit::Errors)
+                let seen = terminal::is_stderr_terminal();
+                ignore_closed_pipe(self.findings.write_findings(&mut err, seen, &[found], Some(&name)))?;
+                Ok(CommandExit::Errors)
             }
         }
     }
 
-    fn undo(&self, outputs: &Outputs) -> io::Result<Option<Diagnostic>> {
+    fn write_original(&self, outputs: &CommandOutputs) -> io::Result<Option<Diagnostic>> {
         let target = self.output.as_path();
-        if let Some(found) = overwritten([target].into_iter(), &[&self.file, &self.report]) {
+        if let Some(found) = find_overwritten_input([target].into_iter(), &[&self.file, &self.report]) {
             return Ok(Some(found));
         }
-        let (file, undone) = match self.original() {
+        let (file, undone) = match self.restore_original() {
             Ok(found) => found,
             Err(found) => return Ok(Some(*found)),
         };
-        if let Some(found) = outputs.write(target, |out| out.write_all(&undone.bytes))? {
+        if let Some(found) = outputs.write_output(target, |out| out.write_all(&undone.bytes))? {
             return Ok(Some(found));
         }
         if !self.quiet {
@@ -96,11 +96,11 @@ impl Undo {
         Ok(None)
     }
 
-    fn original(&self) -> Result<(Arc<Source>, undo::Undone), Box<Diagnostic>> {
-        let report = files::read(&self.report)?;
-        let run = undo::Undo::read(&report)?;
-        let file = files::read(&self.file)?;
-        let undone = run.original(&file, &report)?;
+    fn restore_original(&self) -> Result<(Arc<Source>, undo::RestoredOriginal), Box<Diagnostic>> {
+        let report = input_files::read_source(&self.report)?;
+        let run = undo::UndoData::read_report(&report)?;
+        let file = input_files::read_source(&self.file)?;
+        let undone = run.restore_original(&file, &report)?;
         Ok((file, undone))
     }
 }

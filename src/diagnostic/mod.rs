@@ -5,7 +5,7 @@
 mod catalogue;
 
 pub use catalogue::codes;
-pub use catalogue::{CATALOGUE, Code, code};
+pub use catalogue::{CATALOGUE, DiagnosticCode, find_code};
 
 use crate::source::{Source, Span};
 use std::fmt;
@@ -34,7 +34,7 @@ impl fmt::Display for Severity {
 
 /// A place in a file and what is to be seen there.
 #[derive(Debug, Clone)]
-pub struct Label {
+pub struct DiagnosticLabel {
     /// The file: a CL file, a recipe, a setup file.
     pub source: Arc<Source>,
     /// The bytes meant.
@@ -47,34 +47,34 @@ pub struct Label {
 #[derive(Debug, Clone)]
 pub struct Diagnostic {
     /// Its entry in the catalogue.
-    pub code: Code,
+    pub code: DiagnosticCode,
     /// The catalogue's severity, unless `--deny` or `--allow` changed it.
     pub severity: Severity,
     /// One sentence, specific to this finding.
     pub message: String,
     /// Where; empty for findings about a whole file or run.
-    pub labels: Vec<Label>,
+    pub labels: Vec<DiagnosticLabel>,
     /// What to do; the catalogue's help unless the finding knows better.
     pub help: Option<String>,
 }
 
 impl Diagnostic {
     /// A finding with the catalogue's severity and help.
-    pub fn new(code: Code, message: impl Into<String>) -> Self {
+    pub fn new(code: DiagnosticCode, message: impl Into<String>) -> Self {
         let help = (!code.help().is_empty()).then(|| code.help().to_owned());
         Self { code, severity: code.severity(), message: message.into(), labels: Vec::new(), help }
     }
 
     /// Adds a place; the first one added is the primary.
     #[must_use]
-    pub fn label(mut self, source: &Arc<Source>, span: Span, message: impl Into<String>) -> Self {
-        self.labels.push(Label { source: Arc::clone(source), span, message: message.into() });
+    pub fn with_label(mut self, source: &Arc<Source>, span: Span, message: impl Into<String>) -> Self {
+        self.labels.push(DiagnosticLabel { source: Arc::clone(source), span, message: message.into() });
         self
     }
 
     /// Replaces the catalogue's help by one that fits this finding.
     #[must_use]
-    pub fn help(mut self, help: impl Into<String>) -> Self {
+    pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }

@@ -1,14 +1,14 @@
-//! From pest's pairs to our own [`Syntax`]: the only place that knows pest.
+//! From pest's pairs to our own [`StatementSyntax`]: the only place that knows pest.
 
 use crate::number;
-use crate::program::{Field, FieldKind, Form, Group, Syntax};
+use crate::program::{FieldGroup, FieldKind, StatementField, StatementKind, StatementSyntax};
 use pest::Parser;
 use pest::iterators::Pair;
 use std::borrow::Cow;
 
 #[derive(pest_derive::Parser)]
 #[grammar = "grammar/cl.pest"]
-struct Grammar;
+struct ClGrammar;
 
 /// No statement is longer (in bytes). pest takes some 250 times a text of short fields in memory, so a file that is one line
 /// would take the machine down; the longest measured line has 124 characters.
@@ -16,34 +16,37 @@ const LONGEST: usize = 2 << 20;
 
 /// The statement at the start of `window`, and the number of bytes it takes.
 ///
-/// `window` holds whole lines. `Syntax::open` says that the statement goes on past its end; give a longer window, unless the
-/// file ends there. Never fails: what no form of the grammar fits has [`Form::Refused`].
-pub fn statement(window: &[u8]) -> Syntax<'_> {
+/// `window` holds whole lines. `StatementSyntax::open` says that the statement goes on past its end; give a longer window, unless the
+/// file ends there. Never fails: what no form of the grammar fits has [`StatementKind::Refused`].
+pub fn parse_statement(window: &[u8]) -> StatementSyntax<'_> {
     if window.len() > LONGEST {
-        return bare(window, Form::Refused);
+        return bare_syntax(window, StatementKind::Refused);
     }
-    let readable = readable(window);
-    let Some(statement) = Grammar::parse(Rule::statement, &readable).ok().and_then(|mut pairs| pairs.next())
+    let readable = mask_non_ascii(window);
+    let Some(statement) =
+        ClGrammar::parse(Rule::statement, &readable).ok().and_then(|mut pairs| pairs.next())
     else {
         // `refused` takes any text, so this is only reached when pest itself gives up (its call limit, unset here).
-        return bare(window, Form::Refused);
+        return bare_syntax(window, StatementKind::Refused);
     };
-    let Some(form) = statement.into_inner().next() else { return bare(window, Form::Refused) };
+    let Some(form) = statement.into_inner().next() else {
+        return bare_syntax(window, StatementKind::Refused);
+    };
     let text = window.get(..form.as_span().end()).unwrap_or(window);
-    let mut syntax = bare(text, form_of(form.as_rule()));
+    let mut syntax = bare_syntax(text, statement_kind(form.as_rule()));
     syntax.open = form.clone().into_inner().flatten().any(|part| part.as_rule() == Rule::open);
     for part in form.into_inner() {
-        place(part, &mut syntax);
+        add_part(part, &mut syntax);
     }
     syntax
 }
 
 /// Where a refused line stopped making sense: the furthest byte the strict forms reached.
-pub fn refusal_place(text: &[u8]) -> usize {
+pub fn find_refusal_offset(text: &[u8]) -> usize {
     if text.len() > LONGEST {
         return 0;
     }
-    match Grammar::parse(Rule::words, &readable(text)) {
+    match ClGrammar::parse(Rule::words, &mask_non_ascii(text)) {
         Ok(_) => 0,
         Err(error) => match error.location {
             pest::error::InputLocation::Pos(at) => at,
@@ -53,7 +56,7 @@ pub fn refusal_place(text: &[u8]) -> usize {
 }
 
 /// pest reads `str`; every byte from 0x80 on becomes DEL, so offsets stay and every code page is read alike.
-fn readable(window: &[u8]) -> Cow<'_, str> {
+fn mask_non_ascii(window: &[u8]) -> Cow<'_, str> {
     match std::str::from_utf8(window) {
         Ok(text) if text.is_ascii() => Cow::Borrowed(text),
         _ => Cow::Owned(
@@ -62,40 +65,42 @@ fn readable(window: &[u8]) -> Cow<'_, str> {
     }
 }
 
-fn bare(text: &[u8], form: Form) -> Syntax<'_> {
-    Syntax { text, form, word: 0..0, fields: Vec::new(), remark: None, open: false }
+fn bare_syntax(text: &[u8], form: StatementKind) -> StatementSyntax<'_> {
+    StatementSyntax { text, form, word: 0..0, fields: Vec::new(), remark: None, open: false }
 }
 
-fn form_of(rule: Rule) -> Form {
+fn statement_kind(rule: Rule) -> StatementKind {
     match rule {
-        Rule::blank_line => Form::Blank,
-        Rule::structured => Form::Structured,
-        Rule::frame_mark => Form::FrameMark,
-        Rule::matrix_row => Form::MatrixRow,
-        Rule::comment => Form::Comment,
-        Rule::operation_start => Form::OperationStart,
-        Rule::free_text | Rule::listed_text => Form::FreeText,
-        Rule::numbers => Form::Numbers,
-        Rule::definition => Form::Definition,
-        Rule::words => Form::Words,
-        _ => Form::Refused,
+        Rule::blank_line => StatementKind::Blank,
+        Rule::structured => StatementKind::Structured,
+        Rule::frame_mark => StatementKind::FrameMark,
+        Rule::matrix_row => StatementKind::MatrixRow,
+        Rule::comment => StatementKind::Comment,
+        Rule::operation_start => StatementKind::OperationStart,
+        Rule::free_text | Rule::listed_text => StatementKind::FreeText,
+        Rule::numbers => StatementKind::Numbers,
+        Rule::definition => StatementKind::Definition,
+        Rule::words => StatementKind::Words,
+        _ => StatementKind::Refused,
     }
 }
 
-fn place(part: Pair<'_, Rule>, syntax: &mut Syntax<'_>) {
+fn add_part(part: Pair<'_, Rule>, syntax: &mut StatementSyntax<'_>) {
     let at = part.as_span().start()..part.as_span().end();
     match part.as_rule() {
         Rule::head | Rule::free_word | Rule::listed_word | Rule::operation_word => syntax.word = at,
         Rule::remark => syntax.remark = Some(at),
-        _ => syntax.fields.extend(field(part)),
+        _ => syntax.fields.extend(parse_field(part)),
     }
 }
 
-fn field(part: Pair<'_, Rule>) -> Option<Field> {
+fn parse_field(part: Pair<'_, Rule>) -> Option<StatementField> {
     let at = part.as_span().start()..part.as_span().end();
     let kind = match part.as_rule() {
         Rule::empty => FieldKind::Empty,
-        Rule::number => number::parse(part.as_str().as_bytes()).map_or(FieldKind::Text, FieldKind::Number),
+        Rule::number => {
+            number::parse_number(part.as_str().as_bytes()).map_or(FieldKind::Text, FieldKind::Number)
+        }
         Rule::quoted => FieldKind::Quoted,
         Rule::text
         | Rule::inner_text
@@ -103,18 +108,18 @@ fn field(part: Pair<'_, Rule>) -> Option<Field> {
         | Rule::listed
         | Rule::operation_name
         | Rule::tool_name => FieldKind::Text,
-        Rule::group | Rule::group_2 | Rule::group_3 => FieldKind::Group(Box::new(group(part))),
+        Rule::group | Rule::group_2 | Rule::group_3 => FieldKind::Group(Box::new(parse_group(part))),
         _ => return None,
     };
-    Some(Field { at, kind })
+    Some(StatementField { at, kind })
 }
 
-fn group(part: Pair<'_, Rule>) -> Group {
-    let mut group = Group { word: 0..0, fields: Vec::new() };
+fn parse_group(part: Pair<'_, Rule>) -> FieldGroup {
+    let mut group = FieldGroup { word: 0..0, fields: Vec::new() };
     for inner in part.into_inner() {
         if inner.as_rule() == Rule::head {
             group.word = inner.as_span().start()..inner.as_span().end();
-        } else if let Some(field) = field(inner) {
+        } else if let Some(field) = parse_field(inner) {
             group.fields.push(field);
         }
     }

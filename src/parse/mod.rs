@@ -3,18 +3,18 @@
 mod grammar;
 mod shortcut;
 
-pub use grammar::statement as syntax;
+pub use grammar::parse_statement as syntax;
 
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::record::{self, BadRecord};
-use crate::program::{Detector, Dialect, Form, Program, Record, Role, Syntax};
+use crate::program::{Dialect, DialectDetector, NumberRole, Program, Record, StatementKind, StatementSyntax};
 use crate::source::{Source, Span};
 use std::ops::Range;
 use std::sync::Arc;
 
 /// What came out of reading a file: a program, always, and what was wrong on the way.
 #[derive(Debug)]
-pub struct Parsed {
+pub struct ParsedProgram {
     /// The program; its statements tile the source.
     pub program: Program,
     /// Findings, in the order of the file.
@@ -27,17 +27,17 @@ pub struct Parsed {
 ///
 /// Never refuses a statement: what cannot be read is kept and reported. A file that is no CL data at all (an APT part
 /// program, UTF-16 text) is kept as one statement with one diagnostic.
-pub fn parse(source: &Arc<Source>, dialect: Option<Dialect>) -> Parsed {
+pub fn parse(source: &Arc<Source>, dialect: Option<Dialect>) -> ParsedProgram {
     let bytes = source.bytes();
-    let mut reader = Reader {
+    let mut reader = StatementReader {
         source,
         program: Program::new(Arc::clone(source)),
         diagnostics: Vec::new(),
-        detector: Detector::default(),
+        detector: DialectDetector::default(),
         last_was_points: false,
     };
-    if let Some(problem) = not_text(bytes) {
-        return reader.refuse(Diagnostic::new(codes::NOT_TEXT, problem).label(
+    if let Some(problem) = detect_non_text(bytes) {
+        return reader.refuse_file(Diagnostic::new(codes::NOT_TEXT, problem).with_label(
             source,
             Span::new(0, bytes.len().min(2)),
             "",
@@ -51,61 +51,61 @@ pub fn parse(source: &Arc<Source>, dialect: Option<Dialect>) -> Parsed {
         at = 3;
     }
     while let Some(rest) = bytes.get(at..).filter(|rest| !rest.is_empty()) {
-        if let Some((goto, length)) = shortcut::goto(rest) {
+        if let Some((goto, length)) = shortcut::read_plain_goto(rest) {
             reader.program.push(Record::Goto(goto), Span::new(at, at + length));
             reader.last_was_points = true;
             at += length;
             continue;
         }
-        if let Some(length) = shortcut::own_comment(rest) {
+        if let Some(length) = shortcut::provenance_comment_length(rest) {
             reader.program.push(Record::Comment, Span::new(at, at + length));
             reader.last_was_points = false;
             at += length;
             continue;
         }
-        match reader.read(at, rest) {
+        match reader.read_statement(at, rest) {
             Ok(length) => at += length,
-            Err(refusal) => return reader.refuse(*refusal),
+            Err(refusal) => return reader.refuse_file(*refusal),
         }
     }
-    let dialect = dialect.unwrap_or_else(|| reader.detector.dialect());
+    let dialect = dialect.unwrap_or_else(|| reader.detector.detected_dialect());
     reader.program.set_dialect(dialect);
-    Parsed { program: reader.program, diagnostics: reader.diagnostics, refused: false }
+    ParsedProgram { program: reader.program, diagnostics: reader.diagnostics, refused: false }
 }
 
 /// All numbers of a statement with their places in its text, in the order they stand.
-pub fn numbers(text: &[u8]) -> Vec<(Range<usize>, f64)> {
-    shortcut::goto_numbers(text).unwrap_or_else(|| statement_of(text).0.numbers())
+pub fn statement_numbers(text: &[u8]) -> Vec<(Range<usize>, f64)> {
+    shortcut::plain_goto_numbers(text).unwrap_or_else(|| split_statement(text).0.numbers())
 }
 
 /// The same for a text that is one plain GOTO line, of which files are full; `None` for anything else, which only the grammar
 /// can take apart.
-pub fn plain_goto(text: &[u8]) -> Option<Vec<(Range<usize>, f64)>> {
-    shortcut::goto_numbers(text)
+pub fn plain_goto_numbers(text: &[u8]) -> Option<Vec<(Range<usize>, f64)>> {
+    shortcut::plain_goto_numbers(text)
 }
 
 /// What each of those numbers is, `record` being what the text means.
-pub fn roles(record: &Record, text: &[u8]) -> Vec<Role> {
+pub fn number_roles(record: &Record, text: &[u8]) -> Vec<NumberRole> {
     match record {
         Record::Goto(goto) => record::path_roles(goto.axis.is_some()),
-        _ => record.roles(&statement_of(text).0),
+        _ => record.number_roles(&split_statement(text).0),
     }
 }
 
 /// The meaning of a text that is to be one whole statement.
 ///
 /// # Errors
-/// As [`record()`]; also when the text holds more than the statement.
-pub fn whole(text: &[u8]) -> Result<Record, BadRecord> {
-    if let Some((goto, length)) = shortcut::goto(text)
+/// As [`read_record`]; also when the text holds more than the statement.
+pub fn read_whole_record(text: &[u8]) -> Result<Record, BadRecord> {
+    if let Some((goto, length)) = shortcut::read_plain_goto(text)
         && length == text.len()
     {
         return Ok(Record::Goto(goto));
     }
-    if shortcut::own_comment(text) == Some(text.len()) {
+    if shortcut::provenance_comment_length(text) == Some(text.len()) {
         return Ok(Record::Comment);
     }
-    let (record, syntax) = record(text)?;
+    let (record, syntax) = read_record(text)?;
     let length = syntax.text.len();
     if length == text.len() && !syntax.open {
         return Ok(record);
@@ -118,61 +118,61 @@ pub fn whole(text: &[u8]) -> Result<Record, BadRecord> {
 ///
 /// # Errors
 /// What is wrong with it; refused text too.
-pub fn record(text: &[u8]) -> Result<(Record, Syntax<'_>), BadRecord> {
-    let syntax = statement_of(text).0;
-    if syntax.form == Form::Refused {
-        let at = grammar::refusal_place(text).min(text.len().saturating_sub(1));
+pub fn read_record(text: &[u8]) -> Result<(Record, StatementSyntax<'_>), BadRecord> {
+    let syntax = split_statement(text).0;
+    if syntax.form == StatementKind::Refused {
+        let at = grammar::find_refusal_offset(text).min(text.len().saturating_sub(1));
         let problem = "this is no CL statement".to_owned();
         return Err(BadRecord { at: at..text.len(), problem, is_number: false });
     }
     Record::read(&syntax).map(|record| (record, syntax))
 }
 
-struct Reader<'s> {
+struct StatementReader<'s> {
     source: &'s Arc<Source>,
     program: Program,
     diagnostics: Vec<Diagnostic>,
-    detector: Detector,
+    detector: DialectDetector,
     last_was_points: bool,
 }
 
-impl Reader<'_> {
+impl StatementReader<'_> {
     /// Reads one statement and gives its length; an error when the file is no CL data.
-    fn read(&mut self, at: usize, rest: &[u8]) -> Result<usize, Box<Diagnostic>> {
-        let (syntax, length) = statement_of(rest);
+    fn read_statement(&mut self, at: usize, rest: &[u8]) -> Result<usize, Box<Diagnostic>> {
+        let (syntax, length) = split_statement(rest);
         let span = Span::new(at, at + length);
-        let record = self.record(&syntax, span);
+        let record = self.interpret_syntax(&syntax, span);
         if record == Record::Definition {
             let text = rest.get(..length).unwrap_or_default();
-            let shown = span.part(length - text.trim_ascii_start().len(), trimmed(text));
+            let shown = span.sub_span(length - text.trim_ascii_start().len(), trimmed_length(text));
             return Err(Box::new(
                 Diagnostic::new(
                     codes::APT_PART_PROGRAM,
                     "this is an APT part program, not cutter-location data",
                 )
-                .label(self.source, shown, "geometry and variables are defined here"),
+                .with_label(self.source, shown, "geometry and variables are defined here"),
             ));
         }
         if syntax.open {
             self.diagnostics.push(
                 Diagnostic::new(codes::CONTINUES_PAST_END, "the statement continues, but the file ends here")
-                    .label(self.source, Span::new(at, at + trimmed(rest)), "continued with `$`"),
+                    .with_label(self.source, Span::new(at, at + trimmed_length(rest)), "continued with `$`"),
             );
         }
-        self.detector.see(&syntax, &record);
+        self.detector.observe_statement(&syntax, &record);
         self.last_was_points = matches!(record, Record::Goto(_) | Record::Points(_));
         self.program.push(record, span);
         Ok(length)
     }
 
-    fn record(&mut self, syntax: &Syntax<'_>, span: Span) -> Record {
+    fn interpret_syntax(&mut self, syntax: &StatementSyntax<'_>, span: Span) -> Record {
         let problem = match syntax.form {
-            Form::Refused => {
-                self.diagnostics.push(malformed(self.source, syntax.text, span));
+            StatementKind::Refused => {
+                self.diagnostics.push(malformed_finding(self.source, syntax.text, span));
                 return Record::Unparsed;
             }
-            Form::Numbers if !self.last_was_points => BadRecord {
-                at: 0..trimmed(syntax.text),
+            StatementKind::Numbers if !self.last_was_points => BadRecord {
+                at: 0..trimmed_length(syntax.text),
                 problem: "bare numbers, but no GOTO before them to continue".to_owned(),
                 is_number: false,
             },
@@ -182,49 +182,49 @@ impl Reader<'_> {
             },
         };
         let code = if problem.is_number { codes::BAD_NUMBER } else { codes::BAD_ARGUMENTS };
-        let at = span.part(problem.at.start, problem.at.end);
-        self.diagnostics.push(Diagnostic::new(code, problem.problem).label(self.source, at, ""));
+        let at = span.sub_span(problem.at.start, problem.at.end);
+        self.diagnostics.push(Diagnostic::new(code, problem.problem).with_label(self.source, at, ""));
         Record::Unparsed
     }
 
-    fn refuse(self, diagnostic: Diagnostic) -> Parsed {
+    fn refuse_file(self, diagnostic: Diagnostic) -> ParsedProgram {
         let mut program = Program::new(Arc::clone(self.source));
         let bytes = self.source.bytes().len();
         if bytes > 0 {
             program.push(Record::Unparsed, Span::new(0, bytes));
         }
-        Parsed { program, diagnostics: vec![diagnostic], refused: true }
+        ParsedProgram { program, diagnostics: vec![diagnostic], refused: true }
     }
 }
 
-fn malformed(source: &Arc<Source>, text: &[u8], span: Span) -> Diagnostic {
-    let end = trimmed(text);
-    let at = grammar::refusal_place(text).min(end.saturating_sub(1));
-    Diagnostic::new(codes::MALFORMED, "this statement cannot be read").label(
+fn malformed_finding(source: &Arc<Source>, text: &[u8], span: Span) -> Diagnostic {
+    let end = trimmed_length(text);
+    let at = grammar::find_refusal_offset(text).min(end.saturating_sub(1));
+    Diagnostic::new(codes::MALFORMED, "this statement cannot be read").with_label(
         source,
-        span.part(at, end),
+        span.sub_span(at, end),
         "from here it makes no sense as CL data",
     )
 }
 
 /// The statement at the start of `rest`, with as many lines as it continues over.
-fn statement_of(rest: &[u8]) -> (Syntax<'_>, usize) {
+fn split_statement(rest: &[u8]) -> (StatementSyntax<'_>, usize) {
     let mut lines = 1;
-    let mut window = lines_of(rest, 0, lines);
+    let mut window = find_lines_end(rest, 0, lines);
     loop {
-        let syntax = grammar::statement(rest.get(..window).unwrap_or(rest));
+        let syntax = grammar::parse_statement(rest.get(..window).unwrap_or(rest));
         if !syntax.open || window == rest.len() {
             let length = syntax.text.len();
             return (syntax, length.max(1));
         }
         // Doubling keeps a statement of very many lines linear.
-        window = lines_of(rest, window, lines);
+        window = find_lines_end(rest, window, lines);
         lines *= 2;
     }
 }
 
 /// The end of the `count`-th line after `from`. LF, CRLF and a lone CR end a line.
-fn lines_of(bytes: &[u8], from: usize, count: usize) -> usize {
+fn find_lines_end(bytes: &[u8], from: usize, count: usize) -> usize {
     let mut end = from;
     for _ in 0..count {
         let Some(rest) = bytes.get(end..).filter(|rest| !rest.is_empty()) else { break };
@@ -238,11 +238,11 @@ fn lines_of(bytes: &[u8], from: usize, count: usize) -> usize {
 }
 
 /// Length without the line end and the blanks before it.
-fn trimmed(text: &[u8]) -> usize {
+fn trimmed_length(text: &[u8]) -> usize {
     text.trim_ascii_end().len()
 }
 
-fn not_text(bytes: &[u8]) -> Option<&'static str> {
+fn detect_non_text(bytes: &[u8]) -> Option<&'static str> {
     if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
         return Some("the file is UTF-16 text");
     }

@@ -2,7 +2,7 @@
 //!
 //! It may only agree with the grammar or decline: the property test `shortcut_agrees_with_the_grammar` holds it to that.
 
-use crate::number::plain_decimal;
+use crate::number::parse_plain_decimal;
 use crate::program::OWN_WORD;
 use crate::program::record::{Goto, has_direction};
 use nalgebra::{Point3, Vector3};
@@ -12,8 +12,8 @@ use std::ops::Range;
 ///
 /// Gives the record and the length in bytes with the line end. `None` for anything else, comments and exponents included.
 #[inline]
-pub(super) fn goto(text: &[u8]) -> Option<(Goto, usize)> {
-    let scan = scan(text)?;
+pub(super) fn read_plain_goto(text: &[u8]) -> Option<(Goto, usize)> {
+    let scan = scan_goto(text)?;
     let [x, y, z, i, j, k] = scan.values;
     let axis = match scan.count {
         3 => None,
@@ -24,15 +24,15 @@ pub(super) fn goto(text: &[u8]) -> Option<(Goto, usize)> {
 }
 
 /// The numbers of such a line with their places in it.
-pub(super) fn goto_numbers(text: &[u8]) -> Option<Vec<(Range<usize>, f64)>> {
-    let scan = scan(text).filter(|scan| scan.end == text.len())?;
+pub(super) fn plain_goto_numbers(text: &[u8]) -> Option<Vec<(Range<usize>, f64)>> {
+    let scan = scan_goto(text).filter(|scan| scan.end == text.len())?;
     let numbers = scan.places.into_iter().zip(scan.values).take(scan.count);
     Some(numbers.map(|((start, end), value)| (start..end, value)).collect())
 }
 
 /// The length, with its line end, of a comment of clsmith's own at the start of a text. Longer ones than it writes are left to
 /// the grammar.
-pub(super) fn own_comment(text: &[u8]) -> Option<usize> {
+pub(super) fn provenance_comment_length(text: &[u8]) -> Option<usize> {
     text.strip_prefix(b"$$ ")?.strip_prefix(OWN_WORD.as_bytes())?.strip_prefix(b" ")?;
     let line = text.get(..OWN_LENGTH).unwrap_or(text);
     match memchr::memchr2(b'\n', b'\r', line) {
@@ -44,7 +44,7 @@ pub(super) fn own_comment(text: &[u8]) -> Option<usize> {
 /// Bytes of a comment that the shortcut takes.
 const OWN_LENGTH: usize = 128;
 
-struct Scan {
+struct GotoScan {
     values: [f64; 6],
     places: [(usize, usize); 6],
     count: usize,
@@ -52,21 +52,21 @@ struct Scan {
 }
 
 #[inline(always)]
-fn scan(text: &[u8]) -> Option<Scan> {
+fn scan_goto(text: &[u8]) -> Option<GotoScan> {
     let mut at = text.strip_prefix(b"GOTO").map(|_| 4)?;
-    at = blanks(text, at);
+    at = skip_blanks(text, at);
     if text.get(at) != Some(&b'/') {
         return None;
     }
     at += 1;
-    let mut scan = Scan { values: [0.0; 6], places: [(0, 0); 6], count: 0, end: 0 };
+    let mut scan = GotoScan { values: [0.0; 6], places: [(0, 0); 6], count: 0, end: 0 };
     for (value, place) in scan.values.iter_mut().zip(&mut scan.places) {
-        at = blanks(text, at);
-        let (number, length) = plain_decimal(text.get(at..)?)?;
+        at = skip_blanks(text, at);
+        let (number, length) = parse_plain_decimal(text.get(at..)?)?;
         *value = number;
         *place = (at, at + length);
         scan.count += 1;
-        at = blanks(text, at + length);
+        at = skip_blanks(text, at + length);
         if text.get(at) != Some(&b',') {
             break;
         }
@@ -74,14 +74,14 @@ fn scan(text: &[u8]) -> Option<Scan> {
         if scan.count == 6 {
             return None;
         }
-        at = continuation(text, at + 1)?;
+        at = skip_continuation(text, at + 1)?;
     }
-    scan.end = line_end(text, at)?;
+    scan.end = find_line_end(text, at)?;
     matches!(scan.count, 3 | 6).then_some(scan)
 }
 
 #[inline]
-fn blanks(text: &[u8], mut at: usize) -> usize {
+fn skip_blanks(text: &[u8], mut at: usize) -> usize {
     while text.get(at) == Some(&b' ') {
         at += 1;
     }
@@ -90,8 +90,8 @@ fn blanks(text: &[u8], mut at: usize) -> usize {
 
 /// Skips blanks and one `$` with its line end after a comma. `None` when a comment follows the `$`.
 #[inline]
-fn continuation(text: &[u8], at: usize) -> Option<usize> {
-    let at = blanks(text, at);
+fn skip_continuation(text: &[u8], at: usize) -> Option<usize> {
+    let at = skip_blanks(text, at);
     if text.get(at) != Some(&b'$') {
         return Some(at);
     }
@@ -104,8 +104,8 @@ fn continuation(text: &[u8], at: usize) -> Option<usize> {
 
 /// The end of the line that may hold only blanks from `at` on; the end of the text counts as one.
 #[inline]
-fn line_end(text: &[u8], at: usize) -> Option<usize> {
-    let at = blanks(text, at);
+fn find_line_end(text: &[u8], at: usize) -> Option<usize> {
+    let at = skip_blanks(text, at);
     match text.get(at..)? {
         [] => Some(at),
         [b'\n', ..] => Some(at + 1),
@@ -117,15 +117,15 @@ fn line_end(text: &[u8], at: usize) -> Option<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::{goto, own_comment};
-    use crate::parse::statement_of;
+    use super::{provenance_comment_length, read_plain_goto};
+    use crate::parse::split_statement;
     use crate::program::Record;
     use proptest::prelude::*;
 
     /// Either the shortcut declines, or it gives what the grammar gives: same record bit for bit, same length, no finding.
     fn agrees(text: &[u8]) -> Result<bool, TestCaseError> {
-        let Some((short, length)) = goto(text) else { return Ok(false) };
-        let (syntax, full_length) = statement_of(text);
+        let Some((short, length)) = read_plain_goto(text) else { return Ok(false) };
+        let (syntax, full_length) = split_statement(text);
         prop_assert!(!syntax.open, "open: {:?}", String::from_utf8_lossy(text));
         prop_assert_eq!(length, full_length, "{:?}", String::from_utf8_lossy(text));
         let Ok(Record::Goto(full)) = Record::read(&syntax) else {
@@ -241,9 +241,9 @@ mod tests {
 
         #[test]
         fn own_comments_are_comments_to_the_grammar(text in "\\$\\$ ?clsmith ?[ -~]{0,140}[$]?(\r\n|\n|\r|)(GOTO/1,2,3\n)?") {
-            if let Some(length) = own_comment(text.as_bytes()) {
-                let (syntax, end) = crate::parse::statement_of(text.as_bytes());
-                prop_assert_eq!(syntax.form, crate::program::Form::Comment);
+            if let Some(length) = provenance_comment_length(text.as_bytes()) {
+                let (syntax, end) = crate::parse::split_statement(text.as_bytes());
+                prop_assert_eq!(syntax.form, crate::program::StatementKind::Comment);
                 prop_assert_eq!(end, length);
                 prop_assert!(!syntax.open);
                 prop_assert_eq!(Record::read(&syntax).unwrap(), Record::Comment);
@@ -258,12 +258,12 @@ mod tests {
             ("$$ clsmith a: b\r\n", Some(17)),
             ("$$ clsmith a", Some(12)),
         ] {
-            assert_eq!(own_comment(text.as_bytes()), length, "{text}");
+            assert_eq!(provenance_comment_length(text.as_bytes()), length, "{text}");
         }
         for text in ["$$ clsmiths\n", "$$-> clsmith \n", " $$ clsmith x\n", "REMARK clsmith x\n"] {
-            assert_eq!(own_comment(text.as_bytes()), None, "{text}");
+            assert_eq!(provenance_comment_length(text.as_bytes()), None, "{text}");
         }
         let long = format!("$$ clsmith {}", "x".repeat(200));
-        assert_eq!(own_comment(long.as_bytes()), None);
+        assert_eq!(provenance_comment_length(long.as_bytes()), None);
     }
 }

@@ -1,8 +1,8 @@
 //! The dialects of CL text: how they are told apart, and the facts that differ between them.
 
-use super::own::OwnComment;
+use super::provenance_comments::ProvenanceComment;
 use super::record::Record;
-use super::syntax::{Form, Syntax};
+use super::syntax::{StatementKind, StatementSyntax};
 use std::fmt;
 
 /// A dialect of CL text. Names are those of `--dialect` and of reports.
@@ -72,7 +72,7 @@ impl Dialect {
     }
 
     /// The name people know it by.
-    pub fn title(self) -> &'static str {
+    pub fn display_name(self) -> &'static str {
         match self {
             Self::Nx => "Siemens NX CLSF",
             Self::Catia => "CATIA V5 APT",
@@ -87,7 +87,7 @@ impl Dialect {
     }
 
     /// The dialect of a name.
-    pub fn of_name(name: &str) -> Option<Self> {
+    pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|dialect| dialect.name().eq_ignore_ascii_case(name))
     }
 
@@ -113,48 +113,50 @@ impl Dialect {
 
     /// Whether `TLAXIS` tells how the setup stands in the machine instead of the axis in the printed coordinates: CAMWorks
     /// CLT prints every setup in its own frame with the tool along z (its arcs' axis is always 0,0,1).
-    pub fn axis_is_of_setup(self) -> bool {
+    pub fn has_setup_axis(self) -> bool {
         self == Self::CamWorks
     }
 }
 
 impl fmt::Display for Dialect {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.title())
+        f.write_str(self.display_name())
     }
 }
 
 /// Finds the dialect while statements go by.
 #[derive(Debug, Default)]
-pub struct Detector {
+pub struct DialectDetector {
     catia: bool,
     icam: bool,
     found: Option<Dialect>,
 }
 
-impl Detector {
+impl DialectDetector {
     /// Looks at one statement. Marks are exact texts that only one system writes, so the first one decides.
-    pub fn see(&mut self, syntax: &Syntax<'_>, record: &Record) {
+    pub fn observe_statement(&mut self, syntax: &StatementSyntax<'_>, record: &Record) {
         if self.found.is_some() {
             return;
         }
         self.found = match (syntax.form, record) {
-            (Form::OperationStart, _) => Some(Dialect::Nx),
-            (Form::FrameMark, _) => {
+            (StatementKind::OperationStart, _) => Some(Dialect::Nx),
+            (StatementKind::FrameMark, _) => {
                 self.catia = true;
                 None
             }
-            (Form::Comment, _) => self.comment(syntax.text),
-            (Form::Structured, _) if syntax.text.trim_ascii_start().starts_with(b"$$") => Some(Dialect::Creo),
-            (Form::Structured, _) => Some(Dialect::CreoGpost),
-            (Form::FreeText, _) => free_text(syntax),
-            (Form::Words, _) => words(&syntax.major(), syntax),
+            (StatementKind::Comment, _) => self.detect_in_comment(syntax.text),
+            (StatementKind::Structured, _) if syntax.text.trim_ascii_start().starts_with(b"$$") => {
+                Some(Dialect::Creo)
+            }
+            (StatementKind::Structured, _) => Some(Dialect::CreoGpost),
+            (StatementKind::FreeText, _) => detect_in_free_text(syntax),
+            (StatementKind::Words, _) => detect_in_words(&syntax.major_word(), syntax),
             _ => None,
         };
     }
 
     /// The dialect, [`Dialect::Iso`] when nothing told.
-    pub fn dialect(&self) -> Dialect {
+    pub fn detected_dialect(&self) -> Dialect {
         match self.found {
             Some(found) => found,
             None if self.icam => Dialect::CatiaIcam,
@@ -163,8 +165,8 @@ impl Detector {
         }
     }
 
-    fn comment(&mut self, text: &[u8]) -> Option<Dialect> {
-        if OwnComment::of(text).is_some() {
+    fn detect_in_comment(&mut self, text: &[u8]) -> Option<Dialect> {
+        if ProvenanceComment::from_text(text).is_some() {
             // It holds names of the user, whatever they are.
             return None;
         }
@@ -178,27 +180,27 @@ impl Detector {
     }
 }
 
-fn free_text(syntax: &Syntax<'_>) -> Option<Dialect> {
-    let text = syntax.fields.first().map(|field| syntax.bytes(&field.at)).unwrap_or_default();
-    match syntax.major().as_str() {
+fn detect_in_free_text(syntax: &StatementSyntax<'_>) -> Option<Dialect> {
+    let text = syntax.fields.first().map(|field| syntax.bytes_at(&field.at)).unwrap_or_default();
+    match syntax.major_word().as_str() {
         "OPFEATSTART" => Some(Dialect::CamWorks),
         "PPRINT" if text.starts_with(b"APTCL-SPEC,MAKINO") => Some(Dialect::MakinoFf),
         _ => None,
     }
 }
 
-fn words(major: &str, syntax: &Syntax<'_>) -> Option<Dialect> {
+fn detect_in_words(major: &str, syntax: &StatementSyntax<'_>) -> Option<Dialect> {
     match major {
         "TLDATA" | "MSYS" | "PAINT" | "END-OF-PATH" => Some(Dialect::Nx),
         "CSI_SET_FLUTE_LENGTH" | "CSI_SET_EXTENSION_LENGTH" | "TRNTYP" => Some(Dialect::SolidWorks),
         "BOX" | "MOVE_ATTRIB" => Some(Dialect::CamWorks),
         "PPWORD" | "CAMERA" => Some(Dialect::CreoGpost),
-        "CIRCLE" if last_word_is_sense(syntax) => Some(Dialect::CamWorks),
+        "CIRCLE" if has_trailing_sense_word(syntax) => Some(Dialect::CamWorks),
         _ => None,
     }
 }
 
-fn last_word_is_sense(syntax: &Syntax<'_>) -> bool {
+fn has_trailing_sense_word(syntax: &StatementSyntax<'_>) -> bool {
     let last = syntax.fields.len().checked_sub(1).and_then(|last| syntax.word_at(last));
     matches!(last.as_deref(), Some("CLOCKWISE" | "COUNTERCLOCKWISE"))
 }

@@ -2,55 +2,55 @@
 //!
 //! Texts come from `write`, which patches and reads back; here they are only put in place and signed with the step.
 
-use super::statement::{Change, Statement, StepId, TextPlace};
+use super::statement::{Statement, StatementChange, StepId, TextLocation};
 use super::{Program, Record};
 use crate::source::Span;
 
 impl Program {
-    fn keep(&mut self, text: &[u8]) -> TextPlace {
+    fn store_text(&mut self, text: &[u8]) -> TextLocation {
         let start = (self.source.bytes().len() + self.edits.len()) as u64;
         self.edits.extend_from_slice(text);
-        TextPlace { start, length: text.len() as u32 }
+        TextLocation { start, length: text.len() as u32 }
     }
 
-    fn keep_inserted(&mut self, text: &[u8], step: StepId) -> TextPlace {
-        let place = self.keep(text);
+    fn store_inserted_text(&mut self, text: &[u8], step: StepId) -> TextLocation {
+        let place = self.store_text(text);
         if let Some(history) = &mut self.history {
-            history.add(place, None, step);
+            history.record_edit(place, None, step);
         }
         place
     }
 
     /// Gives a statement a new text and the record that was read from it. Equal text is no change.
-    pub(crate) fn replace(&mut self, index: usize, text: &[u8], record: Record, step: StepId) {
-        let same = self.statement(index).is_none_or(|statement| self.text(statement) == text);
+    pub(crate) fn replace_statement(&mut self, index: usize, text: &[u8], record: Record, step: StepId) {
+        let same = self.statement(index).is_none_or(|statement| self.statement_text(statement) == text);
         if same {
             return;
         }
-        let place = self.keep(text);
+        let place = self.store_text(text);
         if let Some(statement) = self.statements.get_mut(index) {
             if let Some(history) = &mut self.history {
-                history.add(place, Some(statement.text), step);
+                history.record_edit(place, Some(statement.text), step);
             }
             statement.text = place;
             statement.record = record;
             statement.change = match statement.change {
-                Change::Inserted(_) => Change::Inserted(step),
-                _ => Change::Edited(step),
+                StatementChange::Inserted(_) => StatementChange::Inserted(step),
+                _ => StatementChange::Edited(step),
             };
         }
     }
 
     /// Takes a statement out of the program. One that a step inserted is still kept, as deleted, for the report.
-    pub(crate) fn delete(&mut self, index: usize, step: StepId) {
+    pub(crate) fn delete_statement(&mut self, index: usize, step: StepId) {
         if let Some(statement) = self.statements.get_mut(index) {
-            statement.change = Change::Deleted(step);
+            statement.change = StatementChange::Deleted(step);
         }
     }
 
     /// Puts new statements in, each before the statement of its index (the count of statements for the end). Insertions of
     /// one index keep their order. Indices are those before the call.
-    pub(crate) fn insert(&mut self, mut new: Vec<(usize, Vec<u8>, Record)>, step: StepId) {
+    pub(crate) fn insert_statements(&mut self, mut new: Vec<(usize, Vec<u8>, Record)>, step: StepId) {
         if new.is_empty() {
             return;
         }
@@ -62,18 +62,18 @@ impl Program {
         for (index, statement) in old.into_iter().enumerate() {
             while let Some((_, text, record)) = new.next_if(|(before, _, _)| *before <= index) {
                 let origin = Span { start: statement.origin.start, end: statement.origin.start };
-                let text = self.keep_inserted(&text, step);
-                merged.push(Statement { record, text, origin, change: Change::Inserted(step) });
+                let text = self.store_inserted_text(&text, step);
+                merged.push(Statement { record, text, origin, change: StatementChange::Inserted(step) });
             }
             merged.push(statement);
         }
         for (_, text, record) in new {
-            let text = self.keep_inserted(&text, step);
+            let text = self.store_inserted_text(&text, step);
             merged.push(Statement {
                 record,
                 text,
                 origin: Span { start: end, end },
-                change: Change::Inserted(step),
+                change: StatementChange::Inserted(step),
             });
         }
         self.statements = merged;

@@ -18,11 +18,11 @@ pub struct Pose {
 
 /// How the tool goes from one pose to the next.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Path {
+pub enum MotionPath {
     /// Straight; the axis turns evenly (slerp) when it differs.
     Line,
     /// An arc or helix.
-    Arc(Box<Arc>),
+    Arc(Box<CircularArc>),
     /// A cubic B-spline.
     Spline(Box<Spline>),
     /// It stays (a FROM, or a point where nothing was known before).
@@ -31,7 +31,7 @@ pub enum Path {
 
 /// An arc, right-hand about `axis`, from `start`; a helix when `rise` is not zero.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Arc {
+pub struct CircularArc {
     /// Where it starts.
     pub start: Point3<f64>,
     /// A point of its axis.
@@ -46,17 +46,17 @@ pub struct Arc {
     pub rise: f64,
 }
 
-impl Arc {
+impl CircularArc {
     /// The arc from `start` to `end` about `axis` (right-hand). Equal start and end make a full turn; `turns_more` are added.
-    pub fn between(
+    pub fn from_endpoints(
         start: Point3<f64>,
         end: Point3<f64>,
         center: Point3<f64>,
         axis: Unit<Vector3<f64>>,
         turns_more: u32,
     ) -> Self {
-        let from = flat(start - center, &axis);
-        let to = flat(end - center, &axis);
+        let from = project_to_plane(start - center, &axis);
+        let to = project_to_plane(end - center, &axis);
         let mut sweep = axis.dot(&from.cross(&to)).atan2(from.dot(&to));
         let full = (from - to).norm() <= SAME_POINT;
         if full {
@@ -70,15 +70,15 @@ impl Arc {
     }
 
     /// The point at a share `t` (0..=1) of the arc.
-    pub fn point(&self, t: f64) -> Point3<f64> {
+    pub fn point_at(&self, t: f64) -> Point3<f64> {
         let rotation = nalgebra::Rotation3::from_axis_angle(&self.axis, self.sweep * t);
         self.center + rotation * (self.start - self.center) + self.axis.into_inner() * (self.rise * t)
     }
 
     /// The unit tangent at a share `t`; zero when the arc has no length.
-    pub fn tangent(&self, t: f64) -> Vector3<f64> {
+    pub fn tangent_at(&self, t: f64) -> Vector3<f64> {
         let rotation = nalgebra::Rotation3::from_axis_angle(&self.axis, self.sweep * t);
-        let spoke = rotation * flat(self.start - self.center, &self.axis);
+        let spoke = rotation * project_to_plane(self.start - self.center, &self.axis);
         let derivative = self.axis.cross(&spoke) * self.sweep + self.axis.into_inner() * self.rise;
         derivative.try_normalize(0.0).unwrap_or_default()
     }
@@ -90,11 +90,11 @@ impl Arc {
 
     /// How far the end lies off the circle: the difference of its distance from the axis and the radius.
     pub fn end_deviation(&self, end: Point3<f64>) -> f64 {
-        (flat(end - self.center, &self.axis).norm() - self.radius).abs()
+        (project_to_plane(end - self.center, &self.axis).norm() - self.radius).abs()
     }
 }
 
-fn flat(vector: Vector3<f64>, axis: &Unit<Vector3<f64>>) -> Vector3<f64> {
+fn project_to_plane(vector: Vector3<f64>, axis: &Unit<Vector3<f64>>) -> Vector3<f64> {
     vector - axis.into_inner() * axis.dot(&vector)
 }
 
@@ -110,7 +110,7 @@ pub struct Spline {
 
 impl Spline {
     /// The spline of printed knots and control points. `None` when the counts or the order of the knots do not fit.
-    pub fn clamped(start: Point3<f64>, printed_knots: &[f64], controls: &[Point3<f64>]) -> Option<Self> {
+    pub fn from_knots(start: Point3<f64>, printed_knots: &[f64], controls: &[Point3<f64>]) -> Option<Self> {
         let last = *printed_knots.last()?;
         let ascending = printed_knots.windows(2).all(|pair| matches!(pair, [a, b] if a <= b));
         if controls.len() != printed_knots.len() + 2
@@ -126,7 +126,7 @@ impl Spline {
     }
 
     /// The point at a share `t` (0..=1) of the parameter range (de Boor's algorithm).
-    pub fn point(&self, t: f64) -> Point3<f64> {
+    pub fn point_at(&self, t: f64) -> Point3<f64> {
         let count = self.controls.len();
         let knot = |index: usize| self.knots.get(index).copied().unwrap_or_default();
         let last = knot(self.knots.len().saturating_sub(1));
@@ -177,9 +177,9 @@ impl Spline {
     pub fn length(&self) -> f64 {
         let steps = 16 * self.controls.len().saturating_sub(3).max(1);
         let mut length = 0.0;
-        let mut last = self.point(0.0);
+        let mut last = self.point_at(0.0);
         for step in 1..=steps {
-            let next = self.point(step as f64 / steps as f64);
+            let next = self.point_at(step as f64 / steps as f64);
             length += (next - last).norm();
             last = next;
         }
@@ -187,7 +187,7 @@ impl Spline {
     }
 }
 
-impl Path {
+impl MotionPath {
     /// Length of the path from `from` to `to`.
     pub fn length(&self, from: Point3<f64>, to: Point3<f64>) -> f64 {
         match self {
@@ -204,7 +204,7 @@ impl Path {
             Self::Start => Vector3::zeros(),
             Self::Line if (to - from).norm() > SAME_POINT => (to - from).normalize(),
             Self::Line => Vector3::zeros(),
-            Self::Arc(arc) => arc.tangent(1.0),
+            Self::Arc(arc) => arc.tangent_at(1.0),
             Self::Spline(spline) => spline.end_tangent(),
         };
         (tangent.norm() > 0.5).then_some(tangent)
@@ -212,17 +212,17 @@ impl Path {
 
     /// Points on the path that bound it within an arc's sagitta: both ends, and inside an arc every 15 degrees, inside a
     /// spline its samples. For boxes and drawings.
-    pub fn samples(&self, from: Point3<f64>, to: Point3<f64>) -> Vec<Point3<f64>> {
+    pub fn sample_points(&self, from: Point3<f64>, to: Point3<f64>) -> Vec<Point3<f64>> {
         match self {
             Self::Start => vec![to],
             Self::Line => vec![from, to],
             Self::Arc(arc) => {
                 let steps = (arc.sweep / 15f64.to_radians()).ceil().clamp(1.0, 100_000.0) as usize;
-                (0..=steps).map(|step| arc.point(step as f64 / steps as f64)).collect()
+                (0..=steps).map(|step| arc.point_at(step as f64 / steps as f64)).collect()
             }
             Self::Spline(spline) => {
                 let steps = 8 * spline.controls.len();
-                (0..=steps).map(|step| spline.point(step as f64 / steps as f64)).collect()
+                (0..=steps).map(|step| spline.point_at(step as f64 / steps as f64)).collect()
             }
         }
     }

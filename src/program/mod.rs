@@ -3,30 +3,30 @@
 //! Text is the truth and records are a view over it. Fresh from the parser the statements' spans tile the file. Motions
 //! ([`motion`]) and operations ([`operation`]) are views that are computed, not stored.
 
-pub mod class;
 mod dialect;
 mod edit;
 pub mod geometry;
 mod history;
 pub mod motion;
+pub mod motion_class;
 pub mod operation;
-mod own;
+mod provenance_comments;
 pub mod record;
 mod statement;
 mod syntax;
 pub mod units;
 
-pub use class::MotionClass;
-pub use dialect::{ArcRule, Detector, Dialect};
-pub use history::Edit;
-pub use own::{OWN_WORD, OwnComment};
-pub use record::{Record, Role};
-pub use statement::{Change, Statement, StepId};
-pub use syntax::{Field, FieldKind, Form, Group, Syntax, folded};
+pub use dialect::{ArcRule, Dialect, DialectDetector};
+pub use history::StatementEdit;
+pub use motion_class::MotionClass;
+pub use provenance_comments::{OWN_WORD, ProvenanceComment};
+pub use record::{NumberRole, Record};
+pub use statement::{Statement, StatementChange, StepId};
+pub use syntax::{FieldGroup, FieldKind, StatementField, StatementKind, StatementSyntax, fold_text};
 pub use units::{Feed, FeedUnit, LengthUnit};
 
 use crate::source::{Source, Span};
-use statement::TextPlace;
+use statement::TextLocation;
 use std::sync::Arc;
 
 /// A CL program.
@@ -36,7 +36,7 @@ pub struct Program {
     edits: Vec<u8>,
     statements: Vec<Statement>,
     dialect: Dialect,
-    history: Option<Box<history::History>>,
+    history: Option<Box<history::EditHistory>>,
 }
 
 impl Program {
@@ -56,8 +56,8 @@ impl Program {
     /// Adds a statement as the parser read it.
     #[inline]
     pub(crate) fn push(&mut self, record: Record, span: Span) {
-        let text = TextPlace { start: u64::from(span.start), length: span.len() as u32 };
-        self.statements.push(Statement { record, text, origin: span, change: Change::Untouched });
+        let text = TextLocation { start: u64::from(span.start), length: span.len() as u32 };
+        self.statements.push(Statement { record, text, origin: span, change: StatementChange::Untouched });
     }
 
     /// The file it was read from.
@@ -81,16 +81,16 @@ impl Program {
     }
 
     /// The live statements with their indices.
-    pub fn live(&self) -> impl DoubleEndedIterator<Item = (usize, &Statement)> {
+    pub fn live_statements(&self) -> impl DoubleEndedIterator<Item = (usize, &Statement)> {
         self.statements.iter().enumerate().filter(|(_, statement)| statement.is_live())
     }
 
     /// The text of a statement as it stands now, line end included.
-    pub fn text(&self, statement: &Statement) -> &[u8] {
+    pub fn statement_text(&self, statement: &Statement) -> &[u8] {
         self.text_at(statement.text)
     }
 
-    fn text_at(&self, place: TextPlace) -> &[u8] {
+    fn text_at(&self, place: TextLocation) -> &[u8] {
         let start = place.start as usize;
         let length = place.length as usize;
         let source = self.source.bytes();
@@ -103,17 +103,17 @@ impl Program {
     }
 
     /// The unit of lengths: what the file says first, `None` where it says nothing (NX and CATIA never do).
-    pub fn stated_units(&self) -> Option<LengthUnit> {
-        self.live().find_map(|(_, statement)| match statement.record() {
+    pub fn stated_length_unit(&self) -> Option<LengthUnit> {
+        self.live_statements().find_map(|(_, statement)| match statement.record() {
             Record::Units(units) => Some(*units),
             _ => None,
         })
     }
 
     /// The unit that the words of the feeds name (MMPM, IPM, ...); `None` where none does, or where they disagree.
-    pub fn units_of_feeds(&self) -> Option<LengthUnit> {
+    pub fn feed_length_unit(&self) -> Option<LengthUnit> {
         let mut found: Option<LengthUnit> = None;
-        for (_, statement) in self.live() {
+        for (_, statement) in self.live_statements() {
             let feed = match statement.record() {
                 Record::Feed(feed) => Some(*feed),
                 Record::Cycle(cycle) => cycle.feed,
@@ -121,7 +121,7 @@ impl Program {
             };
             // A feed in the file's own unit says nothing; the two defaults tell it from one that does.
             let Some(word) = feed.and_then(|feed| feed.unit) else { continue };
-            let (mm, inch) = (word.length(LengthUnit::Mm), word.length(LengthUnit::Inch));
+            let (mm, inch) = (word.length_unit(LengthUnit::Mm), word.length_unit(LengthUnit::Inch));
             match (found, mm) {
                 _ if mm != inch => {}
                 (Some(before), Some(unit)) if before != unit => return None,
@@ -133,24 +133,24 @@ impl Program {
 
     /// The bytes of the whole program as it stands, piece by piece, in order. Pieces that were not touched are slices of the
     /// source, joined as far as they reach.
-    pub fn pieces(&self) -> impl Iterator<Item = &[u8]> {
-        Pieces { program: self, next: 0 }
+    pub fn byte_chunks(&self) -> impl Iterator<Item = &[u8]> {
+        ProgramChunks { program: self, next: 0 }
     }
 
     /// The bytes of the whole program as it stands.
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(self.source.bytes().len());
-        self.pieces().for_each(|piece| bytes.extend_from_slice(piece));
+        self.byte_chunks().for_each(|piece| bytes.extend_from_slice(piece));
         bytes
     }
 }
 
-struct Pieces<'p> {
+struct ProgramChunks<'p> {
     program: &'p Program,
     next: usize,
 }
 
-impl<'p> Iterator for Pieces<'p> {
+impl<'p> Iterator for ProgramChunks<'p> {
     type Item = &'p [u8];
 
     fn next(&mut self) -> Option<&'p [u8]> {
@@ -161,12 +161,12 @@ impl<'p> Iterator for Pieces<'p> {
             if !statement.is_live() {
                 continue;
             }
-            if statement.change != Change::Untouched {
-                return Some(self.program.text(statement));
+            if statement.change != StatementChange::Untouched {
+                return Some(self.program.statement_text(statement));
             }
             let mut end = statement.origin.end;
             while let Some(next) = statements.get(self.next)
-                && next.change == Change::Untouched
+                && next.change == StatementChange::Untouched
                 && next.origin.start == end
             {
                 end = next.origin.end;

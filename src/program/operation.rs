@@ -20,16 +20,16 @@ pub struct Operation {
 }
 
 /// The operations of a program, in order, without gaps. Never empty.
-pub fn operations(program: &Program) -> Vec<Operation> {
+pub fn find_operations(program: &Program) -> Vec<Operation> {
     let end = program.statements().len();
     let mut found: Vec<Operation> = Vec::new();
-    for (index, statement) in program.live() {
+    for (index, statement) in program.live_statements() {
         match statement.record() {
             Record::OperationStart(_) => {
                 if let Some(last) = found.last_mut() {
                     last.statements.end = index;
                 }
-                let name = name(program, statement).unwrap_or_default();
+                let name = operation_name(program, statement).unwrap_or_default();
                 found.push(Operation { name, start: index, statements: index..end, closed: false });
             }
             Record::OperationEnd => {
@@ -48,19 +48,19 @@ pub fn operations(program: &Program) -> Vec<Operation> {
 }
 
 /// The name in an operation's start statement.
-pub fn name(program: &Program, statement: &Statement) -> Option<String> {
+pub fn operation_name(program: &Program, statement: &Statement) -> Option<String> {
     let Record::OperationStart(names) = statement.record() else { return None };
-    program.text(statement).get((*names.name).clone()).map(text)
+    program.statement_text(statement).get((*names.name).clone()).map(decode_text)
 }
 
 /// The tool's name in an operation's start statement (NX).
 pub fn tool_name(program: &Program, statement: &Statement) -> Option<String> {
     let Record::OperationStart(names) = statement.record() else { return None };
-    names.tool.as_deref().and_then(|at| program.text(statement).get(at.clone())).map(text)
+    names.tool.as_deref().and_then(|at| program.statement_text(statement).get(at.clone())).map(decode_text)
 }
 
 /// UTF-8 where it is, else Latin-1: every byte a character, none lost.
-pub fn text(bytes: &[u8]) -> String {
+pub fn decode_text(bytes: &[u8]) -> String {
     match std::str::from_utf8(bytes) {
         Ok(text) => text.to_owned(),
         Err(_) => bytes.iter().map(|&byte| char::from(byte)).collect(),

@@ -9,7 +9,7 @@ pub struct StepId(pub u16);
 
 /// What happened to a statement since it was read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Change {
+pub enum StatementChange {
     /// Nothing: it is written byte for byte.
     Untouched,
     /// Its text was changed; the last step that did is named.
@@ -22,7 +22,7 @@ pub enum Change {
 
 /// Where a statement's text is: in the source, or among the texts that edits made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct TextPlace {
+pub(crate) struct TextLocation {
     /// Offset in the source; from the source's length on, offset in the edits (40 bits would do, a file has 32).
     pub(crate) start: u64,
     /// Bytes.
@@ -33,9 +33,9 @@ pub(crate) struct TextPlace {
 #[derive(Debug, Clone)]
 pub struct Statement {
     pub(super) record: Record,
-    pub(super) text: TextPlace,
+    pub(super) text: TextLocation,
     pub(super) origin: Span,
-    pub(super) change: Change,
+    pub(super) change: StatementChange,
 }
 
 impl Statement {
@@ -50,20 +50,22 @@ impl Statement {
     }
 
     /// What happened to it.
-    pub fn change(&self) -> Change {
+    pub fn change(&self) -> StatementChange {
         self.change
     }
 
     /// Whether it is still part of the program.
     pub fn is_live(&self) -> bool {
-        !matches!(self.change, Change::Deleted(_))
+        !matches!(self.change, StatementChange::Deleted(_))
     }
 
     /// The step that changed it.
     pub fn edited_by(&self) -> Option<StepId> {
         match self.change {
-            Change::Untouched => None,
-            Change::Edited(step) | Change::Inserted(step) | Change::Deleted(step) => Some(step),
+            StatementChange::Untouched => None,
+            StatementChange::Edited(step)
+            | StatementChange::Inserted(step)
+            | StatementChange::Deleted(step) => Some(step),
         }
     }
 }

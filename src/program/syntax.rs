@@ -1,12 +1,12 @@
 //! The words and fields of one statement, as the grammar sees them: places in the statement's text, and number values.
 //!
-//! [`Syntax`] is made on demand and never stored. Records read their meaning from it; edits and rewrite rules work on it.
+//! [`StatementSyntax`] is made on demand and never stored. Records read their meaning from it; edits and rewrite rules work on it.
 
 use std::ops::Range;
 
 /// Which form of the grammar a statement has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Form {
+pub enum StatementKind {
     /// Nothing but blanks.
     Blank,
     /// `$$ ...`
@@ -33,7 +33,7 @@ pub enum Form {
 
 /// A field of a statement: its bytes (relative to the statement's text) and what stands there.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Field {
+pub struct StatementField {
     /// Place in the statement's text.
     pub at: Range<usize>,
     /// What stands there.
@@ -52,44 +52,44 @@ pub enum FieldKind {
     /// `'...'`, quotes included in the place.
     Quoted,
     /// `(WORD/...)`, as CATIA nests CIRCLE and LINE.
-    Group(Box<Group>),
+    Group(Box<FieldGroup>),
 }
 
 /// A nested record.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Group {
+pub struct FieldGroup {
     /// Place of its word.
     pub word: Range<usize>,
     /// Its fields.
-    pub fields: Vec<Field>,
+    pub fields: Vec<StatementField>,
 }
 
 /// One statement, taken apart.
 #[derive(Debug, Clone)]
-pub struct Syntax<'t> {
+pub struct StatementSyntax<'t> {
     /// The statement's whole text, line end included.
     pub text: &'t [u8],
     /// Its form.
-    pub form: Form,
+    pub form: StatementKind,
     /// Place of the major word(s); empty when there is none.
     pub word: Range<usize>,
     /// Its fields in order.
-    pub fields: Vec<Field>,
+    pub fields: Vec<StatementField>,
     /// Place of a trailing `$$` comment.
     pub remark: Option<Range<usize>>,
     /// The statement continues past the end of the file.
     pub open: bool,
 }
 
-impl<'t> Syntax<'t> {
+impl<'t> StatementSyntax<'t> {
     /// The bytes at a place; empty when the place is not in the text.
-    pub fn bytes(&self, at: &Range<usize>) -> &'t [u8] {
+    pub fn bytes_at(&self, at: &Range<usize>) -> &'t [u8] {
         self.text.get(at.clone()).unwrap_or_default()
     }
 
     /// The major word in upper case, inner blanks folded to one and blanks around commas dropped: `TOOL PATH`, `TLON,GOFWD`.
-    pub fn major(&self) -> String {
-        folded(self.bytes(&self.word))
+    pub fn major_word(&self) -> String {
+        fold_text(self.bytes_at(&self.word))
     }
 
     /// All numbers in the order they stand, nested ones included. The index of a number here is what edits name.
@@ -102,18 +102,18 @@ impl<'t> Syntax<'t> {
     /// A field's text in upper case, when it is a word.
     pub fn word_at(&self, index: usize) -> Option<String> {
         let field = self.fields.get(index)?;
-        matches!(field.kind, FieldKind::Text).then(|| folded(self.bytes(&field.at)))
+        matches!(field.kind, FieldKind::Text).then(|| fold_text(self.bytes_at(&field.at)))
     }
 
     /// A field's value, when it is a number.
     pub fn number_at(&self, index: usize) -> Option<f64> {
-        self.fields.get(index).and_then(Field::number)
+        self.fields.get(index).and_then(StatementField::number_value)
     }
 }
 
-impl Field {
+impl StatementField {
     /// The value, when it is a number.
-    pub fn number(&self) -> Option<f64> {
+    pub fn number_value(&self) -> Option<f64> {
         match self.kind {
             FieldKind::Number(value) => Some(value),
             _ => None,
@@ -121,7 +121,7 @@ impl Field {
     }
 }
 
-fn collect_numbers(fields: &[Field], into: &mut Vec<(Range<usize>, f64)>) {
+fn collect_numbers(fields: &[StatementField], into: &mut Vec<(Range<usize>, f64)>) {
     for field in fields {
         match &field.kind {
             FieldKind::Number(value) => into.push((field.at.clone(), *value)),
@@ -132,7 +132,7 @@ fn collect_numbers(fields: &[Field], into: &mut Vec<(Range<usize>, f64)>) {
 }
 
 /// Upper case, runs of blanks folded to one, no blanks around commas. Bytes from 0x80 on stand as Latin-1.
-pub fn folded(bytes: &[u8]) -> String {
+pub fn fold_text(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len());
     let mut blank = false;
     for &byte in bytes {

@@ -27,7 +27,7 @@ impl std::fmt::Display for LengthUnit {
 
 impl LengthUnit {
     /// Millimetres in one unit.
-    pub fn in_mm(self) -> f64 {
+    pub fn mm_per_unit(self) -> f64 {
         match self {
             Self::Mm => 1.0,
             Self::Inch => MM_PER_INCH,
@@ -56,7 +56,7 @@ pub enum FeedUnit {
 
 impl FeedUnit {
     /// The unit that a word of the standard names.
-    pub fn of_word(word: &str) -> Option<Self> {
+    pub fn from_word(word: &str) -> Option<Self> {
         Some(match word {
             "MMPM" => Self::MmPerMinute,
             "MMPR" => Self::MmPerRevolution,
@@ -83,12 +83,12 @@ impl FeedUnit {
     }
 
     /// Whether the feed is per revolution of the spindle.
-    pub fn per_revolution(self) -> bool {
+    pub fn is_per_revolution(self) -> bool {
         matches!(self, Self::MmPerRevolution | Self::InchPerRevolution | Self::PerRevolution)
     }
 
     /// The unit of length in the feed: what its word says, else the file's; `None` for inverse time.
-    pub fn length(self, file: LengthUnit) -> Option<LengthUnit> {
+    pub fn length_unit(self, file: LengthUnit) -> Option<LengthUnit> {
         match self {
             Self::MmPerMinute | Self::MmPerRevolution => Some(LengthUnit::Mm),
             Self::InchPerMinute | Self::InchPerRevolution => Some(LengthUnit::Inch),
@@ -122,10 +122,10 @@ impl Feed {
         length: Option<f64>,
     ) -> Option<f64> {
         let unit = self.unit_or_default();
-        let Some(length_unit) = unit.length(file) else {
-            return length.map(|length| self.value * length * file.in_mm());
+        let Some(length_unit) = unit.length_unit(file) else {
+            return length.map(|length| self.value * length * file.mm_per_unit());
         };
-        let per_minute = if unit.per_revolution() { self.value * spindle_rpm? } else { self.value };
-        Some(per_minute * length_unit.in_mm())
+        let per_minute = if unit.is_per_revolution() { self.value * spindle_rpm? } else { self.value };
+        Some(per_minute * length_unit.mm_per_unit())
     }
 }

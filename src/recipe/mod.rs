@@ -3,26 +3,26 @@
 //! A [`Recipe`] is generic over its steps, which are the transforms' business; this module knows the frame around them, and
 //! where in the file each of them stands.
 
-mod explain;
+mod motion_filter;
 mod provenance;
-mod select;
-mod text;
+mod recipe_fault_wording;
+mod recipe_text;
 
-pub use crate::values;
-pub use crate::yaml::Segment;
+pub use crate::parameters;
+pub use crate::yaml::YamlPathSegment;
+pub(crate) use motion_filter::deserialize_not_empty;
+pub use motion_filter::{FeedRange, MotionFacts, MotionFilter};
 pub use provenance::Provenance;
-pub(crate) use select::not_empty;
-pub use select::{Facts, FeedRange, Where};
-pub use text::schema;
+pub use recipe_text::recipe_schema;
 
 use crate::diagnostic::{Diagnostic, codes};
-use crate::setup::{Place, Setup};
+use crate::setup::{Setup, YamlLocation};
 use crate::source::{Source, Span};
-use crate::yaml::Document;
+use crate::yaml::YamlDocument;
+use parameters::LengthUnit;
+use recipe_text::RecipeText;
 use serde::de::DeserializeOwned;
 use std::sync::{Arc, OnceLock};
-use text::RecipeText;
-use values::LengthUnit;
 
 /// A recipe that was read and checked.
 ///
@@ -37,13 +37,13 @@ pub struct Recipe<S> {
     pub units: LengthUnit,
     /// A setup file, relative to the recipe's folder; see [`Recipe::load_setup_file`].
     pub setup_file: Option<String>,
-    /// The recipe's own `setup:`, in millimetres; see [`Recipe::setup_with`].
+    /// The recipe's own `setup:`, in millimetres; see [`Recipe::merge_setups`].
     pub setup: Setup,
     /// What the corrected file says about its run.
     pub provenance: Provenance,
     /// The steps in the order in which they are applied.
     pub steps: Vec<S>,
-    document: Arc<Document>,
+    document: Arc<YamlDocument>,
     step_places: Vec<OnceLock<Span>>,
 }
 
@@ -53,11 +53,14 @@ impl<S: DeserializeOwned> Recipe<S> {
     /// # Errors
     /// Everything that is wrong with it, in the order of the text, each at its exact key or value; at most 20 findings.
     pub fn load(source: &Arc<Source>) -> Result<Self, Vec<Diagnostic>> {
-        let document = Document::read(source).map_err(|diagnostic| vec![*diagnostic])?;
-        let text: RecipeText<S> =
-            document.check(explain::special).map_err(|found| foreign(&document, found))?;
+        let document = YamlDocument::parse(source).map_err(|diagnostic| vec![*diagnostic])?;
+        let text: RecipeText<S> = document
+            .deserialize_checked(recipe_fault_wording::word_recipe_fault)
+            .map_err(|found| keep_version_finding(&document, found))?;
         let document = Arc::new(document);
-        let setup = text.setup.checked(text.units, Place::new(&document, &[Segment::Key("setup")]))?;
+        let setup = text
+            .setup
+            .check_setup(text.units, YamlLocation::new(&document, &[YamlPathSegment::Key("setup")]))?;
         Ok(Self {
             source: Arc::clone(source),
             version: text.version.get(),
@@ -73,8 +76,8 @@ impl<S: DeserializeOwned> Recipe<S> {
 }
 
 /// In a recipe of another version, the version is all that is wrong: the rest was written by rules unknown here.
-fn foreign(document: &Document, mut found: Vec<Diagnostic>) -> Vec<Diagnostic> {
-    if document.place(&[Segment::Key("version")]).is_some()
+fn keep_version_finding(document: &YamlDocument, mut found: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    if document.value_span(&[YamlPathSegment::Key("version")]).is_some()
         && found.iter().any(|diagnostic| diagnostic.code == codes::RECIPE_VERSION)
     {
         found.retain(|diagnostic| diagnostic.code == codes::RECIPE_VERSION);
@@ -84,20 +87,20 @@ fn foreign(document: &Document, mut found: Vec<Diagnostic>) -> Vec<Diagnostic> {
 
 impl<S> Recipe<S> {
     /// Where a value stands; a key without a value stands for it. `None` if the recipe does not say it.
-    pub fn place(&self, path: &[Segment<'_>]) -> Option<Span> {
-        self.document.place(path)
+    pub fn value_span(&self, path: &[YamlPathSegment<'_>]) -> Option<Span> {
+        self.document.value_span(path)
     }
 
     /// Where the key of a value stands. `None` if the recipe does not say it.
-    pub fn key_place(&self, path: &[Segment<'_>]) -> Option<Span> {
-        self.document.key_place(path)
+    pub fn key_span(&self, path: &[YamlPathSegment<'_>]) -> Option<Span> {
+        self.document.key_span(path)
     }
 
     /// The name of a step, as written: `scale_feed`. Looked up once and then remembered.
     ///
     /// A step that does not exist stands at the start of the file, so that a diagnostic is never lost for want of a place.
-    pub fn step_place(&self, index: usize) -> Span {
-        let find = || self.find_step(index).unwrap_or_default();
+    pub fn step_span(&self, index: usize) -> Span {
+        let find = || self.find_step_span(index).unwrap_or_default();
         self.step_places.get(index).map_or_else(find, |place| *place.get_or_init(find))
     }
 
@@ -105,27 +108,31 @@ impl<S> Recipe<S> {
     /// say stands where the nearest thing it does say stands, in the end at the step's name.
     ///
     /// Each call reads the recipe's text again: ask once per step, not once per finding.
-    pub fn step_value_place(&self, index: usize, keys: &[&str]) -> Span {
-        let step = [Segment::Key("steps"), Segment::Index(index)];
-        let Some(name) = self.document.keys(&step).first().copied() else { return self.step_place(index) };
-        let below: Vec<Segment<'_>> =
-            keys.iter().map(|key| key.parse().map_or(Segment::Key(key), Segment::Index)).collect();
+    pub fn step_value_span(&self, index: usize, keys: &[&str]) -> Span {
+        let step = [YamlPathSegment::Key("steps"), YamlPathSegment::Index(index)];
+        let Some(name) = self.document.list_keys(&step).first().copied() else {
+            return self.step_span(index);
+        };
+        let below: Vec<YamlPathSegment<'_>> = keys
+            .iter()
+            .map(|key| key.parse().map_or(YamlPathSegment::Key(key), YamlPathSegment::Index))
+            .collect();
         (1..=below.len())
             .rev()
             .filter_map(|count| {
-                let mut path = vec![step[0], step[1], Segment::Key(name)];
+                let mut path = vec![step[0], step[1], YamlPathSegment::Key(name)];
                 path.extend_from_slice(below.get(..count)?);
-                self.document.place(&path)
+                self.document.value_span(&path)
             })
             .next()
-            .unwrap_or_else(|| self.step_place(index))
+            .unwrap_or_else(|| self.step_span(index))
     }
 
-    fn find_step(&self, index: usize) -> Option<Span> {
-        let step = [Segment::Key("steps"), Segment::Index(index)];
-        match self.document.keys(&step).first() {
-            Some(name) => self.document.key_place(&[step[0], step[1], Segment::Key(name)]),
-            None => self.document.place(&step),
+    fn find_step_span(&self, index: usize) -> Option<Span> {
+        let step = [YamlPathSegment::Key("steps"), YamlPathSegment::Index(index)];
+        match self.document.list_keys(&step).first() {
+            Some(name) => self.document.key_span(&[step[0], step[1], YamlPathSegment::Key(name)]),
+            None => self.document.value_span(&step),
         }
     }
 
@@ -141,15 +148,15 @@ impl<S> Recipe<S> {
     ) -> Result<Setup, Vec<Diagnostic>> {
         let Some(path) = &self.setup_file else { return Ok(Setup::default()) };
         let source = read(path).map_err(|reason| {
-            let span = self.place(&[Segment::Key("setup_file")]).unwrap_or_default();
+            let span = self.value_span(&[YamlPathSegment::Key("setup_file")]).unwrap_or_default();
             let message = format!("the setup file `{path}` cannot be read: {reason}");
-            vec![Diagnostic::new(codes::SETUP_FILE, message).label(&self.source, span, "named here")]
+            vec![Diagnostic::new(codes::SETUP_FILE, message).with_label(&self.source, span, "named here")]
         })?;
         Setup::load(&source)
     }
 
     /// The setup that counts: field by field, the command line's, else the recipe's, else the setup file's.
-    pub fn setup_with(&self, setup_file: Setup, command_line: Setup) -> Setup {
-        command_line.over(self.setup.clone()).over(setup_file)
+    pub fn merge_setups(&self, setup_file: Setup, command_line: Setup) -> Setup {
+        command_line.override_base(self.setup.clone()).override_base(setup_file)
     }
 }

@@ -1,24 +1,24 @@
 //! What a code means, at length.
 
-use crate::diagnostic::{CATALOGUE, Code};
+use crate::diagnostic::{CATALOGUE, DiagnosticCode};
 use std::fmt::Write;
 
 const WIDTH: usize = 80;
 
 /// Everything the catalogue knows of a code, wrapped at 80 columns.
-pub fn explain(code: Code) -> String {
+pub fn explain_code(code: DiagnosticCode) -> String {
     let mut text = format!("{code}: {} ({})\n", code.meaning(), code.severity());
     for part in [code.explanation(), code.help()] {
         if !part.is_empty() {
             text.push('\n');
-            text.push_str(&wrap(part));
+            text.push_str(&wrap_paragraphs(part));
         }
     }
     text
 }
 
 /// All codes, one line each: code, severity, meaning.
-pub fn list() -> String {
+pub fn list_codes() -> String {
     let mut text = String::new();
     for code in CATALOGUE.iter().flat_map(|rows| rows.iter()) {
         // Writing to a String cannot fail.
@@ -28,7 +28,7 @@ pub fn list() -> String {
 }
 
 /// Wraps paragraphs; lines that start with a blank are a table or an example and stay as they are.
-fn wrap(text: &str) -> String {
+fn wrap_paragraphs(text: &str) -> String {
     let mut wrapped = String::new();
     for line in text.lines() {
         if line.starts_with(' ') {

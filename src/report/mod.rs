@@ -1,38 +1,38 @@
 //! What a run has to say: findings filtered, sorted and rendered.
 //!
-//! [`policy`] decides which findings stand and how bad they are, [`render`] turns them into text, and [`explain`] answers
-//! questions about a code. [`stats`] measures a program, [`diff`] compares two by meaning, [`unified`] shows what steps made
-//! of one as a patch, and [`changes`] counts it. [`simulation`] presents what tools cut and bear, [`chips`] what
+//! [`finding_policy`] decides which findings stand and how bad they are, [`render`] turns them into text, and [`explain`] answers
+//! questions about a code. [`stats`] measures a program, [`diff`] compares two by meaning, [`unified_diff`] shows what steps made
+//! of one as a patch, and [`changes`] counts it. [`simulation`] presents what tools cut and bear, [`layered_chips`] what
 //! they cut layer by layer. Everything is written into a writer that the caller hands in, or returned.
 
 pub mod changes;
-pub mod chips;
 pub mod comparison;
-mod compensated;
+mod compensate_z_report;
+mod correct_ramp_report;
 pub mod diff;
 pub mod explain;
+pub mod finding_policy;
 pub mod html;
-pub mod kind;
-pub mod picture;
+pub mod layered_chips;
+pub mod path_drawing;
 pub mod plot;
-pub mod policy;
-mod ramps;
+pub mod record_kind;
 pub mod render;
-mod round;
+mod rounding;
 pub mod simulation;
 pub mod stats;
+pub mod step_descriptions;
 pub mod step_report;
-pub mod steps;
-pub mod surfacing;
-pub(crate) mod table;
-pub mod unified;
+pub mod surface_milling;
+pub(crate) mod text_format;
+pub mod unified_diff;
 
-use crate::program::motion::Tool;
-use crate::program::{Change, Program, Statement};
+use crate::program::motion::ActiveTool;
+use crate::program::{Program, Statement, StatementChange};
 use serde::Serialize;
 
 /// A report as one JSON document, indented and with a line end.
-fn json_text(report: &impl Serialize) -> String {
+fn to_json_text(report: &impl Serialize) -> String {
     // Strings, numbers and lists always serialize; only a writer or a map with odd keys could fail.
     let mut text = serde_json::to_string_pretty(report).unwrap_or_default();
     text.push('\n');
@@ -40,13 +40,13 @@ fn json_text(report: &impl Serialize) -> String {
 }
 
 /// The 1-based line a statement stands on in its file; `None` for one that was not in the file.
-fn line_of(program: &Program, statement: &Statement) -> Option<usize> {
-    let in_file = !matches!(statement.change(), Change::Inserted(_));
+fn statement_line(program: &Program, statement: &Statement) -> Option<usize> {
+    let in_file = !matches!(statement.change(), StatementChange::Inserted(_));
     in_file.then(|| program.source().line_column(statement.origin().start).0)
 }
 
 /// A tool by its number where it is known, else by its name; empty for one of which nothing is known.
-fn tool_name(tool: Option<&Tool>) -> String {
+fn tool_name(tool: Option<&ActiveTool>) -> String {
     let named = tool.and_then(|tool| {
         let number = tool.number.map(|number| number.to_string());
         number.or_else(|| tool.name.clone())

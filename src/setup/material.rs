@@ -1,13 +1,13 @@
 //! The work material: its cutting coefficients, given in the setup or in a file of their own.
 
-use super::reader::Reader;
+use super::setup_reader::SetupReader;
 use super::stock::FileRef;
-use super::{Place, Setup};
+use super::{Setup, YamlLocation};
 use crate::diagnostic::{Diagnostic, codes};
+use crate::parameters::{FilePath, Finite, NonNegative, Positive};
 use crate::sim;
 use crate::source::Source;
-use crate::values::{FilePath, Finite, NonNegative, Positive};
-use crate::yaml::Document;
+use crate::yaml::YamlDocument;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
@@ -15,19 +15,19 @@ use std::sync::Arc;
 
 /// A work material.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Material {
+pub struct WorkMaterial {
     /// What it is called.
     pub name: Option<String>,
     /// Its cutting coefficients in N/mm2 and N/mm.
-    pub coefficients: sim::Material,
+    pub coefficients: sim::CuttingCoefficients,
 }
 
 /// The material as the setup says it.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MaterialChoice {
     /// Its coefficients.
-    Given(Material),
-    /// A file with them, which nobody has read yet: [`Setup::with_material_file`].
+    Given(WorkMaterial),
+    /// A file with them, which nobody has read yet: [`Setup::read_material_file`].
     File(FileRef),
 }
 
@@ -36,15 +36,15 @@ const RADIAL: f64 = 0.3;
 /// Axial to tangential cutting coefficient, likewise.
 const AXIAL: f64 = 0.2;
 
-impl Material {
+impl WorkMaterial {
     /// Reads a material file.
     ///
     /// # Errors
     /// Everything that is wrong with the file, each at its place.
     pub fn load(source: &Arc<Source>) -> Result<Self, Vec<Diagnostic>> {
-        let document = Document::read(source).map_err(|diagnostic| vec![*diagnostic])?;
-        let text: MaterialFileText = document.check(|_| None)?;
-        Ok(text.material())
+        let document = YamlDocument::parse(source).map_err(|diagnostic| vec![*diagnostic])?;
+        let text: MaterialFileText = document.deserialize_checked(|_| None)?;
+        Ok(text.into_material())
     }
 
     /// JSON schema of a material file, for editors.
@@ -58,16 +58,16 @@ impl Setup {
     ///
     /// # Errors
     /// [`codes::MATERIAL_FILE`] where the file is named, or what is wrong in it.
-    pub fn with_material_file(
+    pub fn read_material_file(
         mut self,
         read: impl FnOnce(&Path) -> Result<Arc<Source>, String>,
     ) -> Result<Self, Vec<Diagnostic>> {
         if let Some(MaterialChoice::File(file)) = &self.material {
             let source = read(&file.path).map_err(|reason| {
                 let message = format!("the material file `{}` cannot be read: {reason}", file.written);
-                vec![file.fault(codes::MATERIAL_FILE, message)]
+                vec![file.make_finding(codes::MATERIAL_FILE, message)]
             })?;
-            self.material = Some(MaterialChoice::Given(Material::load(&source)?));
+            self.material = Some(MaterialChoice::Given(WorkMaterial::load(&source)?));
         }
         Ok(self)
     }
@@ -77,18 +77,18 @@ impl Setup {
     /// # Errors
     /// [`codes::MATERIAL_MISSING`] when the setup says none, [`codes::MATERIAL_FILE`] when it names a file that nobody
     /// has read.
-    pub fn material(&self) -> Result<&Material, Box<Diagnostic>> {
+    pub fn require_material(&self) -> Result<&WorkMaterial, Box<Diagnostic>> {
         match &self.material {
             Some(MaterialChoice::Given(material)) => Ok(material),
             Some(MaterialChoice::File(file)) => {
                 let message = format!("the material file `{}` has not been read", file.written);
-                Err(Box::new(file.fault(codes::MATERIAL_FILE, message)))
+                Err(Box::new(file.make_finding(codes::MATERIAL_FILE, message)))
             }
             None => {
                 let message = "cutting forces need the material that is cut";
                 let help = "Add `material: { file: steel-c45.yaml }` or `material: { k_tc: 1900 }` under `setup:`; \
                             `configs/materials` has files for common ones.";
-                Err(Box::new(Diagnostic::new(codes::MATERIAL_MISSING, message).help(help)))
+                Err(Box::new(Diagnostic::new(codes::MATERIAL_MISSING, message).with_help(help)))
             }
         }
     }
@@ -118,10 +118,10 @@ struct MaterialFileText {
 }
 
 impl MaterialFileText {
-    fn material(self) -> Material {
+    fn into_material(self) -> WorkMaterial {
         let k_tc = self.k_tc.get();
         let k_te = self.k_te.map_or(0.0, NonNegative::get);
-        let coefficients = sim::Material {
+        let coefficients = sim::CuttingCoefficients {
             k_tc,
             k_te,
             k_rc: self.k_rc.map_or(RADIAL * k_tc, NonNegative::get),
@@ -129,7 +129,7 @@ impl MaterialFileText {
             k_ac: self.k_ac.map_or(AXIAL * k_tc, Finite::get),
             k_ae: self.k_ae.map_or(0.0, Finite::get),
         };
-        Material { name: self.name, coefficients }
+        WorkMaterial { name: self.name, coefficients }
     }
 }
 
@@ -159,33 +159,42 @@ pub(super) struct MaterialText {
 
 impl MaterialText {
     /// The material; `None` when something is wrong, which the reader then knows.
-    pub(super) fn checked(self, reader: &mut Reader, place: &Place) -> Option<MaterialChoice> {
-        let given = self.first_given();
+    pub(super) fn check_material(
+        self,
+        reader: &mut SetupReader,
+        place: &YamlLocation,
+    ) -> Option<MaterialChoice> {
+        let given = self.first_given_key();
         match (self.file, given, self.k_tc) {
             (Some(_), Some(key), _) => {
                 let message = format!("the material is given twice, by `file` and by `{key}`");
                 let help = "Keep the file, or copy its numbers here and change them.";
-                let keys = [(place.key(key), "given again here"), (place.key("file"), "and here")];
-                reader.key_fault(codes::BAD_VALUE, message, help, &keys);
+                let keys = [(place.at_key(key), "given again here"), (place.at_key("file"), "and here")];
+                reader.add_key_fault(codes::BAD_VALUE, message, help, &keys);
                 None
             }
-            (Some(file), None, _) => Some(MaterialChoice::File(FileRef::new(&file, place.key("file")))),
+            (Some(file), None, _) => Some(MaterialChoice::File(FileRef::new(&file, place.at_key("file")))),
             (None, _, Some(k_tc)) => {
                 let Self { name, k_te, k_rc, k_re, k_ac, k_ae, .. } = self;
                 let text = MaterialFileText { name, k_tc, k_te, k_rc, k_re, k_ac, k_ae };
-                Some(MaterialChoice::Given(text.material()))
+                Some(MaterialChoice::Given(text.into_material()))
             }
             (None, _, None) => {
                 let message = "`material` needs `k_tc`, or a `file`".to_owned();
                 let help = "Add `k_tc: …`, the tangential cutting coefficient in N/mm2, or `file: …`.";
-                reader.key_fault(codes::MISSING_KEY, message, help, &[(place.clone(), "`k_tc` is missing")]);
+                reader.add_key_fault(
+                    codes::MISSING_KEY,
+                    message,
+                    help,
+                    &[(place.clone(), "`k_tc` is missing")],
+                );
                 None
             }
         }
     }
 
     /// The first key beside `file` that is given.
-    fn first_given(&self) -> Option<&'static str> {
+    fn first_given_key(&self) -> Option<&'static str> {
         let keys = [
             (self.name.is_some(), "name"),
             (self.k_tc.is_some(), "k_tc"),

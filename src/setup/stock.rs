@@ -1,34 +1,34 @@
 //! The stock: a description of it, which the simulation builds solids from.
 
-use super::Place;
-use crate::diagnostic::{Code, Diagnostic, codes};
-use crate::values::{FilePath, LengthUnit};
+use super::YamlLocation;
+use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
+use crate::parameters::{FilePath, LengthUnit};
 use std::path::{Path, PathBuf};
 
 /// What there is before the first cut, in the coordinates that the CL file prints (those of its frame).
 #[derive(Debug, Clone, PartialEq)]
-pub struct Stock {
+pub struct SetupStock {
     /// Its bodies; the stock is all of them together. Never empty.
-    pub bodies: Vec<Body>,
+    pub bodies: Vec<StockBody>,
     /// How much thicker than described it may be, in mm, 0 or more: the skin of a casting. The simulation grows the
     /// stock by it, so that skin is not taken for air.
     pub allowance_mm: f64,
     /// Where the setup says it.
-    pub place: Place,
+    pub place: YamlLocation,
 }
 
 /// One body of the stock.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Body {
+pub struct StockBody {
     /// What it is.
-    pub shape: BodyShape,
+    pub shape: StockBodyShape,
     /// Where the setup says it.
-    pub place: Place,
+    pub place: YamlLocation,
 }
 
 /// What a body is.
 #[derive(Debug, Clone, PartialEq)]
-pub enum BodyShape {
+pub enum StockBodyShape {
     /// A block along the axes.
     Block {
         /// Its lowest corner, mm.
@@ -64,23 +64,26 @@ pub struct FileRef {
     /// The path as it is written.
     pub written: String,
     /// Where it is written.
-    pub place: Place,
+    pub place: YamlLocation,
 }
 
 impl FileRef {
     /// A file named at a place.
-    pub(super) fn new(path: &FilePath, place: Place) -> Self {
-        let full = path.beside(Path::new(place.source().name()));
+    pub(super) fn new(path: &FilePath, place: YamlLocation) -> Self {
+        let full = path.resolve_beside(Path::new(place.source().name()));
         Self { path: full, written: path.as_str().to_owned(), place }
     }
 
     /// A finding about the file, at the place that names it.
-    pub fn fault(&self, code: Code, message: impl Into<String>) -> Diagnostic {
-        Diagnostic::new(code, message).label(self.place.source(), self.place.span(), "named here")
+    pub fn make_finding(&self, code: DiagnosticCode, message: impl Into<String>) -> Diagnostic {
+        Diagnostic::new(code, message).with_label(self.place.source(), self.place.value_span(), "named here")
     }
 
     /// [`codes::STOCK_FILE`]: a file of the stock that cannot be used, and why.
-    pub fn stock_fault(&self, reason: &str) -> Diagnostic {
-        self.fault(codes::STOCK_FILE, format!("the stock file `{}` cannot be used: {reason}", self.written))
+    pub fn make_stock_finding(&self, reason: &str) -> Diagnostic {
+        self.make_finding(
+            codes::STOCK_FILE,
+            format!("the stock file `{}` cannot be used: {reason}", self.written),
+        )
     }
 }

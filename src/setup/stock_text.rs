@@ -1,10 +1,10 @@
 //! The stock as it is written.
 
-use super::Place;
-use super::reader::{Reader, SMALLEST};
-use super::stock::{Body, BodyShape, FileRef, Stock};
+use super::YamlLocation;
+use super::setup_reader::{SMALLEST, SetupReader};
+use super::stock::{FileRef, SetupStock, StockBody, StockBodyShape};
 use crate::diagnostic::codes;
-use crate::values::{FilePath, Finite, NonNegative, Positive};
+use crate::parameters::{FilePath, Finite, NonNegative, Positive};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -79,9 +79,10 @@ enum BodyText {
 
 impl StockText {
     /// The stock in millimetres; `None` when something is wrong, which the reader then knows.
-    pub(super) fn checked(self, reader: &mut Reader, place: Place) -> Option<Stock> {
-        let allowance_mm =
-            reader.mm_at(self.allowance.map(NonNegative::get), &place, "allowance").unwrap_or_default();
+    pub(super) fn check_stock(self, reader: &mut SetupReader, place: YamlLocation) -> Option<SetupStock> {
+        let allowance_mm = reader
+            .optional_length_mm(self.allowance.map(NonNegative::get), &place, "allowance")
+            .unwrap_or_default();
         let single = [
             self.block.map(|block| (BodyText::Block(block), "block")),
             self.cylinder.map(|cylinder| (BodyText::Cylinder(cylinder), "cylinder")),
@@ -94,7 +95,12 @@ impl StockText {
             [] => {
                 let message = "the stock is not described".to_owned();
                 let help = "Add one of `block`, `cylinder`, `stl`, `file`, or `bodies` for several of them.";
-                reader.key_fault(codes::MISSING_KEY, message, help, &[(place, "nothing that could be cut")]);
+                reader.add_key_fault(
+                    codes::MISSING_KEY,
+                    message,
+                    help,
+                    &[(place, "nothing that could be cut")],
+                );
                 return None;
             }
             [_] => {}
@@ -102,31 +108,32 @@ impl StockText {
                 let message = format!("the stock is described twice, by `{first}` and by `{second}`");
                 let help =
                     "Keep one of them; or write `bodies: [ { block: … }, { stl: … } ]` for both together.";
-                let keys = [(place.key(second), "described again here"), (place.key(first), "and here")];
-                reader.key_fault(codes::BAD_VALUE, message, help, &keys);
+                let keys =
+                    [(place.at_key(second), "described again here"), (place.at_key(first), "and here")];
+                reader.add_key_fault(codes::BAD_VALUE, message, help, &keys);
                 return None;
             }
         }
-        let mut bodies: Vec<Body> = Vec::new();
+        let mut bodies: Vec<StockBody> = Vec::new();
         for (body, key) in single.into_iter().flatten() {
-            bodies.push(body.checked(reader, place.key(key)));
+            bodies.push(body.check_body(reader, place.at_key(key)));
         }
-        let list = place.key("bodies");
+        let list = place.at_key("bodies");
         for (index, body) in self.bodies.into_iter().flatten().enumerate() {
-            let key = body.key();
-            bodies.push(body.checked(reader, list.index(index).key(key)));
+            let key = body.yaml_key();
+            bodies.push(body.check_body(reader, list.at_index(index).at_key(key)));
         }
         if bodies.is_empty() {
             let help = "Add a body, `- block: { from: [x, y, z], to: [x, y, z] }`, or remove `stock`.";
-            reader.fault(|| list, "the list of bodies is empty", "no body", help);
+            reader.add_fault(|| list, "the list of bodies is empty", "no body", help);
             return None;
         }
-        Some(Stock { bodies, allowance_mm, place })
+        Some(SetupStock { bodies, allowance_mm, place })
     }
 }
 
 impl BodyText {
-    fn key(&self) -> &'static str {
+    fn yaml_key(&self) -> &'static str {
         match self {
             Self::Block(_) => "block",
             Self::Cylinder(_) => "cylinder",
@@ -135,22 +142,23 @@ impl BodyText {
         }
     }
 
-    fn checked(self, reader: &mut Reader, place: Place) -> Body {
+    fn check_body(self, reader: &mut SetupReader, place: YamlLocation) -> StockBody {
         let shape = match self {
-            Self::Block(block) => block.checked(reader, &place),
-            Self::Cylinder(cylinder) => cylinder.checked(reader, &place),
+            Self::Block(block) => block.check_block(reader, &place),
+            Self::Cylinder(cylinder) => cylinder.check_cylinder(reader, &place),
             Self::Stl(file) => {
-                BodyShape::Stl { file: FileRef::new(&file, place.clone()), units: reader.units }
+                StockBodyShape::Stl { file: FileRef::new(&file, place.clone()), units: reader.units }
             }
-            Self::File(file) => BodyShape::Saved(FileRef::new(&file, place.clone())),
+            Self::File(file) => StockBodyShape::Saved(FileRef::new(&file, place.clone())),
         };
-        Body { shape, place }
+        StockBody { shape, place }
     }
 }
 
 impl BlockText {
-    fn checked(self, reader: &mut Reader, place: &Place) -> BodyShape {
-        let (from, to) = (point(self.from, reader, place, "from"), point(self.to, reader, place, "to"));
+    fn check_block(self, reader: &mut SetupReader, place: &YamlLocation) -> StockBodyShape {
+        let (from, to) =
+            (check_point_mm(self.from, reader, place, "from"), check_point_mm(self.to, reader, place, "to"));
         let (mut low, mut high) = (from, to);
         for (index, name) in ["x", "y", "z"].into_iter().enumerate() {
             let (Some(low), Some(high)) = (low.get_mut(index), high.get_mut(index)) else { continue };
@@ -161,32 +169,38 @@ impl BlockText {
                 let message =
                     format!("the block has no size in {name}: `from` and `to` have the same {name}");
                 let help = "`from` and `to` are opposite corners; they differ in x, y and z.";
-                reader.fault(|| place.key("to").index(index), message, "as in `from`", help);
+                reader.add_fault(|| place.at_key("to").at_index(index), message, "as in `from`", help);
             }
         }
-        BodyShape::Block { low, high }
+        StockBodyShape::Block { low, high }
     }
 }
 
 impl CylinderText {
-    fn checked(self, reader: &mut Reader, place: &Place) -> BodyShape {
-        let diameter = reader.size(self.diameter, || place.key("diameter"));
-        let (from, to) = (point(self.from, reader, place, "from"), point(self.to, reader, place, "to"));
+    fn check_cylinder(self, reader: &mut SetupReader, place: &YamlLocation) -> StockBodyShape {
+        let diameter = reader.size_mm(self.diameter, || place.at_key("diameter"));
+        let (from, to) =
+            (check_point_mm(self.from, reader, place, "from"), check_point_mm(self.to, reader, place, "to"));
         let length = from.iter().zip(&to).map(|(from, to)| (to - from).powi(2)).sum::<f64>().sqrt();
         if length < SMALLEST {
             let message = "the cylinder has no length: `from` and `to` are the same point";
             let help = "`from` and `to` are the centres of its two ends.";
-            reader.fault(|| place.key("to"), message, "as `from`", help);
+            reader.add_fault(|| place.at_key("to"), message, "as `from`", help);
         }
-        BodyShape::Cylinder { diameter, from, to }
+        StockBodyShape::Cylinder { diameter, from, to }
     }
 }
 
-fn point(values: [Finite; 3], reader: &mut Reader, place: &Place, key: &'static str) -> [f64; 3] {
+fn check_point_mm(
+    values: [Finite; 3],
+    reader: &mut SetupReader,
+    place: &YamlLocation,
+    key: &'static str,
+) -> [f64; 3] {
     let mut index = 0;
     values.map(|value| {
         let at = index;
         index += 1;
-        reader.mm(value.get(), || place.key(key).index(at))
+        reader.length_mm(value.get(), || place.at_key(key).at_index(at))
     })
 }

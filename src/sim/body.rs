@@ -9,7 +9,7 @@ pub(super) const FARTHEST: f64 = 1e9;
 
 /// One body; mm in the workpiece frame.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Body {
+pub enum SolidBody {
     /// A box along the axes.
     Block {
         /// Lower corner.
@@ -33,19 +33,19 @@ pub enum Body {
 }
 
 /// A box along the axes: lower and upper corner.
-pub(super) type Bounds = ([f64; 3], [f64; 3]);
+pub(super) type AxisBox = ([f64; 3], [f64; 3]);
 
-impl Body {
+impl SolidBody {
     /// # Errors
     /// When a number is not finite or the body has no volume.
-    pub(super) fn check(&self) -> Result<(), StockError> {
+    pub(super) fn check_volume(&self) -> Result<(), StockError> {
         match self {
             Self::Block { from, to } if from.iter().zip(to).all(|(from, to)| to - from > 0.0) => {
-                finite(from.iter().chain(to))
+                check_finite(from.iter().chain(to))
             }
-            Self::Block { from, to } => finite(from.iter().chain(to)).and(Err(StockError::Block)),
+            Self::Block { from, to } => check_finite(from.iter().chain(to)).and(Err(StockError::Block)),
             Self::Cylinder { diameter, from, to } => {
-                finite(from.iter().chain(to).chain([diameter]))?;
+                check_finite(from.iter().chain(to).chain([diameter]))?;
                 let length = (Vector3::from(*to) - Vector3::from(*from)).norm();
                 if *diameter > 0.0 && length > 0.0 { Ok(()) } else { Err(StockError::Cylinder) }
             }
@@ -54,13 +54,13 @@ impl Body {
     }
 
     /// The box around the body grown by an allowance; `None` for remains without material.
-    pub(super) fn bounds(&self, allowance: f64) -> Option<Bounds> {
+    pub(super) fn grown_bounds(&self, allowance: f64) -> Option<AxisBox> {
         let (from, to) = match self {
             Self::Block { from, to } => (*from, *to),
             Self::Mesh(mesh) => mesh.bounds(),
-            Self::Remains(dexels) => remains(dexels)?,
+            Self::Remains(dexels) => remains_bounds(dexels)?,
             Self::Cylinder { .. } => {
-                let bar = self.bar(allowance)?;
+                let bar = self.grown_cylinder(allowance)?;
                 let other = bar.from + bar.axis * bar.length;
                 let across = bar.axis.map(|part| bar.radius * (1.0 - part * part).max(0.0).sqrt());
                 return Some((
@@ -74,39 +74,39 @@ impl Body {
 
     /// Lower and upper end of the body, grown by an allowance, over a point; `None` beside it, and for bodies without closed form.
     /// A block has its lower sides and not its upper ones.
-    pub(super) fn over(&self, [x, y]: [f64; 2], allowance: f64) -> Option<[f64; 2]> {
+    pub(super) fn vertical_extent_at(&self, [x, y]: [f64; 2], allowance: f64) -> Option<[f64; 2]> {
         match self {
             Self::Block { .. } => {
-                let ([x0, y0, z0], [x1, y1, z1]) = self.bounds(allowance)?;
+                let ([x0, y0, z0], [x1, y1, z1]) = self.grown_bounds(allowance)?;
                 ((x0..x1).contains(&x) && (y0..y1).contains(&y)).then_some([z0, z1])
             }
-            Self::Cylinder { .. } => self.bar(allowance)?.over([x, y]),
+            Self::Cylinder { .. } => self.grown_cylinder(allowance)?.vertical_extent_at([x, y]),
             Self::Mesh(_) | Self::Remains(_) => None,
         }
     }
 
     /// A cylinder grown by an allowance: in radius, and at both ends.
-    pub(super) fn bar(&self, allowance: f64) -> Option<Bar> {
+    pub(super) fn grown_cylinder(&self, allowance: f64) -> Option<FiniteCylinder> {
         let Self::Cylinder { diameter, from, to } = self else { return None };
         let (from, to) = (Vector3::from(*from), Vector3::from(*to));
         let length = (to - from).norm();
         let axis = (to - from) / length;
         let radius = diameter / 2.0 + allowance;
-        Some(Bar { from: from - axis * allowance, axis, length: length + 2.0 * allowance, radius })
+        Some(FiniteCylinder { from: from - axis * allowance, axis, length: length + 2.0 * allowance, radius })
     }
 }
 
-fn finite<'a>(mut values: impl Iterator<Item = &'a f64>) -> Result<(), StockError> {
+fn check_finite<'a>(mut values: impl Iterator<Item = &'a f64>) -> Result<(), StockError> {
     if values.all(|value| value.abs() <= FARTHEST) { Ok(()) } else { Err(StockError::NotFinite) }
 }
 
 /// The box around the material of remains: the grid's in x and y, exact in z.
-fn remains(dexels: &Dexels) -> Option<Bounds> {
-    let layout = dexels.layout();
+fn remains_bounds(dexels: &Dexels) -> Option<AxisBox> {
+    let layout = dexels.grid();
     let (low, high) = dexels
         .bands()
         .iter()
-        .flat_map(|band| (0..band.rows() * band.columns).flat_map(|index| band.intervals(index)))
+        .flat_map(|band| (0..band.row_count() * band.columns).flat_map(|index| band.column_spans(index)))
         .fold((f32::INFINITY, f32::NEG_INFINITY), |(least, most), [low, top]| {
             (least.min(low), most.max(top))
         });
@@ -118,7 +118,7 @@ fn remains(dexels: &Dexels) -> Option<Bounds> {
 }
 
 /// A cylinder: from a point along a unit vector.
-pub(super) struct Bar {
+pub(super) struct FiniteCylinder {
     from: Vector3<f64>,
     axis: Vector3<f64>,
     length: f64,
@@ -128,9 +128,9 @@ pub(super) struct Bar {
 /// Squared sine of the tilt from which on a bar stands upright: far below what moves a wall by the resolution of heights.
 const UPRIGHT: f64 = 1e-24;
 
-impl Bar {
+impl FiniteCylinder {
     /// Where the line along z over a point is inside: both in the endless cylinder (a quadratic) and between the ends (linear).
-    pub(super) fn over(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
+    pub(super) fn vertical_extent_at(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
         let across = Vector3::new(x - self.from.x, y - self.from.y, 0.0);
         // With t the height over `from`, the point is `along + t slope` along the axis.
         let (along, slope) = (across.dot(&self.axis), self.axis.z);

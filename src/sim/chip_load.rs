@@ -1,7 +1,7 @@
 //! What an engagement means for a feed: the thickest chip and the removal rate, and the feeds that keep them to a target.
 //!
 //! Formula (1) and (2) of I. Kiselev, N. Jukov, K. Deev, Automated block-by-block correction of milling parameters by means of
-//! numerical simulation, for one piece of the path: C_k is [`Engagement::chip_thickness`], F_k [`Engagement::feed_for_chip`].
+//! numerical simulation, for one piece of the path: C_k is [`Engagement::chip_thickness_mm`], F_k [`Engagement::feed_for_chip_mm_min`].
 
 use super::{Engagement, Teeth};
 
@@ -11,38 +11,44 @@ impl Engagement {
     ///
     /// It is the classic thickness, f_z sin(phi) on a flank: along the edge's normal to the surface that the tooth before left
     /// the chip is some 4 to 9 % thinner where that surface meets the free one.
-    pub fn chip_thickness(&self, teeth: &Teeth, feed_mm_min: f64, rpm: f64) -> f64 {
+    pub fn chip_thickness_mm(&self, teeth: &Teeth, feed_mm_min: f64, rpm: f64) -> f64 {
         let per_turn = feed_mm_min / rpm;
-        let of = |bin: &super::Bin| {
-            let chip = teeth.thickness(per_turn * f64::from(bin.share), f64::from(bin.radial));
-            chip.min(self.thickness(bin, per_turn))
+        let of = |bin: &super::EngagementBin| {
+            let chip = teeth.max_chip_thickness_mm(per_turn * f64::from(bin.share), f64::from(bin.radial));
+            chip.min(self.material_thickness_mm(bin, per_turn))
         };
-        self.engaged().map(of).fold(0.0, f64::max)
+        self.engaged_bins().map(of).fold(0.0, f64::max)
     }
 
-    /// As [`Engagement::chip_thickness`], with everything that the grid may have missed: the shares' bounds, and slivers that
+    /// As [`Engagement::chip_thickness_mm`], with everything that the grid may have missed: the shares' bounds, and slivers that
     /// the flank passes by, whose thickness is unknown. Never below the classic thickness of the true engagement.
-    pub fn chip_thickness_bound(&self, teeth: &Teeth, feed_mm_min: f64, rpm: f64) -> f64 {
+    pub fn chip_thickness_bound_mm(&self, teeth: &Teeth, feed_mm_min: f64, rpm: f64) -> f64 {
         let per_turn = feed_mm_min / rpm;
-        let of = |bin: &super::Bin| {
-            let chip = teeth.thickness(per_turn * f64::from(bin.share_bound), f64::from(bin.radial));
-            chip.min(self.thickness(bin, per_turn))
+        let of = |bin: &super::EngagementBin| {
+            let chip =
+                teeth.max_chip_thickness_mm(per_turn * f64::from(bin.share_bound), f64::from(bin.radial));
+            chip.min(self.material_thickness_mm(bin, per_turn))
         };
-        let graze = if self.graze > 0.0 { teeth.thickness(per_turn * self.graze, 1.0) } else { 0.0 };
-        self.engaged().map(of).fold(graze, f64::max)
+        let graze =
+            if self.graze > 0.0 { teeth.max_chip_thickness_mm(per_turn * self.graze, 1.0) } else { 0.0 };
+        self.engaged_bins().map(of).fold(graze, f64::max)
     }
 
     /// The largest feed in mm/min at which no chip is thicker than `target` (mm), at a spindle speed in rev/min: formula (2) in
     /// closed form. Infinite where nothing limits it, as in air and where all material is thinner than the target; 0 for a
     /// target of 0 or less.
     ///
-    /// Bounded as [`Engagement::chip_thickness_bound`] is, so that the grid's uncertainty lowers the feed and never raises it.
-    pub fn feed_for_chip(&self, teeth: &Teeth, rpm: f64, target: f64) -> f64 {
+    /// Bounded as [`Engagement::chip_thickness_bound_mm`] is, so that the grid's uncertainty lowers the feed and never raises it.
+    pub fn feed_for_chip_mm_min(&self, teeth: &Teeth, rpm: f64, target: f64) -> f64 {
         let limit = |share: f64, radial: f64| {
-            if share > 0.0 { teeth.advance_for(target, radial) * rpm / share } else { f64::INFINITY }
+            if share > 0.0 {
+                teeth.max_advance_for_chip_mm(target, radial) * rpm / share
+            } else {
+                f64::INFINITY
+            }
         };
         let (mut all, mut thick) = (limit(self.graze, 1.0), limit(self.graze, 1.0));
-        for bin in self.engaged() {
+        for bin in self.engaged_bins() {
             let feed = limit(f64::from(bin.share_bound), f64::from(bin.radial));
             all = all.min(feed);
             if f64::from(bin.thickness) > target {
@@ -54,7 +60,7 @@ impl Engagement {
     }
 
     /// Thickness of a bin's material for teeth that go `per_turn` mm in a revolution; infinite where it is not known.
-    fn thickness(&self, bin: &super::Bin, per_turn: f64) -> f64 {
+    fn material_thickness_mm(&self, bin: &super::EngagementBin, per_turn: f64) -> f64 {
         if self.shortest_mm >= per_turn { f64::from(bin.thickness) } else { f64::INFINITY }
     }
 
@@ -64,8 +70,8 @@ impl Engagement {
     }
 
     /// The feed in mm/min at which the removal rate is `rate` mm3/min; infinite in air.
-    pub fn feed_for_removal_rate(&self, rate: f64) -> f64 {
-        if self.cuts() && self.length_mm > 0.0 {
+    pub fn feed_for_removal_rate_mm_min(&self, rate: f64) -> f64 {
+        if self.has_removed_material() && self.length_mm > 0.0 {
             rate.max(0.0) * self.length_mm / self.removed_mm3
         } else {
             f64::INFINITY

@@ -1,23 +1,23 @@
 //! A cutter with everything that a simulation asks of it.
 
-use super::{Profile, Teeth};
+use super::{Meridian, Teeth};
 
 /// A cutter: its profile, what is above the flutes, and its teeth. Lengths in mm from the tip up the axis.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Cutter {
+pub struct CutterModel {
     /// The cutting part's meridian, tip at the origin.
-    pub profile: Profile,
+    pub profile: Meridian,
     /// What stands above the flutes and must not touch material: shank, holder, from below to above.
-    pub collars: Vec<Collar>,
+    pub collars: Vec<NonCuttingCylinder>,
     /// Teeth, where they are known.
     pub teeth: Option<Teeth>,
 }
 
 /// A cylinder around the axis that does not cut.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Collar {
+pub struct NonCuttingCylinder {
     /// What it is.
-    pub kind: CollarKind,
+    pub kind: NonCuttingKind,
     /// Radius.
     pub radius: f64,
     /// Height above the tip at which it begins.
@@ -28,21 +28,21 @@ pub struct Collar {
 
 /// What a collar is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum CollarKind {
+pub enum NonCuttingKind {
     /// The tool above its flutes.
     Shank,
     /// The holder.
     Holder,
 }
 
-impl Cutter {
+impl CutterModel {
     /// Largest radius of the cutting part.
-    pub fn radius(&self) -> f64 {
-        self.profile.radius()
+    pub fn radius_mm(&self) -> f64 {
+        self.profile.radius_mm()
     }
 
     /// Height of the cutting part above the tip.
-    pub fn flute_length(&self) -> f64 {
-        self.profile.height()
+    pub fn flute_length_mm(&self) -> f64 {
+        self.profile.height_mm()
     }
 }

@@ -12,11 +12,11 @@ pub const BAND_ROWS: usize = 32;
 pub const THINNEST: f32 = 2e-5;
 
 /// A solid interval of a column: from, to; mm above the grid's base.
-pub type Interval = [f32; 2];
+pub type DexelSpan = [f32; 2];
 
 /// Where the columns stand.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Layout {
+pub struct DexelGrid {
     /// Centre of the first column (x, y).
     pub origin: [f64; 2],
     /// Height that intervals count from.
@@ -29,9 +29,9 @@ pub struct Layout {
     pub rows: usize,
 }
 
-impl Layout {
+impl DexelGrid {
     /// Columns that cover a box, cell borders on its lower corner; none for an empty box.
-    pub fn covering(from: [f64; 3], to: [f64; 3], cell: f64) -> Self {
+    pub fn covering_box(from: [f64; 3], to: [f64; 3], cell: f64) -> Self {
         let count = |axis: usize| {
             let size = to.get(axis).zip(from.get(axis)).map_or(0.0, |(to, from)| to - from);
             ((size / cell - 1e-9).ceil().max(0.0)) as usize
@@ -42,20 +42,20 @@ impl Layout {
     }
 
     /// Centre of a column.
-    pub fn center(&self, column: usize, row: usize) -> [f64; 2] {
+    pub fn column_center(&self, column: usize, row: usize) -> [f64; 2] {
         let [x, y] = self.origin;
         [x + column as f64 * self.cell, y + row as f64 * self.cell]
     }
 
     /// Number of columns.
-    pub fn count(&self) -> usize {
+    pub fn column_count(&self) -> usize {
         self.columns * self.rows
     }
 }
 
 /// A stripe of rows.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Band {
+pub struct DexelBand {
     /// First row.
     pub first_row: usize,
     /// Columns in a row.
@@ -65,17 +65,17 @@ pub struct Band {
     /// Lower end of each column's topmost interval.
     pub(super) low: Vec<f32>,
     /// Intervals under the topmost one, from above to below.
-    below: BTreeMap<u32, Vec<Interval>>,
+    below: BTreeMap<u32, Vec<DexelSpan>>,
 }
 
-impl Band {
+impl DexelBand {
     /// Rows in this band.
-    pub fn rows(&self) -> usize {
+    pub fn row_count(&self) -> usize {
         self.top.len().checked_div(self.columns).unwrap_or(0)
     }
 
     /// The intervals of a column, from above to below.
-    pub fn intervals(&self, index: usize) -> impl Iterator<Item = Interval> + '_ {
+    pub fn column_spans(&self, index: usize) -> impl Iterator<Item = DexelSpan> + '_ {
         let first = self.top.get(index).zip(self.low.get(index)).map(|(top, low)| [*low, *top]);
         let first = first.filter(|[_, top]| *top > f32::NEG_INFINITY);
         let below = self.below.get(&(index as u32)).into_iter().flatten().copied();
@@ -83,23 +83,23 @@ impl Band {
     }
 
     /// Whether no column has more than one interval.
-    pub(super) fn is_shallow(&self) -> bool {
+    pub(super) fn has_only_single_spans(&self) -> bool {
         self.below.is_empty()
     }
 
     /// Tops and lower ends of a stretch of columns.
-    pub(super) fn stretch_mut(&mut self, range: std::ops::Range<usize>) -> (&mut [f32], &[f32]) {
+    pub(super) fn tops_and_lows_mut(&mut self, range: std::ops::Range<usize>) -> (&mut [f32], &[f32]) {
         let top = self.top.get_mut(range.clone()).unwrap_or_default();
         (top, self.low.get(range).unwrap_or_default())
     }
 
     /// Whether a column has more than one interval.
-    pub fn is_deep(&self, index: usize) -> bool {
+    pub fn has_lower_spans(&self, index: usize) -> bool {
         !self.below.is_empty() && self.below.contains_key(&(index as u32))
     }
 
     /// Sets a column; intervals from above to below, not touching.
-    pub fn set(&mut self, index: usize, intervals: &[Interval]) {
+    pub fn set_column(&mut self, index: usize, intervals: &[DexelSpan]) {
         let (first, rest) = match intervals.split_first() {
             Some((first, rest)) => (*first, rest),
             None => ([f32::NEG_INFINITY; 2], [].as_slice()),
@@ -115,7 +115,7 @@ impl Band {
     }
 
     /// Takes `from..to` out of a column; `removed` is told every piece of material taken, from above to below.
-    pub fn cut(&mut self, index: usize, from: f32, to: f32, mut removed: impl FnMut(f32, f32)) {
+    pub fn cut_column(&mut self, index: usize, from: f32, to: f32, mut removed: impl FnMut(f32, f32)) {
         let (Some(top), Some(low)) = (self.top.get_mut(index), self.low.get_mut(index)) else { return };
         if *top <= from {
             return;
@@ -125,7 +125,7 @@ impl Band {
             *top = from;
             return;
         }
-        let before: Vec<Interval> = self.intervals(index).collect();
+        let before: Vec<DexelSpan> = self.column_spans(index).collect();
         let mut after = Vec::with_capacity(before.len() + 1);
         for [low, top] in before {
             let (a, b) = (low.max(from), top.min(to));
@@ -141,12 +141,12 @@ impl Band {
                 after.push([low, a]);
             }
         }
-        self.set(index, &after);
+        self.set_column(index, &after);
     }
 
     /// Bytes in memory.
-    pub fn bytes(&self) -> usize {
-        let below: usize = self.below.values().map(|more| 48 + more.len() * size_of::<Interval>()).sum();
+    pub fn memory_bytes(&self) -> usize {
+        let below: usize = self.below.values().map(|more| 48 + more.len() * size_of::<DexelSpan>()).sum();
         self.top.len() * 2 * size_of::<f32>() + below
     }
 }
@@ -154,8 +154,8 @@ impl Band {
 /// The workpiece.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dexels {
-    layout: Layout,
-    bands: Vec<Band>,
+    layout: DexelGrid,
+    bands: Vec<DexelBand>,
 }
 
 impl Dexels {
@@ -163,12 +163,12 @@ impl Dexels {
     pub const BYTES_PER_COLUMN: usize = 2 * size_of::<f32>();
 
     /// Empty columns.
-    pub fn empty(layout: Layout) -> Self {
+    pub fn with_empty_columns(layout: DexelGrid) -> Self {
         let bands = (0..layout.rows)
             .step_by(BAND_ROWS)
             .map(|first_row| {
                 let count = BAND_ROWS.min(layout.rows - first_row) * layout.columns;
-                Band {
+                DexelBand {
                     first_row,
                     columns: layout.columns,
                     top: vec![f32::NEG_INFINITY; count],
@@ -181,56 +181,58 @@ impl Dexels {
     }
 
     /// Where the columns stand.
-    pub fn layout(&self) -> &Layout {
+    pub fn grid(&self) -> &DexelGrid {
         &self.layout
     }
 
     /// The bands, in the order of their rows.
-    pub fn bands(&self) -> &[Band] {
+    pub fn bands(&self) -> &[DexelBand] {
         &self.bands
     }
 
     /// The bands, to be worked on one by one.
-    pub fn bands_mut(&mut self) -> &mut [Band] {
+    pub fn bands_mut(&mut self) -> &mut [DexelBand] {
         &mut self.bands
     }
 
     /// The band of a row and the index of a column in it.
-    fn place(&self, column: usize, row: usize) -> Option<(&Band, usize)> {
+    fn locate_column(&self, column: usize, row: usize) -> Option<(&DexelBand, usize)> {
         let band = self.bands.get(row / BAND_ROWS).filter(|_| column < self.layout.columns)?;
         Some((band, (row - band.first_row) * self.layout.columns + column))
     }
 
     /// The intervals of a column from above to below, mm above the base; none outside the grid.
-    pub fn column(&self, column: usize, row: usize) -> Vec<Interval> {
-        self.place(column, row).map(|(band, index)| band.intervals(index).collect()).unwrap_or_default()
+    pub fn column_spans(&self, column: usize, row: usize) -> Vec<DexelSpan> {
+        self.locate_column(column, row)
+            .map(|(band, index)| band.column_spans(index).collect())
+            .unwrap_or_default()
     }
 
     /// Sets a column; intervals from above to below, not touching, mm above the base.
-    pub fn set_column(&mut self, column: usize, row: usize, intervals: &[Interval]) {
+    pub fn set_column(&mut self, column: usize, row: usize, intervals: &[DexelSpan]) {
         let columns = self.layout.columns;
         if let Some(band) = self.bands.get_mut(row / BAND_ROWS).filter(|_| column < columns) {
-            band.set((row - band.first_row) * columns + column, intervals);
+            band.set_column((row - band.first_row) * columns + column, intervals);
         }
     }
 
     /// Whether a point is in material, as the column next to it says.
     pub fn contains(&self, [x, y, z]: [f64; 3]) -> bool {
-        let Layout { origin: [x0, y0], base, cell, .. } = self.layout;
+        let DexelGrid { origin: [x0, y0], base, cell, .. } = self.layout;
         let (column, row) = (((x - x0) / cell).round(), ((y - y0) / cell).round());
         if column < 0.0 || row < 0.0 {
             return false;
         }
         let height = (z - base) as f32;
-        let Some((band, index)) = self.place(column as usize, row as usize) else { return false };
-        band.intervals(index).any(|[low, top]| (low..=top).contains(&height))
+        let Some((band, index)) = self.locate_column(column as usize, row as usize) else { return false };
+        band.column_spans(index).any(|[low, top]| (low..=top).contains(&height))
     }
 
     /// Volume of what is there, mm3.
     pub fn volume_mm3(&self) -> f64 {
-        let height = |band: &Band| -> f64 {
+        let height = |band: &DexelBand| -> f64 {
             (0..band.top.len())
-                .flat_map(|index| band.intervals(index))
+                .flat_map(|index| band.column_spans(index))
                 .map(|[low, top]| f64::from(top - low))
                 .sum()
         };
@@ -238,14 +240,14 @@ impl Dexels {
     }
 
     /// Highest material; `None` when there is none.
-    pub fn highest(&self) -> Option<f64> {
+    pub fn highest_z_mm(&self) -> Option<f64> {
         let highest =
             self.bands.iter().flat_map(|band| band.top.iter().copied()).fold(f32::NEG_INFINITY, f32::max);
         (highest > f32::NEG_INFINITY).then(|| self.layout.base + f64::from(highest))
     }
 
     /// Bytes in memory.
-    pub fn bytes(&self) -> usize {
-        self.bands.iter().map(Band::bytes).sum()
+    pub fn memory_bytes(&self) -> usize {
+        self.bands.iter().map(DexelBand::memory_bytes).sum()
     }
 }

@@ -1,14 +1,14 @@
 //! Columns grown by a ball: an allowance on a body that has no closed form.
 
 use super::dexel::BAND_ROWS;
-use super::{Dexels, Interval, interval};
+use super::{DexelSpan, Dexels, dexel_spans};
 use rayon::prelude::*;
 
 /// Every interval grown by `sqrt(radius^2 - d^2)` mm at both ends over the columns at a lateral distance d up to the radius. On the
 /// same grid, so what grows past its border is lost. Exact for lines of material through the centres: a wall moves by
 /// whole cells, and its rounded edge begins at the last centre, up to half a cell inside the wall.
-pub(super) fn by_ball(dexels: &Dexels, radius: f64) -> Dexels {
-    let layout = *dexels.layout();
+pub(super) fn dilate_by_ball(dexels: &Dexels, radius: f64) -> Dexels {
+    let layout = *dexels.grid();
     // From the middle outwards: the column itself covers most of what its neighbours add.
     let reach = (radius / layout.cell).ceil().min(layout.columns.max(layout.rows) as f64) as i64;
     let mut steps: Vec<(i64, i64, i64, f32)> = Vec::new();
@@ -23,10 +23,10 @@ pub(super) fn by_ball(dexels: &Dexels, radius: f64) -> Dexels {
         }
     }
     steps.sort_unstable_by_key(|(squared, up, right, _)| (*squared, *up, *right));
-    let mut grown = Dexels::empty(layout);
+    let mut grown = Dexels::with_empty_columns(layout);
     grown.bands_mut().par_iter_mut().for_each(|band| {
-        let mut intervals: Vec<Interval> = Vec::new();
-        for index in 0..band.rows() * band.columns {
+        let mut intervals: Vec<DexelSpan> = Vec::new();
+        for index in 0..band.row_count() * band.columns {
             intervals.clear();
             let (column, row) = (index % band.columns, band.first_row + index / band.columns);
             for (_, up, right, growth) in &steps {
@@ -36,13 +36,13 @@ pub(super) fn by_ball(dexels: &Dexels, radius: f64) -> Dexels {
                     continue;
                 };
                 let Some(from) = dexels.bands().get(row / BAND_ROWS) else { continue };
-                for [low, top] in from.intervals((row - from.first_row) * layout.columns + column) {
-                    add(&mut intervals, [low - growth, top + growth]);
+                for [low, top] in from.column_spans((row - from.first_row) * layout.columns + column) {
+                    merge_span(&mut intervals, [low - growth, top + growth]);
                 }
             }
-            interval::join(&mut intervals);
+            dexel_spans::join_spans(&mut intervals);
             if !intervals.is_empty() {
-                band.set(index, &intervals);
+                band.set_column(index, &intervals);
             }
         }
     });
@@ -50,7 +50,7 @@ pub(super) fn by_ball(dexels: &Dexels, radius: f64) -> Dexels {
 }
 
 /// Adds an interval to some that do not overlap, in no order.
-fn add(intervals: &mut Vec<Interval>, [mut low, mut top]: Interval) {
+fn merge_span(intervals: &mut Vec<DexelSpan>, [mut low, mut top]: DexelSpan) {
     if intervals.iter().any(|[a, b]| *a <= low && top <= *b) {
         return;
     }

@@ -3,8 +3,8 @@
 //! It does not depend on feed, spindle or teeth; chip thickness, removal rate and forces are computed from it for any of
 //! them.
 
-use super::Piece;
-use super::sweep::pace;
+use super::PathPiece;
+use super::sweep::reference_length_mm;
 use std::f64::consts::{PI, TAU};
 
 /// Angular bins around the cutter; 3 degrees each.
@@ -13,9 +13,9 @@ pub const BINS: usize = 120;
 /// What one angular bin of the cutter engaged.
 ///
 /// Contacts lie on the cutter's meridian; `low..=high` is the hull of the engaged lengths along it, measured from the tip
-/// ([`super::Profile::point`]).
+/// ([`super::Meridian::point_at_arc_length`]).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bin {
+pub struct EngagementBin {
     /// Lowest engaged length along the meridian, mm.
     pub low: f32,
     /// Highest engaged length along the meridian, mm.
@@ -30,7 +30,7 @@ pub struct Bin {
     pub thickness: f32,
 }
 
-impl Bin {
+impl EngagementBin {
     /// A bin without contact.
     pub const EMPTY: Self = Self {
         low: f32::INFINITY,
@@ -42,7 +42,7 @@ impl Bin {
     };
 
     /// Adds what another piece, or another part of the ground, engaged in the same direction.
-    pub fn absorb(&mut self, other: &Self) {
+    pub fn merge_bin(&mut self, other: &Self) {
         self.low = self.low.min(other.low);
         self.high = self.high.max(other.high);
         self.thickness = self.thickness.max(other.thickness);
@@ -76,7 +76,7 @@ pub struct Engagement {
     /// point, and shares are then of that point's speed and angles from where the axis tips to.
     pub length_mm: f64,
     /// Length of the shortest piece that this was put together from, mm. A tooth that goes further in a revolution meets
-    /// material that earlier pieces have thinned, so that [`Bin::thickness`] tells nothing.
+    /// material that earlier pieces have thinned, so that [`EngagementBin::thickness`] tells nothing.
     pub shortest_mm: f64,
     /// Lateral extent of the removed ground, mm to the left (positive) of the path: least and greatest.
     pub lateral: [f64; 2],
@@ -84,7 +84,7 @@ pub struct Engagement {
     pub height: [f64; 2],
     /// The bins; empty when nothing was removed. Of a simulation without detail they hold the contacts with the largest shares, for
     /// chip thickness; forces need a simulation with detail, which fills every direction.
-    pub bins: Vec<Bin>,
+    pub bins: Vec<EngagementBin>,
     /// Largest share that a sliver thinner than a cell, which the grid cannot see, may have had beside the removed ground: where
     /// the flank passes by material closer than a cell. 0 where it does not.
     pub graze: f64,
@@ -94,7 +94,7 @@ pub struct Engagement {
 
 impl Engagement {
     /// Nothing engaged.
-    pub fn none(across: f64, along: f64, length_mm: f64) -> Self {
+    pub fn empty_along(across: f64, along: f64, length_mm: f64) -> Self {
         Self {
             removed_mm3: 0.0,
             across,
@@ -110,25 +110,25 @@ impl Engagement {
     }
 
     /// Nothing engaged on a piece of path, by a cutter of a radius and a length of flutes (mm).
-    pub fn of_piece(piece: &Piece, size: [f64; 2]) -> Self {
+    pub fn empty_for_piece(piece: &PathPiece, size: [f64; 2]) -> Self {
         let travel = piece.to.point - piece.from.point;
         let length = travel.norm();
         let along = if length > 0.0 { travel.dot(&piece.from.axis) / length } else { 0.0 };
-        Self::none((1.0 - along * along).max(0.0).sqrt(), along, pace(piece, size))
+        Self::empty_along((1.0 - along * along).max(0.0).sqrt(), along, reference_length_mm(piece, size))
     }
 
     /// Adds what is engaged at an angle, radians from the feed's direction, left positive.
-    pub fn touch(&mut self, angle: f64, contact: &Bin) {
+    pub fn add_contact(&mut self, angle: f64, contact: &EngagementBin) {
         if self.bins.is_empty() {
-            self.bins = vec![Bin::EMPTY; BINS];
+            self.bins = vec![EngagementBin::EMPTY; BINS];
         }
-        if let Some(bin) = self.bins.get_mut(bin_of(angle)) {
-            bin.absorb(contact);
+        if let Some(bin) = self.bins.get_mut(bin_index_at(angle)) {
+            bin.merge_bin(contact);
         }
     }
 
     /// Adds what a following piece of the same motion engaged.
-    pub fn absorb(&mut self, other: &Self) {
+    pub fn append_piece(&mut self, other: &Self) {
         let whole = self.length_mm + other.length_mm;
         if whole > 0.0 {
             let share = other.length_mm / whole;
@@ -138,8 +138,8 @@ impl Engagement {
         self.length_mm = whole;
         self.shortest_mm = self.shortest_mm.min(other.shortest_mm);
         self.removed_mm3 += other.removed_mm3;
-        self.lateral = hull(self.lateral, other.lateral);
-        self.height = hull(self.height, other.height);
+        self.lateral = interval_hull(self.lateral, other.lateral);
+        self.height = interval_hull(self.height, other.height);
         self.graze = self.graze.max(other.graze);
         if let Some((_, depth)) = other.contact
             && self.contact.is_none_or(|(_, known)| depth > known)
@@ -150,35 +150,35 @@ impl Engagement {
             self.bins.clone_from(&other.bins);
         } else {
             for (bin, other) in self.bins.iter_mut().zip(&other.bins) {
-                bin.absorb(other);
+                bin.merge_bin(other);
             }
         }
     }
 
     /// The bins that are engaged.
-    pub fn engaged(&self) -> impl Iterator<Item = &Bin> {
+    pub fn engaged_bins(&self) -> impl Iterator<Item = &EngagementBin> {
         self.bins.iter().filter(|bin| bin.is_engaged())
     }
 
     /// Whether material was removed.
-    pub fn cuts(&self) -> bool {
+    pub fn has_removed_material(&self) -> bool {
         self.removed_mm3 > 0.0
     }
 
     /// Largest share `v.n / |v|` over all contacts, v in the denominator being the tip's velocity: above 1 where a turning axis
     /// moves the surface faster than the tip.
-    pub fn share(&self) -> f64 {
+    pub fn max_advance_ratio(&self) -> f64 {
         self.bins.iter().map(|bin| f64::from(bin.share)).fold(0.0, f64::max)
     }
 }
 
 /// The bin of an angle in radians.
-pub(super) fn bin_of(angle: f64) -> usize {
+pub(super) fn bin_index_at(angle: f64) -> usize {
     let turn = (angle + PI) / TAU * BINS as f64;
     (turn.max(0.0) as usize).min(BINS - 1)
 }
 
 /// The smallest interval that holds both.
-pub(super) fn hull<T: PartialOrd + Copy>([a, b]: [T; 2], [c, d]: [T; 2]) -> [T; 2] {
+pub(super) fn interval_hull<T: PartialOrd + Copy>([a, b]: [T; 2], [c, d]: [T; 2]) -> [T; 2] {
     [if c < a { c } else { a }, if d > b { d } else { b }]
 }

@@ -19,14 +19,14 @@ pub struct Teeth {
     /// Helix angle in radians: positive where the edge lags behind its tip on the way up.
     pub helix: f64,
     /// How far the spacing and the offsets go from even: told once, since the chip formula asks for it at every point.
-    run: Run,
+    run: ToothRegularity,
     /// With runout, the passes before each tooth; see [`Teeth::passes_before`].
     passes: Vec<[f64; 2]>,
 }
 
 /// What the teeth spare the chip formula.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Run {
+pub(super) enum ToothRegularity {
     /// Even spacing, all at one radius.
     Even,
     /// Uneven spacing, all at one radius.
@@ -37,14 +37,14 @@ pub(super) enum Run {
 
 impl Teeth {
     /// Evenly spaced teeth that run true; `None` for no teeth, or more than 1000.
-    pub fn even(count: u32, helix: f64) -> Option<Self> {
+    pub fn evenly_spaced(count: u32, helix: f64) -> Option<Self> {
         let count = usize::try_from(count).ok().filter(|count| (1..=MOST).contains(count))?;
         let pitch = vec![TAU / count as f64; count];
         helix.is_finite().then(|| Self {
             pitch,
             runout: vec![0.0; count],
             helix,
-            run: Run::Even,
+            run: ToothRegularity::Even,
             passes: Vec::new(),
         })
     }
@@ -53,7 +53,7 @@ impl Teeth {
     /// `None` unless there are as many of both, from one to 1000, all angles positive and all numbers finite.
     ///
     /// Angles that differ by less than 1e-9 of a pitch, and offsets that differ by less than 1e-9 mm, are equal.
-    pub fn uneven(pitch: Vec<f64>, runout: Vec<f64>, helix: f64) -> Option<Self> {
+    pub fn unevenly_spaced(pitch: Vec<f64>, runout: Vec<f64>, helix: f64) -> Option<Self> {
         let sum: f64 = pitch.iter().sum();
         let fits = (1..=MOST).contains(&pitch.len())
             && pitch.len() == runout.len()
@@ -69,26 +69,31 @@ impl Teeth {
         let lowest = runout.iter().copied().fold(f64::INFINITY, f64::min);
         let even = TAU / pitch.len() as f64;
         let run = if highest - lowest > SAME {
-            Run::Runout(highest)
+            ToothRegularity::Runout(highest)
         } else if pitch.iter().all(|angle| (angle - even).abs() <= SAME * even) {
-            Run::Even
+            ToothRegularity::Even
         } else {
-            Run::Pitch
+            ToothRegularity::Pitch
         };
-        let passes = if matches!(run, Run::Runout(_)) { passes(&pitch, &runout) } else { Vec::new() };
+        let passes = if matches!(run, ToothRegularity::Runout(_)) {
+            list_earlier_passes(&pitch, &runout)
+        } else {
+            Vec::new()
+        };
         Some(Self { pitch, runout, helix, run, passes })
     }
 
-    /// Teeth with pitch angles as in [`Teeth::uneven`], ground true on a cutter whose axis runs `eccentricity` mm beside the
+    /// Teeth with pitch angles as in [`Teeth::unevenly_spaced`], ground true on a cutter whose axis runs `eccentricity` mm beside the
     /// spindle's: tooth i, at angle a_i behind the first, has the radial offset `eccentricity * cos(a_i - toward)`, where `toward`
     /// (radians) is the angle behind the first tooth to which the cutter is displaced.
     ///
-    /// First order in eccentricity / radius (Kline & DeVor 1983, eq. 2). `None` as for [`Teeth::uneven`].
-    pub fn eccentric(pitch: Vec<f64>, eccentricity: f64, toward: f64, helix: f64) -> Option<Self> {
+    /// First order in eccentricity / radius (Kline & DeVor 1983, eq. 2). `None` as for [`Teeth::unevenly_spaced`].
+    pub fn with_eccentricity(pitch: Vec<f64>, eccentricity: f64, toward: f64, helix: f64) -> Option<Self> {
         let true_running = vec![0.0; pitch.len()];
-        let teeth = Self::uneven(pitch, true_running, helix)?;
-        let runout = teeth.trail().into_iter().map(|angle| eccentricity * (angle - toward).cos()).collect();
-        Self::uneven(teeth.pitch, runout, helix)
+        let teeth = Self::unevenly_spaced(pitch, true_running, helix)?;
+        let runout =
+            teeth.trail_angles_rad().into_iter().map(|angle| eccentricity * (angle - toward).cos()).collect();
+        Self::unevenly_spaced(teeth.pitch, runout, helix)
     }
 
     /// How many.
@@ -97,17 +102,17 @@ impl Teeth {
     }
 
     /// Angles to the tooth before, in radians.
-    pub fn pitch(&self) -> &[f64] {
+    pub fn pitch_angles_rad(&self) -> &[f64] {
         &self.pitch
     }
 
     /// Radial offsets in mm.
-    pub fn runout(&self) -> &[f64] {
+    pub fn runout_offsets_mm(&self) -> &[f64] {
         &self.runout
     }
 
     /// Angle in radians by which each tooth's tip follows the first tooth's; 0 for the first.
-    pub fn trail(&self) -> Vec<f64> {
+    pub fn trail_angles_rad(&self) -> Vec<f64> {
         let sums = self.pitch.iter().skip(1).scan(0.0, |sum, angle| {
             *sum += angle;
             Some(*sum)
@@ -117,11 +122,11 @@ impl Teeth {
 
     /// Whether all teeth are evenly spaced and at one radius.
     pub fn is_even(&self) -> bool {
-        self.run == Run::Even
+        self.run == ToothRegularity::Even
     }
 
     /// What the teeth spare the chip formula.
-    pub(super) fn run(&self) -> Run {
+    pub(super) fn regularity(&self) -> ToothRegularity {
         self.run
     }
 
@@ -134,7 +139,7 @@ impl Teeth {
 }
 
 /// The passes before each tooth, as [`Teeth::passes_before`] gives them, one tooth after the other.
-fn passes(pitch: &[f64], runout: &[f64]) -> Vec<[f64; 2]> {
+fn list_earlier_passes(pitch: &[f64], runout: &[f64]) -> Vec<[f64; 2]> {
     let count = pitch.len();
     let of_edge = |edge: usize| {
         // Backwards from the edge, once round: each pitch angle, and the tooth that it leads back to.

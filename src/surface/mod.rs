@@ -2,6 +2,6 @@
 //!
 //! Everything is in millimetres, with z along the tool axis. Nothing here knows CL text or recipes.
 
-pub mod drop;
+pub mod drop_cutter;
+pub mod mesh_section;
 pub mod profile;
-pub mod section;

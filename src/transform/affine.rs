@@ -28,7 +28,7 @@ impl Affine {
     /// A turn, right-hand about an axis through a point. Quarter turns about x, y or z are exact: their matrix holds only
     /// 0, 1 and -1.
     pub fn rotation(axis: Unit<Vector3<f64>>, degrees: f64, about: Vector3<f64>) -> Self {
-        let (sine, cosine) = sine_cosine(degrees);
+        let (sine, cosine) = exact_sine_cosine(degrees);
         let outer = axis.into_inner() * axis.transpose();
         let linear = Matrix3::identity() * cosine + axis.cross_matrix() * sine + outer * (1.0 - cosine);
         Self { linear, offset: about - linear * about }
@@ -47,28 +47,28 @@ impl Affine {
     }
 
     /// A point.
-    pub fn point(&self, point: Point3<f64>) -> Point3<f64> {
+    pub fn transform_point(&self, point: Point3<f64>) -> Point3<f64> {
         Point3::from(self.linear * point.coords + self.offset)
     }
 
     /// A step or a direction: it does not move.
-    pub fn vector(&self, vector: Vector3<f64>) -> Vector3<f64> {
+    pub fn transform_vector(&self, vector: Vector3<f64>) -> Vector3<f64> {
         self.linear * vector
     }
 
     /// The axis of an arc. It is a pseudo-vector: a mirror turns it over, so that the arc runs the other way round.
-    pub fn arc_axis(&self, axis: Vector3<f64>) -> Vector3<f64> {
+    pub fn transform_arc_axis(&self, axis: Vector3<f64>) -> Vector3<f64> {
         let turned = self.linear * axis;
-        if self.mirrors() { -turned } else { turned }
+        if self.has_mirror() { -turned } else { turned }
     }
 
     /// Whether left and right change places.
-    pub fn mirrors(&self) -> bool {
+    pub fn has_mirror(&self) -> bool {
         self.linear.determinant() < 0.0
     }
 
     /// Whether directions change at all.
-    pub fn turns(&self) -> bool {
+    pub fn changes_directions(&self) -> bool {
         self.linear != Matrix3::identity()
     }
 
@@ -78,18 +78,18 @@ impl Affine {
     }
 
     /// Whether a direction stays as it is.
-    pub fn keeps(&self, direction: Vector3<f64>) -> bool {
-        same_vector(self.vector(direction), direction)
+    pub fn keeps_direction(&self, direction: Vector3<f64>) -> bool {
+        is_same_vector(self.transform_vector(direction), direction)
     }
 }
 
 /// Whether two vectors are one, up to the noise of arithmetic.
-pub fn same_vector(a: Vector3<f64>, b: Vector3<f64>) -> bool {
+pub fn is_same_vector(a: Vector3<f64>, b: Vector3<f64>) -> bool {
     (a - b).norm() <= SAME_VECTOR
 }
 
 /// Sine and cosine; exact for quarter turns, where `f64::sin_cos` leaves 6e-17.
-fn sine_cosine(degrees: f64) -> (f64, f64) {
+fn exact_sine_cosine(degrees: f64) -> (f64, f64) {
     let turn = degrees.rem_euclid(360.0);
     if turn == 0.0 {
         (0.0, 1.0)
@@ -111,16 +111,16 @@ mod tests {
     #[test]
     fn quarter_turns_are_exact() {
         let turn = Affine::rotation(Vector3::z_axis(), -270.0, Vector3::new(1.0, 0.0, 0.0));
-        assert_eq!(turn.point(Point3::new(3.0, 0.0, 7.0)), Point3::new(1.0, 2.0, 7.0));
+        assert_eq!(turn.transform_point(Point3::new(3.0, 0.0, 7.0)), Point3::new(1.0, 2.0, 7.0));
         assert_eq!(Affine::rotation(Vector3::x_axis(), 360.0, Vector3::zeros()), Affine::identity());
     }
 
     #[test]
     fn a_mirror_turns_the_axis_of_an_arc_in_its_plane_over_and_keeps_the_normal() {
         let mirror = Affine::mirror(Vector3::x_axis(), Vector3::zeros());
-        assert!(mirror.mirrors());
-        assert_eq!(mirror.arc_axis(Vector3::z()), -Vector3::z());
-        assert_eq!(mirror.arc_axis(Vector3::x()), Vector3::x());
-        assert_eq!(mirror.vector(Vector3::z()), Vector3::z());
+        assert!(mirror.has_mirror());
+        assert_eq!(mirror.transform_arc_axis(Vector3::z()), -Vector3::z());
+        assert_eq!(mirror.transform_arc_axis(Vector3::x()), Vector3::x());
+        assert_eq!(mirror.transform_vector(Vector3::z()), Vector3::z());
     }
 }

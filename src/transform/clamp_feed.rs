@@ -1,12 +1,12 @@
 //! `clamp_feed`: programmed feeds within limits.
 
 use super::feed_plan::{FeedPlan, decimals_of_feed, printed_decimals};
-use super::{Context, Selection, Transform};
+use super::{MotionSelection, StepContext, Transform};
 use crate::diagnostic::Diagnostic;
+use crate::parameters::Positive;
 use crate::program::Program;
-use crate::recipe::Where;
-use crate::values::Positive;
-use crate::write::Editor;
+use crate::recipe::MotionFilter;
+use crate::write::ProgramEditor;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -26,28 +26,30 @@ pub struct ClampFeed {
     pub max: Option<Positive>,
     /// Which motions; all when it is left out.
     #[serde(default)]
-    pub r#where: Where,
+    pub r#where: MotionFilter,
 }
 
 impl Transform for ClampFeed {
-    fn apply(&self, program: Program, context: &mut Context<'_>) -> Result<Program, Box<Diagnostic>> {
-        let units = context.recipe.units.in_mm();
+    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>> {
+        let units = context.recipe.units.mm_per_unit();
         let machine = context.setup.machine.max_feed.map(|feed| feed.get() / units);
         let min = self.min.map_or(0.0, Positive::get);
         let max = self.max.map(Positive::get).or(machine).unwrap_or(f64::INFINITY);
         if self.min.is_none() && max.is_infinite() {
-            return Err(context.fail(
+            return Err(context.step_failure(
                 "neither `min` nor `max` is given, and the setup has no `machine: { max_feed: ... }`",
                 &[],
             ));
         }
         if min > max {
-            return Err(context.fail(format!("the lowest feed {min} is above the highest {max}"), &["min"]));
+            return Err(
+                context.step_failure(format!("the lowest feed {min} is above the highest {max}"), &["min"])
+            );
         }
-        let file = context.file_units(&program);
-        let mut selection = Selection::new(&self.r#where, &program, context);
+        let file = context.file_length_unit(&program);
+        let mut selection = MotionSelection::new(&self.r#where, &program, context);
         let mut unknown = Vec::new();
-        let plan = FeedPlan::of(&program, |motion| {
+        let plan = FeedPlan::for_motions(&program, |motion| {
             let feed = motion.feed?.value;
             if !selection.contains(motion, context) {
                 return None;
@@ -57,15 +59,15 @@ impl Transform for ClampFeed {
                 return None;
             };
             let decimals = motion.feed_from.map_or(0, |statement| decimals_of_feed(&program, statement));
-            within(feed, actual, (min, max), decimals)
+            clamp_to_limits(feed, actual, (min, max), decimals)
         });
-        selection.report(context);
+        selection.report_if_empty(context);
         for statement in unknown {
             let message = "this feed cannot be compared with the limits: it is zero, or per revolution with no spindle speed in rev/min";
-            context.not_changed(message, &program, statement);
+            context.report_unchanged(message, &program, statement);
         }
-        let mut editor = Editor::new(program, context.step);
-        plan.write(&mut editor, &mut context.findings)?;
+        let mut editor = ProgramEditor::new(program, context.step);
+        plan.write_feeds(&mut editor, &mut context.findings)?;
         editor.finish()
     }
 }
@@ -78,7 +80,7 @@ const NOISE: f64 = 1e-9;
 /// `actual` is the feed in the limits' unit. A limit falls between two printed feeds when the units differ (0.25 mm/rev, 500
 /// mm/min at 3000 rev/min): then the lower one is taken at the highest limit and the upper one at the lowest, so that no limit is
 /// passed and a second run finds nothing to change.
-fn within(feed: f64, actual: f64, (min, max): (f64, f64), decimals: usize) -> Option<f64> {
+fn clamp_to_limits(feed: f64, actual: f64, (min, max): (f64, f64), decimals: usize) -> Option<f64> {
     let rate = actual / feed;
     let (too_low, too_high) = (min * (1.0 - NOISE), max * (1.0 + NOISE));
     if (too_low..=too_high).contains(&actual) {

@@ -4,18 +4,18 @@
 //! wants another, a FEDRAT in the form of the governing one goes in front of the first statement of that motion. The next
 //! FEDRAT of the file sets its own feed anyway, so programmed feeds come back by themselves.
 
-use super::numbers::{without_remark, word};
+use super::statement_numbers::{major_word, strip_remark};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::number;
 use crate::parse;
 use crate::program::motion::Motion;
-use crate::program::{Form, Program, Record, Role};
+use crate::program::{NumberRole, Program, Record, StatementKind};
 use crate::source::Span;
-use crate::write::{Editor, FEED_SHARE};
+use crate::write::{FEED_SHARE, ProgramEditor};
 
 /// What a motion wants: the place it starts at, what governs its feed, and the feed in the governing record's unit.
 #[derive(Debug, Clone, Copy)]
-struct Wish {
+struct WantedFeed {
     /// First statement of the motion, or of the first of several that share a statement.
     first: u32,
     /// Last statement of the motion; the GOTO of a point in a line of bare numbers. Points of one GOTO share it.
@@ -28,24 +28,27 @@ struct Wish {
 /// The feeds that the motions of a program want.
 #[derive(Debug, Default)]
 pub struct FeedPlan {
-    wishes: Vec<Wish>,
+    wishes: Vec<WantedFeed>,
 }
 
 impl FeedPlan {
     /// Asks every feed motion of a program. `want` gives the feed in the motion's own unit, `None` for the programmed one.
-    pub fn of(program: &Program, mut want: impl FnMut(&Motion) -> Option<f64>) -> Self {
-        Self::numbered(program, |_, motion| want(motion))
+    pub fn for_motions(program: &Program, mut want: impl FnMut(&Motion) -> Option<f64>) -> Self {
+        Self::for_numbered_motions(program, |_, motion| want(motion))
     }
 
-    /// As [`FeedPlan::of`]; `want` is told the motion's number among all motions of the program, too.
-    pub fn numbered(program: &Program, mut want: impl FnMut(usize, &Motion) -> Option<f64>) -> Self {
+    /// As [`FeedPlan::for_motions`]; `want` is told the motion's number among all motions of the program, too.
+    pub fn for_numbered_motions(
+        program: &Program,
+        mut want: impl FnMut(usize, &Motion) -> Option<f64>,
+    ) -> Self {
         let mut wishes = Vec::new();
         let (mut first, mut last) = (0, None);
         for (number, motion) in program.motions().enumerate() {
             // Points of one GOTO share what announces the first of them: a RAPID must not be parted from it, nor lines of bare
             // numbers from their GOTO.
             let end = motion.last_statement();
-            if last != Some(end) && !continues(program, end) {
+            if last != Some(end) && !is_continuation_line(program, end) {
                 (first, last) = (motion.statements.start, Some(end));
             }
             if motion.rapid {
@@ -53,7 +56,7 @@ impl FeedPlan {
             }
             let (Some(feed), Some(governor)) = (motion.feed, motion.feed_from) else { continue };
             let wanted = want(number, &motion).unwrap_or(feed.value);
-            wishes.push(Wish {
+            wishes.push(WantedFeed {
                 first: first as u32,
                 last: last.unwrap_or(end) as u32,
                 governor: governor as u32,
@@ -64,7 +67,7 @@ impl FeedPlan {
     }
 
     /// The statements that govern a feed motion.
-    pub fn governors(&self) -> std::collections::BTreeSet<usize> {
+    pub fn governing_statements(&self) -> std::collections::BTreeSet<usize> {
         self.wishes.iter().map(|wish| wish.governor as usize).collect()
     }
 
@@ -72,16 +75,16 @@ impl FeedPlan {
     ///
     /// # Errors
     /// When a feed cannot be printed as a record that reads back.
-    pub fn write(
+    pub fn write_feeds(
         mut self,
-        editor: &mut Editor,
+        editor: &mut ProgramEditor,
         findings: &mut Vec<Diagnostic>,
     ) -> Result<(), Box<Diagnostic>> {
-        findings.extend(unknown_feeds(editor.program()));
-        self.one_feed_a_statement(editor.program(), findings);
+        findings.extend(describe_unknown_feeds(editor.program()));
+        self.unify_statement_feeds(editor.program(), findings);
         // A FEDRAT comes back after any number of cycles with feeds of their own, and a cycle after FEDRATs; of each kind only
         // the newest can.
-        let (mut fedrat, mut cycle): (Option<InForce>, Option<InForce>) = (None, None);
+        let (mut fedrat, mut cycle): (Option<FeedInForce>, Option<FeedInForce>) = (None, None);
         for wish in &self.wishes {
             let governor = wish.governor as usize;
             let slot = if is_cycle(editor.program(), governor) { &mut cycle } else { &mut fedrat };
@@ -91,22 +94,23 @@ impl FeedPlan {
                         continue;
                     }
                     let Some(template) = &in_force.template else {
-                        findings.push(cycle_keeps_feed(editor.program(), governor));
+                        findings.push(describe_kept_cycle_feed(editor.program(), governor));
                         continue;
                     };
                     if !wish.feed.is_finite() {
                         return set_feed(editor, governor, wish.feed);
                     }
-                    editor.insert_before(wish.first as usize, &template.with(wish.feed, editor))?;
+                    editor
+                        .insert_before(wish.first as usize, &template.render_with_feed(wish.feed, editor))?;
                     in_force.feed = wish.feed;
                 }
                 _ => {
-                    let template = Template::of(editor, governor);
-                    if feeds_of(editor.program(), governor).nth(1).is_some() {
-                        findings.push(further_feeds(editor.program(), governor));
+                    let template = FedratTemplate::from_statement(editor, governor);
+                    if feed_number_indices(editor.program(), governor).nth(1).is_some() {
+                        findings.push(describe_further_feeds(editor.program(), governor));
                     }
                     set_feed(editor, governor, wish.feed)?;
-                    *slot = Some(InForce { governor: wish.governor, feed: wish.feed, template });
+                    *slot = Some(FeedInForce { governor: wish.governor, feed: wish.feed, template });
                 }
             }
         }
@@ -114,7 +118,7 @@ impl FeedPlan {
     }
 
     /// Points of one GOTO cannot have feeds of their own: the lowest holds for all.
-    fn one_feed_a_statement(&mut self, program: &Program, findings: &mut Vec<Diagnostic>) {
+    fn unify_statement_feeds(&mut self, program: &Program, findings: &mut Vec<Diagnostic>) {
         let mut start = 0;
         while let Some(wish) = self.wishes.get(start).copied() {
             let rest = self.wishes.get_mut(start..).unwrap_or_default();
@@ -123,7 +127,7 @@ impl FeedPlan {
             let lowest = group.iter().map(|wish| wish.feed).fold(f64::INFINITY, f64::min);
             if group.iter().any(|wish| wish.feed != lowest) {
                 group.iter_mut().for_each(|wish| wish.feed = lowest);
-                findings.push(shared_statement(program, wish.last as usize));
+                findings.push(describe_shared_statement(program, wish.last as usize));
             }
             start += count;
         }
@@ -131,11 +135,11 @@ impl FeedPlan {
 }
 
 /// A FEDRAT or CYCLE that was given its feed, and the feed that was written last in its place.
-struct InForce {
+struct FeedInForce {
     governor: u32,
     feed: f64,
     /// `None` for a CYCLE, of which no second one can be put between holes.
-    template: Option<Template>,
+    template: Option<FedratTemplate>,
 }
 
 fn is_cycle(program: &Program, statement: usize) -> bool {
@@ -143,12 +147,12 @@ fn is_cycle(program: &Program, statement: usize) -> bool {
 }
 
 /// Whether a statement is a line of bare numbers, which goes on with the GOTO before it.
-fn continues(program: &Program, statement: usize) -> bool {
+fn is_continuation_line(program: &Program, statement: usize) -> bool {
     let points = |found: &&crate::program::Statement| matches!(found.record(), Record::Points(_));
     let first = program
         .statement(statement)
         .filter(points)
-        .and_then(|found| program.text(found).trim_ascii_start().first());
+        .and_then(|found| program.statement_text(found).trim_ascii_start().first());
     first.is_some_and(|byte| !byte.is_ascii_alphabetic())
 }
 
@@ -156,8 +160,8 @@ fn continues(program: &Program, statement: usize) -> bool {
 ///
 /// # Errors
 /// When it cannot be printed as a record that reads back.
-pub fn set_feed(editor: &mut Editor, statement: usize, feed: f64) -> Result<(), Box<Diagnostic>> {
-    let first = feeds_of(editor.program(), statement).next();
+pub fn set_feed(editor: &mut ProgramEditor, statement: usize, feed: f64) -> Result<(), Box<Diagnostic>> {
+    let first = feed_number_indices(editor.program(), statement).next();
     match first {
         Some(number) => editor.set_numbers(statement, &[(number, feed)]),
         None => Ok(()),
@@ -172,7 +176,7 @@ pub(super) fn printed_decimals(feed: f64, own: usize) -> i32 {
 }
 
 /// A feed rounded down to what is printed exactly, with its own decimals or as many as the writer's tolerance asks for.
-pub(super) fn rounded_down(feed: f64, own: usize) -> f64 {
+pub(super) fn round_feed_down(feed: f64, own: usize) -> f64 {
     let power = 10f64.powi(printed_decimals(feed, own));
     let down = (feed * power * (1.0 + 1e-12)).floor() / power;
     if down > 0.0 { down } else { feed }
@@ -181,48 +185,54 @@ pub(super) fn rounded_down(feed: f64, own: usize) -> f64 {
 /// Decimals of the feed that a statement prints.
 pub(super) fn decimals_of_feed(program: &Program, statement: usize) -> usize {
     let Some(found) = program.statement(statement) else { return 0 };
-    let text = program.text(found);
-    let roles = parse::roles(found.record(), text);
-    let numbers = parse::numbers(text).into_iter().zip(roles);
-    let feed = numbers.filter(|(_, role)| *role == Role::Feed).map(|((at, _), _)| at).next();
-    feed.and_then(|at| text.get(at)).map_or(0, number::decimals)
+    let text = program.statement_text(found);
+    let roles = parse::number_roles(found.record(), text);
+    let numbers = parse::statement_numbers(text).into_iter().zip(roles);
+    let feed = numbers.filter(|(_, role)| *role == NumberRole::Feed).map(|((at, _), _)| at).next();
+    feed.and_then(|at| text.get(at)).map_or(0, number::count_decimals)
 }
 
 /// Which numbers of a statement are feeds.
-fn feeds_of(program: &Program, statement: usize) -> impl Iterator<Item = usize> {
+fn feed_number_indices(program: &Program, statement: usize) -> impl Iterator<Item = usize> {
     let found = program.statement(statement);
-    let roles = found.map(|found| parse::roles(found.record(), program.text(found))).unwrap_or_default();
-    roles.into_iter().enumerate().filter(|(_, role)| *role == Role::Feed).map(|(number, _)| number)
+    let roles = found
+        .map(|found| parse::number_roles(found.record(), program.statement_text(found)))
+        .unwrap_or_default();
+    roles.into_iter().enumerate().filter(|(_, role)| *role == NumberRole::Feed).map(|(number, _)| number)
 }
 
 /// A FEDRAT of the file as a form for new ones: its bytes without comment and line end, and where its number stands.
-struct Template {
+struct FedratTemplate {
     text: Vec<u8>,
 }
 
-impl Template {
-    fn of(editor: &Editor, statement: usize) -> Option<Self> {
+impl FedratTemplate {
+    fn from_statement(editor: &ProgramEditor, statement: usize) -> Option<Self> {
         let program = editor.program();
         let found = program.statement(statement).filter(|found| matches!(found.record(), Record::Feed(_)))?;
-        debug_assert!(matches!(parse::syntax(program.text(found)).form, Form::Words | Form::Structured));
-        Some(Self { text: without_remark(program.text(found)) })
+        debug_assert!(matches!(
+            parse::syntax(program.statement_text(found)).form,
+            StatementKind::Words | StatementKind::Structured
+        ));
+        Some(Self { text: strip_remark(program.statement_text(found)) })
     }
 
-    fn with(&self, feed: f64, editor: &Editor) -> Vec<u8> {
+    fn render_with_feed(&self, feed: f64, editor: &ProgramEditor) -> Vec<u8> {
         let record = Record::Feed(crate::program::Feed { value: feed, unit: None });
         let patched = crate::write::patch_numbers(&self.text, &record, &[(0, feed)], editor.style());
         patched.unwrap_or_else(|| self.text.clone())
     }
 }
 
-fn place(program: &Program, statement: usize) -> Span {
+fn statement_span(program: &Program, statement: usize) -> Span {
     program.statement(statement).map(crate::program::Statement::origin).unwrap_or_default()
 }
 
 /// FEDRATs in words of a post (`FEDRAT/9000,FPM`, `FEDRAT/RAPID`): what they set is not known, so no step can change it.
-fn unknown_feeds(program: &Program) -> Option<Diagnostic> {
-    let mut unknown = program.live().filter(|(_, statement)| {
-        matches!(statement.record(), Record::Known) && word(program.text(statement)) == "FEDRAT"
+fn describe_unknown_feeds(program: &Program) -> Option<Diagnostic> {
+    let mut unknown = program.live_statements().filter(|(_, statement)| {
+        matches!(statement.record(), Record::Known)
+            && major_word(program.statement_text(statement)) == "FEDRAT"
     });
     let (first, _) = unknown.next()?;
     let message = match unknown.count() {
@@ -230,29 +240,33 @@ fn unknown_feeds(program: &Program) -> Option<Diagnostic> {
         more => format!("the feeds that {} FEDRATs set are not understood; they are not changed", more + 1),
     };
     let found = Diagnostic::new(codes::NOT_CHANGED, message);
-    Some(found.label(program.source(), place(program, first), "left as it is"))
+    Some(found.with_label(program.source(), statement_span(program, first), "left as it is"))
 }
 
-fn shared_statement(program: &Program, statement: usize) -> Diagnostic {
+fn describe_shared_statement(program: &Program, statement: usize) -> Diagnostic {
     Diagnostic::new(
         codes::NOT_CHANGED,
         "the points of this GOTO want different feeds; the lowest is used for all of them",
     )
-    .label(program.source(), place(program, statement), "several points in one statement")
+    .with_label(program.source(), statement_span(program, statement), "several points in one statement")
 }
 
-fn further_feeds(program: &Program, statement: usize) -> Diagnostic {
+fn describe_further_feeds(program: &Program, statement: usize) -> Diagnostic {
     Diagnostic::new(
         codes::NOT_CHANGED,
         "this record has several feeds; only the first, at which the tool goes in, is changed",
     )
-    .label(program.source(), place(program, statement), "more than one feed")
+    .with_label(program.source(), statement_span(program, statement), "more than one feed")
 }
 
-fn cycle_keeps_feed(program: &Program, statement: usize) -> Diagnostic {
+fn describe_kept_cycle_feed(program: &Program, statement: usize) -> Diagnostic {
     Diagnostic::new(
         codes::NOT_CHANGED,
         "holes of one CYCLE want different feeds; those of the first hole are kept",
     )
-    .label(program.source(), place(program, statement), "one feed for all holes of the cycle")
+    .with_label(
+        program.source(),
+        statement_span(program, statement),
+        "one feed for all holes of the cycle",
+    )
 }

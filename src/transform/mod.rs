@@ -6,32 +6,32 @@
 mod affine;
 mod clamp_feed;
 pub mod compensate_z;
-mod context;
 mod convert_units;
 pub mod correct_ramp;
 pub mod feed_plan;
+mod motion_selection;
 mod move_origin;
-mod numbers;
 pub mod optimize_feed;
+mod recipe_run;
 mod rewrite;
-mod run;
 mod scale_feed;
-mod selection;
-mod stale;
-mod unchanged;
+mod stale_records;
+mod statement_numbers;
+mod step_context;
+mod unchanged_statements;
 
 pub use affine::Affine;
 pub use clamp_feed::ClampFeed;
 pub use compensate_z::CompensateZ;
-pub use context::Context;
 pub use convert_units::ConvertUnits;
 pub use correct_ramp::CorrectRamp;
+pub use motion_selection::MotionSelection;
 pub use move_origin::MoveOrigin;
 pub use optimize_feed::OptimizeFeed;
-pub use rewrite::{Region, Rewrite, RewriteRule};
-pub use run::{Outcome, run, run_watched};
+pub use recipe_run::{RecipeOutcome, run_recipe, run_recipe_watched};
+pub use rewrite::{Rewrite, RewriteRegionSpec, RewriteRule};
 pub use scale_feed::ScaleFeed;
-pub use selection::Selection;
+pub use step_context::StepContext;
 
 use crate::diagnostic::Diagnostic;
 use crate::program::{Program, StepId};
@@ -69,7 +69,7 @@ pub trait Transform {
     ///
     /// # Errors
     /// A diagnostic with its places in the recipe and in the CL file. The program is gone with it.
-    fn apply(&self, program: Program, context: &mut Context<'_>) -> Result<Program, Box<Diagnostic>>;
+    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>>;
 }
 
 /// Writes the list of transforms as the step enum of recipes and a table of names.
@@ -127,9 +127,9 @@ transforms! {
 
 impl Step {
     /// A file that the step reads beside the program.
-    pub fn reads(&self) -> Option<&crate::values::FilePath> {
+    pub fn input_file(&self) -> Option<&crate::parameters::FilePath> {
         match self {
-            Self::CompensateZ(step) => step.reads(),
+            Self::CompensateZ(step) => step.mesh_path(),
             _ => None,
         }
     }
@@ -140,9 +140,9 @@ impl Step {
 #[serde(rename_all = "snake_case")]
 pub enum StepReport {
     /// Of `compensate_z`.
-    CompensateZ(compensate_z::Report),
+    CompensateZ(compensate_z::CompensateZReport),
     /// Of `correct_ramp`.
-    CorrectRamp(correct_ramp::Report),
+    CorrectRamp(correct_ramp::CorrectRampReport),
     /// Of `optimize_feed`.
-    OptimizeFeed(optimize_feed::Report),
+    OptimizeFeed(optimize_feed::OptimizeFeedReport),
 }

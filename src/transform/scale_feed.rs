@@ -1,12 +1,12 @@
 //! `scale_feed`: programmed feeds times a factor.
 
 use super::feed_plan::{self, FeedPlan};
-use super::{Context, Selection, Transform};
+use super::{MotionSelection, StepContext, Transform};
 use crate::diagnostic::Diagnostic;
+use crate::parameters::Factor;
 use crate::program::{Program, Record};
-use crate::recipe::Where;
-use crate::values::Factor;
-use crate::write::Editor;
+use crate::recipe::MotionFilter;
+use crate::write::ProgramEditor;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -24,26 +24,26 @@ pub struct ScaleFeed {
     pub factor: Factor,
     /// Which motions; all when it is left out.
     #[serde(default)]
-    pub r#where: Where,
+    pub r#where: MotionFilter,
 }
 
 impl Transform for ScaleFeed {
-    fn apply(&self, program: Program, context: &mut Context<'_>) -> Result<Program, Box<Diagnostic>> {
+    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>> {
         let factor = self.factor.get();
-        let mut selection = Selection::new(&self.r#where, &program, context);
-        let plan = FeedPlan::of(&program, |motion| {
+        let mut selection = MotionSelection::new(&self.r#where, &program, context);
+        let plan = FeedPlan::for_motions(&program, |motion| {
             let feed = motion.feed?.value;
             selection.contains(motion, context).then_some(feed * factor)
         });
-        selection.report(context);
-        let governors = plan.governors();
-        let mut editor = Editor::new(program, context.step);
-        plan.write(&mut editor, &mut context.findings)?;
+        selection.report_if_empty(context);
+        let governors = plan.governing_statements();
+        let mut editor = ProgramEditor::new(program, context.step);
+        plan.write_feeds(&mut editor, &mut context.findings)?;
         if selection.is_everything() {
             // A FEDRAT that no motion uses still sets the machine's feed; left behind it would surprise.
             for index in 0..editor.program().statements().len() {
                 if let Some(feed) =
-                    unused_feed(editor.program(), index).filter(|_| !governors.contains(&index))
+                    stated_feed(editor.program(), index).filter(|_| !governors.contains(&index))
                 {
                     feed_plan::set_feed(&mut editor, index, feed * factor)?;
                 }
@@ -53,7 +53,7 @@ impl Transform for ScaleFeed {
     }
 }
 
-fn unused_feed(program: &Program, index: usize) -> Option<f64> {
+fn stated_feed(program: &Program, index: usize) -> Option<f64> {
     let statement = program.statement(index).filter(|statement| statement.is_live())?;
     match statement.record() {
         Record::Feed(feed) => Some(feed.value),

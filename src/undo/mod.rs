@@ -1,15 +1,15 @@
 //! Back from a corrected file to the original, by the report of the run (`apply --json`).
 //!
 //! [`RunReport`] is what is written: what the run did, for other programs, and for undo the old bytes of every place that differs
-//! ([`Patch`]), the digests of both files, and checksums along the corrected one. [`Undo`] is what is read of it: it gives the
+//! ([`UndoPatch`]), the digests of both files, and checksums along the corrected one. [`UndoData`] is what is read of it: it gives the
 //! original back, byte for byte, from exactly the file that the run wrote, or says why not and from where on it is another.
 
-mod back;
-mod blocks;
-mod patch;
-mod report;
+mod block_checksums;
+mod run_report;
+mod undo_data;
+mod undo_patch;
 
-pub use back::{Undo, Undone};
-pub use blocks::Blocks;
-pub use patch::{Patch, Place};
-pub use report::{FORMAT, FORMAT_VERSION, Output, RunReport, Sized};
+pub use block_checksums::BlockChecksums;
+pub use run_report::{CorrectedFile, FORMAT, FORMAT_VERSION, FileIdentity, RunReport};
+pub use undo_data::{RestoredOriginal, UndoData};
+pub use undo_patch::{UndoEdit, UndoPatch};

@@ -33,27 +33,27 @@ impl Interrupt {
     /// # Errors
     /// One that [`is_interrupt`] recognizes, once the flag is raised.
     pub fn check(&self) -> io::Result<()> {
-        if self.is_raised() { Err(io::Error::other(Stopped)) } else { Ok(()) }
+        if self.is_raised() { Err(io::Error::other(WriteInterrupted)) } else { Ok(()) }
     }
 }
 
 /// Whether an error means that the user stopped the run, rather than that writing failed.
 pub fn is_interrupt(error: &io::Error) -> bool {
-    error.get_ref().is_some_and(|inner| inner.is::<Stopped>())
+    error.get_ref().is_some_and(|inner| inner.is::<WriteInterrupted>())
 }
 
 // Not `ErrorKind::Interrupted`: `write_all` takes that kind as "try again" and would never return.
 #[derive(Debug, thiserror::Error)]
 #[error("stopped before the file was complete")]
-struct Stopped;
+struct WriteInterrupted;
 
 /// A writer that fails once the flag is raised.
-pub(super) struct Guarded<'a, W> {
+pub(super) struct InterruptibleWriter<'a, W> {
     pub(super) inner: W,
     pub(super) interrupt: &'a Interrupt,
 }
 
-impl<W: Write> Write for Guarded<'_, W> {
+impl<W: Write> Write for InterruptibleWriter<'_, W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.interrupt.check()?;
         self.inner.write(bytes)

@@ -1,16 +1,16 @@
 //! Writing: patching statements in the file's own style, and files that appear whole or not at all.
 
-mod atomic;
+mod atomic_write;
 mod editor;
+mod file_style;
 mod interrupt;
-mod patch;
-pub mod program;
-mod same;
-mod style;
+pub mod new_program;
+mod number_patch;
+mod same_file;
 
-pub use atomic::{Temporaries, write_atomically, write_atomically_unless, write_new_atomically};
-pub use editor::{Editor, syntax};
+pub use atomic_write::{TemporaryFiles, write_atomically, write_atomically_unless, write_new_atomically};
+pub use editor::{ProgramEditor, statement_syntax};
+pub use file_style::FileStyle;
 pub use interrupt::{Interrupt, is_interrupt};
-pub use patch::{FEED_SHARE, copy as copy_with_numbers, numbers as patch_numbers};
-pub use same::{FileSet, same_file};
-pub use style::Style;
+pub use number_patch::{FEED_SHARE, copy_with_numbers, patch_numbers};
+pub use same_file::{FileSet, is_same_file};

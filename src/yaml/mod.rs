@@ -1,32 +1,32 @@
 //! YAML files that people write by hand: read, checked against a type, every fault at its exact place.
 //!
-//! [`Document::read`] turns text into a tree or says why it is no YAML; [`Document::check`] turns the tree into a type
-//! and reports all it finds, not only the first fault; [`Document::place`] says where a value stands, at any time later.
+//! [`YamlDocument::read`] turns text into a tree or says why it is no YAML; [`YamlDocument::typed_document`] turns the tree into a type
+//! and reports all it finds, not only the first fault; [`YamlDocument::value_span`] says where a value stands, at any time later.
 //! Recipes and setup files go through here; nothing here knows what is in them.
 
-mod check;
-mod de;
-mod explain;
-mod fault;
-mod locate;
-mod node;
-mod syntax;
-mod tokens;
-mod words;
+mod fault_diagnostics;
+mod fault_words;
+mod node_deserializer;
+mod node_length;
+mod node_location;
+mod typed_document;
+mod yaml_fault;
+mod yaml_syntax;
+mod yaml_tree;
 
-pub(crate) use explain::{Finding, suggestion};
-pub(crate) use fault::Kind;
+pub(crate) use fault_diagnostics::{LocatedYamlFault, suggest_names};
+pub(crate) use yaml_fault::YamlFaultKind;
 
 use crate::diagnostic::Diagnostic;
 use crate::source::{Source, Span};
-use locate::Part;
-use node::Node;
+use node_location::KeyOrValue;
 use std::fmt;
 use std::sync::Arc;
+use yaml_tree::YamlNode;
 
 /// A step of the way from the root of a document to one of its values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Segment<'a> {
+pub enum YamlPathSegment<'a> {
     /// The value of a key.
     Key(&'a str),
     /// An element of a list, from 0.
@@ -34,21 +34,21 @@ pub enum Segment<'a> {
 }
 
 /// A file as a tree of values with places.
-pub(crate) struct Document {
+pub(crate) struct YamlDocument {
     source: Arc<Source>,
     /// Length of the byte order mark.
     base: usize,
-    root: Node,
+    root: YamlNode,
 }
 
-impl Document {
+impl YamlDocument {
     /// Reads the text.
     ///
     /// # Errors
     /// The one reason why the bytes are not a YAML document.
-    pub fn read(source: &Arc<Source>) -> Result<Self, Box<Diagnostic>> {
-        let (text, base) = syntax::text(source)?;
-        let root = syntax::read(source, text, base)?;
+    pub fn parse(source: &Arc<Source>) -> Result<Self, Box<Diagnostic>> {
+        let (text, base) = yaml_syntax::check_text(source)?;
+        let root = yaml_syntax::parse_tree(source, text, base)?;
         Ok(Self { source: Arc::clone(source), base, root })
     }
 
@@ -58,69 +58,74 @@ impl Document {
     }
 
     /// Where a value stands; an empty value stands at its key. `None` if there is no such value.
-    pub fn place(&self, path: &[Segment<'_>]) -> Option<Span> {
-        self.span(&self.numbers(path)?, Part::Value)
+    pub fn value_span(&self, path: &[YamlPathSegment<'_>]) -> Option<Span> {
+        self.node_span(&self.resolve_path(path)?, KeyOrValue::Value)
     }
 
     /// Where the key of a value stands; list elements have none and stand where the value does.
-    pub fn key_place(&self, path: &[Segment<'_>]) -> Option<Span> {
-        let numbers = self.numbers(path)?;
-        let part = if matches!(path.last(), Some(Segment::Key(_))) { Part::Key } else { Part::Value };
-        self.span(&numbers, part)
+    pub fn key_span(&self, path: &[YamlPathSegment<'_>]) -> Option<Span> {
+        let numbers = self.resolve_path(path)?;
+        let part = if matches!(path.last(), Some(YamlPathSegment::Key(_))) {
+            KeyOrValue::Key
+        } else {
+            KeyOrValue::Value
+        };
+        self.node_span(&numbers, part)
     }
 
     /// The keys of the map at the end of a path.
-    pub fn keys(&self, path: &[Segment<'_>]) -> Vec<&str> {
-        match self.numbers(path).and_then(|numbers| self.root.at(&numbers)) {
-            Some(Node::Map(entries)) => entries.iter().map(|entry| entry.key.as_str()).collect(),
+    pub fn list_keys(&self, path: &[YamlPathSegment<'_>]) -> Vec<&str> {
+        match self.resolve_path(path).and_then(|numbers| self.root.node_at_path(&numbers)) {
+            Some(YamlNode::Map(entries)) => entries.iter().map(|entry| entry.key.as_str()).collect(),
             _ => Vec::new(),
         }
     }
 
-    fn text(&self) -> &str {
+    fn yaml_text(&self) -> &str {
         let bytes = self.source.bytes().get(self.base..).unwrap_or_default();
         std::str::from_utf8(bytes).unwrap_or_default()
     }
 
-    fn numbers(&self, path: &[Segment<'_>]) -> Option<Vec<usize>> {
+    fn resolve_path(&self, path: &[YamlPathSegment<'_>]) -> Option<Vec<usize>> {
         let mut node = &self.root;
         let mut numbers = Vec::with_capacity(path.len());
         for segment in path {
             let index = match segment {
-                Segment::Key(key) => node.get(key)?.index,
-                Segment::Index(index) => *index,
+                YamlPathSegment::Key(key) => node.find_entry(key)?.index,
+                YamlPathSegment::Index(index) => *index,
             };
-            node = node.child(index)?;
+            node = node.child_at(index)?;
             numbers.push(index);
         }
         Some(numbers)
     }
 
-    fn span(&self, path: &[usize], part: Part) -> Option<Span> {
-        let parent = path.split_last().and_then(|(last, parent)| Some((self.root.at(parent)?, *last)));
-        let entry = parent.and_then(|(node, last)| node.entry(last));
-        let value = self.root.at(path);
-        if part == Part::Value && entry.is_some() && value == Some(&Node::Null) {
-            return self.span(path, Part::Key);
+    fn node_span(&self, path: &[usize], part: KeyOrValue) -> Option<Span> {
+        let parent =
+            path.split_last().and_then(|(last, parent)| Some((self.root.node_at_path(parent)?, *last)));
+        let entry = parent.and_then(|(node, last)| node.entry_at(last));
+        let value = self.root.node_at_path(path);
+        if part == KeyOrValue::Value && entry.is_some() && value == Some(&YamlNode::Null) {
+            return self.node_span(path, KeyOrValue::Key);
         }
-        let text = self.text();
-        let offset = locate::offset(text, path, part)?;
+        let text = self.yaml_text();
+        let offset = node_location::find_node_offset(text, path, part)?;
         let plain = match (part, entry, value) {
-            (Part::Key, Some(entry), _) => Some(entry.key.as_str()),
-            (Part::Value, _, Some(Node::Text(text))) => Some(text.as_str()),
+            (KeyOrValue::Key, Some(entry), _) => Some(entry.key.as_str()),
+            (KeyOrValue::Value, _, Some(YamlNode::Text(text))) => Some(text.as_str()),
             _ => None,
         };
-        let span = locate::span(text, offset, plain);
+        let span = node_location::find_node_span(text, offset, plain);
         // `- ` with nothing behind it: the dash is all there is to see.
-        let dash = text.get(..span.range().start).map(|before| before.trim_end().len());
+        let dash = text.get(..span.to_range().start).map(|before| before.trim_end().len());
         Some(match dash {
             Some(end) if span.is_empty() && end > 0 => Span::new(self.base + end - 1, self.base + end),
-            _ => Span::new(self.base + span.range().start, self.base + span.range().end),
+            _ => Span::new(self.base + span.to_range().start, self.base + span.to_range().end),
         })
     }
 }
 
-impl fmt::Debug for Document {
+impl fmt::Debug for YamlDocument {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "Document({:?})", self.source)
     }

@@ -1,13 +1,13 @@
 //! Jobs files: what they mean, and what is said about broken ones.
 
 use crate::support;
-use clsmith::batch::jobs::{Jobs, load, schema};
+use clsmith::batch::jobs_file::{BatchJobs, jobs_schema, load_jobs};
 use clsmith::diagnostic::Diagnostic;
 use clsmith::report::render::line;
 use std::path::Path;
 
-fn read(text: &str) -> Result<Jobs, Vec<Diagnostic>> {
-    load(&support::text(text), Path::new("shop/jobs.yaml"))
+fn read(text: &str) -> Result<BatchJobs, Vec<Diagnostic>> {
+    load_jobs(&support::text(text), Path::new("shop/jobs.yaml"))
 }
 
 const GOOD: &str = "\
@@ -56,7 +56,7 @@ fn what_is_wrong_is_said_with_its_place() {
             text.push_str(&format!("| {shown}\n"));
         }
         let mut out = Vec::new();
-        line::render(&mut out, &read(broken).unwrap_err(), None).unwrap();
+        line::render_lines(&mut out, &read(broken).unwrap_err(), None).unwrap();
         text.push_str(&String::from_utf8(out).unwrap());
         text.push('\n');
     }
@@ -65,7 +65,7 @@ fn what_is_wrong_is_said_with_its_place() {
 
 #[test]
 fn the_schema_knows_every_key() {
-    let schema = schema().to_string();
+    let schema = jobs_schema().to_string();
     for key in ["out", "jobs", "recipe", "setup", "files"] {
         assert!(schema.contains(&format!("\"{key}\"")), "{key}");
     }

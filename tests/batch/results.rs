@@ -1,68 +1,77 @@
 //! Results read, and those of shards put together.
 
 use crate::support;
-use clsmith::batch::merge::merge;
-use clsmith::batch::results::{Head, Results, read, to_bytes};
-use clsmith::batch::{Changed, Counts, Hashes, Name, Outcome, Record, Shard};
-use clsmith::diagnostic::{Code, codes};
+use clsmith::batch::batch_results::{BatchResults, ResultsHead, read_results, results_to_bytes};
+use clsmith::batch::merge::merge_results;
+use clsmith::batch::{
+    BatchFindingCounts, BatchRecord, FileDigests, FileOutcome, PortablePath, Shard, StatementChangeCounts,
+};
+use clsmith::diagnostic::{DiagnosticCode, codes};
 use clsmith::fingerprint::Digest;
 use clsmith::source::Source;
 use std::path::Path;
 
-fn record(name: &str) -> Record {
-    Record {
-        input: Name::of(Path::new(name)),
-        output: Name::of(Path::new(name)),
-        recipe: Name::of(Path::new("r.yaml")),
-        outcome: Outcome::Corrected,
-        sha256: Hashes {
-            input: Some(Digest::of(name.as_bytes())),
-            recipe: Digest::of(b"r"),
-            setup: Digest::of(b""),
-            output: Some(Digest::of(b"out")),
+fn record(name: &str) -> BatchRecord {
+    BatchRecord {
+        input: PortablePath::from_path(Path::new(name)),
+        output: PortablePath::from_path(Path::new(name)),
+        recipe: PortablePath::from_path(Path::new("r.yaml")),
+        outcome: FileOutcome::Corrected,
+        sha256: FileDigests {
+            input: Some(Digest::from_bytes(name.as_bytes())),
+            recipe: Digest::from_bytes(b"r"),
+            setup: Digest::from_bytes(b""),
+            output: Some(Digest::from_bytes(b"out")),
         },
         version: "0.1.0".to_owned(),
-        changed: Changed { edited: 1, inserted: 2, deleted: 3 },
-        counts: Counts::default(),
+        changed: StatementChangeCounts { edited: 1, inserted: 2, deleted: 3 },
+        counts: BatchFindingCounts::default(),
         findings: Vec::new(),
         seconds: None,
     }
 }
 
 /// Shard `index` of `count` of a batch of files named by numbers, changed by `edit`.
-fn part(index: u32, count: u32, files: usize, edit: impl Fn(&mut Head, &mut Vec<Record>)) -> Results {
+fn part(
+    index: u32,
+    count: u32,
+    files: usize,
+    edit: impl Fn(&mut ResultsHead, &mut Vec<BatchRecord>),
+) -> BatchResults {
     let shard = Shard::new(index, count).unwrap();
-    let mut records: Vec<Record> =
-        (0..files).filter(|&file| shard.has(file)).map(|file| record(&format!("{file:03}.cls"))).collect();
-    let mut head = Head::new(Digest::of(b"batch"), files, Some((shard, records.len())));
+    let mut records: Vec<BatchRecord> = (0..files)
+        .filter(|&file| shard.contains(file))
+        .map(|file| record(&format!("{file:03}.cls")))
+        .collect();
+    let mut head = ResultsHead::new(Digest::from_bytes(b"batch"), files, Some((shard, records.len())));
     edit(&mut head, &mut records);
-    let name = format!("results-{}.jsonl", shard.in_names());
-    read(&Source::new(name, to_bytes(&head, &records, false)).unwrap()).unwrap()
+    let name = format!("results-{}.jsonl", shard.file_name_part());
+    read_results(&Source::new(name, results_to_bytes(&head, &records, false)).unwrap()).unwrap()
 }
 
-fn same(_: &mut Head, _: &mut Vec<Record>) {}
+fn same(_: &mut ResultsHead, _: &mut Vec<BatchRecord>) {}
 
 #[test]
 fn parts_make_the_whole() {
     for (count, files) in [(1, 5), (3, 10), (4, 2), (2, 0)] {
         // In any order.
         let parts = (1..=count).rev().map(|index| part(index, count, files, same)).collect();
-        let (head, records) = merge(parts).unwrap();
-        let all: Vec<Record> = (0..files).map(|file| record(&format!("{file:03}.cls"))).collect();
-        let whole = Head::new(Digest::of(b"batch"), files, None);
-        assert_eq!(to_bytes(&head, &records, true), to_bytes(&whole, &all, false));
+        let (head, records) = merge_results(parts).unwrap();
+        let all: Vec<BatchRecord> = (0..files).map(|file| record(&format!("{file:03}.cls"))).collect();
+        let whole = ResultsHead::new(Digest::from_bytes(b"batch"), files, None);
+        assert_eq!(results_to_bytes(&head, &records, true), results_to_bytes(&whole, &all, false));
     }
 }
 
 #[track_caller]
-fn refused(parts: Vec<Results>, code: Code, words: &str) {
-    let found = merge(parts).unwrap_err();
+fn refused(parts: Vec<BatchResults>, code: DiagnosticCode, words: &str) {
+    let found = merge_results(parts).unwrap_err();
     assert!(found.iter().any(|found| found.code == code && found.message.contains(words)), "{found:?}");
 }
 
 #[test]
 fn what_is_no_whole_batch_is_refused() {
-    let three = |edit: &dyn Fn(&mut Head, &mut Vec<Record>)| {
+    let three = |edit: &dyn Fn(&mut ResultsHead, &mut Vec<BatchRecord>)| {
         vec![part(1, 3, 10, same), part(2, 3, 10, edit), part(3, 3, 10, same)]
     };
     refused(Vec::new(), codes::RESULTS_MISSING, "no results");
@@ -73,12 +82,20 @@ fn what_is_no_whole_batch_is_refused() {
         codes::NOT_ONE_BATCH,
         "both of shard 2/2",
     );
-    refused(three(&|head, _| head.batch = Digest::of(b"other")), codes::NOT_ONE_BATCH, "another batch");
+    refused(
+        three(&|head, _| head.batch = Digest::from_bytes(b"other")),
+        codes::NOT_ONE_BATCH,
+        "another batch",
+    );
     refused(vec![part(1, 2, 4, same), part(2, 3, 4, same)], codes::NOT_ONE_BATCH, "another split");
     refused(three(&|_, records| drop(records.pop())), codes::RESULTS_MISSING, "has 2 of 3 files");
     refused(three(&|_, records| records[0] = record("000.cls")), codes::NOT_ONE_BATCH, "000.cls is in");
-    refused(three(&|_, records| records[0].outcome = Outcome::NotRun), codes::RESULTS_MISSING, "was not run");
-    let short = |head: &mut Head, records: &mut Vec<Record>| {
+    refused(
+        three(&|_, records| records[0].outcome = FileOutcome::NotRun),
+        codes::RESULTS_MISSING,
+        "was not run",
+    );
+    let short = |head: &mut ResultsHead, records: &mut Vec<BatchRecord>| {
         records.pop();
         head.shard.as_mut().unwrap().files -= 1;
     };
@@ -87,9 +104,10 @@ fn what_is_no_whole_batch_is_refused() {
 
 #[test]
 fn what_is_no_result_is_underlined() {
-    let good = to_bytes(&Head::new(Digest::of(b"batch"), 1, None), &[record("a.cls")], false);
+    let good =
+        results_to_bytes(&ResultsHead::new(Digest::from_bytes(b"batch"), 1, None), &[record("a.cls")], false);
     let good = String::from_utf8(good).unwrap();
-    assert_eq!(read(&support::text(&good)).unwrap().records, [record("a.cls")]);
+    assert_eq!(read_results(&support::text(&good)).unwrap().records, [record("a.cls")]);
     for (bad, line) in [
         (String::new(), 1),
         ("GOTO/1,2,3\n".to_owned(), 1),
@@ -98,7 +116,7 @@ fn what_is_no_result_is_underlined() {
         (good[..good.len() - 20].to_owned(), 2),
         (good.replace("corrected", "perfect"), 2),
     ] {
-        let found = read(&support::text(&bad)).unwrap_err();
+        let found = read_results(&support::text(&bad)).unwrap_err();
         assert_eq!(found.code, codes::BAD_RESULTS, "{bad}");
         let label = &found.labels[0];
         assert_eq!(label.source.line_column(label.span.start).0, line, "{bad}");
@@ -107,9 +125,10 @@ fn what_is_no_result_is_underlined() {
 
 #[test]
 fn seconds_are_there_only_on_request() {
-    let slow = Record { seconds: Some(1.5), ..record("a.cls") };
-    let head = Head::new(Digest::of(b"batch"), 1, None);
-    let text = |times| String::from_utf8(to_bytes(&head, std::slice::from_ref(&slow), times)).unwrap();
+    let slow = BatchRecord { seconds: Some(1.5), ..record("a.cls") };
+    let head = ResultsHead::new(Digest::from_bytes(b"batch"), 1, None);
+    let text =
+        |times| String::from_utf8(results_to_bytes(&head, std::slice::from_ref(&slow), times)).unwrap();
     assert!(text(true).contains("\"seconds\":1.5"));
     assert!(!text(false).contains("seconds"));
 }

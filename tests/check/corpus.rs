@@ -1,7 +1,7 @@
 //! Real, good programs: what is found in them is what is odd about them.
 
 use crate::support;
-use clsmith::check::check;
+use clsmith::check::check_program;
 use clsmith::diagnostic::{Severity, codes};
 use clsmith::parse::parse;
 
@@ -22,7 +22,7 @@ fn real_programs_have_no_finding_but_their_oddities() {
     let mut found = Vec::new();
     for path in support::corpus() {
         let source = support::source(&path);
-        for one in check(&parse(&source, None).program) {
+        for one in check_program(&parse(&source, None).program) {
             if one.severity > Severity::Note {
                 let line = one.labels.first().map_or(0, |label| source.line_column(label.span.start).0);
                 found.push((source.name().to_owned(), one.code.id(), line));
@@ -43,7 +43,7 @@ fn real_programs_have_no_finding_but_their_oddities() {
 fn the_camworks_oddity_of_missing_commas_is_known() {
     let Some(path) = support::corpus_file("Interface-glue.clt") else { return };
     let source = support::source(&path);
-    let found = check(&parse(&source, None).program);
+    let found = check_program(&parse(&source, None).program);
     let commas: Vec<_> = found
         .iter()
         .filter(|found| found.code == codes::MISSING_COMMA)

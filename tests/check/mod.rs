@@ -6,19 +6,19 @@ mod paths;
 mod structure;
 
 use crate::support;
-use clsmith::check::{LINTS, STALE_CODES, check};
-use clsmith::diagnostic::{CATALOGUE, Code, Diagnostic};
+use clsmith::check::{LINTS, STALE_CODES, check_program};
+use clsmith::diagnostic::{CATALOGUE, Diagnostic, DiagnosticCode};
 use std::collections::BTreeSet;
 
 /// A text with a finding, the bytes under its primary label (empty for findings without a place), and a text without it.
 struct Case {
-    code: Code,
+    code: DiagnosticCode,
     bad: String,
     shown: &'static str,
     good: String,
 }
 
-fn case(code: Code, bad: impl Into<String>, shown: &'static str, good: impl Into<String>) -> Case {
+fn case(code: DiagnosticCode, bad: impl Into<String>, shown: &'static str, good: impl Into<String>) -> Case {
     Case { code, bad: bad.into(), shown, good: good.into() }
 }
 
@@ -66,7 +66,7 @@ fn cases() -> Vec<Case> {
 }
 
 fn findings(text: &str) -> Vec<Diagnostic> {
-    check(&support::program(text))
+    check_program(&support::program(text))
 }
 
 fn codes(found: &[Diagnostic]) -> Vec<&'static str> {
@@ -108,17 +108,17 @@ fn a_fault_is_not_reported_under_several_names() {
 
 #[test]
 fn every_code_of_checking_belongs_to_a_lint_and_has_a_case() {
-    let listed: BTreeSet<Code> = CATALOGUE
+    let listed: BTreeSet<DiagnosticCode> = CATALOGUE
         .iter()
         .flat_map(|rows| rows.iter())
         .copied()
         .filter(|code| code.id().starts_with("CL01"))
         .collect();
-    let reported: BTreeSet<Code> =
+    let reported: BTreeSet<DiagnosticCode> =
         LINTS.iter().flat_map(|lint| lint.codes).chain(STALE_CODES).copied().collect();
     assert_eq!(listed, reported);
     // Stale records need an edited program; their cases stand beside the code, where programs can be edited.
-    let tested: BTreeSet<Code> =
+    let tested: BTreeSet<DiagnosticCode> =
         cases().iter().map(|case| case.code).chain(STALE_CODES.iter().copied()).collect();
     let untested: Vec<_> = listed.difference(&tested).collect();
     assert!(untested.is_empty(), "without a case: {untested:?}");

@@ -1,13 +1,13 @@
 //! Areas on the grid.
 
 use super::brute;
-use clsmith::chips::Polygon;
-use clsmith::chips::area::{Clipper, Grid, Region, signed_area};
+use clsmith::layered_chips::Polygon;
+use clsmith::layered_chips::area::{AreaGrid, Clipper, GridArea, signed_area_mm2};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
-fn grid() -> Grid {
-    Grid::around([-50.0; 2], [50.0; 2]).unwrap()
+fn grid() -> AreaGrid {
+    AreaGrid::around_box([-50.0; 2], [50.0; 2]).unwrap()
 }
 
 pub fn circle([x, y]: [f64; 2], radius: f64, corners: usize) -> Vec<[f64; 2]> {
@@ -27,26 +27,26 @@ pub fn turned(mut border: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     border
 }
 
-fn region(borders: &[Vec<[f64; 2]>]) -> Region {
-    Region::new(&grid(), borders.iter().map(Vec::as_slice))
+fn region(borders: &[Vec<[f64; 2]>]) -> GridArea {
+    GridArea::new(&grid(), borders.iter().map(Vec::as_slice))
 }
 
-fn cut(area: &Region, along: &Region) -> [Region; 2] {
-    let (mut inside, mut outside) = (Region::default(), Region::default());
-    if !Clipper::default().cut(area, along, &mut inside, &mut outside) {
+fn cut(area: &GridArea, along: &GridArea) -> [GridArea; 2] {
+    let (mut inside, mut outside) = (GridArea::default(), GridArea::default());
+    if !Clipper::default().split_area(area, along, &mut inside, &mut outside) {
         assert!(inside.is_empty() && outside.is_empty());
         outside = area.clone();
     }
     [inside, outside]
 }
 
-fn polygons(area: &Region) -> Vec<Polygon> {
-    Clipper::default().polygons(area, &grid()).0
+fn polygons(area: &GridArea) -> Vec<Polygon> {
+    Clipper::default().extract_polygons(area, &grid()).0
 }
 
 #[test]
 fn steps_are_a_millionth_up_to_a_metre_and_double_beyond() {
-    let step = |size: f64| Grid::around([0.0; 2], [size, 1.0]).map(|grid| grid.step());
+    let step = |size: f64| AreaGrid::around_box([0.0; 2], [size, 1.0]).map(|grid| grid.step_mm());
     let finest = 2f64.powi(-20);
     assert_eq!(step(1.0), Some(finest));
     assert_eq!(step(1000.0), Some(finest));
@@ -73,12 +73,12 @@ fn round_fractions_are_exact() {
 #[test]
 fn a_square_cut_along_a_circle() {
     let [inside, outside] = cut(&region(&[square([0.0; 2], 10.0)]), &region(&[circle([5.0, 5.0], 3.0, 200)]));
-    let disc = signed_area(&circle([5.0, 5.0], 3.0, 200));
+    let disc = signed_area_mm2(&circle([5.0, 5.0], 3.0, 200));
     assert!((inside.area_mm2(&grid()) - disc).abs() < 1e-5);
     assert!((outside.area_mm2(&grid()) - (100.0 - disc)).abs() < 1e-5);
     let found = polygons(&outside);
     assert_eq!((found.len(), found[0].holes.len()), (1, 1));
-    assert!(signed_area(&found[0].outer) > 0.0 && signed_area(&found[0].holes[0]) < 0.0);
+    assert!(signed_area_mm2(&found[0].outer) > 0.0 && signed_area_mm2(&found[0].holes[0]) < 0.0);
     assert!((found[0].area_mm2() - (100.0 - disc)).abs() < 1e-5);
 }
 
@@ -156,7 +156,7 @@ proptest! {
         area in prop::collection::vec(star(), 1..6),
         along in prop::collection::vec(star(), 1..4),
     ) {
-        let whole = Clipper::default().joined(&region(&area));
+        let whole = Clipper::default().unite_boundaries(&region(&area));
         let [inside, outside] = cut(&whole, &region(&along));
         let [a, b, c] = [&whole, &inside, &outside].map(|part| part.area_mm2(&grid()));
         prop_assert!((a - b - c).abs() < 1e-3, "{a} {b} {c}");
@@ -165,8 +165,8 @@ proptest! {
         prop_assert!((brute::area(&brute::difference(&one, &other)) - c).abs() < 1e-3);
         // Connected, apart, with borders the right way round.
         for piece in polygons(&outside) {
-            prop_assert!(piece.area_mm2() > 0.0 && signed_area(&piece.outer) > 0.0);
-            prop_assert!(piece.holes.iter().all(|hole| signed_area(hole) < 0.0));
+            prop_assert!(piece.area_mm2() > 0.0 && signed_area_mm2(&piece.outer) > 0.0);
+            prop_assert!(piece.holes.iter().all(|hole| signed_area_mm2(hole) < 0.0));
         }
         prop_assert!(cut(&outside, &region(&along))[0].area_mm2(&grid()) < 1e-4);
     }

@@ -1,7 +1,7 @@
 //! Areas by brute force, with other means than the library's own.
 
-use clsmith::chips::Polygon;
-use clsmith::chips::area::signed_area;
+use clsmith::layered_chips::Polygon;
+use clsmith::layered_chips::area::signed_area_mm2;
 use geo::{Area, BooleanOps, Coord, LineString, MultiPolygon, unary_union};
 
 /// Everything that is inside one of many sections, closed borders of x, y in mm.
@@ -50,7 +50,7 @@ fn polygons(of: MultiPolygon) -> Vec<Polygon> {
     let border = |line: &LineString, outer: bool| {
         let mut border: Vec<[f64; 2]> = line.coords().map(|at| [at.x, at.y]).collect();
         border.pop();
-        if (signed_area(&border) > 0.0) != outer {
+        if (signed_area_mm2(&border) > 0.0) != outer {
             border.reverse();
         }
         border

@@ -2,33 +2,40 @@
 
 use super::brute;
 use super::sections::{axis, block, fresh, piece, place, place_at, section};
-use clsmith::chips::Polygon;
-use clsmith::chips::area::signed_area;
-use clsmith::chips::{Cover, Diagram, Family, FlatMill, Rim, Step};
-use clsmith::sim::Piece;
+use clsmith::layered_chips::Polygon;
+use clsmith::layered_chips::area::signed_area_mm2;
+use clsmith::layered_chips::{
+    BoundaryDiagram, FlatMill, LayerSweptArea, MillStep, RimDirections, SectionFamily,
+};
+use clsmith::sim::PathPiece;
 use proptest::prelude::*;
 
 fn mill(radius: f64) -> FlatMill {
     FlatMill { radius, flutes: f64::INFINITY }
 }
 
-fn cover_of(mill: FlatMill, piece: &Piece, z: f64, tolerance: f64) -> Cover {
-    let step = Step::new(mill, piece).unwrap();
-    Cover::new(&Diagram::new(&Family::new(&step, z)), &Rim::new(&step, tolerance))
+fn cover_of(mill: FlatMill, piece: &PathPiece, z: f64, tolerance: f64) -> LayerSweptArea {
+    let step = MillStep::new(mill, piece).unwrap();
+    LayerSweptArea::new(
+        &BoundaryDiagram::new(&SectionFamily::new(&step, z)),
+        &RimDirections::new(&step, tolerance),
+    )
 }
 
 /// What is entered and was not covered at the beginning: taken from a large block.
-fn chip(cover: &Cover) -> Vec<Polygon> {
+fn chip(cover: &LayerSweptArea) -> Vec<Polygon> {
     let stock = block([-400.0, -400.0, 0.0], [400.0, 400.0, 1.0]);
-    clsmith::chips::Stack::new(&stock, 1.0).unwrap().layers_mut()[0].remove(cover).pieces
+    clsmith::layered_chips::LayerStack::new(&stock, 1.0).unwrap().layers_mut()[0]
+        .remove_swept_area(cover)
+        .pieces
 }
 
-fn chip_area(cover: &Cover) -> f64 {
+fn chip_area(cover: &LayerSweptArea) -> f64 {
     chip(cover).iter().map(Polygon::area_mm2).sum()
 }
 
 /// Areas of the chip, of the dense union of `count` sections less the first, and of where they differ.
-fn compare(mill: FlatMill, piece: &Piece, z: f64, count: usize) -> (f64, f64, f64) {
+fn compare(mill: FlatMill, piece: &PathPiece, z: f64, count: usize) -> (f64, f64, f64) {
     let ours = chip(&cover_of(mill, piece, z, 0.0005));
     let dense = fresh(&mill, piece, z, count);
     let off = brute::area(&brute::difference(&ours, &dense)) + brute::area(&brute::difference(&dense, &ours));
@@ -47,13 +54,13 @@ fn a_straight_step_covers_a_hull_less_a_circle() {
         // Hull of two circles: 2 R L + pi R^2, less the circle.
         let expected = 10.0 * length;
         assert!((chip_area(&cover) - expected).abs() < 1e-4 * expected, "{} {expected}", chip_area(&cover));
-        assert!((signed_area(&cover.first) - 25.0 * std::f64::consts::PI).abs() < 1e-3);
+        assert!((signed_area_mm2(&cover.first) - 25.0 * std::f64::consts::PI).abs() < 1e-3);
     }
 }
 
 #[test]
 fn steps_agree_with_a_dense_union() {
-    let cases: Vec<(&str, FlatMill, Piece, f64)> = vec![
+    let cases: Vec<(&str, FlatMill, PathPiece, f64)> = vec![
         (
             "ramp",
             mill(5.0),
@@ -167,7 +174,7 @@ fn the_outlines_are_the_sections() {
         let cover = cover_of(m, &p, z, 1e-4);
         for (ours, t) in [(&cover.first, 0.0), (&cover.last, 1.0)] {
             let brute = section(&m, &place_at(&p, t), z);
-            let (ours, brute) = (signed_area(ours), signed_area(&brute));
+            let (ours, brute) = (signed_area_mm2(ours), signed_area_mm2(&brute));
             assert!((ours - brute).abs() < 2e-4 * brute + 1e-6, "z {z}: {ours} {brute}");
         }
     }
@@ -188,11 +195,11 @@ proptest! {
     ) {
         let p = piece(place([0.0; 3], axis(tilts[0], towards)), place(way, axis(tilts[1], towards + turn)));
         let m = FlatMill { radius, flutes };
-        let step = Step::new(m, &p).unwrap();
-        let (family, rim) = (Family::new(&step, z), Rim::new(&step, 0.002));
-        let diagram = Diagram::new(&family);
+        let step = MillStep::new(m, &p).unwrap();
+        let (family, rim) = (SectionFamily::new(&step, z), RimDirections::new(&step, 0.002));
+        let diagram = BoundaryDiagram::new(&family);
         prop_assert!(diagram.is_resolved());
-        let (ours, slices) = (chip(&Cover::new(&diagram, &rim)), chip(&Cover::sliced(&family, &rim, 60)));
+        let (ours, slices) = (chip(&LayerSweptArea::new(&diagram, &rim)), chip(&LayerSweptArea::from_slices(&family, &rim, 60)));
         let off = brute::area(&brute::difference(&ours, &slices)) + brute::area(&brute::difference(&slices, &ours));
         // What is within the tolerance of the edges, and slices in which a section comes or goes.
         let edges = 0.002 * 8.0 * (radius + 8.0) / 0.5 + 0.05;

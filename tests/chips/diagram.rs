@@ -1,30 +1,30 @@
 //! The boundary construction diagram.
 
 use super::sections::{axis, piece, place};
-use clsmith::chips::diagram::{End, Region};
-use clsmith::chips::family::Curve;
-use clsmith::chips::{Diagram, Family, FlatMill, Refusal, Step};
-use clsmith::sim::{Piece, Place};
+use clsmith::layered_chips::boundary_diagram::{BranchEnd, EdgeState};
+use clsmith::layered_chips::section_family::DiagramCurve;
+use clsmith::layered_chips::{BoundaryDiagram, FlatMill, MillStep, MillStepError, SectionFamily};
+use clsmith::sim::{PathPiece, ToolPose};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
-fn family(radius: f64, from: Place, to: Place, z: f64) -> Family {
-    let step = Step::new(FlatMill { radius, flutes: f64::INFINITY }, &piece(from, to)).unwrap();
-    Family::new(&step, z)
+fn family(radius: f64, from: ToolPose, to: ToolPose, z: f64) -> SectionFamily {
+    let step = MillStep::new(FlatMill { radius, flutes: f64::INFINITY }, &piece(from, to)).unwrap();
+    SectionFamily::new(&step, z)
 }
 
 /// The determinant by differences of points.
-fn by_differences(family: &Family, theta: f64, t: f64) -> f64 {
+fn by_differences(family: &SectionFamily, theta: f64, t: f64) -> f64 {
     let h = 1e-5;
-    let point = |theta: f64, t: f64| family.ellipse(t).point([theta.cos(), theta.sin()]);
+    let point = |theta: f64, t: f64| family.ellipse_at(t).point_towards([theta.cos(), theta.sin()]);
     let slope = |a: [f64; 2], b: [f64; 2]| [(b[0] - a[0]) / (2.0 * h), (b[1] - a[1]) / (2.0 * h)];
     let across = slope(point(theta - h, t), point(theta + h, t));
     let up = slope(point(theta, t - h), point(theta, t + h));
     across[0] * up[1] - across[1] * up[0]
 }
 
-fn edge(family: &Family, theta: f64, t: f64) -> f64 {
-    let [k0, k1, k2, k3, k4] = family.coefficients(Curve::Edge, t);
+fn edge(family: &SectionFamily, theta: f64, t: f64) -> f64 {
+    let [k0, k1, k2, k3, k4] = family.curve_coefficients(DiagramCurve::Edge, t);
     k0 + k1 * theta.cos() + k2 * theta.sin() + k3 * (2.0 * theta).cos() + k4 * (2.0 * theta).sin()
 }
 
@@ -41,9 +41,9 @@ proptest! {
         let f = family(4.0, place([0.0; 3], axis(tilts[0], towards[0])), place(way, axis(tilts[1], towards[1])), z);
         let scale = 1.0 + edge(&f, theta, t).abs();
         prop_assert!((edge(&f, theta, t) - by_differences(&f, theta, t)).abs() < 1e-5 * scale.max(100.0));
-        let diagram = Diagram::new(&f);
+        let diagram = BoundaryDiagram::new(&f);
         prop_assert!(diagram.is_resolved());
-        let branches = diagram.branches(8);
+        let branches = diagram.trace_branches(8);
         for branch in &branches {
             for [theta, t] in branch.points.iter().filter(|[_, t]| *t > 0.001 && *t < 0.999) {
                 prop_assert!(by_differences(&f, *theta, *t).abs() < 2e-2, "{} at {theta} {t}", by_differences(&f, *theta, *t));
@@ -63,27 +63,28 @@ proptest! {
 #[test]
 fn a_straight_step_has_two_branches_from_edge_to_edge() {
     let f = family(5.0, place([0.0; 3], [0.0, 0.0, 1.0]), place([2.0, 0.0, 0.0], [0.0, 0.0, 1.0]), 3.0);
-    let diagram = Diagram::new(&f);
-    let branches = diagram.branches(4);
+    let diagram = BoundaryDiagram::new(&f);
+    let branches = diagram.trace_branches(4);
     assert_eq!(branches.len(), 2);
     for branch in &branches {
-        assert_eq!((branch.begins, branch.ends), (End::Edge, End::Edge));
+        assert_eq!((branch.begins, branch.ends), (BranchEnd::Edge, BranchEnd::Edge));
         assert!(branch.points.iter().all(|[theta, _]| theta.cos().abs() < 1e-12));
     }
-    assert_eq!(diagram.region(0.0, 0.5), Region::Advancing);
-    assert_eq!(diagram.region(3.0, 0.5), Region::Retreating);
+    assert_eq!(diagram.edge_state_at(0.0, 0.5), EdgeState::Advancing);
+    assert_eq!(diagram.edge_state_at(3.0, 0.5), EdgeState::Retreating);
 }
 
 #[test]
 fn a_cutter_that_turns_back_in_the_layer_folds_its_envelope() {
     // The axis pivots about a point in the layer that the way passes: the section grows, stops and shrinks.
     let f = family(5.0, place([0.0; 3], axis(30.0, 20.0)), place([3.0, 1.0, 1.0], axis(45.0, 100.0)), 3.0);
-    let diagram = Diagram::new(&f);
+    let diagram = BoundaryDiagram::new(&f);
     // Two begin together, and one of them ends together with one that was there.
-    let ends: Vec<(End, End)> = diagram.branches(16).iter().map(|b| (b.begins, b.ends)).collect();
+    let ends: Vec<(BranchEnd, BranchEnd)> =
+        diagram.trace_branches(16).iter().map(|b| (b.begins, b.ends)).collect();
     assert_eq!(ends.len(), 4, "{ends:?} {:?}", diagram.events());
-    assert_eq!(ends.iter().filter(|(begins, _)| *begins == End::Fold).count(), 2, "{ends:?}");
-    assert_eq!(ends.iter().filter(|(_, ends)| *ends == End::Fold).count(), 2, "{ends:?}");
+    assert_eq!(ends.iter().filter(|(begins, _)| *begins == BranchEnd::Fold).count(), 2, "{ends:?}");
+    assert_eq!(ends.iter().filter(|(_, ends)| *ends == BranchEnd::Fold).count(), 2, "{ends:?}");
     assert!(diagram.is_resolved());
 }
 
@@ -91,26 +92,27 @@ fn a_cutter_that_turns_back_in_the_layer_folds_its_envelope() {
 fn turning_about_the_tip_from_upright_is_told_apart() {
     for z in [0.1, 4.0] {
         let f = family(5.0, place([0.0; 3], axis(0.0, 0.0)), place([0.0; 3], axis(25.0, 0.0)), z);
-        assert!(Diagram::new(&f).is_resolved(), "z {z}");
+        assert!(BoundaryDiagram::new(&f).is_resolved(), "z {z}");
     }
     // In the tip's own layer f is zero twice over along the chord's ends, which no proof of signs can tell.
     let f = family(5.0, place([0.0; 3], axis(0.0, 0.0)), place([0.0; 3], axis(25.0, 0.0)), 0.0);
-    assert!(!Diagram::new(&f).is_resolved());
+    assert!(!BoundaryDiagram::new(&f).is_resolved());
 }
 
 #[test]
 fn what_cannot_be_modelled_is_refused() {
     let up = place([0.0; 3], [0.0, 0.0, 1.0]);
     let mill = FlatMill { radius: 5.0, flutes: 10.0 };
-    let refuse =
-        |mill: FlatMill, from: Place, to: Place| Step::new(mill, &Piece { from, to, cutter: 0 }).unwrap_err();
-    assert_eq!(refuse(mill, up, up), Refusal::Still);
+    let refuse = |mill: FlatMill, from: ToolPose, to: ToolPose| {
+        MillStep::new(mill, &PathPiece { from, to, cutter: 0 }).unwrap_err()
+    };
+    assert_eq!(refuse(mill, up, up), MillStepError::Still);
     assert_eq!(
         refuse(FlatMill { radius: 0.0, flutes: 1.0 }, up, place([1.0, 0.0, 0.0], [0.0, 0.0, 1.0])),
-        Refusal::NoCutter
+        MillStepError::NoCutter
     );
-    assert!(matches!(refuse(mill, up, place([1.0, 0.0, 0.0], axis(85.0, 0.0))), Refusal::Tilt { .. }));
-    assert_eq!(refuse(mill, up, place([1.0, 0.0, 0.0], [0.0, 0.0, -1.0])), Refusal::Overturns);
-    let nowhere = Place { point: nalgebra::Point3::new(f64::NAN, 0.0, 0.0), axis: Vector3::z() };
-    assert_eq!(refuse(mill, up, nowhere), Refusal::NotFinite);
+    assert!(matches!(refuse(mill, up, place([1.0, 0.0, 0.0], axis(85.0, 0.0))), MillStepError::Tilt { .. }));
+    assert_eq!(refuse(mill, up, place([1.0, 0.0, 0.0], [0.0, 0.0, -1.0])), MillStepError::Overturns);
+    let nowhere = ToolPose { point: nalgebra::Point3::new(f64::NAN, 0.0, 0.0), axis: Vector3::z() };
+    assert_eq!(refuse(mill, up, nowhere), MillStepError::NotFinite);
 }

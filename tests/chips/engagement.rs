@@ -1,26 +1,26 @@
 //! Engagement from chips: closed forms in three axes, and against the dexel simulation in five.
 
 use super::sections::{axis, block, piece, place};
-use clsmith::chips::{FlatMill, Stack, cut, engagement};
-use clsmith::sim::{Cutter, Engagement, Piece, Profile, Simulation, Stock};
+use clsmith::layered_chips::{FlatMill, LayerStack, cut_chips, measure_engagement};
+use clsmith::sim::{CutterModel, Engagement, Meridian, PathPiece, Simulation, Stock};
 use proptest::prelude::*;
 
 const MILL: FlatMill = FlatMill { radius: 5.0, flutes: 30.0 };
 const TOLERANCE: f64 = 0.001;
 
-fn engaged(stock: &Stock, layer: f64, pieces: &[Piece]) -> Vec<Engagement> {
-    let mut stack = Stack::new(stock, layer).unwrap();
-    let chips = cut(&mut stack, &[MILL], pieces, TOLERANCE);
+fn engaged(stock: &Stock, layer: f64, pieces: &[PathPiece]) -> Vec<Engagement> {
+    let mut stack = LayerStack::new(stock, layer).unwrap();
+    let chips = cut_chips(&mut stack, &[MILL], pieces, TOLERANCE);
     let found = pieces.iter().zip(chips);
-    found.map(|(piece, chip)| engagement(&chip.unwrap(), &MILL, piece, TOLERANCE)).collect()
+    found.map(|(piece, chip)| measure_engagement(&chip.unwrap(), &MILL, piece, TOLERANCE)).collect()
 }
 
-fn upright(x: f64, y: f64, z: f64) -> clsmith::sim::Place {
+fn upright(x: f64, y: f64, z: f64) -> clsmith::sim::ToolPose {
     place([x, y, z], [0.0, 0.0, 1.0])
 }
 
 /// In and then 1 mm on, 4 mm deep, along y = 0.
-fn straight() -> [Piece; 2] {
+fn straight() -> [PathPiece; 2] {
     [
         piece(upright(-6.0, 0.0, -4.0), upright(20.0, 0.0, -4.0)),
         piece(upright(20.0, 0.0, -4.0), upright(21.0, 0.0, -4.0)),
@@ -46,7 +46,7 @@ fn near(found: f64, wanted: f64, tolerance: f64) {
 fn a_slot_engages_half_a_turn_and_all_of_the_feed() {
     let stock = block([0.0, -20.0, -10.0], [60.0, 20.0, 0.0]);
     let found = &engaged(&stock, 0.5, &straight())[1];
-    near(found.share(), 1.0, 1e-3);
+    near(found.max_advance_ratio(), 1.0, 1e-3);
     near(bound(found), 1.0, 1e-3);
     near(found.removed_mm3, 40.0, 0.02);
     near(found.length_mm, 1.0, 1e-12);
@@ -54,7 +54,7 @@ fn a_slot_engages_half_a_turn_and_all_of_the_feed() {
     near(found.radial_depth_mm(), 10.0, 0.02);
     let directions = directions(found);
     assert!(directions.iter().all(|at| at.abs() < 90.0) && directions.len() >= 58, "{directions:?}");
-    for (at, bin) in directions.iter().zip(found.engaged()) {
+    for (at, bin) in directions.iter().zip(found.engaged_bins()) {
         let [most, least] = [at.abs() - 1.5, at.abs() + 1.5].map(|at| at.to_radians().cos());
         let [share, bound] = [bin.share, bin.share_bound].map(f64::from);
         assert!(share >= least - 0.01 && share <= most + 0.01, "{at}: {share} of {least}..{most}");
@@ -72,7 +72,7 @@ fn a_side_cut_has_the_share_of_its_entry() {
     let stock = block([0.0, 3.0, -4.0], [60.0, 30.0, 0.0]);
     let found = &engaged(&stock, 1.0, &straight())[1];
     // At the start of the piece, before the cutter has cleared the corner, the same.
-    near(found.share(), 0.8, 2e-3);
+    near(found.max_advance_ratio(), 0.8, 2e-3);
     assert!(bound(found) >= 0.8 && bound(found) < 0.815, "{}", bound(found));
     let directions = directions(found);
     assert!(directions.iter().all(|at| (36.8 - 1.5..=91.5).contains(at)), "{directions:?}");
@@ -82,7 +82,7 @@ fn a_side_cut_has_the_share_of_its_entry() {
     // From the right, the same mirrored.
     let stock = block([0.0, -30.0, -4.0], [60.0, -3.0, 0.0]);
     let mirrored = &engaged(&stock, 1.0, &straight())[1];
-    near(mirrored.share(), 0.8, 2e-3);
+    near(mirrored.max_advance_ratio(), 0.8, 2e-3);
     assert!(mirrored.lateral[1] < -2.9);
 }
 
@@ -90,10 +90,10 @@ fn a_side_cut_has_the_share_of_its_entry() {
 fn a_plunge_advances_with_all_of_the_bottom() {
     let stock = block([-20.0, -20.0, -10.0], [20.0, 20.0, 0.0]);
     let found = &engaged(&stock, 0.5, &[piece(upright(0.0, 0.0, 1.0), upright(0.0, 0.0, -3.0))])[0];
-    near(found.share(), 1.0, 1e-9);
+    near(found.max_advance_ratio(), 1.0, 1e-9);
     near(found.along, -1.0, 1e-12);
-    assert!(found.engaged().all(|bin| bin.radial == 0.0 && f64::from(bin.high) <= 5.001));
-    assert!(found.engaged().count() == 120 && found.engaged().all(|bin| bin.low < 1.0));
+    assert!(found.engaged_bins().all(|bin| bin.radial == 0.0 && f64::from(bin.high) <= 5.001));
+    assert!(found.engaged_bins().count() == 120 && found.engaged_bins().all(|bin| bin.low < 1.0));
 }
 
 #[test]
@@ -114,9 +114,9 @@ fn a_wall_that_is_cut_again_is_air() {
     let mut pieces = vec![along(tilted, -8.0, 70.0), along(tilted, 70.0, -8.3)];
     pieces.extend((0..60).map(|index| f64::from(index) - 8.3).map(|x| along(tilted, x, x + 1.0)));
     let found = engaged(&stock, 0.5, &pieces);
-    assert!(found[0].cuts());
+    assert!(found[0].has_removed_material());
     for (index, again) in found.iter().enumerate().skip(1) {
-        assert!(!again.cuts() && again.engaged().count() == 0, "{index}: {again:?}");
+        assert!(!again.has_removed_material() && again.engaged_bins().count() == 0, "{index}: {again:?}");
     }
 }
 
@@ -126,10 +126,10 @@ fn moved(share: f64) -> f64 {
     share.max((1.0 - side.max(0.0).powi(2)).sqrt().min(1.0))
 }
 
-fn by_dexels(stock: &Stock, pieces: &[Piece], cell: f64) -> Vec<Engagement> {
-    let profile = Profile::new(2.0 * MILL.radius, 0.0, 0.0, 0.0, MILL.flutes).unwrap();
-    let cutter = Cutter { profile, collars: Vec::new(), teeth: None };
-    Simulation::new(stock.dexels(cell, usize::MAX).unwrap(), false).run(pieces, &[cutter])
+fn by_dexels(stock: &Stock, pieces: &[PathPiece], cell: f64) -> Vec<Engagement> {
+    let profile = Meridian::new(2.0 * MILL.radius, 0.0, 0.0, 0.0, MILL.flutes).unwrap();
+    let cutter = CutterModel { profile, collars: Vec::new(), teeth: None };
+    Simulation::new(stock.to_dexels(cell, usize::MAX).unwrap(), false).sweep_pieces(pieces, &[cutter])
 }
 
 proptest! {
@@ -158,23 +158,23 @@ proptest! {
         prop_assume!(dexels.removed_mm3 > 0.5 && layers.removed_mm3 > 0.5);
         // A contact of columns is known to a cell either way, over which the turn changes the share.
         let hidden = 0.02 + 0.2 * turn / layers.length_mm;
-        let (estimate, most) = (dexels.share(), bound(dexels).max(dexels.share()));
+        let (estimate, most) = (dexels.max_advance_ratio(), bound(dexels).max(dexels.max_advance_ratio()));
         // Ahead of a tilted cutter columns miss a sliver; places, below, say that the layers are right there.
         let sliver = 0.15;
-        prop_assert!(layers.share() <= moved(most) + hidden + sliver, "layers {} dexels {estimate}..{most}", layers.share());
+        prop_assert!(layers.max_advance_ratio() <= moved(most) + hidden + sliver, "layers {} dexels {estimate}..{most}", layers.max_advance_ratio());
         let above = moved(bound(layers)) + hidden;
-        prop_assert!(estimate <= above, "dexels {estimate} layers {}..{}", layers.share(), bound(layers));
+        prop_assert!(estimate <= above, "dexels {estimate} layers {}..{}", layers.max_advance_ratio(), bound(layers));
         // A bound holds what the turn does over the arc of a sample and half a layer.
-        let close = 0.1 * (1.0 + layers.share()) + 0.3 * turn / layers.length_mm;
-        prop_assert!(bound(layers) - layers.share() <= close, "{} {}", layers.share(), bound(layers));
+        let close = 0.1 * (1.0 + layers.max_advance_ratio()) + 0.3 * turn / layers.length_mm;
+        prop_assert!(bound(layers) - layers.max_advance_ratio() <= close, "{} {}", layers.max_advance_ratio(), bound(layers));
     }
 }
 
 /// The largest share of the way by which the cutter's surface advances where it first meets places of the stock, strewn evenly.
-fn by_places(stock: ([f64; 3], [f64; 3]), pieces: &[Piece; 2], length: f64, apart: f64) -> f64 {
+fn by_places(stock: ([f64; 3], [f64; 3]), pieces: &[PathPiece; 2], length: f64, apart: f64) -> f64 {
     use nalgebra::Vector3;
     const TIMES: usize = 400;
-    let poses = |piece: &Piece| -> Vec<(Vector3<f64>, Vector3<f64>)> {
+    let poses = |piece: &PathPiece| -> Vec<(Vector3<f64>, Vector3<f64>)> {
         let (from, to) = (piece.from.axis, piece.to.axis);
         let turn = from.angle(&to);
         let across = (to - from * from.dot(&to)).try_normalize(1e-12).unwrap_or_default();
@@ -237,8 +237,12 @@ fn large_turns_on_a_short_way_share_as_places_tell() {
         let pieces = [piece(above, from), piece(from, to)];
         let layers = &engaged(&block(bounds.0, bounds.1), 0.1, &pieces)[1];
         let places = by_places(bounds, &pieces, layers.length_mm, 0.1);
-        assert!(places <= bound(layers) + 0.01, "{places} {}..{}", layers.share(), bound(layers));
+        assert!(places <= bound(layers) + 0.01, "{places} {}..{}", layers.max_advance_ratio(), bound(layers));
         // The place of the largest share lies between the places by up to their distance.
-        assert!((0.99 * places..=1.06 * places).contains(&layers.share()), "{places} {}", layers.share());
+        assert!(
+            (0.99 * places..=1.06 * places).contains(&layers.max_advance_ratio()),
+            "{places} {}",
+            layers.max_advance_ratio()
+        );
     }
 }

@@ -1,19 +1,19 @@
 //! An independent look at sections: made in space and cut by half planes.
 
 use super::brute;
-use clsmith::chips::{FlatMill, Polygon};
-use clsmith::sim::{Piece, Place};
+use clsmith::layered_chips::{FlatMill, Polygon};
+use clsmith::sim::{PathPiece, ToolPose};
 use nalgebra::{Point3, Rotation3, Unit, Vector3};
 
 /// Corners of a sampled ellipse.
 const CORNERS: usize = 360;
 
-pub fn place(point: [f64; 3], axis: [f64; 3]) -> Place {
-    Place { point: Point3::from(point), axis: Vector3::from(axis).normalize() }
+pub fn place(point: [f64; 3], axis: [f64; 3]) -> ToolPose {
+    ToolPose { point: Point3::from(point), axis: Vector3::from(axis).normalize() }
 }
 
-pub fn piece(from: Place, to: Place) -> Piece {
-    Piece { from, to, cutter: 0 }
+pub fn piece(from: ToolPose, to: ToolPose) -> PathPiece {
+    PathPiece { from, to, cutter: 0 }
 }
 
 /// The axis `tilt` degrees from upright towards `towards` degrees from x.
@@ -23,18 +23,18 @@ pub fn axis(tilt: f64, towards: f64) -> [f64; 3] {
 }
 
 /// The place of the cutter at a time: the tip straight, the axis turned about the normal of both axes.
-pub fn place_at(piece: &Piece, t: f64) -> Place {
+pub fn place_at(piece: &PathPiece, t: f64) -> ToolPose {
     let (from, to) = (piece.from.axis, piece.to.axis);
     let normal = from.cross(&to);
     let axis = match Unit::try_new(normal, 1e-14) {
         Some(normal) => Rotation3::from_axis_angle(&normal, from.angle(&to) * t) * from,
         None => from,
     };
-    Place { point: piece.from.point + (piece.to.point - piece.from.point) * t, axis }
+    ToolPose { point: piece.from.point + (piece.to.point - piece.from.point) * t, axis }
 }
 
 /// The section of a mill at a place with the layer at z: lines of the cylinder that meet the layer, then cut by the planes of the ends.
-pub fn section(mill: &FlatMill, place: &Place, z: f64) -> Vec<[f64; 2]> {
+pub fn section(mill: &FlatMill, place: &ToolPose, z: f64) -> Vec<[f64; 2]> {
     let a = place.axis;
     let u = a.cross(&if a.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() }).normalize();
     let v = a.cross(&u);
@@ -70,7 +70,7 @@ fn half_plane(corners: &[Point3<f64>], height: impl Fn(&Point3<f64>) -> f64) -> 
 }
 
 /// What a mill covers on a layer and did not cover at the beginning: the union of sections at `count` times less the first.
-pub fn fresh(mill: &FlatMill, piece: &Piece, z: f64, count: usize) -> Vec<Polygon> {
+pub fn fresh(mill: &FlatMill, piece: &PathPiece, z: f64, count: usize) -> Vec<Polygon> {
     let at = |index: usize| section(mill, &place_at(piece, index as f64 / count as f64), z);
     let sections: Vec<Vec<[f64; 2]>> = (0..=count).map(at).filter(|border| border.len() > 2).collect();
     let first: Vec<Vec<[f64; 2]>> = [at(0)].into_iter().filter(|border| border.len() > 2).collect();
@@ -79,5 +79,5 @@ pub fn fresh(mill: &FlatMill, piece: &Piece, z: f64, count: usize) -> Vec<Polygo
 
 /// A block as stock.
 pub fn block(from: [f64; 3], to: [f64; 3]) -> clsmith::sim::Stock {
-    clsmith::sim::Stock::new(vec![clsmith::sim::Body::Block { from, to }], 0.0).unwrap()
+    clsmith::sim::Stock::new(vec![clsmith::sim::SolidBody::Block { from, to }], 0.0).unwrap()
 }

@@ -2,10 +2,10 @@
 
 use super::area::{circle, square, star, turned};
 use super::stack::stack_of;
-use clsmith::chips::area::{Clipper, Grid, Region};
-use clsmith::chips::chip::{Chip, LayerChip};
-use clsmith::chips::{Polygon, solid};
-use clsmith::sim::{Body, Mesh};
+use clsmith::layered_chips::area::{AreaGrid, Clipper, GridArea};
+use clsmith::layered_chips::chip::{Chip, LayerChip};
+use clsmith::layered_chips::{Polygon, stl_export};
+use clsmith::sim::{Mesh, SolidBody};
 use proptest::prelude::*;
 
 fn chip(layers: Vec<(f64, f64, Vec<Polygon>)>) -> Chip {
@@ -24,7 +24,7 @@ fn chip(layers: Vec<(f64, f64, Vec<Polygon>)>) -> Chip {
 
 fn stl(chip: &Chip) -> Vec<u8> {
     let mut bytes = Vec::new();
-    solid::write_chip(chip, &mut bytes).unwrap();
+    stl_export::write_chip_stl(chip, &mut bytes).unwrap();
     bytes
 }
 
@@ -36,7 +36,7 @@ fn a_prism_on_a_square_with_a_hole() {
     assert_eq!(mesh.bounds(), ([0.0, 0.0, 0.75], [4.0, 4.0, 1.25]));
     assert!((mesh.volume_mm3() - 7.5).abs() < 1e-9);
     // Two faces of 8 triangles, 8 walls of two.
-    assert_eq!(mesh.triangles(), 32);
+    assert_eq!(mesh.triangle_count(), 32);
 }
 
 #[test]
@@ -63,17 +63,18 @@ fn nothing_is_an_empty_file() {
 #[test]
 fn borders_that_cross_are_refused() {
     let bow = Polygon { outer: vec![[0.0, 0.0], [4.0, 4.0], [4.0, 0.0], [0.0, 3.0]], holes: Vec::new() };
-    let refused = solid::write_chip(&chip(vec![(0.0, 1.0, vec![bow])]), &mut Vec::new()).unwrap_err();
+    let refused =
+        stl_export::write_chip_stl(&chip(vec![(0.0, 1.0, vec![bow])]), &mut Vec::new()).unwrap_err();
     assert!(refused.to_string().contains("crosses"), "{refused}");
 }
 
 #[test]
 fn a_workpiece_is_as_large_as_its_layers() {
-    let bar = Body::Cylinder { diameter: 20.0, from: [0.0, 0.0, 0.0], to: [30.0, 10.0, 15.0] };
-    let foot = Body::Block { from: [-5.0, -30.0, -12.0], to: [8.0, 20.0, 3.0] };
+    let bar = SolidBody::Cylinder { diameter: 20.0, from: [0.0, 0.0, 0.0], to: [30.0, 10.0, 15.0] };
+    let foot = SolidBody::Block { from: [-5.0, -30.0, -12.0], to: [8.0, 20.0, 3.0] };
     let stack = stack_of(vec![bar, foot], 0.0, 0.9).unwrap();
     let mut bytes = Vec::new();
-    solid::write_stack(&stack, &mut bytes).unwrap();
+    stl_export::write_stack_stl(&stack, &mut bytes).unwrap();
     let mesh = Mesh::from_stl(&bytes).unwrap();
     assert!((mesh.volume_mm3() / stack.volume_mm3() - 1.0).abs() < 1e-6);
 }
@@ -84,9 +85,9 @@ proptest! {
         layers in prop::collection::vec(prop::collection::vec(star(), 1..6), 1..4),
         thickness in 0.01..2.0f64,
     ) {
-        let grid = Grid::around([-50.0; 2], [50.0; 2]).unwrap();
+        let grid = AreaGrid::around_box([-50.0; 2], [50.0; 2]).unwrap();
         let layers = layers.into_iter().enumerate().map(|(number, stars)| {
-            let pieces = Clipper::default().polygons(&Region::new(&grid, stars.iter().map(Vec::as_slice)), &grid).0;
+            let pieces = Clipper::default().extract_polygons(&GridArea::new(&grid, stars.iter().map(Vec::as_slice)), &grid).0;
             (number as f64 * thickness, thickness, pieces)
         });
         let chip = chip(layers.collect());

@@ -2,19 +2,19 @@
 
 use super::brute;
 use super::sections::{axis, block, fresh, piece, place};
-use clsmith::chips::{Chip, FlatMill, Refusal, Stack, cut};
-use clsmith::sim::{Dexels, Piece, Simulation, Stock};
+use clsmith::layered_chips::{Chip, FlatMill, LayerStack, MillStepError, cut_chips};
+use clsmith::sim::{Dexels, PathPiece, Simulation, Stock};
 use proptest::prelude::*;
 
 const MILL: FlatMill = FlatMill { radius: 5.0, flutes: 30.0 };
 
-fn chips(stock: &Stock, layer: f64, pieces: &[Piece]) -> (Stack, Vec<Result<Chip, Refusal>>) {
-    let mut stack = Stack::new(stock, layer).unwrap();
-    let chips = cut(&mut stack, &[MILL], pieces, 0.001);
+fn chips(stock: &Stock, layer: f64, pieces: &[PathPiece]) -> (LayerStack, Vec<Result<Chip, MillStepError>>) {
+    let mut stack = LayerStack::new(stock, layer).unwrap();
+    let chips = cut_chips(&mut stack, &[MILL], pieces, 0.001);
     (stack, chips)
 }
 
-fn upright(x: f64, y: f64, z: f64) -> clsmith::sim::Place {
+fn upright(x: f64, y: f64, z: f64) -> clsmith::sim::ToolPose {
     place([x, y, z], [0.0, 0.0, 1.0])
 }
 
@@ -86,8 +86,8 @@ fn a_chip_may_be_two_pieces() {
     // Tilting about a point in the layer, with the middle already milled: both ends of the section go down into the stock.
     let stock = Stock::new(
         vec![
-            clsmith::sim::Body::Block { from: [-20.0, -20.0, 0.0], to: [-4.9, 20.0, 1.0] },
-            clsmith::sim::Body::Block { from: [4.9, -20.0, 0.0], to: [20.0, 20.0, 1.0] },
+            clsmith::sim::SolidBody::Block { from: [-20.0, -20.0, 0.0], to: [-4.9, 20.0, 1.0] },
+            clsmith::sim::SolidBody::Block { from: [4.9, -20.0, 0.0], to: [20.0, 20.0, 1.0] },
         ],
         0.0,
     )
@@ -125,9 +125,9 @@ fn a_wall_between_two_places_of_the_edge_is_not_engaged() {
 fn an_edge_that_has_left_the_layer_is_not_engaged() {
     // Up along a tilted axis, with flutes of 1 mm: at the end they are far above.
     let mill = FlatMill { radius: 5.0, flutes: 1.0 };
-    let mut stack = Stack::new(&block([-30.0, -30.0, -4.0], [30.0, 30.0, 0.0]), 2.0).unwrap();
+    let mut stack = LayerStack::new(&block([-30.0, -30.0, -4.0], [30.0, 30.0, 0.0]), 2.0).unwrap();
     let way = piece(place([0.0, 0.0, -4.0], axis(20.0, 0.0)), place([20.0, 0.0, 50.0], axis(20.0, 0.0)));
-    for chip in cut(&mut stack, &[mill], &[way], 0.001) {
+    for chip in cut_chips(&mut stack, &[mill], &[way], 0.001) {
         for layer in chip.unwrap().layers {
             assert!(layer.arcs_deg.is_empty() && layer.advance_mm == 0.0, "{layer:?}");
         }
@@ -156,11 +156,11 @@ fn a_bottom_at_a_layers_height_leaves_it_alone() {
 #[test]
 fn a_thin_disc_that_swings_through_a_layer_is_cut_soon() {
     let mill = FlatMill { radius: 10.0, flutes: 1.0 };
-    let mut stack = Stack::new(&block([-30.0, -30.0, -4.0], [30.0, 30.0, -3.0]), 1.0).unwrap();
+    let mut stack = LayerStack::new(&block([-30.0, -30.0, -4.0], [30.0, 30.0, -3.0]), 1.0).unwrap();
     let from = place([5.3035, -0.1236, -6.8933], [0.3797, -0.0545, 0.9235]);
     let to = place([6.9967, -1.3920, -5.1990], [0.2005, -0.2829, 0.9379]);
     let begun = std::time::Instant::now();
-    let chip = cut(&mut stack, &[mill], &[piece(from, to)], 0.002).remove(0).unwrap();
+    let chip = cut_chips(&mut stack, &[mill], &[piece(from, to)], 0.002).remove(0).unwrap();
     let dense = brute::area(&fresh(&mill, &piece(from, to), -3.5, 2000));
     let area: f64 = chip.layers.iter().map(|layer| layer.area_mm2).sum();
     assert!((area - dense).abs() < 2e-3 * dense + 0.05, "{area} {dense}");
@@ -201,12 +201,12 @@ fn results_do_not_depend_on_threads() {
 }
 
 /// Volumes of the same pieces by dexels, and how far half a cell along all borders may make them wrong.
-fn by_dexels(stock: &Stock, pieces: &[Piece], cell: f64) -> Vec<f64> {
-    let profile = clsmith::sim::Profile::new(2.0 * MILL.radius, 0.0, 0.0, 0.0, MILL.flutes).unwrap();
-    let cutter = clsmith::sim::Cutter { profile, collars: Vec::new(), teeth: None };
-    let dexels: Dexels = stock.dexels(cell, usize::MAX).unwrap();
+fn by_dexels(stock: &Stock, pieces: &[PathPiece], cell: f64) -> Vec<f64> {
+    let profile = clsmith::sim::Meridian::new(2.0 * MILL.radius, 0.0, 0.0, 0.0, MILL.flutes).unwrap();
+    let cutter = clsmith::sim::CutterModel { profile, collars: Vec::new(), teeth: None };
+    let dexels: Dexels = stock.to_dexels(cell, usize::MAX).unwrap();
     let mut simulation = Simulation::new(dexels, false);
-    simulation.run(pieces, &[cutter]).into_iter().map(|engagement| engagement.removed_mm3).collect()
+    simulation.sweep_pieces(pieces, &[cutter]).into_iter().map(|engagement| engagement.removed_mm3).collect()
 }
 
 proptest! {

@@ -81,9 +81,9 @@ fn the_post_gets_the_corrected_program_and_the_log_proves_it() {
     nothing_remains(folder.path());
     let line = line(folder.path());
     assert_eq!(line["outcome"], "corrected");
-    assert_eq!(line["input"]["sha256"], Digest::of(&before).to_string());
-    assert_eq!(line["output"]["sha256"], Digest::of(&corrected).to_string());
-    let recipe = Digest::of(&fs::read(folder.path().join("recipe.yaml")).unwrap()).to_string();
+    assert_eq!(line["input"]["sha256"], Digest::from_bytes(&before).to_string());
+    assert_eq!(line["output"]["sha256"], Digest::from_bytes(&corrected).to_string());
+    let recipe = Digest::from_bytes(&fs::read(folder.path().join("recipe.yaml")).unwrap()).to_string();
     assert_eq!(line["recipe"]["files"][0]["sha256"], recipe);
     assert_eq!(line["clsmith"], env!("CARGO_PKG_VERSION"));
     assert_eq!(line["steps"][0]["name"], "scale_feed");

@@ -153,8 +153,8 @@ fn the_shipped_selection_chooses() {
     assert_eq!((&line["recipe"]["chosen_by"], &line["outcome"]), (&"rule 1".into(), &"corrected".into()));
     // Every recipe that it names is there.
     let rules = crate::support::source(&hooks().join("recipes.yaml"));
-    for choice in clsmith::choice::Rules::load(&rules).unwrap().all() {
-        let clsmith::choice::Choice::Recipe { recipe, .. } = choice else { continue };
+    for choice in clsmith::recipe_rules::RecipeRules::load(&rules).unwrap().list_choices() {
+        let clsmith::recipe_rules::RecipeChoice::Recipe { recipe, .. } = choice else { continue };
         assert!(hooks().join(&recipe).exists(), "{}", recipe.display());
     }
 }

@@ -3,27 +3,31 @@
 use super::{SETUP, near, nx};
 use crate::support;
 use clsmith::diagnostic::Diagnostic;
-use clsmith::machining::chips::{ChipOptions, ChipsRan, LeftOut};
-use clsmith::machining::{Machining, Options, Unwatched};
 use clsmith::program::LengthUnit;
 use clsmith::setup::Setup;
+use clsmith::simulation_run::layer_run::{LayerRunOptions, LayerRunResult, UncutReason};
+use clsmith::simulation_run::{Machining, SilentWatcher, SimulationRunOptions};
 use clsmith::source::Source;
 
 /// Line, volume and why it was left out, of every motion.
-type Motions = Vec<(usize, f64, Option<LeftOut>)>;
+type Motions = Vec<(usize, f64, Option<UncutReason>)>;
 
-fn run(text: &str, setup: &str, options: &ChipOptions) -> Result<(Motions, ChipsRan), Vec<Diagnostic>> {
+fn run(
+    text: &str,
+    setup: &str,
+    options: &LayerRunOptions,
+) -> Result<(Motions, LayerRunResult), Vec<Diagnostic>> {
     let program = support::program(text);
     let setup = Setup::load(&Source::new("shop.yaml", setup.as_bytes().to_vec()).unwrap())?;
     let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new())?;
     let mut motions = Vec::new();
-    let ran = machining.chips(options, &Unwatched, &mut |cut| {
+    let ran = machining.simulate_layers(options, &SilentWatcher, &mut |cut| {
         motions.push((cut.line, cut.volume_mm3(), cut.left_out));
     });
     Ok((motions, ran.map_err(|found| vec![*found])?.unwrap()))
 }
 
-fn codes(ran: &ChipsRan) -> Vec<&'static str> {
+fn codes(ran: &LayerRunResult) -> Vec<&'static str> {
     ran.findings.iter().map(|found| found.code.id()).collect()
 }
 
@@ -35,8 +39,8 @@ fn told(found: &Diagnostic) -> (usize, &str) {
 
 const FLAT: &str = "10.0000,0.0000,60.0000,0.0000,0.0000";
 
-fn whole() -> ChipOptions {
-    ChipOptions::new(1.0)
+fn whole() -> LayerRunOptions {
+    LayerRunOptions::new(1.0)
 }
 
 #[test]
@@ -45,7 +49,7 @@ fn volumes_agree_with_those_of_columns() {
         CIRCLE/40.0000,10.0000,-3.0000,0.0000000,0.0000000,1.0000000,10.0000,0.0600,0.5000,10.0000,0.0000\n\
         GOTO/50.0000,10.0000,-3.0000\nGOTO/60.0000,10.0000,-3.0000,0.2588190,0.0000000,0.9659258\n";
     let text = nx(FLAT, body);
-    let (motions, ran) = run(&text, SETUP, &ChipOptions::new(0.25)).unwrap();
+    let (motions, ran) = run(&text, SETUP, &LayerRunOptions::new(0.25)).unwrap();
     assert_eq!(codes(&ran), [""; 0]);
     let columns = super::machine(&text, SETUP, 0.1).0;
     let chips: Vec<f64> = motions.iter().skip(1).map(|(_, volume, _)| *volume).collect();
@@ -72,7 +76,9 @@ fn other_tools_are_told_once_and_left_out() {
         let (line, message) = told(&ran.findings[0]);
         assert_eq!(line, 9);
         assert!(message.contains(has) && message.contains("2 motions are left out"), "{message}");
-        assert!(motions.iter().skip(1).all(|(_, volume, out)| *volume == 0.0 && *out == Some(LeftOut::Tool)));
+        assert!(
+            motions.iter().skip(1).all(|(_, volume, out)| *volume == 0.0 && *out == Some(UncutReason::Tool))
+        );
         near(ran.left.volume_mm3(), ran.before_mm3, 0.0);
     }
 }
@@ -115,7 +121,7 @@ fn a_repeated_point_is_a_note_at_its_line() {
     let (motions, ran) = run(&nx(FLAT, body), SETUP, &whole()).unwrap();
     assert_eq!(codes(&ran), ["CL0522"]);
     assert_eq!(told(&ran.findings[0]).0, 10);
-    assert_eq!(motions[2].2, Some(LeftOut::Still));
+    assert_eq!(motions[2].2, Some(UncutReason::Still));
     assert!(!ran.findings[0].is_error());
 }
 
@@ -135,7 +141,7 @@ fn rapids_and_standing_spindles_are_told_as_by_the_simulation() {
 fn stock_and_tools_that_cannot_be_are_errors_with_their_codes() {
     let text = nx(FLAT, "GOTO/10.0000,0.0000,-3.0000\n");
     let code = |text: &str, setup: &str, layer: f64| {
-        run(text, setup, &ChipOptions::new(layer)).unwrap_err().first().unwrap().code.id()
+        run(text, setup, &LayerRunOptions::new(layer)).unwrap_err().first().unwrap().code.id()
     };
     assert_eq!(code(&text, SETUP, 1e-7), "CL0523");
     assert_eq!(code(&text, SETUP, f64::NAN), "CL0523");
@@ -158,7 +164,7 @@ fn stock_and_tools_that_cannot_be_are_errors_with_their_codes() {
 fn real(end: &str, tool: &str, units: LengthUnit, lines: usize) {
     let Some(path) = support::corpus_file(end) else { return };
     let parsed = clsmith::parse::parse(&support::source(&path), None);
-    let unit = units.in_mm();
+    let unit = units.mm_per_unit();
     let line = |statement: usize| {
         let start = parsed.program.statement(statement).unwrap().origin().start;
         parsed.program.source().line_column(start).0
@@ -178,12 +184,12 @@ fn real(end: &str, tool: &str, units: LengthUnit, lines: usize) {
     let setup = Setup::load(&support::text(setup)).unwrap();
     let machining = Machining::new(&parsed.program, &setup, units, &mut Vec::new()).unwrap();
     let height = (bounds[1][2] - bounds[0][2]).max(1.0);
-    let options = ChipOptions { lines: 1..=lines, tolerance: 0.02, ..ChipOptions::new(height / 4.0) };
+    let options = LayerRunOptions { lines: 1..=lines, tolerance: 0.02, ..LayerRunOptions::new(height / 4.0) };
     let (mut cutting, mut refused, mut removed) = (0, 0, 0.0);
-    let ran = machining.chips(&options, &Unwatched, &mut |cut| {
+    let ran = machining.simulate_layers(&options, &SilentWatcher, &mut |cut| {
         let volume = cut.volume_mm3();
         assert!(volume.is_finite() && volume >= 0.0, "line {}: {volume}", cut.line);
-        for layer in cut.chips().flat_map(|chip| &chip.layers) {
+        for layer in cut.piece_chips().flat_map(|chip| &chip.layers) {
             assert!(layer.area_mm2 >= 0.0 && layer.advance_mm.is_finite() && layer.inside_mm2 >= 0.0);
             let borders =
                 layer.pieces.iter().flat_map(|piece| std::iter::once(&piece.outer).chain(&piece.holes));
@@ -191,7 +197,7 @@ fn real(end: &str, tool: &str, units: LengthUnit, lines: usize) {
             removed += (layer.area_mm2 + layer.inside_mm2) * layer.thickness;
         }
         cutting += usize::from(volume > 0.0);
-        refused += usize::from(cut.refused().is_some());
+        refused += usize::from(cut.first_refusal().is_some());
     });
     let ran = ran.unwrap().unwrap();
     assert!(cutting > 20, "{cutting} motions cut, {refused} were refused");
@@ -214,8 +220,16 @@ fn the_options_of_the_simulation_stay_apart() {
     let program = support::program(nx(FLAT, "GOTO/-20.0000,0.0000,-3.0000\nGOTO/40.0000,0.0000,-3.0000\n"));
     let setup = Setup::load(&support::text(SETUP)).unwrap();
     let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new()).unwrap();
-    let chips = || machining.chips(&whole(), &Unwatched, &mut |_| {}).unwrap().unwrap().left.volume_mm3();
+    let chips = || {
+        machining.simulate_layers(&whole(), &SilentWatcher, &mut |_| {}).unwrap().unwrap().left.volume_mm3()
+    };
     let before = chips();
-    machining.run(&Options { cell: Some(0.5), ..Options::default() }, &Unwatched, &mut |_| {}).unwrap();
+    machining
+        .simulate_program(
+            &SimulationRunOptions { cell: Some(0.5), ..SimulationRunOptions::default() },
+            &SilentWatcher,
+            &mut |_| {},
+        )
+        .unwrap();
     assert_eq!(chips(), before);
 }

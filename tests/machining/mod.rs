@@ -6,10 +6,10 @@ mod paths;
 
 use crate::support;
 use clsmith::diagnostic::Diagnostic;
-use clsmith::machining::{Machining, Options, Ran, Unwatched};
 use clsmith::program::LengthUnit;
 use clsmith::setup::Setup;
 use clsmith::sim::Engagement;
+use clsmith::simulation_run::{DexelRunResult, Machining, SilentWatcher, SimulationRunOptions};
 use clsmith::source::Source;
 
 /// A setup of a block, any tool with four teeth and 40 mm of flutes.
@@ -27,27 +27,32 @@ pub fn nx(tool: &str, body: &str) -> String {
 }
 
 /// Runs a program; gives each feed motion's engagement, and what is left.
-pub fn machine(text: &str, setup: &str, cell: f64) -> (Vec<Engagement>, Ran) {
-    try_machine(text, setup, Options { cell: Some(cell), forces: true, ..Options::default() }).unwrap()
+pub fn machine(text: &str, setup: &str, cell: f64) -> (Vec<Engagement>, DexelRunResult) {
+    try_machine(
+        text,
+        setup,
+        SimulationRunOptions { cell: Some(cell), forces: true, ..SimulationRunOptions::default() },
+    )
+    .unwrap()
 }
 
 pub fn try_machine(
     text: &str,
     setup: &str,
-    options: Options,
-) -> Result<(Vec<Engagement>, Ran), Vec<Diagnostic>> {
+    options: SimulationRunOptions,
+) -> Result<(Vec<Engagement>, DexelRunResult), Vec<Diagnostic>> {
     let program = support::program(text);
     let setup = Setup::load(&Source::new("shop.yaml", setup.as_bytes().to_vec()).unwrap())?;
     let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new())?;
     let mut found = Vec::new();
-    let ran = machining.run(&options, &Unwatched, &mut |cut| {
-        found.extend(cut.whole().filter(|_| !cut.motion.rapid));
+    let ran = machining.simulate_program(&options, &SilentWatcher, &mut |cut| {
+        found.extend(cut.whole_engagement().filter(|_| !cut.motion.rapid));
     });
     Ok((found, ran.map_err(|found| vec![*found])?.unwrap()))
 }
 
 /// Codes of findings.
-pub fn codes(ran: &Ran) -> Vec<&'static str> {
+pub fn codes(ran: &DexelRunResult) -> Vec<&'static str> {
     ran.findings.iter().map(|found| found.code.id()).collect()
 }
 

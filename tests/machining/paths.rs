@@ -1,7 +1,7 @@
 //! Whole motions with known answers.
 
 use super::{SETUP, codes, machine, near, nx, try_machine};
-use clsmith::machining::Options;
+use clsmith::simulation_run::SimulationRunOptions;
 use std::f64::consts::PI;
 
 const FLAT: &str = "10.0000,0.0000,75.0000,0.0000,0.0000";
@@ -18,9 +18,9 @@ fn an_arc_mills_a_ring() {
     let plunge = PI * 25.0 * 3.0;
     near(found[0].removed_mm3, plunge, 0.01 * plunge);
     near(found[0].removed_mm3 + found[1].removed_mm3, ring, 0.005 * ring);
-    near(found[1].share(), 1.0, 1e-3);
+    near(found[1].max_advance_ratio(), 1.0, 1e-3);
     near(ran.before_mm3 - ran.left.volume_mm3(), ring, 0.005 * ring);
-    assert!(!found[2].cuts(), "the way out of the hole is free");
+    assert!(!found[2].has_removed_material(), "the way out of the hole is free");
     assert!(codes(&ran).is_empty(), "{:?}", ran.findings);
 }
 
@@ -36,7 +36,7 @@ fn a_helix_ends_as_deep_as_its_end() {
     near(ran.before_mm3 - ran.left.volume_mm3(), ring, 0.005 * ring);
     // Descending 2 mm over the turn, the wall cuts the slope's cosine of the feed.
     let slope = (2.0 / (2.0 * PI * 12.0_f64)).atan();
-    near(found[0].share(), slope.cos(), 2e-3);
+    near(found[0].max_advance_ratio(), slope.cos(), 2e-3);
 }
 
 #[test]
@@ -51,7 +51,11 @@ fn holes_of_a_cycle_are_drilled() {
     let cone = 4.0 * 31.0_f64.to_radians().tan();
     let hole = PI * 16.0 * (12.0 - cone + cone / 3.0);
     near(ran.before_mm3 - ran.left.volume_mm3(), 2.0 * hole, 0.02 * hole);
-    near(found.iter().map(|found| found.share()).fold(0.0, f64::max), 31f64.to_radians().cos(), 1e-3);
+    near(
+        found.iter().map(|found| found.max_advance_ratio()).fold(0.0, f64::max),
+        31f64.to_radians().cos(),
+        1e-3,
+    );
 }
 
 #[test]
@@ -80,8 +84,8 @@ fn an_inner_corner_is_a_peak() {
     let body = "GOTO/-20.0000,1.0000,-5.0000\nGOTO/40.0000,1.0000,-5.0000\nGOTO/55.0000,1.0000,-5.0000\n";
     let (found, _) = machine(&nx(FLAT, body), &setup, 0.1);
     let along = 2.0 * (0.1_f64 * 0.9).sqrt();
-    near(found[1].share(), along, 0.04);
-    near(found[2].share(), 1.0, 1e-3);
+    near(found[1].max_advance_ratio(), along, 0.04);
+    near(found[2].max_advance_ratio(), 1.0, 1e-3);
 }
 
 #[test]
@@ -91,7 +95,7 @@ fn stepped_stock_changes_the_depth_and_not_the_share() {
     let (found, _) = machine(&nx(FLAT, body), &setup, 0.25);
     near(found[1].axial_depth_mm(), 3.0, 1e-3);
     near(found[2].axial_depth_mm(), 5.0, 1e-3);
-    near(found[1].share(), 1.0, 1e-3);
+    near(found[1].max_advance_ratio(), 1.0, 1e-3);
 }
 
 #[test]
@@ -124,7 +128,7 @@ fn crashes_have_their_places() {
 fn an_allowance_is_material() {
     let above = nx(FLAT, "GOTO/-20.0000,0.0000,0.5000\nGOTO/110.0000,0.0000,0.5000\n");
     let (found, _) = machine(&above, SETUP, 0.25);
-    assert!(found.iter().all(|found| !found.cuts()));
+    assert!(found.iter().all(|found| !found.has_removed_material()));
     let grown = SETUP.replace("[100, 30, 0] } }", "[100, 30, 0] }, allowance: 1 }");
     let (found, _) = machine(&above, &grown, 0.25);
     near(found[1].axial_depth_mm(), 0.5, 1e-3);
@@ -133,7 +137,13 @@ fn an_allowance_is_material() {
 #[test]
 fn too_much_is_refused_before_it_begins() {
     let text = nx(FLAT, "GOTO/110.0000,0.0000,-3.0000\n");
-    let with = |cell: f64| try_machine(&text, SETUP, Options { cell: Some(cell), ..Options::default() });
+    let with = |cell: f64| {
+        try_machine(
+            &text,
+            SETUP,
+            SimulationRunOptions { cell: Some(cell), ..SimulationRunOptions::default() },
+        )
+    };
     assert_eq!(with(0.0005).unwrap_err()[0].code.id(), "CL0514");
     assert_eq!(with(2.0).unwrap_err()[0].code.id(), "CL0513");
 }

@@ -2,13 +2,13 @@
 
 use crate::support::{clean_motions, motions, only_arc, program_of};
 use clsmith::program::Dialect;
-use clsmith::program::geometry::Arc;
-use clsmith::program::motion::ProblemKind;
+use clsmith::program::geometry::CircularArc;
+use clsmith::program::motion::MotionProblemKind;
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// The arc about the origin from (10,0,0) to (0,10,0); `circle` is the record, `before` the point before.
-fn quarter(dialect: Dialect, before: &str, circle: &str) -> Arc {
+fn quarter(dialect: Dialect, before: &str, circle: &str) -> CircularArc {
     let text = format!("GOTO/{before}\nGOTO/10,0,0\n{circle}\nGOTO/0,10,0\n");
     only_arc(&clean_motions(&program_of(dialect, text))).clone()
 }
@@ -17,17 +17,17 @@ const BELOW: &str = "10,-5,0";
 const ABOVE: &str = "10,5,0";
 
 #[track_caller]
-fn assert_counter_clockwise(arc: &Arc) {
+fn assert_counter_clockwise(arc: &CircularArc) {
     assert!(
-        (arc.sweep - FRAC_PI_2).abs() < 1e-12 && (arc.tangent(0.0) - Vector3::y()).norm() < 1e-12,
+        (arc.sweep - FRAC_PI_2).abs() < 1e-12 && (arc.tangent_at(0.0) - Vector3::y()).norm() < 1e-12,
         "{arc:?}"
     );
 }
 
 #[track_caller]
-fn assert_clockwise(arc: &Arc) {
+fn assert_clockwise(arc: &CircularArc) {
     assert!(
-        (arc.sweep - 1.5 * PI).abs() < 1e-12 && (arc.tangent(0.0) + Vector3::y()).norm() < 1e-12,
+        (arc.sweep - 1.5 * PI).abs() < 1e-12 && (arc.tangent_at(0.0) + Vector3::y()).norm() < 1e-12,
         "{arc:?}"
     );
 }
@@ -71,7 +71,7 @@ fn where_the_motion_before_does_not_tell_the_sense_is_right_hand_and_said_to_be_
     for before in ["GOTO/5,0,0\nGOTO/10,0,0", "GOTO/10,-5,0\nRAPID\nGOTO/10,0,0", "GOTO/10,0,0"] {
         let program = program_of(Dialect::Iso, format!("{before}\nCIRCLE/0,0,0,0,0,1,10\nGOTO/0,10,0\n"));
         let (found, problems) = motions(&program);
-        assert_eq!(problems, [ProblemKind::AssumedSense], "{before}");
+        assert_eq!(problems, [MotionProblemKind::AssumedSense], "{before}");
         assert_counter_clockwise(only_arc(&found));
     }
 }
@@ -80,9 +80,11 @@ fn where_the_motion_before_does_not_tell_the_sense_is_right_hand_and_said_to_be_
 fn an_arc_continues_an_arc() {
     let text = "GOTO/10,-5,0\nGOTO/10,0,0\nCIRCLE/0,0,0,0,0,1,10\nGOTO/0,10,0\nCIRCLE/0,15,0,0,0,1,5\nGOTO/-5,15,0\n";
     let found = clean_motions(&program_of(Dialect::Creo, text));
-    let clsmith::program::geometry::Path::Arc(second) = &found[3].path else { panic!() };
+    let clsmith::program::geometry::MotionPath::Arc(second) = &found[3].path else { panic!() };
     // Counter-clockwise into (0,10) the tool goes to -x; about (0,15) that is clockwise.
-    assert!((second.tangent(0.0) + Vector3::x()).norm() < 1e-12 && (second.sweep - FRAC_PI_2).abs() < 1e-12);
+    assert!(
+        (second.tangent_at(0.0) + Vector3::x()).norm() < 1e-12 && (second.sweep - FRAC_PI_2).abs() < 1e-12
+    );
 }
 
 #[test]
@@ -104,7 +106,7 @@ fn an_angle_that_does_not_lead_to_the_end_point_is_told() {
     let text = "GOTO/10,0,0\nMOVARC/0,0,0,0,0,1,10,ANGLE,180\nGOTO/0,10,0\n";
     let (_, problems) = motions(&program_of(Dialect::Iso, text));
     assert!(
-        matches!(problems[..], [ProblemKind::ArcEndOffCircle(off)] if (off - 200f64.sqrt()).abs() < 1e-6),
+        matches!(problems[..], [MotionProblemKind::ArcEndOffCircle(off)] if (off - 200f64.sqrt()).abs() < 1e-6),
         "{problems:?}"
     );
 }
@@ -129,7 +131,7 @@ fn equal_ends_are_a_full_circle() {
         let text = format!("GOTO/10,-5,0\nGOTO/10,0,0\n{circle}\nGOTO/10,0,0\n");
         let arc = only_arc(&clean_motions(&program_of(dialect, text))).clone();
         assert!((arc.sweep - TAU).abs() < 1e-12, "{dialect}");
-        assert!((arc.point(0.5) - Point3::new(-10.0, 0.0, 0.0)).norm() < 1e-9);
+        assert!((arc.point_at(0.5) - Point3::new(-10.0, 0.0, 0.0)).norm() < 1e-9);
     }
 }
 
@@ -139,8 +141,8 @@ fn times_counts_how_often_the_end_is_passed() {
         let text = format!("GOTO/10,0,5\nCIRCLE/0,0,0,0,0,-1,10,0.06,0.5,10,0{times}\nGOTO/0,10,0\n");
         let arc = only_arc(&clean_motions(&program_of(Dialect::Nx, text))).clone();
         assert!((arc.sweep - FRAC_PI_2 - TAU * turns).abs() < 1e-12);
-        assert!((arc.point(1.0) - Point3::new(0.0, 10.0, 0.0)).norm() < 1e-9);
-        assert!((arc.point(0.5).z - 2.5).abs() < 1e-9);
+        assert!((arc.point_at(1.0) - Point3::new(0.0, 10.0, 0.0)).norm() < 1e-9);
+        assert!((arc.point_at(0.5).z - 2.5).abs() < 1e-9);
     }
 }
 
@@ -151,8 +153,8 @@ fn ends_off_the_circle_are_told_and_the_point_is_reached_anyhow() {
     let offs: Vec<_> = problems
         .iter()
         .map(|kind| match kind {
-            ProblemKind::ArcStartOffCircle(off) => ("start", (off * 1e6).round()),
-            ProblemKind::ArcEndOffCircle(off) => ("end", (off * 1e6).round()),
+            MotionProblemKind::ArcStartOffCircle(off) => ("start", (off * 1e6).round()),
+            MotionProblemKind::ArcEndOffCircle(off) => ("end", (off * 1e6).round()),
             _ => ("other", 0.0),
         })
         .collect();
@@ -163,10 +165,10 @@ fn ends_off_the_circle_are_told_and_the_point_is_reached_anyhow() {
 #[test]
 fn an_arc_needs_a_start_and_an_end() {
     let kinds = |text: &str| motions(&program_of(Dialect::Nx, text)).1;
-    assert_eq!(kinds("CIRCLE/0,0,0,0,0,1,10\nGOTO/10,0,0\n"), [ProblemKind::UnknownStart]);
-    assert_eq!(kinds("GOTO/10,0,0\nCIRCLE/0,0,0,0,0,1,10\n"), [ProblemKind::ArcWithoutEnd]);
+    assert_eq!(kinds("CIRCLE/0,0,0,0,0,1,10\nGOTO/10,0,0\n"), [MotionProblemKind::UnknownStart]);
+    assert_eq!(kinds("GOTO/10,0,0\nCIRCLE/0,0,0,0,0,1,10\n"), [MotionProblemKind::ArcWithoutEnd]);
     let twice = "GOTO/10,0,0\nCIRCLE/5,5,5,0,0,1,10\nCIRCLE/0,0,0,0,0,-1,10\nGOTO/0,10,0\n";
-    assert_eq!(kinds(twice), [ProblemKind::ArcWithoutEnd]);
+    assert_eq!(kinds(twice), [MotionProblemKind::ArcWithoutEnd]);
 }
 
 #[test]
@@ -174,5 +176,5 @@ fn an_arc_in_any_plane() {
     // Right-hand about +y leads from +x to -z; left-hand that is the printed axis -y.
     let text = "GOTO/10,0,0\nCIRCLE/0,0,0,0,-1,0,10\nGOTO/0,0,-10\n";
     let arc = only_arc(&clean_motions(&program_of(Dialect::Nx, text))).clone();
-    assert!((arc.sweep - FRAC_PI_2).abs() < 1e-12 && (arc.tangent(0.0) + Vector3::z()).norm() < 1e-12);
+    assert!((arc.sweep - FRAC_PI_2).abs() < 1e-12 && (arc.tangent_at(0.0) + Vector3::z()).norm() < 1e-12);
 }

@@ -2,7 +2,7 @@
 
 use crate::support::{corpus, corpus_file, motions, source};
 use clsmith::parse::parse;
-use clsmith::program::geometry::Path;
+use clsmith::program::geometry::MotionPath;
 use clsmith::program::motion::Motion;
 use clsmith::program::{Dialect, Program, Record};
 
@@ -13,19 +13,19 @@ fn read(path: &std::path::Path) -> Program {
 /// Arcs of files of a dialect: (arcs, tangent entries, entries that agree with the resolved sense).
 fn arcs_of(
     dialect: Dialect,
-    check: impl Fn(&Program, &Motion, &clsmith::program::geometry::Arc),
+    check: impl Fn(&Program, &Motion, &clsmith::program::geometry::CircularArc),
 ) -> (usize, usize, usize) {
     let (mut count, mut tangent, mut agree) = (0, 0, 0);
     for program in corpus().iter().map(|path| read(path)).filter(|program| program.dialect() == dialect) {
         let (found, _) = motions(&program);
         for pair in found.windows(2) {
-            let Path::Arc(arc) = &pair[1].path else { continue };
+            let MotionPath::Arc(arc) = &pair[1].path else { continue };
             check(&program, &pair[1], arc);
             count += 1;
             let Some(before) = pair[0].path.end_tangent(pair[0].from.point, pair[0].to.point) else {
                 continue;
             };
-            let along = before.dot(&arc.tangent(0.0));
+            let along = before.dot(&arc.tangent_at(0.0));
             if !pair[0].rapid && along.abs() > 0.999 {
                 tangent += 1;
                 agree += usize::from(along > 0.0);
@@ -45,7 +45,7 @@ fn nx_arcs_lie_on_their_circles_and_continue_the_motion_before() {
             });
         assert!((arc.radius - printed.unwrap()).abs() <= 2e-4, "{arc:?}");
         assert!(arc.end_deviation(motion.to.point) <= 2e-4, "{arc:?}");
-        assert!((arc.point(1.0) - motion.to.point).norm() <= 4e-4);
+        assert!((arc.point_at(1.0) - motion.to.point).norm() <= 4e-4);
     });
     if corpus_file("cutcom.clsf").is_some() {
         assert!(count > 300 && tangent > 250, "{count} arcs, {tangent} with a tangent entry");
@@ -82,13 +82,13 @@ fn catia_arcs_end_where_their_line_ends_and_pass_half_if_and_only_if_intof() {
     let mut beyond = 0;
     let mut count = 0;
     for motion in &found {
-        let Path::Arc(arc) = &motion.path else { continue };
+        let MotionPath::Arc(arc) = &motion.path else { continue };
         let Record::DriveArc(record) = program.statements()[motion.last_statement()].record() else {
             panic!()
         };
         count += 1;
         assert_eq!(motion.to.point, record.end);
-        assert!(arc.end_deviation(record.end) <= 2e-5 && (arc.point(1.0) - record.end).norm() <= 1e-4);
+        assert!(arc.end_deviation(record.end) <= 2e-5 && (arc.point_at(1.0) - record.end).norm() <= 1e-4);
         assert_eq!(arc.sweep > std::f64::consts::PI, record.beyond_half, "{arc:?}");
         beyond += usize::from(record.beyond_half);
     }
@@ -132,9 +132,9 @@ fn all_splines_of_nx_fit_and_lead_to_the_next_motion() {
     assert!(problems.is_empty());
     let mut count = 0;
     for (index, motion) in found.iter().enumerate() {
-        if let Path::Spline(spline) = &motion.path {
+        if let MotionPath::Spline(spline) = &motion.path {
             count += 1;
-            assert!((spline.point(1.0) - motion.to.point).norm() < 1e-9);
+            assert!((spline.point_at(1.0) - motion.to.point).norm() < 1e-9);
             assert!(found.get(index + 1).is_none_or(|next| next.from == motion.to));
             // The curve is no longer than its control polygon and no shorter than its chord.
             let polygon: f64 = spline.controls.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
@@ -155,7 +155,7 @@ fn helices_of_nx_come_down_by_what_was_measured() {
         let helices: Vec<_> = found
             .iter()
             .filter_map(|motion| match &motion.path {
-                Path::Arc(arc) if arc.sweep > std::f64::consts::TAU => Some(arc.rise.abs()),
+                MotionPath::Arc(arc) if arc.sweep > std::f64::consts::TAU => Some(arc.rise.abs()),
                 _ => None,
             })
             .collect();

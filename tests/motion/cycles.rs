@@ -3,7 +3,7 @@
 use crate::support::{clean_motions, fixture, program, program_of};
 use clsmith::program::MotionClass;
 use clsmith::program::motion::Motion;
-use clsmith::program::{Dialect, FeedUnit, Record, Role};
+use clsmith::program::{Dialect, FeedUnit, NumberRole, Record};
 
 /// Each hole as the heights its moves end at (capital R: at rapid, F: at feed), with the feed of the feed move.
 fn holes(found: &[Motion]) -> Vec<(String, f64)> {
@@ -164,6 +164,16 @@ fn the_holes_of_the_fixtures() {
 fn times_turns_and_angles_of_a_cycle_are_no_lengths() {
     // A change of units scales lengths and feeds; an orientation of 90 degrees must stay one.
     let line = clsmith::parse::syntax(b"CYCLE/BORE, 20, MMPM, 80, 15, ORIENT, 90, DWELL, 0.5, STEP, 2");
-    let roles = Record::read(&line).unwrap().roles(&line);
-    assert_eq!(roles, [Role::Length, Role::Feed, Role::Length, Role::Plain, Role::Plain, Role::Length]);
+    let roles = Record::read(&line).unwrap().number_roles(&line);
+    assert_eq!(
+        roles,
+        [
+            NumberRole::Length,
+            NumberRole::Feed,
+            NumberRole::Length,
+            NumberRole::Plain,
+            NumberRole::Plain,
+            NumberRole::Length
+        ]
+    );
 }

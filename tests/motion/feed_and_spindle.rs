@@ -1,7 +1,7 @@
 //! Feeds and speeds, their units, and what comes back.
 
 use crate::support::{clean_motions, motions, program};
-use clsmith::program::record::{CutterCompensation, Side, SpindleDirection, SpindleUnit};
+use clsmith::program::record::{CompensationSide, CutterCompensation, SpindleDirection, SpindleUnit};
 use clsmith::program::{Feed, FeedUnit, LengthUnit};
 
 fn feeds(text: &str) -> Vec<Feed> {
@@ -102,14 +102,17 @@ fn compensation_is_in_force_until_off() {
         found.push(motions.state().compensation);
     }
     use CutterCompensation::{Off, On};
-    assert_eq!(found, [Some((On(Side::Left), 0)), Some((On(Side::Right), 2)), Some((Off, 4))]);
+    assert_eq!(
+        found,
+        [Some((On(CompensationSide::Left), 0)), Some((On(CompensationSide::Right), 2)), Some((Off, 4))]
+    );
 }
 
 #[test]
 fn a_feed_in_the_fixture_of_each_feed_style_is_in_force_where_it_stands() {
     let listing = crate::support::fixture("iso/listing-mixed-ends.apt");
     let (found, _) = motions(&listing);
-    assert_eq!(listing.stated_units(), Some(LengthUnit::Inch));
+    assert_eq!(listing.stated_length_unit(), Some(LengthUnit::Inch));
     let last = found.last().unwrap().feed.unwrap();
     assert_eq!((last.value, last.unit), (40.0, Some(FeedUnit::InverseTime)));
 }

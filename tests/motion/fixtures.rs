@@ -1,7 +1,7 @@
 //! The project's own programs are right: what a transform does to them can be judged by their geometry.
 
 use crate::support::{fixture, fixtures, motions, program};
-use clsmith::program::geometry::{Arc, Path};
+use clsmith::program::geometry::{CircularArc, MotionPath};
 use clsmith::program::motion::Motion;
 
 #[test]
@@ -20,19 +20,19 @@ fn motions_follow_one_another() {
         let (found, _) = motions(&program(std::fs::read(&path).unwrap()));
         for pair in found.windows(2) {
             let same_frame = pair[0].frame == pair[1].frame;
-            let starts = matches!(pair[1].path, Path::Start);
+            let starts = matches!(pair[1].path, MotionPath::Start);
             assert!(starts || !same_frame || pair[1].from == pair[0].to, "{}", path.display());
         }
     }
 }
 
 /// The arcs with the motions before them, where those are feed motions.
-fn arcs(found: &[Motion]) -> Vec<(&Motion, &Arc)> {
+fn arcs(found: &[Motion]) -> Vec<(&Motion, &CircularArc)> {
     let pairs = found.windows(2).filter(|pair| !pair[0].rapid);
     pairs
-        .filter_map(
-            |pair| if let Path::Arc(arc) = &pair[1].path { Some((&pair[0], arc.as_ref())) } else { None },
-        )
+        .filter_map(|pair| {
+            if let MotionPath::Arc(arc) = &pair[1].path { Some((&pair[0], arc.as_ref())) } else { None }
+        })
         .collect()
 }
 
@@ -45,7 +45,7 @@ fn every_arc_of_the_fixtures_continues_the_motion_before_it() {
             let Some(tangent) = before.path.end_tangent(before.from.point, before.to.point) else { continue };
             // Helices go down while the motion before was level, and full circles may follow an arc.
             let level = arc.rise.abs() < 1e-9;
-            assert!(!level || tangent.dot(&arc.tangent(0.0)) > 0.999, "{}: {arc:?}", path.display());
+            assert!(!level || tangent.dot(&arc.tangent_at(0.0)) > 0.999, "{}: {arc:?}", path.display());
             count += 1;
         }
     }
@@ -57,7 +57,7 @@ fn the_nx_pocket_has_a_helix_and_compensated_corners() {
     let (found, _) = motions(&fixture("nx/pocket-3axis.cls"));
     let arcs: Vec<_> = found
         .iter()
-        .filter_map(|motion| if let Path::Arc(arc) = &motion.path { Some(arc) } else { None })
+        .filter_map(|motion| if let MotionPath::Arc(arc) = &motion.path { Some(arc) } else { None })
         .collect();
     assert_eq!(arcs.len(), 6);
     let degrees: Vec<_> = arcs.iter().map(|arc| arc.sweep.to_degrees().round()).collect();
@@ -71,7 +71,7 @@ fn the_catia_profile_has_a_full_circle_and_one_beyond_half() {
     let degrees: Vec<_> = found
         .iter()
         .filter_map(|motion| {
-            if let Path::Arc(arc) = &motion.path { Some(arc.sweep.to_degrees().round()) } else { None }
+            if let MotionPath::Arc(arc) = &motion.path { Some(arc.sweep.to_degrees().round()) } else { None }
         })
         .collect();
     assert_eq!(degrees, [360.0, 270.0, 90.0, 90.0]);

@@ -2,10 +2,10 @@
 
 use crate::support::{clean_motions, motions, program, program_of};
 use clsmith::program::Dialect;
-use clsmith::program::motion::{Frame, ProblemKind};
+use clsmith::program::motion::{CoordinateFrame, MotionProblemKind};
 use nalgebra::{Matrix3, Point3, Vector3};
 
-fn frame_of(text: &str) -> Frame {
+fn frame_of(text: &str) -> CoordinateFrame {
     let found = clean_motions(&program(text));
     found.last().unwrap().frame.as_deref().unwrap().clone()
 }
@@ -56,7 +56,7 @@ fn a_matrix_without_its_rows_is_told_and_sets_nothing() {
         "GOTO/0,0,0\n$$*CATIA0\n$$ 1 0 0 0\n$$ 0 1 0 0\n",
     ] {
         let (found, problems) = motions(&program(text));
-        assert_eq!(problems, [ProblemKind::BrokenFrame], "{text}");
+        assert_eq!(problems, [MotionProblemKind::BrokenFrame], "{text}");
         assert!(found.iter().all(|motion| motion.frame.is_none()));
     }
 }

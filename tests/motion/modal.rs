@@ -2,8 +2,8 @@
 
 use crate::support::{clean_motions, motions, program, program_of};
 use clsmith::program::Dialect;
-use clsmith::program::geometry::Path;
-use clsmith::program::motion::ProblemKind;
+use clsmith::program::geometry::MotionPath;
+use clsmith::program::motion::MotionProblemKind;
 use nalgebra::{Point3, Vector3};
 
 #[test]
@@ -70,22 +70,22 @@ fn from_is_no_motion_and_uses_no_rapid_up() {
     let found = clean_motions(&program("RAPID\nFROM/0,0,100\nGOTO/0,0,5\nGOTO/0,0,0\n"));
     assert_eq!(
         found.iter().map(|motion| (motion.rapid, &motion.path)).collect::<Vec<_>>(),
-        [(false, &Path::Start), (true, &Path::Line), (false, &Path::Line)]
+        [(false, &MotionPath::Start), (true, &MotionPath::Line), (false, &MotionPath::Line)]
     );
 }
 
 #[test]
 fn a_rapid_with_no_motion_is_told() {
     for text in ["GOTO/0,0,0\nRAPID\n", "RAPID\nRAPID\nGOTO/0,0,0\n", "RAPID\nFEDRAT/100\nGOTO/0,0,0\n"] {
-        assert_eq!(motions(&program(text)).1, [ProblemKind::RapidWithoutMotion], "{text}");
+        assert_eq!(motions(&program(text)).1, [MotionProblemKind::RapidWithoutMotion], "{text}");
     }
 }
 
 #[test]
 fn the_first_point_starts_and_does_not_cut() {
     let found = clean_motions(&program("GOTO/1,2,3\nGOTO/1,2,0\n"));
-    assert_eq!((&found[0].path, found[0].length()), (&Path::Start, 0.0));
-    assert_eq!((&found[1].path, found[1].length()), (&Path::Line, 3.0));
+    assert_eq!((&found[0].path, found[0].length()), (&MotionPath::Start, 0.0));
+    assert_eq!((&found[1].path, found[1].length()), (&MotionPath::Line, 3.0));
 }
 
 #[test]
@@ -95,7 +95,7 @@ fn steps_go_on_from_where_the_tool_is() {
     // One number steps along the tool axis.
     assert!((found[2].to.point - Point3::new(2.0, -3.0, -4.0)).norm() < 1e-12);
     assert_eq!(found[3].from, found[2].to);
-    assert_eq!(motions(&program("GODLTA/1,0,0\n")).1, [ProblemKind::UnknownStart]);
+    assert_eq!(motions(&program("GODLTA/1,0,0\n")).1, [MotionProblemKind::UnknownStart]);
 }
 
 #[test]
@@ -103,7 +103,7 @@ fn gohome_is_a_motion_or_leads_to_a_place_that_nobody_knows() {
     let found = clean_motions(&program("GOTO/1,2,3\nRAPID\nGOHOME/0,0,100\nGOTO/1,1,1\n"));
     assert_eq!((found[1].rapid, found[1].to.point), (true, Point3::new(0.0, 0.0, 100.0)));
     let found = clean_motions(&program("GOTO/1,2,3\nRAPID\nGOHOME\nGOTO/1,1,1\n"));
-    assert_eq!((found.len(), found[1].rapid, &found[1].path), (2, false, &Path::Start));
+    assert_eq!((found.len(), found[1].rapid, &found[1].path), (2, false, &MotionPath::Start));
 }
 
 #[test]

@@ -2,10 +2,10 @@
 
 use crate::support::{clean_motions, fixture, program};
 use clsmith::program::Program;
-use clsmith::program::operation::{Operation, operations};
+use clsmith::program::operation::{Operation, find_operations};
 
 fn names(program: &Program) -> Vec<String> {
-    operations(program).into_iter().map(|operation| operation.name).collect()
+    find_operations(program).into_iter().map(|operation| operation.name).collect()
 }
 
 #[test]
@@ -30,7 +30,7 @@ fn every_dialect_marks_its_operations() {
 fn operations_leave_no_gap() {
     for (_, path) in crate::support::fixtures() {
         let program = program(std::fs::read(&path).unwrap());
-        let found = operations(&program);
+        let found = find_operations(&program);
         assert_eq!(found[0].statements.start, 0);
         assert!(found.windows(2).all(|pair| pair[0].statements.end == pair[1].statements.start));
         assert_eq!(found.last().unwrap().statements.end, program.statements().len());
@@ -48,7 +48,7 @@ fn operations_leave_no_gap() {
 #[test]
 fn a_path_that_was_cut_off_is_not_closed() {
     let text = "$$ head\nTOOL PATH/A,TOOL,T\nGOTO/0,0,0\nEND-OF-PATH\nTOOL PATH/B,TOOL,T\nGOTO/1,0,0\n";
-    let found = operations(&program(text));
+    let found = find_operations(&program(text));
     let operation = |name: &str, start, statements, closed| Operation {
         name: name.to_owned(),
         start,
@@ -60,5 +60,5 @@ fn a_path_that_was_cut_off_is_not_closed() {
 
 #[test]
 fn an_empty_program_is_one_operation() {
-    assert_eq!(operations(&program("")).len(), 1);
+    assert_eq!(find_operations(&program("")).len(), 1);
 }

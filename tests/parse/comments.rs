@@ -2,13 +2,13 @@
 
 use crate::support::{program, text};
 use clsmith::parse::{parse, syntax};
-use clsmith::program::{FieldKind, Form, Record};
+use clsmith::program::{FieldKind, Record, StatementKind};
 
 #[test]
 fn two_dollars_in_quotes_are_no_comment() {
     // CATIA through an ICAM table writes this; a reader that cuts at `$$` loses the second field and the quote.
     let line = syntax(b"SYN/'TLAXIS','$$*TLAXIS'\n");
-    let fields: Vec<_> = line.fields.iter().map(|field| (line.bytes(&field.at), &field.kind)).collect();
+    let fields: Vec<_> = line.fields.iter().map(|field| (line.bytes_at(&field.at), &field.kind)).collect();
     let quoted = &FieldKind::Quoted;
     assert_eq!(fields, [(&b"'TLAXIS'"[..], quoted), (&b"'$$*TLAXIS'"[..], quoted)]);
     assert!(line.remark.is_none());
@@ -18,7 +18,7 @@ fn two_dollars_in_quotes_are_no_comment() {
 fn a_remark_after_a_statement_is_not_part_of_it() {
     let line = syntax(b"FEDRAT/300.0,MMPM   $$ plunge, slowly\n");
     assert_eq!(line.fields.len(), 2);
-    assert_eq!(line.bytes(line.remark.as_ref().unwrap()), b"$$ plunge, slowly");
+    assert_eq!(line.bytes_at(line.remark.as_ref().unwrap()), b"$$ plunge, slowly");
     let program = program("GOTO/1,2,3$$ no blank before it\nRAPID $$ and after a bare word\n");
     assert!(matches!(program.statements()[0].record(), Record::Goto(_)));
     assert_eq!(program.statements()[1].record(), &Record::Rapid);
@@ -44,8 +44,17 @@ fn a_commented_goto_does_not_move_the_tool() {
 fn blank_lines_stand_for_nothing() {
     let program = program("\n   \n\t\nFINI\n\n");
     let forms: Vec<_> =
-        program.statements().iter().map(|statement| syntax(program.text(statement)).form).collect();
-    assert_eq!(forms, [Form::Blank, Form::Blank, Form::Blank, Form::Words, Form::Blank]);
+        program.statements().iter().map(|statement| syntax(program.statement_text(statement)).form).collect();
+    assert_eq!(
+        forms,
+        [
+            StatementKind::Blank,
+            StatementKind::Blank,
+            StatementKind::Blank,
+            StatementKind::Words,
+            StatementKind::Blank
+        ]
+    );
 }
 
 #[test]

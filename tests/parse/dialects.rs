@@ -83,7 +83,7 @@ fn a_forced_dialect_is_taken_whatever_the_file_says() {
 #[test]
 fn names_lead_back_to_their_dialects() {
     for dialect in Dialect::ALL {
-        assert_eq!(Dialect::of_name(&dialect.name().to_uppercase()), Some(dialect));
+        assert_eq!(Dialect::from_name(&dialect.name().to_uppercase()), Some(dialect));
     }
-    assert_eq!(Dialect::of_name("heidenhain"), None);
+    assert_eq!(Dialect::from_name("heidenhain"), None);
 }

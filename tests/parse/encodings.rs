@@ -3,8 +3,8 @@
 use crate::support::{program, text};
 use clsmith::diagnostic::codes;
 use clsmith::parse::{parse, syntax};
-use clsmith::program::operation::operations;
-use clsmith::program::{Form, Record};
+use clsmith::program::operation::find_operations;
+use clsmith::program::{Record, StatementKind};
 
 #[test]
 fn latin_1_comments_and_text_are_read() {
@@ -20,7 +20,7 @@ fn cyrillic_operation_names_are_kept_byte_for_byte() {
     // "Контур" in CP1251: no UTF-8, so the name is shown as Latin-1, every byte a character, and written as it was.
     let lines = b"OPFEATSTART/\xCA\xEE\xED\xF2\xF3\xF0\nRAPID/ \nGOTO/ 1.0,2.0,3.0 \nOPFEATEND/\xCA\xEE\xED\xF2\xF3\xF0\n";
     let program = program(lines);
-    let found = operations(&program);
+    let found = find_operations(&program);
     assert_eq!(found.len(), 1);
     assert_eq!(
         found[0].name.chars().map(|c| c as u32).collect::<Vec<_>>(),
@@ -33,14 +33,14 @@ fn cyrillic_operation_names_are_kept_byte_for_byte() {
 #[test]
 fn utf_8_names_are_shown_as_they_are() {
     let program = program("TOOL PATH/Tasche für Ø10,TOOL,Fräser\n");
-    assert_eq!(operations(&program)[0].name, "Tasche für Ø10");
+    assert_eq!(find_operations(&program)[0].name, "Tasche für Ø10");
 }
 
 #[test]
 fn bytes_above_127_may_stand_in_words_and_fields() {
     let line = syntax(b"\xC4NDERN/\xD810,5.0\n");
-    assert_eq!((line.form, line.fields.len()), (Form::Words, 2));
-    assert_eq!(line.bytes(&line.fields[0].at), b"\xD810");
+    assert_eq!((line.form, line.fields.len()), (StatementKind::Words, 2));
+    assert_eq!(line.bytes_at(&line.fields[0].at), b"\xD810");
 }
 
 #[test]

@@ -1,21 +1,21 @@
 //! Words and the fields after them, as each dialect writes them.
 
 use clsmith::parse::syntax;
-use clsmith::program::{FieldKind, Form};
+use clsmith::program::{FieldKind, StatementKind};
 
 /// The fields of a line as text, numbers marked with `#`, groups with their word.
 fn shown(line: &str) -> (String, Vec<String>) {
     let line = syntax(line.as_bytes());
-    assert_eq!(line.form, Form::Words, "{line:?}");
-    let show = |field: &clsmith::program::Field| {
-        let text = String::from_utf8_lossy(line.bytes(&field.at)).into_owned();
+    assert_eq!(line.form, StatementKind::Words, "{line:?}");
+    let show = |field: &clsmith::program::StatementField| {
+        let text = String::from_utf8_lossy(line.bytes_at(&field.at)).into_owned();
         match &field.kind {
             FieldKind::Number(value) => format!("#{value}"),
-            FieldKind::Group(group) => format!("({})", String::from_utf8_lossy(line.bytes(&group.word))),
+            FieldKind::Group(group) => format!("({})", String::from_utf8_lossy(line.bytes_at(&group.word))),
             _ => text,
         }
     };
-    (line.major(), line.fields.iter().map(show).collect())
+    (line.major_word(), line.fields.iter().map(show).collect())
 }
 
 #[track_caller]
@@ -92,6 +92,6 @@ fn catia_nests_records_in_a_drive_record() {
 #[test]
 fn number_places_are_exact_so_that_a_patch_changes_the_number_and_nothing_else() {
     let line = syntax(b"  GOTO  /  -0.0000 ,+1.5,.25$ c\n, 1E3 $$ 7\n");
-    let found: Vec<_> = line.numbers().into_iter().map(|(at, _)| line.bytes(&at)).collect();
+    let found: Vec<_> = line.numbers().into_iter().map(|(at, _)| line.bytes_at(&at)).collect();
     assert_eq!(found, [&b"-0.0000"[..], b"+1.5", b".25", b"1E3"]);
 }

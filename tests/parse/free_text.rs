@@ -2,15 +2,15 @@
 
 use crate::support::program;
 use clsmith::parse::syntax;
-use clsmith::program::operation::{name, tool_name};
-use clsmith::program::{Form, Record};
+use clsmith::program::operation::{operation_name, tool_name};
+use clsmith::program::{Record, StatementKind};
 
 #[track_caller]
 fn assert_text(line: &str, major: &str, expected: &str) {
     let found = syntax(line.as_bytes());
-    assert_eq!(found.form, Form::FreeText, "{line}");
-    assert_eq!(found.major(), major);
-    let text = found.fields.first().map(|field| found.bytes(&field.at)).unwrap_or_default();
+    assert_eq!(found.form, StatementKind::FreeText, "{line}");
+    assert_eq!(found.major_word(), major);
+    let text = found.fields.first().map(|field| found.bytes_at(&field.at)).unwrap_or_default();
     assert_eq!(String::from_utf8_lossy(text), expected);
     assert_eq!(Record::read(&found).unwrap(), Record::Text);
 }
@@ -45,9 +45,9 @@ fn solidworks_writes_its_tools_and_stock_as_insert() {
 
 #[test]
 fn words_that_only_start_like_free_text_are_words() {
-    assert_eq!(syntax(b"INSERTS/5").form, Form::Words);
-    assert_eq!(syntax(b"PARTNO1/5").form, Form::Words);
-    assert_eq!(syntax(b"TPRINTER/5").form, Form::Words);
+    assert_eq!(syntax(b"INSERTS/5").form, StatementKind::Words);
+    assert_eq!(syntax(b"PARTNO1/5").form, StatementKind::Words);
+    assert_eq!(syntax(b"TPRINTER/5").form, StatementKind::Words);
 }
 
 #[test]
@@ -60,7 +60,7 @@ fn remark_is_text_even_when_a_real_word_stands_in_it() {
 fn tprint_holds_names_with_commas_and_may_go_on() {
     assert_text("TPRINT/T1 Tap D 10", "TPRINT", "T1 Tap D 10");
     let line = syntax(b"TPRINT/SVJBL 2020 K16,$\n SDJCL 1210 (D07),'x\n");
-    let names: Vec<_> = line.fields.iter().map(|field| line.bytes(&field.at)).collect();
+    let names: Vec<_> = line.fields.iter().map(|field| line.bytes_at(&field.at)).collect();
     assert_eq!(names, [&b"SVJBL 2020 K16"[..], b"SDJCL 1210 (D07)", b"'x"]);
 }
 
@@ -71,7 +71,7 @@ fn nx_names_operations_and_tools_freely() {
     );
     let names = |index: usize| {
         let statement = &program.statements()[index];
-        (name(&program, statement).unwrap(), tool_name(&program, statement))
+        (operation_name(&program, statement).unwrap(), tool_name(&program, statement))
     };
     assert_eq!(names(0), ("R390-25A25L 17' (rough)$".to_owned(), Some("D10 R1, long".to_owned())));
     assert_eq!(names(2), ("EXTERNAL_TRIM".to_owned(), None));
@@ -80,6 +80,6 @@ fn nx_names_operations_and_tools_freely() {
 #[test]
 fn quotes_hold_commas_and_slashes() {
     let line = syntax(b"PPLOG/'a, b / c (d',5\n");
-    let fields: Vec<_> = line.fields.iter().map(|field| line.bytes(&field.at)).collect();
+    let fields: Vec<_> = line.fields.iter().map(|field| line.bytes_at(&field.at)).collect();
     assert_eq!(fields, [&b"'a, b / c (d'"[..], b"5"]);
 }

@@ -71,9 +71,9 @@ fn lines_and_columns_count_alike_for_every_line_end() {
         [0, 2, 3, 6, 10, 13].map(|at| source.line_column(at)),
         [(1, 1), (2, 1), (2, 2), (3, 1), (4, 1), (4, 4)]
     );
-    assert_eq!(source.slice(source.line(2).unwrap()), b"bb");
-    assert_eq!(source.slice(source.line(4).unwrap()), b"dddd");
-    assert!(source.line(5).is_none() && source.line(0).is_none());
+    assert_eq!(source.slice(source.line_span(2).unwrap()), b"bb");
+    assert_eq!(source.slice(source.line_span(4).unwrap()), b"dddd");
+    assert!(source.line_span(5).is_none() && source.line_span(0).is_none());
 }
 
 #[test]

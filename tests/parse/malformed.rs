@@ -1,13 +1,13 @@
 //! What cannot be read: one diagnostic with its place, and the next statement is read as if nothing had been.
 
 use crate::support::text;
-use clsmith::diagnostic::{Code, codes};
+use clsmith::diagnostic::{DiagnosticCode, codes};
 use clsmith::parse::parse;
 use clsmith::program::Record;
 
 /// The line stands between two good ones; `at` is the text that the label shows.
 #[track_caller]
-fn assert_one(line: &str, code: Code, at: &str) {
+fn assert_one(line: &str, code: DiagnosticCode, at: &str) {
     let source = text(format!("GOTO/1,2,3\n{line}\nGOTO/4,5,6\n"));
     let parsed = parse(&source, None);
     let found: Vec<_> = parsed

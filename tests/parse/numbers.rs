@@ -1,6 +1,6 @@
 //! CL numbers: read correctly rounded, printed so that no edit is lost.
 
-use clsmith::number::{self, Form, Zeros, parse, plain_decimal};
+use clsmith::number::{self, NumberFormat, ZeroStyle, parse_number, parse_plain_decimal};
 use proptest::prelude::*;
 
 #[test]
@@ -19,7 +19,7 @@ fn the_styles_of_all_dialects_are_read() {
         ("0.1d0", 0.1),
         ("007", 7.0),
     ] {
-        assert_eq!(parse(text.as_bytes()), Some(value), "{text}");
+        assert_eq!(parse_number(text.as_bytes()), Some(value), "{text}");
     }
 }
 
@@ -29,35 +29,35 @@ fn what_is_no_number_is_none() {
         "", ".", "-", "+", "1.2.3", "--1", "1-", "1E", "E5", "1E5E5", "nan", "inf", "1e400", "0x1", "1,5",
         " 1", "1 ",
     ] {
-        assert_eq!(parse(text.as_bytes()), None, "{text:?}");
+        assert_eq!(parse_number(text.as_bytes()), None, "{text:?}");
     }
 }
 
 #[test]
 fn decimals_are_those_after_the_point() {
-    let found = ["12.5000", "120.", "7", ".5", "-0.25E3"].map(|text| number::decimals(text.as_bytes()));
+    let found = ["12.5000", "120.", "7", ".5", "-0.25E3"].map(|text| number::count_decimals(text.as_bytes()));
     assert_eq!(found, [4, 0, 0, 1, 2]);
 }
 
 #[test]
 fn style_of_solidworks_has_no_needless_zero() {
-    let form = Form { decimals: 6, tolerance: 5e-7, zeros: Zeros::Cut, point: true };
+    let form = NumberFormat { decimals: 6, tolerance: 5e-7, zeros: ZeroStyle::Cut, point: true };
     let printed = [0.0, -0.0, 0.5, -0.5, 120.0, -120.0, 0.984808, 12.25, 1e-9, -1e-9, 100.0, 1000.5];
-    let printed = printed.map(|value| form.print(value, 0.0));
+    let printed = printed.map(|value| form.format_number(value, 0.0));
     assert_eq!(
         printed,
         ["0", "0", ".5", "-0.5", "120.", "-120.", ".984808", "12.25", "0", "0", "100.", "1000.5"]
     );
-    assert_eq!(Form { point: false, ..form }.print(120.0, 0.0), "120");
+    assert_eq!(NumberFormat { point: false, ..form }.format_number(120.0, 0.0), "120");
 }
 
 #[test]
 fn an_edit_smaller_than_the_decimals_gets_more_of_them() {
     // 0.1 moved by 0.04 printed with one decimal is 0.1 again: the edit would be lost.
-    let form = Form { decimals: 1, tolerance: 0.05, zeros: Zeros::Kept, point: false };
-    assert_eq!(form.print(0.14, 0.04), "0.14");
-    assert_eq!(form.print(0.2, 0.1), "0.2");
-    assert_eq!(Form { decimals: 4, ..form }.print(12.00003, 0.00003), "12.00003");
+    let form = NumberFormat { decimals: 1, tolerance: 0.05, zeros: ZeroStyle::Kept, point: false };
+    assert_eq!(form.format_number(0.14, 0.04), "0.14");
+    assert_eq!(form.format_number(0.2, 0.1), "0.2");
+    assert_eq!(NumberFormat { decimals: 4, ..form }.format_number(12.00003, 0.00003), "12.00003");
 }
 
 /// Decimal texts as CAM systems and people write them.
@@ -73,8 +73,8 @@ proptest! {
     #[test]
     fn a_plain_decimal_is_what_the_standard_library_reads(text in decimal_text(), tail in "[ ,$eE\r\n.+-]?") {
         let expected: f64 = text.parse().unwrap();
-        prop_assert_eq!(parse(text.as_bytes()).map(f64::to_bits), Some(expected.to_bits()));
-        if let Some((value, length)) = plain_decimal(format!("{text}{tail}").as_bytes()) {
+        prop_assert_eq!(parse_number(text.as_bytes()).map(f64::to_bits), Some(expected.to_bits()));
+        if let Some((value, length)) = parse_plain_decimal(format!("{text}{tail}").as_bytes()) {
             let read = &format!("{text}{tail}")[..length];
             prop_assert_eq!(value.to_bits(), read.parse::<f64>().unwrap().to_bits());
             prop_assert!(length >= text.len());
@@ -86,10 +86,10 @@ proptest! {
 
     #[test]
     fn any_bytes_are_a_number_or_none(bytes in prop::collection::vec(any::<u8>(), 0..12)) {
-        if let Some(value) = parse(&bytes) {
+        if let Some(value) = parse_number(&bytes) {
             prop_assert!(value.is_finite());
         }
-        if let Some((_, length)) = plain_decimal(&bytes) {
+        if let Some((_, length)) = parse_plain_decimal(&bytes) {
             prop_assert!(length <= bytes.len());
         }
     }
@@ -102,9 +102,9 @@ proptest! {
         cut in any::<bool>(),
     ) {
         let tolerance = 0.5 * 10f64.powi(-(decimals as i32));
-        let zeros = if cut { Zeros::Cut } else { Zeros::Kept };
-        let text = Form { decimals, tolerance, zeros, point: true }.print(wanted, edit);
-        let off = (parse(text.as_bytes()).unwrap() - wanted).abs();
+        let zeros = if cut { ZeroStyle::Cut } else { ZeroStyle::Kept };
+        let text = NumberFormat { decimals, tolerance, zeros, point: true }.format_number(wanted, edit);
+        let off = (parse_number(text.as_bytes()).unwrap() - wanted).abs();
         let slack = wanted.abs() * 2.0 * f64::EPSILON;
         prop_assert!(off <= tolerance * (1.0 + 1e-6) + slack, "{text} for {wanted}");
         if edit != 0.0 {
@@ -116,16 +116,16 @@ proptest! {
             prop_assert!(text == "0" || !text.starts_with("0."), "{text}");
             prop_assert!(!text.starts_with("-."), "{text}");
         } else {
-            prop_assert!(number::decimals(text.as_bytes()) >= decimals, "{text}");
+            prop_assert!(number::count_decimals(text.as_bytes()) >= decimals, "{text}");
         }
     }
 
     #[test]
     fn minus_zero_is_never_printed(wanted in prop_oneof![-1e-3f64..1e-3, Just(-0.0)], decimals in 0usize..8, cut in any::<bool>()) {
-        let zeros = if cut { Zeros::Cut } else { Zeros::Kept };
-        let text = Form { decimals, tolerance: 1.0, zeros, point: false }.print(wanted, 0.0);
+        let zeros = if cut { ZeroStyle::Cut } else { ZeroStyle::Kept };
+        let text = NumberFormat { decimals, tolerance: 1.0, zeros, point: false }.format_number(wanted, 0.0);
         prop_assert!(!text.starts_with('-') || text.bytes().any(|b| (b'1'..=b'9').contains(&b)), "{text}");
-        let any = Form { decimals, tolerance: 1.0, zeros: Zeros::Kept, point: false }.print(wanted, 0.0);
-        prop_assert_eq!(number::decimals(any.as_bytes()), decimals);
+        let any = NumberFormat { decimals, tolerance: 1.0, zeros: ZeroStyle::Kept, point: false }.format_number(wanted, 0.0);
+        prop_assert_eq!(number::count_decimals(any.as_bytes()), decimals);
     }
 }

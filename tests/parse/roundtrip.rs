@@ -1,7 +1,7 @@
 //! Whatever the bytes: they come back as they were, spans tile them, and nothing panics, motions included.
 
 use crate::support::{fixtures, motions, text};
-use clsmith::parse::{parse, record, syntax};
+use clsmith::parse::{parse, read_record, syntax};
 use clsmith::program::Dialect;
 use proptest::prelude::*;
 use std::sync::LazyLock;
@@ -16,10 +16,10 @@ fn check(bytes: &[u8], dialect: Option<Dialect>) -> Result<(), TestCaseError> {
         prop_assert_eq!(statement.origin().start, end);
         prop_assert!(!statement.origin().is_empty());
         end = statement.origin().end;
-        let syntax = syntax(program.text(statement));
-        prop_assert!(syntax.text.len() <= program.text(statement).len());
+        let syntax = syntax(program.statement_text(statement));
+        prop_assert!(syntax.text.len() <= program.statement_text(statement).len());
         // A transform asks every number for its role.
-        prop_assert_eq!(statement.record().roles(&syntax).len(), syntax.numbers().len());
+        prop_assert_eq!(statement.record().number_roles(&syntax).len(), syntax.numbers().len());
     }
     prop_assert_eq!(end as usize, bytes.len());
     for found in &parsed.diagnostics {
@@ -31,10 +31,10 @@ fn check(bytes: &[u8], dialect: Option<Dialect>) -> Result<(), TestCaseError> {
     for motion in &found {
         prop_assert!(motion.statements.end <= program.statements().len());
         prop_assert!(motion.statements.start < motion.statements.end);
-        let _ = (motion.length(), motion.path.samples(motion.from.point, motion.to.point).len());
+        let _ = (motion.length(), motion.path.sample_points(motion.from.point, motion.to.point).len());
         let _ = motion.path.end_tangent(motion.from.point, motion.to.point);
     }
-    let operations = clsmith::program::operation::operations(program);
+    let operations = clsmith::program::operation::find_operations(program);
     prop_assert!(found.iter().all(|motion| motion.operation < operations.len()));
     Ok(())
 }
@@ -151,7 +151,7 @@ proptest! {
 
     #[test]
     fn a_record_of_one_statement_is_read_or_refused(bytes in prop::collection::vec(any::<u8>(), 0..80)) {
-        match record(&bytes) {
+        match read_record(&bytes) {
             Ok((_, syntax)) => prop_assert!(syntax.text.len() <= bytes.len()),
             Err(bad) => prop_assert!(bad.at.end <= bytes.len()),
         }

@@ -1,7 +1,7 @@
 //! Records that Creo hides in comments: `$$->`, and `REMARK ->` in the G-POST input.
 
 use crate::support::program;
-use clsmith::program::operation::{name, operations};
+use clsmith::program::operation::{find_operations, operation_name};
 use clsmith::program::record::{FrameWord, ToolWord};
 use clsmith::program::{Record, Statement};
 
@@ -27,7 +27,7 @@ fn the_tool_and_the_features_stand_nowhere_else() {
         matches!(records[2], Record::ToolData(data) if data.word == ToolWord::CreoCutter && data.diameter == Some(0.5))
     );
     assert_eq!((records[3], records[4]), (&Record::Known, &Record::OperationEnd));
-    let names: Vec<_> = operations(&program).into_iter().map(|found| found.name).collect();
+    let names: Vec<_> = find_operations(&program).into_iter().map(|found| found.name).collect();
     assert_eq!(names, ["2021", "2044"]);
 }
 
@@ -37,7 +37,7 @@ fn gpost_writes_the_same_records_as_remarks() {
         "REMARK -> FEATNO / 2021\nREMARK -> CUTTER / 6.000000\nREMARK -> END /\nREMARK -> hand text\n",
     );
     let records: Vec<_> = program.statements().iter().map(Statement::record).collect();
-    assert_eq!(name(&program, &program.statements()[0]).unwrap(), "2021");
+    assert_eq!(operation_name(&program, &program.statements()[0]).unwrap(), "2021");
     assert!(matches!(records[1], Record::ToolData(data) if data.diameter == Some(6.0)));
     assert_eq!((records[2], records[3]), (&Record::OperationEnd, &Record::Comment));
 }

@@ -2,10 +2,10 @@
 
 use super::done;
 use crate::support::{self, fixtures};
-use clsmith::job::Done;
+use clsmith::job::JobOutcome;
 use clsmith::parse::parse;
-use clsmith::program::{OwnComment, Program};
-use clsmith::report::diff::Diff;
+use clsmith::program::{Program, ProvenanceComment};
+use clsmith::report::diff::ProgramDiff;
 use clsmith::source::Source;
 use std::sync::Arc;
 
@@ -20,16 +20,16 @@ const RECIPES: &[&str] = &[
 
 /// Where clsmith's own comments stand in a program: before which statement, counted without them.
 fn without_comments(program: &Program) -> Vec<u8> {
-    let live = program.live().map(|(_, statement)| program.text(statement));
-    live.filter(|text| OwnComment::of(text).is_none()).flatten().copied().collect()
+    let live = program.live_statements().map(|(_, statement)| program.statement_text(statement));
+    live.filter(|text| ProvenanceComment::from_text(text).is_none()).flatten().copied().collect()
 }
 
 /// Corrects with and without comments: the same but for the comments, the same findings, and each comment fits.
 fn compare(steps: &str, source: &Arc<Source>) -> bool {
     let name = source.name();
-    let Done { program: plain, findings: before, .. } =
+    let JobOutcome { program: plain, findings: before, .. } =
         done(&format!("version: 1\nsteps:\n{steps}\n"), source);
-    let Done { program, findings, .. } = done(&super::with_comments(steps), source);
+    let JobOutcome { program, findings, .. } = done(&super::with_comments(steps), source);
     assert_eq!(program.is_some(), plain.is_some(), "{name}: {findings:?}");
     let (Some(program), Some(plain)) = (program, plain) else { return false };
     let codes = |found: &[clsmith::diagnostic::Diagnostic]| {
@@ -44,10 +44,13 @@ fn compare(steps: &str, source: &Arc<Source>) -> bool {
         |program: &Program| program.motions().map(|motion| (motion.to, motion.rapid)).collect::<Vec<_>>();
     assert!(motions(&again.program) == motions(&plain), "{name}: the path is the same");
     let plain_again = parse(&support::text(plain.to_bytes()), None).program;
-    assert!(Diff::of(&plain_again, &again.program).same_meaning, "{name}: `diff` finds the same meaning");
-    for (_, statement) in again.program.live() {
-        let text = again.program.text(statement);
-        if OwnComment::of(text).is_some() {
+    assert!(
+        ProgramDiff::from_programs(&plain_again, &again.program).same_meaning,
+        "{name}: `diff` finds the same meaning"
+    );
+    for (_, statement) in again.program.live_statements() {
+        let text = again.program.statement_text(statement);
+        if ProvenanceComment::from_text(text).is_some() {
             assert!(text.is_ascii() && text.trim_ascii_end().len() <= clsmith::provenance::WIDTH, "{name}");
         }
     }

@@ -7,43 +7,43 @@ mod words;
 
 use crate::support;
 use clsmith::diagnostic::Diagnostic;
-use clsmith::fingerprint::RecipePrint;
-use clsmith::job::{Done, Job};
-use clsmith::machining::Unwatched;
+use clsmith::fingerprint::RecipeFingerprint;
+use clsmith::job::{CorrectionJob, JobOutcome};
 use clsmith::program::Program;
-use clsmith::report::policy::Policy;
+use clsmith::report::finding_policy::FindingPolicy;
 use clsmith::setup::Setup;
+use clsmith::simulation_run::SilentWatcher;
 use clsmith::source::Source;
 use clsmith::transform::Recipe;
 use std::sync::Arc;
 
 /// A recipe called `slow.yaml` with what its file says.
-pub fn recipe(text: &str) -> (Recipe, RecipePrint) {
+pub fn recipe(text: &str) -> (Recipe, RecipeFingerprint) {
     let source = Source::new("recipes/slow.yaml", text.as_bytes().to_vec()).unwrap();
     let recipe = Recipe::load(&source).unwrap_or_else(|found| panic!("{found:?} in\n{text}"));
-    let print = RecipePrint::of(&[source], &recipe, &Setup::default()).unwrap();
+    let print = RecipeFingerprint::read_files(&[source], &recipe, &Setup::default()).unwrap();
     (recipe, print)
 }
 
 /// Corrects a file as `apply` does.
-pub fn done(recipe_text: &str, source: &Arc<Source>) -> Done {
+pub fn done(recipe_text: &str, source: &Arc<Source>) -> JobOutcome {
     let (recipe, print) = recipe(recipe_text);
-    let setup = recipe.setup_with(Setup::default(), Setup::default());
-    let policy = Policy::default();
-    Job {
+    let setup = recipe.merge_setups(Setup::default(), Setup::default());
+    let policy = FindingPolicy::default();
+    CorrectionJob {
         recipe: &recipe,
         setup: &setup,
         print: Some(&print),
         policy: &policy,
         dialect: None,
-        watch: &Unwatched,
+        watch: &SilentWatcher,
     }
-    .run(source)
+    .correct_source(source)
 }
 
 /// The corrected program and what was found, which must be no error.
 pub fn corrected(recipe_text: &str, text: impl AsRef<[u8]>) -> (Program, Vec<Diagnostic>) {
-    let Done { program, findings, .. } = done(recipe_text, &support::text(text));
+    let JobOutcome { program, findings, .. } = done(recipe_text, &support::text(text));
     (program.unwrap_or_else(|| panic!("{findings:?}")), findings)
 }
 

@@ -1,7 +1,7 @@
 //! Files that nobody writes by hand must not crash, hang or fill the memory.
 
 use super::{bad, load};
-use clsmith::recipe::Segment;
+use clsmith::recipe::YamlPathSegment;
 use clsmith::setup::Setup;
 use proptest::prelude::*;
 use std::time::{Duration, Instant};
@@ -44,7 +44,7 @@ fn large_files_are_refused_and_nearly_large_ones_are_read() {
     let steps = "  - scale_feed: { factor: 0.5 }\n".repeat(30_000);
     let recipe = load(format!("version: 1\nsteps:\n{steps}")).unwrap();
     assert_eq!(recipe.steps.len(), 30_000);
-    assert!(recipe.step_place(29_999).start > 900_000);
+    assert!(recipe.step_span(29_999).start > 900_000);
     assert_eq!(code(format!("version: 1\nsteps:\n{steps}  - polish\n")), "CL0211");
     assert_eq!(code(format!("version: 1\nsteps:\n{}", "  - polish: { a: 1 }\n".repeat(40_000))), "CL0211");
     let keys: String = (0..60_000).map(|key| format!("k{key}: {key}\n")).collect();
@@ -143,9 +143,9 @@ fn survive(bytes: &[u8]) -> Result<(), TestCaseError> {
     match load(bytes) {
         Ok(recipe) => {
             for index in 0..=recipe.steps.len() {
-                prop_assert!(recipe.step_place(index).range().end <= bytes.len());
-                recipe.step_value_place(index, &["factor", "0"]);
-                recipe.place(&[Segment::Key("steps"), Segment::Index(index)]);
+                prop_assert!(recipe.step_span(index).to_range().end <= bytes.len());
+                recipe.step_value_span(index, &["factor", "0"]);
+                recipe.value_span(&[YamlPathSegment::Key("steps"), YamlPathSegment::Index(index)]);
             }
         }
         Err(errors) => {
@@ -154,7 +154,7 @@ fn survive(bytes: &[u8]) -> Result<(), TestCaseError> {
                 prop_assert!(diagnostic.is_error());
                 prop_assert!(!diagnostic.labels.is_empty());
                 for label in &diagnostic.labels {
-                    let range = label.span.range();
+                    let range = label.span.to_range();
                     prop_assert!(range.end <= bytes.len(), "{:?} of {}", range, bytes.len());
                 }
             }

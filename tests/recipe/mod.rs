@@ -8,8 +8,8 @@ mod schema;
 mod select;
 
 use clsmith::diagnostic::Diagnostic;
-use clsmith::recipe::values::{Factor, Finite, Fraction, Glob, Positive};
-use clsmith::recipe::{Recipe, Where};
+use clsmith::recipe::parameters::{Factor, Finite, Fraction, Glob, Positive};
+use clsmith::recipe::{MotionFilter, Recipe};
 use clsmith::source::Source;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -37,7 +37,7 @@ pub enum Step {
 #[serde(deny_unknown_fields)]
 pub struct ScaleFeed {
     #[serde(default, rename = "where")]
-    pub part: Where,
+    pub part: MotionFilter,
     /// What feeds are multiplied by.
     pub factor: Factor,
     pub share: Option<Fraction>,

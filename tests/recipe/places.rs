@@ -2,7 +2,7 @@
 
 use super::{Step, good};
 use clsmith::recipe::Recipe;
-use clsmith::recipe::Segment::{Index, Key};
+use clsmith::recipe::YamlPathSegment::{Index, Key};
 use clsmith::source::Span;
 
 const TEXT: &str = "version: 1\nunits: mm\nsetup: { machine: { max_feed: 8000 } }\nsteps:\n  - scale_feed: { factor: 0.50, where: { operations: [\"A, B\", 'C*'] } }\n  - reverse\n  - \"shift\":\n      by: [1, -2.0, 3]\n      limit:\n";
@@ -14,7 +14,7 @@ fn text(recipe: &Recipe<Step>, span: Span) -> String {
 #[test]
 fn every_value_has_a_place() {
     let recipe = good(TEXT);
-    let at = |path: &[_]| recipe.place(path).map(|span| text(&recipe, span));
+    let at = |path: &[_]| recipe.value_span(path).map(|span| text(&recipe, span));
     assert_eq!(at(&[Key("version")]).unwrap(), "1");
     assert_eq!(at(&[Key("setup"), Key("machine"), Key("max_feed")]).unwrap(), "8000");
     let scale = [Key("steps"), Index(0), Key("scale_feed")];
@@ -27,16 +27,16 @@ fn every_value_has_a_place() {
     assert_eq!(at(&[Key("steps"), Index(3)]), None);
     assert_eq!(at(&[Key("nothing")]), None);
     assert_eq!(at(&[Key("version"), Key("deeper")]), None);
-    let key = recipe.key_place(&[Key("steps"), Index(2), Key("shift")]).unwrap();
+    let key = recipe.key_span(&[Key("steps"), Index(2), Key("shift")]).unwrap();
     assert_eq!(text(&recipe, key), "\"shift\"");
 }
 
 #[test]
 fn every_step_has_a_place_and_its_parameters_fall_back_to_it() {
     let recipe = good(TEXT);
-    let names: Vec<String> = (0..3).map(|index| text(&recipe, recipe.step_place(index))).collect();
+    let names: Vec<String> = (0..3).map(|index| text(&recipe, recipe.step_span(index))).collect();
     assert_eq!(names, ["scale_feed", "reverse", "\"shift\""]);
-    let at = |index, keys: &[&str]| text(&recipe, recipe.step_value_place(index, keys));
+    let at = |index, keys: &[&str]| text(&recipe, recipe.step_value_span(index, keys));
     assert_eq!(at(0, &["factor"]), "0.50");
     assert_eq!(at(0, &["where", "operations", "1"]), "'C*'");
     assert_eq!(at(0, &["where", "tools"]), "{ operations: [\"A, B\", 'C*'] }");
@@ -44,5 +44,5 @@ fn every_step_has_a_place_and_its_parameters_fall_back_to_it() {
     assert_eq!(at(0, &[]), "scale_feed");
     assert_eq!(at(1, &["anything"]), "reverse");
     assert_eq!(at(2, &["by", "2"]), "3");
-    assert_eq!(recipe.step_place(9), Span::default());
+    assert_eq!(recipe.step_span(9), Span::default());
 }

@@ -1,8 +1,8 @@
 //! What good recipes mean.
 
 use super::{Step, good, load, source, step};
-use clsmith::recipe::values::{Count, LengthUnit, Positive};
-use clsmith::recipe::{Recipe, Segment};
+use clsmith::recipe::parameters::{LengthUnit, Positive, PositiveCount};
+use clsmith::recipe::{Recipe, YamlPathSegment};
 use clsmith::setup::Setup;
 
 #[test]
@@ -54,10 +54,10 @@ fn whole_numbers_and_exponents_are_numbers() {
         assert_eq!(scale.factor.get(), value, "{text}");
     }
     good(&step("shift: { by: [-1, 2.5, 0] }"));
-    let count: Count = serde_json::from_str("4").unwrap();
+    let count: PositiveCount = serde_json::from_str("4").unwrap();
     assert_eq!(count.get(), 4);
-    assert!(serde_json::from_str::<Count>("4.5").is_err());
-    assert!(serde_json::from_str::<Count>("0").is_err());
+    assert!(serde_json::from_str::<PositiveCount>("4.5").is_err());
+    assert!(serde_json::from_str::<PositiveCount>("0").is_err());
 }
 
 #[test]
@@ -87,11 +87,11 @@ fn the_command_line_overrides_the_recipe_and_the_recipe_its_setup_file() {
         })
         .unwrap();
     assert_eq!(file.machine.rapid_feed, Positive::new(254.0));
-    let merged = recipe.setup_with(file.clone(), Setup::default());
+    let merged = recipe.merge_setups(file.clone(), Setup::default());
     assert_eq!(merged.machine.max_feed, Positive::new(200.0));
     assert_eq!(merged.machine.rapid_feed, Positive::new(254.0));
     let typed = Setup::load(&source("machine: { max_feed: 7 }")).unwrap();
-    assert_eq!(recipe.setup_with(file, typed).machine.max_feed, Positive::new(7.0));
+    assert_eq!(recipe.merge_setups(file, typed).machine.max_feed, Positive::new(7.0));
 }
 
 #[test]
@@ -109,5 +109,5 @@ fn a_setup_file_that_cannot_be_read_is_reported_where_it_is_named() {
 fn a_recipe_can_be_moved_between_threads() {
     fn check<T: Send + Sync>() {}
     check::<Recipe<Step>>();
-    assert!(load("version: 1\nsteps: []").unwrap().place(&[Segment::Key("version")]).is_some());
+    assert!(load("version: 1\nsteps: []").unwrap().value_span(&[YamlPathSegment::Key("version")]).is_some());
 }

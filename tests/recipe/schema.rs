@@ -2,7 +2,7 @@
 
 use super::Step;
 use crate::support::snapshots;
-use clsmith::recipe::schema;
+use clsmith::recipe::recipe_schema;
 use clsmith::setup::Setup;
 use serde_json::Value;
 
@@ -10,14 +10,14 @@ use serde_json::Value;
 fn the_schema_of_a_recipe_and_of_a_setup_file() {
     let text = |schema: &Value| serde_json::to_string_pretty(schema).unwrap();
     snapshots("recipe").bind(|| {
-        insta::assert_snapshot!("schema", text(&schema::<Step>()));
+        insta::assert_snapshot!("schema", text(&recipe_schema::<Step>()));
         insta::assert_snapshot!("setup_schema", text(&Setup::schema()));
     });
 }
 
 #[test]
 fn what_the_recipe_refuses_the_schema_refuses() {
-    let schema = schema::<Step>();
+    let schema = recipe_schema::<Step>();
     let good: [&str; 3] = [
         "{ version: 1, steps: [{ scale_feed: { factor: 0.5, where: { tools: [1, A], motions: [cut] } } }] }",
         "{ version: 1, units: inch, setup: { machine: { max_feed: 1 } }, steps: [reverse, { shift: { by: [1, 2, 3] } }] }",

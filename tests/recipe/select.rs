@@ -1,22 +1,22 @@
 //! `where:`.
 
 use clsmith::program::MotionClass;
-use clsmith::recipe::values::Glob;
-use clsmith::recipe::{Facts, Where};
+use clsmith::recipe::parameters::Glob;
+use clsmith::recipe::{MotionFacts, MotionFilter};
 
-fn matches(text: &str, facts: Facts<'_>) -> bool {
-    serde_yaml::from_str::<Where>(text).unwrap().matches(&facts)
+fn matches(text: &str, facts: MotionFacts<'_>) -> bool {
+    serde_yaml::from_str::<MotionFilter>(text).unwrap().matches_motion(&facts)
 }
 
 #[test]
 fn everything_is_meant_unless_something_is_said() {
-    assert!(matches("{}", Facts::default()));
-    assert!(Where::default().matches(&Facts::default()));
+    assert!(matches("{}", MotionFacts::default()));
+    assert!(MotionFilter::default().matches_motion(&MotionFacts::default()));
 }
 
 #[test]
 fn what_is_given_must_all_fit_and_of_a_list_one_has_to() {
-    let facts = Facts {
+    let facts = MotionFacts {
         operation: Some("POCKET_2 rough"),
         tool_number: Some(3),
         tool_name: Some("BALL_6"),
@@ -45,13 +45,13 @@ fn what_is_not_known_does_not_fit() {
         "{ motions: [rapid] }",
         "{ feed: { min: 0 } }",
     ] {
-        assert!(!matches(text, Facts::default()), "{text}");
+        assert!(!matches(text, MotionFacts::default()), "{text}");
     }
 }
 
 #[test]
 fn a_star_matches_anything_and_special_characters_can_be_escaped() {
-    let fits = |glob: &str, name: &str| Glob::new(glob).unwrap().matches(name);
+    let fits = |glob: &str, name: &str| Glob::new(glob).unwrap().matches_name(name);
     assert!(fits("*", ""));
     assert!(fits("*", "a/b c\\d.e"));
     assert!(fits("A*C", "A/B/C"));

@@ -3,48 +3,56 @@
 use super::simulation::{SHOP, SLOT, close, setup};
 use crate::support::{program, rounded_snapshots, snapshots};
 use clsmith::diagnostic::Diagnostic;
-use clsmith::machining::chips::ChipOptions;
-use clsmith::machining::{Machining, Unwatched};
 use clsmith::program::LengthUnit;
-use clsmith::report::chips::{ChipReport, Keep, Row, diagrams, picture, to_csv, to_json, to_stl, to_text};
+use clsmith::report::layered_chips::{
+    ChipReport, ChipReportOptions, ChipRow, draw_diagrams, draw_layers, to_text, write_csv, write_json,
+    write_stl,
+};
 use clsmith::sim::Mesh;
+use clsmith::simulation_run::layer_run::LayerRunOptions;
+use clsmith::simulation_run::{Machining, SilentWatcher};
 use std::f64::consts::PI;
 
-fn options(layer: f64) -> ChipOptions {
-    ChipOptions::new(layer)
+fn options(layer: f64) -> LayerRunOptions {
+    LayerRunOptions::new(layer)
 }
 
-fn report(text: &str, shop: &str, options: &ChipOptions, keep: Keep) -> Result<ChipReport, Vec<Diagnostic>> {
+fn report(
+    text: &str,
+    shop: &str,
+    options: &LayerRunOptions,
+    keep: ChipReportOptions,
+) -> Result<ChipReport, Vec<Diagnostic>> {
     let (program, setup) = (program(text), setup(shop));
     let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new())?;
-    ChipReport::of(&machining, options, keep, &Unwatched).map(Option::unwrap)
+    ChipReport::simulate_layers(&machining, options, keep, &SilentWatcher).map(Option::unwrap)
 }
 
-fn slot(keep: Keep) -> ChipReport {
+fn slot(keep: ChipReportOptions) -> ChipReport {
     let found = report(SLOT, SHOP, &options(1.0), keep).unwrap();
     assert!(found.findings.is_empty(), "{:?}", found.findings);
     found
 }
 
-fn row(report: &ChipReport, line: usize) -> &Row {
+fn row(report: &ChipReport, line: usize) -> &ChipRow {
     report.rows.iter().find(|row| row.line == line).unwrap()
 }
 
 fn csv(report: &ChipReport) -> String {
     let mut out = Vec::new();
-    to_csv(report, &mut out).unwrap();
+    write_csv(report, &mut out).unwrap();
     String::from_utf8(out).unwrap()
 }
 
 fn json(report: &ChipReport) -> String {
     let mut out = Vec::new();
-    to_json(report, &mut out).unwrap();
+    write_json(report, &mut out).unwrap();
     String::from_utf8(out).unwrap()
 }
 
 #[test]
 fn a_slot_has_its_areas_volumes_engagement_and_chip() {
-    let found = slot(Keep::default());
+    let found = slot(ChipReportOptions::default());
     // From outside to x 20: a rectangle and half a disc.
     let first = row(&found, 12);
     assert_eq!(first.layers.iter().map(|layer| layer.z).collect::<Vec<_>>(), [-1.5, -0.5]);
@@ -64,7 +72,7 @@ fn a_slot_has_its_areas_volumes_engagement_and_chip() {
 
 #[test]
 fn the_json_has_the_shape_that_it_shall_have() {
-    let keep = Keep { borders: true, ..Keep::default() };
+    let keep = ChipReportOptions { borders: true, ..ChipReportOptions::default() };
     // An island stands in the way of nothing: a ring-shaped path around it, cut in one arc.
     let found = report(&ring(), RING_SHOP, &options(1.0), keep).unwrap();
     let json: serde_json::Value = serde_json::from_str(&json(&found)).unwrap();
@@ -112,33 +120,35 @@ const RING_SHOP: &str = "stock: { block: { from: [0, 0, -10], to: [60, 40, 0] } 
 
 #[test]
 fn chips_as_text_csv_and_json() {
-    let found = slot(Keep { borders: true, ..Keep::default() });
+    let found = slot(ChipReportOptions { borders: true, ..ChipReportOptions::default() });
     snapshots("report").bind(|| {
         insta::assert_snapshot!("chips", to_text(&found));
         insta::assert_snapshot!("chips_csv", csv(&found));
     });
     // One motion is enough of the borders.
-    let options = ChipOptions { lines: 13..=13, ..options(2.0) };
-    let found = report(SLOT, SHOP, &options, Keep { borders: true, ..Keep::default() }).unwrap();
+    let options = LayerRunOptions { lines: 13..=13, ..options(2.0) };
+    let found =
+        report(SLOT, SHOP, &options, ChipReportOptions { borders: true, ..ChipReportOptions::default() })
+            .unwrap();
     rounded_snapshots("report").bind(|| insta::assert_snapshot!("chips_json", json(&found)));
 }
 
 #[test]
 fn lines_before_are_cut_and_lines_after_are_not_run() {
-    let whole = slot(Keep::default());
-    let some = ChipOptions { lines: 13..=14, ..options(1.0) };
-    let found = report(SLOT, SHOP, &some, Keep::default()).unwrap();
+    let whole = slot(ChipReportOptions::default());
+    let some = LayerRunOptions { lines: 13..=14, ..options(1.0) };
+    let found = report(SLOT, SHOP, &some, ChipReportOptions::default()).unwrap();
     assert_eq!(found.rows.as_slice(), &whole.rows[2..4]);
     assert!(found.totals.left_mm3 > whole.totals.left_mm3 + 100.0);
-    let none = ChipOptions { lines: 100..=200, ..options(1.0) };
-    let errors = report(SLOT, SHOP, &none, Keep::default()).unwrap_err();
+    let none = LayerRunOptions { lines: 100..=200, ..options(1.0) };
+    let errors = report(SLOT, SHOP, &none, ChipReportOptions::default()).unwrap_err();
     assert_eq!(errors[0].code.id(), "CL0524");
 }
 
 #[test]
 fn what_is_not_known_is_empty_and_said() {
     let unknown = |text: &str, shop: &str, said: &str| {
-        let found = report(text, shop, &options(1.0), Keep::default()).unwrap();
+        let found = report(text, shop, &options(1.0), ChipReportOptions::default()).unwrap();
         assert!(
             found.assumptions.iter().any(|assumption| assumption.contains(said)),
             "{:?}",
@@ -157,7 +167,7 @@ fn a_turn_about_the_tip_has_no_feed() {
         "GOTO/40.0000,20.0000,-2.0000\n",
         "GOTO/20.0000,20.0000,-2.0000,0.0000000,0.2588190,0.9659258\nGOTO/20.0000,20.0000,-2.0000,0.0000000,0.0000000,1.0000000\n",
     );
-    let found = report(&text, SHOP, &options(1.0), Keep::default()).unwrap();
+    let found = report(&text, SHOP, &options(1.0), ChipReportOptions::default()).unwrap();
     let turned = row(&found, 13);
     assert!(turned.volume_mm3 > 1.0 && turned.chip_thickness_mm.is_none());
     assert!(
@@ -172,10 +182,16 @@ fn the_number_of_threads_changes_no_byte() {
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let found = slot(Keep { borders: true, scenes: 2, at: None });
+            let found = slot(ChipReportOptions { borders: true, scenes: 2, at: None });
             let mut stl = Vec::new();
-            to_stl(&found, &mut stl).unwrap();
-            (json(&found), csv(&found), stl, picture(&found, None).unwrap(), diagrams(&found, None).unwrap())
+            write_stl(&found, &mut stl).unwrap();
+            (
+                json(&found),
+                csv(&found),
+                stl,
+                draw_layers(&found, None).unwrap(),
+                draw_diagrams(&found, None).unwrap(),
+            )
         })
     };
     let one = run(1);
@@ -187,12 +203,12 @@ fn the_solid_has_the_chip_s_volume() {
     let found = report(
         SLOT,
         SHOP,
-        &ChipOptions { lines: 16..=16, ..options(0.5) },
-        Keep { borders: true, ..Keep::default() },
+        &LayerRunOptions { lines: 16..=16, ..options(0.5) },
+        ChipReportOptions { borders: true, ..ChipReportOptions::default() },
     );
     let found = found.unwrap();
     let mut stl = Vec::new();
-    to_stl(&found, &mut stl).unwrap();
+    write_stl(&found, &mut stl).unwrap();
     // Layers lie on each other with whole faces, so the signed sum is the volume.
     let mesh = Mesh::from_stl(&stl).unwrap();
     let (low, high) = mesh.bounds();
@@ -202,17 +218,17 @@ fn the_solid_has_the_chip_s_volume() {
 
 #[test]
 fn pictures_show_moves_and_layers() {
-    let found = slot(Keep { borders: false, scenes: 3, at: None });
+    let found = slot(ChipReportOptions { borders: false, scenes: 3, at: None });
     assert_eq!(found.scenes.iter().map(|scene| scene.line).collect::<Vec<_>>(), [12, 13, 14]);
-    let drawn = picture(&found, None).unwrap();
+    let drawn = draw_layers(&found, None).unwrap();
     for title in ["line 12, z -0.5", "line 14, z -1.5", "workpiece after the move"] {
         assert!(drawn.contains(title), "{title}");
     }
-    let at = picture(&found, Some(-1.2)).unwrap();
+    let at = draw_layers(&found, Some(-1.2)).unwrap();
     assert!(at.contains("z -1.5") && !at.contains("z -0.5"));
-    let diagrams = diagrams(&found, Some(-1.2)).unwrap();
+    let diagrams = draw_diagrams(&found, Some(-1.2)).unwrap();
     assert!(diagrams.contains("line 13, z -1.5") && diagrams.contains("advances"));
     // Nothing is cut at this height.
-    let nothing = slot(Keep { borders: false, scenes: 3, at: Some(-5.0) });
+    let nothing = slot(ChipReportOptions { borders: false, scenes: 3, at: Some(-5.0) });
     assert!(nothing.scenes.is_empty());
 }

@@ -4,11 +4,11 @@ use super::unified::apply;
 use crate::support;
 use clsmith::parse::parse;
 use clsmith::program::StepId;
-use clsmith::report::diff::Diff;
-use clsmith::report::stats::{Stats, to_json, to_text};
-use clsmith::report::unified::{Options, to_bytes};
+use clsmith::report::diff::ProgramDiff;
+use clsmith::report::stats::{ProgramStats, to_json, to_text};
+use clsmith::report::unified_diff::{UnifiedDiffOptions, to_bytes};
 use clsmith::setup::Setup;
-use clsmith::write::Editor;
+use clsmith::write::ProgramEditor;
 
 #[track_caller]
 fn close(found: f64, wanted: f64) {
@@ -19,7 +19,7 @@ fn close(found: f64, wanted: f64) {
 fn the_sums_of_real_files_agree() {
     for path in support::corpus_all() {
         let parsed = parse(&support::source(&path), None);
-        let stats = Stats::of(&parsed.program, &Setup::default());
+        let stats = ProgramStats::from_program(&parsed.program, &Setup::default());
         let totals = stats.totals;
         assert!(totals.length().is_finite() && totals.feed_seconds.is_finite(), "{}", path.display());
         let classes = stats.classes.iter().map(|class| class.totals.length()).sum();
@@ -38,7 +38,7 @@ fn real_files_do_not_differ_from_themselves() {
     for path in support::corpus() {
         let source = support::source(&path);
         let (a, b) = (parse(&source, None).program, parse(&source, None).program);
-        let found = Diff::of(&a, &b);
+        let found = ProgramDiff::from_programs(&a, &b);
         assert!(found.is_empty() && found.same_meaning && found.geometry.same, "{}", path.display());
     }
 }
@@ -50,24 +50,25 @@ fn real_files_with_other_feeds_keep_their_geometry_and_have_a_patch() {
         let source = support::source(&path);
         let program = parse(&source, None).program;
         let feeds: Vec<(usize, f64)> = program
-            .live()
+            .live_statements()
             .filter_map(|(index, statement)| match statement.record() {
                 Record::Feed(feed) => Some((index, feed.value)),
                 _ => None,
             })
             .collect();
-        let mut editor = Editor::new(program, StepId(0));
+        let mut editor = ProgramEditor::new(program, StepId(0));
         for (index, feed) in &feeds {
-            let text = editor.program().text(editor.program().statement(*index).unwrap());
-            let number = clsmith::parse::numbers(text).iter().position(|(_, value)| value == feed).unwrap();
+            let text = editor.program().statement_text(editor.program().statement(*index).unwrap());
+            let number =
+                clsmith::parse::statement_numbers(text).iter().position(|(_, value)| value == feed).unwrap();
             editor.set_numbers(*index, &[(number, feed * 0.8)]).unwrap();
         }
         let after = editor.finish().unwrap();
-        let found = Diff::of(&parse(&source, None).program, &after);
+        let found = ProgramDiff::from_programs(&parse(&source, None).program, &after);
         assert!(found.geometry.same, "{}", path.display());
         assert_eq!((found.counts.feeds, found.counts.moved), (feeds.len(), 0), "{}", path.display());
         assert!(found.counts.added.is_empty() && found.counts.removed.is_empty());
-        let patch = to_bytes(&after, &Options::default());
+        let patch = to_bytes(&after, &UnifiedDiffOptions::default());
         assert_eq!(apply(source.bytes(), &patch), after.to_bytes(), "{}", path.display());
     }
 }

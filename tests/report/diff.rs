@@ -2,12 +2,12 @@
 
 use super::stats::POCKET;
 use crate::support::{program, rounded_snapshots, snapshots};
-use clsmith::report::diff::{Diff, summary, to_json, to_text};
-use clsmith::report::kind::Kind;
+use clsmith::report::diff::{ProgramDiff, summarize_diff, to_json, to_text};
+use clsmith::report::record_kind::RecordKind;
 use std::fmt::Write;
 
-fn diff(a: &str, b: &str) -> Diff {
-    Diff::of(&program(a), &program(b))
+fn diff(a: &str, b: &str) -> ProgramDiff {
+    ProgramDiff::from_programs(&program(a), &program(b))
 }
 
 /// A zigzag of `rows` rows with an insertion or removal possible anywhere.
@@ -26,7 +26,7 @@ fn zigzag(rows: usize, dx: f64) -> String {
 fn a_file_does_not_differ_from_itself() {
     let found = diff(POCKET, POCKET);
     assert!(found.is_empty() && found.same_meaning && found.geometry.same);
-    assert_eq!(summary(&found), "the same, byte for byte\n");
+    assert_eq!(summarize_diff(&found), "the same, byte for byte\n");
     assert!(diff("", "").is_empty());
 }
 
@@ -58,7 +58,7 @@ fn layout_and_comments_are_no_difference_in_meaning() {
 fn other_arguments_are_a_change() {
     let found = diff(POCKET, &POCKET.replace("ADJUST,7", "ADJUST,8"));
     assert!(!found.same_meaning && found.geometry.same);
-    assert_eq!(found.counts.changed[&Kind::Tool], 1);
+    assert_eq!(found.counts.changed[&RecordKind::Tool], 1);
 }
 
 #[test]
@@ -78,7 +78,7 @@ fn records_put_among_moved_points_are_found() {
     let b = zigzag(200, 0.5).replace("GOTO/90.5000", "FEDRAT/MMPM,400.0000\nGOTO/90.5000");
     let found = diff(&a, &b);
     assert_eq!(found.counts.moved, 2000);
-    assert_eq!(found.counts.added[&Kind::Feed], 200);
+    assert_eq!(found.counts.added[&RecordKind::Feed], 200);
     assert!(found.counts.removed.is_empty() && found.counts.changed.is_empty());
 }
 
@@ -86,7 +86,7 @@ fn records_put_among_moved_points_are_found() {
 fn a_point_taken_out_is_one_removal() {
     let a = zigzag(20, 0.0);
     let found = diff(&a, &a.replace("GOTO/50.0000,7,0.0000\n", ""));
-    assert_eq!(found.counts.removed[&Kind::Point], 1);
+    assert_eq!(found.counts.removed[&RecordKind::Point], 1);
     assert_eq!((found.counts.moved, found.counts.added.len()), (0, 0));
     // The point stood on a line, so the way is the same.
     assert!(found.geometry.same);
@@ -114,7 +114,7 @@ fn inches_and_millimetres_of_one_path_are_the_same_geometry() {
     let found = diff(inch, mm);
     assert!(found.geometry.same);
     assert!((found.a.totals.feed_seconds - found.b.totals.feed_seconds).abs() < 1e-9);
-    assert!(summary(&found).contains("path length 2 in -> 50.8 mm, time at feed 12.0 s -> 12.0 s"));
+    assert!(summarize_diff(&found).contains("path length 2 in -> 50.8 mm, time at feed 12.0 s -> 12.0 s"));
 }
 
 #[test]
@@ -149,5 +149,5 @@ fn the_order_of_two_programs_does_not_change_what_is_counted() {
     let (there, back) = (diff(POCKET, &other), diff(&other, POCKET));
     assert_eq!(there.counts.removed, back.counts.added);
     assert_eq!(there.counts.changed, back.counts.changed);
-    assert_eq!(there.counts.changed[&Kind::Spindle], 1);
+    assert_eq!(there.counts.changed[&RecordKind::Spindle], 1);
 }

@@ -4,13 +4,13 @@ use super::simulation::{SHOP, SLOT, setup};
 use crate::support;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use clsmith::job::{Done, Job};
-use clsmith::machining::{Options, Unwatched};
+use clsmith::job::{CorrectionJob, JobOutcome};
 use clsmith::parse::parse;
-use clsmith::report::comparison::{Comparison, Runs, Subject};
+use clsmith::report::comparison::{Comparison, ComparisonRuns, ComparisonSubject};
+use clsmith::report::finding_policy::FindingPolicy;
 use clsmith::report::html;
-use clsmith::report::policy::Policy;
 use clsmith::setup::Setup;
+use clsmith::simulation_run::{SilentWatcher, SimulationRunOptions};
 use clsmith::source::Source;
 use clsmith::transform::Recipe;
 use flate2::read::DeflateDecoder;
@@ -30,18 +30,18 @@ pub fn told<T>(
     let recipe = Recipe::load(&Source::new("recipe.yaml", text.into_bytes()).unwrap()).unwrap();
     let setup = if shop.is_empty() { Setup::default() } else { setup(shop) };
     let source = Source::new(name, part.to_vec()).unwrap();
-    let job = Job {
+    let job = CorrectionJob {
         recipe: &recipe,
         setup: &setup,
         print: None,
-        policy: &Policy::default(),
+        policy: &FindingPolicy::default(),
         dialect: None,
-        watch: &Unwatched,
+        watch: &SilentWatcher,
     };
-    let Done { program, findings, reports } = job.run(&source);
+    let JobOutcome { program, findings, reports } = job.correct_source(&source);
     let program = program.unwrap_or_else(|| panic!("{findings:?}"));
     let before = parse(&source, Some(program.dialect())).program;
-    let subject = Subject {
+    let subject = ComparisonSubject {
         before: Some(&before),
         program: &program,
         recipe: Some(&recipe),
@@ -52,14 +52,15 @@ pub fn told<T>(
         reports: &reports,
         print: None,
     };
-    let runs = Runs::of(&subject, &Options::default(), &Unwatched).unwrap();
-    tell(&Comparison::of(subject, &runs))
+    let runs =
+        ComparisonRuns::simulate_subject(&subject, &SimulationRunOptions::default(), &SilentWatcher).unwrap();
+    tell(&Comparison::from_runs(subject, &runs))
 }
 
 fn page(name: &str, part: &[u8], steps: &str, shop: &str) -> String {
     told(name, part, steps, shop, |comparison| {
         let mut page = Vec::new();
-        html::page(comparison, &mut page).unwrap();
+        html::write_page(comparison, &mut page).unwrap();
         String::from_utf8(page).unwrap()
     })
 }

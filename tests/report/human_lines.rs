@@ -5,14 +5,14 @@ use super::{at, source};
 use crate::support::snapshots;
 use clsmith::diagnostic::Diagnostic;
 use clsmith::diagnostic::codes::MALFORMED;
-use clsmith::report::render::human::HumanOptions;
+use clsmith::report::render::human::HumanRenderOptions;
 use clsmith::source::Span;
 
 /// Draws one label and keeps only the snippet.
 fn snippet(bytes: impl Into<Vec<u8>>, span: impl FnOnce(&clsmith::source::Source) -> Span) -> String {
     let part = source("part.cls", bytes);
-    let found = Diagnostic::new(MALFORMED, "m").label(&part, span(&part), "here");
-    let drawn = draw(&[found], &HumanOptions::default());
+    let found = Diagnostic::new(MALFORMED, "m").with_label(&part, span(&part), "here");
+    let drawn = draw(&[found], &HumanRenderOptions::default());
     let kept = drawn.lines().skip(3).take_while(|line| !line.trim_start().starts_with("help:"));
     kept.map(|line| format!("{line}\n")).collect()
 }
@@ -116,8 +116,8 @@ fn any_encoding_shows_and_the_underline_fits() {
 fn control_characters_in_messages_and_names_do_not_reach_the_terminal() {
     let part = source("pa\u{1b}]0;rt\n.cls", "FINI\n");
     let found = Diagnostic::new(MALFORMED, "bad \u{1b}[2J")
-        .label(&part, Span::new(0, 4), "\u{7}bell")
-        .help("ring\u{8}");
-    let drawn = draw(&[found], &HumanOptions::default());
+        .with_label(&part, Span::new(0, 4), "\u{7}bell")
+        .with_help("ring\u{8}");
+    let drawn = draw(&[found], &HumanRenderOptions::default());
     assert!(drawn.chars().all(|c| c == '\n' || !c.is_control()), "{drawn:?}");
 }

@@ -3,13 +3,13 @@
 use super::{PART, at, finding, source};
 use clsmith::diagnostic::codes::{BAD_NUMBER, MALFORMED, UNREADABLE};
 use clsmith::diagnostic::{Diagnostic, Severity};
-use clsmith::report::render::json::render;
+use clsmith::report::render::json::render_json;
 use clsmith::source::Span;
 use serde_json::{Value, json};
 
 fn rendered(found: &[Diagnostic]) -> Value {
     let mut out = Vec::new();
-    render(&mut out, found).unwrap();
+    render_json(&mut out, found).unwrap();
     assert!(out.ends_with(b"}\n"));
     serde_json::from_slice(&out).unwrap()
 }
@@ -22,8 +22,8 @@ fn the_whole_structure() {
     warning.severity = Severity::Warning;
     warning.help = None;
     let found = Diagnostic::new(BAD_NUMBER, "`0..0000` is not a number")
-        .label(&part, at(&part, "0..0000"), "two decimal points")
-        .label(&recipe, Span::new(0, 11), "");
+        .with_label(&part, at(&part, "0..0000"), "two decimal points")
+        .with_label(&recipe, Span::new(0, 11), "");
     let start = at(&part, "0..0000").start;
     assert_eq!(
         rendered(&[warning, found]),

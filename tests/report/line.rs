@@ -3,11 +3,11 @@
 use super::{PART, at, source};
 use clsmith::diagnostic::Diagnostic;
 use clsmith::diagnostic::codes::{BAD_NUMBER, MALFORMED, UNREADABLE};
-use clsmith::report::render::line::render;
+use clsmith::report::render::line::render_lines;
 
 fn lines(found: &[Diagnostic], file: Option<&str>) -> String {
     let mut out = Vec::new();
-    render(&mut out, found, file).unwrap();
+    render_lines(&mut out, found, file).unwrap();
     String::from_utf8(out).unwrap()
 }
 
@@ -15,8 +15,8 @@ fn lines(found: &[Diagnostic], file: Option<&str>) -> String {
 fn place_code_message() {
     let part = source("dir/part.cls", PART);
     let found = [
-        Diagnostic::new(BAD_NUMBER, "`0..0000` is not a number").label(&part, at(&part, "0..0000"), "x"),
-        Diagnostic::new(MALFORMED, "two\r\n  lines\n\nand\ta tab").label(&part, at(&part, "RAPID"), ""),
+        Diagnostic::new(BAD_NUMBER, "`0..0000` is not a number").with_label(&part, at(&part, "0..0000"), "x"),
+        Diagnostic::new(MALFORMED, "two\r\n  lines\n\nand\ta tab").with_label(&part, at(&part, "RAPID"), ""),
     ];
     assert_eq!(
         lines(&found, None),
@@ -36,7 +36,7 @@ fn without_a_place() {
 #[test]
 fn a_name_or_message_cannot_forge_a_line() {
     let part = source("a\nb:1:1: CL9999: forged", "FINI");
-    let found = [Diagnostic::new(MALFORMED, "\u{1b}[1mbold\n").label(&part, at(&part, "FINI"), "")];
+    let found = [Diagnostic::new(MALFORMED, "\u{1b}[1mbold\n").with_label(&part, at(&part, "FINI"), "")];
     let written = lines(&found, None);
     assert_eq!(written.matches('\n').count(), 1);
     assert!(!written.contains('\u{1b}'));

@@ -18,7 +18,7 @@ pub mod simulation;
 mod stats;
 mod unified;
 
-use clsmith::diagnostic::{Code, Diagnostic};
+use clsmith::diagnostic::{Diagnostic, DiagnosticCode};
 use clsmith::source::{Source, Span};
 use std::sync::Arc;
 
@@ -45,6 +45,6 @@ pub fn at(source: &Source, text: impl AsRef<[u8]>) -> Span {
 }
 
 /// A finding with one label at a text.
-pub fn finding(code: Code, source: &Arc<Source>, text: impl AsRef<[u8]>) -> Diagnostic {
-    Diagnostic::new(code, "something is the matter").label(source, at(source, text), "here")
+pub fn finding(code: DiagnosticCode, source: &Arc<Source>, text: impl AsRef<[u8]>) -> Diagnostic {
+    Diagnostic::new(code, "something is the matter").with_label(source, at(source, text), "here")
 }

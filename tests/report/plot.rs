@@ -3,15 +3,15 @@
 use super::simulation::{SHOP, SLOT, simulate};
 use crate::support::program;
 use clsmith::program::LengthUnit;
-use clsmith::report::plot::{Along, Plotted, Quantity, plot, png};
+use clsmith::report::plot::{PlotAbscissa, PlotQuantity, PlottedProgram, draw_programs, render_png};
 
-fn drawn(quantities: &[Quantity], along: Along) -> String {
+fn drawn(quantities: &[PlotQuantity], along: PlotAbscissa) -> String {
     let (before, after) = (SLOT, SLOT.replace("FEDRAT/MMPM,800", "FEDRAT/MMPM,400"));
     let simulated = [before, &after].map(|text| simulate(text, SHOP, LengthUnit::Mm).unwrap());
     let programs = [before, &after].map(program);
     let named = ["before.cls", "after.cls"].into_iter().zip(programs.iter().zip(&simulated));
-    let plotted: Vec<Plotted<'_>> = named
-        .map(|(name, (program, simulated))| Plotted {
+    let plotted: Vec<PlottedProgram<'_>> = named
+        .map(|(name, (program, simulated))| PlottedProgram {
             name,
             program,
             units: LengthUnit::Mm,
@@ -19,7 +19,7 @@ fn drawn(quantities: &[Quantity], along: Along) -> String {
             simulated: Some(simulated),
         })
         .collect();
-    plot(&plotted, quantities, along).unwrap()
+    draw_programs(&plotted, quantities, along).unwrap()
 }
 
 /// Largest coordinate to the right of all lines.
@@ -37,37 +37,37 @@ fn ends(svg: &str) -> Vec<f64> {
 
 #[test]
 fn a_panel_for_each_quantity_and_a_line_for_each_program() {
-    let svg = drawn(&Quantity::ALL, Along::Time);
+    let svg = drawn(&PlotQuantity::ALL, PlotAbscissa::Time);
     assert!(svg.starts_with("<svg width=\"1200\" height=\"2800\""), "{}", &svg[..80]);
-    for quantity in Quantity::ALL {
-        assert!(svg.contains(quantity.title()), "{}", quantity.name());
+    for quantity in PlotQuantity::ALL {
+        assert!(svg.contains(quantity.axis_title()), "{}", quantity.name());
     }
     for name in ["before.cls", "after.cls"] {
         assert_eq!(svg.matches(name).count(), 1);
     }
     // Half the feed takes twice the time: before ends in the middle, but for the rapids.
-    let feed = drawn(&[Quantity::Feed], Along::Time);
+    let feed = drawn(&[PlotQuantity::Feed], PlotAbscissa::Time);
     let found = ends(&feed);
     assert!(
         found.iter().any(|end| (630.0..680.0).contains(end)) && found.iter().any(|end| *end > 1170.0),
         "{found:?}"
     );
     // Along the path both end at the same place.
-    let path = ends(&drawn(&[Quantity::Z], Along::Path));
+    let path = ends(&drawn(&[PlotQuantity::Z], PlotAbscissa::Path));
     assert!(path.iter().filter(|end| **end > 1170.0).count() >= 2, "{path:?}");
 }
 
 #[test]
 fn the_same_bytes_as_svg_and_as_png() {
-    let svg = drawn(&[Quantity::Chip, Quantity::Z], Along::Path);
-    assert_eq!(svg, drawn(&[Quantity::Chip, Quantity::Z], Along::Path));
-    let picture = png(&svg).unwrap();
-    assert!(picture == png(&svg).unwrap());
+    let svg = drawn(&[PlotQuantity::Chip, PlotQuantity::Z], PlotAbscissa::Path);
+    assert_eq!(svg, drawn(&[PlotQuantity::Chip, PlotQuantity::Z], PlotAbscissa::Path));
+    let picture = render_png(&svg).unwrap();
+    assert!(picture == render_png(&svg).unwrap());
     assert_eq!(&picture[..8], b"\x89PNG\r\n\x1a\n");
     let size = |at: usize| u32::from_be_bytes(picture[at..at + 4].try_into().unwrap());
     assert_eq!((size(16), size(20)), (2400, 1600));
     // The letters are drawn: without them the picture is another.
     let mute = svg.replace("thickest chip", "").replace("path, mm", "");
-    assert!(png(&mute).unwrap() != picture);
-    assert!(png("no drawing").is_err());
+    assert!(render_png(&mute).unwrap() != picture);
+    assert!(render_png("no drawing").is_err());
 }

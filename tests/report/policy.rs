@@ -3,7 +3,7 @@
 use super::{PART, at, finding, source};
 use clsmith::diagnostic::codes::{BAD_ARGUMENTS, BAD_NUMBER, MALFORMED, NOT_TEXT, UNREADABLE};
 use clsmith::diagnostic::{CATALOGUE, Diagnostic, Severity};
-use clsmith::report::policy::{Policy, parse_code, sort};
+use clsmith::report::finding_policy::{FindingPolicy, parse_code, sort_findings};
 use clsmith::source::Span;
 
 fn with(severity: Severity, mut found: Diagnostic) -> Diagnostic {
@@ -19,7 +19,7 @@ fn applied(deny: &[&str], allow: &[&str], notes: bool) -> Vec<(&'static str, Sev
         with(Severity::Warning, finding(BAD_ARGUMENTS, &part, "TLDATA")),
         with(Severity::Note, finding(BAD_NUMBER, &part, "RAPID")),
     ];
-    let policy = Policy::parse(deny.iter().copied(), allow.iter().copied(), notes).unwrap();
+    let policy = FindingPolicy::from_code_lists(deny.iter().copied(), allow.iter().copied(), notes).unwrap();
     policy.apply(found).iter().map(|found| (found.code.id(), found.severity)).collect()
 }
 
@@ -38,7 +38,7 @@ fn what_stands() {
 #[test]
 fn what_cannot_be_wished() {
     let refused = |deny: &[&str], allow: &[&str]| {
-        Policy::parse(deny.iter().copied(), allow.iter().copied(), false).unwrap_err()
+        FindingPolicy::from_code_lists(deny.iter().copied(), allow.iter().copied(), false).unwrap_err()
     };
     assert_eq!(refused(&["CL0001"], &["CL0001"]), "CL0001 is both denied and allowed");
     assert_eq!(
@@ -79,7 +79,7 @@ fn every_code_is_found_by_its_id() {
 fn sorted_by_file_place_and_code_and_each_once() {
     let (a, b) = (source("a.cls", PART), source("b.cls", PART));
     let note =
-        |code, file, text, message: &str| Diagnostic::new(code, message).label(file, at(file, text), "");
+        |code, file, text, message: &str| Diagnostic::new(code, message).with_label(file, at(file, text), "");
     let expected = vec![
         Diagnostic::new(UNREADABLE, "gone"),
         note(NOT_TEXT, &a, "TOOL PATH", "one"),
@@ -87,9 +87,9 @@ fn sorted_by_file_place_and_code_and_each_once() {
         note(BAD_NUMBER, &a, "RAPID", "two"),
         note(NOT_TEXT, &a, "RAPID", "one"),
         note(MALFORMED, &b, "RAPID", "one"),
-        note(MALFORMED, &b, "RAPID", "one").label(&a, Span::new(0, 1), "seen from here"),
+        note(MALFORMED, &b, "RAPID", "one").with_label(&a, Span::new(0, 1), "seen from here"),
     ];
     let mut found: Vec<Diagnostic> = expected.iter().rev().chain(&expected).cloned().collect();
-    sort(&mut found);
+    sort_findings(&mut found);
     assert_eq!(format!("{found:?}"), format!("{expected:?}"));
 }

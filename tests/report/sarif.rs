@@ -3,13 +3,13 @@
 use super::{PART, at, finding, source};
 use clsmith::diagnostic::codes::{BAD_NUMBER, MALFORMED, UNREADABLE};
 use clsmith::diagnostic::{Diagnostic, Severity};
-use clsmith::report::render::sarif::render;
+use clsmith::report::render::sarif::render_sarif;
 use clsmith::source::Span;
 use serde_json::{Value, json};
 
 fn rendered(found: &[Diagnostic], file: Option<&str>) -> Value {
     let mut out = Vec::new();
-    render(&mut out, found, file).unwrap();
+    render_sarif(&mut out, found, file).unwrap();
     // What the crate reads back fits its types.
     serde_json::from_slice::<serde_sarif::sarif::Sarif>(&out).unwrap();
     serde_json::from_slice(&out).unwrap()
@@ -17,7 +17,7 @@ fn rendered(found: &[Diagnostic], file: Option<&str>) -> Value {
 
 fn region(bytes: &[u8], span: Span) -> Value {
     let part = source("part.cls", bytes);
-    let found = Diagnostic::new(MALFORMED, "m").label(&part, span, "");
+    let found = Diagnostic::new(MALFORMED, "m").with_label(&part, span, "");
     rendered(&[found], None)["runs"][0]["results"][0]["locations"][0]["physicalLocation"]["region"].clone()
 }
 
@@ -33,13 +33,13 @@ fn the_whole_log() {
     let part = source("jobs/part 1.cls", PART);
     let recipe = source("recipe.yaml", "version: 1\n");
     let mut denied = Diagnostic::new(BAD_NUMBER, "`0..0000` is not a number")
-        .label(&part, at(&part, "0..0000"), "two decimal points")
-        .label(&recipe, Span::new(0, 7), "asked for here")
-        .help("delete one");
+        .with_label(&part, at(&part, "0..0000"), "two decimal points")
+        .with_label(&recipe, Span::new(0, 7), "asked for here")
+        .with_help("delete one");
     denied.severity = Severity::Warning;
     let unreadable = Diagnostic::new(UNREADABLE, "gone");
     let start = at(&part, "0..0000").start;
-    let rule = |code: clsmith::diagnostic::Code| {
+    let rule = |code: clsmith::diagnostic::DiagnosticCode| {
         json!({
             "id": code.id(),
             "shortDescription": { "text": code.meaning() },

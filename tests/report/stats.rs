@@ -1,10 +1,10 @@
 //! Statistics of programs whose lengths and times are known in closed form.
 
 use crate::support::{program, rounded_snapshots, snapshots};
+use clsmith::parameters::Positive;
 use clsmith::program::LengthUnit;
-use clsmith::report::stats::{Stats, UnitsFrom, to_json, to_text};
-use clsmith::setup::{Machine, Setup};
-use clsmith::values::Positive;
+use clsmith::report::stats::{LengthUnitOrigin, ProgramStats, to_json, to_text};
+use clsmith::setup::{MachineLimits, Setup};
 use std::f64::consts::PI;
 
 pub const POCKET: &str = "TOOL PATH/POCKET,TOOL,MILL_10
@@ -40,8 +40,8 @@ CYCLE/OFF
 END-OF-PATH
 ";
 
-fn stats(text: &str) -> Stats {
-    Stats::of(&program(text), &Setup::default())
+fn stats(text: &str) -> ProgramStats {
+    ProgramStats::from_program(&program(text), &Setup::default())
 }
 
 #[track_caller]
@@ -79,16 +79,16 @@ fn time_is_length_by_feed() {
     close(found.totals.rapid_length, 100.0);
     assert_eq!(found.totals.rapid_seconds, None);
     assert_eq!(found.totals.motions, 2);
-    assert_eq!(found.units.from, UnitsFrom::Feeds);
+    assert_eq!(found.units.from, LengthUnitOrigin::Feeds);
 }
 
 #[test]
 fn rapids_have_a_time_when_the_machine_is_known() {
-    let machine = Machine { rapid_feed: Positive::new(6000.0), ..Machine::default() };
+    let machine = MachineLimits { rapid_feed: Positive::new(6000.0), ..MachineLimits::default() };
     let program = program("UNITS/INCHES\nGOTO/0,0,0\nRAPID\nGOTO/0,0,10\n");
-    let found = Stats::of(&program, &Setup { machine, ..Setup::default() });
+    let found = ProgramStats::from_program(&program, &Setup { machine, ..Setup::default() });
     close(found.totals.rapid_seconds.unwrap(), 254.0 / 100.0);
-    assert_eq!((found.units.unit, found.units.from), (LengthUnit::Inch, UnitsFrom::File));
+    assert_eq!((found.units.unit, found.units.from), (LengthUnit::Inch, LengthUnitOrigin::File));
 }
 
 #[test]

@@ -3,8 +3,8 @@
 use crate::support::{snapshots, text};
 use clsmith::parse::parse;
 use clsmith::program::{Program, StepId};
-use clsmith::report::unified::{Options, to_bytes};
-use clsmith::write::Editor;
+use clsmith::report::unified_diff::{UnifiedDiffOptions, to_bytes};
+use clsmith::write::ProgramEditor;
 use proptest::prelude::*;
 
 /// Applies a unified diff as `patch` would, without any fuzz: every context line and every count must fit.
@@ -65,14 +65,14 @@ enum Edit {
 fn edited(source: &[u8], edits: &[Edit]) -> Program {
     let program = parse(&text(source), None).program;
     let end = program.statements().len();
-    let mut editor = Editor::new(program, StepId(0));
+    let mut editor = ProgramEditor::new(program, StepId(0));
     for edit in edits {
         // What the gate refuses is not changed, which is as good a program as any.
         let _ = match edit {
             Edit::Set(at, text) => editor.set_text(at % (end + 1), text.as_bytes()),
             Edit::Insert(at, text) => editor.insert_before(at % (end + 1), text.as_bytes()),
             Edit::Delete(at) => {
-                editor.delete(at % (end + 1));
+                editor.delete_statement(at % (end + 1));
                 Ok(())
             }
         };
@@ -90,9 +90,9 @@ fn changes_in_a_file_with_every_oddity() {
         Edit::Insert(11, "$$ end".into()),
     ];
     let program = edited(source, &edits);
-    let patch = to_bytes(&program, &Options { context: 1, ..Options::default() });
+    let patch = to_bytes(&program, &UnifiedDiffOptions { context: 1, ..UnifiedDiffOptions::default() });
     assert_eq!(apply(source, &patch), program.to_bytes());
-    let display = Options { context: 1, display: true, color: true };
+    let display = UnifiedDiffOptions { context: 1, display: true, color: true };
     let shown = String::from_utf8(to_bytes(&program, &display)).unwrap();
     snapshots("report").bind(|| insta::assert_snapshot!("unified", shown));
 }
@@ -100,17 +100,17 @@ fn changes_in_a_file_with_every_oddity() {
 #[test]
 fn nothing_changed_is_an_empty_patch() {
     let program = parse(&text("GOTO/0,0,0\nFINI"), None).program;
-    assert!(to_bytes(&program, &Options::default()).is_empty());
+    assert!(to_bytes(&program, &UnifiedDiffOptions::default()).is_empty());
 }
 
 #[test]
 fn everything_deleted_and_something_out_of_nothing() {
     let gone = edited(b"GOTO/0,0,0\nFINI", &[Edit::Delete(0), Edit::Delete(1)]);
-    let patch = to_bytes(&gone, &Options::default());
+    let patch = to_bytes(&gone, &UnifiedDiffOptions::default());
     assert!(patch.ends_with(b"@@ -1,2 +0,0 @@\n-GOTO/0,0,0\n-FINI\n\\ No newline at end of file\n"));
     assert_eq!(apply(b"GOTO/0,0,0\nFINI", &patch), b"");
     let made = edited(b"", &[Edit::Insert(0, "FINI".into())]);
-    let patch = to_bytes(&made, &Options::default());
+    let patch = to_bytes(&made, &UnifiedDiffOptions::default());
     assert!(patch.ends_with(b"@@ -0,0 +1 @@\n+FINI\n"));
     assert_eq!(apply(b"", &patch), b"FINI\n");
 }
@@ -149,7 +149,7 @@ proptest! {
             source.truncate(source.trim_end().len());
         }
         let program = edited(source.as_bytes(), &edits);
-        let patch = to_bytes(&program, &Options { context, ..Options::default() });
+        let patch = to_bytes(&program, &UnifiedDiffOptions { context, ..UnifiedDiffOptions::default() });
         prop_assert_eq!(apply(source.as_bytes(), &patch), program.to_bytes());
     }
 }

@@ -12,7 +12,7 @@ use clsmith::source::Span;
 fn gap(program: &str, setup: &str) -> Diagnostic {
     let setup = if setup.is_empty() { Setup::default() } else { good(setup) };
     let (source, span) = last_line(program);
-    setup.cutter(&tool(program), LengthUnit::Mm).unwrap_err().diagnostic(&source, span)
+    setup.resolve_cutter(&tool(program), LengthUnit::Mm).unwrap_err().diagnostic(&source, span)
 }
 
 fn last_line(program: &str) -> (std::sync::Arc<clsmith::source::Source>, Span) {
@@ -49,15 +49,17 @@ fn teeth_and_assumptions() {
     let (source, span) = last_line(program);
     let tool = tool(program);
     let entry = good("tools:\n  - { match: { number: 3 }, holder: { diameter: 40, length: 50 } }\n");
-    let resolved = entry.cutter(&tool, LengthUnit::Mm).unwrap();
+    let resolved = entry.resolve_cutter(&tool, LengthUnit::Mm).unwrap();
     let found = [
-        Setup::default().teeth_gap(&tool, &source, span),
-        entry.teeth_gap(&tool, &source, span),
-        resolved.note(&tool, &source, span).unwrap(),
+        Setup::default().report_missing_teeth(&tool, &source, span),
+        entry.report_missing_teeth(&tool, &source, span),
+        resolved.note_assumptions(&tool, &source, span).unwrap(),
     ];
     seen("teeth_gaps", &found);
     let all = good("tools: [ { match: {}, flute_length: 50, holder: { diameter: 40, length: 50 } } ]");
-    assert!(all.cutter(&tool, LengthUnit::Mm).unwrap().note(&tool, &source, span).is_none());
+    assert!(
+        all.resolve_cutter(&tool, LengthUnit::Mm).unwrap().note_assumptions(&tool, &source, span).is_none()
+    );
 }
 
 #[test]
@@ -66,6 +68,6 @@ fn what_the_help_says_to_write_fits_the_tool() {
         let program = format!("TOOL PATH/ROUGH,TOOL,{name}\nGOTO/0,0,0\n");
         let help = gap(&program, "").help.unwrap();
         let yaml = help.split('`').nth(3).unwrap().replace('…', "5");
-        assert!(good(&yaml).cutter(&tool(&program), LengthUnit::Mm).is_ok(), "{help}");
+        assert!(good(&yaml).resolve_cutter(&tool(&program), LengthUnit::Mm).is_ok(), "{help}");
     }
 }

@@ -131,16 +131,16 @@ fn survive(text: &str) -> Result<(), TestCaseError> {
             let tool = named_tool(Some(3), Some("A"));
             let source = super::source(text);
             for units in [LengthUnit::Mm, LengthUnit::Inch] {
-                match setup.cutter(&tool, units) {
+                match setup.resolve_cutter(&tool, units) {
                     Ok(found) => {
-                        prop_assert!(found.cutter.radius().is_finite() && found.cutter.radius() > 0.0);
+                        prop_assert!(found.cutter.radius_mm().is_finite() && found.cutter.radius_mm() > 0.0);
                         prop_assert!(found.cutter.collars.iter().all(|collar| collar.to > collar.from));
                     }
                     Err(gap) => prop_assert!(!gap.diagnostic(&source, Default::default()).message.is_empty()),
                 }
             }
             for body in setup.stock.iter().flat_map(|stock| &stock.bodies) {
-                prop_assert!(body.place.span().range().end <= text.len());
+                prop_assert!(body.place.value_span().to_range().end <= text.len());
             }
         }
         Err(errors) => {
@@ -148,7 +148,7 @@ fn survive(text: &str) -> Result<(), TestCaseError> {
             for diagnostic in &errors {
                 prop_assert!(diagnostic.is_error() && !diagnostic.labels.is_empty());
                 for label in &diagnostic.labels {
-                    prop_assert!(label.span.range().end <= text.len());
+                    prop_assert!(label.span.to_range().end <= text.len());
                 }
             }
         }

@@ -1,13 +1,13 @@
 //! Cutting coefficients, in the setup or in a file of their own.
 
 use super::{close, draw, good, seen, source};
-use clsmith::setup::{Material, Setup};
+use clsmith::setup::{Setup, WorkMaterial};
 use std::path::Path;
 
 #[test]
 fn only_the_tangential_coefficient_is_required() {
     let setup = good("units: inch\nmaterial: { k_tc: 1000, k_te: 20 }");
-    let found = setup.material().unwrap().coefficients;
+    let found = setup.require_material().unwrap().coefficients;
     close(found.k_tc, 1000.0);
     close(found.k_rc, 300.0);
     close(found.k_ac, 200.0);
@@ -17,26 +17,26 @@ fn only_the_tangential_coefficient_is_required() {
 #[test]
 fn a_file_has_the_same_keys() {
     let setup = good("material: { file: materials/c45.yaml }");
-    assert_eq!(setup.material().unwrap_err().code.id(), "CL0507");
+    assert_eq!(setup.require_material().unwrap_err().code.id(), "CL0507");
     let read = |path: &Path| {
         assert_eq!(path, Path::new("shop/materials/c45.yaml"));
         Ok(source("name: C45\nk_tc: 1900\nk_te: 30\nk_rc: 600\nk_re: 50\nk_ac: 400\nk_ae: -3\n"))
     };
-    let setup = setup.with_material_file(read).unwrap();
-    let material = setup.material().unwrap();
+    let setup = setup.read_material_file(read).unwrap();
+    let material = setup.require_material().unwrap();
     assert_eq!((material.name.as_deref(), material.coefficients.k_ae), (Some("C45"), -3.0));
     let given =
-        good("material: { k_tc: 1 }").with_material_file(|_| panic!("there is no file to read")).unwrap();
-    assert_eq!(given.material().unwrap().coefficients.k_tc, 1.0);
+        good("material: { k_tc: 1 }").read_material_file(|_| panic!("there is no file to read")).unwrap();
+    assert_eq!(given.require_material().unwrap().coefficients.k_tc, 1.0);
 }
 
 #[test]
 fn what_is_said_when_there_is_none() {
     let setup = good("material: { file: c45.yaml }");
-    let unreadable = setup.clone().with_material_file(|_| Err("no such file".to_owned())).unwrap_err();
-    let broken = setup.with_material_file(|_| Ok(source("k_te: 5\n"))).unwrap_err();
-    let missing = *Setup::default().material().unwrap_err();
-    let no_stock = *Setup::default().stock().unwrap_err();
+    let unreadable = setup.clone().read_material_file(|_| Err("no such file".to_owned())).unwrap_err();
+    let broken = setup.read_material_file(|_| Ok(source("k_te: 5\n"))).unwrap_err();
+    let missing = *Setup::default().require_material().unwrap_err();
+    let no_stock = *Setup::default().require_stock().unwrap_err();
     seen("nothing_said", &[unreadable, broken, vec![missing, no_stock]].concat());
-    assert!(draw(&Material::load(&source("")).unwrap_err()).contains("CL0203"));
+    assert!(draw(&WorkMaterial::load(&source("")).unwrap_err()).contains("CL0203"));
 }

@@ -11,8 +11,8 @@ mod teeth;
 
 use crate::support::snapshots;
 use clsmith::diagnostic::Diagnostic;
-use clsmith::program::motion::Tool;
-use clsmith::report::render::human::{HumanOptions, render};
+use clsmith::program::motion::ActiveTool;
+use clsmith::report::render::human::{HumanRenderOptions, render_human};
 use clsmith::setup::Setup;
 use clsmith::source::Source;
 use std::sync::Arc;
@@ -32,7 +32,7 @@ fn good(text: &str) -> Setup {
 }
 
 /// The tool in force at the end of a program.
-fn tool(program: &str) -> Tool {
+fn tool(program: &str) -> ActiveTool {
     let program = crate::support::program(program);
     let mut motions = program.motions();
     while motions.next().is_some() {}
@@ -42,8 +42,8 @@ fn tool(program: &str) -> Tool {
 /// Findings as a person sees them.
 fn draw(found: &[Diagnostic]) -> String {
     let mut out = Vec::new();
-    let options = HumanOptions { context_lines: 0, per_code: 0, ..HumanOptions::default() };
-    render(&mut out, found, None, &options).unwrap();
+    let options = HumanRenderOptions { context_lines: 0, per_code: 0, ..HumanRenderOptions::default() };
+    render_human(&mut out, found, None, &options).unwrap();
     String::from_utf8(out).unwrap()
 }
 

@@ -1,9 +1,9 @@
 //! What the keys of a setup mean.
 
 use super::{close, good};
+use clsmith::parameters::Positive;
 use clsmith::program::LengthUnit;
-use clsmith::setup::{Bar, BodyShape, Insert, Setup};
-use clsmith::values::Positive;
+use clsmith::setup::{CutterInsert, Setup, StockBodyShape, ToolCylinder};
 use std::path::Path;
 
 #[test]
@@ -25,11 +25,11 @@ fn nothing_said_is_nothing_known() {
 fn a_block_has_any_two_opposite_corners() {
     let stock =
         good("stock: { block: { from: [10, 0, 0], to: [0, 20, -5] }, allowance: 1.5 }").stock.unwrap();
-    let low_high = BodyShape::Block { low: [0.0, 0.0, -5.0], high: [10.0, 20.0, 0.0] };
+    let low_high = StockBodyShape::Block { low: [0.0, 0.0, -5.0], high: [10.0, 20.0, 0.0] };
     assert_eq!(stock.bodies[0].shape, low_high);
     close(stock.allowance_mm, 1.5);
     assert_eq!(
-        stock.place.source().slice(stock.bodies[0].place.span()),
+        stock.place.source().slice(stock.bodies[0].place.value_span()),
         b"{ from: [10, 0, 0], to: [0, 20, -5] }"
     );
 }
@@ -39,7 +39,7 @@ fn a_cylinder_may_point_anywhere_and_inches_become_millimetres() {
     let text =
         "units: inch\nstock: { cylinder: { diameter: 2, from: [0, 0, 0], to: [1, 0, 1] }, allowance: 0.1 }";
     let stock = good(text).stock.unwrap();
-    let BodyShape::Cylinder { diameter, from, to } = stock.bodies[0].shape else { panic!() };
+    let StockBodyShape::Cylinder { diameter, from, to } = stock.bodies[0].shape else { panic!() };
     close(diameter, 50.8);
     assert_eq!((from, to), ([0.0; 3], [25.4, 0.0, 25.4]));
     close(stock.allowance_mm, 2.54);
@@ -48,13 +48,13 @@ fn a_cylinder_may_point_anywhere_and_inches_become_millimetres() {
 #[test]
 fn files_lie_beside_the_file_that_names_them() {
     let stock = good("units: inch\nstock: { stl: parts/casting.stl }").stock.unwrap();
-    let BodyShape::Stl { file, units } = &stock.bodies[0].shape else { panic!() };
+    let StockBodyShape::Stl { file, units } = &stock.bodies[0].shape else { panic!() };
     assert_eq!(file.path, Path::new("shop/parts/casting.stl"));
     assert_eq!((file.written.as_str(), *units), ("parts/casting.stl", LengthUnit::Inch));
     let stock = good("stock: { file: /tmp/op10.clstock }").stock.unwrap();
-    let BodyShape::Saved(file) = &stock.bodies[0].shape else { panic!() };
+    let StockBodyShape::Saved(file) = &stock.bodies[0].shape else { panic!() };
     assert_eq!(file.path, Path::new("/tmp/op10.clstock"));
-    let found = file.stock_fault("it is empty");
+    let found = file.make_stock_finding("it is empty");
     assert_eq!(found.code.id(), "CL0504");
     assert_eq!(found.labels[0].source.slice(found.labels[0].span), b"/tmp/op10.clstock");
 }
@@ -65,7 +65,7 @@ fn several_bodies_are_one_stock() {
     let stock = good(text).stock.unwrap();
     assert_eq!(stock.bodies.len(), 3);
     let place = &stock.bodies[1].place;
-    assert_eq!(place.source().slice(place.span()), b"a.stl");
+    assert_eq!(place.source().slice(place.value_span()), b"a.stl");
 }
 
 #[test]
@@ -79,9 +79,9 @@ fn a_tool_entry_in_inches_is_in_millimetres_and_radians() {
     close(entry.flute_length.unwrap(), 50.8);
     close(entry.taper.unwrap(), 3_f64.to_radians());
     close(entry.tip.unwrap(), 10_f64.to_radians());
-    assert_eq!(entry.shank, Some(Bar { diameter: 12.7, length: 76.19999999999999 }));
-    assert_eq!(entry.holder, Some(Bar { diameter: 50.8, length: 101.6 }));
-    let Some(Insert { height, radius }) = entry.insert else { panic!() };
+    assert_eq!(entry.shank, Some(ToolCylinder { diameter: 12.7, length: 76.19999999999999 }));
+    assert_eq!(entry.holder, Some(ToolCylinder { diameter: 50.8, length: 101.6 }));
+    let Some(CutterInsert { height, radius }) = entry.insert else { panic!() };
     close(height, 5.08);
     close(radius, 7.62);
 }
@@ -99,7 +99,9 @@ fn a_recipe_says_the_same_under_setup() {
     let source = clsmith::source::Source::new("jobs/recipe.yaml", text.as_bytes().to_vec()).unwrap();
     let recipe = clsmith::transform::Recipe::load(&source).unwrap();
     close(recipe.setup.tools[0].diameter.unwrap(), 25.4);
-    let BodyShape::Stl { file, .. } = &recipe.setup.stock.as_ref().unwrap().bodies[0].shape else { panic!() };
+    let StockBodyShape::Stl { file, .. } = &recipe.setup.stock.as_ref().unwrap().bodies[0].shape else {
+        panic!()
+    };
     assert_eq!(file.path, Path::new("jobs/part.stl"));
     assert_eq!(file.place.source().slice(file.place.key_span()), b"stl");
 }

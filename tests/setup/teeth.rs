@@ -11,7 +11,7 @@ fn teeth(keys: &str) -> Option<Teeth> {
 #[test]
 fn teeth_are_even_and_run_true_unless_said() {
     let found = teeth("teeth: 4, helix: 30").unwrap();
-    assert_eq!(found, Teeth::even(4, 30_f64.to_radians()).unwrap());
+    assert_eq!(found, Teeth::evenly_spaced(4, 30_f64.to_radians()).unwrap());
     assert_eq!(teeth("helix: 30, runout: 0.01"), None);
 }
 
@@ -26,7 +26,7 @@ fn each_of_count_pitch_and_runout_says_how_many() {
 fn pitch_is_from_each_tooth_to_the_next_and_scaled_to_a_turn() {
     let found = teeth("pitch: [100, 120, 140.4]").unwrap();
     let scale = TAU / 360.4;
-    for (angle, wanted) in found.pitch().iter().zip([140.4, 100.0, 120.0]) {
+    for (angle, wanted) in found.pitch_angles_rad().iter().zip([140.4, 100.0, 120.0]) {
         close(*angle, wanted * scale);
     }
 }
@@ -34,11 +34,11 @@ fn pitch_is_from_each_tooth_to_the_next_and_scaled_to_a_turn() {
 #[test]
 fn one_number_of_runout_is_an_eccentric_cutter() {
     let found = teeth("teeth: 4, runout: 0.01").unwrap();
-    for (offset, wanted) in found.runout().iter().zip([0.01, 0.0, -0.01, 0.0]) {
+    for (offset, wanted) in found.runout_offsets_mm().iter().zip([0.01, 0.0, -0.01, 0.0]) {
         close(*offset, wanted);
     }
     let uneven = teeth("pitch: [60, 120, 180], runout: 0.02").unwrap();
-    for (offset, wanted) in uneven.runout().iter().zip([0.02, 0.01, -0.02]) {
+    for (offset, wanted) in uneven.runout_offsets_mm().iter().zip([0.02, 0.01, -0.02]) {
         close(*offset, wanted);
     }
 }
@@ -47,9 +47,9 @@ fn one_number_of_runout_is_an_eccentric_cutter() {
 fn a_list_of_runout_is_of_each_tooth_and_in_the_files_unit() {
     let setup = good("units: inch\ntools: [ { match: {}, runout: [0, 0.001, -0.002, 0], helix: -90e-1 } ]");
     let found = setup.tools[0].teeth.clone().unwrap();
-    for (offset, wanted) in found.runout().iter().zip([0.0, 0.0254, -0.0508, 0.0]) {
+    for (offset, wanted) in found.runout_offsets_mm().iter().zip([0.0, 0.0254, -0.0508, 0.0]) {
         close(*offset, wanted);
     }
-    close(found.pitch()[0], FRAC_PI_2);
+    close(found.pitch_angles_rad()[0], FRAC_PI_2);
     close(found.helix, -9_f64.to_radians());
 }

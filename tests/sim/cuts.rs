@@ -1,7 +1,7 @@
 //! Cuts with known answers. Tolerances come from the cell: a border of the ground is known to half a cell.
 
 use super::{at, block, cutter, path, run};
-use clsmith::sim::{Engagement, Piece, Simulation};
+use clsmith::sim::{Engagement, PathPiece, Simulation};
 use std::f64::consts::PI;
 
 const CELL: f64 = 0.1;
@@ -22,7 +22,7 @@ fn pass(profile: (f64, f64, f64, f64), y: f64, z: f64) -> Engagement {
 #[test]
 fn a_full_slot_has_share_one_over_the_whole_front() {
     let found = pass((2.0 * R, 0.0, 0.0, 0.0), 0.0, -3.0);
-    near(found.share(), 1.0, 1e-6);
+    near(found.max_advance_ratio(), 1.0, 1e-6);
     near(found.removed_mm3, 10.0 * 2.0 * R * 3.0, 10.0 * 3.0 * CELL);
     near(found.lateral[0], -R, CELL);
     near(found.lateral[1], R, CELL);
@@ -43,7 +43,11 @@ fn radial_depths_from_a_twentieth_to_the_whole_diameter() {
                 if depth >= R { 1.0 } else { 2.0 * (depth / (2.0 * R) * (1.0 - depth / (2.0 * R))).sqrt() }
             };
             let (low, high) = (classic(depth - CELL), classic(depth + CELL));
-            assert!((low..=high).contains(&found.share()), "{share}: {} not in {low}..{high}", found.share());
+            assert!(
+                (low..=high).contains(&found.max_advance_ratio()),
+                "{share}: {} not in {low}..{high}",
+                found.max_advance_ratio()
+            );
             let bound = found.bins.iter().map(|bin| bin.share_bound).fold(0.0, f32::max);
             assert!(f64::from(bound) >= classic(depth) - 1e-6, "the bound holds");
             near(found.removed_mm3, 10.0 * depth * 3.0, 10.0 * 3.0 * CELL);
@@ -60,7 +64,7 @@ fn shallow_bull_and_ball_cut_by_the_axial_immersion() {
     for (corner, depth) in [(3.0, 0.5), (1.0, 0.2), (5.0, 0.3), (5.0, 2.0)] {
         let found = pass((2.0 * R, corner, 0.0, 0.0), 0.0, -depth);
         let kappa = (1.0 - depth / corner).acos();
-        near(found.share(), kappa.sin(), 2e-3);
+        near(found.max_advance_ratio(), kappa.sin(), 2e-3);
         near(found.height[1], depth, 1e-3);
     }
 }
@@ -72,7 +76,7 @@ fn a_ramp_cuts_with_flank_and_bottom() {
     let flat = cutter(2.0 * R, 0.0, 0.0, 0.0);
     let down = 10.0 * slope.tan();
     let (_, found) = run(stock, &flat, &[[15.0, 0.0, 0.0], [25.0, 0.0, -down]]);
-    near(found[0].share(), slope.cos(), 1e-3);
+    near(found[0].max_advance_ratio(), slope.cos(), 1e-3);
     let bottom = found[0].bins.iter().filter(|bin| bin.is_engaged() && bin.radial < 0.5);
     for bin in bottom {
         near(f64::from(bin.share), slope.sin(), 1e-6);
@@ -87,7 +91,7 @@ fn plunges() {
         let stock = block([0.0, -15.0, -10.0], [40.0, 15.0, 0.0], CELL);
         let tool = cutter(2.0 * R, corner, 0.0, tip);
         let (_, found) = run(stock, &tool, &[[20.0, 0.0, 1.0], [20.0, 0.0, -4.0]]);
-        near(found[0].share(), wanted, 2e-3);
+        near(found[0].max_advance_ratio(), wanted, 2e-3);
         let volume = match (corner > 0.0, tip > 0.0) {
             (true, _) => PI * 4.0 * 4.0 * (R - 4.0 / 3.0),
             (_, true) => {
@@ -107,9 +111,13 @@ fn air_and_cut_ground_engage_nothing() {
     let points =
         [[-20.0, 0.0, 2.0], [50.0, 0.0, 2.0], [50.0, 0.0, -3.0], [-20.0, 0.0, -3.0], [50.0, 0.0, -3.0]];
     let (_, found) = run(stock, &flat, &points);
-    assert!(!found[0].cuts() && found[0].graze == 0.0);
-    assert!(found[2].cuts());
-    assert!(!found[3].cuts(), "nothing is left for the second pass: {}", found[3].removed_mm3);
+    assert!(!found[0].has_removed_material() && found[0].graze == 0.0);
+    assert!(found[2].has_removed_material());
+    assert!(
+        !found[3].has_removed_material(),
+        "nothing is left for the second pass: {}",
+        found[3].removed_mm3
+    );
     assert!(found[3].graze > 0.0, "but walls closer than a cell are known");
 }
 
@@ -126,7 +134,7 @@ fn what_is_removed_is_what_is_missing_and_nothing_grows() {
     let mut simulation = Simulation::new(stock, true);
     let mut left = before;
     for piece in path(&points) {
-        let found = simulation.run(&[piece], std::slice::from_ref(&ball));
+        let found = simulation.sweep_pieces(&[piece], std::slice::from_ref(&ball));
         let now = simulation.stock().volume_mm3();
         assert!(now <= left);
         near(found[0].removed_mm3, left - now, 1e-2);
@@ -161,26 +169,29 @@ fn sweeps_equal_many_places() {
             let start = [0.3, -0.2, -6.0];
             let to = [start[0] + end[0], start[1] + end[1], start[2] + end[2]];
             let (swept, _) = run(stock(), &tool, &[start, to]);
-            let layout = *swept.layout();
+            let layout = *swept.grid();
             for row in 0..layout.rows {
                 for column in 0..layout.columns {
-                    let [x, y] = layout.center(column, row);
+                    let [x, y] = layout.column_center(column, row);
                     let lowest = (0..=1000)
                         .filter_map(|step| {
                             let t = f64::from(step) / 1000.0;
                             let place = [0, 1, 2].map(|axis| start[axis] + end[axis] * t);
                             let rho = (x - place[0]).hypot(y - place[1]);
-                            (rho <= tool.radius()).then(|| place[2] + tool.profile.height_at(rho))
+                            (rho <= tool.radius_mm())
+                                .then(|| place[2] + tool.profile.height_at_radius_mm(rho))
                         })
                         .fold(0.0, f64::min)
                         .min(0.0);
-                    let found =
-                        swept.column(column, row).first().map_or(-20.0, |[_, top]| f64::from(*top) - 20.0);
+                    let found = swept
+                        .column_spans(column, row)
+                        .first()
+                        .map_or(-20.0, |[_, top]| f64::from(*top) - 20.0);
                     // At the rim the places' discs end between two steps.
                     let rim = (0..=200).any(|step| {
                         let t = f64::from(step) / 200.0;
                         let rho = (x - start[0] - end[0] * t).hypot(y - start[1] - end[1] * t);
-                        (rho - tool.radius()).abs() < 0.03
+                        (rho - tool.radius_mm()).abs() < 0.03
                     });
                     let steep = if rim { 3.0 } else { 5e-3 };
                     assert!(
@@ -229,8 +240,8 @@ fn a_piece_in_many_parts_removes_what_the_whole_does() {
             let sum: f64 = many.iter().map(|part| part.removed_mm3).sum();
             near(sum, one[0].removed_mm3, 1e-4 * one[0].removed_mm3);
             near(a.volume_mm3(), b.volume_mm3(), 1e-4 * one[0].removed_mm3);
-            let largest = many.iter().map(Engagement::share).fold(0.0, f64::max);
-            near(largest, one[0].share(), 5e-3);
+            let largest = many.iter().map(Engagement::max_advance_ratio).fold(0.0, f64::max);
+            near(largest, one[0].max_advance_ratio(), 5e-3);
         }
     }
 }
@@ -238,18 +249,18 @@ fn a_piece_in_many_parts_removes_what_the_whole_does() {
 #[test]
 fn overhangs_keep_what_is_above_the_flutes() {
     let mut stock = block([0.0, -15.0, -10.0], [40.0, 15.0, 0.0], CELL);
-    for row in 0..stock.layout().rows {
-        for column in 0..stock.layout().columns {
+    for row in 0..stock.grid().rows {
+        for column in 0..stock.grid().columns {
             stock.set_column(column, row, &[[8.0, 10.0], [0.0, 4.0]]);
         }
     }
     let mut short = cutter(2.0 * R, 0.0, 0.0, 0.0);
-    short.profile = clsmith::sim::Profile::new(2.0 * R, 0.0, 0.0, 0.0, 4.0).unwrap();
+    short.profile = clsmith::sim::Meridian::new(2.0 * R, 0.0, 0.0, 0.0, 4.0).unwrap();
     let mut simulation = Simulation::new(stock, true);
-    let pieces = [Piece { from: at(-10.0, 0.0, -8.0), to: at(50.0, 0.0, -8.0), cutter: 0 }];
-    let found = simulation.run(&pieces, &[short]);
+    let pieces = [PathPiece { from: at(-10.0, 0.0, -8.0), to: at(50.0, 0.0, -8.0), cutter: 0 }];
+    let found = simulation.sweep_pieces(&pieces, &[short]);
     near(found[0].removed_mm3, 40.0 * 2.0 * R * 2.0, 40.0 * 2.0 * CELL);
-    assert_eq!(simulation.stock().column(200, 150), vec![[8.0, 10.0], [0.0, 2.0]]);
+    assert_eq!(simulation.stock().column_spans(200, 150), vec![[8.0, 10.0], [0.0, 2.0]]);
 }
 
 /// Without detail most columns are passed over; the largest share must not be.
@@ -269,11 +280,11 @@ fn the_largest_share_is_found_without_detail() {
         }
         let stock = block([0.0, -15.0, -10.0], [40.0, 15.0, 0.0], 0.2);
         let with = |detail: bool| {
-            Simulation::new(stock.clone(), detail).run(&path(&points), std::slice::from_ref(&tool))
+            Simulation::new(stock.clone(), detail).sweep_pieces(&path(&points), std::slice::from_ref(&tool))
         };
         for (close, lean) in with(true).iter().zip(with(false)) {
             near(lean.removed_mm3, close.removed_mm3, 1e-6 * close.removed_mm3);
-            near(lean.share(), close.share(), 0.01);
+            near(lean.max_advance_ratio(), close.max_advance_ratio(), 0.01);
             assert_eq!(lean.lateral, close.lateral);
         }
     }

@@ -1,12 +1,12 @@
 //! Remaining stock as a surface.
 
 use super::shapes::columns;
-use clsmith::sim::{Dexels, Layout, Mesh, export};
+use clsmith::sim::{DexelGrid, Dexels, Mesh, stl_export};
 use proptest::prelude::*;
 
 fn surface(dexels: &Dexels) -> Vec<u8> {
     let mut bytes = Vec::new();
-    export::write_stl(dexels, &mut bytes).unwrap();
+    stl_export::write_stl(dexels, &mut bytes).unwrap();
     bytes
 }
 
@@ -30,8 +30,8 @@ fn measure(bytes: &[u8]) -> (f64, [f64; 3], bool) {
 
 #[test]
 fn a_block_needs_few_triangles() {
-    let layout = Layout { origin: [0.5, 0.5], base: 0.0, cell: 1.0, columns: 100, rows: 40 };
-    let mut dexels = Dexels::empty(layout);
+    let layout = DexelGrid { origin: [0.5, 0.5], base: 0.0, cell: 1.0, columns: 100, rows: 40 };
+    let mut dexels = Dexels::with_empty_columns(layout);
     for index in 0..4000 {
         dexels.set_column(index % 100, index / 100, &[[0.0, 10.0]]);
     }
@@ -45,8 +45,8 @@ fn a_block_needs_few_triangles() {
 
 #[test]
 fn nothing_left_is_an_empty_file() {
-    let layout = Layout { origin: [0.5, 0.5], base: 0.0, cell: 1.0, columns: 3, rows: 2 };
-    assert_eq!(surface(&Dexels::empty(layout)).len(), 84);
+    let layout = DexelGrid { origin: [0.5, 0.5], base: 0.0, cell: 1.0, columns: 3, rows: 2 };
+    assert_eq!(surface(&Dexels::with_empty_columns(layout)).len(), 84);
 }
 
 proptest! {
@@ -57,10 +57,10 @@ proptest! {
         prop_assert!((volume - dexels.volume_mm3()).abs() <= 1e-9 * (1.0 + volume), "{volume}");
         prop_assert!(area.iter().all(|part| part.abs() < 1e-9), "{area:?}");
         prop_assert!(normals_agree);
-        if dexels.highest().is_some() {
+        if dexels.highest_z_mm().is_some() {
             // Read back as a mesh, it is the same columns.
             let mesh = Mesh::from_stl(&bytes).unwrap();
-            prop_assert_eq!(mesh.columns(*dexels.layout()), dexels);
+            prop_assert_eq!(mesh.to_dexels(*dexels.grid()), dexels);
         }
     }
 }

@@ -1,13 +1,13 @@
 //! Meshes: read, checked, made columns.
 
 use super::shapes::{Triangles, cube, mesh, sphere, stl, torus};
-use clsmith::sim::{Dexels, Layout, Mesh, MeshError};
+use clsmith::sim::{DexelGrid, Dexels, Mesh, MeshError};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
 fn columns(mesh: &Mesh, cell: f64) -> Dexels {
     let (from, to) = mesh.bounds();
-    mesh.columns(Layout::covering(from, to, cell))
+    mesh.to_dexels(DexelGrid::covering_box(from, to, cell))
 }
 
 fn near(found: f64, expected: f64, share: f64) {
@@ -27,10 +27,10 @@ fn round_bodies_have_their_volume() {
 #[test]
 fn columns_of_a_ball_end_on_it() {
     let dexels = columns(&mesh(&sphere([0.0; 3], 10.0, 64)), 0.5);
-    for index in 0..dexels.layout().count() {
-        let (column, row) = (index % dexels.layout().columns, index / dexels.layout().columns);
-        let [x, y] = dexels.layout().center(column, row);
-        let found = dexels.column(column, row);
+    for index in 0..dexels.grid().column_count() {
+        let (column, row) = (index % dexels.grid().columns, index / dexels.grid().columns);
+        let [x, y] = dexels.grid().column_center(column, row);
+        let found = dexels.column_spans(column, row);
         let half = (100.0 - x * x - y * y).max(0.0).sqrt();
         // The faces lie up to 10 (1 - cos(pi / 64)) = 0.012 mm inside; the wall is steep at the rim.
         if half > 2.0 {
@@ -43,11 +43,14 @@ fn columns_of_a_ball_end_on_it() {
 #[test]
 fn faces_and_corners_on_the_centres_count_once() {
     let solid = mesh(&cube([0.0; 3], [4.0, 3.0, 2.0]));
-    let layout = Layout { origin: [-1.0, -1.0], base: 0.0, cell: 0.5, columns: 14, rows: 12 };
-    let dexels = solid.columns(layout);
+    let layout = DexelGrid { origin: [-1.0, -1.0], base: 0.0, cell: 0.5, columns: 14, rows: 12 };
+    let dexels = solid.to_dexels(layout);
     assert_eq!(dexels.volume_mm3(), 24.0);
-    assert_eq!(dexels.column(2, 2), [[0.0, 2.0]], "the lower corner is in");
-    assert!(dexels.column(10, 2).is_empty() && dexels.column(2, 8).is_empty(), "the upper one is not");
+    assert_eq!(dexels.column_spans(2, 2), [[0.0, 2.0]], "the lower corner is in");
+    assert!(
+        dexels.column_spans(10, 2).is_empty() && dexels.column_spans(2, 8).is_empty(),
+        "the upper one is not"
+    );
     // An octahedron with its tips, edges and diagonals over centres.
     let tips = [[3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [-3.0, 0.0, 0.0], [0.0, -3.0, 0.0]];
     let mut faces = Triangles::new();
@@ -55,13 +58,13 @@ fn faces_and_corners_on_the_centres_count_once() {
         let b = tips[(i + 1) % 4];
         faces.extend([[a, b, [0.0, 0.0, 3.0]], [b, a, [0.0, 0.0, -3.0]]]);
     }
-    let layout = Layout { origin: [-4.0, -4.0], base: -3.0, cell: 1.0, columns: 9, rows: 9 };
-    let dexels = mesh(&faces).columns(layout);
+    let layout = DexelGrid { origin: [-4.0, -4.0], base: -3.0, cell: 1.0, columns: 9, rows: 9 };
+    let dexels = mesh(&faces).to_dexels(layout);
     for index in 0..81 {
-        let [x, y] = layout.center(index % 9, index / 9);
+        let [x, y] = layout.column_center(index % 9, index / 9);
         let half = (3.0 - x.abs() - y.abs()) as f32;
         let expected = if half > 0.0 { vec![[3.0 - half, 3.0 + half]] } else { vec![] };
-        assert_eq!(dexels.column(index % 9, index / 9), expected, "{x} {y}");
+        assert_eq!(dexels.column_spans(index % 9, index / 9), expected, "{x} {y}");
     }
 }
 
@@ -82,15 +85,15 @@ fn shells_wind() {
     assert_eq!(volume(&with(cube([8.0, 8.0, 0.0], [9.0, 9.0, 8.0]))), 520.0, "touching along an edge");
     assert_eq!(volume(&turned(outer.clone())), 512.0, "inside out");
     let stacked = columns(&mesh(&with(cube([0.0, 0.0, 8.0], [8.0, 8.0, 9.0]))), 1.0);
-    assert_eq!(stacked.column(3, 3), [[0.0, 9.0]], "one interval");
+    assert_eq!(stacked.column_spans(3, 3), [[0.0, 9.0]], "one interval");
 }
 
 #[test]
 fn what_is_beside_the_grid_is_left_out() {
-    let layout = Layout { origin: [2.5, 2.5], base: 0.0, cell: 1.0, columns: 2, rows: 40 };
-    assert_eq!(mesh(&cube([0.0; 3], [8.0; 3])).columns(layout).volume_mm3(), 2.0 * 6.0 * 8.0);
-    let none = Layout { columns: 0, ..layout };
-    assert_eq!(mesh(&cube([0.0; 3], [8.0; 3])).columns(none).highest(), None);
+    let layout = DexelGrid { origin: [2.5, 2.5], base: 0.0, cell: 1.0, columns: 2, rows: 40 };
+    assert_eq!(mesh(&cube([0.0; 3], [8.0; 3])).to_dexels(layout).volume_mm3(), 2.0 * 6.0 * 8.0);
+    let none = DexelGrid { columns: 0, ..layout };
+    assert_eq!(mesh(&cube([0.0; 3], [8.0; 3])).to_dexels(none).highest_z_mm(), None);
 }
 
 #[test]
@@ -165,17 +168,17 @@ fn time_of_a_large_mesh() {
     let dexels = columns(&ball, 0.1);
     println!(
         "{} triangles read {read:?}, {} columns {:?}",
-        ball.triangles(),
-        dexels.layout().count(),
+        ball.triangle_count(),
+        dexels.grid().column_count(),
         start.elapsed()
     );
     let start = std::time::Instant::now();
     let mut surface = Vec::new();
-    clsmith::sim::export::write_stl(&dexels, &mut surface).unwrap();
+    clsmith::sim::stl_export::write_stl(&dexels, &mut surface).unwrap();
     println!("surface of {} triangles {:?}", (surface.len() - 84) / 50, start.elapsed());
     let start = std::time::Instant::now();
-    let stock = clsmith::sim::Stock::new(vec![clsmith::sim::Body::Remains(dexels.into())], 1.0).unwrap();
-    stock.dexels(0.1, usize::MAX).unwrap();
+    let stock = clsmith::sim::Stock::new(vec![clsmith::sim::SolidBody::Remains(dexels.into())], 1.0).unwrap();
+    stock.to_dexels(0.1, usize::MAX).unwrap();
     println!("grown by ten cells {:?}", start.elapsed());
 }
 
@@ -233,10 +236,10 @@ proptest! {
         prop_assume!(!flat(&points));
         let faces = hull(&points);
         let solid = mesh(&faces);
-        let layout = Layout { origin: [-5.0, -5.0], base: -5.0, cell: 0.5, columns: 21, rows: 21 };
-        let dexels = solid.columns(layout);
-        for index in 0..layout.count() {
-            let [x, y] = layout.center(index % 21, index / 21);
+        let layout = DexelGrid { origin: [-5.0, -5.0], base: -5.0, cell: 0.5, columns: 21, rows: 21 };
+        let dexels = solid.to_dexels(layout);
+        for index in 0..layout.column_count() {
+            let [x, y] = layout.column_center(index % 21, index / 21);
             let (mut low, mut high) = (-1e9f64, 1e9f64);
             for [a, b, c] in &faces {
                 let minus = |p: &[f64; 3]| [p[0] - a[0], p[1] - a[1], p[2] - a[2]];
@@ -245,7 +248,7 @@ proptest! {
                 let z = a[2] - (n[0] * (x - a[0]) + n[1] * (y - a[1])) / n[2];
                 if n[2] > 0.0 { high = high.min(z) } else if n[2] < 0.0 { low = low.max(z) }
             }
-            let found = dexels.column(index % 21, index / 21);
+            let found = dexels.column_spans(index % 21, index / 21);
             if high - low > 1e-3 {
                 prop_assert_eq!(found.len(), 1, "{} {}: {} {}", x, y, low, high);
                 let [a, b] = found[0].map(|height| f64::from(height) - 5.0);

@@ -1,6 +1,6 @@
 //! Meshes and columns that the tests are about.
 
-use clsmith::sim::{Dexels, Interval, Layout, Mesh};
+use clsmith::sim::{DexelGrid, DexelSpan, Dexels, Mesh};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 use stl_io::{Normal, Triangle, Vertex};
@@ -73,11 +73,11 @@ pub fn columns() -> impl Strategy<Value = Dexels> {
         proptest::collection::vec(column, columns * rows).prop_map(move |all| {
             let shift = f64::from(shift);
             let layout =
-                Layout { origin: [shift, 2.0 * shift], base: shift / 2.0, cell: 0.25, columns, rows };
-            let mut dexels = Dexels::empty(layout);
+                DexelGrid { origin: [shift, 2.0 * shift], base: shift / 2.0, cell: 0.25, columns, rows };
+            let mut dexels = Dexels::with_empty_columns(layout);
             for (index, heights) in all.iter().enumerate() {
                 let heights: Vec<f32> = heights.iter().rev().map(|height| f32::from(*height) / 8.0).collect();
-                let intervals: Vec<Interval> =
+                let intervals: Vec<DexelSpan> =
                     heights.chunks_exact(2).map(|pair| [pair[1], pair[0]]).collect();
                 dexels.set_column(index % columns, index / columns, &intervals);
             }

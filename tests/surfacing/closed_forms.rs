@@ -3,7 +3,7 @@
 use super::{of_class, options, over};
 use crate::surface::solids::{Triangles, cube, mesh, sphere};
 use clsmith::program::MotionClass;
-use clsmith::surfacing::{Against, Options, Planes};
+use clsmith::surface_milling::{PassHeights, PassPlanes, SurfaceMillingOptions};
 
 /// From z = 0 up to a roof: a prism along y (60 mm in x, 20 mm in y), turned about z.
 fn roof(points: &[[f64; 2]], degrees: f64) -> Triangles {
@@ -45,11 +45,14 @@ const FACET: f64 = 15.0 * 3.8e-5;
 #[test]
 fn a_flat_block_is_one_line_a_plane() {
     let block = mesh(&cube([0.0, 0.0, 0.0], [60.0, 20.0, 10.0]));
-    for (planes, passes, length) in [(Planes::ZX, 11, 60.0), (Planes::YZ, 31, 20.0)] {
-        for against in [Against::Mesh, Against::Profile] {
-            let surfaced = over(&block, &Options { planes, against, ..options() });
-            assert_eq!((surfaced.planes, surfaced.passes, surfaced.cuts()), (passes, passes, passes));
-            assert!((surfaced.cutting_mm() - length * passes as f64).abs() < 1e-6);
+    for (planes, passes, length) in [(PassPlanes::ZX, 11, 60.0), (PassPlanes::YZ, 31, 20.0)] {
+        for against in [PassHeights::Mesh, PassHeights::Profile] {
+            let surfaced = over(&block, &SurfaceMillingOptions { planes, against, ..options() });
+            assert_eq!(
+                (surfaced.planes, surfaced.passes, surfaced.cutting_motion_count()),
+                (passes, passes, passes)
+            );
+            assert!((surfaced.cutting_length_mm() - length * passes as f64).abs() < 1e-6);
             for (from, to) in of_class(&surfaced, MotionClass::Cut) {
                 assert_eq!((from.to.z, to.to.z), (10.0, 10.0));
             }
@@ -82,12 +85,17 @@ fn a_wedge_of_thirty_degrees_is_shifted_by_its_normal() {
 
 #[test]
 fn half_a_cylinder_along_any_direction_is_a_larger_one_lowered() {
-    let across = [(Planes::ZX, 0.0), (Planes::YZ, 90.0), (Planes::at(30.0), 30.0), (Planes::at(75.0), 30.0)];
+    let across = [
+        (PassPlanes::ZX, 0.0),
+        (PassPlanes::YZ, 90.0),
+        (PassPlanes::from_degrees(30.0), 30.0),
+        (PassPlanes::from_degrees(75.0), 30.0),
+    ];
     for (planes, degrees) in across {
         let part = mesh(&half_cylinder(degrees));
         let (sin, cos) = f64::to_radians(degrees).sin_cos();
         for arcs in [false, true] {
-            let surfaced = over(&part, &Options { planes, arcs, step: 5.0, ..options() });
+            let surfaced = over(&part, &SurfaceMillingOptions { planes, arcs, step: 5.0, ..options() });
             assert!(surfaced.passes >= 3);
             for (from, to) in of_class(&surfaced, MotionClass::Cut) {
                 for at in [from.to, to.to] {
@@ -107,7 +115,7 @@ fn half_a_cylinder_along_any_direction_is_a_larger_one_lowered() {
 #[test]
 fn a_ball_goes_round_a_sphere_on_a_larger_one_lowered() {
     let part = mesh(&sphere(12.0, 40));
-    let surfaced = over(&part, &Options { floor: Some(0.0), step: 3.0, ..options() });
+    let surfaced = over(&part, &SurfaceMillingOptions { floor: Some(0.0), step: 3.0, ..options() });
     let off_facets = 12.0 * (1.0 - (std::f64::consts::PI / 80.0).cos()) * 2.0;
     for (from, to) in of_class(&surfaced, MotionClass::Cut) {
         for at in [from.to, to.to] {
@@ -122,13 +130,16 @@ fn a_ball_goes_round_a_sphere_on_a_larger_one_lowered() {
 #[test]
 fn the_profile_in_the_plane_alone_gouges_beside_it() {
     let slope: Triangles = roof(&[[0.0, 5.0], [60.0, 40.0]], 90.0);
-    let part = clsmith::surfacing::Part::Mesh(mesh(&slope));
+    let part = clsmith::surface_milling::SurfacePart::Mesh(mesh(&slope));
     // Planes across the slope: level lines, and the ball is in the hill beside.
-    let options = Options { against: Against::Profile, ..options() };
-    let surfaced = clsmith::surfacing::surface(&part, &options).unwrap();
+    let options = SurfaceMillingOptions { against: PassHeights::Profile, ..options() };
+    let surfaced = clsmith::surface_milling::make_surface_program(&part, &options).unwrap();
     let secant = (1.0 + (35.0f64 / 60.0).powi(2)).sqrt();
     // On the level line the centre is R above the slope's line, so R / secant from the slope itself.
     assert!((surfaced.proof.gouge - (5.0 - 5.0 / secant)).abs() < 0.001, "{:?}", surfaced.proof);
-    assert!(!surfaced.proof.holds(options.tolerance));
-    assert!(over(&mesh(&slope), &Options { against: Against::Mesh, ..options }).proof.gouge < 0.01);
+    assert!(!surfaced.proof.is_within(options.tolerance));
+    assert!(
+        over(&mesh(&slope), &SurfaceMillingOptions { against: PassHeights::Mesh, ..options }).proof.gouge
+            < 0.01
+    );
 }

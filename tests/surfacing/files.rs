@@ -4,20 +4,22 @@ use super::options;
 use crate::support;
 use clsmith::diagnostic::codes;
 use clsmith::program::LengthUnit;
-use clsmith::surface::profile::{Chain, Piece, Point};
-use clsmith::surfacing::{Options, Part, Profile, load_profile, surface};
+use clsmith::surface::profile::{Chain, ChainPiece, Point};
+use clsmith::surface_milling::{
+    SectionProfile, SurfaceMillingOptions, SurfacePart, load_profile, make_surface_program,
+};
 
-fn load(text: &str) -> Profile {
+fn load(text: &str) -> SectionProfile {
     load_profile(&support::text(text)).unwrap_or_else(|found| panic!("{found:?}"))
 }
 
 fn chain(pieces: &str) -> Chain {
-    load(&format!("start: [0, 0]\npieces:\n{pieces}")).chain(1e-4).unwrap()
+    load(&format!("start: [0, 0]\npieces:\n{pieces}")).to_chain(1e-4).unwrap()
 }
 
 /// Enough places of a chain.
 fn places(chain: &Chain) -> Vec<Point> {
-    chain.pieces().iter().flat_map(|piece| (0..=8).map(|i| piece.point(f64::from(i) / 8.0))).collect()
+    chain.pieces().iter().flat_map(|piece| (0..=8).map(|i| piece.point_at(f64::from(i) / 8.0))).collect()
 }
 
 #[test]
@@ -43,8 +45,8 @@ fn arcs_turn_as_they_say() {
     ];
     for (text, (u, z), radius) in cases {
         let chain = chain(&format!("  - arc: {text}\n"));
-        let [Piece::Arc(arc)] = chain.pieces() else { panic!("{chain:?}") };
-        let middle = chain.pieces()[0].point(0.5);
+        let [ChainPiece::Arc(arc)] = chain.pieces() else { panic!("{chain:?}") };
+        let middle = chain.pieces()[0].point_at(0.5);
         assert!((middle.u - u).hypot(middle.z - z) < 1e-9, "{text}: {middle:?}");
         assert!((arc.radius - radius).abs() < 1e-9, "{text}");
         assert!(chain.start().distance(Point::default()) < 1e-9, "{text}");
@@ -61,7 +63,7 @@ fn ellipses_and_nurbs_are_met_within_the_tolerance() {
     // The same ellipse, its first axis upright.
     let tilted =
         chain("  - ellipse: { to: [40, 0], centre: [20, 0], semi_axes: [8, 20], tilt: 90, turn: right }\n");
-    let (one, other) = (half.length(), tilted.length());
+    let (one, other) = (half.length_mm(), tilted.length_mm());
     assert!((one - other).abs() < 1e-2, "{one} {other}");
     // A quarter of a circle of radius 10 as a rational curve of degree 2.
     let weight = 0.5f64.sqrt();
@@ -86,12 +88,12 @@ fn a_piece_starts_where_the_one_before_ends() {
          - nurbs: { points: [[4.5, 0], [5, 2], [6, 1]] }\n  - polyline: [[7, 1], [8, 0.5]]\n",
     );
     assert_eq!(profile.width, Some(50.8));
-    let chain = profile.chain(1e-3).unwrap();
+    let chain = profile.to_chain(1e-3).unwrap();
     assert!((chain.end().u - 8.0 * 25.4).abs() < 1e-9);
-    let mut options = Options { step: 10.0, ..options() };
+    let mut options = SurfaceMillingOptions { step: 10.0, ..options() };
     options.words.units = LengthUnit::Inch;
-    let surfaced = surface(&Part::Profile(profile), &options).unwrap();
-    assert!(surfaced.proof.holds(options.tolerance), "{:?}", surfaced.proof);
+    let surfaced = make_surface_program(&SurfacePart::Profile(profile), &options).unwrap();
+    assert!(surfaced.proof.is_within(options.tolerance), "{:?}", surfaced.proof);
     assert_eq!(surfaced.planes, 7, "50.8 mm in steps of 10 mm and less");
     assert!(surfaced.draft.moves.iter().all(|step| step.to.x < 9.0), "in inches");
 }
@@ -101,8 +103,8 @@ fn few_chords_where_curvature_is_small() {
     // The tip's path over an ellipse of half axes 40 and 10, and a ball of 5: about the offset's length over 2 sqrt(2 rho tolerance).
     let text = "width: 1\nstart: [0, 0]\npieces: [ { ellipse: { to: [80, 0], centre: [40, 0], semi_axes: [40, 10], turn: right } } ]\n";
     let count = |tolerance: f64| {
-        let options = Options { tolerance, floor: Some(-5.0), step: 1.0, ..options() };
-        surface(&Part::Profile(load(text)), &options).unwrap().cuts() / 2
+        let options = SurfaceMillingOptions { tolerance, floor: Some(-5.0), step: 1.0, ..options() };
+        make_surface_program(&SurfacePart::Profile(load(text)), &options).unwrap().cutting_motion_count() / 2
     };
     let ideal = |tolerance: f64| {
         let steps = 20_000;
@@ -130,7 +132,7 @@ fn few_chords_where_curvature_is_small() {
 fn found(text: &str) -> Vec<(String, String)> {
     let source = support::text(text);
     let found = load_profile(&source).unwrap_err();
-    let shown = |span: clsmith::source::Span| text[span.range()].to_owned();
+    let shown = |span: clsmith::source::Span| text[span.to_range()].to_owned();
     found.iter().map(|found| (found.code.to_string(), shown(found.labels[0].span))).collect()
 }
 
@@ -179,7 +181,7 @@ fn every_fault_stands_at_its_place() {
 
 #[test]
 fn the_schema_knows_every_kind() {
-    let schema = clsmith::surfacing::profile_schema().to_string();
+    let schema = clsmith::surface_milling::profile_schema().to_string();
     for kind in ["line", "polyline", "arc", "ellipse", "nurbs", "semi_axes", "width"] {
         assert!(schema.contains(&format!("\"{kind}\"")), "{kind}");
     }

@@ -9,19 +9,22 @@ mod paths;
 use clsmith::program::{Dialect, LengthUnit, MotionClass};
 use clsmith::sim::Mesh;
 use clsmith::surface::profile::{Chain, Point};
-use clsmith::surfacing::{Against, Options, Part, Pattern, Planes, Profile, Surfaced, Words, surface};
-use clsmith::write::program::Move;
+use clsmith::surface_milling::{
+    PassHeights, PassPattern, PassPlanes, SectionProfile, SurfaceMillingOptions, SurfacePart, SurfaceProgram,
+    SurfaceProgramWords, make_surface_program,
+};
+use clsmith::write::new_program::DraftMove;
 
 /// A ball of radius 5 over planes along zx, 2 mm apart, within 0.01 mm, in NX.
-fn options() -> Options {
-    Options {
-        planes: Planes::ZX,
+fn options() -> SurfaceMillingOptions {
+    SurfaceMillingOptions {
+        planes: PassPlanes::ZX,
         range: None,
         step: 2.0,
         radius: 5.0,
         tolerance: 0.01,
-        against: Against::Mesh,
-        pattern: Pattern::ZigZag,
+        against: PassHeights::Mesh,
+        pattern: PassPattern::ZigZag,
         arcs: false,
         floor: None,
         clearance: 10.0,
@@ -29,7 +32,7 @@ fn options() -> Options {
         feed: 800.0,
         plunge: 300.0,
         air: None,
-        words: Words {
+        words: SurfaceProgramWords {
             dialect: Dialect::Nx,
             units: LengthUnit::Mm,
             name: "PART".to_owned(),
@@ -43,24 +46,24 @@ fn options() -> Options {
 }
 
 /// The program over a mesh; its proof must hold.
-fn over(mesh: &Mesh, options: &Options) -> Surfaced {
-    let surfaced = surface(&Part::Mesh(mesh.clone()), options).unwrap();
-    assert!(surfaced.proof.holds(options.tolerance), "{:?}", surfaced.proof);
+fn over(mesh: &Mesh, options: &SurfaceMillingOptions) -> SurfaceProgram {
+    let surfaced = make_surface_program(&SurfacePart::Mesh(mesh.clone()), options).unwrap();
+    assert!(surfaced.proof.is_within(options.tolerance), "{:?}", surfaced.proof);
     surfaced
 }
 
 /// The program over a profile of straight pieces, swept from 0 to 10.
-fn along(points: &[[f64; 2]], options: &Options) -> Surfaced {
+fn along(points: &[[f64; 2]], options: &SurfaceMillingOptions) -> SurfaceProgram {
     let points: Vec<Point> = points.iter().map(|[u, z]| Point::new(*u, *z)).collect();
-    let profile = Profile::of_chain(&Chain::polyline(&points).unwrap());
-    let options = Options { range: Some((0.0, 10.0)), ..options.clone() };
-    let surfaced = surface(&Part::Profile(profile), &options).unwrap();
-    assert!(surfaced.proof.holds(options.tolerance), "{:?}", surfaced.proof);
+    let profile = SectionProfile::from_chain(&Chain::from_points(&points).unwrap());
+    let options = SurfaceMillingOptions { range: Some((0.0, 10.0)), ..options.clone() };
+    let surfaced = make_surface_program(&SurfacePart::Profile(profile), &options).unwrap();
+    assert!(surfaced.proof.is_within(options.tolerance), "{:?}", surfaced.proof);
     surfaced
 }
 
 /// Starts and ends of the motions of a class.
-fn of_class(surfaced: &Surfaced, class: MotionClass) -> Vec<(Move, Move)> {
+fn of_class(surfaced: &SurfaceProgram, class: MotionClass) -> Vec<(DraftMove, DraftMove)> {
     let moves = &surfaced.draft.moves;
     moves.iter().copied().zip(moves.iter().copied().skip(1)).filter(|(_, to)| to.class == class).collect()
 }

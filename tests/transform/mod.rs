@@ -14,7 +14,7 @@ use crate::support;
 use clsmith::diagnostic::Diagnostic;
 use clsmith::setup::Setup;
 use clsmith::source::Source;
-use clsmith::transform::{Recipe, run};
+use clsmith::transform::{Recipe, run_recipe};
 
 /// Applies `steps` (the YAML below `steps:`) to a program's text; gives the new text and the findings.
 pub fn apply(steps: &str, text: impl AsRef<[u8]>) -> (String, Vec<Diagnostic>) {
@@ -28,7 +28,7 @@ pub fn apply(steps: &str, text: impl AsRef<[u8]>) -> (String, Vec<Diagnostic>) {
 pub fn try_apply(recipe: &str, text: impl AsRef<[u8]>) -> Result<(String, Vec<Diagnostic>), Vec<Diagnostic>> {
     let recipe = Source::new("recipe.yaml", recipe.as_bytes().to_vec()).unwrap();
     let recipe = Recipe::load(&recipe)?;
-    let setup = recipe.setup_with(Setup::default(), Setup::default());
-    let outcome = run(&recipe, &setup, support::program(text))?;
+    let setup = recipe.merge_setups(Setup::default(), Setup::default());
+    let outcome = run_recipe(&recipe, &setup, support::program(text))?;
     Ok((String::from_utf8_lossy(&outcome.program.to_bytes()).into_owned(), outcome.findings))
 }

@@ -1,7 +1,7 @@
 //! Whether a program is another one moved: the one property that every move must have, whatever the dialect.
 
 use clsmith::program::Program;
-use clsmith::program::geometry::Path;
+use clsmith::program::geometry::MotionPath;
 use clsmith::program::motion::Motion;
 use nalgebra::{Matrix3, Point3, Unit, Vector3};
 
@@ -51,7 +51,7 @@ pub fn assert_moved(name: &str, before: &Program, after: &Program, place: &Place
         let statement = &before.statements()[old.last_statement()];
         let place_of = || {
             let (line, _) = before.source().line_column(statement.origin().start);
-            format!("{name}:{line} {}", String::from_utf8_lossy(before.text(statement)).trim())
+            format!("{name}:{line} {}", String::from_utf8_lossy(before.statement_text(statement)).trim())
         };
         let near = |a: Point3<f64>, b: Point3<f64>| {
             assert!((a - b).norm() <= tolerance, "{}: {a} is not {b}", place_of());
@@ -74,16 +74,16 @@ pub fn assert_moved(name: &str, before: &Program, after: &Program, place: &Place
         for share in 0..=12 {
             let share = f64::from(share) / 12.0;
             match (&old.path, &new.path) {
-                (Path::Arc(old), Path::Arc(new)) => {
+                (MotionPath::Arc(old), MotionPath::Arc(new)) => {
                     // Where an arc ends depends on its rounded points by its angle: a share of its radius.
                     let slack = tolerance * 3.0;
-                    let (a, b) = (place.point(old.point(share)), new.point(share));
+                    let (a, b) = (place.point(old.point_at(share)), new.point_at(share));
                     assert!((a - b).norm() <= slack, "{}: arc at {share}: {a} is not {b}", place_of());
                 }
-                (Path::Spline(old), Path::Spline(new)) => {
-                    near(place.point(old.point(share)), new.point(share))
+                (MotionPath::Spline(old), MotionPath::Spline(new)) => {
+                    near(place.point(old.point_at(share)), new.point_at(share))
                 }
-                (Path::Line, Path::Line) | (Path::Start, Path::Start) => {}
+                (MotionPath::Line, MotionPath::Line) | (MotionPath::Start, MotionPath::Start) => {}
                 other => panic!("{}: {other:?}", place_of()),
             }
         }

@@ -3,9 +3,9 @@
 use super::report;
 use crate::provenance::{done, with_comments};
 use crate::support;
-use clsmith::diagnostic::{Code, Diagnostic, codes};
+use clsmith::diagnostic::{Diagnostic, DiagnosticCode, codes};
 use clsmith::source::Source;
-use clsmith::undo::Undo;
+use clsmith::undo::UndoData;
 use std::sync::Arc;
 
 fn part() -> String {
@@ -22,11 +22,11 @@ fn run() -> (Vec<u8>, Arc<Source>) {
 }
 
 fn undo(file: &[u8], report: &Arc<Source>) -> Result<Vec<u8>, Box<Diagnostic>> {
-    let undo = Undo::read(report)?;
-    undo.original(&support::text(file), report).map(|undone| undone.bytes)
+    let undo = UndoData::read_report(report)?;
+    undo.restore_original(&support::text(file), report).map(|undone| undone.bytes)
 }
 
-fn refused(file: &[u8], report: &Arc<Source>, code: Code) -> Box<Diagnostic> {
+fn refused(file: &[u8], report: &Arc<Source>, code: DiagnosticCode) -> Box<Diagnostic> {
     let found = undo(file, report).unwrap_err();
     assert_eq!(found.code, code, "{found:?}");
     found
@@ -96,7 +96,7 @@ fn what_is_no_report_is_said_to_be_none() {
     }
     // Every cut is noticed.
     for cut in (0..whole.len() - 1).step_by(17) {
-        assert!(Undo::read(&text(&whole[..cut])).is_err(), "{cut}");
+        assert!(UndoData::read_report(&text(&whole[..cut])).is_err(), "{cut}");
     }
     let newer = String::from_utf8_lossy(whole).replacen("\"version\":1", "\"version\":2", 1);
     let found = refused(&file, &text(newer), codes::NEWER_RUN_REPORT);

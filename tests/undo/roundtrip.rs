@@ -4,7 +4,7 @@ use super::{report, undone};
 use crate::provenance::{done, with_comments};
 use crate::support;
 use clsmith::source::Source;
-use clsmith::undo::{Blocks, Patch, Place};
+use clsmith::undo::{BlockChecksums, UndoEdit, UndoPatch};
 use proptest::prelude::*;
 use std::sync::Arc;
 
@@ -131,21 +131,21 @@ proptest! {
         let at = at.index(length);
         let mut other = bytes.clone();
         other[at] ^= 1;
-        let blocks = Blocks::of(bytes.chunks(7));
-        prop_assert!(blocks.first_difference(&other).contains(&at));
-        let found = blocks.first_difference(&bytes[..at]);
+        let blocks = BlockChecksums::from_chunks(bytes.chunks(7));
+        prop_assert!(blocks.find_first_difference(&other).contains(&at));
+        let found = blocks.find_first_difference(&bytes[..at]);
         prop_assert!(found.start <= at && found.end <= at);
     }
 }
 
 #[test]
 fn bytes_of_any_kind_survive_json() {
-    let patch = Patch(vec![
-        Place { at: 0, length: 3, was: b"\"\\\r\n\t\x01\x7f".to_vec() },
-        Place { at: 3, length: 0, was: b"caf\xe9\r\n".to_vec() },
-        Place { at: 9, length: 0, was: "Müller".as_bytes().to_vec() },
+    let patch = UndoPatch(vec![
+        UndoEdit { at: 0, length: 3, was: b"\"\\\r\n\t\x01\x7f".to_vec() },
+        UndoEdit { at: 3, length: 0, was: b"caf\xe9\r\n".to_vec() },
+        UndoEdit { at: 9, length: 0, was: "Müller".as_bytes().to_vec() },
     ]);
     let text = serde_json::to_string(&patch).unwrap();
     assert!(text.contains("was_base64\":\"Y2Fm6Q0K\""), "{text}");
-    assert_eq!(serde_json::from_str::<Patch>(&text).unwrap(), patch);
+    assert_eq!(serde_json::from_str::<UndoPatch>(&text).unwrap(), patch);
 }

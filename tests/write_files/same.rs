@@ -1,6 +1,6 @@
 //! Which paths lead to one file.
 
-use clsmith::write::same_file;
+use clsmith::write::is_same_file;
 use std::fs;
 
 #[test]
@@ -10,12 +10,12 @@ fn spellings_and_files_that_do_not_exist() {
     fs::write(path("a.cls"), "").unwrap();
     fs::write(path("b.cls"), "").unwrap();
     fs::create_dir(path("sub")).unwrap();
-    assert!(same_file(&path("a.cls"), &path("a.cls")));
-    assert!(same_file(&path("a.cls"), &path("sub/../a.cls")));
-    assert!(!same_file(&path("a.cls"), &path("b.cls")));
-    assert!(!same_file(&path("a.cls"), &path("new.cls")));
-    assert!(same_file(&path("new.cls"), &path("sub/../new.cls")));
-    assert!(!same_file(&path("missing/a.cls"), &path("missing/a2.cls")));
+    assert!(is_same_file(&path("a.cls"), &path("a.cls")));
+    assert!(is_same_file(&path("a.cls"), &path("sub/../a.cls")));
+    assert!(!is_same_file(&path("a.cls"), &path("b.cls")));
+    assert!(!is_same_file(&path("a.cls"), &path("new.cls")));
+    assert!(is_same_file(&path("new.cls"), &path("sub/../new.cls")));
+    assert!(!is_same_file(&path("missing/a.cls"), &path("missing/a2.cls")));
 }
 
 #[cfg(unix)]
@@ -27,9 +27,9 @@ fn links() {
     fs::hard_link(path("a.cls"), path("hard.cls")).unwrap();
     std::os::unix::fs::symlink("a.cls", path("soft.cls")).unwrap();
     std::os::unix::fs::symlink("new.cls", path("dangling.cls")).unwrap();
-    assert!(same_file(&path("a.cls"), &path("hard.cls")));
-    assert!(same_file(&path("a.cls"), &path("soft.cls")));
-    assert!(same_file(&path("soft.cls"), &path("hard.cls")));
-    assert!(same_file(&path("dangling.cls"), &path("new.cls")));
-    assert!(!same_file(&path("dangling.cls"), &path("a.cls")));
+    assert!(is_same_file(&path("a.cls"), &path("hard.cls")));
+    assert!(is_same_file(&path("a.cls"), &path("soft.cls")));
+    assert!(is_same_file(&path("soft.cls"), &path("hard.cls")));
+    assert!(is_same_file(&path("dangling.cls"), &path("new.cls")));
+    assert!(!is_same_file(&path("dangling.cls"), &path("a.cls")));
 }

@@ -1,29 +1,29 @@
 //! `clsmith apply`.
 
-mod problem;
-mod written;
+mod outputs;
+mod usage_problem;
 
-use super::exit::Exit;
-use super::files::{self, Loaded, STANDARD};
-use super::findings::FindingArgs;
-use super::output::{Outputs, overwritten, unless_nobody_reads};
-use super::progress::Progress;
-use super::reports::ReportArgs;
+use super::command_exit::CommandExit;
+use super::command_outputs::{CommandOutputs, find_overwritten_input, ignore_closed_pipe};
+use super::finding_args::FindingArgs;
+use super::input_files::{self, LoadedRecipe, STANDARD};
+use super::progress::CommandProgress;
+use super::report_args::ReportArgs;
 use super::terminal;
 use clap::Args;
 use clsmith::diagnostic::Diagnostic;
-use clsmith::fingerprint::RecipePrint;
-use clsmith::job::{Done, Job};
+use clsmith::fingerprint::RecipeFingerprint;
+use clsmith::job::{CorrectionJob, JobOutcome};
 use clsmith::program::Dialect;
 use clsmith::recipe::Provenance;
-use clsmith::report::unified;
+use clsmith::report::unified_diff;
 use clsmith::source::Source;
 use clsmith::transform::Step;
 use clsmith::write::is_interrupt;
+use outputs::{ApplyOutcome, write_program};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use written::{Ran, write};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -44,7 +44,7 @@ itself: those with errors are not written, the others are, and the exit code is 
 /// Corrects programs by a recipe
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct Apply {
+pub struct ApplyArgs {
     /// The recipe (YAML)
     recipe: PathBuf,
     /// The programs; `-` is standard input
@@ -68,13 +68,13 @@ pub struct Apply {
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// What the output says about the run, in comments: none, header or comments; overrides the recipe
-    #[arg(long, value_parser = files::provenance, value_name = "WHAT")]
+    #[arg(long, value_parser = input_files::parse_provenance, value_name = "WHAT")]
     provenance: Option<Provenance>,
     /// A setup file; overrides the recipe's setup
     #[arg(long, value_name = "FILE")]
     setup: Option<PathBuf>,
     /// The dialect, instead of finding it from the text
-    #[arg(long, value_parser = files::dialect, value_name = "NAME")]
+    #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
     dialect: Option<Dialect>,
     /// Say nothing but findings
     #[arg(short, long)]
@@ -83,46 +83,47 @@ pub struct Apply {
     findings: FindingArgs,
 }
 
-impl Apply {
-    pub fn run(&self) -> io::Result<Exit> {
-        if let Some(problem) = self.problem() {
+impl ApplyArgs {
+    pub fn run(&self) -> io::Result<CommandExit> {
+        if let Some(problem) = self.find_usage_problem() {
             eprintln!("clsmith apply: {problem}");
-            return Ok(Exit::Usage);
+            return Ok(CommandExit::Usage);
         }
-        let policy = match self.findings.policy() {
+        let policy = match self.findings.build_policy() {
             Ok(policy) => policy,
             Err(problem) => {
                 eprintln!("clsmith apply: {problem}");
-                return Ok(Exit::Usage);
+                return Ok(CommandExit::Usage);
             }
         };
-        let Loaded { mut recipe, setup, texts } = match files::recipe(&self.recipe, self.setup.as_deref()) {
-            Ok(loaded) => loaded,
-            Err(found) => {
-                self.show(&found, Some(&self.recipe.to_string_lossy()))?;
-                return Ok(Exit::Errors);
-            }
-        };
+        let LoadedRecipe { mut recipe, setup, texts } =
+            match input_files::read_recipe(&self.recipe, self.setup.as_deref()) {
+                Ok(loaded) => loaded,
+                Err(found) => {
+                    self.show_findings(&found, Some(&self.recipe.to_string_lossy()))?;
+                    return Ok(CommandExit::Errors);
+                }
+            };
         recipe.provenance = self.provenance.unwrap_or(recipe.provenance);
         // It reads models and stock once more, so not for nothing.
         let needed = self.json.is_some() || recipe.provenance != Provenance::None;
         let wanted = needed || self.reports.is_wanted();
-        let print = match wanted.then(|| RecipePrint::of(&texts, &recipe, &setup)).transpose() {
+        let print = match wanted.then(|| RecipeFingerprint::read_files(&texts, &recipe, &setup)).transpose() {
             Ok(print) => print,
             // A page says itself what it cannot read, and goes without.
             Err(_) if !needed => None,
             Err(found) => {
-                self.show(&[*found], Some(&self.recipe.to_string_lossy()))?;
-                return Ok(Exit::Errors);
+                self.show_findings(&[*found], Some(&self.recipe.to_string_lossy()))?;
+                return Ok(CommandExit::Errors);
             }
         };
         // The recipe is the first of them.
         let setup_files = texts.get(1..).unwrap_or_default();
-        let outputs = Outputs::default();
-        let progress = Progress::new(self.quiet, outputs.interrupt());
-        outputs.stop_on_ctrl_c(progress.clearing())?;
+        let outputs = CommandOutputs::default();
+        let progress = CommandProgress::new(self.quiet, outputs.interrupt());
+        outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
         let watch = &progress;
-        let job = Job {
+        let job = CorrectionJob {
             recipe: &recipe,
             setup: &setup,
             print: print.as_ref(),
@@ -130,68 +131,69 @@ impl Apply {
             dialect: self.dialect,
             watch,
         };
-        let mut worst = Exit::Done;
+        let mut worst = CommandExit::Done;
         for input in &self.inputs {
             if outputs.interrupt().is_raised() {
-                return Ok(Exit::Interrupted);
+                return Ok(CommandExit::Interrupted);
             }
-            progress.begin(&input.to_string_lossy());
-            let done = self.one(&job, setup_files, input, &outputs, &progress);
+            progress.begin_bar(&input.to_string_lossy());
+            let done = self.apply_to_input(&job, setup_files, input, &outputs, &progress);
             match done {
                 Ok(exit) => worst = worst.max(exit),
-                Err(error) if is_interrupt(&error) => return Ok(Exit::Interrupted),
+                Err(error) if is_interrupt(&error) => return Ok(CommandExit::Interrupted),
                 Err(error) => return Err(error),
             }
         }
         Ok(worst)
     }
 
-    fn one(
+    fn apply_to_input(
         &self,
-        job: &Job<'_>,
+        job: &CorrectionJob<'_>,
         setup_files: &[Arc<Source>],
         input: &Path,
-        outputs: &Outputs,
-        progress: &Progress,
-    ) -> io::Result<Exit> {
-        let target = self.target(input);
-        let setup_file = job.recipe.setup_file.as_deref().map(|name| files::beside(&self.recipe, name));
-        let drawn = self.named().map(|(_, path)| path).chain(self.reports.outputs());
+        outputs: &CommandOutputs,
+        progress: &CommandProgress,
+    ) -> io::Result<CommandExit> {
+        let target = self.output_path(input);
+        let setup_file =
+            job.recipe.setup_file.as_deref().map(|name| input_files::path_beside_recipe(&self.recipe, name));
+        let drawn = self.named_outputs().map(|(_, path)| path).chain(self.reports.output_paths());
         let outs = target.iter().map(PathBuf::as_path).chain(drawn);
-        if let Some(found) = self.overwrites(outs, setup_file.as_deref(), job) {
-            self.show(&[found], Some(&input.to_string_lossy()))?;
-            return Ok(Exit::Errors);
+        if let Some(found) = self.check_outputs(outs, setup_file.as_deref(), job) {
+            self.show_findings(&[found], Some(&input.to_string_lossy()))?;
+            return Ok(CommandExit::Errors);
         }
-        let source = match files::read(input) {
+        let source = match input_files::read_source(input) {
             Ok(source) => source,
             Err(found) => {
-                self.show(&[*found], Some(&input.to_string_lossy()))?;
-                return Ok(Exit::Errors);
+                self.show_findings(&[*found], Some(&input.to_string_lossy()))?;
+                return Ok(CommandExit::Errors);
             }
         };
-        let Done { program, findings, reports } = job.run(&source);
-        progress.clear();
+        let JobOutcome { program, findings, reports } = job.correct_source(&source);
+        progress.clear_bar();
         if !findings.is_empty() {
-            self.show(&findings, Some(source.name()))?;
+            self.show_findings(&findings, Some(source.name()))?;
         }
         let Some(program) = program else {
             if !self.quiet {
                 eprintln!("{}: nothing was written", source.name());
             }
-            return Ok(Exit::Errors);
+            return Ok(CommandExit::Errors);
         };
         if self.diff {
             let mut out = io::stdout().lock();
-            let seen = terminal::output_is_seen();
-            let color = self.findings.color.wanted(seen);
-            unified::write(
+            let seen = terminal::is_stdout_terminal();
+            let color = self.findings.color.is_wanted(seen);
+            unified_diff::write_unified_diff(
                 &mut out,
                 &program,
-                &unified::Options { color, display: seen, ..Default::default() },
+                &unified_diff::UnifiedDiffOptions { color, display: seen, ..Default::default() },
             )?;
             out.flush()?;
         }
-        let run = Ran {
+        let run = ApplyOutcome {
             job,
             setup_files,
             source: &source,
@@ -200,26 +202,26 @@ impl Apply {
             reports: &reports,
         };
         // The program comes last: one that was replaced without its report could not be undone.
-        if let Some(found) = self.write_beside(&run, target.as_deref(), outputs, progress)? {
-            self.show(&[found], Some(source.name()))?;
-            return Ok(Exit::Errors);
+        if let Some(found) = self.write_side_outputs(&run, target.as_deref(), outputs, progress)? {
+            self.show_findings(&[found], Some(source.name()))?;
+            return Ok(CommandExit::Errors);
         }
         if !self.dry_run
             && let Some(target) = &target
-            && let Some(found) = write(&program, target, outputs)?
+            && let Some(found) = write_program(&program, target, outputs)?
         {
-            self.show(&[found], Some(source.name()))?;
-            return Ok(Exit::Errors);
+            self.show_findings(&[found], Some(source.name()))?;
+            return Ok(CommandExit::Errors);
         }
         if !self.quiet {
             let target = target.as_deref().filter(|_| !self.dry_run);
-            unless_nobody_reads(self.summary(&run, target))?;
+            ignore_closed_pipe(self.show_summary(&run, target))?;
         }
-        Ok(Exit::Done)
+        Ok(CommandExit::Done)
     }
 
     /// The output of an input; `None` when nothing is to be written.
-    fn target(&self, input: &Path) -> Option<PathBuf> {
+    fn output_path(&self, input: &Path) -> Option<PathBuf> {
         let output = self.output.as_ref()?;
         if output != Path::new(STANDARD) && output.is_dir() {
             return Some(output.join(input.file_name().unwrap_or(input.as_os_str())));
@@ -228,21 +230,29 @@ impl Apply {
     }
 
     /// No output may be an input, the recipe, the setup, or a model, stock or material that these read.
-    fn overwrites<'a>(
+    fn check_outputs<'a>(
         &self,
         outs: impl Iterator<Item = &'a Path>,
         setup_file: Option<&Path>,
-        job: &Job<'_>,
+        job: &CorrectionJob<'_>,
     ) -> Option<Diagnostic> {
         let given = self.inputs.iter().chain([&self.recipe]).chain(&self.setup).map(PathBuf::as_path);
-        let read = job.recipe.steps.iter().filter_map(Step::reads);
-        let models: Vec<PathBuf> = read.map(|file| file.beside(&self.recipe)).collect();
-        let all = given.chain(setup_file).chain(models.iter().map(PathBuf::as_path)).chain(job.setup.files());
-        overwritten(outs, &all.collect::<Vec<_>>())
+        let read = job.recipe.steps.iter().filter_map(Step::input_file);
+        let models: Vec<PathBuf> = read.map(|file| file.resolve_beside(&self.recipe)).collect();
+        let all = given
+            .chain(setup_file)
+            .chain(models.iter().map(PathBuf::as_path))
+            .chain(job.setup.referenced_files());
+        find_overwritten_input(outs, &all.collect::<Vec<_>>())
     }
 
-    fn show(&self, findings: &[Diagnostic], file: Option<&str>) -> io::Result<()> {
+    fn show_findings(&self, findings: &[Diagnostic], file: Option<&str>) -> io::Result<()> {
         let mut err = io::stderr().lock();
-        unless_nobody_reads(self.findings.show(&mut err, terminal::errors_are_seen(), findings, file))
+        ignore_closed_pipe(self.findings.write_findings(
+            &mut err,
+            terminal::is_stderr_terminal(),
+            findings,
+            file,
+        ))
     }
 }

@@ -1,15 +1,15 @@
 //! `clsmith merge`.
 
-use super::exit_of;
-use crate::cli::exit::Exit;
-use crate::cli::files;
-use crate::cli::findings::FindingArgs;
-use crate::cli::output::{Outputs, print_summary, unless_nobody_reads};
+use super::exit_for_records;
+use crate::cli::command_exit::CommandExit;
+use crate::cli::command_outputs::{CommandOutputs, ignore_closed_pipe, print_summary};
+use crate::cli::finding_args::FindingArgs;
+use crate::cli::input_files;
 use crate::cli::terminal;
 use clap::Args;
-use clsmith::batch::{merge, results, summary};
+use clsmith::batch::{batch_results, merge, summary};
 use clsmith::diagnostic::{Diagnostic, codes};
-use clsmith::write::same_file;
+use clsmith::write::is_same_file;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -25,7 +25,7 @@ of the batch: 1 if any of its files failed.";
 /// Puts the results of a batch's shards together, and says if any are missing
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct Merge {
+pub struct MergeArgs {
     /// Results of all shards
     #[arg(required = true, value_name = "RESULTS")]
     parts: Vec<PathBuf>,
@@ -39,50 +39,57 @@ pub struct Merge {
     findings: FindingArgs,
 }
 
-impl Merge {
-    pub fn run(&self) -> io::Result<Exit> {
-        let policy = match self.findings.policy() {
+impl MergeArgs {
+    pub fn run(&self) -> io::Result<CommandExit> {
+        let policy = match self.findings.build_policy() {
             Ok(policy) => policy,
             Err(problem) => {
                 eprintln!("clsmith merge: {problem}");
-                return Ok(Exit::Usage);
+                return Ok(CommandExit::Usage);
             }
         };
-        let standard = self.output == Path::new(files::STANDARD);
-        if let Some(part) = self.parts.iter().find(|part| !standard && same_file(part, &self.output)) {
+        let standard = self.output == Path::new(input_files::STANDARD);
+        if let Some(part) = self.parts.iter().find(|part| !standard && is_same_file(part, &self.output)) {
             let message =
                 format!("writing {} would overwrite the results {}", self.output.display(), part.display());
-            return self.refused(vec![Diagnostic::new(codes::OUTPUT_IS_INPUT, message)]);
+            return self.refuse_merge(vec![Diagnostic::new(codes::OUTPUT_IS_INPUT, message)]);
         }
         let mut parts = Vec::new();
         let mut wrong = Vec::new();
         for path in &self.parts {
-            match files::read(path).and_then(|source| results::read(&source)) {
+            match input_files::read_source(path).and_then(|source| batch_results::read_results(&source)) {
                 Ok(part) => parts.push(part),
                 Err(found) => wrong.push(*found),
             }
         }
         if !wrong.is_empty() {
-            return self.refused(policy.apply(wrong));
+            return self.refuse_merge(policy.apply(wrong));
         }
-        let (head, records) = match merge::merge(parts) {
+        let (head, records) = match merge::merge_results(parts) {
             Ok(merged) => merged,
-            Err(found) => return self.refused(policy.apply(found)),
+            Err(found) => return self.refuse_merge(policy.apply(found)),
         };
         // Times are kept where the parts have them.
-        let bytes = results::to_bytes(&head, &records, true);
-        if let Some(found) = Outputs::default().write(&self.output, |out| out.write_all(&bytes))? {
-            return self.refused(vec![found]);
+        let bytes = batch_results::results_to_bytes(&head, &records, true);
+        if let Some(found) =
+            CommandOutputs::default().write_output(&self.output, |out| out.write_all(&bytes))?
+        {
+            return self.refuse_merge(vec![found]);
         }
         if !self.quiet {
-            unless_nobody_reads(print_summary(&summary::to_text(&records, 0, None), standard))?;
+            ignore_closed_pipe(print_summary(&summary::summary_to_text(&records, 0, None), standard))?;
         }
-        Ok(exit_of(&records))
+        Ok(exit_for_records(&records))
     }
 
-    fn refused(&self, found: Vec<Diagnostic>) -> io::Result<Exit> {
+    fn refuse_merge(&self, found: Vec<Diagnostic>) -> io::Result<CommandExit> {
         let mut err = io::stderr().lock();
-        unless_nobody_reads(self.findings.show(&mut err, terminal::errors_are_seen(), &found, None))?;
-        Ok(Exit::Errors)
+        ignore_closed_pipe(self.findings.write_findings(
+            &mut err,
+            terminal::is_stderr_terminal(),
+            &found,
+            None,
+        ))?;
+        Ok(CommandExit::Errors)
     }
 }

@@ -3,22 +3,25 @@
 mod merge;
 mod progress;
 
-pub use merge::Merge;
+pub use merge::MergeArgs;
 
-use super::exit::Exit;
-use super::files::{self, Loaded, STANDARD};
-use super::findings::FindingArgs;
-use super::output::{Outputs, print_summary, unless_nobody_reads};
+use super::command_exit::CommandExit;
+use super::command_outputs::{CommandOutputs, ignore_closed_pipe, print_summary};
+use super::finding_args::FindingArgs;
+use super::input_files::{self, LoadedRecipe, STANDARD};
 use super::terminal;
 use bytesize::ByteSize;
 use clap::Args;
-use clsmith::batch::jobs::{self, Asked, Jobs};
-use clsmith::batch::results::{self, Head};
-use clsmith::batch::{Batch as Run, Folder, Locked, Plan, Ran, Record, Shard, Work, summary};
+use clsmith::batch::batch_results::{self, ResultsHead};
+use clsmith::batch::jobs_file::{self, BatchJobs, InputPattern};
+use clsmith::batch::{
+    BatchOutcome, BatchPlan, BatchRecord, BatchRun as Run, LockedFolder, OutputFolder, PreparedRecipe, Shard,
+    summary,
+};
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::program::Dialect;
-use clsmith::write::same_file;
-use progress::Bars;
+use clsmith::write::is_same_file;
+use progress::BatchProgress;
 use std::io;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -53,7 +56,7 @@ are { \"lossy\": ..., \"hex\": ... }. The folder also gets .clsmith-batch.journa
 /// Corrects many programs, in parallel within a memory budget
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct Batch {
+pub struct BatchArgs {
     /// A jobs file (YAML); with --recipe, programs or patterns for them
     #[arg(required = true, value_name = "JOBS|PATTERN")]
     what: Vec<PathBuf>,
@@ -88,7 +91,7 @@ pub struct Batch {
     #[arg(long)]
     times: bool,
     /// The dialect of all programs, instead of finding it from their text
-    #[arg(long, value_parser = files::dialect, value_name = "NAME")]
+    #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
     dialect: Option<Dialect>,
     /// Say nothing but findings
     #[arg(short, long)]
@@ -101,20 +104,20 @@ pub struct Batch {
 const STACK: usize = 8 << 20;
 
 /// All that is known before anything runs.
-struct Ready {
-    plan: Plan,
-    works: Vec<Work>,
-    folder: Locked,
+struct PreparedBatch {
+    plan: BatchPlan,
+    works: Vec<PreparedRecipe>,
+    folder: LockedFolder,
     results: PathBuf,
     /// Bytes for all files together.
     memory: u64,
 }
 
-impl Batch {
-    pub fn run(&self) -> io::Result<Exit> {
+impl BatchArgs {
+    pub fn run(&self) -> io::Result<CommandExit> {
         let usage = |problem: &str| {
             eprintln!("clsmith batch: {problem}");
-            Ok(Exit::Usage)
+            Ok(CommandExit::Usage)
         };
         if self.recipe.is_none() && self.what.len() > 1 {
             return usage("give one jobs file; or a recipe with --recipe, and then programs or patterns");
@@ -122,41 +125,41 @@ impl Batch {
         if self.results.as_deref() == Some(Path::new(STANDARD)) {
             return usage("results go into a file; read it when the batch is done");
         }
-        let policy = match self.findings.policy() {
+        let policy = match self.findings.build_policy() {
             Ok(policy) => policy,
             Err(problem) => return usage(&problem),
         };
-        let jobs = match self.jobs() {
+        let jobs = match self.read_jobs() {
             Ok(jobs) => jobs,
-            Err(found) => return self.refused(&found),
+            Err(found) => return self.refuse_batch(&found),
         };
         let Some(out) = self.out.clone().or_else(|| jobs.out.clone()) else {
             return usage("the jobs file names no output folder (`out:`); give one with --out");
         };
         let began = Instant::now();
-        let ready = match self.ready(&jobs, &out) {
+        let ready = match self.prepare_batch(&jobs, &out) {
             Ok(ready) => ready,
-            Err(found) => return self.refused(&found),
+            Err(found) => return self.refuse_batch(&found),
         };
         let mut warnings = ready.plan.findings.clone();
-        warnings.extend(ready.plan.over_budget(self.shard, ready.memory));
+        warnings.extend(ready.plan.find_over_budget(self.shard, ready.memory));
         let warnings = policy.apply(warnings);
         if warnings.iter().any(Diagnostic::is_error) {
-            return self.refused(&warnings);
+            return self.refuse_batch(&warnings);
         }
-        self.show(&warnings)?;
+        self.show_findings(&warnings)?;
         // Old results would look like those of this batch, should it be killed.
-        if let Err(found) = make_way(&ready.results) {
-            return self.refused(&[found]);
+        if let Err(found) = remove_old_results(&ready.results) {
+            return self.refuse_batch(&[found]);
         }
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.workers()).stack_size(STACK).build();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.worker_count()).stack_size(STACK).build();
         let pool = pool.map_err(io::Error::other)?;
-        let outputs = Outputs::default();
-        let bars = Bars::new(self.quiet, &self.findings, outputs.interrupt());
-        outputs.stop_gently(bars.clearing())?;
+        let outputs = CommandOutputs::default();
+        let bars = BatchProgress::new(self.quiet, &self.findings, outputs.interrupt());
+        outputs.stop_gently(bars.clear_on_ctrl_c())?;
         let options = format!("{policy:?} {:?}", self.dialect);
-        let mine = ready.plan.of_shard(self.shard);
-        bars.begin(mine.iter().filter_map(|&index| ready.plan.files.get(index)));
+        let mine = ready.plan.files_of_shard(self.shard);
+        bars.begin_files(mine.iter().filter_map(|&index| ready.plan.files.get(index)));
         let batch = Run {
             plan: &ready.plan,
             works: &ready.works,
@@ -170,42 +173,45 @@ impl Batch {
             resume: self.resume,
             interrupt: outputs.interrupt(),
         };
-        let ran = batch.run(&bars);
-        bars.clear();
+        let ran = batch.run_batch(&bars);
+        bars.clear_bars();
         let ran = match ran {
             Ok(ran) => ran,
-            Err(found) => return self.refused(&[*found]),
+            Err(found) => return self.refuse_batch(&[*found]),
         };
         if ran.interrupted {
             eprintln!("clsmith batch: stopped; go on with --resume");
-            return Ok(Exit::Interrupted);
+            return Ok(CommandExit::Interrupted);
         }
-        let head = Head::new(
-            ready.plan.id(&ready.works, &options),
+        let head = ResultsHead::new(
+            ready.plan.batch_id(&ready.works, &options),
             ready.plan.files.len(),
             self.shard.map(|shard| (shard, mine.len())),
         );
-        self.end(&ready, &head, &ran, &outputs, began)
+        self.write_results(&ready, &head, &ran, &outputs, began)
     }
 
     /// What is asked for, by the jobs file or by the command line.
-    fn jobs(&self) -> Result<Jobs, Vec<Diagnostic>> {
+    fn read_jobs(&self) -> Result<BatchJobs, Vec<Diagnostic>> {
         let Some(recipe) = &self.recipe else {
             let path = self.what.first().map(PathBuf::as_path).unwrap_or(Path::new(""));
-            return jobs::load(&files::read(path).map_err(|found| vec![*found])?, path);
+            return jobs_file::load_jobs(
+                &input_files::read_source(path).map_err(|found| vec![*found])?,
+                path,
+            );
         };
-        let asked = |path: &PathBuf| Asked { written: path.clone().into_os_string(), place: None };
-        let job = jobs::Job {
+        let asked = |path: &PathBuf| InputPattern { written: path.clone().into_os_string(), place: None };
+        let job = jobs_file::BatchEntry {
             recipe: recipe.clone(),
             setup: self.setup.clone(),
             files: self.what.iter().map(asked).collect(),
             below: PathBuf::new(),
             place: None,
         };
-        Ok(Jobs { base: PathBuf::new(), out: None, jobs: vec![job] })
+        Ok(BatchJobs { base: PathBuf::new(), out: None, jobs: vec![job] })
     }
 
-    fn ready(&self, jobs: &Jobs, out: &Path) -> Result<Ready, Vec<Diagnostic>> {
+    fn prepare_batch(&self, jobs: &BatchJobs, out: &Path) -> Result<PreparedBatch, Vec<Diagnostic>> {
         let mut works = Vec::new();
         let mut read: Vec<PathBuf> = Vec::new();
         let mut wrong = Vec::new();
@@ -215,9 +221,12 @@ impl Batch {
         for job in &jobs.jobs {
             let path = jobs.base.join(&job.recipe);
             let setup = job.setup.as_ref().map(|setup| jobs.base.join(setup));
-            let work = files::recipe(&path, setup.as_deref()).and_then(|Loaded { recipe, setup, texts }| {
-                Work::new(&job.recipe, recipe, setup, &texts).map_err(|found| vec![*found])
-            });
+            let work = input_files::read_recipe(&path, setup.as_deref()).and_then(
+                |LoadedRecipe { recipe, setup, texts }| {
+                    PreparedRecipe::with_fingerprint(&job.recipe, recipe, setup, &texts)
+                        .map_err(|found| vec![*found])
+                },
+            );
             read.extend([path].into_iter().chain(setup));
             match work {
                 Ok(work) => {
@@ -227,20 +236,24 @@ impl Batch {
                 Err(found) => wrong.extend(found),
             }
         }
-        let folder = Folder::new(out, self.shard);
-        let named = self.results.as_ref().map(|path| folder.results_at(path));
-        let results = named.clone().unwrap_or_else(|| folder.results());
-        match Plan::make(jobs, &folder, &results, &read) {
+        let folder = OutputFolder::new(out, self.shard);
+        let named = self.results.as_ref().map(|path| folder.shard_results_path(path));
+        let results = named.clone().unwrap_or_else(|| folder.results_path());
+        match BatchPlan::plan_files(jobs, &folder, &results, &read) {
             Ok(mut plan) if wrong.is_empty() => {
                 let given = named.iter().filter(|results| {
-                    plan.files.iter().map(|file| &file.path).chain(&read).any(|path| same_file(path, results))
+                    plan.files
+                        .iter()
+                        .map(|file| &file.path)
+                        .chain(&read)
+                        .any(|path| is_same_file(path, results))
                 });
-                let folder = match given.map(|results| results_are_input(results)).next() {
-                    None => folder.lock().map_err(|found| vec![*found])?,
+                let folder = match given.map(|results| report_results_are_input(results)).next() {
+                    None => folder.lock_folder().map_err(|found| vec![*found])?,
                     Some(found) => return Err(vec![found]),
                 };
-                plan.expect_comments(&works);
-                Ok(Ready { plan, works, folder, results, memory: self.memory() })
+                plan.reserve_comment_memory(&works);
+                Ok(PreparedBatch { plan, works, folder, results, memory: self.memory_bytes() })
             }
             Ok(_) => Err(wrong),
             Err(found) => Err(wrong.into_iter().chain(found).collect()),
@@ -248,55 +261,60 @@ impl Batch {
     }
 
     /// Writes the results and tells what came out.
-    fn end(
+    fn write_results(
         &self,
-        ready: &Ready,
-        head: &Head,
-        ran: &Ran,
-        outputs: &Outputs,
+        ready: &PreparedBatch,
+        head: &ResultsHead,
+        ran: &BatchOutcome,
+        outputs: &CommandOutputs,
         began: Instant,
-    ) -> io::Result<Exit> {
-        let bytes = results::to_bytes(head, &ran.records, self.times);
+    ) -> io::Result<CommandExit> {
+        let bytes = batch_results::results_to_bytes(head, &ran.records, self.times);
         let mut found = ran.findings.clone();
-        found.extend(outputs.write(&ready.results, |out| out.write_all(&bytes))?);
+        found.extend(outputs.write_output(&ready.results, |out| out.write_all(&bytes))?);
         if !self.quiet {
             let seconds = Some(began.elapsed().as_secs_f64());
-            let mut text = summary::to_text(&ran.records, ran.before, seconds);
-            let (workers, memory) = (self.workers(), ByteSize::b(ready.memory).display().si());
+            let mut text = summary::summary_to_text(&ran.records, ran.before, seconds);
+            let (workers, memory) = (self.worker_count(), ByteSize::b(ready.memory).display().si());
             text.push_str(&format!("\nat most {workers} at once, in {memory}\n"));
             text.push_str(&format!("results: {}\n", ready.results.display()));
-            unless_nobody_reads(print_summary(&text, false))?;
+            ignore_closed_pipe(print_summary(&text, false))?;
         }
-        self.show(&found)?;
-        Ok(if found.is_empty() { exit_of(&ran.records) } else { Exit::Errors })
+        self.show_findings(&found)?;
+        Ok(if found.is_empty() { exit_for_records(&ran.records) } else { CommandExit::Errors })
     }
 
-    fn refused(&self, found: &[Diagnostic]) -> io::Result<Exit> {
-        self.show(found)?;
-        Ok(Exit::Errors)
+    fn refuse_batch(&self, found: &[Diagnostic]) -> io::Result<CommandExit> {
+        self.show_findings(found)?;
+        Ok(CommandExit::Errors)
     }
 
-    fn show(&self, found: &[Diagnostic]) -> io::Result<()> {
+    fn show_findings(&self, found: &[Diagnostic]) -> io::Result<()> {
         if found.is_empty() {
             return Ok(());
         }
         let mut err = io::stderr().lock();
-        unless_nobody_reads(self.findings.show(&mut err, terminal::errors_are_seen(), found, None))
+        ignore_closed_pipe(self.findings.write_findings(
+            &mut err,
+            terminal::is_stderr_terminal(),
+            found,
+            None,
+        ))
     }
 
-    fn workers(&self) -> usize {
+    fn worker_count(&self) -> usize {
         let processors = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
         self.jobs.map_or_else(processors, usize::from)
     }
 
     /// Bytes for all files together.
-    fn memory(&self) -> u64 {
-        self.memory.map_or_else(|| available() / 2, |size| size.as_u64())
+    fn memory_bytes(&self) -> u64 {
+        self.memory.map_or_else(|| available_memory_bytes() / 2, |size| size.as_u64())
     }
 }
 
 /// Takes old results away, and finds out before the work whether new ones can be written.
-fn make_way(results: &Path) -> Result<(), Diagnostic> {
+fn remove_old_results(results: &Path) -> Result<(), Diagnostic> {
     let unwritable = |why: &str| {
         let message = format!("the results {} cannot be written: {why}", results.display());
         Diagnostic::new(codes::UNWRITABLE, message)
@@ -311,13 +329,13 @@ fn make_way(results: &Path) -> Result<(), Diagnostic> {
     }
 }
 
-fn results_are_input(results: &Path) -> Diagnostic {
+fn report_results_are_input(results: &Path) -> Diagnostic {
     let message = format!("writing the results to {} would overwrite an input", results.display());
     Diagnostic::new(codes::OUTPUT_IS_INPUT, message)
 }
 
 /// Memory that is available: to the machine, or to the container if that is less.
-fn available() -> u64 {
+fn available_memory_bytes() -> u64 {
     let mut system = sysinfo::System::new();
     system.refresh_memory();
     let of_machine = system.available_memory();
@@ -329,7 +347,7 @@ fn available() -> u64 {
 }
 
 /// Whether every file of a batch came out.
-fn exit_of(records: &[Record]) -> Exit {
+fn exit_for_records(records: &[BatchRecord]) -> CommandExit {
     let done = records.iter().all(|record| record.outcome.is_written());
-    if done { Exit::Done } else { Exit::Errors }
+    if done { CommandExit::Done } else { CommandExit::Errors }
 }

@@ -1,11 +1,11 @@
 //! Bars of a batch: one for all files, one for each that runs; and findings as they come.
 
-use crate::cli::findings::FindingArgs;
-use crate::cli::output::unless_nobody_reads;
+use crate::cli::command_outputs::ignore_closed_pipe;
+use crate::cli::finding_args::FindingArgs;
 use crate::cli::terminal;
-use clsmith::batch::{Outcome, Planned, Record, Watch};
+use clsmith::batch::{BatchRecord, BatchWatcher, FileOutcome, PlannedFile};
 use clsmith::diagnostic::Diagnostic;
-use clsmith::machining;
+use clsmith::simulation_run;
 use clsmith::write::Interrupt;
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io;
@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 /// Bars on standard error; nothing is drawn where that is no terminal, or nobody wants it.
-pub struct Bars<'a> {
+pub struct BatchProgress<'a> {
     all: MultiProgress,
     whole: ProgressBar,
     failed: AtomicUsize,
@@ -21,9 +21,9 @@ pub struct Bars<'a> {
     interrupt: &'a Interrupt,
 }
 
-impl<'a> Bars<'a> {
+impl<'a> BatchProgress<'a> {
     pub fn new(quiet: bool, findings: &'a FindingArgs, interrupt: &'a Interrupt) -> Self {
-        let seen = terminal::errors_are_seen() && !quiet;
+        let seen = terminal::is_stderr_terminal() && !quiet;
         let target = if seen { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         let all = MultiProgress::with_draw_target(target);
         let whole = all.add(ProgressBar::new(0));
@@ -31,20 +31,24 @@ impl<'a> Bars<'a> {
     }
 
     /// Begins with the files that are to be done: by their bytes, since those take the time.
-    pub fn begin<'p>(&self, files: impl Iterator<Item = &'p Planned>) {
-        let (count, bytes) = files.fold((0, 0), |(count, bytes), file| (count + 1, bytes + weight(file)));
+    pub fn begin_files<'p>(&self, files: impl Iterator<Item = &'p PlannedFile>) {
+        let (count, bytes) =
+            files.fold((0, 0), |(count, bytes), file| (count + 1, bytes + progress_weight(file)));
         self.whole.set_length(bytes);
         let files = if count == 1 { "file" } else { "files" };
-        style(&self.whole, &format!("{count} {files} {{wide_bar}} {{percent:>3}} %, {{eta}} left{{msg}}"));
+        set_bar_style(
+            &self.whole,
+            &format!("{count} {files} {{wide_bar}} {{percent:>3}} %, {{eta}} left{{msg}}"),
+        );
     }
 
     /// Takes the bars away.
-    pub fn clear(&self) {
+    pub fn clear_bars(&self) {
         self.whole.finish_and_clear();
     }
 
     /// What takes the bars away, for the handler of Ctrl-C.
-    pub fn clearing(&self) -> impl Fn() + Send + 'static {
+    pub fn clear_on_ctrl_c(&self) -> impl Fn() + Send + 'static {
         let all = self.all.clone();
         move || {
             // Nothing can be done about a terminal that cannot be cleared.
@@ -53,20 +57,24 @@ impl<'a> Bars<'a> {
     }
 
     /// Findings go above the bars.
-    fn show(&self, found: &[Diagnostic], file: Option<&str>) {
+    fn show_findings(&self, found: &[Diagnostic], file: Option<&str>) {
         self.all.suspend(|| {
             let mut err = io::stderr().lock();
             // That nobody reads findings is no reason to stop: the results have them.
-            let _ =
-                unless_nobody_reads(self.findings.show(&mut err, terminal::errors_are_seen(), found, file));
+            let _ = ignore_closed_pipe(self.findings.write_findings(
+                &mut err,
+                terminal::is_stderr_terminal(),
+                found,
+                file,
+            ));
         });
     }
 }
 
-impl Watch for Bars<'_> {
-    fn begins(&self, file: &Planned) -> Box<dyn machining::Watch + '_> {
+impl BatchWatcher for BatchProgress<'_> {
+    fn begin_file(&self, file: &PlannedFile) -> Box<dyn simulation_run::RunWatcher + '_> {
         let bar = self.all.add(ProgressBar::no_length());
-        style(&bar, "  {spinner} {msg}");
+        set_bar_style(&bar, "  {spinner} {msg}");
         bar.set_message(file.input.to_string());
         if !self.all.is_hidden() {
             bar.enable_steady_tick(Duration::from_millis(200));
@@ -74,24 +82,24 @@ impl Watch for Bars<'_> {
         Box::new(FileBar { bar, interrupt: self.interrupt })
     }
 
-    fn ended(&self, file: &Planned, record: &Record, findings: &[Diagnostic], _before: bool) {
-        if record.outcome == Outcome::Failed {
+    fn end_file(&self, file: &PlannedFile, record: &BatchRecord, findings: &[Diagnostic], _before: bool) {
+        if record.outcome == FileOutcome::Failed {
             let failed = 1 + self.failed.fetch_add(1, Ordering::Relaxed);
             self.whole.set_message(format!(", {failed} failed"));
-            self.show(findings, Some(&file.input.to_string()));
+            self.show_findings(findings, Some(&file.input.to_string()));
         }
-        self.whole.inc(weight(file));
+        self.whole.inc(progress_weight(file));
     }
 }
 
 /// An empty file takes time, too.
-fn weight(file: &Planned) -> u64 {
+fn progress_weight(file: &PlannedFile) -> u64 {
     file.size.saturating_add(4096)
 }
 
-fn style(bar: &ProgressBar, template: &str) {
-    let marks = if terminal::unicode() { "█▌ " } else { "## " };
-    let ticks = if terminal::unicode() { "◐◓◑◒ " } else { "|/-\\ " };
+fn set_bar_style(bar: &ProgressBar, template: &str) {
+    let marks = if terminal::has_unicode() { "█▌ " } else { "## " };
+    let ticks = if terminal::has_unicode() { "◐◓◑◒ " } else { "|/-\\ " };
     if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style.progress_chars(marks).tick_chars(ticks));
     }
@@ -103,17 +111,17 @@ struct FileBar<'a> {
     interrupt: &'a Interrupt,
 }
 
-impl machining::Watch for FileBar<'_> {
-    fn progress(&self, done: f64, whole: f64) {
+impl simulation_run::RunWatcher for FileBar<'_> {
+    fn report_progress(&self, done: f64, whole: f64) {
         if self.bar.length().is_none() {
-            style(&self.bar, "  {spinner} {msg} {wide_bar} {percent:>3} %");
+            set_bar_style(&self.bar, "  {spinner} {msg} {wide_bar} {percent:>3} %");
         }
         let tenths = |length: f64| (length * 10.0) as u64;
         self.bar.set_length(tenths(whole).max(1));
         self.bar.set_position(tenths(done));
     }
 
-    fn is_stopped(&self) -> bool {
+    fn is_stop_requested(&self) -> bool {
         self.interrupt.is_raised()
     }
 }

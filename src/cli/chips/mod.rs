@@ -1,21 +1,21 @@
 //! `clsmith chips`.
 
-mod lines;
+mod line_range;
 mod outputs;
 
-use crate::cli::exit::Exit;
-use crate::cli::files;
-use crate::cli::findings::FindingArgs;
-use crate::cli::measuring::{Measuring, Under};
-use crate::cli::stop::Stop;
+use crate::cli::command_exit::CommandExit;
+use crate::cli::command_stop::CommandStop;
+use crate::cli::finding_args::FindingArgs;
+use crate::cli::input_files;
+use crate::cli::measuring_command::{MeasuringCommand, MeasuringContext};
 use clap::Args;
-use clsmith::machining::Machining;
-use clsmith::machining::chips::ChipOptions;
+use clsmith::parameters::LengthUnit;
 use clsmith::program::Dialect;
-use clsmith::report::chips::{self, ChipReport, Keep};
-use clsmith::report::stats::Units;
-use clsmith::values::LengthUnit;
-use outputs::Drawn;
+use clsmith::report::layered_chips::{self, ChipReport, ChipReportOptions};
+use clsmith::report::stats::ResolvedLengthUnit;
+use clsmith::simulation_run::Machining;
+use clsmith::simulation_run::layer_run::LayerRunOptions;
+use outputs::ChipDrawings;
 use std::io;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
@@ -40,7 +40,7 @@ motion's end. An empty cell is a value that is not known, as engagement where th
 /// Finds the exact undeformed chip of every motion, layer by layer, in three and five axes
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct Chips {
+pub struct ChipsArgs {
     /// The program; `-` is standard input
     #[arg(value_name = "PROGRAM")]
     program: PathBuf,
@@ -48,10 +48,10 @@ pub struct Chips {
     #[arg(long, value_name = "FILE")]
     setup: PathBuf,
     /// Thickness of the layers that the workpiece is cut into
-    #[arg(long, value_name = "MM", value_parser = super::simulate::length)]
+    #[arg(long, value_name = "MM", value_parser = super::simulate::parse_positive)]
     layer: f64,
     /// Report only motions on these lines of the file: A..B, A.., ..B or A. What is before them is cut, what is after is not run
-    #[arg(long, value_name = "A..B", value_parser = lines::parse, default_value = "..", hide_default_value = true)]
+    #[arg(long, value_name = "A..B", value_parser = line_range::parse_line_range, default_value = "..", hide_default_value = true)]
     lines: RangeInclusive<usize>,
     /// Everything as JSON, with the borders of all pieces; `-` is standard output
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
@@ -69,22 +69,22 @@ pub struct Chips {
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     diagram: Option<PathBuf>,
     /// Draw only the layer at this height; a few of all layers if not given
-    #[arg(long, value_name = "Z", allow_negative_numbers = true, value_parser = height)]
+    #[arg(long, value_name = "Z", allow_negative_numbers = true, value_parser = parse_height_mm)]
     at: Option<f64>,
     /// How many moves are drawn at most
     #[arg(long, value_name = "N", default_value = "6", value_parser = clap::value_parser!(u8).range(1..=24))]
     moves: u8,
     /// How far straight pieces of a border, and chords of arcs, may be from the curve
-    #[arg(long, value_name = "MM", default_value = "0.002", value_parser = tolerance)]
+    #[arg(long, value_name = "MM", default_value = "0.002", value_parser = parse_tolerance_mm)]
     tolerance: f64,
     /// Threads; as many as there are cores if not given. The result is the same
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// The dialect, instead of finding it from the text
-    #[arg(long, value_parser = files::dialect, value_name = "NAME")]
+    #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
     dialect: Option<Dialect>,
     /// Unit of lengths of a file that does not state it: mm or inch
-    #[arg(long, value_parser = files::units, value_name = "UNIT")]
+    #[arg(long, value_parser = input_files::parse_length_unit, value_name = "UNIT")]
     units: Option<LengthUnit>,
     /// No summary and no progress, findings only
     #[arg(short, long)]
@@ -94,54 +94,58 @@ pub struct Chips {
 }
 
 /// A height in mm.
-fn height(text: &str) -> Result<f64, String> {
+fn parse_height_mm(text: &str) -> Result<f64, String> {
     let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
     value.ok_or_else(|| "this must be a number".into())
 }
 
 /// A distance of chords from their curve, mm: no finer than the grid of areas and no coarser than a picture needs.
-fn tolerance(text: &str) -> Result<f64, String> {
+fn parse_tolerance_mm(text: &str) -> Result<f64, String> {
     let value = text.parse::<f64>().ok().filter(|value| (1e-5..=0.1).contains(value));
     value.ok_or_else(|| "this must be a number of millimetres from 0.00001 to 0.1".into())
 }
 
-impl Chips {
-    pub fn run(&self) -> io::Result<Exit> {
-        let measuring = Measuring {
+impl ChipsArgs {
+    pub fn run(&self) -> io::Result<CommandExit> {
+        let measuring = MeasuringCommand {
             command: "chips",
             program: &self.program,
-            outputs: self.outputs().collect(),
+            outputs: self.output_paths().collect(),
             quiet: self.quiet,
             threads: self.threads,
             findings: &self.findings,
         };
-        measuring.run(
-            self.problem(),
-            |under| self.find(under),
-            |(report, _)| chips::to_text(report),
-            |(report, drawn), _, outputs| self.write(report, drawn, outputs),
+        measuring.run_measurement(
+            self.find_usage_problem(),
+            |under| self.find_chips(under),
+            |(report, _)| layered_chips::to_text(report),
+            |(report, drawn), _, outputs| self.write_outputs(report, drawn, outputs),
         )
     }
 
     /// Everything but writing: the chips, and the drawings if some are wanted. What does not stop the run is added to the findings.
-    fn find(&self, under: &mut Under<'_>) -> Result<(ChipReport, Drawn), Stop> {
-        let setup = files::setup(&self.setup)?;
-        self.overwrites(&setup)?;
-        let program = under.program(&self.program, self.dialect)?;
-        let units = Units::of(&program, self.units).unit;
+    fn find_chips(
+        &self,
+        under: &mut MeasuringContext<'_>,
+    ) -> Result<(ChipReport, ChipDrawings), CommandStop> {
+        let setup = input_files::read_setup(&self.setup)?;
+        self.check_outputs(&setup)?;
+        let program = under.read_program(&self.program, self.dialect)?;
+        let units = ResolvedLengthUnit::from_program(&program, self.units).unit;
         let machining = Machining::new(&program, &setup, units, under.findings)?;
-        let options = ChipOptions {
+        let options = LayerRunOptions {
             tolerance: self.tolerance,
             lines: self.lines.clone(),
-            ..ChipOptions::new(self.layer)
+            ..LayerRunOptions::new(self.layer)
         };
         let scenes = if self.svg.is_some() || self.diagram.is_some() { usize::from(self.moves) } else { 0 };
-        let keep = Keep { borders: self.json.is_some() || self.stl.is_some(), scenes, at: self.at };
-        under.progress.begin(program.source().name());
-        let mut report =
-            ChipReport::of(&machining, &options, keep, under.progress)?.ok_or(Stop::Interrupted)?;
+        let keep =
+            ChipReportOptions { borders: self.json.is_some() || self.stl.is_some(), scenes, at: self.at };
+        under.progress.begin_bar(program.source().name());
+        let mut report = ChipReport::simulate_layers(&machining, &options, keep, under.progress)?
+            .ok_or(CommandStop::Interrupted)?;
         under.findings.append(&mut report.findings);
-        let drawn = self.drawn(&report)?;
+        let drawn = self.draw_chips(&report)?;
         Ok((report, drawn))
     }
 }

@@ -1,29 +1,29 @@
 //! What `clsmith chips` writes, and where it may not.
 
-use super::Chips;
-use crate::cli::files::STANDARD;
-use crate::cli::output::{self, Outputs};
-use crate::cli::stop::Stop;
+use super::ChipsArgs;
+use crate::cli::command_outputs::{self, CommandOutputs};
+use crate::cli::command_stop::CommandStop;
+use crate::cli::input_files::STANDARD;
 use clsmith::diagnostic::{Diagnostic, codes};
-use clsmith::report::chips::{self, ChipReport};
+use clsmith::report::layered_chips::{self, ChipReport};
 use clsmith::setup::Setup;
-use clsmith::write::same_file;
+use clsmith::write::is_same_file;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Drawings, where they are wanted.
 #[derive(Debug, Default)]
-pub struct Drawn {
+pub struct ChipDrawings {
     layers: Option<String>,
     diagrams: Option<String>,
 }
 
-impl Chips {
+impl ChipsArgs {
     /// What is wrong with the command line beyond what clap can say.
-    pub(super) fn problem(&self) -> Option<String> {
-        let outputs: Vec<&Path> = self.outputs().collect();
+    pub(super) fn find_usage_problem(&self) -> Option<String> {
+        let outputs: Vec<&Path> = self.output_paths().collect();
         let twice = outputs.iter().enumerate().find_map(|(index, one)| {
-            outputs.iter().skip(index + 1).find(|other| *other == one || same_file(one, other))
+            outputs.iter().skip(index + 1).find(|other| *other == one || is_same_file(one, other))
         });
         if let Some(twice) = twice {
             return Some(format!("two outputs would go to {}", twice.display()));
@@ -38,25 +38,25 @@ impl Chips {
         (self.stl.as_deref() == Some(standard)).then(|| "--stl needs a file".into())
     }
 
-    pub(super) fn outputs(&self) -> impl Iterator<Item = &Path> {
+    pub(super) fn output_paths(&self) -> impl Iterator<Item = &Path> {
         let all = [&self.csv, &self.json, &self.stl, &self.svg, &self.diagram];
         all.into_iter().filter_map(|path| path.as_deref())
     }
 
     /// No output may be an input, nor a file that the setup names.
-    pub(super) fn overwrites(&self, setup: &Setup) -> Result<(), Stop> {
+    pub(super) fn check_outputs(&self, setup: &Setup) -> Result<(), CommandStop> {
         let mut inputs = vec![self.program.as_path(), &self.setup];
-        inputs.extend(setup.files());
-        match output::overwritten(self.outputs(), &inputs) {
+        inputs.extend(setup.referenced_files());
+        match command_outputs::find_overwritten_input(self.output_paths(), &inputs) {
             Some(found) => Err(found.into()),
             None => Ok(()),
         }
     }
 
     /// The drawings that are wanted.
-    pub(super) fn drawn(&self, report: &ChipReport) -> Result<Drawn, Stop> {
+    pub(super) fn draw_chips(&self, report: &ChipReport) -> Result<ChipDrawings, CommandStop> {
         if self.svg.is_none() && self.diagram.is_none() {
-            return Ok(Drawn::default());
+            return Ok(ChipDrawings::default());
         }
         if report.scenes.is_empty() {
             let message = match self.at {
@@ -68,25 +68,33 @@ impl Chips {
             return Err(Diagnostic::new(codes::NO_SUCH_LAYER, message).into());
         }
         let failed = |error: io::Error| Diagnostic::new(codes::UNWRITABLE, error.to_string());
-        let layers =
-            self.svg.as_ref().map(|_| chips::picture(report, self.at)).transpose().map_err(failed)?;
-        let diagrams =
-            self.diagram.as_ref().map(|_| chips::diagrams(report, self.at)).transpose().map_err(failed)?;
-        Ok(Drawn { layers, diagrams })
+        let layers = self
+            .svg
+            .as_ref()
+            .map(|_| layered_chips::draw_layers(report, self.at))
+            .transpose()
+            .map_err(failed)?;
+        let diagrams = self
+            .diagram
+            .as_ref()
+            .map(|_| layered_chips::draw_diagrams(report, self.at))
+            .transpose()
+            .map_err(failed)?;
+        Ok(ChipDrawings { layers, diagrams })
     }
 
     /// Writes what was asked for; a finding when that fails.
-    pub(super) fn write(
+    pub(super) fn write_outputs(
         &self,
         report: &ChipReport,
-        drawn: &Drawn,
-        outputs: &Outputs,
+        drawn: &ChipDrawings,
+        outputs: &CommandOutputs,
     ) -> io::Result<Option<Diagnostic>> {
         type Writer<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
         let all: [(&Option<PathBuf>, Writer<'_>); 5] = [
-            (&self.csv, Box::new(|out| chips::to_csv(report, out))),
-            (&self.json, Box::new(|out| chips::to_json(report, out))),
-            (&self.stl, Box::new(|out| chips::to_stl(report, out))),
+            (&self.csv, Box::new(|out| layered_chips::write_csv(report, out))),
+            (&self.json, Box::new(|out| layered_chips::write_json(report, out))),
+            (&self.stl, Box::new(|out| layered_chips::write_stl(report, out))),
             (
                 &self.svg,
                 Box::new(|out| out.write_all(drawn.layers.as_deref().unwrap_or_default().as_bytes())),
@@ -98,7 +106,7 @@ impl Chips {
         ];
         for (path, write_all) in &all {
             let Some(path) = path else { continue };
-            if let Some(found) = outputs.write(path, write_all)? {
+            if let Some(found) = outputs.write_output(path, write_all)? {
                 return Ok(Some(found));
             }
         }

@@ -1,6 +1,6 @@
 //! Exit codes of the hook: those of `timeout` and the shell, and else the post's own.
 
-use super::post::Ended;
+use super::post_process::PostOutcome;
 use clsmith::diagnostic::{Diagnostic, codes};
 use std::time::Duration;
 
@@ -18,24 +18,32 @@ const SIGNAL: i32 = 128;
 pub const STOPPED: i32 = 130;
 
 /// The exit code, and what there is to say about how the post ended.
-pub fn judge(name: &str, timeout: Option<Duration>, ended: &Ended) -> (i32, Option<Diagnostic>) {
+pub fn judge_post_outcome(
+    name: &str,
+    timeout: Option<Duration>,
+    ended: &PostOutcome,
+) -> (i32, Option<Diagnostic>) {
     let (exit, code, message) = match ended {
-        Ended::Exit(code) if (TIMED_OUT..=MISSING).contains(code) || (SIGNAL + 1..256).contains(code) => {
+        PostOutcome::Exit(code)
+            if (TIMED_OUT..=MISSING).contains(code) || (SIGNAL + 1..256).contains(code) =>
+        {
             let message = format!("{name} itself ended with {code}, which the hook uses, too");
             (*code, codes::EXIT_CODE_SHARED, message)
         }
-        Ended::Exit(code) => return (*code, None),
-        Ended::Stopped => return (STOPPED, None),
-        Ended::Signal(signal) => {
+        PostOutcome::Exit(code) => return (*code, None),
+        PostOutcome::Stopped => return (STOPPED, None),
+        PostOutcome::Signal(signal) => {
             (SIGNAL + signal, codes::POST_KILLED, format!("{name} was ended by signal {signal}"))
         }
-        Ended::TimedOut => {
+        PostOutcome::TimedOut => {
             let limit = timeout.unwrap_or_default().as_secs_f64();
             let message = format!("{name} had not ended after {limit} s and was stopped");
             (TIMED_OUT, codes::POST_TIMED_OUT, message)
         }
-        Ended::Missing(error) => (MISSING, codes::POST_MISSING, format!("{name} cannot be found: {error}")),
-        Ended::NotStarted(error) => {
+        PostOutcome::Missing(error) => {
+            (MISSING, codes::POST_MISSING, format!("{name} cannot be found: {error}"))
+        }
+        PostOutcome::NotStarted(error) => {
             (NOT_STARTED, codes::POST_NOT_STARTED, format!("{name} cannot be started: {error}"))
         }
     };

@@ -1,22 +1,22 @@
 //! `clsmith hook`: between the CAM system's export and the post.
 
-mod desk;
 mod exit_codes;
-mod post;
-mod run;
+mod hook_run;
+mod post_process;
+mod post_workspace;
 
-use super::exit::Exit;
-use super::files::{self, STANDARD};
-use super::findings::FindingArgs;
-use super::output::{Outputs, unless_nobody_reads};
-use super::progress::Progress;
-use super::shop::{Log, RecipeArgs};
+use super::command_exit::CommandExit;
+use super::command_outputs::{CommandOutputs, ignore_closed_pipe};
+use super::finding_args::FindingArgs;
+use super::input_files::{self, STANDARD};
+use super::progress::CommandProgress;
 use super::terminal;
+use super::unattended::{RecipeArgs, RunLog};
 use clap::{Args, ValueEnum};
 use clsmith::diagnostic::Diagnostic;
 use exit_codes::REFUSED;
-use post::MARK;
-use run::Run;
+use hook_run::HookRun;
+use post_process::MARK;
 use std::ffi::{OsStr, OsString};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -61,7 +61,7 @@ enum OnError {
 /// Corrects an exported program and runs the post-processor on the result
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct Hook {
+pub struct HookArgs {
     #[command(flatten)]
     recipe: RecipeArgs,
     /// When the program cannot be corrected: post nothing, or post it as it is
@@ -71,7 +71,7 @@ pub struct Hook {
     #[arg(long, value_name = "FILE")]
     log: Option<PathBuf>,
     /// Longest time for the post; no limit if not given
-    #[arg(long, value_name = "SECONDS", value_parser = files::seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = input_files::parse_seconds)]
     timeout: Option<Duration>,
     /// Keeps what the post got: a file, or a folder (one that exists, or a path that ends in a slash)
     #[arg(long, value_name = "PATH")]
@@ -89,40 +89,41 @@ pub struct Hook {
     post: Vec<OsString>,
 }
 
-impl Hook {
-    pub fn run(&self) -> io::Result<Exit> {
-        let policy = match self.problem().map_or_else(|| self.findings.policy(), Err) {
+impl HookArgs {
+    pub fn run(&self) -> io::Result<CommandExit> {
+        let policy = match self.find_usage_problem().map_or_else(|| self.findings.build_policy(), Err) {
             Ok(policy) => policy,
             Err(problem) => {
                 eprintln!("clsmith hook: {problem}");
-                return Ok(Exit::Usage);
+                return Ok(CommandExit::Usage);
             }
         };
-        let log = self.log.as_ref().map(|path| Log::open(path, self.recipe.files().chain([&self.input])));
+        let log =
+            self.log.as_ref().map(|path| RunLog::open(path, self.recipe.input_files().chain([&self.input])));
         let log = match log.transpose() {
             Ok(log) => log,
             Err(found) => {
-                self.show(&[*found])?;
+                self.show_findings(&[*found])?;
                 if self.on_error == OnError::Stop {
                     eprintln!("{}: nothing was posted", self.input.display());
-                    return Ok(Exit::Posted(REFUSED));
+                    return Ok(CommandExit::Posted(REFUSED));
                 }
                 None
             }
         };
-        let outputs = Outputs::default();
-        let progress = Progress::new(self.quiet, outputs.interrupt());
-        outputs.stop_on_ctrl_c(progress.clearing())?;
-        Run::new(self, &outputs, log).whole(&policy, &progress)
+        let outputs = CommandOutputs::default();
+        let progress = CommandProgress::new(self.quiet, outputs.interrupt());
+        outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
+        HookRun::new(self, &outputs, log).run_hook(&policy, &progress)
     }
 
     /// What is wrong with the command line beyond what clap can say.
-    fn problem(&self) -> Option<String> {
+    fn find_usage_problem(&self) -> Option<String> {
         if self.input == Path::new(STANDARD) || self.input.file_name().is_none() {
             return Some("INPUT is a file; standard input has no name that the post could go by".into());
         }
         let arguments = self.post.get(1..).unwrap_or_default();
-        if !arguments.iter().any(|argument| post::is_marked(argument)) {
+        if !arguments.iter().any(|argument| post_process::has_path_mark(argument)) {
             return Some(format!(
                 "no argument of the post holds `{MARK}`, so it would never see the program"
             ));
@@ -130,28 +131,35 @@ impl Hook {
         None
     }
 
-    fn show(&self, findings: &[Diagnostic]) -> io::Result<()> {
+    fn show_findings(&self, findings: &[Diagnostic]) -> io::Result<()> {
         if findings.is_empty() {
             return Ok(());
         }
         let mut err = io::stderr().lock();
         let file = self.input.to_string_lossy();
-        unless_nobody_reads(self.findings.show(&mut err, terminal::errors_are_seen(), findings, Some(&file)))
+        ignore_closed_pipe(self.findings.write_findings(
+            &mut err,
+            terminal::is_stderr_terminal(),
+            findings,
+            Some(&file),
+        ))
     }
 
-    fn name(&self) -> &OsStr {
+    fn program_file_name(&self) -> &OsStr {
         self.input.file_name().unwrap_or(self.input.as_os_str())
     }
 
     /// The folder in which it is kept, where the path's last slash says that it is one.
-    fn kept_in(&self) -> Option<&Path> {
+    fn keep_folder(&self) -> Option<&Path> {
         let ends = |keep: &&PathBuf| keep.as_os_str().as_encoded_bytes().ends_with(b"/");
         self.keep.as_ref().filter(ends).map(PathBuf::as_path)
     }
 
     /// Where the program that the post gets is kept.
-    fn kept_at(&self) -> Option<PathBuf> {
-        let is_folder = |keep: &PathBuf| keep.is_dir() || self.kept_in().is_some();
-        self.keep.as_ref().map(|keep| if is_folder(keep) { keep.join(self.name()) } else { keep.clone() })
+    fn keep_path(&self) -> Option<PathBuf> {
+        let is_folder = |keep: &PathBuf| keep.is_dir() || self.keep_folder().is_some();
+        self.keep
+            .as_ref()
+            .map(|keep| if is_folder(keep) { keep.join(self.program_file_name()) } else { keep.clone() })
     }
 }

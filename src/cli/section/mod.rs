@@ -1,21 +1,23 @@
 //! `clsmith section`.
 
-mod line;
+mod command_line;
 mod options;
 mod outputs;
 
-use super::exit::Exit;
-use super::files;
-use super::findings::FindingArgs;
-use super::output::{Outputs, unless_nobody_reads};
+use super::command_exit::CommandExit;
+use super::command_outputs::{CommandOutputs, ignore_closed_pipe};
+use super::finding_args::FindingArgs;
+use super::input_files;
 use super::terminal;
 use clap::{Args, ValueEnum};
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::program::{Dialect, LengthUnit};
-use clsmith::report::policy::Policy;
-use clsmith::report::surfacing as report;
+use clsmith::report::finding_policy::FindingPolicy;
+use clsmith::report::surface_milling as report;
 use clsmith::sim::Mesh;
-use clsmith::surfacing::{self, Options, Part, Surfaced, load_profile, surface};
+use clsmith::surface_milling::{
+    self, SurfaceMillingOptions, SurfacePart, SurfaceProgram, load_profile, make_surface_program,
+};
 use clsmith::write::is_interrupt;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -39,7 +41,7 @@ pass to pass over the surface where that is near; else it is lifted --clearance 
 /// Makes a program for a ball that goes over a part in parallel vertical planes
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct Section {
+pub struct SectionArgs {
     /// The part: a closed STL
     #[arg(value_name = "MODEL", required_unless_present = "profile", conflicts_with = "profile")]
     model: Option<PathBuf>,
@@ -66,10 +68,10 @@ pub struct Section {
     tolerance: Option<String>,
     /// What heights are made from: the whole mesh, or its profile in the plane alone
     #[arg(long, value_enum, default_value = "mesh", conflicts_with = "profile")]
-    against: Against,
+    against: PassHeightsArg,
     /// How passes follow each other
     #[arg(long, value_enum, default_value = "zigzag")]
-    pattern: Pattern,
+    pattern: PassPatternArg,
     /// Keep arcs where the dialect holds them in vertical planes (NX, CATIA)
     #[arg(long)]
     arcs: bool,
@@ -113,10 +115,10 @@ pub struct Section {
     #[arg(long, value_name = "NAME", help_heading = "Program")]
     operation: Option<String>,
     /// nx, catia or creo; by the output's extension (.aptsource and .apt, .ncl) if not given, else nx
-    #[arg(long, value_parser = writable, value_name = "NAME", help_heading = "Program")]
+    #[arg(long, value_parser = parse_writable_dialect, value_name = "NAME", help_heading = "Program")]
     dialect: Option<Dialect>,
     /// Unit of lengths here, in the STL and in the program: mm or inch
-    #[arg(long, value_parser = files::units, value_name = "UNIT", default_value = "mm", help_heading = "Program")]
+    #[arg(long, value_parser = input_files::parse_length_unit, value_name = "UNIT", default_value = "mm", help_heading = "Program")]
     units: LengthUnit,
     /// Where to write the program; `-` is standard output
     #[arg(short, long, value_name = "FILE", required_unless_present = "dry_run", help_heading = "Outputs")]
@@ -136,7 +138,7 @@ pub struct Section {
 
 /// What heights over a mesh are made from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Against {
+enum PassHeightsArg {
     /// The whole mesh.
     Mesh,
     /// Its profile in the plane.
@@ -145,136 +147,140 @@ enum Against {
 
 /// How passes follow each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Pattern {
+enum PassPatternArg {
     /// Forth and back.
     Zigzag,
     /// All the same way.
     OneWay,
 }
 
-fn writable(name: &str) -> Result<Dialect, String> {
-    let writable = clsmith::write::program::WRITABLE;
-    let found = Dialect::of_name(name).filter(|dialect| writable.contains(dialect));
+fn parse_writable_dialect(name: &str) -> Result<Dialect, String> {
+    let writable = clsmith::write::new_program::WRITABLE;
+    let found = Dialect::from_name(name).filter(|dialect| writable.contains(dialect));
     found.ok_or_else(|| "the dialects that can be written are nx, catia and creo".into())
 }
 
-impl Section {
-    pub fn run(&self) -> io::Result<Exit> {
-        let policy = match self.problem().map_or_else(|| self.findings.policy(), Err) {
+impl SectionArgs {
+    pub fn run(&self) -> io::Result<CommandExit> {
+        let policy = match self.find_usage_problem().map_or_else(|| self.findings.build_policy(), Err) {
             Ok(policy) => policy,
             Err(problem) => {
                 eprintln!("clsmith section: {problem}");
-                return Ok(Exit::Usage);
+                return Ok(CommandExit::Usage);
             }
         };
-        let options = match self.options() {
+        let options = match self.check_options() {
             Ok(options) => options,
             Err(found) => {
-                self.show(&policy.apply(found))?;
-                self.nothing();
-                return Ok(Exit::Usage);
+                self.show_findings(&policy.apply(found))?;
+                self.say_nothing_written();
+                return Ok(CommandExit::Usage);
             }
         };
-        let outputs = Outputs::default();
+        let outputs = CommandOutputs::default();
         outputs.stop_on_ctrl_c(|| {})?;
-        let done = self.overwrites().and_then(|()| {
-            let part = self.part(&options)?;
-            surface(&part, &options).map_err(|found| vec![*found])
+        let done = self.check_outputs().and_then(|()| {
+            let part = self.read_part(&options)?;
+            make_surface_program(&part, &options).map_err(|found| vec![*found])
         });
         let surfaced = match done {
             Ok(surfaced) => surfaced,
             Err(found) => {
-                self.show(&policy.apply(found))?;
-                self.nothing();
-                return Ok(Exit::Errors);
+                self.show_findings(&policy.apply(found))?;
+                self.say_nothing_written();
+                return Ok(CommandExit::Errors);
             }
         };
-        self.finish(&surfaced, &options, &policy, &outputs)
+        self.show_and_write(&surfaced, &options, &policy, &outputs)
     }
 
     /// Shows what was found and made, and writes what may be written.
-    fn finish(
+    fn show_and_write(
         &self,
-        surfaced: &Surfaced,
-        options: &Options,
-        policy: &Policy,
-        outputs: &Outputs,
-    ) -> io::Result<Exit> {
-        let found = policy.apply(report::findings(surfaced, options));
+        surfaced: &SurfaceProgram,
+        options: &SurfaceMillingOptions,
+        policy: &FindingPolicy,
+        outputs: &CommandOutputs,
+    ) -> io::Result<CommandExit> {
+        let found = policy.apply(report::collect_findings(surfaced, options));
         if !found.is_empty() {
-            self.show(&found)?;
+            self.show_findings(&found)?;
         }
         if found.iter().any(Diagnostic::is_error) {
-            self.tell(surfaced, options)?;
-            self.nothing();
-            return Ok(Exit::Errors);
+            self.show_summary_unless_quiet(surfaced, options)?;
+            self.say_nothing_written();
+            return Ok(CommandExit::Errors);
         }
-        match self.write(surfaced, options, outputs) {
-            Ok(None) => self.tell(surfaced, options).map(|()| Exit::Done),
+        match self.write_outputs(surfaced, options, outputs) {
+            Ok(None) => self.show_summary_unless_quiet(surfaced, options).map(|()| CommandExit::Done),
             Ok(Some(found)) => {
-                self.show(&[found])?;
-                Ok(Exit::Errors)
+                self.show_findings(&[found])?;
+                Ok(CommandExit::Errors)
             }
-            Err(error) if is_interrupt(&error) => Ok(Exit::Interrupted),
+            Err(error) if is_interrupt(&error) => Ok(CommandExit::Interrupted),
             Err(error) => Err(error),
         }
     }
 
-    fn tell(&self, surfaced: &Surfaced, options: &Options) -> io::Result<()> {
-        if self.quiet { Ok(()) } else { unless_nobody_reads(self.summary(surfaced, options)) }
+    fn show_summary_unless_quiet(
+        &self,
+        surfaced: &SurfaceProgram,
+        options: &SurfaceMillingOptions,
+    ) -> io::Result<()> {
+        if self.quiet { Ok(()) } else { ignore_closed_pipe(self.show_summary(surfaced, options)) }
     }
 
     /// The part, in mm.
-    fn part(&self, options: &Options) -> Result<Part, Vec<Diagnostic>> {
+    fn read_part(&self, options: &SurfaceMillingOptions) -> Result<SurfacePart, Vec<Diagnostic>> {
         if let Some(profile) = &self.profile {
-            let source = files::read(profile).map_err(|found| vec![*found])?;
-            return load_profile(&source).map(Part::Profile);
+            let source = input_files::read_source(profile).map_err(|found| vec![*found])?;
+            return load_profile(&source).map(SurfacePart::Profile);
         }
-        let path = self.input();
-        let source = files::read(path).map_err(|found| vec![*found])?;
+        let path = self.input_path();
+        let source = input_files::read_source(path).map_err(|found| vec![*found])?;
         let mesh = Mesh::from_stl(source.bytes()).and_then(|mesh| match options.words.units {
             LengthUnit::Mm => Ok(mesh),
-            LengthUnit::Inch => mesh.scaled(LengthUnit::Inch.in_mm()),
+            LengthUnit::Inch => mesh.scaled(LengthUnit::Inch.mm_per_unit()),
         });
-        mesh.map(Part::Mesh).map_err(|error| {
+        mesh.map(SurfacePart::Mesh).map_err(|error| {
             let message = format!("the model {} cannot be gone over: {error}", path.display());
             vec![Diagnostic::new(codes::MODEL_FILE, message)]
         })
     }
 
     /// The one input.
-    fn input(&self) -> &Path {
+    fn input_path(&self) -> &Path {
         self.profile.as_deref().or(self.model.as_deref()).unwrap_or(Path::new(""))
     }
 
-    fn nothing(&self) {
-        if !self.quiet && self.outputs().next().is_some() {
-            eprintln!("{}: nothing was written", self.input().display());
+    fn say_nothing_written(&self) {
+        if !self.quiet && self.output_paths().next().is_some() {
+            eprintln!("{}: nothing was written", self.input_path().display());
         }
     }
 
-    fn show(&self, findings: &[Diagnostic]) -> io::Result<()> {
+    fn show_findings(&self, findings: &[Diagnostic]) -> io::Result<()> {
         let mut err = io::stderr().lock();
-        let file = self.input().to_string_lossy();
-        let seen = terminal::errors_are_seen();
-        unless_nobody_reads(self.findings.show(&mut err, seen, findings, Some(&file)))
+        let file = self.input_path().to_string_lossy();
+        let seen = terminal::is_stderr_terminal();
+        ignore_closed_pipe(self.findings.write_findings(&mut err, seen, findings, Some(&file)))
     }
 }
 
-impl From<Against> for surfacing::Against {
-    fn from(against: Against) -> Self {
+impl From<PassHeightsArg> for surface_milling::PassHeights {
+    fn from(against: PassHeightsArg) -> Self {
         match against {
-            Against::Mesh => Self::Mesh,
-            Against::Profile => Self::Profile,
+            PassHeightsArg::Mesh => Self::Mesh,
+            PassHeightsArg::Profile => Self::Profile,
         }
     }
 }
 
-impl From<Pattern> for surfacing::Pattern {
-    fn from(pattern: Pattern) -> Self {
+impl From<PassPatternArg> for surface_milling::PassPattern {
+    fn from(pattern: PassPatternArg) -> Self {
         match pattern {
-            Pattern::Zigzag => Self::ZigZag,
-            Pattern::OneWay => Self::OneWay,
+            PassPatternArg::Zigzag => Self::ZigZag,
+            PassPatternArg::OneWay => Self::OneWay,
         }
     }
 }

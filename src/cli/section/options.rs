@@ -1,10 +1,10 @@
 //! The options of `clsmith section`, read with all faults at once.
 
-use super::Section;
-use super::line::CommandLine;
+use super::SectionArgs;
+use super::command_line::CommandLine;
 use clsmith::diagnostic::Diagnostic;
 use clsmith::program::Dialect;
-use clsmith::surfacing::{Options, Planes, Words};
+use clsmith::surface_milling::{PassPlanes, SurfaceMillingOptions, SurfaceProgramWords};
 use std::path::Path;
 
 /// Lengths that are taken when none is given, mm.
@@ -20,36 +20,39 @@ const FINEST: f64 = 1e-4;
 const NEAREST: f64 = 0.1;
 const SLOWEST: f64 = 0.01;
 
-impl Section {
-    pub(super) fn options(&self) -> Result<Options, Vec<Diagnostic>> {
-        let mut line = CommandLine::new(self.units);
-        let unit = self.units.in_mm();
-        let planes = self.planes(&mut line);
-        let step = needed(&mut line, "--step", self.step.as_deref(), "how far planes are apart");
-        let radius = needed(&mut line, "--radius", self.radius.as_deref(), "the ball's radius");
-        let feed = needed(&mut line, "--feed", self.feed.as_deref(), "how fast passes are cut");
-        let tolerance = line.size("--tolerance", self.tolerance.as_deref());
+impl SectionArgs {
+    pub(super) fn check_options(&self) -> Result<SurfaceMillingOptions, Vec<Diagnostic>> {
+        let mut line = CommandLine::from_process(self.units);
+        let unit = self.units.mm_per_unit();
+        let planes = self.parse_planes(&mut line);
+        let step =
+            parse_required_size_mm(&mut line, "--step", self.step.as_deref(), "how far planes are apart");
+        let radius =
+            parse_required_size_mm(&mut line, "--radius", self.radius.as_deref(), "the ball's radius");
+        let feed =
+            parse_required_size_mm(&mut line, "--feed", self.feed.as_deref(), "how fast passes are cut");
+        let tolerance = line.parse_size_mm("--tolerance", self.tolerance.as_deref());
         for (option, value, least) in
             [("--radius", radius, SMALLEST), ("--step", step, FINEST), ("--tolerance", tolerance, FINEST)]
         {
             if value.is_some_and(|value| value < least) {
-                line.fault(
+                line.add_fault(
                     option,
                     format!("{option} is less than {} {}", least / unit, self.units),
                     "too small",
                 );
             }
         }
-        let range = self.range(&mut line);
-        let clearance = line.size("--clearance", self.clearance.as_deref());
-        let approach = line.distance("--approach", self.approach.as_deref());
-        let plunge = line.size("--plunge", self.plunge.as_deref());
-        let floor = line.place("--floor", self.floor.as_deref());
+        let range = self.parse_plane_range_mm(&mut line);
+        let clearance = line.parse_size_mm("--clearance", self.clearance.as_deref());
+        let approach = line.parse_distance_mm("--approach", self.approach.as_deref());
+        let plunge = line.parse_size_mm("--plunge", self.plunge.as_deref());
+        let floor = line.parse_coordinate_mm("--floor", self.floor.as_deref());
         let air = match self.between.as_str() {
             "rapid" => None,
-            feed => line.size("--between", Some(feed)),
+            feed => line.parse_size_mm("--between", Some(feed)),
         };
-        let spindle = line.positive("--spindle", self.spindle.as_deref());
+        let spindle = line.parse_positive("--spindle", self.spindle.as_deref());
         for (option, value, least) in [("--clearance", clearance, NEAREST), ("--approach", approach, NEAREST)]
         {
             if value.is_some_and(|value| value < least) {
@@ -58,28 +61,28 @@ impl Section {
                     least / unit,
                     self.units
                 );
-                line.fault(option, message, "too small");
+                line.add_fault(option, message, "too small");
             }
         }
         let rates = [("--feed", feed), ("--plunge", plunge), ("--between", air), ("--spindle", spindle)];
         for (option, value) in rates {
             if value.is_some_and(|value| value < SLOWEST) {
-                line.fault(
+                line.add_fault(
                     option,
                     format!("{option} is less than {SLOWEST}: it would be printed as zero"),
                     "too slow",
                 );
             }
         }
-        let operation = line.name("--operation", self.operation.as_deref());
-        let tool_name = line.name("--tool-name", self.tool_name.as_deref());
-        let found = line.into_found();
+        let operation = line.parse_name("--operation", self.operation.as_deref());
+        let tool_name = line.parse_name("--tool-name", self.tool_name.as_deref());
+        let found = line.into_findings();
         let (Some(planes), Some(step), Some(radius), Some(feed), []) =
             (planes, step, radius, feed, found.as_slice())
         else {
             return Err(found);
         };
-        Ok(Options {
+        Ok(SurfaceMillingOptions {
             planes,
             range,
             step,
@@ -94,10 +97,10 @@ impl Section {
             feed,
             plunge: plunge.unwrap_or(feed / 2.0),
             air,
-            words: Words {
-                dialect: self.dialect(),
+            words: SurfaceProgramWords {
+                dialect: self.choose_dialect(),
                 units: self.units,
-                name: name(self.input()),
+                name: program_name(self.input_path()),
                 operation: operation.unwrap_or_else(|| "SECTION".to_owned()),
                 tool: self.tool,
                 tool_name,
@@ -107,10 +110,10 @@ impl Section {
         })
     }
 
-    fn planes(&self, line: &mut CommandLine) -> Option<Planes> {
+    fn parse_planes(&self, line: &mut CommandLine) -> Option<PassPlanes> {
         match self.plane.to_ascii_lowercase().as_str() {
-            "zx" | "xz" => Some(Planes::ZX),
-            "yz" | "zy" => Some(Planes::YZ),
+            "zx" | "xz" => Some(PassPlanes::ZX),
+            "yz" | "zy" => Some(PassPlanes::YZ),
             angle => {
                 let fits = angle.parse::<f64>().ok().filter(|angle| angle.abs() <= 360.0);
                 if fits.is_none() {
@@ -118,26 +121,29 @@ impl Section {
                         "--plane is zx, yz or an angle from -360 to 360 degrees, not `{}`",
                         self.plane
                     );
-                    line.fault("--plane", message, "no plane");
+                    line.add_fault("--plane", message, "no plane");
                 }
-                fits.map(Planes::at)
+                fits.map(PassPlanes::from_degrees)
             }
         }
     }
 
     /// Both ends, or none.
-    fn range(&self, line: &mut CommandLine) -> Option<(f64, f64)> {
-        let (from, to) = (line.place("--from", self.from.as_deref()), line.place("--to", self.to.as_deref()));
+    fn parse_plane_range_mm(&self, line: &mut CommandLine) -> Option<(f64, f64)> {
+        let (from, to) = (
+            line.parse_coordinate_mm("--from", self.from.as_deref()),
+            line.parse_coordinate_mm("--to", self.to.as_deref()),
+        );
         match (&self.from, &self.to) {
-            (Some(_), None) => line.missing("--to", "--from says only where the first plane is"),
-            (None, Some(_)) => line.missing("--from", "--to says only where the last plane is"),
+            (Some(_), None) => line.add_missing("--to", "--from says only where the first plane is"),
+            (None, Some(_)) => line.add_missing("--from", "--to says only where the last plane is"),
             _ => {}
         }
         from.zip(to)
     }
 
     /// The dialect asked for, else that of the output's extension, else NX.
-    fn dialect(&self) -> Dialect {
+    fn choose_dialect(&self) -> Dialect {
         // Creo ends its names in a version: `op010.ncl.1`.
         let version =
             |path: &&Path| path.extension().is_some_and(|end| end.to_string_lossy().parse::<u32>().is_ok());
@@ -153,15 +159,20 @@ impl Section {
     }
 }
 
-fn needed(line: &mut CommandLine, option: &'static str, text: Option<&str>, what: &str) -> Option<f64> {
+fn parse_required_size_mm(
+    line: &mut CommandLine,
+    option: &'static str,
+    text: Option<&str>,
+    what: &str,
+) -> Option<f64> {
     if text.is_none() {
-        line.missing(option, what);
+        line.add_missing(option, what);
     }
-    line.size(option, text)
+    line.parse_size_mm(option, text)
 }
 
 /// A name for the program that every dialect holds, from its input's.
-fn name(input: &Path) -> String {
+fn program_name(input: &Path) -> String {
     let stem = input.file_stem().unwrap_or_default().to_string_lossy().to_ascii_uppercase();
     let plain: String =
         stem.chars().take(40).map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();

@@ -1,53 +1,54 @@
 //! What `clsmith section` writes, and where it may not.
 
-use super::Section;
-use crate::cli::files::STANDARD;
-use crate::cli::output::{Outputs, print_summary};
+use super::SectionArgs;
+use crate::cli::command_outputs::{CommandOutputs, print_summary};
+use crate::cli::input_files::STANDARD;
 use clsmith::diagnostic::{Diagnostic, codes};
-use clsmith::report::surfacing as report;
-use clsmith::surfacing::{Options, Surfaced};
-use clsmith::write::same_file;
+use clsmith::report::surface_milling as report;
+use clsmith::surface_milling::{SurfaceMillingOptions, SurfaceProgram};
+use clsmith::write::is_same_file;
 use std::io;
 use std::path::Path;
 
-impl Section {
-    pub(super) fn write(
+impl SectionArgs {
+    pub(super) fn write_outputs(
         &self,
-        surfaced: &Surfaced,
-        options: &Options,
-        outputs: &Outputs,
+        surfaced: &SurfaceProgram,
+        options: &SurfaceMillingOptions,
+        outputs: &CommandOutputs,
     ) -> io::Result<Option<Diagnostic>> {
         // The drawing first: if it fails, no program was written.
         if let Some(plot) = &self.plot {
-            let drawn = report::plot(surfaced, options)?;
-            if let Some(found) = outputs.write(plot, |out| out.write_all(drawn.as_bytes()))? {
+            let drawn = report::draw_middle_plane(surfaced, options)?;
+            if let Some(found) = outputs.write_output(plot, |out| out.write_all(drawn.as_bytes()))? {
                 return Ok(Some(found));
             }
         }
         match self.output.as_deref().filter(|_| !self.dry_run) {
-            Some(output) => outputs.write(output, |out| out.write_all(&surfaced.text)),
+            Some(output) => outputs.write_output(output, |out| out.write_all(&surfaced.text)),
             None => Ok(None),
         }
     }
 
-    pub(super) fn outputs(&self) -> impl Iterator<Item = &Path> {
+    pub(super) fn output_paths(&self) -> impl Iterator<Item = &Path> {
         let output = self.output.as_deref().filter(|_| !self.dry_run);
         [output, self.plot.as_deref()].into_iter().flatten()
     }
 
     /// What is wrong with the command line beyond what clap and options can say.
-    pub(super) fn problem(&self) -> Option<String> {
-        let mut outputs = self.outputs();
+    pub(super) fn find_usage_problem(&self) -> Option<String> {
+        let mut outputs = self.output_paths();
         let (one, other) = (outputs.next()?, outputs.next()?);
-        (one == other || same_file(one, other)).then(|| format!("two outputs would go to {}", one.display()))
+        (one == other || is_same_file(one, other))
+            .then(|| format!("two outputs would go to {}", one.display()))
     }
 
     /// No output may be the input.
-    pub(super) fn overwrites(&self) -> Result<(), Vec<Diagnostic>> {
-        let input = self.input();
+    pub(super) fn check_outputs(&self) -> Result<(), Vec<Diagnostic>> {
+        let input = self.input_path();
         let files =
-            self.outputs().filter(|path| *path != Path::new(STANDARD) && input != Path::new(STANDARD));
-        match files.into_iter().find(|path| same_file(path, input)) {
+            self.output_paths().filter(|path| *path != Path::new(STANDARD) && input != Path::new(STANDARD));
+        match files.into_iter().find(|path| is_same_file(path, input)) {
             Some(hit) => {
                 let message =
                     format!("writing {} would overwrite the input {}", hit.display(), input.display());
@@ -58,14 +59,18 @@ impl Section {
     }
 
     /// The summary on standard output, or on standard error when an output goes there.
-    pub(super) fn summary(&self, surfaced: &Surfaced, options: &Options) -> io::Result<()> {
-        let mut text = report::to_text(surfaced, options, &self.input().to_string_lossy());
+    pub(super) fn show_summary(
+        &self,
+        surfaced: &SurfaceProgram,
+        options: &SurfaceMillingOptions,
+    ) -> io::Result<()> {
+        let mut text = report::to_text(surfaced, options, &self.input_path().to_string_lossy());
         let written = self.output.as_deref().filter(|_| !self.dry_run);
-        if let Some(path) = written.filter(|_| surfaced.proof.holds(options.tolerance)) {
+        if let Some(path) = written.filter(|_| surfaced.proof.is_within(options.tolerance)) {
             let lines = surfaced.text.iter().filter(|byte| **byte == b'\n').count();
-            let title = options.words.dialect.title();
+            let title = options.words.dialect.display_name();
             text.push_str(&format!("-> {}: {title}, {lines} lines\n", path.display()));
         }
-        print_summary(&text, self.outputs().any(|path| path == Path::new(STANDARD)))
+        print_summary(&text, self.output_paths().any(|path| path == Path::new(STANDARD)))
     }
 }

@@ -2,25 +2,25 @@
 
 mod outputs;
 
-use crate::cli::exit::Exit;
-use crate::cli::files;
-use crate::cli::findings::FindingArgs;
-use crate::cli::measuring::{Measuring, Under};
-use crate::cli::plot::as_file;
-use crate::cli::progress::Progress;
-use crate::cli::reports::ReportArgs;
-use crate::cli::stop::Stop;
+use crate::cli::command_exit::CommandExit;
+use crate::cli::command_stop::CommandStop;
+use crate::cli::finding_args::FindingArgs;
+use crate::cli::input_files;
+use crate::cli::measuring_command::{MeasuringCommand, MeasuringContext};
+use crate::cli::plot::encode_drawing;
+use crate::cli::progress::CommandProgress;
+use crate::cli::report_args::ReportArgs;
 use clap::Args;
 use clsmith::diagnostic::{Diagnostic, codes};
-use clsmith::machining::{Budget, Machining, Options};
+use clsmith::parameters::LengthUnit;
 use clsmith::program::{Dialect, Program};
-use clsmith::report::comparison::{Runs, Subject};
-use clsmith::report::simulation::{self, Simulated, plot};
-use clsmith::report::stats::Units;
+use clsmith::report::comparison::{ComparisonRuns, ComparisonSubject};
+use clsmith::report::simulation::{self, SimulationReport, time_plot};
+use clsmith::report::stats::ResolvedLengthUnit;
 use clsmith::setup::Setup;
 use clsmith::sim::Mesh;
+use clsmith::simulation_run::{Machining, SimulationBudget, SimulationRunOptions};
 use clsmith::source::Source;
-use clsmith::values::LengthUnit;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -44,7 +44,7 @@ torque_nm, power_kw. An empty cell is a value that is not known.";
 /// Removes the stock motion by motion: chips, depths, forces, collisions, what is left
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct Simulate {
+pub struct SimulateArgs {
     /// The program; `-` is standard input
     #[arg(value_name = "PROGRAM")]
     program: PathBuf,
@@ -75,22 +75,22 @@ pub struct Simulate {
     #[arg(long, value_name = "FILE")]
     target: Option<PathBuf>,
     /// How far the stock that is left may be off the target; a cell if not given
-    #[arg(long, value_name = "MM", value_parser = length, requires = "target")]
+    #[arg(long, value_name = "MM", value_parser = parse_positive, requires = "target")]
     tolerance: Option<f64>,
     /// Distance of the columns that the stock is made of; a fortieth of the smallest cutter if not given
-    #[arg(long, value_name = "MM", value_parser = length)]
+    #[arg(long, value_name = "MM", value_parser = parse_positive)]
     cell: Option<f64>,
     /// Memory that the stock may take
-    #[arg(long, value_name = "GIB", value_parser = length, default_value = "2")]
+    #[arg(long, value_name = "GIB", value_parser = parse_positive, default_value = "2")]
     budget: f64,
     /// Threads; as many as there are cores if not given. The result is the same
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// The dialect, instead of finding it from the text
-    #[arg(long, value_parser = files::dialect, value_name = "NAME")]
+    #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
     dialect: Option<Dialect>,
     /// Unit of lengths of a file that does not state it: mm or inch
-    #[arg(long, value_parser = files::units, value_name = "UNIT")]
+    #[arg(long, value_parser = input_files::parse_length_unit, value_name = "UNIT")]
     units: Option<LengthUnit>,
     /// No summary and no progress, findings only
     #[arg(short, long)]
@@ -100,24 +100,28 @@ pub struct Simulate {
 }
 
 /// A positive number.
-pub(super) fn length(text: &str) -> Result<f64, String> {
+pub(super) fn parse_positive(text: &str) -> Result<f64, String> {
     let value = text.parse::<f64>().ok().filter(|value| *value > 0.0 && value.is_finite());
     value.ok_or_else(|| "this must be a number above 0".into())
 }
 
 /// A run, and what it was made of.
-struct Ran {
+struct SimulateOutcome {
     program: Program,
     setup: Setup,
     setup_file: Arc<Source>,
-    runs: Runs,
+    runs: ComparisonRuns,
     drawn: Option<Vec<u8>>,
 }
 
-impl Ran {
+impl SimulateOutcome {
     /// What reports tell of.
-    fn subject<'a>(&'a self, units: Option<LengthUnit>, findings: &'a [Diagnostic]) -> Subject<'a> {
-        Subject {
+    fn report_subject<'a>(
+        &'a self,
+        units: Option<LengthUnit>,
+        findings: &'a [Diagnostic],
+    ) -> ComparisonSubject<'a> {
+        ComparisonSubject {
             before: None,
             program: &self.program,
             recipe: None,
@@ -131,95 +135,98 @@ impl Ran {
     }
 }
 
-impl Simulate {
-    pub fn run(&self) -> io::Result<Exit> {
-        let measuring = Measuring {
+impl SimulateArgs {
+    pub fn run(&self) -> io::Result<CommandExit> {
+        let measuring = MeasuringCommand {
             command: "simulate",
             program: &self.program,
-            outputs: self.outputs().collect(),
+            outputs: self.output_paths().collect(),
             quiet: self.quiet,
             threads: self.threads,
             findings: &self.findings,
         };
-        measuring.run(
-            self.problem(),
-            |under| self.simulate(under),
+        measuring.run_measurement(
+            self.find_usage_problem(),
+            |under| self.simulate_and_draw(under),
             |ran| ran.runs.after.as_ref().map(simulation::to_text).unwrap_or_default(),
-            |ran, findings, outputs| self.write(ran, findings, outputs),
+            |ran, findings, outputs| self.write_outputs(ran, findings, outputs),
         )
     }
 
     /// Everything but writing: the simulation, and the drawing if one is wanted. What does not stop the run is added to the findings.
-    fn simulate(&self, under: &mut Under<'_>) -> Result<Ran, Stop> {
-        let setup_file = files::read(&self.setup).map_err(|found| *found)?;
+    fn simulate_and_draw(&self, under: &mut MeasuringContext<'_>) -> Result<SimulateOutcome, CommandStop> {
+        let setup_file = input_files::read_source(&self.setup).map_err(|found| *found)?;
         let setup = Setup::load(&setup_file)?;
-        self.overwrites(&setup)?;
-        let read = |path: &Path| files::read(path).map_err(|found| found.message);
-        let setup = setup.with_material_file(read)?;
-        let program = under.program(&self.program, self.dialect)?;
-        let units = Units::of(&program, self.units).unit;
-        let target = self.target.as_deref().map(|path| target(path, units)).transpose()?;
-        let mut simulated = self.one(&program, &setup, under.progress, under.findings)?;
+        self.check_outputs(&setup)?;
+        let read = |path: &Path| input_files::read_source(path).map_err(|found| found.message);
+        let setup = setup.read_material_file(read)?;
+        let program = under.read_program(&self.program, self.dialect)?;
+        let units = ResolvedLengthUnit::from_program(&program, self.units).unit;
+        let target = self.target.as_deref().map(|path| read_target(path, units)).transpose()?;
+        let mut simulated = self.simulate_program(&program, &setup, under.progress, under.findings)?;
         under.findings.append(&mut simulated.findings);
         if let (Some(mesh), Some(path)) = (target, &self.target) {
-            simulated.compare(&mesh, &path.to_string_lossy(), self.tolerance);
+            simulated.compare_with_target(&mesh, &path.to_string_lossy(), self.tolerance);
             under.findings.append(&mut simulated.findings);
         }
         let drawn = match &self.plot {
-            Some(path) => Some(self.draw(path, &simulated, &setup, under)?),
+            Some(path) => Some(self.draw_loads(path, &simulated, &setup, under)?),
             None => None,
         };
-        Ok(Ran {
+        Ok(SimulateOutcome {
             program,
             setup,
             setup_file,
-            runs: Runs { after: Some(simulated), ..Runs::default() },
+            runs: ComparisonRuns { after: Some(simulated), ..ComparisonRuns::default() },
             drawn,
         })
     }
 
-    fn draw(
+    fn draw_loads(
         &self,
         path: &Path,
-        simulated: &Simulated,
+        simulated: &SimulationReport,
         setup: &Setup,
-        under: &mut Under<'_>,
-    ) -> Result<Vec<u8>, Stop> {
+        under: &mut MeasuringContext<'_>,
+    ) -> Result<Vec<u8>, CommandStop> {
         let mut series = Vec::new();
         if let Some(path) = &self.plot_before {
-            let before = under.program(path, self.dialect)?;
+            let before = under.read_program(path, self.dialect)?;
             // What goes wrong in the program behind is not what was asked.
-            let before = self.one(&before, setup, under.progress, &mut Vec::new())?;
-            series.push(before.series(path.to_string_lossy()));
+            let before = self.simulate_program(&before, setup, under.progress, &mut Vec::new())?;
+            series.push(before.to_time_series(path.to_string_lossy()));
         }
-        series.push(simulated.series(simulated.file.as_str()));
+        series.push(simulated.to_time_series(simulated.file.as_str()));
         let failed = |error: io::Error| Diagnostic::new(codes::UNWRITABLE, error.to_string());
-        Ok(plot::plot(&series).and_then(|svg| as_file(path, svg)).map_err(failed)?)
+        Ok(time_plot::draw_time_series(&series).and_then(|svg| encode_drawing(path, svg)).map_err(failed)?)
     }
 
-    fn one(
+    fn simulate_program(
         &self,
         program: &Program,
         setup: &Setup,
-        progress: &Progress,
+        progress: &CommandProgress,
         findings: &mut Vec<Diagnostic>,
-    ) -> Result<Simulated, Stop> {
-        let units = Units::of(program, self.units).unit;
+    ) -> Result<SimulationReport, CommandStop> {
+        let units = ResolvedLengthUnit::from_program(program, self.units).unit;
         let machining = Machining::new(program, setup, units, findings)?;
         let bytes = (self.budget * f64::from(1 << 30)) as u64;
-        let options =
-            Options { cell: self.cell, budget: Budget { bytes, ..Budget::default() }, ..Options::default() };
-        progress.begin(program.source().name());
-        Simulated::of(&machining, &options, progress)?.ok_or(Stop::Interrupted)
+        let options = SimulationRunOptions {
+            cell: self.cell,
+            budget: SimulationBudget { bytes, ..SimulationBudget::default() },
+            ..SimulationRunOptions::default()
+        };
+        progress.begin_bar(program.source().name());
+        SimulationReport::simulate_program(&machining, &options, progress)?.ok_or(CommandStop::Interrupted)
     }
 }
 
 /// Reads a target part.
-fn target(path: &Path, units: LengthUnit) -> Result<Arc<Mesh>, Diagnostic> {
-    let source = files::read(path).map_err(|found| *found)?;
-    Machining::target(source.bytes(), units).map_err(|error| {
+fn read_target(path: &Path, units: LengthUnit) -> Result<Arc<Mesh>, Diagnostic> {
+    let source = input_files::read_source(path).map_err(|found| *found)?;
+    Machining::read_target_part(source.bytes(), units).map_err(|error| {
         let message = format!("the target {} cannot be used: {error}", path.display());
         let help = "The file must be a closed STL, in the coordinates and the unit of the program.";
-        Diagnostic::new(codes::STOCK_FILE, message).help(help)
+        Diagnostic::new(codes::STOCK_FILE, message).with_help(help)
     })
 }

@@ -1,24 +1,24 @@
 //! What `clsmith simulate` writes, and where it may not.
 
-use super::{Ran, Simulate};
-use crate::cli::files::STANDARD;
-use crate::cli::output::{Outputs, overwritten};
-use crate::cli::stop::Stop;
+use super::{SimulateArgs, SimulateOutcome};
+use crate::cli::command_outputs::{CommandOutputs, find_overwritten_input};
+use crate::cli::command_stop::CommandStop;
+use crate::cli::input_files::STANDARD;
 use clsmith::diagnostic::Diagnostic;
 use clsmith::report::comparison::Comparison;
 use clsmith::report::simulation;
 use clsmith::setup::Setup;
-use clsmith::sim::{export, remains};
-use clsmith::write::same_file;
+use clsmith::sim::{stl_export, stock_file};
+use clsmith::write::is_same_file;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-impl Simulate {
+impl SimulateArgs {
     /// What is wrong with the command line beyond what clap can say.
-    pub(super) fn problem(&self) -> Option<String> {
-        let outputs: Vec<&Path> = self.outputs().collect();
+    pub(super) fn find_usage_problem(&self) -> Option<String> {
+        let outputs: Vec<&Path> = self.output_paths().collect();
         let twice = outputs.iter().enumerate().find_map(|(index, one)| {
-            outputs.iter().skip(index + 1).find(|other| *other == one || same_file(one, other))
+            outputs.iter().skip(index + 1).find(|other| *other == one || is_same_file(one, other))
         });
         if let Some(twice) = twice {
             return Some(format!("two outputs would go to {}", twice.display()));
@@ -33,47 +33,50 @@ impl Simulate {
         binary.then(|| "--stl and --save-stock need a file".into())
     }
 
-    pub(super) fn outputs(&self) -> impl Iterator<Item = &Path> {
+    pub(super) fn output_paths(&self) -> impl Iterator<Item = &Path> {
         let all = [&self.csv, &self.json, &self.stl, &self.save_stock, &self.plot];
-        all.into_iter().filter_map(|path| path.as_deref()).chain(self.reports.outputs())
+        all.into_iter().filter_map(|path| path.as_deref()).chain(self.reports.output_paths())
     }
 
     /// No output may be an input, nor a file that the setup names.
-    pub(super) fn overwrites(&self, setup: &Setup) -> Result<(), Stop> {
+    pub(super) fn check_outputs(&self, setup: &Setup) -> Result<(), CommandStop> {
         let mut inputs = vec![self.program.as_path(), &self.setup];
         inputs.extend([&self.target, &self.plot_before].into_iter().filter_map(|path| path.as_deref()));
-        inputs.extend(setup.files());
-        match overwritten(self.outputs(), &inputs) {
+        inputs.extend(setup.referenced_files());
+        match find_overwritten_input(self.output_paths(), &inputs) {
             Some(found) => Err(found.into()),
             None => Ok(()),
         }
     }
 
     /// Writes what was asked for; a finding when that fails.
-    pub(super) fn write(
+    pub(super) fn write_outputs(
         &self,
-        ran: &Ran,
+        ran: &SimulateOutcome,
         findings: &[Diagnostic],
-        outputs: &Outputs,
+        outputs: &CommandOutputs,
     ) -> io::Result<Option<Diagnostic>> {
         let Some(simulated) = &ran.runs.after else { return Ok(None) };
         type Writer<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
         let all: [(&Option<PathBuf>, Writer<'_>); 5] = [
-            (&self.csv, Box::new(|out| simulation::to_csv(simulated, out))),
+            (&self.csv, Box::new(|out| simulation::write_csv(simulated, out))),
             (&self.json, Box::new(|out| out.write_all(simulation::to_json(simulated).as_bytes()))),
-            (&self.stl, Box::new(|out| export::write_stl(&simulated.left, out))),
-            (&self.save_stock, Box::new(|out| remains::write(&simulated.left, out))),
+            (&self.stl, Box::new(|out| stl_export::write_stl(&simulated.left, out))),
+            (&self.save_stock, Box::new(|out| stock_file::write_clstock(&simulated.left, out))),
             (&self.plot, Box::new(|out| out.write_all(ran.drawn.as_deref().unwrap_or_default()))),
         ];
         for (path, write_all) in &all {
             let Some(path) = path else { continue };
-            if let Some(found) = outputs.write(path, write_all)? {
+            if let Some(found) = outputs.write_output(path, write_all)? {
                 return Ok(Some(found));
             }
         }
         if !self.reports.is_wanted() {
             return Ok(None);
         }
-        self.reports.write(&Comparison::of(ran.subject(self.units, findings), &ran.runs), outputs)
+        self.reports.write_reports(
+            &Comparison::from_runs(ran.report_subject(self.units, findings), &ran.runs),
+            outputs,
+        )
     }
 }

@@ -3,30 +3,30 @@
 //! It polls. Notifications are not sent for what other computers do on a network share, which is where exports land, and are
 //! lost when their queue is full; a look every few seconds at a folder with a few hundred files costs nothing.
 
-mod deliver;
-mod folders;
-mod look;
-mod refused;
-mod run;
-mod state;
+mod delivery;
+mod folder_scan;
+mod refused_programs;
+mod watch_folders;
+mod watch_run;
+mod watch_state;
 
-use super::exit::Exit;
-use super::files;
-use super::findings::FindingArgs;
-use super::output::{Outputs, unless_nobody_reads};
-use super::progress::Progress;
-use super::shop::{Log, RecipeArgs};
+use super::command_exit::CommandExit;
+use super::command_outputs::{CommandOutputs, ignore_closed_pipe};
+use super::finding_args::FindingArgs;
+use super::input_files;
+use super::progress::CommandProgress;
 use super::terminal;
+use super::unattended::{RecipeArgs, RunLog};
 use clap::Args;
-use clsmith::choice::Choice;
 use clsmith::diagnostic::Diagnostic;
-use folders::Folders;
+use clsmith::recipe_rules::RecipeChoice;
 use globset::{GlobBuilder, GlobMatcher};
-use run::Watching;
-use state::State;
 use std::io;
 use std::path::PathBuf;
 use std::time::Duration;
+use watch_folders::WatchFolders;
+use watch_run::WatchRun;
+use watch_state::WatchState;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -54,12 +54,12 @@ changing.";
 /// Corrects programs that land in a folder
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct Watch {
+pub struct WatchArgs {
     /// The folder that is watched
     #[arg(value_name = "FOLDER")]
     folder: PathBuf,
     /// Which files are taken
-    #[arg(value_parser = glob, value_name = "GLOB", default_value = EXPORTS)]
+    #[arg(value_parser = parse_glob, value_name = "GLOB", default_value = EXPORTS)]
     files: GlobMatcher,
     #[command(flatten)]
     recipe: RecipeArgs,
@@ -79,10 +79,10 @@ pub struct Watch {
     #[arg(long)]
     once: bool,
     /// Time from one look to the next
-    #[arg(long, default_value = "2", value_name = "SECONDS", value_parser = files::seconds)]
+    #[arg(long, default_value = "2", value_name = "SECONDS", value_parser = input_files::parse_seconds)]
     poll: Duration,
     /// How long a file must not have changed
-    #[arg(long, default_value = "5", value_name = "SECONDS", value_parser = files::seconds)]
+    #[arg(long, default_value = "5", value_name = "SECONDS", value_parser = input_files::parse_seconds)]
     settle: Duration,
     /// Say nothing but findings
     #[arg(short, long)]
@@ -91,25 +91,25 @@ pub struct Watch {
     findings: FindingArgs,
 }
 
-impl Watch {
-    pub fn run(&self) -> io::Result<Exit> {
-        let policy = match self.findings.policy() {
+impl WatchArgs {
+    pub fn run(&self) -> io::Result<CommandExit> {
+        let policy = match self.findings.build_policy() {
             Ok(policy) => policy,
             Err(problem) => {
                 eprintln!("clsmith watch: {problem}");
-                return Ok(Exit::Usage);
+                return Ok(CommandExit::Usage);
             }
         };
-        let ready = Folders::of(self).and_then(|folders| {
+        let ready = WatchFolders::open_and_lock(self).and_then(|folders| {
             // A recipe that is wrong is told now, not when the first program comes at night.
-            for choice in self.recipe.chooser()?.all() {
-                if let Choice::Recipe { recipe, setup, .. } = choice {
-                    files::recipe(&recipe, setup.as_deref())?;
+            for choice in self.recipe.read_chooser()?.list_choices() {
+                if let RecipeChoice::Recipe { recipe, setup, .. } = choice {
+                    input_files::read_recipe(&recipe, setup.as_deref())?;
                 }
             }
             let alone = |found: Box<Diagnostic>| vec![*found];
-            let log = self.log.as_ref().map(|path| Log::open(path, self.recipe.files()));
-            let (state, bad) = State::open(&folders.state).map_err(alone)?;
+            let log = self.log.as_ref().map(|path| RunLog::open(path, self.recipe.input_files()));
+            let (state, bad) = WatchState::open(&folders.state).map_err(alone)?;
             if bad > 0 {
                 let path = folders.state.display();
                 let lines = if bad == 1 { "1 line" } else { &format!("{bad} lines") };
@@ -120,26 +120,31 @@ impl Watch {
         let (folders, log, state) = match ready {
             Ok(ready) => ready,
             Err(found) => {
-                self.show(&found, &self.folder.to_string_lossy())?;
-                return Ok(Exit::Errors);
+                self.show_findings(&found, &self.folder.to_string_lossy())?;
+                return Ok(CommandExit::Errors);
             }
         };
-        let outputs = Outputs::default();
-        let progress = Progress::new(self.quiet, outputs.interrupt());
-        outputs.stop_on_ctrl_c(progress.clearing())?;
-        Watching::new(self, &folders, &outputs, &policy, &progress, (log, state)).run()
+        let outputs = CommandOutputs::default();
+        let progress = CommandProgress::new(self.quiet, outputs.interrupt());
+        outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
+        WatchRun::new(self, &folders, &outputs, &policy, &progress, (log, state)).watch_folder()
     }
 
-    fn show(&self, findings: &[Diagnostic], file: &str) -> io::Result<()> {
+    fn show_findings(&self, findings: &[Diagnostic], file: &str) -> io::Result<()> {
         let mut err = io::stderr().lock();
-        unless_nobody_reads(self.findings.show(&mut err, terminal::errors_are_seen(), findings, Some(file)))
+        ignore_closed_pipe(self.findings.write_findings(
+            &mut err,
+            terminal::is_stderr_terminal(),
+            findings,
+            Some(file),
+        ))
     }
 }
 
 /// What CAM systems call their exports; Creo counts versions behind the suffix.
 const EXPORTS: &str = "*.{cls,clsf,apt,aptsource,ncl,cl,clt,CLS,CLSF,APT,APTSOURCE,NCL,CL,CLT,ncl.[0-9]*}";
 
-fn glob(text: &str) -> Result<GlobMatcher, String> {
+fn parse_glob(text: &str) -> Result<GlobMatcher, String> {
     let glob =
         GlobBuilder::new(text).literal_separator(true).build().map_err(|error| error.kind().to_string())?;
     Ok(glob.compile_matcher())

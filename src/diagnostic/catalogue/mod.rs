@@ -15,7 +15,7 @@ use std::fmt;
 
 /// A row of the catalogue.
 #[derive(Debug)]
-pub struct Entry {
+pub struct CatalogueEntry {
     /// `CL0001`.
     pub id: &'static str,
     /// Severity unless changed on the command line.
@@ -30,9 +30,9 @@ pub struct Entry {
 
 /// A code of the catalogue; cheap to copy and compare.
 #[derive(Clone, Copy)]
-pub struct Code(&'static Entry);
+pub struct DiagnosticCode(&'static CatalogueEntry);
 
-impl Code {
+impl DiagnosticCode {
     /// `CL0001`.
     pub fn id(self) -> &'static str {
         self.0.id
@@ -55,33 +55,33 @@ impl Code {
     }
 }
 
-impl PartialEq for Code {
+impl PartialEq for DiagnosticCode {
     fn eq(&self, other: &Self) -> bool {
         self.0.id == other.0.id
     }
 }
-impl Eq for Code {}
-impl std::hash::Hash for Code {
+impl Eq for DiagnosticCode {}
+impl std::hash::Hash for DiagnosticCode {
     fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
         self.0.id.hash(state);
     }
 }
-impl PartialOrd for Code {
+impl PartialOrd for DiagnosticCode {
     fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
         Some(self.cmp(other))
     }
 }
-impl Ord for Code {
+impl Ord for DiagnosticCode {
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
         self.0.id.cmp(other.0.id)
     }
 }
-impl fmt::Debug for Code {
+impl fmt::Debug for DiagnosticCode {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.0.id)
     }
 }
-impl fmt::Display for Code {
+impl fmt::Display for DiagnosticCode {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.0.id)
     }
@@ -92,7 +92,7 @@ macro_rules! area {
     ($($name:ident = $id:literal, $severity:ident, $meaning:literal, $help:literal, $explanation:literal;)*) => {
         $(
             #[doc = concat!("`", $id, "`: ", $meaning, ".")]
-            pub const $name: $crate::diagnostic::Code = $crate::diagnostic::catalogue::of(&$crate::diagnostic::catalogue::Entry {
+            pub const $name: $crate::diagnostic::DiagnosticCode = $crate::diagnostic::catalogue::code_of_entry(&$crate::diagnostic::catalogue::CatalogueEntry {
                 id: $id,
                 severity: $crate::diagnostic::Severity::$severity,
                 meaning: $meaning,
@@ -100,13 +100,13 @@ macro_rules! area {
                 explanation: $explanation,
             });
         )*
-        pub(super) const ROWS: &[$crate::diagnostic::Code] = &[$($name),*];
+        pub(super) const ROWS: &[$crate::diagnostic::DiagnosticCode] = &[$($name),*];
     };
 }
 pub(crate) use area;
 
-pub(crate) const fn of(entry: &'static Entry) -> Code {
-    Code(entry)
+pub(crate) const fn code_of_entry(entry: &'static CatalogueEntry) -> DiagnosticCode {
+    DiagnosticCode(entry)
 }
 
 /// Constants for all codes, by name.
@@ -121,7 +121,7 @@ pub mod codes {
 }
 
 /// Every code, area by area, in the order of their ids.
-pub const CATALOGUE: &[&[Code]] = &[
+pub const CATALOGUE: &[&[DiagnosticCode]] = &[
     reading::ROWS,
     checking::ROWS,
     recipe::ROWS,
@@ -132,6 +132,6 @@ pub const CATALOGUE: &[&[Code]] = &[
 ];
 
 /// Looks a code up by its id, in any case.
-pub fn code(id: &str) -> Option<Code> {
+pub fn find_code(id: &str) -> Option<DiagnosticCode> {
     CATALOGUE.iter().flat_map(|rows| rows.iter()).copied().find(|code| code.id().eq_ignore_ascii_case(id))
 }

@@ -1,8 +1,8 @@
 //! Arcs: from the record that announces one and the points before and after it to the sense and sweep.
 
-use super::state::ProblemKind;
+use super::modal_state::MotionProblemKind;
 use crate::program::dialect::ArcRule;
-use crate::program::geometry::{Arc, SAME_POINT};
+use crate::program::geometry::{CircularArc, SAME_POINT};
 use crate::program::record::{ArcSense, Circle, DriveArc, MoveArc};
 use nalgebra::{Point3, Unit, Vector3};
 use std::f64::consts::{PI, TAU};
@@ -22,9 +22,9 @@ pub(super) enum PendingArc {
 }
 
 /// The arc, if there is one, and what is wrong with it.
-pub(super) struct Resolved {
-    pub(super) arc: Option<Arc>,
-    pub(super) problems: Vec<ProblemKind>,
+pub(super) struct ResolvedArc {
+    pub(super) arc: Option<CircularArc>,
+    pub(super) problems: Vec<MotionProblemKind>,
 }
 
 impl PendingArc {
@@ -36,22 +36,22 @@ impl PendingArc {
         end: Point3<f64>,
         direction: Option<Vector3<f64>>,
         before: Option<Vector3<f64>>,
-    ) -> Resolved {
+    ) -> ResolvedArc {
         match self {
-            Self::Circle(circle) => of_circle(&circle, rule, start, end, before),
-            Self::MoveArc(arc) => of_move_arc(&arc, start, end),
-            Self::Drive(arc) => of_drive(&arc, start, end, direction),
+            Self::Circle(circle) => resolve_circle(&circle, rule, start, end, before),
+            Self::MoveArc(arc) => resolve_move_arc(&arc, start, end),
+            Self::Drive(arc) => resolve_drive_arc(&arc, start, end, direction),
         }
     }
 }
 
-fn of_circle(
+fn resolve_circle(
     circle: &Circle,
     rule: ArcRule,
     start: Point3<f64>,
     end: Point3<f64>,
     before: Option<Vector3<f64>>,
-) -> Resolved {
+) -> ResolvedArc {
     let mut problems = Vec::new();
     let printed = Unit::new_normalize(circle.axis);
     let counter_clockwise = match (circle.sense, rule) {
@@ -64,27 +64,27 @@ fn of_circle(
             match before.map(|before| before.dot(&tangent)) {
                 Some(along) if along.abs() > 0.9 * tangent.norm() => along > 0.0,
                 _ => {
-                    problems.push(ProblemKind::AssumedSense);
+                    problems.push(MotionProblemKind::AssumedSense);
                     true
                 }
             }
         }
     };
     let axis = if counter_clockwise { printed } else { -printed };
-    let arc = Arc::between(start, end, circle.center, axis, circle.times - 1);
+    let arc = CircularArc::from_endpoints(start, end, circle.center, axis, circle.times - 1);
     if let Some(radius) = circle.radius {
         let off = (radius - arc.radius).abs();
         if off > RADIUS_TOLERANCE {
-            problems.push(ProblemKind::ArcStartOffCircle(off));
+            problems.push(MotionProblemKind::ArcStartOffCircle(off));
         }
     }
-    check_end(&arc, end, &mut problems);
-    Resolved { arc: Some(arc), problems }
+    check_arc_end(&arc, end, &mut problems);
+    ResolvedArc { arc: Some(arc), problems }
 }
 
-fn of_move_arc(record: &MoveArc, start: Point3<f64>, end: Point3<f64>) -> Resolved {
+fn resolve_move_arc(record: &MoveArc, start: Point3<f64>, end: Point3<f64>) -> ResolvedArc {
     let mut problems = Vec::new();
-    let mut arc = Arc::between(start, end, record.center, Unit::new_normalize(record.axis), 0);
+    let mut arc = CircularArc::from_endpoints(start, end, record.center, Unit::new_normalize(record.axis), 0);
     if let Some(degrees) = record.sweep_degrees {
         let told = degrees.to_radians();
         // The end point and the angle both say where the arc ends; whole turns only the angle can say. Ends that fall
@@ -96,32 +96,32 @@ fn of_move_arc(record: &MoveArc, start: Point3<f64>, end: Point3<f64>) -> Resolv
         arc.sweep += ((told - arc.sweep) / TAU).round().clamp(0.0, 10_000.0) * TAU;
         let off = 2.0 * arc.radius * ((told - arc.sweep) / 2.0).sin().abs();
         if off > RADIUS_TOLERANCE + ANGLE_TOLERANCE * arc.radius {
-            problems.push(ProblemKind::ArcEndOffCircle(off));
+            problems.push(MotionProblemKind::ArcEndOffCircle(off));
         }
     }
     let off = (record.radius - arc.radius).abs();
     if off > RADIUS_TOLERANCE {
-        problems.push(ProblemKind::ArcStartOffCircle(off));
+        problems.push(MotionProblemKind::ArcStartOffCircle(off));
     }
-    check_end(&arc, end, &mut problems);
-    Resolved { arc: Some(arc), problems }
+    check_arc_end(&arc, end, &mut problems);
+    ResolvedArc { arc: Some(arc), problems }
 }
 
 /// CATIA gives the start tangent; the arc's plane holds it and the spoke, and its axis turns the spoke into the tangent.
-fn of_drive(
+fn resolve_drive_arc(
     record: &DriveArc,
     start: Point3<f64>,
     end: Point3<f64>,
     direction: Option<Vector3<f64>>,
-) -> Resolved {
+) -> ResolvedArc {
     let mut problems = Vec::new();
     let spoke = start - record.center;
     let Some(direction) = direction.filter(|direction| direction.norm() > 1e-6) else {
-        return Resolved { arc: None, problems: vec![ProblemKind::TangentMismatch] };
+        return ResolvedArc { arc: None, problems: vec![MotionProblemKind::TangentMismatch] };
     };
     let normal = spoke.cross(&direction);
     if normal.norm() < 0.5 * spoke.norm() * direction.norm() || spoke.norm() < SAME_POINT {
-        return Resolved { arc: None, problems: vec![ProblemKind::TangentMismatch] };
+        return ResolvedArc { arc: None, problems: vec![MotionProblemKind::TangentMismatch] };
     }
     // Five printed decimals tilt the normal a little; the exact plane is that of start, end and centre where they span one.
     let through_end = spoke.cross(&(end - record.center));
@@ -130,21 +130,21 @@ fn of_drive(
     } else {
         normal
     };
-    let arc = Arc::between(start, end, record.center, Unit::new_normalize(exact), 0);
+    let arc = CircularArc::from_endpoints(start, end, record.center, Unit::new_normalize(exact), 0);
     let off = (record.radius - arc.radius).abs();
     if off > RADIUS_TOLERANCE {
-        problems.push(ProblemKind::ArcStartOffCircle(off));
+        problems.push(MotionProblemKind::ArcStartOffCircle(off));
     }
-    check_end(&arc, end, &mut problems);
+    check_arc_end(&arc, end, &mut problems);
     if record.beyond_half != (arc.sweep > PI + 1e-4) && (arc.sweep - PI).abs() > 1e-3 {
-        problems.push(ProblemKind::TangentMismatch);
+        problems.push(MotionProblemKind::TangentMismatch);
     }
-    Resolved { arc: Some(arc), problems }
+    ResolvedArc { arc: Some(arc), problems }
 }
 
-fn check_end(arc: &Arc, end: Point3<f64>, problems: &mut Vec<ProblemKind>) {
+fn check_arc_end(arc: &CircularArc, end: Point3<f64>, problems: &mut Vec<MotionProblemKind>) {
     let off = arc.end_deviation(end);
     if off > RADIUS_TOLERANCE {
-        problems.push(ProblemKind::ArcEndOffCircle(off));
+        problems.push(MotionProblemKind::ArcEndOffCircle(off));
     }
 }

@@ -4,18 +4,18 @@
 //! Simulation, reports and transforms see motions, never raw points.
 
 mod arcs;
-mod cycles;
-mod machine;
-mod modal;
+mod drilling_cycles;
+mod modal_records;
+mod modal_state;
 mod moves;
-mod state;
+mod state_machine;
 
-pub use machine::Motions;
-pub use state::{Frame, Problem, ProblemKind, State, Tool};
+pub use modal_state::{ActiveTool, CoordinateFrame, ModalState, MotionProblem, MotionProblemKind};
+pub use state_machine::Motions;
 
-use super::class::MotionClass;
-use super::geometry::{Path, Pose};
-use super::record::{Cycle, Spindle};
+use super::geometry::{MotionPath, Pose};
+use super::motion_class::MotionClass;
+use super::record::{DrillingCycle, Spindle};
 use super::{Feed, Program};
 use std::ops::Range;
 use std::sync::Arc;
@@ -26,12 +26,12 @@ pub struct Motion {
     /// Indices of the statements that make it, the deleted among them included: from the first that belongs to this motion
     /// alone (RAPID, CIRCLE, INDIRV, NURBS) to the one that ends it.
     pub statements: Range<usize>,
-    /// Where the tool comes from; the same as `to` for a path of [`Path::Start`].
+    /// Where the tool comes from; the same as `to` for a path of [`MotionPath::Start`].
     pub from: Pose,
     /// Where it goes.
     pub to: Pose,
     /// How.
-    pub path: Path,
+    pub path: MotionPath,
     /// Contact normal, where the file gives one (nine-value GOTO).
     pub normal: Option<nalgebra::Vector3<f64>>,
     /// Whether it is a rapid.
@@ -43,18 +43,18 @@ pub struct Motion {
     /// The spindle in force.
     pub spindle: Option<Arc<Spindle>>,
     /// The tool in force.
-    pub tool: Option<Arc<Tool>>,
+    pub tool: Option<Arc<ActiveTool>>,
     /// The frame in force.
-    pub frame: Option<Arc<Frame>>,
+    pub frame: Option<Arc<CoordinateFrame>>,
     /// What it is for.
     pub class: MotionClass,
     /// Whether the file says the class (else it was found from rapid, axis and direction).
     pub class_is_told: bool,
-    /// Index of the operation, as [`super::operation::operations`] counts them.
+    /// Index of the operation, as [`super::operation::find_operations`] counts them.
     pub operation: usize,
     /// In a drilling cycle: the number of the hole, and the cycle. A hole is one group of motions: rapid to the clearance,
     /// feed to the depth, and back.
-    pub hole: Option<(usize, Arc<Cycle>)>,
+    pub hole: Option<(usize, Arc<DrillingCycle>)>,
 }
 
 impl Motion {

@@ -1,61 +1,61 @@
 //! Statements that move the tool: from the announced arc, spline or point to a [`Motion`] with everything modal.
 
 use super::arcs::PendingArc;
-use super::machine::{Motions, Pending, Target};
-use super::modal::unit;
-use super::state::ProblemKind;
-use super::{Motion, cycles};
-use crate::program::class::MotionClass;
-use crate::program::geometry::{Path, Pose, SAME_POINT, Spline};
-use crate::program::record::{Goto, is_contact, is_poses};
+use super::modal_records::normalize_axis;
+use super::modal_state::MotionProblemKind;
+use super::state_machine::{MotionTarget, Motions, PendingMotion};
+use super::{Motion, drilling_cycles};
+use crate::program::geometry::{MotionPath, Pose, SAME_POINT, Spline};
+use crate::program::motion_class::MotionClass;
+use crate::program::record::{Goto, has_contact_normal, has_tool_axes};
 use nalgebra::Vector3;
 use std::sync::Arc;
 
 impl Motions<'_> {
     pub(super) fn announce_arc(&mut self, index: usize, arc: PendingArc) {
         if let Some((_, before)) = self.pending.arc.replace((arc, index)) {
-            self.problem(before, ProblemKind::ArcWithoutEnd);
+            self.report_problem(before, MotionProblemKind::ArcWithoutEnd);
         }
         self.pending.first.get_or_insert(index);
     }
 
-    pub(super) fn goto(&mut self, index: usize, goto: &Goto) {
-        let axis = goto.axis.map_or(self.state.axis, unit);
-        self.move_to(Target { pose: Pose { point: goto.point, axis }, normal: None, statement: index });
+    pub(super) fn process_goto(&mut self, index: usize, goto: &Goto) {
+        let axis = goto.axis.map_or(self.state.axis, normalize_axis);
+        self.move_to(MotionTarget { pose: Pose { point: goto.point, axis }, normal: None, statement: index });
     }
 
-    pub(super) fn points(&mut self, index: usize, numbers: &[f64]) {
+    pub(super) fn process_points(&mut self, index: usize, numbers: &[f64]) {
         let at = |index: usize| Vector3::from_iterator(numbers.iter().skip(index).take(3).copied());
-        if is_contact(numbers) {
-            let pose = Pose { point: at(0).into(), axis: unit(at(3)) };
-            return self.move_to(Target { pose, normal: Some(at(6)), statement: index });
+        if has_contact_normal(numbers) {
+            let pose = Pose { point: at(0).into(), axis: normalize_axis(at(3)) };
+            return self.move_to(MotionTarget { pose, normal: Some(at(6)), statement: index });
         }
-        let with_axes = self.state.multi_axis && is_poses(numbers);
+        let with_axes = self.state.multi_axis && has_tool_axes(numbers);
         let step = if with_axes { 6 } else { 3 };
         // RAPID is for the next record, however many points it has.
         let rapid = self.pending.rapid;
         for start in (0..numbers.len()).step_by(step) {
             self.pending.rapid = rapid;
-            let axis = if with_axes { unit(at(start + 3)) } else { self.state.axis };
+            let axis = if with_axes { normalize_axis(at(start + 3)) } else { self.state.axis };
             let pose = Pose { point: at(start).into(), axis };
-            self.move_to(Target { pose, normal: None, statement: index });
+            self.move_to(MotionTarget { pose, normal: None, statement: index });
         }
     }
 
-    pub(super) fn from(&mut self, index: usize, goto: &Goto) {
-        let axis = goto.axis.map_or(self.state.axis, unit);
+    pub(super) fn process_from(&mut self, index: usize, goto: &Goto) {
+        let axis = goto.axis.map_or(self.state.axis, normalize_axis);
         let pose = Pose { point: goto.point, axis };
         self.state.axis = axis;
         self.state.pose = Some(pose);
         self.last_tangent = None;
         // The tool does not move: what RAPID or CIRCLE announced is for the motion after it.
         let announced = std::mem::take(&mut self.pending);
-        let motion = self.motion(pose, pose, Path::Start, index);
+        let motion = self.build_motion(pose, pose, MotionPath::Start, index);
         self.pending = announced;
         self.queue.push_back(motion);
     }
 
-    pub(super) fn step(&mut self, index: usize, step: &[f64]) {
+    pub(super) fn process_delta(&mut self, index: usize, step: &[f64]) {
         let delta = match step {
             [x, y, z] => Vector3::new(*x, *y, *z),
             [along] => self.state.axis * *along,
@@ -64,72 +64,78 @@ impl Motions<'_> {
         match self.state.pose {
             Some(pose) => {
                 let to = Pose { point: pose.point + delta, axis: self.state.axis };
-                self.move_to(Target { pose: to, normal: None, statement: index });
+                self.move_to(MotionTarget { pose: to, normal: None, statement: index });
             }
-            None => self.problem(index, ProblemKind::UnknownStart),
+            None => self.report_problem(index, MotionProblemKind::UnknownStart),
         }
     }
 
     /// GOHOME without a point: the machine goes where only its post knows.
-    pub(super) fn forget_place(&mut self) {
+    pub(super) fn forget_pose(&mut self) {
         self.state.pose = None;
         self.last_tangent = None;
-        self.pending = Pending { matrix: self.pending.matrix.take(), ..Pending::default() };
+        self.pending = PendingMotion { matrix: self.pending.matrix.take(), ..PendingMotion::default() };
     }
 
-    pub(super) fn move_to(&mut self, target: Target) {
+    pub(super) fn move_to(&mut self, target: MotionTarget) {
         self.pending.first.get_or_insert(target.statement);
         self.state.axis = target.pose.axis;
         if self.state.cycle.is_some() && self.pending.rapid.is_none() && self.pending.arc.is_none() {
-            return self.drill(&target);
+            return self.drill_hole(&target);
         }
         let Some(from) = self.state.pose else {
             // The first point of a file: where the tool comes from is not told.
             if let Some((_, statement)) = self.pending.arc.take() {
-                self.problem(statement, ProblemKind::UnknownStart);
+                self.report_problem(statement, MotionProblemKind::UnknownStart);
             }
-            return self.push(target.pose, target.pose, Path::Start, &target);
+            return self.push_motion(target.pose, target.pose, MotionPath::Start, &target);
         };
         let path = match self.pending.arc.take() {
-            Some((arc, statement)) => self.resolve(arc, statement, from, &target),
+            Some((arc, statement)) => self.resolve_arc_path(arc, statement, from, &target),
             None => {
                 if let Some((_, statement)) = self.pending.direction {
-                    self.problem(statement, ProblemKind::ArcWithoutEnd);
+                    self.report_problem(statement, MotionProblemKind::ArcWithoutEnd);
                 }
-                Path::Line
+                MotionPath::Line
             }
         };
-        self.push(from, target.pose, path, &target);
+        self.push_motion(from, target.pose, path, &target);
     }
 
-    pub(super) fn resolve(&mut self, arc: PendingArc, statement: usize, from: Pose, target: &Target) -> Path {
+    pub(super) fn resolve_arc_path(
+        &mut self,
+        arc: PendingArc,
+        statement: usize,
+        from: Pose,
+        target: &MotionTarget,
+    ) -> MotionPath {
         let direction = self.pending.direction.map(|(direction, _)| direction);
         let rule = self.program.dialect().arc_rule();
         let resolved = arc.resolve(rule, from.point, target.pose.point, direction, self.last_tangent);
         for kind in resolved.problems {
-            self.problem(statement, kind);
+            self.report_problem(statement, kind);
         }
-        resolved.arc.map_or(Path::Line, |arc| Path::Arc(Box::new(arc)))
+        resolved.arc.map_or(MotionPath::Line, |arc| MotionPath::Arc(Box::new(arc)))
     }
 
-    pub(super) fn push(&mut self, from: Pose, to: Pose, path: Path, target: &Target) {
+    pub(super) fn push_motion(&mut self, from: Pose, to: Pose, path: MotionPath, target: &MotionTarget) {
         let tangent = path.end_tangent(from.point, to.point);
-        let mut motion = self.motion(from, to, path, target.statement);
+        let mut motion = self.build_motion(from, to, path, target.statement);
         motion.normal = target.normal;
         self.last_tangent = if motion.rapid { None } else { tangent.or(self.last_tangent) };
         self.state.pose = Some(to);
         self.queue.push_back(motion);
     }
 
-    pub(super) fn drill(&mut self, target: &Target) {
+    pub(super) fn drill_hole(&mut self, target: &MotionTarget) {
         let Some((cycle, _)) = self.state.cycle.clone() else { return };
         let hole = self.holes;
         self.holes += 1;
         let first = self.pending.first.take().unwrap_or(target.statement);
         let nx = self.program.dialect() == crate::program::Dialect::Nx;
-        for leg in cycles::legs(&cycle, nx, self.state.pose, target.pose) {
+        for leg in drilling_cycles::plan_hole_moves(&cycle, nx, self.state.pose, target.pose) {
             self.pending.first = Some(first);
-            let mut motion = self.motion(leg.from, leg.to, leg.path, target.statement);
+            let mut motion = self.build_motion(leg.from, leg.to, leg.path, target.statement);
             motion.rapid = leg.rapid;
             motion.class = MotionClass::Drill;
             if let Some(feed) = cycle.feed {
@@ -143,30 +149,37 @@ impl Motions<'_> {
         self.last_tangent = None;
     }
 
-    pub(super) fn end_spline(&mut self) {
+    pub(super) fn finish_spline(&mut self) {
         let Some(spline) = self.pending.spline.take() else { return };
         let (Some(&end), Some(from)) = (spline.controls.last(), self.state.pose) else {
             let unknown = spline.controls.is_empty();
-            let kind = if unknown { ProblemKind::BrokenSpline } else { ProblemKind::UnknownStart };
-            return self.problem(spline.statement, kind);
+            let kind =
+                if unknown { MotionProblemKind::BrokenSpline } else { MotionProblemKind::UnknownStart };
+            return self.report_problem(spline.statement, kind);
         };
-        let path = match Spline::clamped(from.point, &spline.knots, &spline.controls) {
-            Some(curve) => Path::Spline(Box::new(curve)),
+        let path = match Spline::from_knots(from.point, &spline.knots, &spline.controls) {
+            Some(curve) => MotionPath::Spline(Box::new(curve)),
             None => {
-                self.problem(spline.statement, ProblemKind::BrokenSpline);
-                Path::Line
+                self.report_problem(spline.statement, MotionProblemKind::BrokenSpline);
+                MotionPath::Line
             }
         };
         let pose = Pose { point: end, axis: self.state.axis };
-        self.push(from, pose, path, &Target { pose, normal: None, statement: spline.last });
+        self.push_motion(from, pose, path, &MotionTarget { pose, normal: None, statement: spline.last });
     }
 
     /// The motion that ends with `statement`, with everything modal; what was pending is used up.
-    pub(super) fn motion(&mut self, from: Pose, to: Pose, path: Path, statement: usize) -> Motion {
+    pub(super) fn build_motion(
+        &mut self,
+        from: Pose,
+        to: Pose,
+        path: MotionPath,
+        statement: usize,
+    ) -> Motion {
         let first = self.pending.first.take().unwrap_or(statement);
         let rapid = self.pending.rapid.take().is_some();
         self.pending.direction = None;
-        let (class, class_is_told) = self.class(rapid, &from, &to, &path);
+        let (class, class_is_told) = self.classify_motion(rapid, &from, &to, &path);
         let state = &self.state;
         Motion {
             statements: first..statement + 1,
@@ -190,7 +203,13 @@ impl Motions<'_> {
     /// The marked class; without a mark: rapids are rapid, a straight feed move down the tool axis engages, one up it
     /// retracts, everything else cuts. A rapid is never a cut and a feed move never rapid, whatever the
     /// mark says (NX colour 37 holds both).
-    pub(super) fn class(&self, rapid: bool, from: &Pose, to: &Pose, path: &Path) -> (MotionClass, bool) {
+    pub(super) fn classify_motion(
+        &self,
+        rapid: bool,
+        from: &Pose,
+        to: &Pose,
+        path: &MotionPath,
+    ) -> (MotionClass, bool) {
         let told = self.state.marked.filter(|class| match class {
             MotionClass::Cut | MotionClass::Engage => !rapid,
             MotionClass::Rapid => rapid,
@@ -204,7 +223,7 @@ impl Motions<'_> {
         }
         let travel = to.point - from.point;
         let along = travel.dot(&to.axis);
-        let straight = matches!(path, Path::Line) && travel.norm() > SAME_POINT;
+        let straight = matches!(path, MotionPath::Line) && travel.norm() > SAME_POINT;
         let class = if straight && along.abs() > travel.norm() * 0.999 {
             if along < 0.0 { MotionClass::Engage } else { MotionClass::Retract }
         } else {

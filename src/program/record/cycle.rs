@@ -1,7 +1,7 @@
 //! Drilling cycles: `CYCLE/DRILL,...` and the holes after it.
 
-use super::{BadRecord, Reading, Record, Role};
-use crate::program::syntax::{Field, FieldKind, Syntax, folded};
+use super::{BadRecord, NumberRole, Record, RecordReading};
+use crate::program::syntax::{FieldKind, StatementField, StatementSyntax, fold_text};
 use crate::program::units::{Feed, FeedUnit};
 
 /// What the cycle does in the hole.
@@ -15,7 +15,7 @@ pub enum CycleKind {
 
 /// A drilling cycle. Distances are relative to the hole's point along the tool axis, in the file's unit; signs as printed.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Cycle {
+pub struct DrillingCycle {
     /// What happens in the hole.
     pub kind: CycleKind,
     /// `FEDTO`, `DEPTH`, or the first bare number.
@@ -34,7 +34,7 @@ pub struct Cycle {
     pub feed: Option<Feed>,
 }
 
-pub(super) fn read(major: &str, syntax: &Syntax<'_>) -> Reading {
+pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordReading {
     if major != "CYCLE" {
         return None;
     }
@@ -45,35 +45,35 @@ pub(super) fn read(major: &str, syntax: &Syntax<'_>) -> Reading {
         // CYCLE/ON,FEDTO,... changes the one in force.
         "ON" if syntax.fields.len() == 1 => Ok(Record::CycleOn),
         "INIT" | "" => Ok(Record::Known),
-        _ => cycle(&first, syntax).map(|cycle| Record::Cycle(Box::new(cycle))),
+        _ => read_cycle(&first, syntax).map(|cycle| Record::Cycle(Box::new(cycle))),
     })
 }
 
 /// A number of the cycle with the word that governs it.
-enum Item {
+enum CycleItem {
     Word(String),
     Number(f64),
 }
 
-fn items(syntax: &Syntax<'_>) -> Vec<Item> {
-    let words = |field: &Field| {
-        let text = folded(syntax.bytes(&field.at));
-        text.split(' ').map(|word| Item::Word(word.to_owned())).collect::<Vec<_>>()
+fn collect_cycle_items(syntax: &StatementSyntax<'_>) -> Vec<CycleItem> {
+    let words = |field: &StatementField| {
+        let text = fold_text(syntax.bytes_at(&field.at));
+        text.split(' ').map(|word| CycleItem::Word(word.to_owned())).collect::<Vec<_>>()
     };
-    let item = |field: &Field| match &field.kind {
-        FieldKind::Number(value) => vec![Item::Number(*value)],
+    let item = |field: &StatementField| match &field.kind {
+        FieldKind::Number(value) => vec![CycleItem::Number(*value)],
         FieldKind::Text => words(field),
         _ => Vec::new(),
     };
     syntax.fields.iter().flat_map(item).collect()
 }
 
-fn cycle(first: &str, syntax: &Syntax<'_>) -> Result<Cycle, BadRecord> {
+fn read_cycle(first: &str, syntax: &StatementSyntax<'_>) -> Result<DrillingCycle, BadRecord> {
     let kind = match first.split(' ').next().unwrap_or_default() {
         "TAP" | "BORE" | "REAM" | "THREAD" | "MILL" | "BORE1" | "BORE2" | "RTAP" => CycleKind::FeedOut,
         _ => CycleKind::Drill,
     };
-    let mut cycle = Cycle {
+    let mut cycle = DrillingCycle {
         kind,
         depth: None,
         depth_is_fedto: false,
@@ -86,14 +86,14 @@ fn cycle(first: &str, syntax: &Syntax<'_>) -> Result<Cycle, BadRecord> {
     let mut rapid_to = None;
     let mut bare = Vec::new();
     let mut word = String::new();
-    for item in items(syntax) {
+    for item in collect_cycle_items(syntax) {
         let value = match item {
-            Item::Word(next) => {
+            CycleItem::Word(next) => {
                 cycle.retract_is_auto |= word == "RTRCTO" && next == "AUTO";
                 word = next;
                 continue;
             }
-            Item::Number(value) => value,
+            CycleItem::Number(value) => value,
         };
         match word.as_str() {
             "FEDTO" => (cycle.depth, cycle.depth_is_fedto) = (Some(value), true),
@@ -101,8 +101,8 @@ fn cycle(first: &str, syntax: &Syntax<'_>) -> Result<Cycle, BadRecord> {
             "RAPTO" => rapid_to = Some(value),
             "CLEAR" => cycle.clearance = Some(value),
             "RTRCTO" | "RETURN" => cycle.retract = Some(value),
-            unit if FeedUnit::of_word(unit).is_some() && cycle.feed.is_none() => {
-                cycle.feed = Some(Feed { value, unit: FeedUnit::of_word(unit) });
+            unit if FeedUnit::from_word(unit).is_some() && cycle.feed.is_none() => {
+                cycle.feed = Some(Feed { value, unit: FeedUnit::from_word(unit) });
                 // What follows the feed without a word is the clearance (CLT, ISO): not another feed.
                 word = "AFTER-FEED".to_owned();
                 continue;
@@ -133,9 +133,9 @@ fn cycle(first: &str, syntax: &Syntax<'_>) -> Result<Cycle, BadRecord> {
     Ok(cycle)
 }
 
-impl Cycle {
+impl DrillingCycle {
     /// The cycle in force after this record, given the one before.
-    pub(crate) fn after(&self, before: Option<&Self>) -> Self {
+    pub(crate) fn inherit_from(&self, before: Option<&Self>) -> Self {
         let Some(before) = before.filter(|_| self.changes) else { return self.clone() };
         let new_depth = self.depth.is_some();
         let old_retract = before.retract.filter(|_| !self.retract_is_auto);
@@ -157,18 +157,20 @@ fn keeps_governing(word: &str) -> bool {
     word == "PECKING"
 }
 
-pub(super) fn roles(syntax: &Syntax<'_>) -> Vec<Role> {
+pub(super) fn number_roles(syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
     let mut roles = Vec::new();
     let mut word = String::new();
-    for item in items(syntax) {
+    for item in collect_cycle_items(syntax) {
         match item {
-            Item::Word(next) => word = next,
-            Item::Number(_) => {
+            CycleItem::Word(next) => word = next,
+            CycleItem::Number(_) => {
                 roles.push(match word.as_str() {
-                    unit if FeedUnit::of_word(unit).is_some() => Role::Feed,
+                    unit if FeedUnit::from_word(unit).is_some() => NumberRole::Feed,
                     // Times, counts, speeds, angles; threads per inch are the same in every unit of length.
-                    "DWELL" | "TIMES" | "REV" | "SPINDL" | "RPM" | "TPI" | "TLANGL" | "ORIENT" => Role::Plain,
-                    _ => Role::Length,
+                    "DWELL" | "TIMES" | "REV" | "SPINDL" | "RPM" | "TPI" | "TLANGL" | "ORIENT" => {
+                        NumberRole::Plain
+                    }
+                    _ => NumberRole::Length,
                 });
                 if !keeps_governing(&word) {
                     word = String::new();

@@ -1,7 +1,7 @@
 //! Feed, spindle and cutter compensation.
 
-use super::{BadRecord, Reading, Record, Role, bad, wrong_count};
-use crate::program::syntax::{FieldKind, Syntax, folded};
+use super::{BadRecord, NumberRole, Record, RecordReading, bad_record, wrong_count};
+use crate::program::syntax::{FieldKind, StatementSyntax, fold_text};
 use crate::program::units::{Feed, FeedUnit};
 
 /// Sense of the spindle.
@@ -39,7 +39,7 @@ pub struct Spindle {
 
 impl Spindle {
     /// The spindle in force after this record: what it does not say (`SPINDL/ON`, `SPINDL/CCLW`) stays as it was before.
-    pub(crate) fn after(&self, before: Option<&Self>) -> Self {
+    pub(crate) fn inherit_from(&self, before: Option<&Self>) -> Self {
         let mut spindle = self.clone();
         let Some(before) = before else { return spindle };
         if spindle.speed.is_none() {
@@ -52,7 +52,7 @@ impl Spindle {
 
 /// Side of cutter compensation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
+pub enum CompensationSide {
     /// `LEFT`.
     Left,
     /// `RIGHT`.
@@ -63,23 +63,23 @@ pub enum Side {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CutterCompensation {
     /// `CUTCOM/LEFT` or `RIGHT`, perhaps with a plane.
-    On(Side),
+    On(CompensationSide),
     /// `CUTCOM/ON`: the side follows (CLT).
     Armed,
     /// `CUTCOM/OFF`.
     Off,
 }
 
-pub(super) fn read(major: &str, syntax: &Syntax<'_>) -> Reading {
+pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordReading {
     Some(match major {
-        "FEDRAT" => feed(syntax),
-        "SPINDL" => spindle(syntax),
-        "CUTCOM" => cutter_compensation(syntax),
+        "FEDRAT" => read_feed(syntax),
+        "SPINDL" => read_spindle(syntax),
+        "CUTCOM" => read_cutter_compensation(syntax),
         _ => return None,
     })
 }
 
-fn feed(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
+fn read_feed(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     let mut value = None;
     let mut unit = None;
     let mut other = false;
@@ -87,8 +87,8 @@ fn feed(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
         match &field.kind {
             FieldKind::Number(number) => value = value.or(Some(*number)),
             FieldKind::Text => {
-                let word = folded(syntax.bytes(&field.at));
-                match FeedUnit::of_word(&word) {
+                let word = fold_text(syntax.bytes_at(&field.at));
+                match FeedUnit::from_word(&word) {
                     Some(found) => unit = unit.or(Some(found)),
                     None if looks_numeric(&word) => {
                         return Err(BadRecord {
@@ -112,12 +112,12 @@ fn feed(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
         return Err(wrong_count("FEDRAT", syntax, "a number, with or without a unit", 0));
     };
     if value < 0.0 {
-        return Err(bad(first_number(syntax), "a feed cannot be negative"));
+        return Err(bad_record(first_number_range(syntax), "a feed cannot be negative"));
     }
     Ok(Record::Feed(Feed { value, unit }))
 }
 
-fn first_number(syntax: &Syntax<'_>) -> std::ops::Range<usize> {
+fn first_number_range(syntax: &StatementSyntax<'_>) -> std::ops::Range<usize> {
     syntax.numbers().first().map_or(syntax.word.clone(), |(at, _)| at.clone())
 }
 
@@ -126,13 +126,13 @@ fn looks_numeric(word: &str) -> bool {
     word.starts_with(|first: char| first.is_ascii_digit() || matches!(first, '.' | '-' | '+'))
 }
 
-fn spindle(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
+fn read_spindle(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     let mut spindle =
         Spindle { on: true, speed: None, unit: SpindleUnit::RevolutionsPerMinute, direction: None };
     for field in &syntax.fields {
         match &field.kind {
             FieldKind::Number(number) => spindle.speed = spindle.speed.or(Some(*number)),
-            FieldKind::Text => match folded(syntax.bytes(&field.at)).as_str() {
+            FieldKind::Text => match fold_text(syntax.bytes_at(&field.at)).as_str() {
                 "OFF" => spindle.on = false,
                 "RPM" => spindle.unit = SpindleUnit::RevolutionsPerMinute,
                 "SFM" => spindle.unit = SpindleUnit::SurfaceFeet,
@@ -154,10 +154,10 @@ fn spindle(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
     Ok(Record::Spindle(Box::new(spindle)))
 }
 
-fn cutter_compensation(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
+fn read_cutter_compensation(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     Ok(Record::CutterCompensation(match syntax.word_at(0).as_deref() {
-        Some("LEFT") => CutterCompensation::On(Side::Left),
-        Some("RIGHT") => CutterCompensation::On(Side::Right),
+        Some("LEFT") => CutterCompensation::On(CompensationSide::Left),
+        Some("RIGHT") => CutterCompensation::On(CompensationSide::Right),
         Some("ON") => CutterCompensation::Armed,
         Some("OFF") => CutterCompensation::Off,
         // CUTCOM/ADJUST, CUTCOM/NORMAL, CUTCOM/n and the like are a post's own.
@@ -165,14 +165,14 @@ fn cutter_compensation(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
     }))
 }
 
-pub(super) fn roles(record: &Record, syntax: &Syntax<'_>) -> Vec<Role> {
+pub(super) fn number_roles(record: &Record, syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
     let surface =
         matches!(record, Record::Spindle(spindle) if spindle.unit != SpindleUnit::RevolutionsPerMinute);
     let first = match record {
-        Record::Feed(_) => Role::Feed,
-        _ if surface => Role::SurfaceSpeed,
-        _ => Role::Plain,
+        Record::Feed(_) => NumberRole::Feed,
+        _ if surface => NumberRole::SurfaceSpeed,
+        _ => NumberRole::Plain,
     };
     let count = syntax.numbers().len();
-    (0..count).map(|index| if index == 0 { first } else { Role::Plain }).collect()
+    (0..count).map(|index| if index == 0 { first } else { NumberRole::Plain }).collect()
 }

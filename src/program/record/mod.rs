@@ -1,7 +1,7 @@
-//! Records: what a statement means, read from its [`Syntax`].
+//! Records: what a statement means, read from its [`StatementSyntax`].
 //!
 //! One file per family. Each family reads its records and says, number by number, what role a number plays
-//! ([`Role`]), so that geometric and unit transforms need no list of records of their own. A record that stands here is
+//! ([`NumberRole`]), so that geometric and unit transforms need no list of records of their own. A record that stands here is
 //! well formed; a known word with wrong arguments is a [`BadRecord`].
 
 mod cycle;
@@ -12,16 +12,16 @@ mod role;
 mod structure;
 mod tool;
 
-pub use cycle::{Cycle, CycleKind};
-pub use feed::{CutterCompensation, Side, Spindle, SpindleDirection, SpindleUnit};
+pub use cycle::{CycleKind, DrillingCycle};
+pub use feed::{CompensationSide, CutterCompensation, Spindle, SpindleDirection, SpindleUnit};
 pub use frame::{FrameRecord, FrameWord};
 pub use path::{ArcSense, Circle, DriveArc, Goto, MoveArc};
-pub(crate) use path::{has_direction, is_contact, is_poses, with_axis as path_roles};
-pub use role::Role;
-pub use structure::{MarkedMotion, StructureName};
+pub(crate) use path::{goto_roles as path_roles, has_contact_normal, has_direction, has_tool_axes};
+pub use role::NumberRole;
+pub use structure::{MotionMark, OperationNames};
 pub use tool::{ToolCall, ToolData, ToolWord};
 
-use super::syntax::{Form, Syntax};
+use super::syntax::{StatementKind, StatementSyntax};
 use super::units::{Feed, LengthUnit};
 use nalgebra::{Point3, Vector3};
 use std::ops::Range;
@@ -87,16 +87,16 @@ pub enum Record {
     MatrixRow(Box<[f64; 4]>),
 
     /// `CYCLE/DRILL,...`: each following GOTO is a hole.
-    Cycle(Box<Cycle>),
+    Cycle(Box<DrillingCycle>),
     /// `CYCLE/ON`: the cycle goes on.
     CycleOn,
     /// `CYCLE/OFF`.
     CycleOff,
 
     /// A word that says what kind of motion follows (`PAINT/COLOR`, FF's `PPRINT/MOTION`, CLT's `MOVE_ATTRIB`).
-    Marked(MarkedMotion),
+    Marked(MotionMark),
     /// An operation starts; its name is in the text.
-    OperationStart(StructureName),
+    OperationStart(OperationNames),
     /// An operation ends.
     OperationEnd,
     /// `UNITS/`, `UNIT/`.
@@ -132,21 +132,28 @@ impl Record {
     ///
     /// # Errors
     /// [`BadRecord`] for a known word whose arguments do not fit. Refused text is no error here: it is [`Record::Unparsed`].
-    pub fn read(syntax: &Syntax<'_>) -> Result<Self, BadRecord> {
+    pub fn read(syntax: &StatementSyntax<'_>) -> Result<Self, BadRecord> {
         match syntax.form {
-            Form::Blank => return Ok(Self::Blank),
-            Form::Comment => return Ok(structure::comment(syntax)),
-            Form::FrameMark => return Ok(Self::FrameMark),
-            Form::MatrixRow => return Ok(frame::matrix_row(syntax)),
-            Form::Definition => return Ok(Self::Definition),
-            Form::Refused => return Ok(Self::Unparsed),
-            Form::OperationStart => return Ok(structure::tool_path(syntax)),
-            Form::FreeText => return Ok(structure::free_text(syntax)),
-            Form::Numbers => return path::numbers(syntax),
-            Form::Structured | Form::Words => {}
+            StatementKind::Blank => return Ok(Self::Blank),
+            StatementKind::Comment => return Ok(structure::read_comment(syntax)),
+            StatementKind::FrameMark => return Ok(Self::FrameMark),
+            StatementKind::MatrixRow => return Ok(frame::read_matrix_row(syntax)),
+            StatementKind::Definition => return Ok(Self::Definition),
+            StatementKind::Refused => return Ok(Self::Unparsed),
+            StatementKind::OperationStart => return Ok(structure::read_tool_path(syntax)),
+            StatementKind::FreeText => return Ok(structure::read_free_text(syntax)),
+            StatementKind::Numbers => return path::read_points_line(syntax),
+            StatementKind::Structured | StatementKind::Words => {}
         }
-        let major = syntax.major();
-        let families = [path::read, feed::read, tool::read, frame::read, cycle::read, structure::read];
+        let major = syntax.major_word();
+        let families = [
+            path::read_record,
+            feed::read_record,
+            tool::read_record,
+            frame::read_record,
+            cycle::read_record,
+            structure::read_record,
+        ];
         for family in families {
             if let Some(record) = family(&major, syntax) {
                 return record;
@@ -155,10 +162,10 @@ impl Record {
         Ok(Self::Other)
     }
 
-    /// What each number of a statement is, in the order of [`Syntax::numbers`].
+    /// What each number of a statement is, in the order of [`StatementSyntax::numbers`].
     ///
-    /// A number whose role is not known is [`Role::Plain`]; transforms never touch those.
-    pub fn roles(&self, syntax: &Syntax<'_>) -> Vec<Role> {
+    /// A number whose role is not known is [`NumberRole::Plain`]; transforms never touch those.
+    pub fn number_roles(&self, syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
         let count = syntax.numbers().len();
         let mut roles = match self {
             Self::Goto(_)
@@ -171,15 +178,15 @@ impl Record {
             | Self::StartDirection(_)
             | Self::DriveArc(_)
             | Self::Knot(_)
-            | Self::Control(_) => path::roles(self, syntax),
-            Self::Feed(_) | Self::Spindle(_) => feed::roles(self, syntax),
-            Self::ToolData(_) | Self::ToolAxis(_) | Self::ToolCall(_) => tool::roles(self, syntax),
-            Self::Frame(_) | Self::MatrixRow(_) => frame::roles(self),
-            Self::Cycle(_) => cycle::roles(syntax),
-            Self::Known => structure::roles(syntax),
+            | Self::Control(_) => path::number_roles(self, syntax),
+            Self::Feed(_) | Self::Spindle(_) => feed::number_roles(self, syntax),
+            Self::ToolData(_) | Self::ToolAxis(_) | Self::ToolCall(_) => tool::number_roles(self, syntax),
+            Self::Frame(_) | Self::MatrixRow(_) => frame::number_roles(self),
+            Self::Cycle(_) => cycle::number_roles(syntax),
+            Self::Known => structure::number_roles(syntax),
             _ => Vec::new(),
         };
-        roles.resize(count, Role::Plain);
+        roles.resize(count, NumberRole::Plain);
         roles
     }
 
@@ -198,9 +205,9 @@ impl Record {
 }
 
 /// What a family's reader gives: `None` when the word is not of the family.
-type Reading = Option<Result<Record, BadRecord>>;
+type RecordReading = Option<Result<Record, BadRecord>>;
 
-fn bad(at: Range<usize>, problem: impl Into<String>) -> BadRecord {
+fn bad_record(at: Range<usize>, problem: impl Into<String>) -> BadRecord {
     BadRecord { at, problem: problem.into(), is_number: false }
 }
 
@@ -208,38 +215,41 @@ fn bad(at: Range<usize>, problem: impl Into<String>) -> BadRecord {
 ///
 /// # Errors
 /// The first field that is no number.
-fn all_numbers(syntax: &Syntax<'_>) -> Result<Vec<f64>, BadRecord> {
+fn read_all_numbers(syntax: &StatementSyntax<'_>) -> Result<Vec<f64>, BadRecord> {
     let mut fields = syntax.fields.as_slice();
     if let Some((last, rest)) = fields.split_last()
         && last.kind == super::syntax::FieldKind::Empty
     {
         fields = rest;
     }
-    fields.iter().map(|field| number(syntax, field)).collect()
+    fields.iter().map(|field| read_number(syntax, field)).collect()
 }
 
-fn number(syntax: &Syntax<'_>, field: &super::syntax::Field) -> Result<f64, BadRecord> {
-    field.number().ok_or_else(|| {
-        let text = String::from_utf8_lossy(syntax.bytes(&field.at)).into_owned();
+fn read_number(
+    syntax: &StatementSyntax<'_>,
+    field: &super::syntax::StatementField,
+) -> Result<f64, BadRecord> {
+    field.number_value().ok_or_else(|| {
+        let text = String::from_utf8_lossy(syntax.bytes_at(&field.at)).into_owned();
         let problem =
             if text.is_empty() { "a number is missing".into() } else { format!("`{text}` is not a number") };
         BadRecord { at: field.at.clone(), problem, is_number: true }
     })
 }
 
-fn wrong_count(major: &str, syntax: &Syntax<'_>, takes: &str, found: usize) -> BadRecord {
+fn wrong_count(major: &str, syntax: &StatementSyntax<'_>, takes: &str, found: usize) -> BadRecord {
     let start = syntax.word.start;
     let end = syntax.fields.last().map_or(syntax.word.end, |field| field.at.end.max(syntax.word.end));
-    bad(start..end, format!("{major} takes {takes}, this has {found}"))
+    bad_record(start..end, format!("{major} takes {takes}, this has {found}"))
 }
 
-fn point(numbers: &[f64]) -> Option<Point3<f64>> {
+fn point_from_numbers(numbers: &[f64]) -> Option<Point3<f64>> {
     match numbers {
         [x, y, z, ..] => Some(Point3::new(*x, *y, *z)),
         _ => None,
     }
 }
 
-fn vector(numbers: &[f64]) -> Option<Vector3<f64>> {
-    point(numbers).map(|point| point.coords)
+fn vector_from_numbers(numbers: &[f64]) -> Option<Vector3<f64>> {
+    point_from_numbers(numbers).map(|point| point.coords)
 }

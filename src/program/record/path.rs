@@ -1,7 +1,10 @@
 //! Points, arcs and splines.
 
-use super::{BadRecord, Reading, Record, Role, all_numbers, bad, number, point, vector, wrong_count};
-use crate::program::syntax::{FieldKind, Group, Syntax};
+use super::{
+    BadRecord, NumberRole, Record, RecordReading, bad_record, point_from_numbers, read_all_numbers,
+    read_number, vector_from_numbers, wrong_count,
+};
+use crate::program::syntax::{FieldGroup, FieldKind, StatementSyntax};
 use nalgebra::{Point3, Vector3};
 
 /// A point with or without a tool axis. Without one the axis in force stays (measured: 15,397 three-value GOTOs in one file).
@@ -65,22 +68,21 @@ pub struct DriveArc {
     pub beyond_half: bool,
 }
 
-pub(super) fn read(major: &str, syntax: &Syntax<'_>) -> Reading {
+pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordReading {
     Some(match major {
-        "GOTO" => goto(major, syntax),
-        "FROM" => single(major, syntax).map(|goto| Record::From(Box::new(goto))),
+        "GOTO" => read_goto(major, syntax),
+        "FROM" => read_single_goto(major, syntax).map(|goto| Record::From(Box::new(goto))),
         "GOHOME" if syntax.fields.is_empty() => Ok(Record::GoHome(None)),
-        "GOHOME" => single(major, syntax).map(|goto| Record::GoHome(Some(Box::new(goto)))),
-        "GODLTA" => {
-            numbers_of(major, syntax, "1 or 3 numbers", |count| count == 1 || count == 3).map(Record::GoDelta)
-        }
-        "CIRCLE" => circle(syntax),
-        "MOVARC" => move_arc(syntax),
-        "INDIRV" => one_vector(major, syntax).map(|vector| Record::StartDirection(Box::new(vector))),
-        "TLON,GOFWD" | "TLON,GOBACK" => drive_arc(major, syntax),
+        "GOHOME" => read_single_goto(major, syntax).map(|goto| Record::GoHome(Some(Box::new(goto)))),
+        "GODLTA" => read_counted_numbers(major, syntax, "1 or 3 numbers", |count| count == 1 || count == 3)
+            .map(Record::GoDelta),
+        "CIRCLE" => read_circle(syntax),
+        "MOVARC" => read_move_arc(syntax),
+        "INDIRV" => read_vector(major, syntax).map(|vector| Record::StartDirection(Box::new(vector))),
+        "TLON,GOFWD" | "TLON,GOBACK" => read_drive_arc(major, syntax),
         "NURBS" => Ok(Record::Nurbs),
-        "KNOT" => numbers_of(major, syntax, "numbers", |count| count > 0).map(Record::Knot),
-        "CNTRL" => one_vector(major, syntax).map(|at| Record::Control(Box::new(Point3::from(at)))),
+        "KNOT" => read_counted_numbers(major, syntax, "numbers", |count| count > 0).map(Record::Knot),
+        "CNTRL" => read_vector(major, syntax).map(|at| Record::Control(Box::new(Point3::from(at)))),
         "RAPID" if syntax.fields.iter().all(|field| field.kind == FieldKind::Empty) => Ok(Record::Rapid),
         "RAPID" => Err(wrong_count(major, syntax, "no arguments", syntax.fields.len())),
         _ => return None,
@@ -88,35 +90,35 @@ pub(super) fn read(major: &str, syntax: &Syntax<'_>) -> Reading {
 }
 
 /// A line of bare numbers: further points.
-pub(super) fn numbers(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
-    let numbers = all_numbers(syntax)?;
+pub(super) fn read_points_line(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
+    let numbers = read_all_numbers(syntax)?;
     if numbers.len() % 3 != 0 {
         return Err(wrong_count("a line of points", syntax, "3 numbers a point", numbers.len()));
     }
     Ok(Record::Points(numbers.into()))
 }
 
-fn goto(major: &str, syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
-    let numbers = all_numbers(syntax)?;
-    match (numbers.len(), single_of(&numbers)) {
-        (_, Some(goto)) => with_direction(goto, syntax).map(Record::Goto),
+fn read_goto(major: &str, syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
+    let numbers = read_all_numbers(syntax)?;
+    match (numbers.len(), goto_from_numbers(&numbers)) {
+        (_, Some(goto)) => require_axis_direction(goto, syntax).map(Record::Goto),
         (count, None) if count > 6 && count % 3 == 0 => Ok(Record::Points(numbers.into())),
         (count, None) => Err(wrong_count(major, syntax, "3 or 6 numbers (or several points)", count)),
     }
 }
 
-fn single(major: &str, syntax: &Syntax<'_>) -> Result<Goto, BadRecord> {
-    let numbers = all_numbers(syntax)?;
-    let goto =
-        single_of(&numbers).ok_or_else(|| wrong_count(major, syntax, "3 or 6 numbers", numbers.len()))?;
-    with_direction(goto, syntax)
+fn read_single_goto(major: &str, syntax: &StatementSyntax<'_>) -> Result<Goto, BadRecord> {
+    let numbers = read_all_numbers(syntax)?;
+    let goto = goto_from_numbers(&numbers)
+        .ok_or_else(|| wrong_count(major, syntax, "3 or 6 numbers", numbers.len()))?;
+    require_axis_direction(goto, syntax)
 }
 
 /// A tool axis of no length tells no post how the tool stands.
-fn with_direction(goto: Goto, syntax: &Syntax<'_>) -> Result<Goto, BadRecord> {
+fn require_axis_direction(goto: Goto, syntax: &StatementSyntax<'_>) -> Result<Goto, BadRecord> {
     match goto.axis {
         Some(axis) if !has_direction(&axis) => {
-            Err(bad(vector_place(syntax, 3), "the tool axis has no direction"))
+            Err(bad_record(vector_range(syntax, 3), "the tool axis has no direction"))
         }
         _ => Ok(goto),
     }
@@ -128,52 +130,54 @@ pub(crate) fn has_direction(vector: &Vector3<f64>) -> bool {
     length > 1e-6 && length.is_finite()
 }
 
-fn single_of(numbers: &[f64]) -> Option<Goto> {
+fn goto_from_numbers(numbers: &[f64]) -> Option<Goto> {
     match numbers {
-        [_, _, _] => point(numbers).map(|point| Goto { point, axis: None }),
+        [_, _, _] => point_from_numbers(numbers).map(|point| Goto { point, axis: None }),
         [_, _, _, axis @ ..] if axis.len() == 3 => {
-            point(numbers).map(|point| Goto { point, axis: vector(axis) })
+            point_from_numbers(numbers).map(|point| Goto { point, axis: vector_from_numbers(axis) })
         }
         _ => None,
     }
 }
 
-fn numbers_of(
+fn read_counted_numbers(
     major: &str,
-    syntax: &Syntax<'_>,
+    syntax: &StatementSyntax<'_>,
     takes: &str,
     fits: impl Fn(usize) -> bool,
 ) -> Result<Box<[f64]>, BadRecord> {
-    let numbers = all_numbers(syntax)?;
+    let numbers = read_all_numbers(syntax)?;
     if !fits(numbers.len()) {
         return Err(wrong_count(major, syntax, takes, numbers.len()));
     }
     Ok(numbers.into())
 }
 
-pub(super) fn one_vector(major: &str, syntax: &Syntax<'_>) -> Result<Vector3<f64>, BadRecord> {
-    let numbers = numbers_of(major, syntax, "3 numbers", |count| count == 3)?;
-    vector(&numbers).ok_or_else(|| wrong_count(major, syntax, "3 numbers", numbers.len()))
+pub(super) fn read_vector(major: &str, syntax: &StatementSyntax<'_>) -> Result<Vector3<f64>, BadRecord> {
+    let numbers = read_counted_numbers(major, syntax, "3 numbers", |count| count == 3)?;
+    vector_from_numbers(&numbers).ok_or_else(|| wrong_count(major, syntax, "3 numbers", numbers.len()))
 }
 
-fn circle(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
+fn read_circle(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     let mut numbers = Vec::new();
     let mut sense = ArcSense::OfDialect;
     let mut times = 1;
     let mut fields = syntax.fields.iter().peekable();
     while let Some(field) = fields.next() {
         match &field.kind {
-            FieldKind::Text => match crate::program::syntax::folded(syntax.bytes(&field.at)).as_str() {
+            FieldKind::Text => match crate::program::syntax::fold_text(syntax.bytes_at(&field.at)).as_str() {
                 "CLOCKWISE" | "CLW" => sense = ArcSense::Clockwise,
                 "COUNTERCLOCKWISE" | "CCLW" => sense = ArcSense::CounterClockwise,
-                "TIMES" => times = times_of(syntax, fields.next(), field)?,
-                _ => return Err(unexpected(syntax, field, numbers.len() < 7)),
+                "TIMES" => times = read_turn_count(syntax, fields.next(), field)?,
+                _ => return Err(unexpected_field(syntax, field, numbers.len() < 7)),
             },
             FieldKind::Empty if fields.peek().is_none() => {}
-            _ => numbers.push(number(syntax, field)?),
+            _ => numbers.push(read_number(syntax, field)?),
         }
     }
-    let (Some(center), Some(axis)) = (point(&numbers), numbers.get(3..).and_then(vector)) else {
+    let (Some(center), Some(axis)) =
+        (point_from_numbers(&numbers), numbers.get(3..).and_then(vector_from_numbers))
+    else {
         return Err(wrong_count(
             "CIRCLE",
             syntax,
@@ -182,62 +186,66 @@ fn circle(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
         ));
     };
     if !has_direction(&axis) {
-        return Err(bad(vector_place(syntax, 3), "the axis of the arc has no direction"));
+        return Err(bad_record(vector_range(syntax, 3), "the axis of the arc has no direction"));
     }
     let radius = numbers.get(6).copied();
     Ok(Record::Circle(Box::new(Circle { center, axis, radius, sense, times })))
 }
 
-fn times_of(
-    syntax: &Syntax<'_>,
-    field: Option<&crate::program::syntax::Field>,
-    word: &crate::program::syntax::Field,
+fn read_turn_count(
+    syntax: &StatementSyntax<'_>,
+    field: Option<&crate::program::syntax::StatementField>,
+    word: &crate::program::syntax::StatementField,
 ) -> Result<u32, BadRecord> {
     let Some(field) = field else {
-        return Err(bad(word.at.clone(), "TIMES wants the number of turns after it"));
+        return Err(bad_record(word.at.clone(), "TIMES wants the number of turns after it"));
     };
-    let turns = number(syntax, field)?;
+    let turns = read_number(syntax, field)?;
     if turns.fract() != 0.0 || !(1.0..=10_000.0).contains(&turns) {
-        return Err(bad(field.at.clone(), "the number of turns is a whole number from 1 to 10000"));
+        return Err(bad_record(field.at.clone(), "the number of turns is a whole number from 1 to 10000"));
     }
     Ok(turns as u32)
 }
 
 /// The place of the three fields from `at` on.
-pub(super) fn vector_place(syntax: &Syntax<'_>, at: usize) -> std::ops::Range<usize> {
+pub(super) fn vector_range(syntax: &StatementSyntax<'_>, at: usize) -> std::ops::Range<usize> {
     match (syntax.fields.get(at), syntax.fields.get(at + 2)) {
         (Some(first), Some(last)) => first.at.start..last.at.end,
         _ => syntax.word.clone(),
     }
 }
 
-fn unexpected(syntax: &Syntax<'_>, field: &crate::program::syntax::Field, number_wanted: bool) -> BadRecord {
-    let text = String::from_utf8_lossy(syntax.bytes(&field.at)).into_owned();
+fn unexpected_field(
+    syntax: &StatementSyntax<'_>,
+    field: &crate::program::syntax::StatementField,
+    number_wanted: bool,
+) -> BadRecord {
+    let text = String::from_utf8_lossy(syntax.bytes_at(&field.at)).into_owned();
     if number_wanted {
         BadRecord { at: field.at.clone(), problem: format!("`{text}` is not a number"), is_number: true }
     } else {
-        bad(field.at.clone(), format!("`{text}` is not expected here"))
+        bad_record(field.at.clone(), format!("`{text}` is not expected here"))
     }
 }
 
-fn move_arc(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
+fn read_move_arc(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     let mut numbers = Vec::new();
     let mut sweep_degrees = None;
     let mut fields = syntax.fields.iter();
     while let Some(field) = fields.next() {
         match &field.kind {
-            FieldKind::Text => match crate::program::syntax::folded(syntax.bytes(&field.at)).as_str() {
+            FieldKind::Text => match crate::program::syntax::fold_text(syntax.bytes_at(&field.at)).as_str() {
                 "CENTER" | "AXIS" | "RADIUS" => {}
                 "ANGLE" => match fields.next() {
-                    Some(angle) => sweep_degrees = Some(number(syntax, angle)?),
-                    None => return Err(bad(field.at.clone(), "ANGLE wants degrees after it")),
+                    Some(angle) => sweep_degrees = Some(read_number(syntax, angle)?),
+                    None => return Err(bad_record(field.at.clone(), "ANGLE wants degrees after it")),
                 },
-                _ => return Err(unexpected(syntax, field, numbers.len() < 7)),
+                _ => return Err(unexpected_field(syntax, field, numbers.len() < 7)),
             },
-            _ => numbers.push(number(syntax, field)?),
+            _ => numbers.push(read_number(syntax, field)?),
         }
     }
-    match (point(&numbers), numbers.get(3..).and_then(vector), numbers.get(6)) {
+    match (point_from_numbers(&numbers), numbers.get(3..).and_then(vector_from_numbers), numbers.get(6)) {
         (Some(center), Some(axis), Some(&radius)) if has_direction(&axis) => {
             Ok(Record::MoveArc(Box::new(MoveArc { center, axis, radius, sweep_degrees })))
         }
@@ -245,21 +253,21 @@ fn move_arc(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
     }
 }
 
-fn drive_arc(major: &str, syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
+fn read_drive_arc(major: &str, syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     let (mut circle, mut line, mut beyond_half) = (None, None, false);
     for field in &syntax.fields {
         match &field.kind {
-            FieldKind::Group(group) => match syntax.bytes(&group.word).to_ascii_uppercase().as_slice() {
-                b"CIRCLE" => circle = Some(group_numbers(syntax, group)?),
-                b"LINE" => line = Some(group_numbers(syntax, group)?),
+            FieldKind::Group(group) => match syntax.bytes_at(&group.word).to_ascii_uppercase().as_slice() {
+                b"CIRCLE" => circle = Some(read_group_numbers(syntax, group)?),
+                b"LINE" => line = Some(read_group_numbers(syntax, group)?),
                 _ => return Ok(Record::Other),
             },
-            FieldKind::Text => beyond_half |= syntax.bytes(&field.at).eq_ignore_ascii_case(b"INTOF"),
+            FieldKind::Text => beyond_half |= syntax.bytes_at(&field.at).eq_ignore_ascii_case(b"INTOF"),
             _ => {}
         }
     }
     let (Some(circle), Some(line)) = (circle, line) else { return Ok(Record::Other) };
-    match (point(&circle), circle.get(3), line.get(3..).and_then(point)) {
+    match (point_from_numbers(&circle), circle.get(3), line.get(3..).and_then(point_from_numbers)) {
         (Some(center), Some(&radius), Some(end)) if circle.len() == 4 && line.len() == 6 => {
             Ok(Record::DriveArc(Box::new(DriveArc { center, radius, end, beyond_half })))
         }
@@ -272,43 +280,55 @@ fn drive_arc(major: &str, syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
     }
 }
 
-fn group_numbers(syntax: &Syntax<'_>, group: &Group) -> Result<Vec<f64>, BadRecord> {
-    group.fields.iter().map(|field| number(syntax, field)).collect()
+fn read_group_numbers(syntax: &StatementSyntax<'_>, group: &FieldGroup) -> Result<Vec<f64>, BadRecord> {
+    group.fields.iter().map(|field| read_number(syntax, field)).collect()
 }
 
-pub(super) fn roles(record: &Record, syntax: &Syntax<'_>) -> Vec<Role> {
+pub(super) fn number_roles(record: &Record, syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
     let count = syntax.numbers().len();
-    let points = |count: usize| (0..count).map(|index| Role::Point((index % 3) as u8)).collect::<Vec<_>>();
+    let points =
+        |count: usize| (0..count).map(|index| NumberRole::Point((index % 3) as u8)).collect::<Vec<_>>();
     match record {
-        Record::Goto(goto) => with_axis(goto.axis.is_some()),
-        Record::From(goto) | Record::GoHome(Some(goto)) => with_axis(goto.axis.is_some()),
-        Record::Points(numbers) if is_contact(numbers) => [with_axis(true), directions()].concat(),
-        Record::Points(numbers) if is_poses(numbers) => with_axis(true).repeat(numbers.len() / 6),
+        Record::Goto(goto) => goto_roles(goto.axis.is_some()),
+        Record::From(goto) | Record::GoHome(Some(goto)) => goto_roles(goto.axis.is_some()),
+        Record::Points(numbers) if has_contact_normal(numbers) => {
+            [goto_roles(true), direction_roles()].concat()
+        }
+        Record::Points(numbers) if has_tool_axes(numbers) => goto_roles(true).repeat(numbers.len() / 6),
         Record::Points(_) | Record::Control(_) => points(count),
-        Record::GoDelta(numbers) if numbers.len() == 3 => vec![Role::Step(0), Role::Step(1), Role::Step(2)],
-        Record::GoDelta(_) => vec![Role::Length],
-        Record::StartDirection(_) => directions(),
-        Record::DriveArc(_) => syntax.fields.iter().flat_map(|field| drive_roles(syntax, field)).collect(),
+        Record::GoDelta(numbers) if numbers.len() == 3 => {
+            vec![NumberRole::Step(0), NumberRole::Step(1), NumberRole::Step(2)]
+        }
+        Record::GoDelta(_) => vec![NumberRole::Length],
+        Record::StartDirection(_) => direction_roles(),
+        Record::DriveArc(_) => {
+            syntax.fields.iter().flat_map(|field| drive_arc_roles(syntax, field)).collect()
+        }
         Record::Circle(circle) => {
             let lengths = count.saturating_sub(6 + usize::from(circle.times > 1));
-            let mut roles = [points(3), arc_axis()].concat();
+            let mut roles = [points(3), arc_axis_roles()].concat();
             // centre, axis, radius, tolerance, 0.5, diameter, corner radius: the 0.5 is no length.
-            roles.extend((0..lengths).map(|index| if index == 2 { Role::Plain } else { Role::Length }));
+            roles.extend(
+                (0..lengths).map(|index| if index == 2 { NumberRole::Plain } else { NumberRole::Length }),
+            );
             roles
         }
-        Record::MoveArc(_) => [points(3), arc_axis(), vec![Role::Length]].concat(),
+        Record::MoveArc(_) => [points(3), arc_axis_roles(), vec![NumberRole::Length]].concat(),
         _ => Vec::new(),
     }
 }
 
 /// CATIA's drive arc: centre and radius in one group, centre and end in the other, and between them perhaps the 2 of
 /// `ON,2,INTOF`, which is a count.
-fn drive_roles(syntax: &Syntax<'_>, field: &crate::program::syntax::Field) -> Vec<Role> {
-    let points = |count: usize| (0..count).map(|index| Role::Point((index % 3) as u8));
+fn drive_arc_roles(
+    syntax: &StatementSyntax<'_>,
+    field: &crate::program::syntax::StatementField,
+) -> Vec<NumberRole> {
+    let points = |count: usize| (0..count).map(|index| NumberRole::Point((index % 3) as u8));
     match &field.kind {
-        FieldKind::Number(_) => vec![Role::Plain],
-        FieldKind::Group(group) if syntax.bytes(&group.word).eq_ignore_ascii_case(b"CIRCLE") => {
-            points(3).chain([Role::Length]).collect()
+        FieldKind::Number(_) => vec![NumberRole::Plain],
+        FieldKind::Group(group) if syntax.bytes_at(&group.word).eq_ignore_ascii_case(b"CIRCLE") => {
+            points(3).chain([NumberRole::Length]).collect()
         }
         FieldKind::Group(_) => points(6).collect(),
         _ => Vec::new(),
@@ -316,34 +336,34 @@ fn drive_roles(syntax: &Syntax<'_>, field: &crate::program::syntax::Field) -> Ve
 }
 
 /// Whether the numbers of a long GOTO are a point, a tool axis and a contact normal: two unit vectors after the point.
-pub(crate) fn is_contact(numbers: &[f64]) -> bool {
-    numbers.len() == 9 && [3, 6].iter().all(|&at| numbers.get(at..).is_some_and(is_unit))
+pub(crate) fn has_contact_normal(numbers: &[f64]) -> bool {
+    numbers.len() == 9 && [3, 6].iter().all(|&at| numbers.get(at..).is_some_and(is_unit_vector))
 }
 
 /// Whether the numbers are points with axes: every second triple is a unit vector.
-pub(crate) fn is_poses(numbers: &[f64]) -> bool {
-    numbers.len().is_multiple_of(6) && numbers.chunks(6).all(|pose| pose.get(3..).is_some_and(is_unit))
+pub(crate) fn has_tool_axes(numbers: &[f64]) -> bool {
+    numbers.len().is_multiple_of(6) && numbers.chunks(6).all(|pose| pose.get(3..).is_some_and(is_unit_vector))
 }
 
-fn is_unit(numbers: &[f64]) -> bool {
-    vector(numbers).is_some_and(|vector| (vector.norm() - 1.0).abs() < 1e-3)
+fn is_unit_vector(numbers: &[f64]) -> bool {
+    vector_from_numbers(numbers).is_some_and(|vector| (vector.norm() - 1.0).abs() < 1e-3)
 }
 
 /// Roles of a point with or without its tool axis.
-pub(crate) fn with_axis(axis: bool) -> Vec<Role> {
-    let mut roles = vec![Role::Point(0), Role::Point(1), Role::Point(2)];
+pub(crate) fn goto_roles(axis: bool) -> Vec<NumberRole> {
+    let mut roles = vec![NumberRole::Point(0), NumberRole::Point(1), NumberRole::Point(2)];
     if axis {
-        roles.extend(directions());
+        roles.extend(direction_roles());
     }
     roles
 }
 
-fn directions() -> Vec<Role> {
-    vec![Role::Direction(0), Role::Direction(1), Role::Direction(2)]
+fn direction_roles() -> Vec<NumberRole> {
+    vec![NumberRole::Direction(0), NumberRole::Direction(1), NumberRole::Direction(2)]
 }
 
-fn arc_axis() -> Vec<Role> {
-    vec![Role::ArcAxis(0), Role::ArcAxis(1), Role::ArcAxis(2)]
+fn arc_axis_roles() -> Vec<NumberRole> {
+    vec![NumberRole::ArcAxis(0), NumberRole::ArcAxis(1), NumberRole::ArcAxis(2)]
 }
 
 #[cfg(test)]
@@ -354,10 +374,10 @@ mod tests {
     fn the_number_of_an_intersection_is_no_coordinate() {
         for (on, plain) in [("ON", 0), ("ON,2,INTOF", 1)] {
             let text = format!("TLON,GOFWD/(CIRCLE/1.,2.,3.,4.),{on},(LINE/1.,2.,3.,5.,2.,3.)\n");
-            let (record, syntax) = crate::parse::record(text.as_bytes()).unwrap();
-            let roles = record.roles(&syntax);
-            assert_eq!(roles.iter().filter(|role| **role == Role::Plain).count(), plain, "{roles:?}");
-            assert_eq!(roles.last(), Some(&Role::Point(2)));
+            let (record, syntax) = crate::parse::read_record(text.as_bytes()).unwrap();
+            let roles = record.number_roles(&syntax);
+            assert_eq!(roles.iter().filter(|role| **role == NumberRole::Plain).count(), plain, "{roles:?}");
+            assert_eq!(roles.last(), Some(&NumberRole::Point(2)));
             assert_eq!(roles.len(), 10 + plain);
         }
     }

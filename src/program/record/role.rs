@@ -2,7 +2,7 @@
 
 /// The role of one number. `0..=2` are the components x, y, z.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Role {
+pub enum NumberRole {
     /// A coordinate of a point in the program's frame: moves, turns, scales.
     Point(u8),
     /// A component of a step between points (GODLTA): turns and scales, does not move.

@@ -1,14 +1,14 @@
 //! What gives a program its structure: operations, units, text, marks of motion classes, and words without effect.
 
-use super::{BadRecord, Reading, Record, Role, bad};
-use crate::program::class::MotionClass;
-use crate::program::syntax::{Form, Syntax, folded};
+use super::{BadRecord, NumberRole, Record, RecordReading, bad_record};
+use crate::program::motion_class::MotionClass;
+use crate::program::syntax::{StatementKind, StatementSyntax, fold_text};
 use crate::program::units::LengthUnit;
 use std::ops::Range;
 
 /// Where an operation's and its tool's names stand in a statement's text.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct StructureName {
+pub struct OperationNames {
     /// The operation's name.
     pub name: Box<Range<usize>>,
     /// The tool's name, where the record has one.
@@ -17,61 +17,61 @@ pub struct StructureName {
 
 /// A mark in the file that says what kind of motion follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct MarkedMotion {
+pub struct MotionMark {
     /// The class; `None` ends the mark.
     pub class: Option<MotionClass>,
 }
 
-pub(super) fn read(major: &str, syntax: &Syntax<'_>) -> Reading {
+pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordReading {
     Some(Ok(match major {
-        "PAINT" => paint(syntax),
-        "MOVE_ATTRIB" => move_attribute(syntax),
+        "PAINT" => read_paint(syntax),
+        "MOVE_ATTRIB" => read_move_attribute(syntax),
         "END-OF-PATH" => Record::OperationEnd,
-        "FEATNO" if syntax.form == Form::Structured => named_by_fields(syntax),
-        "END" if syntax.form == Form::Structured => Record::OperationEnd,
-        "UNITS" | "UNIT" => return Some(units(syntax)),
+        "FEATNO" if syntax.form == StatementKind::Structured => read_feature_start(syntax),
+        "END" if syntax.form == StatementKind::Structured => Record::OperationEnd,
+        "UNITS" | "UNIT" => return Some(read_units(syntax)),
         "FINI" | "END" => Record::ProgramEnd,
-        _ if is_known(major) => Record::Known,
-        _ if syntax.form == Form::Structured => Record::Comment,
+        _ if is_known_word(major) => Record::Known,
+        _ if syntax.form == StatementKind::Structured => Record::Comment,
         _ => return None,
     }))
 }
 
 /// `TOOL PATH/name,TOOL,tool`.
-pub(super) fn tool_path(syntax: &Syntax<'_>) -> Record {
+pub(super) fn read_tool_path(syntax: &StatementSyntax<'_>) -> Record {
     let at = |index: usize| syntax.fields.get(index).map(|field| Box::new(field.at.clone()));
-    Record::OperationStart(StructureName { name: at(0).unwrap_or_default(), tool: at(1) })
+    Record::OperationStart(OperationNames { name: at(0).unwrap_or_default(), tool: at(1) })
 }
 
-fn named_by_fields(syntax: &Syntax<'_>) -> Record {
+fn read_feature_start(syntax: &StatementSyntax<'_>) -> Record {
     let at = syntax.fields.first().map(|field| field.at.clone()).unwrap_or_default();
-    Record::OperationStart(StructureName { name: Box::new(at), tool: None })
+    Record::OperationStart(OperationNames { name: Box::new(at), tool: None })
 }
 
 /// `$$ OPERATION NAME : X` (CATIA) starts an operation; the words before the colon are English in every language measured,
 /// unlike the `Start generation of` line after it.
-pub(super) fn comment(syntax: &Syntax<'_>) -> Record {
+pub(super) fn read_comment(syntax: &StatementSyntax<'_>) -> Record {
     const MARK: &[u8] = b"$$ OPERATION NAME : ";
     let Some(rest) = syntax.text.strip_prefix(MARK) else { return Record::Comment };
     let length = rest.iter().position(|byte| matches!(byte, b'\r' | b'\n')).unwrap_or(rest.len());
     let name = MARK.len()..MARK.len() + length;
-    Record::OperationStart(StructureName { name: Box::new(name), tool: None })
+    Record::OperationStart(OperationNames { name: Box::new(name), tool: None })
 }
 
-pub(super) fn free_text(syntax: &Syntax<'_>) -> Record {
+pub(super) fn read_free_text(syntax: &StatementSyntax<'_>) -> Record {
     let Some(field) = syntax.fields.first() else { return Record::Text };
-    match syntax.major().as_str() {
+    match syntax.major_word().as_str() {
         "OPFEATSTART" => {
-            Record::OperationStart(StructureName { name: Box::new(field.at.clone()), tool: None })
+            Record::OperationStart(OperationNames { name: Box::new(field.at.clone()), tool: None })
         }
         "OPFEATEND" => Record::OperationEnd,
-        "PPRINT" => makino_motion(&folded(syntax.bytes(&field.at))),
+        "PPRINT" => read_makino_motion(&fold_text(syntax.bytes_at(&field.at))),
         _ => Record::Text,
     }
 }
 
 /// Makino FF labels its motions in PPRINT: `MOTION,CUTIN,TYPE,VERTICAL-INFEED`.
-fn makino_motion(text: &str) -> Record {
+fn read_makino_motion(text: &str) -> Record {
     let mut words = text.split(',');
     if words.next() != Some("MOTION") {
         return Record::Text;
@@ -84,12 +84,12 @@ fn makino_motion(text: &str) -> Record {
         (Some("RAPID"), Some("TYPE")) => MotionClass::Rapid,
         _ => return Record::Text,
     };
-    Record::Marked(MarkedMotion { class: Some(class) })
+    Record::Marked(MotionMark { class: Some(class) })
 }
 
 /// NX colours mark motion classes (measured over what follows each): 186 start and rapid, 211 rapid, 42 engage, 31 cut,
 /// 36 step-over, 37 retract.
-fn paint(syntax: &Syntax<'_>) -> Record {
+fn read_paint(syntax: &StatementSyntax<'_>) -> Record {
     let (Some("COLOR"), Some(color)) = (syntax.word_at(0).as_deref(), syntax.number_at(1)) else {
         return Record::Known;
     };
@@ -102,29 +102,29 @@ fn paint(syntax: &Syntax<'_>) -> Record {
         37 => Some(MotionClass::Retract),
         _ => None,
     };
-    Record::Marked(MarkedMotion { class })
+    Record::Marked(MotionMark { class })
 }
 
 /// CLT: `MOVE_ATTRIB/ LEADIN,END_ATTRIB`.
-fn move_attribute(syntax: &Syntax<'_>) -> Record {
+fn read_move_attribute(syntax: &StatementSyntax<'_>) -> Record {
     let class = match syntax.word_at(0).as_deref() {
         Some("LEADIN") => Some(MotionClass::Engage),
         Some("LEADOUT") => Some(MotionClass::Retract),
         _ => None,
     };
-    Record::Marked(MarkedMotion { class })
+    Record::Marked(MotionMark { class })
 }
 
-fn units(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
+fn read_units(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     match syntax.word_at(0).as_deref() {
         Some("MM" | "MILLIMETERS" | "METRIC") => Ok(Record::Units(LengthUnit::Mm)),
         Some("INCHES" | "INCH" | "IN") => Ok(Record::Units(LengthUnit::Inch)),
-        _ => Err(bad(syntax.word.clone(), "the unit is neither MM nor INCHES")),
+        _ => Err(bad_record(syntax.word.clone(), "the unit is neither MM nor INCHES")),
     }
 }
 
 /// Words of the standard and of the measured dialects that do not change the tool path.
-fn is_known(major: &str) -> bool {
+fn is_known_word(major: &str) -> bool {
     const KNOWN: &[&str] = &[
         "AUTOPS",
         "AUXFUN",
@@ -195,8 +195,8 @@ fn is_known(major: &str) -> bool {
 }
 
 /// Roles in words without effect: tolerances and boxes are lengths, the rest stays.
-pub(super) fn roles(syntax: &Syntax<'_>) -> Vec<Role> {
-    let major = syntax.major();
+pub(super) fn number_roles(syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
+    let major = syntax.major_word();
     let numbers = syntax.numbers().len();
     let role = match major.as_str() {
         "BOX"
@@ -205,8 +205,8 @@ pub(super) fn roles(syntax: &Syntax<'_>) -> Vec<Role> {
         | "CLEARP"
         | "CSI_SET_EXTENSION_LENGTH"
         | "CSI_SET_FLUTE_LENGTH"
-        | "LINTOL" => Role::Length,
-        _ => Role::Plain,
+        | "LINTOL" => NumberRole::Length,
+        _ => NumberRole::Plain,
     };
     vec![role; numbers]
 }
@@ -216,7 +216,7 @@ mod tests {
     #[test]
     fn known_words_are_sorted_for_the_search() {
         for word in ["AUTOPS", "COOLNT", "PPWORD", "WCORN", "TRNTYP"] {
-            assert!(super::is_known(word), "{word}");
+            assert!(super::is_known_word(word), "{word}");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Tools: their numbers, shapes and axis.
 
-use super::{BadRecord, Reading, Record, Role, all_numbers, path, wrong_count};
-use crate::program::syntax::{FieldKind, Form, Syntax};
+use super::{BadRecord, NumberRole, Record, RecordReading, path, read_all_numbers, wrong_count};
+use crate::program::syntax::{FieldKind, StatementKind, StatementSyntax};
 
 /// Which word described a tool's shape; the meaning of its numbers hangs on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,22 +46,27 @@ pub struct ToolCall {
     pub loads: bool,
 }
 
-pub(super) fn read(major: &str, syntax: &Syntax<'_>) -> Reading {
+pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordReading {
     Some(match major {
-        "TLDATA" => tl_data(syntax),
-        "CUTTER" => cutter(syntax),
-        "LOADTL" => call(major, syntax, 0, true),
-        "TOOLNO" => call(major, syntax, 0, false),
+        "TLDATA" => read_tl_data(syntax),
+        "CUTTER" => read_cutter(syntax),
+        "LOADTL" => read_tool_call(major, syntax, 0, true),
+        "TOOLNO" => read_tool_call(major, syntax, 0, false),
         // CATIA's lathe tools: TURRET/1,OSETNO,1,SETOOL,...
-        "TURRET" => call(major, syntax, 0, true),
-        "LOAD" if syntax.word_at(0).as_deref() == Some("TOOL") => call(major, syntax, 1, true),
-        "TLAXIS" => axis(major, syntax),
+        "TURRET" => read_tool_call(major, syntax, 0, true),
+        "LOAD" if syntax.word_at(0).as_deref() == Some("TOOL") => read_tool_call(major, syntax, 1, true),
+        "TLAXIS" => read_tool_axis(major, syntax),
         "MULTAX" => Ok(Record::MultiAxis(syntax.word_at(0).as_deref() != Some("OFF"))),
         _ => return None,
     })
 }
 
-fn call(major: &str, syntax: &Syntax<'_>, at: usize, loads: bool) -> Result<Record, BadRecord> {
+fn read_tool_call(
+    major: &str,
+    syntax: &StatementSyntax<'_>,
+    at: usize,
+    loads: bool,
+) -> Result<Record, BadRecord> {
     match syntax.number_at(at) {
         Some(number) if number.fract() == 0.0 && (0.0..1e9).contains(&number) => {
             Ok(Record::ToolCall(ToolCall { number: number as u32, loads }))
@@ -72,9 +77,9 @@ fn call(major: &str, syntax: &Syntax<'_>, at: usize, loads: bool) -> Result<Reco
     }
 }
 
-fn tl_data(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
+fn read_tl_data(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     let words = syntax.fields.iter().take_while(|field| matches!(field.kind, FieldKind::Text)).count();
-    let rest: Option<Vec<f64>> = syntax.fields.iter().skip(words).map(|field| field.number()).collect();
+    let rest: Option<Vec<f64>> = syntax.fields.iter().skip(words).map(|field| field.number_value()).collect();
     let word = match (syntax.word_at(0).as_deref(), &rest) {
         (Some("MILL"), Some(rest)) if rest.len() >= 3 => ToolWord::TlDataMill,
         (Some("DRILL"), Some(rest)) if rest.len() >= 3 => ToolWord::TlDataDrill,
@@ -103,17 +108,17 @@ fn tl_data(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
     })))
 }
 
-fn cutter(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
+fn read_cutter(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     // CUTTER/OPTION,... and the like set no shape.
     if syntax.word_at(0).is_some_and(|word| !word.starts_with(|first: char| first.is_ascii_digit())) {
         return Ok(Record::Known);
     }
-    let numbers = all_numbers(syntax)?;
+    let numbers = read_all_numbers(syntax)?;
     let at = |index: usize| numbers.get(index).copied();
     if at(0).is_none() {
         return Err(wrong_count("CUTTER", syntax, "a diameter, or seven numbers", 0));
     }
-    let word = if syntax.form == Form::Structured { ToolWord::CreoCutter } else { ToolWord::Cutter };
+    let word = if syntax.form == StatementKind::Structured { ToolWord::CreoCutter } else { ToolWord::Cutter };
     Ok(Record::ToolData(Box::new(ToolData {
         word,
         diameter: at(0),
@@ -126,29 +131,31 @@ fn cutter(syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
     })))
 }
 
-fn axis(major: &str, syntax: &Syntax<'_>) -> Result<Record, BadRecord> {
+fn read_tool_axis(major: &str, syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     // TLAXIS/NORMPS, TLAXIS/OFF: words of part programs and posts.
     if syntax.word_at(0).is_some_and(|word| word.starts_with(|first: char| first.is_ascii_alphabetic())) {
         return Ok(Record::Known);
     }
-    match path::one_vector(major, syntax)? {
+    match path::read_vector(major, syntax)? {
         axis if path::has_direction(&axis) => Ok(Record::ToolAxis(Box::new(axis))),
-        _ => Err(super::bad(path::vector_place(syntax, 0), "the tool axis has no direction")),
+        _ => Err(super::bad_record(path::vector_range(syntax, 0), "the tool axis has no direction")),
     }
 }
 
-pub(super) fn roles(record: &Record, syntax: &Syntax<'_>) -> Vec<Role> {
+pub(super) fn number_roles(record: &Record, syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
     let count = syntax.numbers().len();
     match record {
-        Record::ToolAxis(_) => vec![Role::Direction(0), Role::Direction(1), Role::Direction(2)],
-        Record::ToolData(data) => (0..count).map(|index| length_or_plain(data.word, index)).collect(),
+        Record::ToolAxis(_) => {
+            vec![NumberRole::Direction(0), NumberRole::Direction(1), NumberRole::Direction(2)]
+        }
+        Record::ToolData(data) => (0..count).map(|index| tool_number_role(data.word, index)).collect(),
         // TOOLNO/2,10.0 (CATIA): number, then the diameter; the long forms mix angles, feeds and lengths.
-        Record::ToolCall(call) if !call.loads && count == 2 => vec![Role::Plain, Role::Length],
-        _ => vec![Role::Plain; count],
+        Record::ToolCall(call) if !call.loads && count == 2 => vec![NumberRole::Plain, NumberRole::Length],
+        _ => vec![NumberRole::Plain; count],
     }
 }
 
-fn length_or_plain(word: ToolWord, index: usize) -> Role {
+fn tool_number_role(word: ToolWord, index: usize) -> NumberRole {
     let length = match word {
         ToolWord::TlDataMill => index <= 2,
         ToolWord::TlDataDrill => index != 3,
@@ -156,5 +163,5 @@ fn length_or_plain(word: ToolWord, index: usize) -> Role {
         ToolWord::CreoCutter => true,
         ToolWord::TlDataOther => false,
     };
-    if length { Role::Length } else { Role::Plain }
+    if length { NumberRole::Length } else { NumberRole::Plain }
 }

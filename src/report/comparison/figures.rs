@@ -2,11 +2,11 @@
 
 use crate::program::LengthUnit;
 use crate::program::motion::Motion;
-use crate::report::simulation::Row;
+use crate::report::simulation::MotionRow;
 
 /// One motion, measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::report) struct Moved {
+pub(in crate::report) struct MotionFeedAndTime {
     pub rapid: bool,
     pub length_mm: f64,
     /// Feed of the tip, mm/min; of a rapid, the machine's.
@@ -15,9 +15,13 @@ pub(in crate::report) struct Moved {
 }
 
 /// Measures a motion as a simulation does.
-pub(in crate::report) fn moved(motion: &Motion, units: LengthUnit, rapid_feed: Option<f64>) -> Moved {
+pub(in crate::report) fn measure_motion(
+    motion: &Motion,
+    units: LengthUnit,
+    rapid_feed: Option<f64>,
+) -> MotionFeedAndTime {
     let length = motion.length();
-    let length_mm = length * units.in_mm();
+    let length_mm = length * units.mm_per_unit();
     let feed_mm_min = if motion.rapid {
         rapid_feed
     } else {
@@ -26,12 +30,12 @@ pub(in crate::report) fn moved(motion: &Motion, units: LengthUnit, rapid_feed: O
         feed.filter(|feed| *feed > 0.0)
     };
     let seconds = if length_mm > 0.0 { feed_mm_min.map(|feed| length_mm / feed * 60.0) } else { Some(0.0) };
-    Moved { rapid: motion.rapid, length_mm, feed_mm_min, seconds }
+    MotionFeedAndTime { rapid: motion.rapid, length_mm, feed_mm_min, seconds }
 }
 
 /// A largest value, and the motion that has it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Peak {
+pub struct ComparisonPeak {
     /// The value.
     pub value: f64,
     /// The motion's number, first points not counted.
@@ -40,7 +44,7 @@ pub struct Peak {
 
 /// Sums and extremes over motions.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Figures {
+pub struct ComparisonFigures {
     /// Motions.
     pub motions: usize,
     /// Length at feed, mm.
@@ -56,24 +60,24 @@ pub struct Figures {
     /// Slowest and fastest feed, mm/min.
     pub feed: Option<[f64; 2]>,
     /// Thickest chip, mm.
-    pub chip_thickness_mm: Option<Peak>,
+    pub chip_thickness_mm: Option<ComparisonPeak>,
     /// Largest removal rate, mm3/min.
-    pub removal_rate_mm3_min: Option<Peak>,
+    pub removal_rate_mm3_min: Option<ComparisonPeak>,
     /// Largest force, N.
-    pub force_n: Option<Peak>,
+    pub force_n: Option<ComparisonPeak>,
     /// Largest torque, N m.
-    pub torque_nm: Option<Peak>,
+    pub torque_nm: Option<ComparisonPeak>,
     /// Largest power, kW.
-    pub power_kw: Option<Peak>,
+    pub power_kw: Option<ComparisonPeak>,
 }
 
-impl Figures {
+impl ComparisonFigures {
     pub(super) fn new(rapid_known: bool) -> Self {
         Self { rapid_seconds: rapid_known.then_some(0.0), ..Self::default() }
     }
 
     /// Adds a motion and what it engaged.
-    pub(super) fn add(&mut self, motion: usize, moved: &Moved, row: Option<&Row>) {
+    pub(super) fn add_motion(&mut self, motion: usize, moved: &MotionFeedAndTime, row: Option<&MotionRow>) {
         self.motions += 1;
         if moved.rapid {
             self.rapid_mm += moved.length_mm;
@@ -88,9 +92,9 @@ impl Figures {
             }
         }
         let Some(row) = row else { return };
-        let raise = |peak: &mut Option<Peak>, value: Option<f64>| {
+        let raise = |peak: &mut Option<ComparisonPeak>, value: Option<f64>| {
             if let Some(value) = value.filter(|value| peak.is_none_or(|peak| *value > peak.value)) {
-                *peak = Some(Peak { value, motion });
+                *peak = Some(ComparisonPeak { value, motion });
             }
         };
         raise(&mut self.chip_thickness_mm, row.chip_thickness_mm);

@@ -1,28 +1,28 @@
 //! A program before and after: what a page ([`super::html`]) and a summary for merge requests ([`to_markdown`]) tell.
 //!
-//! [`Subject`] is what there is, [`Runs`] its simulations, [`Comparison`] what follows from both. Lengths are in mm and feeds in mm/min,
+//! [`ComparisonSubject`] is what there is, [`ComparisonRuns`] its simulations, [`Comparison`] what follows from both. Lengths are in mm and feeds in mm/min,
 //! whatever the file's unit, as in a simulation. Without `before` one program is told of.
 
+mod compared_files;
 mod figures;
-mod header;
 mod markdown;
-mod runs;
+mod simulation_runs;
 
-pub use figures::{Figures, Peak};
-pub use header::{Part, Recorded};
+pub use compared_files::{ComparedFile, ComparedFileRole};
+pub use figures::{ComparisonFigures, ComparisonPeak};
 pub use markdown::to_markdown;
-pub use runs::Runs;
+pub use simulation_runs::ComparisonRuns;
 
-pub(in crate::report) use figures::moved;
-pub(in crate::report) use markdown::{operation_rows, step_row, whole_rows};
+pub(in crate::report) use figures::measure_motion;
+pub(in crate::report) use markdown::{build_operation_rows, build_step_row, build_whole_rows};
 
-use super::changes::Changes;
-use super::simulation::Simulated;
-use super::stats::{Units, UnitsFrom};
-use super::table::{counted, duration};
+use super::changes::RecipeChanges;
+use super::simulation::SimulationReport;
+use super::stats::{LengthUnitOrigin, ResolvedLengthUnit};
+use super::text_format::{format_counted, format_duration};
 use crate::diagnostic::Diagnostic;
 use crate::program::motion::Motion;
-use crate::program::operation::operations;
+use crate::program::operation::find_operations;
 use crate::program::{LengthUnit, Program};
 use crate::setup::Setup;
 use crate::source::Source;
@@ -32,7 +32,7 @@ use std::sync::Arc;
 
 /// What there is to tell of.
 #[derive(Debug, Clone, Copy)]
-pub struct Subject<'a> {
+pub struct ComparisonSubject<'a> {
     /// The program as it was read; `None` to tell of one program alone.
     pub before: Option<&'a Program>,
     /// The program as it stands. With `before`, it is what steps made of that.
@@ -57,67 +57,67 @@ pub struct Subject<'a> {
 #[derive(Debug)]
 pub struct Comparison<'a> {
     /// What it tells of.
-    pub subject: Subject<'a>,
+    pub subject: ComparisonSubject<'a>,
     /// Its simulations.
-    pub runs: &'a Runs,
+    pub runs: &'a ComparisonRuns,
     /// Program, recipe and files by name and hash.
-    pub parts: Vec<Part>,
+    pub parts: Vec<ComparedFile>,
     /// What the steps changed; `None` without a before.
-    pub changes: Option<Changes>,
+    pub changes: Option<RecipeChanges>,
     /// The operations, in the order of the program as it stands; those that are gone come last.
-    pub operations: Vec<Row>,
+    pub operations: Vec<ComparisonRow>,
     /// The whole program.
-    pub whole: Row,
+    pub whole: ComparisonRow,
     /// What was taken for granted, in sentences.
     pub assumptions: Vec<String>,
 }
 
 /// Something before and after.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Row {
+pub struct ComparisonRow {
     /// Name of the operation; empty where the file has none.
     pub name: String,
     /// Tools that move in it, as people call them.
     pub tools: Vec<String>,
     /// Before; `None` where there was none.
-    pub before: Option<Figures>,
+    pub before: Option<ComparisonFigures>,
     /// After; `None` where it is gone.
-    pub after: Option<Figures>,
+    pub after: Option<ComparisonFigures>,
 }
 
-impl<'a> Subject<'a> {
+impl<'a> ComparisonSubject<'a> {
     /// The unit of a program's lengths, and how it is known.
-    pub(in crate::report) fn units_of(&self, program: &Program) -> Units {
-        Units::of(program, self.units.filter(|_| program.units_of_feeds().is_none()))
+    pub(in crate::report) fn resolve_length_unit(&self, program: &Program) -> ResolvedLengthUnit {
+        ResolvedLengthUnit::from_program(program, self.units.filter(|_| program.feed_length_unit().is_none()))
     }
 
     /// The machine's rapid feed, mm/min.
-    pub(in crate::report) fn rapid_feed(&self) -> Option<f64> {
+    pub(in crate::report) fn rapid_feed_mm_min(&self) -> Option<f64> {
         self.setup.machine.rapid_feed.map(|feed| feed.get())
     }
 
     /// The motions of a program that go somewhere: all but first points, which come from nowhere.
-    pub(in crate::report) fn motions(program: &'a Program) -> impl Iterator<Item = Motion> + 'a {
-        program.motions().filter(|motion| motion.path != crate::program::geometry::Path::Start)
+    pub(in crate::report) fn motions_after_start(program: &'a Program) -> impl Iterator<Item = Motion> + 'a {
+        program.motions().filter(|motion| motion.path != crate::program::geometry::MotionPath::Start)
     }
 }
 
 impl<'a> Comparison<'a> {
     /// Brings everything together.
-    pub fn of(subject: Subject<'a>, runs: &'a Runs) -> Self {
+    pub fn from_runs(subject: ComparisonSubject<'a>, runs: &'a ComparisonRuns) -> Self {
         let changes = subject.before.map(|before| {
             let steps = subject.recipe.map(Recipe::step_names).unwrap_or_default();
-            Changes::of(before, subject.program, &steps, subject.units)
+            RecipeChanges::from_programs(before, subject.program, &steps, subject.units)
         });
-        let after = table(&subject, subject.program, runs.after.as_ref());
+        let after = measure_operations(&subject, subject.program, runs.after.as_ref());
         // What nobody changed was simulated once.
-        let unchanged = changes.as_ref().is_some_and(Changes::is_empty);
+        let unchanged = changes.as_ref().is_some_and(RecipeChanges::is_empty);
         let first = runs.before.as_ref().or(runs.after.as_ref().filter(|_| unchanged));
-        let before = subject.before.map(|before| table(&subject, before, first));
-        let (operations, whole) = joined(before, after);
+        let before = subject.before.map(|before| measure_operations(&subject, before, first));
+        let (operations, whole) = pair_operations(before, after);
         Self {
-            parts: header::parts(&subject),
-            assumptions: assumptions(&subject, &whole, runs),
+            parts: compared_files::hash_compared_files(&subject),
+            assumptions: list_assumptions(&subject, &whole, runs),
             changes,
             operations,
             whole,
@@ -128,23 +128,27 @@ impl<'a> Comparison<'a> {
 }
 
 /// The operations of one program, and all of them together.
-struct Table {
-    operations: Vec<(String, Vec<String>, Figures)>,
-    whole: (Vec<String>, Figures),
+struct OperationFigures {
+    operations: Vec<(String, Vec<String>, ComparisonFigures)>,
+    whole: (Vec<String>, ComparisonFigures),
 }
 
-fn table(subject: &Subject<'_>, program: &Program, simulated: Option<&Simulated>) -> Table {
-    let units = subject.units_of(program).unit;
-    let rapid = subject.rapid_feed();
-    let names = operations(program).into_iter().map(|operation| operation.name);
-    let mut found = Table {
-        operations: names.map(|name| (name, Vec::new(), Figures::new(rapid.is_some()))).collect(),
-        whole: (Vec::new(), Figures::new(rapid.is_some())),
+fn measure_operations(
+    subject: &ComparisonSubject<'_>,
+    program: &Program,
+    simulated: Option<&SimulationReport>,
+) -> OperationFigures {
+    let units = subject.resolve_length_unit(program).unit;
+    let rapid = subject.rapid_feed_mm_min();
+    let names = find_operations(program).into_iter().map(|operation| operation.name);
+    let mut found = OperationFigures {
+        operations: names.map(|name| (name, Vec::new(), ComparisonFigures::new(rapid.is_some()))).collect(),
+        whole: (Vec::new(), ComparisonFigures::new(rapid.is_some())),
     };
-    for (index, motion) in Subject::motions(program).enumerate() {
-        let moved = moved(&motion, units, rapid);
+    for (index, motion) in ComparisonSubject::motions_after_start(program).enumerate() {
+        let moved = measure_motion(&motion, units, rapid);
         let row = simulated.and_then(|simulated| simulated.motions.rows.get(index));
-        let tool = motion.tool.as_ref().map(|tool| tool.called());
+        let tool = motion.tool.as_ref().map(|tool| tool.display_name());
         let note = |tools: &mut Vec<String>| {
             if let Some(tool) = tool.as_ref().filter(|tool| !tools.contains(tool)) {
                 tools.push(tool.clone());
@@ -152,20 +156,23 @@ fn table(subject: &Subject<'_>, program: &Program, simulated: Option<&Simulated>
         };
         if let Some((_, tools, figures)) = found.operations.get_mut(motion.operation) {
             note(tools);
-            figures.add(index, &moved, row);
+            figures.add_motion(index, &moved, row);
         }
         note(&mut found.whole.0);
-        found.whole.1.add(index, &moved, row);
+        found.whole.1.add_motion(index, &moved, row);
     }
     found
 }
 
 /// Operations of one name belong together in their order.
-fn joined(before: Option<Table>, after: Table) -> (Vec<Row>, Row) {
-    let mut old: BTreeMap<String, Vec<(Vec<String>, Figures)>> = BTreeMap::new();
+fn pair_operations(
+    before: Option<OperationFigures>,
+    after: OperationFigures,
+) -> (Vec<ComparisonRow>, ComparisonRow) {
+    let mut old: BTreeMap<String, Vec<(Vec<String>, ComparisonFigures)>> = BTreeMap::new();
     let mut order = Vec::new();
     let mut whole =
-        Row { tools: after.whole.0, after: Some(after.whole.1), before: None, name: String::new() };
+        ComparisonRow { tools: after.whole.0, after: Some(after.whole.1), before: None, name: String::new() };
     if let Some(before) = before {
         whole.before = Some(before.whole.1);
         for (name, tools, figures) in before.operations {
@@ -175,14 +182,14 @@ fn joined(before: Option<Table>, after: Table) -> (Vec<Row>, Row) {
         // The first of a name is taken first.
         old.values_mut().for_each(|same| same.reverse());
     }
-    let mut rows: Vec<Row> = Vec::new();
+    let mut rows: Vec<ComparisonRow> = Vec::new();
     for (name, tools, figures) in after.operations {
         let before = old.get_mut(&name).and_then(Vec::pop).map(|(_, figures)| figures);
-        rows.push(Row { name, tools, before, after: Some(figures) });
+        rows.push(ComparisonRow { name, tools, before, after: Some(figures) });
     }
     for name in order {
         if let Some((tools, figures)) = old.get_mut(&name).and_then(Vec::pop) {
-            rows.push(Row { name, tools, before: Some(figures), after: None });
+            rows.push(ComparisonRow { name, tools, before: Some(figures), after: None });
         }
     }
     rows.retain(|row| [&row.before, &row.after].into_iter().flatten().any(|figures| figures.motions > 0));
@@ -190,10 +197,10 @@ fn joined(before: Option<Table>, after: Table) -> (Vec<Row>, Row) {
 }
 
 /// How many motions at feed the times leave out.
-fn untimed(whole: &Row) -> Option<String> {
-    let of = |side: &Option<Figures>| side.map_or(0, |figures| figures.untimed);
+fn describe_untimed_motions(whole: &ComparisonRow) -> Option<String> {
+    let of = |side: &Option<ComparisonFigures>| side.map_or(0, |figures| figures.untimed);
     let (before, after) = (of(&whole.before), of(&whole.after));
-    let motions = |number| counted(number, "motion", "motions");
+    let motions = |number| format_counted(number, "motion", "motions");
     let left_out = match (before, after) {
         (0, 0) => return None,
         _ if before == after || whole.before.is_none() => motions(after),
@@ -203,43 +210,50 @@ fn untimed(whole: &Row) -> Option<String> {
 }
 
 /// What the machine's acceleration makes of the time at feed and rapid, where the setup says it.
-fn accelerated(runs: &Runs) -> Option<String> {
-    let of = |simulated: &Option<Simulated>| simulated.as_ref().and_then(|one| one.accelerated_seconds);
-    let after = duration(of(&runs.after)?);
+fn describe_accelerated_time(runs: &ComparisonRuns) -> Option<String> {
+    let of =
+        |simulated: &Option<SimulationReport>| simulated.as_ref().and_then(|one| one.accelerated_seconds);
+    let after = format_duration(of(&runs.after)?);
     Some(match of(&runs.before) {
-        Some(before) => format!("with it the program takes {} before and {after} after", duration(before)),
+        Some(before) => {
+            format!("with it the program takes {} before and {after} after", format_duration(before))
+        }
         None => format!("with it the program takes {after}"),
     })
 }
 
-fn assumptions(subject: &Subject<'_>, whole: &Row, runs: &Runs) -> Vec<String> {
+fn list_assumptions(
+    subject: &ComparisonSubject<'_>,
+    whole: &ComparisonRow,
+    runs: &ComparisonRuns,
+) -> Vec<String> {
     let mut said = Vec::new();
-    match subject.units_of(subject.program) {
-        Units { from: UnitsFrom::Assumed, .. } => {
+    match subject.resolve_length_unit(subject.program) {
+        ResolvedLengthUnit { from: LengthUnitOrigin::Assumed, .. } => {
             said.push("the program does not say its unit of length: millimetres are taken".to_owned());
         }
-        Units { unit, from: UnitsFrom::Feeds } => {
+        ResolvedLengthUnit { unit, from: LengthUnitOrigin::Feeds } => {
             said.push(format!("the program does not say its unit of length: taken from its feeds ({unit})"));
         }
-        Units { unit, from: UnitsFrom::Caller } => {
+        ResolvedLengthUnit { unit, from: LengthUnitOrigin::Caller } => {
             said.push(format!("the program does not say its unit of length: {unit}, as it was told"));
         }
-        Units { from: UnitsFrom::File, .. } => {}
+        ResolvedLengthUnit { from: LengthUnitOrigin::File, .. } => {}
     }
     said.push("times are without dwells, and without the machine's acceleration".to_owned());
-    said.extend(accelerated(runs));
-    if let Some(sentence) = untimed(whole) {
+    said.extend(describe_accelerated_time(runs));
+    if let Some(sentence) = describe_untimed_motions(whole) {
         said.push(sentence);
     }
-    if subject.rapid_feed().is_none() {
+    if subject.rapid_feed_mm_min().is_none() {
         said.push("the machine's rapid feed is not known, so rapids take no time".to_owned());
     }
     for simulated in [&runs.before, &runs.after].into_iter().flatten() {
         let accuracy = &simulated.accuracy;
         said.push(format!(
             "simulated with columns {} mm apart: borders of material are known to {} mm across z, curves to {} mm",
-            super::table::short(accuracy.cell_mm),
-            super::table::short(accuracy.lateral_mm),
+            super::text_format::format_short(accuracy.cell_mm),
+            super::text_format::format_short(accuracy.lateral_mm),
             accuracy.chord_mm
         ));
         said.extend(simulated.assumptions.iter().cloned());

@@ -1,75 +1,75 @@
 //! What differs between two programs, by meaning.
 //!
 //! Statements are aligned (`align`) and every pair is told apart: the same bytes, the same said differently, a point moved,
-//! a feed changed. Whether the tool takes the same way is found from the motions ([`Geometry`]), so two dialects can be
-//! compared. The JSON ([`to_json`]) is [`Diff`] as it stands, with `"version": 1`; `version` changes when a reader of the
+//! a feed changed. Whether the tool takes the same way is found from the motions ([`PathComparison`]), so two dialects can be
+//! compared. The JSON ([`to_json`]) is [`ProgramDiff`] as it stands, with `"version": 1`; `version` changes when a reader of the
 //! structure would have to, new keys may be added without.
 
-mod align;
-mod classify;
-mod gather;
-mod keys;
-mod path;
+mod alignment;
+mod alignment_keys;
+mod diff_collector;
+mod difference_kind;
+mod path_comparison;
 mod text;
 
-pub use classify::What;
-pub use path::Geometry;
-pub use text::{summary, to_text};
+pub use difference_kind::DifferenceKind;
+pub use path_comparison::PathComparison;
+pub use text::{summarize_diff, to_text};
 
-use super::kind::Kind;
-use super::stats::{DialectName, Range, Totals, Units};
+use super::record_kind::RecordKind;
+use super::stats::{DialectName, MotionTotals, ReportedRange, ResolvedLengthUnit};
 use crate::program::Program;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Changes of one [`What`] that are listed; all are counted.
+/// Changes of one [`DifferenceKind`] that are listed; all are counted.
 pub const MOST_LISTED: usize = 500;
 
 /// What differs between two programs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Diff {
+pub struct ProgramDiff {
     /// Version of the JSON structure: 1.
     pub version: u32,
     /// The first program.
-    pub a: Side,
+    pub a: DiffSide,
     /// The second program.
-    pub b: Side,
+    pub b: DiffSide,
     /// Whether the files are byte for byte the same.
     pub identical: bool,
     /// Whether a post-processor would see no difference: nothing but layout and comments differs.
     pub same_meaning: bool,
     /// The paths, compared.
-    pub geometry: Geometry,
+    pub geometry: PathComparison,
     /// How many statements differ, and how.
-    pub counts: Counts,
+    pub counts: DiffCounts,
     /// Largest distance that a point moved, in the second file's unit; `null` when none did.
     pub largest_move: Option<f64>,
     /// Change of feeds in percent, lowest and highest; `null` when none changed or their units cannot be compared.
-    pub feed_change: Option<Range>,
+    pub feed_change: Option<ReportedRange>,
     /// The operations in which something differs, in order.
     pub operations: Vec<OperationDiff>,
     /// Differences in order, at most [`MOST_LISTED`] of each kind.
-    pub changes: Vec<Difference>,
+    pub changes: Vec<StatementDifference>,
     /// Differences that are counted but not listed.
     pub not_listed: usize,
 }
 
 /// One of the two programs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Side {
+pub struct DiffSide {
     /// The file's name.
     pub file: String,
     /// The dialect.
     pub dialect: DialectName,
     /// The unit of its lengths.
-    pub units: Units,
+    pub units: ResolvedLengthUnit,
     /// Lengths and times; rapids have no time.
-    pub totals: Totals,
+    pub totals: MotionTotals,
 }
 
 /// How many statements differ, and how.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
-pub struct Counts {
+pub struct DiffCounts {
     /// Statements of the same bytes.
     pub same: usize,
     /// Written differently, the same meaning: blanks, zeros, order of words.
@@ -83,11 +83,11 @@ pub struct Counts {
     /// Feeds that changed, those of cycles too.
     pub feeds: usize,
     /// Other records that changed, by kind.
-    pub changed: BTreeMap<Kind, usize>,
+    pub changed: BTreeMap<RecordKind, usize>,
     /// Records only in the second program, by kind.
-    pub added: BTreeMap<Kind, usize>,
+    pub added: BTreeMap<RecordKind, usize>,
     /// Records only in the first program, by kind.
-    pub removed: BTreeMap<Kind, usize>,
+    pub removed: BTreeMap<RecordKind, usize>,
 }
 
 /// An operation in which something differs.
@@ -96,16 +96,16 @@ pub struct OperationDiff {
     /// Name in the second program, or in the first for one that was removed; empty before the first operation.
     pub name: String,
     /// How many statements differ, and how.
-    pub counts: Counts,
+    pub counts: DiffCounts,
 }
 
 /// A statement that differs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Difference {
+pub struct StatementDifference {
     /// How.
-    pub what: What,
+    pub what: DifferenceKind,
     /// What the statement is about.
-    pub kind: Kind,
+    pub kind: RecordKind,
     /// Index in `operations`.
     pub operation: usize,
     /// Line in the first file; `null` where it has none.
@@ -120,10 +120,10 @@ pub struct Difference {
     pub by: Option<f64>,
 }
 
-impl Diff {
+impl ProgramDiff {
     /// Compares two programs as they stand.
-    pub fn of(a: &Program, b: &Program) -> Self {
-        gather::gather(a, b)
+    pub fn from_programs(a: &Program, b: &Program) -> Self {
+        diff_collector::collect_diff(a, b)
     }
 
     /// Whether nothing differs, byte for byte.
@@ -132,20 +132,20 @@ impl Diff {
     }
 }
 
-impl Counts {
+impl DiffCounts {
     /// Whether nothing differs that a post-processor could see.
-    pub fn same_meaning(&self) -> bool {
+    pub fn has_same_meaning(&self) -> bool {
         let maps = [&self.changed, &self.added, &self.removed];
         self.moved == 0 && self.turned == 0 && self.feeds == 0 && maps.iter().all(|map| map.is_empty())
     }
 
     /// Whether nothing differs at all.
     pub fn is_empty(&self) -> bool {
-        self.same_meaning() && self.layout == 0 && self.text == 0
+        self.has_same_meaning() && self.layout == 0 && self.text == 0
     }
 }
 
 /// The differences as one JSON document, indented and with a line end.
-pub fn to_json(diff: &Diff) -> String {
-    super::json_text(diff)
+pub fn to_json(diff: &ProgramDiff) -> String {
+    super::to_json_text(diff)
 }

@@ -1,6 +1,6 @@
 //! The text of the program, line by line, with the lines that steps changed or took out beside it.
 
-use crate::program::{Change, Program, Record, Statement};
+use crate::program::{Program, Record, Statement, StatementChange};
 
 /// No row.
 pub const NONE: u32 = u32::MAX;
@@ -8,7 +8,7 @@ pub const NONE: u32 = u32::MAX;
 /// What a row is, as in a patch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
-pub enum RowKind {
+pub enum ListingRowKind {
     /// In both programs.
     Kept = 0,
     /// Only in the one before.
@@ -19,7 +19,7 @@ pub enum RowKind {
 
 /// The rows, and where statements stand in them.
 #[derive(Debug, Default)]
-pub struct Listing {
+pub struct ProgramListing {
     /// The rows' bytes, each closed by LF.
     pub text: Vec<u8>,
     /// What each row is.
@@ -34,9 +34,9 @@ pub struct Listing {
     pub origins: Vec<u32>,
 }
 
-impl Listing {
+impl ProgramListing {
     /// The listing of a program that steps changed, or none did.
-    pub fn of(program: &Program) -> Self {
+    pub fn from_program(program: &Program) -> Self {
         let mut listing = Self::default();
         for (index, statement) in program.statements().iter().enumerate() {
             let row = listing.kinds.len() as u32;
@@ -45,31 +45,31 @@ impl Listing {
             let mut now = NONE;
             match statement.change() {
                 // It is on the first line, with the statement that begins there.
-                Change::Untouched if matches!(statement.record(), Record::ByteOrderMark) => {
+                StatementChange::Untouched if matches!(statement.record(), Record::ByteOrderMark) => {
                     now = row;
-                    listing.text.extend_from_slice(program.text(statement));
+                    listing.text.extend_from_slice(program.statement_text(statement));
                 }
-                Change::Untouched => {
+                StatementChange::Untouched => {
                     now = row;
-                    listing.add(program.text(statement), RowKind::Kept, step);
+                    listing.append_rows(program.statement_text(statement), ListingRowKind::Kept, step);
                 }
-                Change::Edited(_) => {
-                    listing.add(old_text(program, statement), RowKind::Old, step);
+                StatementChange::Edited(_) => {
+                    listing.append_rows(text_as_read(program, statement), ListingRowKind::Old, step);
                     now = listing.kinds.len() as u32;
-                    listing.add(program.text(statement), RowKind::New, step);
+                    listing.append_rows(program.statement_text(statement), ListingRowKind::New, step);
                 }
-                Change::Inserted(_) => {
+                StatementChange::Inserted(_) => {
                     now = row;
-                    listing.add(program.text(statement), RowKind::New, step);
+                    listing.append_rows(program.statement_text(statement), ListingRowKind::New, step);
                 }
-                Change::Deleted(_) if was_read => {
-                    listing.add(old_text(program, statement), RowKind::Old, step);
+                StatementChange::Deleted(_) if was_read => {
+                    listing.append_rows(text_as_read(program, statement), ListingRowKind::Old, step);
                 }
                 // One step put it in, a later one took it out: neither program has it.
-                Change::Deleted(_) => {}
+                StatementChange::Deleted(_) => {}
             }
             listing.after.push(now);
-            if was_read && !matches!(statement.change(), Change::Inserted(_)) {
+            if was_read && !matches!(statement.change(), StatementChange::Inserted(_)) {
                 listing.before.push(row);
                 listing.origins.push(index as u32);
             }
@@ -77,7 +77,7 @@ impl Listing {
         listing
     }
 
-    fn add(&mut self, text: &[u8], kind: RowKind, step: u16) {
+    fn append_rows(&mut self, text: &[u8], kind: ListingRowKind, step: u16) {
         let mut rest = text;
         while !rest.is_empty() {
             let end = rest.iter().position(|byte| matches!(byte, b'\n' | b'\r')).unwrap_or(rest.len());
@@ -91,6 +91,6 @@ impl Listing {
     }
 }
 
-fn old_text<'p>(program: &'p Program, statement: &Statement) -> &'p [u8] {
+fn text_as_read<'p>(program: &'p Program, statement: &Statement) -> &'p [u8] {
     program.source().slice(statement.origin())
 }

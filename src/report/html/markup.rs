@@ -1,10 +1,10 @@
 //! Text as HTML.
 
-use crate::report::render::text::visible;
+use crate::report::render::safe_text::to_visible_character;
 use std::io::{self, Write};
 
 /// Text as HTML that shows it and does nothing else; line breaks stay.
-pub fn escaped(text: &str) -> String {
+pub fn escape_html(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
@@ -15,19 +15,19 @@ pub fn escaped(text: &str) -> String {
             '\'' => out.push_str("&#39;"),
             '\n' => out.push('\n'),
             '\r' => {}
-            c => out.push(visible(c, true)),
+            c => out.push(to_visible_character(c, true)),
         }
     }
     out
 }
 
 /// Writes text.
-pub fn text(out: &mut dyn Write, text: &str) -> io::Result<()> {
-    out.write_all(escaped(text).as_bytes())
+pub fn write_text(out: &mut dyn Write, text: &str) -> io::Result<()> {
+    out.write_all(escape_html(text).as_bytes())
 }
 
 /// Writes a table: the first `left` columns to the left, numbers to the right.
-pub fn table<S: AsRef<str>>(
+pub fn write_table<S: AsRef<str>>(
     out: &mut dyn Write,
     head: &[&str],
     left: usize,
@@ -36,13 +36,13 @@ pub fn table<S: AsRef<str>>(
     out.write_all(b"<div class=\"wide\"><table><thead><tr>")?;
     let class = |column: usize| if column < left { "" } else { " class=\"n\"" };
     for (column, cell) in head.iter().enumerate() {
-        write!(out, "<th{}>{}</th>", class(column), escaped(cell))?;
+        write!(out, "<th{}>{}</th>", class(column), escape_html(cell))?;
     }
     out.write_all(b"</tr></thead><tbody>\n")?;
     for row in rows {
         out.write_all(b"<tr>")?;
         for (column, cell) in row.iter().enumerate() {
-            write!(out, "<td{}>{}</td>", class(column), escaped(cell.as_ref()))?;
+            write!(out, "<td{}>{}</td>", class(column), escape_html(cell.as_ref()))?;
         }
         out.write_all(b"</tr>\n")?;
     }
@@ -50,6 +50,6 @@ pub fn table<S: AsRef<str>>(
 }
 
 /// A value as JSON that may stand in a script element.
-pub fn json(value: &serde_json::Value) -> String {
+pub fn to_script_json(value: &serde_json::Value) -> String {
     value.to_string().replace('<', "\\u003c")
 }

@@ -5,15 +5,15 @@
 //! their licences (`vendor/`). Everything that comes from a file is escaped, and the page's own policy lets no other script run than the
 //! page's, which it knows by their hashes. The same comparison makes the same bytes.
 
-mod arrays;
-mod assets;
-mod change;
-mod encode;
+mod array_encoding;
 mod listing;
 mod markup;
+mod motion_arrays;
+mod motion_change;
+mod page_arrays;
+mod page_assets;
 mod sections;
-mod side;
-mod stock;
+mod stock_height_field;
 
 use super::comparison::Comparison;
 use std::io::{self, Write};
@@ -22,18 +22,18 @@ use std::io::{self, Write};
 ///
 /// # Errors
 /// What `out` returns.
-pub fn page(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
-    let arrays = arrays::Arrays::of(comparison);
-    for (at, text) in assets::template() {
+pub fn write_page(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let arrays = page_arrays::PageArrays::from_comparison(comparison);
+    for (at, text) in page_assets::split_template() {
         match at {
             None => {}
-            Some("title") => markup::text(out, comparison.subject.program.source().name())?,
-            Some("policy") => out.write_all(assets::policy().as_bytes())?,
-            Some("styles") => assets::styles(out)?,
-            Some("scripts") => assets::scripts(out)?,
-            Some("licences") => assets::licences(out)?,
-            Some("data") => arrays.write(out)?,
-            Some(section) => sections::write(section, comparison, &arrays.missing, out)?,
+            Some("title") => markup::write_text(out, comparison.subject.program.source().name())?,
+            Some("policy") => out.write_all(page_assets::content_security_policy().as_bytes())?,
+            Some("styles") => page_assets::write_styles(out)?,
+            Some("scripts") => page_assets::write_scripts(out)?,
+            Some("licences") => page_assets::write_licences(out)?,
+            Some("data") => arrays.write_elements(out)?,
+            Some(section) => sections::write_section(section, comparison, &arrays.missing, out)?,
         }
         out.write_all(text.as_bytes())?;
     }

@@ -1,12 +1,12 @@
 //! The parts of the page that are plain text and tables.
 
-use super::markup::{escaped, table};
+use super::markup::{escape_html, write_table};
 use crate::diagnostic::Diagnostic;
-use crate::report::comparison::{Comparison, operation_rows, step_row, whole_rows};
-use crate::report::render::human::{self, HumanOptions};
-use crate::report::render::{Counts, text::one_line};
+use crate::report::comparison::{Comparison, build_operation_rows, build_step_row, build_whole_rows};
+use crate::report::render::human::{self, HumanRenderOptions};
+use crate::report::render::{SeverityCounts, safe_text::to_safe_line};
 use crate::report::step_report;
-use crate::report::table::count;
+use crate::report::text_format::format_count;
 use crate::source::Source;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -16,109 +16,114 @@ use std::sync::Arc;
 const PER_CODE: usize = 40;
 
 /// Writes a section by its name in the template.
-pub fn write(
+pub fn write_section(
     section: &str,
     comparison: &Comparison<'_>,
     drawing: &[String],
     out: &mut dyn Write,
 ) -> io::Result<()> {
     match section {
-        "lead" => lead(comparison, out),
-        "parts" => parts(comparison, out),
-        "whole" => whole(comparison, out),
-        "steps" => steps(comparison, out),
-        "operations" => operations(comparison, out),
-        "findings" => findings(comparison, out),
-        "assumptions" => assumptions(comparison, drawing, out),
-        "texts" => texts(comparison, out),
+        "lead" => write_lead(comparison, out),
+        "parts" => write_compared_files(comparison, out),
+        "whole" => write_whole_program(comparison, out),
+        "steps" => write_steps(comparison, out),
+        "operations" => write_operations(comparison, out),
+        "findings" => write_findings(comparison, out),
+        "assumptions" => write_assumptions(comparison, drawing, out),
+        "texts" => write_source_texts(comparison, out),
         _ => Err(io::Error::other(format!("the page has no section {section}"))),
     }
 }
 
-fn lead(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
+fn write_lead(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
     let subject = &comparison.subject;
-    let name = escaped(&one_line(subject.program.source().name()));
-    let dialect = escaped(subject.program.dialect().title());
+    let name = escape_html(&to_safe_line(subject.program.source().name()));
+    let dialect = escape_html(subject.program.dialect().display_name());
     match &comparison.changes {
         Some(changes) if changes.is_empty() => {
             write!(out, "{dialect}. Nothing was changed: every byte of {name} is as it was.")
         }
         Some(changes) => {
-            write!(out, "{dialect}. {} statements are as they were.", count(changes.untouched as u64))
+            write!(out, "{dialect}. {} statements are as they were.", format_count(changes.untouched as u64))
         }
         None => write!(out, "{dialect}."),
     }
 }
 
-fn parts(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
+fn write_compared_files(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "<p>clsmith {}</p>", env!("CARGO_PKG_VERSION"))?;
     if let Some(print) = comparison.subject.print {
-        writeln!(out, "<p>Recipe and files: SHA-256 {}</p>", escaped(print))?;
+        writeln!(out, "<p>Recipe and files: SHA-256 {}</p>", escape_html(print))?;
     }
-    let row = |part: &crate::report::comparison::Part| {
-        vec![part.what.name().to_owned(), one_line(&part.name), count(part.bytes), part.sha256.clone()]
+    let row = |part: &crate::report::comparison::ComparedFile| {
+        vec![
+            part.what.display_name().to_owned(),
+            to_safe_line(&part.name),
+            format_count(part.bytes),
+            part.sha256.clone(),
+        ]
     };
     let rows: Vec<_> = comparison.parts.iter().map(row).collect();
-    table(out, &["", "file", "bytes", "SHA-256"], 2, &rows)
+    write_table(out, &["", "file", "bytes", "SHA-256"], 2, &rows)
 }
 
-fn whole(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
-    let rows = whole_rows(comparison);
+fn write_whole_program(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let rows = build_whole_rows(comparison);
     if comparison.subject.before.is_some() {
         let rows: Vec<Vec<String>> = rows.into_iter().map(Vec::from).collect();
-        return table(out, &["", "before", "after", "change"], 1, &rows);
+        return write_table(out, &["", "before", "after", "change"], 1, &rows);
     }
     let rows: Vec<Vec<String>> = rows.into_iter().map(|[name, _, after, _]| vec![name, after]).collect();
-    table(out, &["", ""], 1, &rows)
+    write_table(out, &["", ""], 1, &rows)
 }
 
-fn steps(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
+fn write_steps(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
     let Some(changes) = comparison.changes.as_ref().filter(|changes| !changes.steps.is_empty()) else {
         return Ok(());
     };
     out.write_all(b"<h2>Steps</h2>\n")?;
     let row = |(index, step): (usize, _)| {
-        let [edited, inserted, deleted] = step_row(step);
+        let [edited, inserted, deleted] = build_step_row(step);
         vec![format!("{}. {}", index + 1, step.name), edited, inserted, deleted]
     };
     let rows: Vec<Vec<String>> = changes.steps.iter().enumerate().map(row).collect();
-    table(out, &["step", "edited", "inserted", "deleted"], 4, &rows)?;
+    write_table(out, &["step", "edited", "inserted", "deleted"], 4, &rows)?;
     for report in comparison.subject.reports {
-        writeln!(out, "<pre>{}</pre>", escaped(step_report::to_text(report).trim_matches('\n')))?;
+        writeln!(out, "<pre>{}</pre>", escape_html(step_report::to_text(report).trim_matches('\n')))?;
     }
     Ok(())
 }
 
-fn operations(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
-    let (head, rows) = operation_rows(comparison);
+fn write_operations(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let (head, rows) = build_operation_rows(comparison);
     let head: Vec<&str> = head.iter().map(String::as_str).collect();
-    table(out, &head, 2, &rows)
+    write_table(out, &head, 2, &rows)
 }
 
-fn findings(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
+fn write_findings(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
     let subject = &comparison.subject;
     let runs = [
         ("the program before", &comparison.runs.before),
         ("the program as it stands", &comparison.runs.after),
     ];
     let simulated = runs.into_iter().filter_map(|(of, run)| Some((of, run.as_ref()?)));
-    some(out, "Of the run", subject.findings, comparison)?;
+    write_finding_list(out, "Of the run", subject.findings, comparison)?;
     for (of, simulated) in simulated {
         if !simulated.findings.is_empty() {
-            some(out, &format!("Of the simulation of {of}"), &simulated.findings, comparison)?;
+            write_finding_list(out, &format!("Of the simulation of {of}"), &simulated.findings, comparison)?;
         }
     }
     Ok(())
 }
 
-fn some(
+fn write_finding_list(
     out: &mut dyn Write,
     title: &str,
     found: &[Diagnostic],
     comparison: &Comparison<'_>,
 ) -> io::Result<()> {
-    writeln!(out, "<h3>{}: {}</h3>", escaped(title), Counts::of(found))?;
-    let options = HumanOptions { width: 120, ..HumanOptions::default() };
+    writeln!(out, "<h3>{}: {}</h3>", escape_html(title), SeverityCounts::from_findings(found))?;
+    let options = HumanRenderOptions { width: 120, ..HumanRenderOptions::default() };
     let mut seen: BTreeMap<&str, usize> = BTreeMap::new();
     for one in found {
         let count = seen.entry(one.code.id()).or_default();
@@ -127,7 +132,7 @@ fn some(
             continue;
         }
         let mut drawn = Vec::new();
-        human::render(&mut drawn, std::slice::from_ref(one), None, &options)?;
+        human::render_human(&mut drawn, std::slice::from_ref(one), None, &options)?;
         let drawn = String::from_utf8_lossy(&drawn);
         // The last line counts findings, here always one.
         let drawn = drawn.trim_end().rsplit_once('\n').map_or("", |(drawn, _)| drawn.trim_matches('\n'));
@@ -135,8 +140,8 @@ fn some(
         writeln!(
             out,
             "<div class=\"finding {severity}\"{}><pre>{}</pre></div>",
-            place(one, comparison),
-            escaped(drawn)
+            format_line_attribute(one, comparison),
+            escape_html(drawn)
         )?;
     }
     for (code, count) in seen.into_iter().filter(|(_, count)| *count > PER_CODE) {
@@ -146,9 +151,9 @@ fn some(
 }
 
 /// The line that a finding is about, for the scripts.
-fn place(found: &Diagnostic, comparison: &Comparison<'_>) -> String {
+fn format_line_attribute(found: &Diagnostic, comparison: &Comparison<'_>) -> String {
     let source = comparison.subject.program.source();
-    let Some(label) = found.labels.iter().find(|label| is_of(&label.source, source)) else {
+    let Some(label) = found.labels.iter().find(|label| is_program_source(&label.source, source)) else {
         return String::new();
     };
     let (line, _) = label.source.line_column(label.span.start);
@@ -157,11 +162,11 @@ fn place(found: &Diagnostic, comparison: &Comparison<'_>) -> String {
 }
 
 /// Whether a text is the program's: as it was read, or as it was read back.
-fn is_of(source: &Arc<Source>, program: &Arc<Source>) -> bool {
+fn is_program_source(source: &Arc<Source>, program: &Arc<Source>) -> bool {
     Arc::ptr_eq(source, program) || source.name() == format!("{} (corrected)", program.name())
 }
 
-fn assumptions(comparison: &Comparison<'_>, drawing: &[String], out: &mut dyn Write) -> io::Result<()> {
+fn write_assumptions(comparison: &Comparison<'_>, drawing: &[String], out: &mut dyn Write) -> io::Result<()> {
     let runs = comparison.runs;
     let mut missing: Vec<String> = Vec::new();
     if runs.after.is_none() {
@@ -180,20 +185,25 @@ fn assumptions(comparison: &Comparison<'_>, drawing: &[String], out: &mut dyn Wr
         }
         writeln!(out, "<h3>{title}</h3><ul>")?;
         for sentence in list {
-            writeln!(out, "<li>{}</li>", escaped(sentence))?;
+            writeln!(out, "<li>{}</li>", escape_html(sentence))?;
         }
         out.write_all(b"</ul>\n")?;
     }
     Ok(())
 }
 
-fn texts(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
+fn write_source_texts(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
     let subject = &comparison.subject;
     let recipe = subject.recipe.map(|recipe| ("Recipe", &recipe.source));
     for (what, source) in recipe.into_iter().chain(subject.setup_files.iter().map(|source| ("Setup", source)))
     {
         let text = String::from_utf8_lossy(source.bytes());
-        writeln!(out, "<h3>{what}: {}</h3><pre>{}</pre>", escaped(&one_line(source.name())), escaped(&text))?;
+        writeln!(
+            out,
+            "<h3>{what}: {}</h3><pre>{}</pre>",
+            escape_html(&to_safe_line(source.name())),
+            escape_html(&text)
+        )?;
     }
     Ok(())
 }

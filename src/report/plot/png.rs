@@ -14,7 +14,7 @@ const SCALE: f32 = 2.0;
 ///
 /// # Errors
 /// When the drawing cannot be read, or is larger than there is memory for.
-pub fn png(svg: &str) -> io::Result<Vec<u8>> {
+pub fn render_png(svg: &str) -> io::Result<Vec<u8>> {
     let mut fonts = usvg::fontdb::Database::new();
     fonts.load_font_data(FONT.to_vec());
     fonts.set_sans_serif_family("DejaVu Sans");

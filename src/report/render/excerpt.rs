@@ -4,8 +4,8 @@
 //! given an excerpt instead: the labelled lines and their neighbours, decoded, in one text with offsets of its own. Lines
 //! of several files can stand in it, each under its own name, which is how one finding points into a CL file and a recipe.
 
-use super::text;
-use crate::diagnostic::Label;
+use super::safe_text;
+use crate::diagnostic::DiagnosticLabel;
 use crate::source::{Source, Span};
 use miette::{MietteError, SourceCode, SourceSpan, SpanContents};
 use std::collections::BTreeSet;
@@ -16,7 +16,7 @@ use std::sync::Arc;
 const WHOLE_LABEL: usize = 8;
 
 /// How an excerpt is cut.
-pub(super) struct View {
+pub(super) struct ExcerptOptions {
     /// Lines before and after a labelled one.
     pub context: usize,
     /// Lines up to this many bytes are shown whole.
@@ -29,23 +29,23 @@ pub(super) struct View {
 
 /// Lines of one or more files, as miette wants to read them.
 #[derive(Debug)]
-pub(super) struct Excerpt {
+pub(super) struct SourceExcerpt {
     text: String,
-    lines: Vec<Line>,
+    lines: Vec<ExcerptLine>,
     /// Where marks start, with their column in the file.
     columns: Vec<(usize, usize)>,
 }
 
 /// A label in the excerpt's own offsets.
 #[derive(Debug)]
-pub(super) struct Mark {
+pub(super) struct ExcerptMark {
     pub range: Range<usize>,
     pub message: String,
     pub primary: bool,
 }
 
 #[derive(Debug)]
-struct Line {
+struct ExcerptLine {
     /// Where it starts in the excerpt.
     at: usize,
     /// 1-based, in its file.
@@ -58,7 +58,7 @@ struct Line {
 }
 
 /// A label, or one end of a long one.
-struct Piece<'a> {
+struct ExcerptLabelPart<'a> {
     source: &'a Arc<Source>,
     span: Span,
     lines: (usize, usize),
@@ -66,11 +66,11 @@ struct Piece<'a> {
     primary: bool,
 }
 
-impl Excerpt {
+impl SourceExcerpt {
     /// The lines around the labels, and the labels as marks on them.
-    pub(super) fn new(labels: &[Label], view: &View) -> (Self, Vec<Mark>) {
-        let pieces: Vec<Piece<'_>> =
-            labels.iter().enumerate().flat_map(|(index, label)| pieces(label, index == 0)).collect();
+    pub(super) fn new(labels: &[DiagnosticLabel], view: &ExcerptOptions) -> (Self, Vec<ExcerptMark>) {
+        let pieces: Vec<ExcerptLabelPart<'_>> =
+            labels.iter().enumerate().flat_map(|(index, label)| split_label(label, index == 0)).collect();
         let mut excerpt = Self { text: String::new(), lines: Vec::new(), columns: Vec::new() };
         let mut marks = Vec::new();
         let mut files: Vec<&Arc<Source>> = Vec::new();
@@ -79,17 +79,23 @@ impl Excerpt {
                 continue;
             }
             files.push(piece.source);
-            let here: Vec<&Piece<'_>> =
+            let here: Vec<&ExcerptLabelPart<'_>> =
                 pieces.iter().filter(|other| Arc::ptr_eq(other.source, piece.source)).collect();
             excerpt.add_file(piece.source, &here, view, &mut marks);
         }
         (excerpt, marks)
     }
 
-    fn add_file(&mut self, source: &Source, pieces: &[&Piece<'_>], view: &View, marks: &mut Vec<Mark>) {
+    fn add_file(
+        &mut self,
+        source: &Source,
+        pieces: &[&ExcerptLabelPart<'_>],
+        view: &ExcerptOptions,
+        marks: &mut Vec<ExcerptMark>,
+    ) {
         let first = self.lines.len();
         let mut before = None;
-        for number in wanted(source, pieces, view.context) {
+        for number in choose_lines(source, pieces, view.context) {
             let block =
                 self.lines.last().map_or(0, |line| line.block + usize::from(before != Some(number - 1)));
             self.add_line(source, number, block, pieces, view);
@@ -97,34 +103,43 @@ impl Excerpt {
         }
         let lines = self.lines.get(first..).unwrap_or_default();
         for piece in pieces {
-            let range = piece.span.range();
+            let range = piece.span.to_range();
             let on = |number| lines.iter().find(|line| line.number == number);
             let (Some(start), Some(end)) = (on(piece.lines.0), on(piece.lines.1)) else { continue };
-            let start = start.place_before(range.start);
-            let end = if range.is_empty() { start } else { end.place_after(range.end) };
+            let start = start.excerpt_offset_before(range.start);
+            let end = if range.is_empty() { start } else { end.excerpt_offset_after(range.end) };
             self.columns.push((start, source.line_column(piece.span.start).1));
-            marks.push(Mark {
+            marks.push(ExcerptMark {
                 range: start..end.max(start),
-                message: text::paragraph(&piece.message, view.unicode),
+                message: safe_text::to_safe_paragraph(&piece.message, view.unicode),
                 primary: piece.primary,
             });
         }
     }
 
-    fn add_line(&mut self, source: &Source, number: usize, block: usize, pieces: &[&Piece<'_>], view: &View) {
-        let Some(line) = source.line(number).map(Span::range) else { return };
+    fn add_line(
+        &mut self,
+        source: &Source,
+        number: usize,
+        block: usize,
+        pieces: &[&ExcerptLabelPart<'_>],
+        view: &ExcerptOptions,
+    ) {
+        let Some(line) = source.line_span(number).map(Span::to_range) else { return };
         let at = self.text.len();
         let mut places = Vec::new();
         let mut shown = line.start;
         let dots = if view.unicode { "…" } else { "..." };
-        for part in parts(source, line.clone(), pieces, view) {
+        for part in choose_line_parts(source, line.clone(), pieces, view) {
             if part.start > shown {
                 self.text.push_str(dots);
             }
             shown = part.start;
-            for (c, length) in text::decode(source.bytes().get(part.clone()).unwrap_or_default()) {
+            for (c, length) in
+                safe_text::decode_characters(source.bytes().get(part.clone()).unwrap_or_default())
+            {
                 places.push((shown, self.text.len()));
-                self.text.push(text::visible(c, view.unicode));
+                self.text.push(safe_text::to_visible_character(c, view.unicode));
                 shown += length;
             }
             places.push((part.end, self.text.len()));
@@ -133,42 +148,42 @@ impl Excerpt {
             self.text.push_str(dots);
         }
         self.text.push('\n');
-        let file = text::paragraph(source.name(), view.unicode).replace('\n', " ");
-        self.lines.push(Line { at, number, block, file, places });
+        let file = safe_text::to_safe_paragraph(source.name(), view.unicode).replace('\n', " ");
+        self.lines.push(ExcerptLine { at, number, block, file, places });
     }
 
-    fn line_at(&self, offset: usize) -> Option<usize> {
+    fn line_index_at(&self, offset: usize) -> Option<usize> {
         self.lines.partition_point(|line| line.at <= offset).checked_sub(1)
     }
 }
 
-impl Line {
+impl ExcerptLine {
     /// Where the character that holds this byte starts.
-    fn place_before(&self, offset: usize) -> usize {
+    fn excerpt_offset_before(&self, offset: usize) -> usize {
         let after = self.places.partition_point(|&(from, _)| from <= offset);
         after.checked_sub(1).and_then(|index| self.places.get(index)).map_or(self.at, |&(_, to)| to)
     }
 
     /// Where the first character at or after this byte starts; the end of the line beyond its last.
-    fn place_after(&self, offset: usize) -> usize {
+    fn excerpt_offset_after(&self, offset: usize) -> usize {
         let index = self.places.partition_point(|&(from, _)| from < offset);
         self.places.get(index).or(self.places.last()).map_or(self.at, |&(_, to)| to)
     }
 }
 
-fn pieces(label: &Label, primary: bool) -> Vec<Piece<'_>> {
+fn split_label(label: &DiagnosticLabel, primary: bool) -> Vec<ExcerptLabelPart<'_>> {
     let source = &label.source;
-    let span = text::trimmed(source, label.span);
+    let span = safe_text::trim_line_end(source, label.span);
     let first = source.line_column(span.start).0;
     let last = if span.is_empty() { first } else { source.line_column(span.end - 1).0 };
-    let piece = |span, lines, message: &str, primary| Piece {
+    let piece = |span, lines, message: &str, primary| ExcerptLabelPart {
         source,
         span,
         lines,
         message: message.to_owned(),
         primary,
     };
-    match (source.line(first), source.line(last)) {
+    match (source.line_span(first), source.line_span(last)) {
         (Some(head), Some(tail)) if last - first >= WHOLE_LABEL => vec![
             piece(
                 Span { start: span.start, end: head.end.max(span.start) },
@@ -182,12 +197,14 @@ fn pieces(label: &Label, primary: bool) -> Vec<Piece<'_>> {
     }
 }
 
-fn wanted(source: &Source, pieces: &[&Piece<'_>], context: usize) -> BTreeSet<usize> {
+fn choose_lines(source: &Source, pieces: &[&ExcerptLabelPart<'_>], context: usize) -> BTreeSet<usize> {
     let labelled = |number| pieces.iter().any(|piece| (piece.lines.0..=piece.lines.1).contains(&number));
     // A file that ends in a line end has an empty line after it, which is worth showing only to point at it.
     let shown = |number: &usize| {
         labelled(*number)
-            || source.line(*number).is_some_and(|line| !line.is_empty() || source.line(*number + 1).is_some())
+            || source
+                .line_span(*number)
+                .is_some_and(|line| !line.is_empty() || source.line_span(*number + 1).is_some())
     };
     pieces
         .iter()
@@ -199,11 +216,16 @@ fn wanted(source: &Source, pieces: &[&Piece<'_>], context: usize) -> BTreeSet<us
 }
 
 /// The parts of a line worth showing: all of a short one, the surroundings of the labels' ends in a long one.
-fn parts(source: &Source, line: Range<usize>, pieces: &[&Piece<'_>], view: &View) -> Vec<Range<usize>> {
+fn choose_line_parts(
+    source: &Source,
+    line: Range<usize>,
+    pieces: &[&ExcerptLabelPart<'_>],
+    view: &ExcerptOptions,
+) -> Vec<Range<usize>> {
     if line.len() <= view.whole_line {
         return vec![line];
     }
-    let ends = pieces.iter().flat_map(|piece| [piece.span.range().start, piece.span.range().end]);
+    let ends = pieces.iter().flat_map(|piece| [piece.span.to_range().start, piece.span.to_range().end]);
     let mut ends: Vec<usize> = ends.filter(|end| (line.start..=line.end).contains(end)).collect();
     ends.sort_unstable();
     if ends.is_empty() {
@@ -211,7 +233,7 @@ fn parts(source: &Source, line: Range<usize>, pieces: &[&Piece<'_>], view: &View
     }
     let mut parts: Vec<Range<usize>> = Vec::new();
     for end in ends {
-        let from = whole_character(source, end.saturating_sub(view.margin).max(line.start), line.start);
+        let from = floor_to_character(source, end.saturating_sub(view.margin).max(line.start), line.start);
         let to = (end + view.margin).min(line.end);
         match parts.last_mut() {
             Some(last) if from <= last.end => last.end = last.end.max(to),
@@ -219,25 +241,25 @@ fn parts(source: &Source, line: Range<usize>, pieces: &[&Piece<'_>], view: &View
         }
     }
     for part in &mut parts {
-        part.end = whole_character(source, part.end, part.start);
+        part.end = floor_to_character(source, part.end, part.start);
     }
     parts
 }
 
 /// Moves a cut back from inside a UTF-8 character to its start.
-fn whole_character(source: &Source, at: usize, lowest: usize) -> usize {
+fn floor_to_character(source: &Source, at: usize, lowest: usize) -> usize {
     let inside = |at: usize| source.bytes().get(at).is_some_and(|byte| (0x80..0xc0).contains(byte));
     (0..4).map(|back| at.saturating_sub(back)).find(|&at| !inside(at)).map_or(at, |start| start.max(lowest))
 }
 
-impl SourceCode for Excerpt {
+impl SourceCode for SourceExcerpt {
     fn read_span<'a>(
         &'a self,
         span: &SourceSpan,
         before: usize,
         after: usize,
     ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
-        let lines = self.line_at(span.offset()).zip(self.line_at(span.offset() + span.len()));
+        let lines = self.line_index_at(span.offset()).zip(self.line_index_at(span.offset() + span.len()));
         let (mut first, mut last) = lines.ok_or(MietteError::OutOfBounds)?;
         let block = |index: usize| self.lines.get(index).map(|line| line.block);
         // miette asks for two labels at once to see whether they share a snippet.
@@ -254,7 +276,7 @@ impl SourceCode for Excerpt {
         let end = self.lines.get(last + 1).map_or(self.text.len(), |next| next.at);
         let column =
             self.columns.iter().find(|(at, _)| *at == span.offset()).map_or(0, |(_, column)| column - 1);
-        Ok(Box::new(Contents {
+        Ok(Box::new(ExcerptContents {
             data: self.text.as_bytes().get(start.at..end).ok_or(MietteError::OutOfBounds)?,
             span: (start.at, end - start.at).into(),
             line: start,
@@ -264,15 +286,15 @@ impl SourceCode for Excerpt {
     }
 }
 
-struct Contents<'a> {
+struct ExcerptContents<'a> {
     data: &'a [u8],
     span: SourceSpan,
-    line: &'a Line,
+    line: &'a ExcerptLine,
     column: usize,
     lines: usize,
 }
 
-impl<'a> SpanContents<'a> for Contents<'a> {
+impl<'a> SpanContents<'a> for ExcerptContents<'a> {
     fn data(&self) -> &'a [u8] {
         self.data
     }

@@ -1,8 +1,8 @@
 //! Findings for people, drawn by miette.
 
-use super::excerpt::{Excerpt, Mark, View};
-use super::{Counts, NO_FILE, line, text};
-use crate::diagnostic::{Code, Diagnostic, Severity};
+use super::excerpt::{ExcerptMark, ExcerptOptions, SourceExcerpt};
+use super::{NO_FILE, SeverityCounts, line, safe_text};
+use crate::diagnostic::{Diagnostic, DiagnosticCode, Severity};
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -10,7 +10,7 @@ use std::io::{self, Write};
 
 /// How findings are drawn. The caller knows the terminal; this module does not ask it.
 #[derive(Debug, Clone, Copy)]
-pub struct HumanOptions {
+pub struct HumanRenderOptions {
     /// Whether to write ANSI colours.
     pub color: bool,
     /// Whether lines and arrows may be other than ASCII.
@@ -23,7 +23,7 @@ pub struct HumanOptions {
     pub context_lines: usize,
 }
 
-impl Default for HumanOptions {
+impl Default for HumanRenderOptions {
     fn default() -> Self {
         Self { color: false, unicode: true, width: 100, per_code: 10, context_lines: 1 }
     }
@@ -35,14 +35,14 @@ impl Default for HumanOptions {
 ///
 /// # Errors
 /// What the writer returns.
-pub fn render(
+pub fn render_human(
     out: &mut dyn Write,
     diagnostics: &[Diagnostic],
     file: Option<&str>,
-    options: &HumanOptions,
+    options: &HumanRenderOptions,
 ) -> io::Result<()> {
-    let handler = handler(options);
-    let mut seen: BTreeMap<Code, usize> = BTreeMap::new();
+    let handler = build_miette_handler(options);
+    let mut seen: BTreeMap<DiagnosticCode, usize> = BTreeMap::new();
     for found in diagnostics {
         let count = seen.entry(found.code).or_default();
         *count += 1;
@@ -50,39 +50,39 @@ pub fn render(
             continue;
         }
         let mut drawn = String::new();
-        match handler.render_report(&mut drawn, &Drawing::new(found, options)) {
+        match handler.render_report(&mut drawn, &MietteFinding::new(found, options)) {
             Ok(()) => writeln!(out, "{drawn}")?,
-            Err(fmt::Error) => writeln!(out, "{}\n", line::one(found, file))?,
+            Err(fmt::Error) => writeln!(out, "{}\n", line::format_finding_line(found, file))?,
         }
     }
     for (code, count) in seen {
-        if let Some(note) = not_shown(code, count, options.per_code) {
+        if let Some(note) = describe_hidden_findings(code, count, options.per_code) {
             writeln!(out, "{note}")?;
         }
     }
-    writeln!(out, "{}", summary(diagnostics, file, options.color))
+    writeln!(out, "{}", format_summary(diagnostics, file, options.color))
 }
 
 /// What to say about the findings of a code beyond the cap; `None` when all were shown.
-pub fn not_shown(code: Code, count: usize, per_code: usize) -> Option<String> {
+pub fn describe_hidden_findings(code: DiagnosticCode, count: usize, per_code: usize) -> Option<String> {
     let hidden = count.checked_sub(per_code).filter(|&hidden| hidden > 0 && per_code > 0)?;
     Some(format!("{hidden} more of {code} not shown (--max-per-code 0 shows all)"))
 }
 
-fn summary(diagnostics: &[Diagnostic], file: Option<&str>, color: bool) -> String {
-    let counts = Counts::of(diagnostics);
-    let name = text::one_line(file.unwrap_or(NO_FILE));
+fn format_summary(diagnostics: &[Diagnostic], file: Option<&str>, color: bool) -> String {
+    let counts = SeverityCounts::from_findings(diagnostics);
+    let name = safe_text::to_safe_line(file.unwrap_or(NO_FILE));
     let paint = match counts {
         _ if !color => return format!("{name}: {counts}"),
-        Counts { errors: 1.., .. } => 31,
-        Counts { warnings: 1.., .. } => 33,
-        Counts { notes: 1.., .. } => 36,
+        SeverityCounts { errors: 1.., .. } => 31,
+        SeverityCounts { warnings: 1.., .. } => 33,
+        SeverityCounts { notes: 1.., .. } => 36,
         _ => 32,
     };
     format!("{name}: \u{1b}[{paint}m{counts}\u{1b}[0m")
 }
 
-fn handler(options: &HumanOptions) -> GraphicalReportHandler {
+fn build_miette_handler(options: &HumanRenderOptions) -> GraphicalReportHandler {
     let theme = match (options.unicode, options.color) {
         (true, true) => GraphicalTheme::unicode(),
         (true, false) => GraphicalTheme::unicode_nocolor(),
@@ -90,7 +90,7 @@ fn handler(options: &HumanOptions) -> GraphicalReportHandler {
         (false, false) => GraphicalTheme::none(),
     };
     GraphicalReportHandler::new_themed(theme)
-        .with_width(width(options))
+        .with_width(usable_width(options))
         .with_context_lines(options.context_lines)
         .without_syntax_highlighting()
 }
@@ -99,40 +99,44 @@ fn handler(options: &HumanOptions) -> GraphicalReportHandler {
 const LINE_NUMBERS: usize = 16;
 
 /// Narrower than this, text would be broken after every word.
-fn width(options: &HumanOptions) -> usize {
+fn usable_width(options: &HumanRenderOptions) -> usize {
     options.width.max(40)
 }
 
 /// A finding as miette knows it.
 #[derive(Debug)]
-struct Drawing<'a> {
+struct MietteFinding<'a> {
     found: &'a Diagnostic,
     unicode: bool,
-    excerpt: Excerpt,
-    marks: Vec<Mark>,
+    excerpt: SourceExcerpt,
+    marks: Vec<ExcerptMark>,
 }
 
-impl<'a> Drawing<'a> {
-    fn new(found: &'a Diagnostic, options: &HumanOptions) -> Self {
+impl<'a> MietteFinding<'a> {
+    fn new(found: &'a Diagnostic, options: &HumanRenderOptions) -> Self {
         // What the terminal would wrap is cut instead: an underline only points at a line that stayed one.
-        let columns = width(options).saturating_sub(LINE_NUMBERS);
+        let columns = usable_width(options).saturating_sub(LINE_NUMBERS);
         let margin = (columns / 2).min(120);
-        let view =
-            View { context: options.context_lines, whole_line: columns, margin, unicode: options.unicode };
-        let (excerpt, marks) = Excerpt::new(&found.labels, &view);
+        let view = ExcerptOptions {
+            context: options.context_lines,
+            whole_line: columns,
+            margin,
+            unicode: options.unicode,
+        };
+        let (excerpt, marks) = SourceExcerpt::new(&found.labels, &view);
         Self { found, unicode: options.unicode, excerpt, marks }
     }
 }
 
-impl fmt::Display for Drawing<'_> {
+impl fmt::Display for MietteFinding<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&text::paragraph(&self.found.message, self.unicode))
+        f.write_str(&safe_text::to_safe_paragraph(&self.found.message, self.unicode))
     }
 }
 
-impl std::error::Error for Drawing<'_> {}
+impl std::error::Error for MietteFinding<'_> {}
 
-impl miette::Diagnostic for Drawing<'_> {
+impl miette::Diagnostic for MietteFinding<'_> {
     fn code<'b>(&'b self) -> Option<Box<dyn fmt::Display + 'b>> {
         Some(Box::new(format!("{}[{}]", self.found.severity, self.found.code)))
     }
@@ -147,7 +151,7 @@ impl miette::Diagnostic for Drawing<'_> {
 
     fn help<'b>(&'b self) -> Option<Box<dyn fmt::Display + 'b>> {
         let help = self.found.help.as_deref()?;
-        Some(Box::new(text::paragraph(help, self.unicode)))
+        Some(Box::new(safe_text::to_safe_paragraph(help, self.unicode)))
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {

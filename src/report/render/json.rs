@@ -30,8 +30,8 @@
 //! `null` when it is longer than 1000 bytes; bytes that are no UTF-8 are read as Latin-1. `version` changes when a reader of
 //! this structure would have to; new keys may be added without.
 
-use super::{Counts, text};
-use crate::diagnostic::{Diagnostic, Label};
+use super::{SeverityCounts, safe_text};
+use crate::diagnostic::{Diagnostic, DiagnosticLabel};
 use crate::source::Source;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -42,84 +42,85 @@ const LONGEST_TEXT: usize = 1000;
 ///
 /// # Errors
 /// What the writer returns.
-pub fn render(out: &mut dyn Write, diagnostics: &[Diagnostic]) -> io::Result<()> {
-    let report = Report {
+pub fn render_json(out: &mut dyn Write, diagnostics: &[Diagnostic]) -> io::Result<()> {
+    let report = FindingsJson {
         version: 1,
-        diagnostics: diagnostics.iter().map(finding).collect(),
-        counts: Counts::of(diagnostics).into(),
+        diagnostics: diagnostics.iter().map(to_finding_json).collect(),
+        counts: SeverityCounts::from_findings(diagnostics).into(),
     };
     serde_json::to_writer_pretty(&mut *out, &report)?;
     writeln!(out)
 }
 
 #[derive(Serialize)]
-struct Report<'a> {
+struct FindingsJson<'a> {
     version: u32,
-    diagnostics: Vec<Finding<'a>>,
-    counts: Tally,
+    diagnostics: Vec<FindingJson<'a>>,
+    counts: SeverityCountsJson,
 }
 
 #[derive(Serialize)]
-struct Finding<'a> {
+struct FindingJson<'a> {
     code: &'static str,
     severity: String,
     message: &'a str,
     help: Option<&'a str>,
-    labels: Vec<Place<'a>>,
+    labels: Vec<FindingLabelJson<'a>>,
 }
 
 #[derive(Serialize)]
-struct Place<'a> {
+struct FindingLabelJson<'a> {
     file: &'a str,
-    start: Position,
-    end: Position,
+    start: SourcePositionJson,
+    end: SourcePositionJson,
     message: &'a str,
     text: Option<String>,
 }
 
 #[derive(Serialize)]
-struct Position {
+struct SourcePositionJson {
     line: usize,
     column: usize,
     offset: u32,
 }
 
 #[derive(Serialize)]
-struct Tally {
+struct SeverityCountsJson {
     errors: usize,
     warnings: usize,
     notes: usize,
 }
 
-impl From<Counts> for Tally {
-    fn from(Counts { errors, warnings, notes }: Counts) -> Self {
+impl From<SeverityCounts> for SeverityCountsJson {
+    fn from(SeverityCounts { errors, warnings, notes }: SeverityCounts) -> Self {
         Self { errors, warnings, notes }
     }
 }
 
-fn finding(found: &Diagnostic) -> Finding<'_> {
-    Finding {
+fn to_finding_json(found: &Diagnostic) -> FindingJson<'_> {
+    FindingJson {
         code: found.code.id(),
         severity: found.severity.to_string(),
         message: &found.message,
         help: found.help.as_deref(),
-        labels: found.labels.iter().map(place).collect(),
+        labels: found.labels.iter().map(to_label_json).collect(),
     }
 }
 
-fn place(label: &Label) -> Place<'_> {
+fn to_label_json(label: &DiagnosticLabel) -> FindingLabelJson<'_> {
     let bytes = label.source.slice(label.span);
-    let text = (bytes.len() <= LONGEST_TEXT).then(|| text::decode(bytes).map(|(c, _)| c).collect());
-    Place {
+    let text =
+        (bytes.len() <= LONGEST_TEXT).then(|| safe_text::decode_characters(bytes).map(|(c, _)| c).collect());
+    FindingLabelJson {
         file: label.source.name(),
-        start: position(&label.source, label.span.start),
-        end: position(&label.source, label.span.end),
+        start: to_position_json(&label.source, label.span.start),
+        end: to_position_json(&label.source, label.span.end),
         message: &label.message,
         text,
     }
 }
 
-fn position(source: &Source, offset: u32) -> Position {
+fn to_position_json(source: &Source, offset: u32) -> SourcePositionJson {
     let (line, column) = source.line_column(offset);
-    Position { line, column, offset }
+    SourcePositionJson { line, column, offset }
 }

@@ -1,6 +1,6 @@
 //! One line per finding, for editors, `grep` and logs.
 
-use super::{NO_FILE, text};
+use super::{NO_FILE, safe_text};
 use crate::diagnostic::Diagnostic;
 use std::io::{self, Write};
 
@@ -11,11 +11,11 @@ use std::io::{self, Write};
 ///
 /// # Errors
 /// What the writer returns.
-pub fn render(out: &mut dyn Write, diagnostics: &[Diagnostic], file: Option<&str>) -> io::Result<()> {
-    diagnostics.iter().try_for_each(|found| writeln!(out, "{}", one(found, file)))
+pub fn render_lines(out: &mut dyn Write, diagnostics: &[Diagnostic], file: Option<&str>) -> io::Result<()> {
+    diagnostics.iter().try_for_each(|found| writeln!(out, "{}", format_finding_line(found, file)))
 }
 
-pub(super) fn one(found: &Diagnostic, file: Option<&str>) -> String {
+pub(super) fn format_finding_line(found: &Diagnostic, file: Option<&str>) -> String {
     let place = match found.labels.first() {
         Some(label) => {
             let (line, column) = label.source.line_column(label.span.start);
@@ -23,5 +23,10 @@ pub(super) fn one(found: &Diagnostic, file: Option<&str>) -> String {
         }
         None => file.unwrap_or(NO_FILE).to_owned(),
     };
-    format!("{}: {}: {}", text::one_line(&place), found.code, text::one_line(&found.message))
+    format!(
+        "{}: {}: {}",
+        safe_text::to_safe_line(&place),
+        found.code,
+        safe_text::to_safe_line(&found.message)
+    )
 }

@@ -4,15 +4,15 @@ mod excerpt;
 pub mod human;
 pub mod json;
 pub mod line;
+pub(super) mod safe_text;
 pub mod sarif;
-pub(super) mod text;
 
 use crate::diagnostic::{Diagnostic, Severity};
 use std::fmt;
 
 /// How many findings of each severity there are.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Counts {
+pub struct SeverityCounts {
     /// Findings that forbid writing.
     pub errors: usize,
     /// Findings that deserve a look.
@@ -21,9 +21,9 @@ pub struct Counts {
     pub notes: usize,
 }
 
-impl Counts {
+impl SeverityCounts {
     /// Counts findings.
-    pub fn of(diagnostics: &[Diagnostic]) -> Self {
+    pub fn from_findings(diagnostics: &[Diagnostic]) -> Self {
         let count = |severity| diagnostics.iter().filter(|found| found.severity == severity).count();
         Self {
             errors: count(Severity::Error),
@@ -33,7 +33,7 @@ impl Counts {
     }
 }
 
-impl fmt::Display for Counts {
+impl fmt::Display for SeverityCounts {
     /// "2 errors, 1 warning"; "no problems found" when there is nothing.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let all = [(self.errors, "error"), (self.warnings, "warning"), (self.notes, "note")];

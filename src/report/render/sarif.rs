@@ -3,8 +3,8 @@
 //! SARIF counts columns in characters where [`line`](super::line) and [`json`](super::json) count bytes; the byte offsets
 //! stand beside them.
 
-use super::text;
-use crate::diagnostic::{Code, Diagnostic, Label, Severity};
+use super::safe_text;
+use crate::diagnostic::{Diagnostic, DiagnosticCode, DiagnosticLabel, Severity};
 use crate::source::Source;
 use serde_sarif::sarif::{
     ArtifactLocation, Location, Message, MultiformatMessageString, PhysicalLocation, Region,
@@ -22,44 +22,44 @@ const SCHEMA: &str = "https://json.schemastore.org/sarif-2.1.0.json";
 ///
 /// # Errors
 /// What the writer returns.
-pub fn render(out: &mut dyn Write, diagnostics: &[Diagnostic], file: Option<&str>) -> io::Result<()> {
-    let codes: Vec<Code> =
+pub fn render_sarif(out: &mut dyn Write, diagnostics: &[Diagnostic], file: Option<&str>) -> io::Result<()> {
+    let codes: Vec<DiagnosticCode> =
         diagnostics.iter().map(|found| found.code).collect::<BTreeSet<_>>().into_iter().collect();
     let driver = ToolComponent::builder()
         .name("clsmith")
         .version(env!("CARGO_PKG_VERSION"))
         .semantic_version(env!("CARGO_PKG_VERSION"))
-        .rules(codes.iter().copied().map(rule).collect::<Vec<_>>())
+        .rules(codes.iter().copied().map(to_sarif_rule).collect::<Vec<_>>())
         .build();
     let run = Run::builder()
         .tool(Tool::builder().driver(driver).build())
         .column_kind("unicodeCodePoints")
-        .results(diagnostics.iter().map(|found| finding(found, &codes, file)).collect::<Vec<_>>())
+        .results(diagnostics.iter().map(|found| to_sarif_result(found, &codes, file)).collect::<Vec<_>>())
         .build();
     let log = Sarif::builder().schema(SCHEMA).version("2.1.0").runs(vec![run]).build();
     serde_json::to_writer_pretty(&mut *out, &log)?;
     writeln!(out)
 }
 
-fn rule(code: Code) -> ReportingDescriptor {
+fn to_sarif_rule(code: DiagnosticCode) -> ReportingDescriptor {
     let mut rule = ReportingDescriptor::builder()
         .id(code.id())
-        .short_description(string(code.meaning()))
-        .full_description(string(code.explanation()))
+        .short_description(to_multiformat_string(code.meaning()))
+        .full_description(to_multiformat_string(code.explanation()))
         .default_configuration(ReportingConfiguration::builder().level(code.severity().to_string()).build())
         .build();
-    rule.help = (!code.help().is_empty()).then(|| string(code.help()));
+    rule.help = (!code.help().is_empty()).then(|| to_multiformat_string(code.help()));
     rule
 }
 
-fn finding(found: &Diagnostic, codes: &[Code], file: Option<&str>) -> Finding {
+fn to_sarif_result(found: &Diagnostic, codes: &[DiagnosticCode], file: Option<&str>) -> Finding {
     let mut labels = found.labels.iter();
-    let primary = labels.next().map(location).or_else(|| file.map(whole_file));
-    let related: Vec<Location> = labels.map(location).collect();
+    let primary = labels.next().map(to_sarif_location).or_else(|| file.map(file_location));
+    let related: Vec<Location> = labels.map(to_sarif_location).collect();
     let mut finding = Finding::builder()
         .rule_id(found.code.id())
-        .level(level(found.severity))
-        .message(message(&told(found)))
+        .level(to_sarif_level(found.severity))
+        .message(to_sarif_message(&message_with_help(found)))
         .locations(primary.into_iter().collect::<Vec<_>>())
         .build();
     finding.rule_index = codes.binary_search(&found.code).ok().map(|index| index as i64);
@@ -68,14 +68,14 @@ fn finding(found: &Diagnostic, codes: &[Code], file: Option<&str>) -> Finding {
 }
 
 /// The message, with the help where it says more than the rule's.
-fn told(found: &Diagnostic) -> String {
+fn message_with_help(found: &Diagnostic) -> String {
     match &found.help {
         Some(help) if help != found.code.help() => format!("{}\nhelp: {help}", found.message),
         _ => found.message.clone(),
     }
 }
 
-fn level(severity: Severity) -> ResultLevel {
+fn to_sarif_level(severity: Severity) -> ResultLevel {
     match severity {
         Severity::Error => ResultLevel::Error,
         Severity::Warning => ResultLevel::Warning,
@@ -83,25 +83,25 @@ fn level(severity: Severity) -> ResultLevel {
     }
 }
 
-fn location(label: &Label) -> Location {
+fn to_sarif_location(label: &DiagnosticLabel) -> Location {
     let place = PhysicalLocation::builder()
-        .artifact_location(artifact(label.source.name()))
-        .region(region(label))
+        .artifact_location(artifact_location(label.source.name()))
+        .region(to_sarif_region(label))
         .build();
     let mut location = Location::builder().physical_location(place).build();
-    location.message = (!label.message.is_empty()).then(|| message(&label.message));
+    location.message = (!label.message.is_empty()).then(|| to_sarif_message(&label.message));
     location
 }
 
-fn whole_file(name: &str) -> Location {
-    let place = PhysicalLocation::builder().artifact_location(artifact(name)).build();
+fn file_location(name: &str) -> Location {
+    let place = PhysicalLocation::builder().artifact_location(artifact_location(name)).build();
     Location::builder().physical_location(place).build()
 }
 
-fn region(label: &Label) -> Region {
-    let span = text::trimmed(&label.source, label.span);
-    let (start_line, start_column) = characters(&label.source, span.start);
-    let (end_line, end_column) = characters(&label.source, span.end);
+fn to_sarif_region(label: &DiagnosticLabel) -> Region {
+    let span = safe_text::trim_line_end(&label.source, label.span);
+    let (start_line, start_column) = line_and_character(&label.source, span.start);
+    let (end_line, end_column) = line_and_character(&label.source, span.end);
     Region::builder()
         .start_line(start_line)
         .start_column(start_column)
@@ -113,18 +113,18 @@ fn region(label: &Label) -> Region {
 }
 
 /// 1-based line, and column in characters.
-fn characters(source: &Source, offset: u32) -> (i64, i64) {
+fn line_and_character(source: &Source, offset: u32) -> (i64, i64) {
     let (line, column) = source.line_column(offset);
     let before = source.bytes().get(offset as usize + 1 - column..offset as usize).unwrap_or_default();
-    (line as i64, text::decode(before).count() as i64 + 1)
+    (line as i64, safe_text::decode_characters(before).count() as i64 + 1)
 }
 
-fn artifact(name: &str) -> ArtifactLocation {
-    ArtifactLocation::builder().uri(uri(name)).build()
+fn artifact_location(name: &str) -> ArtifactLocation {
+    ArtifactLocation::builder().uri(to_artifact_uri(name)).build()
 }
 
 /// A file name as a URI: relative as it is, absolute as `file:`.
-fn uri(name: &str) -> String {
+fn to_artifact_uri(name: &str) -> String {
     let drive = matches!(name.as_bytes(), [letter, b':', b'\\' | b'/', ..] if letter.is_ascii_alphabetic());
     let name = if drive || cfg!(windows) { name.replace('\\', "/") } else { name.to_owned() };
     let mut uri = String::from(match (drive, name.starts_with('/')) {
@@ -144,10 +144,10 @@ fn uri(name: &str) -> String {
     uri
 }
 
-fn message(text: &str) -> Message {
+fn to_sarif_message(text: &str) -> Message {
     Message::builder().text(text).build()
 }
 
-fn string(text: &str) -> MultiformatMessageString {
+fn to_multiformat_string(text: &str) -> MultiformatMessageString {
     MultiformatMessageString::builder().text(text).build()
 }

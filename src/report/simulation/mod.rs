@@ -1,35 +1,37 @@
 //! What a simulation found: one row a motion, sums of operations and of the program, what is left and how exact it is.
 //!
-//! [`Simulated::of`] runs a [`Machining`] and keeps what it hears; [`to_text`], [`to_csv`] and [`to_json`] present it. Lengths are in mm,
+//! [`SimulationReport::simulate_program`] runs a [`Machining`] and keeps what it hears; [`to_text`], [`write_csv`] and [`to_json`] present it. Lengths are in mm,
 //! whatever the file's unit. What is not known is an empty cell, `null` in JSON: the chip without teeth, forces without a material,
 //! all that needs the feed of a rapid whose speed nobody says. A motion in air has zeros, and no angles.
 //!
-//! The JSON is [`Simulated`] as it stands, with `"version": 1`; numbers are rounded to six decimals. `version` changes when a reader of
+//! The JSON is [`SimulationReport`] as it stands, with `"version": 1`; numbers are rounded to six decimals. `version` changes when a reader of
 //! the structure would have to, new keys may be added without.
 
-mod gather;
-pub mod plot;
-mod row;
+mod motion_row;
+mod simulation_collector;
 mod sums;
-mod target;
+mod target_comparison;
 mod text;
-mod unknown;
+pub mod time_plot;
+mod unknown_feeds;
 
-pub use row::{Row, to_csv};
-pub use sums::{OperationSums, Peak, Sums};
-pub use target::Compared;
+pub use motion_row::{MotionRow, write_csv};
+pub use sums::{OperationSums, SimulationPeak, SimulationSums};
+pub use target_comparison::TargetComparison;
 pub use text::to_text;
 
 use crate::diagnostic::Diagnostic;
-use crate::machining::{Machining, Options, Plan, Watch, chord_mm};
-use crate::report::round::{micro, micro_some};
+use crate::report::rounding::{serialize_rounded, serialize_rounded_option};
 use crate::sim::Dexels;
-use row::Cells;
+use crate::simulation_run::{
+    Machining, RunWatcher, SimulationCost, SimulationRunOptions, chord_tolerance_mm,
+};
+use motion_row::PrintedMotionRow;
 use serde::{Serialize, Serializer};
 
 /// A program that was simulated.
 #[derive(Debug, Serialize)]
-pub struct Simulated {
+pub struct SimulationReport {
     /// Version of the JSON structure: 1.
     pub version: u32,
     /// The file's name.
@@ -37,27 +39,27 @@ pub struct Simulated {
     /// What is cut, if the setup says its name.
     pub material: Option<String>,
     /// What the run cost.
-    pub cost: Cost,
+    pub cost: ReportedCost,
     /// How exact it is.
-    pub accuracy: Accuracy,
+    pub accuracy: SimulationAccuracy,
     /// The stock before and after.
     pub stock: StockVolumes,
     /// Sums of the whole program.
-    pub totals: Sums,
+    pub totals: SimulationSums,
     /// Time at feed when the feed changes no faster than the machine's `max_acceleration`, s; `null` when that is not known.
-    #[serde(serialize_with = "micro_some")]
+    #[serde(serialize_with = "serialize_rounded_option")]
     pub accelerated_seconds: Option<f64>,
     /// What went wrong, counted.
-    pub faults: Faults,
+    pub faults: SimulationFaultCounts,
     /// What the run took for granted, in sentences.
     pub assumptions: Vec<String>,
     /// Sums of each operation that moves, in order.
     pub operations: Vec<OperationSums>,
-    /// The stock that is left against the part that shall be, once [`Simulated::compare`] has looked.
-    pub target: Option<Compared>,
+    /// The stock that is left against the part that shall be, once [`SimulationReport::compare_with_target`] has looked.
+    pub target: Option<TargetComparison>,
     /// The motions; in JSON with the names of the CSV's columns.
-    #[serde(serialize_with = "rows")]
-    pub motions: Motions,
+    #[serde(serialize_with = "serialize_motion_rows")]
+    pub motions: MotionRows,
     /// What went wrong, with its places.
     #[serde(skip)]
     pub findings: Vec<Diagnostic>,
@@ -68,41 +70,41 @@ pub struct Simulated {
 
 /// The rows, and the names that they share.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Motions {
+pub struct MotionRows {
     /// One row a motion, in order. The first point of a program, which comes from nowhere, is none.
-    pub rows: Vec<Row>,
-    /// Names of operations; [`Row::operation`] is an index.
+    pub rows: Vec<MotionRow>,
+    /// Names of operations; [`MotionRow::operation`] is an index.
     pub operations: Vec<String>,
-    /// Tools: the number where it is known, else the name; [`Row::tool`] is an index.
+    /// Tools: the number where it is known, else the name; [`MotionRow::tool`] is an index.
     pub tools: Vec<String>,
 }
 
 /// What a run cost.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Cost {
+pub struct ReportedCost {
     /// Columns of the stock.
     pub columns: u64,
     /// Bytes of the stock, overhangs aside.
     pub bytes: u64,
     /// About how many times a column was looked at, at most.
-    #[serde(serialize_with = "micro")]
+    #[serde(serialize_with = "serialize_rounded")]
     pub visits: f64,
     /// Length of the path, mm.
-    #[serde(serialize_with = "micro")]
+    #[serde(serialize_with = "serialize_rounded")]
     pub path_mm: f64,
 }
 
 /// How exact a run is.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Accuracy {
+pub struct SimulationAccuracy {
     /// Distance of columns, mm.
-    #[serde(serialize_with = "micro")]
+    #[serde(serialize_with = "serialize_rounded")]
     pub cell_mm: f64,
     /// Across z, borders of material are known to this, mm: half a cell.
-    #[serde(serialize_with = "micro")]
+    #[serde(serialize_with = "serialize_rounded")]
     pub lateral_mm: f64,
     /// Arcs and splines run as chords that are no further than this from them, mm.
-    #[serde(serialize_with = "micro")]
+    #[serde(serialize_with = "serialize_rounded")]
     pub chord_mm: f64,
 }
 
@@ -110,19 +112,19 @@ pub struct Accuracy {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct StockVolumes {
     /// Before the first cut.
-    #[serde(serialize_with = "micro")]
+    #[serde(serialize_with = "serialize_rounded")]
     pub before_mm3: f64,
     /// Removed by all motions.
-    #[serde(serialize_with = "micro")]
+    #[serde(serialize_with = "serialize_rounded")]
     pub removed_mm3: f64,
     /// After the last.
-    #[serde(serialize_with = "micro")]
+    #[serde(serialize_with = "serialize_rounded")]
     pub left_mm3: f64,
 }
 
 /// How many motions something went wrong in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
-pub struct Faults {
+pub struct SimulationFaultCounts {
     /// Shank or holder stands in material.
     pub collisions: usize,
     /// A rapid takes material.
@@ -133,25 +135,25 @@ pub struct Faults {
     pub unknown_feeds: usize,
 }
 
-impl Simulated {
+impl SimulationReport {
     /// Runs a program over its stock. Forces are computed when the setup says a material, whatever `options` say. `None` when `watch`
     /// stopped it.
     ///
     /// # Errors
-    /// As [`Machining::run`]: the run costs too much, or the cell is too coarse.
-    pub fn of(
+    /// As [`Machining::simulate_program`]: the run costs too much, or the cell is too coarse.
+    pub fn simulate_program(
         machining: &Machining<'_>,
-        options: &Options,
-        watch: &dyn Watch,
+        options: &SimulationRunOptions,
+        watch: &dyn RunWatcher,
     ) -> Result<Option<Self>, Vec<Diagnostic>> {
-        let material = machining.setup().material().ok();
-        let options = Options { forces: material.is_some(), ..*options };
-        let plan = machining.plan(&options).map_err(|found| vec![*found])?;
-        let mut gathering = gather::Gathering::new(machining, plan.cell);
-        let mut sink = |cut: &crate::machining::Cut<'_>| gathering.add(cut);
-        let ran = machining.run(&options, watch, &mut sink).map_err(|found| vec![*found])?;
+        let material = machining.setup().require_material().ok();
+        let options = SimulationRunOptions { forces: material.is_some(), ..*options };
+        let plan = machining.estimate_cost(&options).map_err(|found| vec![*found])?;
+        let mut gathering = simulation_collector::SimulationCollector::new(machining, plan.cell);
+        let mut sink = |cut: &crate::simulation_run::EngagedMotion<'_>| gathering.add_motion(cut);
+        let ran = machining.simulate_program(&options, watch, &mut sink).map_err(|found| vec![*found])?;
         let Some(ran) = ran else { return Ok(None) };
-        let gathered = gathering.end();
+        let gathered = gathering.into_collected();
         let mut findings = ran.findings;
         findings.extend(gathered.findings);
         let left_mm3 = ran.left.volume_mm3();
@@ -161,10 +163,10 @@ impl Simulated {
             file: machining.program().source().name().to_owned(),
             material: material.and_then(|material| material.name.clone()),
             cost: plan.into(),
-            accuracy: Accuracy {
+            accuracy: SimulationAccuracy {
                 cell_mm: ran.cell,
                 lateral_mm: ran.cell / 2.0,
-                chord_mm: chord_mm(ran.cell),
+                chord_mm: chord_tolerance_mm(ran.cell),
             },
             stock: StockVolumes { before_mm3: ran.before_mm3, removed_mm3, left_mm3 },
             totals: gathered.totals,
@@ -180,24 +182,24 @@ impl Simulated {
     }
 }
 
-impl From<Plan> for Cost {
-    fn from(plan: Plan) -> Self {
+impl From<SimulationCost> for ReportedCost {
+    fn from(plan: SimulationCost) -> Self {
         Self { columns: plan.columns, bytes: plan.bytes, visits: plan.visits, path_mm: plan.path_mm }
     }
 }
 
-impl Motions {
+impl MotionRows {
     /// The rows as they are printed.
-    fn cells(&self) -> impl Iterator<Item = Cells<'_>> {
-        self.rows.iter().map(|row| Cells::of(row, self))
+    fn printed_rows(&self) -> impl Iterator<Item = PrintedMotionRow<'_>> {
+        self.rows.iter().map(|row| PrintedMotionRow::from_row(row, self))
     }
 }
 
-fn rows<S: Serializer>(motions: &Motions, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_seq(motions.cells())
+fn serialize_motion_rows<S: Serializer>(motions: &MotionRows, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(motions.printed_rows())
 }
 
 /// The simulation as one JSON document, indented and with a line end.
-pub fn to_json(simulated: &Simulated) -> String {
-    super::json_text(simulated)
+pub fn to_json(simulated: &SimulationReport) -> String {
+    super::to_json_text(simulated)
 }

@@ -1,14 +1,14 @@
 //! Sums and peaks over motions.
 
-use super::Row;
-use crate::report::round::{micro, micro_some};
+use super::MotionRow;
+use crate::report::rounding::{serialize_rounded, serialize_rounded_option};
 use serde::Serialize;
 
 /// A largest value, and the line of the motion that has it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Peak {
+pub struct SimulationPeak {
     /// The value.
-    #[serde(serialize_with = "micro")]
+    #[serde(serialize_with = "serialize_rounded")]
     pub value: f64,
     /// The line; `null` for a motion that a step put in.
     pub line: Option<usize>,
@@ -16,42 +16,42 @@ pub struct Peak {
 
 /// Sums and peaks over motions; a peak is `null` where nothing is cut, or its value is not known.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
-pub struct Sums {
+pub struct SimulationSums {
     /// Motions.
     pub motions: usize,
     /// Motions that remove material.
     pub cutting: usize,
     /// Length at feed, mm.
-    #[serde(serialize_with = "micro")]
+    #[serde(serialize_with = "serialize_rounded")]
     pub feed_mm: f64,
     /// Length at rapid, mm.
-    #[serde(serialize_with = "micro")]
+    #[serde(serialize_with = "serialize_rounded")]
     pub rapid_mm: f64,
     /// Time at feed where the feed is known, without acceleration and dwells, s.
-    #[serde(serialize_with = "micro")]
+    #[serde(serialize_with = "serialize_rounded")]
     pub feed_seconds: f64,
     /// Motions at feed whose time is not known.
     pub untimed: usize,
     /// Time at rapid, s; `null` when the machine's rapid feed is not known.
-    #[serde(serialize_with = "micro_some")]
+    #[serde(serialize_with = "serialize_rounded_option")]
     pub rapid_seconds: Option<f64>,
     /// Removed volume, mm3.
-    #[serde(serialize_with = "micro")]
+    #[serde(serialize_with = "serialize_rounded")]
     pub removed_mm3: f64,
     /// Thickest chip, mm.
-    pub chip_thickness_mm: Option<Peak>,
+    pub chip_thickness_mm: Option<SimulationPeak>,
     /// Largest removal rate of a motion, mm3/min.
-    pub removal_rate_mm3_min: Option<Peak>,
+    pub removal_rate_mm3_min: Option<SimulationPeak>,
     /// Deepest cut along the axis, mm.
-    pub axial_depth_mm: Option<Peak>,
+    pub axial_depth_mm: Option<SimulationPeak>,
     /// Widest cut, mm.
-    pub radial_depth_mm: Option<Peak>,
+    pub radial_depth_mm: Option<SimulationPeak>,
     /// Largest force, N.
-    pub force_n: Option<Peak>,
+    pub force_n: Option<SimulationPeak>,
     /// Largest torque, N m.
-    pub torque_nm: Option<Peak>,
+    pub torque_nm: Option<SimulationPeak>,
     /// Largest power, kW.
-    pub power_kw: Option<Peak>,
+    pub power_kw: Option<SimulationPeak>,
 }
 
 /// The sums of an operation.
@@ -62,17 +62,17 @@ pub struct OperationSums {
     /// The first tool that moves in it: its number where it is known, else its name.
     pub tool: String,
     /// Its sums.
-    pub sums: Sums,
+    pub sums: SimulationSums,
 }
 
-impl Sums {
+impl SimulationSums {
     /// Nothing yet. `rapid_known`: whether rapids have a time.
     pub(super) fn new(rapid_known: bool) -> Self {
         Self { rapid_seconds: rapid_known.then_some(0.0), ..Self::default() }
     }
 
     /// Adds a motion that removed so much.
-    pub(super) fn add(&mut self, row: &Row, removed_mm3: f64) {
+    pub(super) fn add_motion(&mut self, row: &MotionRow, removed_mm3: f64) {
         self.motions += 1;
         self.cutting += usize::from(removed_mm3 > 0.0);
         self.removed_mm3 += removed_mm3;
@@ -85,9 +85,9 @@ impl Sums {
             self.untimed += usize::from(row.seconds.is_none());
         }
         let line = row.line;
-        let raise = |peak: &mut Option<Peak>, value: Option<f64>| {
+        let raise = |peak: &mut Option<SimulationPeak>, value: Option<f64>| {
             let value = value.filter(|value| *value > peak.map_or(0.0, |peak| peak.value));
-            *peak = value.map(|value| Peak { value, line }).or(*peak);
+            *peak = value.map(|value| SimulationPeak { value, line }).or(*peak);
         };
         raise(&mut self.chip_thickness_mm, row.chip_thickness_mm);
         raise(&mut self.removal_rate_mm3_min, row.removal_rate_mm3_min);

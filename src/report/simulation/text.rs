@@ -1,79 +1,81 @@
 //! A simulation as text for people.
 
-use super::target::Differing;
-use super::{OperationSums, Peak, Simulated, Sums};
-use crate::report::render::text::one_line;
-use crate::report::table::{count, counted, duration, fixed, short, table};
+use super::target_comparison::TargetMismatch;
+use super::{OperationSums, SimulationPeak, SimulationReport, SimulationSums};
+use crate::report::render::safe_text::to_safe_line;
+use crate::report::text_format::{
+    format_count, format_counted, format_duration, format_fixed, format_short, format_table,
+};
 use std::fmt::Write;
 
 /// Rows of a table that are shown; the JSON has all.
 const MOST_ROWS: usize = 24;
 
 /// The simulation as tables.
-pub fn to_text(simulated: &Simulated) -> String {
+pub fn to_text(simulated: &SimulationReport) -> String {
     let mut out = String::new();
-    let _ = writeln!(out, "{}", one_line(&simulated.file));
-    stock(&mut out, simulated);
-    time(&mut out, simulated);
-    operations(&mut out, simulated);
-    largest(&mut out, &simulated.totals);
-    faults(&mut out, simulated);
-    target(&mut out, simulated);
+    let _ = writeln!(out, "{}", to_safe_line(&simulated.file));
+    append_stock(&mut out, simulated);
+    append_times(&mut out, simulated);
+    append_operations(&mut out, simulated);
+    append_peaks(&mut out, &simulated.totals);
+    append_faults(&mut out, simulated);
+    append_target(&mut out, simulated);
     for assumption in &simulated.assumptions {
         let _ = writeln!(out, "  assumed: {assumption}");
     }
     out
 }
 
-fn stock(out: &mut String, simulated: &Simulated) {
+fn append_stock(out: &mut String, simulated: &SimulationReport) {
     let (cost, accuracy) = (&simulated.cost, &simulated.accuracy);
     let _ = writeln!(
         out,
         "  {} columns {} mm apart ({} MiB), about {:.0e} looks at them along {} mm of path",
-        count(cost.columns),
-        short(accuracy.cell_mm),
-        fixed(cost.bytes as f64 / f64::from(1 << 20), 1),
+        format_count(cost.columns),
+        format_short(accuracy.cell_mm),
+        format_fixed(cost.bytes as f64 / f64::from(1 << 20), 1),
         cost.visits,
-        fixed(cost.path_mm, 1),
+        format_fixed(cost.path_mm, 1),
     );
     let _ = writeln!(
         out,
         "  borders of material are known to {} mm across z, curves to {} mm",
-        precise(accuracy.lateral_mm),
-        precise(accuracy.chord_mm),
+        format_precise_mm(accuracy.lateral_mm),
+        format_precise_mm(accuracy.chord_mm),
     );
     let stock = &simulated.stock;
     let _ = writeln!(
         out,
         "  stock {} mm3, removed {} mm3, left {} mm3",
-        fixed(stock.before_mm3, 1),
-        fixed(stock.removed_mm3, 1),
-        fixed(stock.left_mm3, 1),
+        format_fixed(stock.before_mm3, 1),
+        format_fixed(stock.removed_mm3, 1),
+        format_fixed(stock.left_mm3, 1),
     );
 }
 
-fn time(out: &mut String, simulated: &Simulated) {
+fn append_times(out: &mut String, simulated: &SimulationReport) {
     let totals = &simulated.totals;
-    let mut parts = vec![format!("{} at feed", seconds(totals))];
+    let mut parts = vec![format!("{} at feed", format_feed_time(totals))];
     if let Some(with) = simulated.accelerated_seconds.filter(|_| totals.untimed == 0) {
-        parts.push(format!("{} with the machine's acceleration", duration(with)));
+        parts.push(format!("{} with the machine's acceleration", format_duration(with)));
     }
     if let Some(rapid) = totals.rapid_seconds {
-        parts.push(format!("{} at rapid", duration(rapid)));
+        parts.push(format!("{} at rapid", format_duration(rapid)));
     }
     let _ = writeln!(out, "  time: {}", parts.join(", "));
     if totals.untimed > 0 {
-        let motions = counted(totals.untimed, "motion", "motions");
+        let motions = format_counted(totals.untimed, "motion", "motions");
         let _ = writeln!(out, "  {motions} at a feed that is not known, and without a time");
     }
 }
 
 /// A time that leaves motions out is a lower bound, and says so.
-fn seconds(sums: &Sums) -> String {
-    format!("{}{}", if sums.untimed > 0 { "> " } else { "" }, duration(sums.feed_seconds))
+fn format_feed_time(sums: &SimulationSums) -> String {
+    format!("{}{}", if sums.untimed > 0 { "> " } else { "" }, format_duration(sums.feed_seconds))
 }
 
-fn operations(out: &mut String, simulated: &Simulated) {
+fn append_operations(out: &mut String, simulated: &SimulationReport) {
     let forces = simulated.motions.rows.iter().any(|row| row.force_n.is_some());
     let mut head = vec![
         "operation",
@@ -91,28 +93,30 @@ fn operations(out: &mut String, simulated: &Simulated) {
         head.extend(["N", "kW"]);
     }
     let mut rows: Vec<Vec<String>> = vec![head.into_iter().map(str::to_owned).collect()];
-    rows.extend(simulated.operations.iter().take(MOST_ROWS).map(|operation| row(operation, forces)));
+    rows.extend(
+        simulated.operations.iter().take(MOST_ROWS).map(|operation| operation_cells(operation, forces)),
+    );
     out.push('\n');
-    out.push_str(&table(&rows));
+    out.push_str(&format_table(&rows));
     let more = simulated.operations.len().saturating_sub(MOST_ROWS);
     if more > 0 {
-        let _ = writeln!(out, "  and {} more", count(more as u64));
+        let _ = writeln!(out, "  and {} more", format_count(more as u64));
     }
     out.push('\n');
 }
 
-fn row(operation: &OperationSums, forces: bool) -> Vec<String> {
+fn operation_cells(operation: &OperationSums, forces: bool) -> Vec<String> {
     let sums = &operation.sums;
-    let peak = |peak: Option<Peak>, decimals: usize| {
-        peak.map_or_else(|| "-".to_owned(), |peak| fixed(peak.value, decimals))
+    let peak = |peak: Option<SimulationPeak>, decimals: usize| {
+        peak.map_or_else(|| "-".to_owned(), |peak| format_fixed(peak.value, decimals))
     };
     let mut row = vec![
-        one_line(&operation.name),
-        one_line(&operation.tool),
-        count(sums.motions as u64),
-        fixed(sums.feed_mm, 1),
-        seconds(sums),
-        fixed(sums.removed_mm3, 1),
+        to_safe_line(&operation.name),
+        to_safe_line(&operation.tool),
+        format_count(sums.motions as u64),
+        format_fixed(sums.feed_mm, 1),
+        format_feed_time(sums),
+        format_fixed(sums.removed_mm3, 1),
         peak(sums.chip_thickness_mm, 4),
         peak(sums.removal_rate_mm3_min, 0),
         peak(sums.axial_depth_mm, 2),
@@ -124,7 +128,7 @@ fn row(operation: &OperationSums, forces: bool) -> Vec<String> {
     row
 }
 
-fn largest(out: &mut String, totals: &Sums) {
+fn append_peaks(out: &mut String, totals: &SimulationSums) {
     let all = [
         ("thickest chip", totals.chip_thickness_mm, 4, "mm"),
         ("largest removal rate", totals.removal_rate_mm3_min, 0, "mm3/min"),
@@ -135,16 +139,16 @@ fn largest(out: &mut String, totals: &Sums) {
     for (what, peak, decimals, unit) in all {
         let Some(peak) = peak else { continue };
         let line = peak.line.map_or_else(String::new, |line| format!(" on line {line}"));
-        let _ = writeln!(out, "  {what}: {} {unit}{line}", fixed(peak.value, decimals));
+        let _ = writeln!(out, "  {what}: {} {unit}{line}", format_fixed(peak.value, decimals));
     }
     if totals.cutting == 0 {
         let _ = writeln!(out, "  nothing is cut");
     }
 }
 
-fn faults(out: &mut String, simulated: &Simulated) {
+fn append_faults(out: &mut String, simulated: &SimulationReport) {
     let faults = simulated.faults;
-    let motions = |number: usize| counted(number, "motion", "motions");
+    let motions = |number: usize| format_counted(number, "motion", "motions");
     let _ = match faults.collisions {
         0 => writeln!(out, "  no collision of shank or holder"),
         some => writeln!(out, "  shank or holder in material: {}", motions(some)),
@@ -161,20 +165,20 @@ fn faults(out: &mut String, simulated: &Simulated) {
     }
 }
 
-fn target(out: &mut String, simulated: &Simulated) {
+fn append_target(out: &mut String, simulated: &SimulationReport) {
     let Some(compared) = &simulated.target else { return };
-    let name = one_line(&compared.file);
-    let _ = writeln!(out, "  against {name}, tolerance {} mm:", precise(compared.tolerance_mm));
-    let mut side = |what: &str, found: &Differing| {
+    let name = to_safe_line(&compared.file);
+    let _ = writeln!(out, "  against {name}, tolerance {} mm:", format_precise_mm(compared.tolerance_mm));
+    let mut side = |what: &str, found: &TargetMismatch| {
         let _ = match &found.thickest {
             None => writeln!(out, "    no {what}"),
             Some(thickest) => {
-                let [x, y, z] = thickest.at.map(|at| fixed(at, 3));
+                let [x, y, z] = thickest.at.map(|at| format_fixed(at, 3));
                 writeln!(
                     out,
                     "    {what} {} mm3, at most {} mm along z, at x {x}, y {y}, z {z} mm",
-                    fixed(found.volume_mm3, 1),
-                    fixed(thickest.mm, 3),
+                    format_fixed(found.volume_mm3, 1),
+                    format_fixed(thickest.mm, 3),
                 )
             }
         };
@@ -184,7 +188,7 @@ fn target(out: &mut String, simulated: &Simulated) {
 }
 
 /// A small length with the digits that it has, to a tenth of a micron.
-fn precise(value: f64) -> String {
-    let text = fixed(value, 4);
+fn format_precise_mm(value: f64) -> String {
+    let text = format_fixed(value, 4);
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

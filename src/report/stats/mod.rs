@@ -1,20 +1,20 @@
 //! What a program holds: lengths, times, tools, operations.
 //!
-//! One pass over the motions. The JSON ([`to_json`]) is [`Stats`] as it stands, with `"version": 1`; `version` changes when a
+//! One pass over the motions. The JSON ([`to_json`]) is [`ProgramStats`] as it stands, with `"version": 1`; `version` changes when a
 //! reader of the structure would have to, new keys may be added without. Lengths are in `units.unit`, feeds in that unit per
 //! minute except in `feeds`, where they are as programmed; times are in seconds. What is not known is `null`, never guessed.
 
-mod bounds;
-mod feeds;
-mod gather;
+mod bounding_box;
+mod feed_rows;
+mod stats_collector;
 mod text;
 mod totals;
 
-pub use bounds::Bounds;
-pub use feeds::FeedRow;
+pub use bounding_box::MotionBoundingBox;
+pub use feed_rows::FeedRow;
 pub use text::to_text;
-pub(crate) use totals::Measured;
-pub use totals::{Totals, UnknownTime};
+pub(crate) use totals::MotionLengthAndTime;
+pub use totals::{MotionTotals, UntimedMotions};
 
 use crate::program::{Dialect, LengthUnit, MotionClass, Program};
 use crate::setup::Setup;
@@ -22,7 +22,7 @@ use serde::Serialize;
 
 /// The statistics of a program.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Stats {
+pub struct ProgramStats {
     /// Version of the JSON structure: 1.
     pub version: u32,
     /// The file's name.
@@ -34,27 +34,27 @@ pub struct Stats {
     /// The dialect.
     pub dialect: DialectName,
     /// The unit of all lengths here, and how it is known.
-    pub units: Units,
+    pub units: ResolvedLengthUnit,
     /// Statements, comments and empty lines included.
     pub statements: usize,
     /// Statements that could not be read.
     pub unreadable: usize,
     /// Lengths and times of the whole program.
-    pub totals: Totals,
+    pub totals: MotionTotals,
     /// Motions of each class that occurs.
     pub classes: Vec<ClassStats>,
     /// Lengths and times of each programmed feed, as [`FeedRow`] says.
     pub feeds: Vec<FeedRow>,
     /// Slowest and fastest feed, in the file's unit per minute.
-    pub feed: Option<Range>,
+    pub feed: Option<ReportedRange>,
     /// Slowest and fastest spindle at feed, in rev/min (surface speeds are not converted).
-    pub spindle_rpm: Option<Range>,
+    pub spindle_rpm: Option<ReportedRange>,
     /// Paths by shape.
-    pub paths: Paths,
+    pub paths: PathShapeCounts,
     /// Box of the motions at feed, in the program's coordinates.
-    pub box_of_feed: Option<Bounds>,
+    pub box_of_feed: Option<MotionBoundingBox>,
     /// Box of all motions, in the program's coordinates.
-    pub box_of_all: Option<Bounds>,
+    pub box_of_all: Option<MotionBoundingBox>,
     /// Frames that motions stand in.
     pub frames: Vec<FrameStats>,
     /// Tools that move.
@@ -74,23 +74,23 @@ pub struct DialectName {
 
 impl From<Dialect> for DialectName {
     fn from(dialect: Dialect) -> Self {
-        Self { name: dialect.name(), title: dialect.title() }
+        Self { name: dialect.name(), title: dialect.display_name() }
     }
 }
 
 /// A unit of length and how it is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub struct Units {
+pub struct ResolvedLengthUnit {
     /// The unit.
     pub unit: LengthUnit,
     /// How it is known.
-    pub from: UnitsFrom,
+    pub from: LengthUnitOrigin,
 }
 
 /// How a file's unit is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum UnitsFrom {
+pub enum LengthUnitOrigin {
     /// A UNITS record.
     File,
     /// The caller (a recipe, an option) said it.
@@ -107,20 +107,20 @@ pub struct ClassStats {
     /// The class.
     pub class: MotionClass,
     /// Lengths and times.
-    pub totals: Totals,
+    pub totals: MotionTotals,
 }
 
 /// A closed interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Range {
+pub struct ReportedRange {
     /// Lowest.
     pub min: f64,
     /// Highest.
     pub max: f64,
 }
 
-impl Range {
-    pub(crate) fn extend(range: &mut Option<Self>, value: f64) {
+impl ReportedRange {
+    pub(crate) fn include_value(range: &mut Option<Self>, value: f64) {
         let range = range.get_or_insert(Self { min: value, max: value });
         range.min = range.min.min(value);
         range.max = range.max.max(value);
@@ -129,7 +129,7 @@ impl Range {
 
 /// Motions by the shape of their path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
-pub struct Paths {
+pub struct PathShapeCounts {
     /// Straight.
     pub lines: usize,
     /// Arcs in a plane.
@@ -175,7 +175,7 @@ pub struct ToolStats {
     /// Angle of the tip in degrees.
     pub tip_degrees: Option<f64>,
     /// Lengths and times.
-    pub totals: Totals,
+    pub totals: MotionTotals,
 }
 
 /// An operation.
@@ -186,40 +186,40 @@ pub struct OperationStats {
     /// Index in `tools` of the first tool that moves in it.
     pub tool: Option<usize>,
     /// Lengths and times.
-    pub totals: Totals,
+    pub totals: MotionTotals,
     /// Slowest and fastest feed, in the file's unit per minute.
-    pub feed: Option<Range>,
+    pub feed: Option<ReportedRange>,
 }
 
-impl Stats {
+impl ProgramStats {
     /// The statistics of a program as it stands; rapids get a time when the machine's rapid feed is known.
-    pub fn of(program: &Program, setup: &Setup) -> Self {
-        Self::assuming(program, setup, None)
+    pub fn from_program(program: &Program, setup: &Setup) -> Self {
+        Self::with_assumed_unit(program, setup, None)
     }
 
-    /// As [`Stats::of`]; `units` is what lengths are in when the file does not say.
-    pub fn assuming(program: &Program, setup: &Setup, units: Option<LengthUnit>) -> Self {
-        gather::gather(program, setup, Units::of(program, units))
+    /// As [`ProgramStats::from_program`]; `units` is what lengths are in when the file does not say.
+    pub fn with_assumed_unit(program: &Program, setup: &Setup, units: Option<LengthUnit>) -> Self {
+        stats_collector::collect_stats(program, setup, ResolvedLengthUnit::from_program(program, units))
     }
 }
 
-impl Units {
+impl ResolvedLengthUnit {
     /// The unit of a program: what it says, what the caller says, what its feeds are in, millimetres.
-    pub fn of(program: &Program, caller: Option<LengthUnit>) -> Self {
-        if let Some(unit) = program.stated_units() {
-            return Self { unit, from: UnitsFrom::File };
+    pub fn from_program(program: &Program, caller: Option<LengthUnit>) -> Self {
+        if let Some(unit) = program.stated_length_unit() {
+            return Self { unit, from: LengthUnitOrigin::File };
         }
         if let Some(unit) = caller {
-            return Self { unit, from: UnitsFrom::Caller };
+            return Self { unit, from: LengthUnitOrigin::Caller };
         }
-        match program.units_of_feeds() {
-            Some(unit) => Self { unit, from: UnitsFrom::Feeds },
-            None => Self { unit: LengthUnit::Mm, from: UnitsFrom::Assumed },
+        match program.feed_length_unit() {
+            Some(unit) => Self { unit, from: LengthUnitOrigin::Feeds },
+            None => Self { unit: LengthUnit::Mm, from: LengthUnitOrigin::Assumed },
         }
     }
 }
 
 /// The statistics as one JSON document, indented and with a line end.
-pub fn to_json(stats: &Stats) -> String {
-    super::json_text(stats)
+pub fn to_json(stats: &ProgramStats) -> String {
+    super::to_json_text(stats)
 }

@@ -1,13 +1,13 @@
 //! Lengths and times, summed motion by motion.
 
-use crate::program::geometry::Path;
+use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::program::{FeedUnit, LengthUnit};
 use serde::Serialize;
 
 /// Sums over motions. Lengths in the file's unit, times in seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
-pub struct Totals {
+pub struct MotionTotals {
     /// Motions; a first point, which comes from nowhere, is none.
     pub motions: usize,
     /// Length at feed.
@@ -19,12 +19,12 @@ pub struct Totals {
     /// Time at rapid; `null` when the machine's rapid feed is not known.
     pub rapid_seconds: Option<f64>,
     /// Motions at feed whose time is not known, and why.
-    pub unknown_time: UnknownTime,
+    pub unknown_time: UntimedMotions,
 }
 
 /// Motions at feed whose time is not known.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
-pub struct UnknownTime {
+pub struct UntimedMotions {
     /// Motions.
     pub motions: usize,
     /// Their length.
@@ -39,7 +39,7 @@ pub struct UnknownTime {
 
 /// Why a time is not known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Unknown {
+pub(super) enum UntimedReason {
     NoFeed,
     NoSpindleSpeed,
     ZeroFeed,
@@ -47,22 +47,22 @@ pub(super) enum Unknown {
 
 /// One motion, measured.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Measured {
+pub(crate) struct MotionLengthAndTime {
     pub(super) rapid: bool,
     pub(super) moves: bool,
     pub(super) length: f64,
-    pub(super) seconds: Result<f64, Unknown>,
+    pub(super) seconds: Result<f64, UntimedReason>,
 }
 
-impl Measured {
+impl MotionLengthAndTime {
     /// Length and time of a motion. `rapid` is the time of one unit of length at rapid, in seconds.
-    pub(crate) fn of(motion: &Motion, unit: LengthUnit, rapid: Option<f64>) -> Self {
+    pub(crate) fn from_motion(motion: &Motion, unit: LengthUnit, rapid: Option<f64>) -> Self {
         let length = motion.length();
-        let moves = motion.path != Path::Start;
+        let moves = motion.path != MotionPath::Start;
         let seconds = match (moves, motion.rapid) {
             (false, _) => Ok(0.0),
             (true, true) => Ok(rapid.unwrap_or(0.0) * length),
-            (true, false) => seconds(motion, length, unit),
+            (true, false) => motion_seconds(motion, length, unit),
         };
         Self { rapid: motion.rapid, moves, length, seconds }
     }
@@ -73,26 +73,26 @@ impl Measured {
     }
 }
 
-fn seconds(motion: &Motion, length: f64, unit: LengthUnit) -> Result<f64, Unknown> {
-    let feed = motion.feed.ok_or(Unknown::NoFeed)?;
+fn motion_seconds(motion: &Motion, length: f64, unit: LengthUnit) -> Result<f64, UntimedReason> {
+    let feed = motion.feed.ok_or(UntimedReason::NoFeed)?;
     if feed.value <= 0.0 {
-        return Err(Unknown::ZeroFeed);
+        return Err(UntimedReason::ZeroFeed);
     }
     if feed.unit_or_default() == FeedUnit::InverseTime {
         return Ok(60.0 / feed.value);
     }
     let rate = feed.mm_per_minute(unit, motion.spindle_rpm(), None).filter(|rate| *rate > 0.0);
-    Ok(length * unit.in_mm() / rate.ok_or(Unknown::NoSpindleSpeed)? * 60.0)
+    Ok(length * unit.mm_per_unit() / rate.ok_or(UntimedReason::NoSpindleSpeed)? * 60.0)
 }
 
-impl Totals {
+impl MotionTotals {
     /// Nothing yet. `rapid_known`: whether rapids have a time.
     pub(crate) fn new(rapid_known: bool) -> Self {
         Self { rapid_seconds: rapid_known.then_some(0.0), ..Self::default() }
     }
 
     /// Adds a motion.
-    pub(crate) fn add(&mut self, motion: &Measured) {
+    pub(crate) fn add_motion(&mut self, motion: &MotionLengthAndTime) {
         if !motion.moves {
             return;
         }
@@ -111,9 +111,9 @@ impl Totals {
                 self.feed_seconds += seconds;
                 return;
             }
-            Err(Unknown::NoFeed) => unknown.no_feed += 1,
-            Err(Unknown::NoSpindleSpeed) => unknown.no_spindle_speed += 1,
-            Err(Unknown::ZeroFeed) => unknown.zero_feed += 1,
+            Err(UntimedReason::NoFeed) => unknown.no_feed += 1,
+            Err(UntimedReason::NoSpindleSpeed) => unknown.no_spindle_speed += 1,
+            Err(UntimedReason::ZeroFeed) => unknown.zero_feed += 1,
         }
         unknown.motions += 1;
         unknown.length += motion.length;
@@ -121,7 +121,7 @@ impl Totals {
 
     /// The same in a unit of which `factor` make one of this.
     #[must_use]
-    pub(crate) fn scaled(mut self, factor: f64) -> Self {
+    pub(crate) fn scaled_by(mut self, factor: f64) -> Self {
         self.feed_length *= factor;
         self.rapid_length *= factor;
         self.unknown_time.length *= factor;

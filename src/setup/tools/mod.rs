@@ -1,13 +1,13 @@
 //! Tools: what the setup says about them, and what comes of it together with the CL file.
 
-mod cutter;
-mod entry;
-mod gap;
+mod cutter_resolver;
+mod file_tool_data;
 mod teeth;
-mod text;
-mod told;
+mod tool_data_fault;
+mod tool_entry;
+mod tool_text;
 
-pub use cutter::Resolved;
-pub use entry::{Bar, Insert, ToolEntry};
-pub use gap::{ToolGap, ToolGapKind};
-pub(super) use text::ToolText;
+pub use cutter_resolver::ResolvedCutter;
+pub use tool_data_fault::{ToolDataFault, ToolDataFaultKind};
+pub use tool_entry::{CutterInsert, ToolCylinder, ToolEntry};
+pub(super) use tool_text::ToolText;

@@ -1,10 +1,10 @@
 //! Teeth as they are written: how many, how far apart, how true they run.
 
-use super::text::ToolText;
-use crate::setup::Place;
-use crate::setup::reader::Reader;
+use super::tool_text::ToolText;
+use crate::parameters::{Finite, NonNegative, Positive};
+use crate::setup::YamlLocation;
+use crate::setup::setup_reader::SetupReader;
 use crate::sim::Teeth;
-use crate::values::{Finite, NonNegative, Positive};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Unexpected, Visitor};
 use std::borrow::Cow;
@@ -19,9 +19,9 @@ const MOST_TEETH: usize = 1000;
 
 /// Angles in degrees from each tooth to the next; they make a full turn.
 #[derive(Debug, Clone)]
-pub(super) struct Pitch(Vec<f64>);
+pub(super) struct PitchText(Vec<f64>);
 
-impl<'de> Deserialize<'de> for Pitch {
+impl<'de> Deserialize<'de> for PitchText {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let angles: Vec<f64> =
             Vec::<Positive>::deserialize(deserializer)?.into_iter().map(Positive::get).collect();
@@ -38,7 +38,7 @@ impl<'de> Deserialize<'de> for Pitch {
     }
 }
 
-impl JsonSchema for Pitch {
+impl JsonSchema for PitchText {
     fn inline_schema() -> bool {
         true
     }
@@ -52,45 +52,45 @@ impl JsonSchema for Pitch {
 
 /// How true the teeth run, in the file's unit.
 #[derive(Debug, Clone)]
-pub(super) enum Runout {
+pub(super) enum RunoutText {
     /// The cutter runs this far off the axis, towards its first tooth.
     Eccentric(f64),
     /// How far each tooth stands out.
     EachTooth(Vec<f64>),
 }
 
-impl<'de> Deserialize<'de> for Runout {
+impl<'de> Deserialize<'de> for RunoutText {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(RunoutVisitor)
+        deserializer.deserialize_any(RunoutTextVisitor)
     }
 }
 
 const RUNOUT: &str = "a number, 0 or more, or a list with one for each tooth";
 
-struct RunoutVisitor;
+struct RunoutTextVisitor;
 
-impl RunoutVisitor {
-    fn eccentric<E: de::Error>(value: f64, found: Unexpected<'_>) -> Result<Runout, E> {
+impl RunoutTextVisitor {
+    fn check_eccentricity<E: de::Error>(value: f64, found: Unexpected<'_>) -> Result<RunoutText, E> {
         let value = NonNegative::new(value).ok_or_else(|| E::invalid_value(found, &RUNOUT))?;
-        Ok(Runout::Eccentric(value.get()))
+        Ok(RunoutText::Eccentric(value.get()))
     }
 }
 
-impl<'de> Visitor<'de> for RunoutVisitor {
-    type Value = Runout;
+impl<'de> Visitor<'de> for RunoutTextVisitor {
+    type Value = RunoutText;
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(RUNOUT)
     }
-    fn visit_f64<E: de::Error>(self, value: f64) -> Result<Runout, E> {
-        Self::eccentric(value, Unexpected::Float(value))
+    fn visit_f64<E: de::Error>(self, value: f64) -> Result<RunoutText, E> {
+        Self::check_eccentricity(value, Unexpected::Float(value))
     }
-    fn visit_u64<E: de::Error>(self, value: u64) -> Result<Runout, E> {
-        Self::eccentric(value as f64, Unexpected::Unsigned(value))
+    fn visit_u64<E: de::Error>(self, value: u64) -> Result<RunoutText, E> {
+        Self::check_eccentricity(value as f64, Unexpected::Unsigned(value))
     }
-    fn visit_i64<E: de::Error>(self, value: i64) -> Result<Runout, E> {
-        Self::eccentric(value as f64, Unexpected::Signed(value))
+    fn visit_i64<E: de::Error>(self, value: i64) -> Result<RunoutText, E> {
+        Self::check_eccentricity(value as f64, Unexpected::Signed(value))
     }
-    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Runout, A::Error> {
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<RunoutText, A::Error> {
         let mut offsets = Vec::new();
         while let Some(offset) = list.next_element::<Finite>()? {
             offsets.push(offset.get());
@@ -98,11 +98,11 @@ impl<'de> Visitor<'de> for RunoutVisitor {
         if offsets.is_empty() {
             return Err(de::Error::invalid_length(0, &RUNOUT));
         }
-        Ok(Runout::EachTooth(offsets))
+        Ok(RunoutText::EachTooth(offsets))
     }
 }
 
-impl JsonSchema for Runout {
+impl JsonSchema for RunoutText {
     fn inline_schema() -> bool {
         true
     }
@@ -120,9 +120,9 @@ impl JsonSchema for Runout {
 }
 
 /// The teeth of an entry; `None` when it does not say how many, or says it wrongly, which the reader then knows.
-pub(super) fn checked(text: &ToolText, reader: &mut Reader, place: &Place) -> Option<Teeth> {
+pub(super) fn check_teeth(text: &ToolText, reader: &mut SetupReader, place: &YamlLocation) -> Option<Teeth> {
     let offsets = match &text.runout {
-        Some(Runout::EachTooth(offsets)) => Some(offsets),
+        Some(RunoutText::EachTooth(offsets)) => Some(offsets),
         _ => None,
     };
     let said = [
@@ -134,8 +134,8 @@ pub(super) fn checked(text: &ToolText, reader: &mut Reader, place: &Place) -> Op
     let (count, first) = said.next()?;
     if count > MOST_TEETH {
         let message = format!("no cutter has {count} teeth");
-        reader.fault(
-            || place.key(first),
+        reader.add_fault(
+            || place.at_key(first),
             message,
             "too many",
             "Write how many cutting edges go around the tool.",
@@ -145,7 +145,7 @@ pub(super) fn checked(text: &ToolText, reader: &mut Reader, place: &Place) -> Op
     if let Some((other, key)) = said.find(|(other, _)| *other != count) {
         let message = format!("`{first}` is for {count} teeth, but `{key}` is for {other}");
         let help = format!("Write one number for each tooth into `{key}`.");
-        reader.fault(|| place.key(key), message, &format!("{other} here"), help);
+        reader.add_fault(|| place.at_key(key), message, &format!("{other} here"), help);
         return None;
     }
     let pitch = match &text.pitch {
@@ -155,25 +155,25 @@ pub(super) fn checked(text: &ToolText, reader: &mut Reader, place: &Place) -> Op
             angles.rotate_right(1);
             angles
         }
-        None => Teeth::even(u32::try_from(count).ok()?, 0.0)?.pitch().to_vec(),
+        None => Teeth::evenly_spaced(u32::try_from(count).ok()?, 0.0)?.pitch_angles_rad().to_vec(),
     };
     let runout = match &text.runout {
         None => vec![0.0; count],
-        Some(Runout::EachTooth(offsets)) => offsets
+        Some(RunoutText::EachTooth(offsets)) => offsets
             .iter()
             .enumerate()
-            .map(|(index, offset)| reader.mm(*offset, || place.key("runout").index(index)))
+            .map(|(index, offset)| reader.length_mm(*offset, || place.at_key("runout").at_index(index)))
             .collect(),
-        Some(Runout::Eccentric(offset)) => {
-            let offset = reader.mm(*offset, || place.key("runout"));
-            eccentric(offset, &pitch)
+        Some(RunoutText::Eccentric(offset)) => {
+            let offset = reader.length_mm(*offset, || place.at_key("runout"));
+            eccentric_runout_mm(offset, &pitch)
         }
     };
-    Teeth::uneven(pitch, runout, text.helix.map_or(0.0, |helix| helix.radians()))
+    Teeth::unevenly_spaced(pitch, runout, text.helix.map_or(0.0, |helix| helix.radians()))
 }
 
 /// Radial offsets of the teeth of a cutter that runs off the axis by `offset`, towards its first tooth.
-fn eccentric(offset: f64, pitch: &[f64]) -> Vec<f64> {
+fn eccentric_runout_mm(offset: f64, pitch: &[f64]) -> Vec<f64> {
     let mut angle = 0.0;
     pitch
         .iter()

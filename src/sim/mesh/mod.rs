@@ -1,7 +1,7 @@
 //! Closed triangle meshes: a casting as stock, or the part that shall come out.
 
-mod closed;
-mod scan;
+mod closed_check;
+mod mesh_dexels;
 mod stl;
 
 use super::body::FARTHEST;
@@ -51,7 +51,7 @@ pub enum MeshError {
     /// It has holes, so nothing is inside.
     #[error(
         "the surface is not closed: {edges} edges have a triangle on one side only, one of them at {}",
-        place(at)
+        format_point(at)
     )]
     Open {
         /// How many edges.
@@ -60,7 +60,10 @@ pub enum MeshError {
         at: [f64; 3],
     },
     /// Neighbours disagree about which side is outside.
-    #[error("neighbouring triangles face opposite sides at {edges} edges, one of them at {}", place(at))]
+    #[error(
+        "neighbouring triangles face opposite sides at {edges} edges, one of them at {}",
+        format_point(at)
+    )]
     Turned {
         /// How many edges.
         edges: usize,
@@ -69,7 +72,7 @@ pub enum MeshError {
     },
 }
 
-fn place([x, y, z]: &[f64; 3]) -> String {
+fn format_point([x, y, z]: &[f64; 3]) -> String {
     format!("({x:.3}, {y:.3}, {z:.3})")
 }
 
@@ -96,19 +99,19 @@ impl Mesh {
         // Minus zero is zero, also bit by bit.
         vertices.iter_mut().flatten().for_each(|value| *value += 0.0);
         let mesh = Self { vertices, triangles };
-        closed::check(&mesh)?;
+        closed_check::check_closed(&mesh)?;
         Ok(mesh)
     }
 
     /// How many triangles.
-    pub fn triangles(&self) -> usize {
+    pub fn triangle_count(&self) -> usize {
         self.triangles.len()
     }
 
     /// Lower and upper corner of the box around it.
     pub fn bounds(&self) -> ([f64; 3], [f64; 3]) {
         let mut bounds = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for corners in self.corners() {
+        for corners in self.triangle_vertices() {
             for corner in corners {
                 let [x, y, z] = corner;
                 let ([x0, y0, z0], [x1, y1, z1]) = bounds;
@@ -134,15 +137,15 @@ impl Mesh {
             let [a, b, c] = [a, b, c].map(nalgebra::Vector3::from);
             a.dot(&b.cross(&c)) / 6.0
         };
-        self.corners().map(volume).sum()
+        self.triangle_vertices().map(volume).sum()
     }
 
     /// The corners of every triangle, mm, counter-clockwise seen from outside.
-    pub(crate) fn corners(&self) -> impl Iterator<Item = [[f64; 3]; 3]> + '_ {
-        self.triangles.iter().map(|triangle| self.at(*triangle))
+    pub(crate) fn triangle_vertices(&self) -> impl Iterator<Item = [[f64; 3]; 3]> + '_ {
+        self.triangles.iter().map(|triangle| self.vertices_of(*triangle))
     }
 
-    fn at(&self, triangle: [u32; 3]) -> [[f64; 3]; 3] {
+    fn vertices_of(&self, triangle: [u32; 3]) -> [[f64; 3]; 3] {
         // All indices were checked when the mesh was made.
         triangle.map(|vertex| self.vertices.get(vertex as usize).copied().unwrap_or_default())
     }

@@ -15,7 +15,7 @@ impl Mesh {
     /// # Errors
     /// When it is no STL, has no triangle or a number that is not finite, or is not closed ([`Mesh::new`]).
     pub fn from_stl(bytes: &[u8]) -> Result<Self, MeshError> {
-        let bytes = told_apart(bytes)?;
+        let bytes = normalize_stl(bytes)?;
         let unreadable = |error: io::Error| MeshError::Stl { reason: error.to_string() };
         let mut cursor = Cursor::new(bytes.as_ref());
         let mut vertices = Vec::new();
@@ -41,11 +41,11 @@ impl Mesh {
 
 /// The file as the reader tells binary and text apart: by a first line that begins with `solid` and a blank. Many programs
 /// write such a head into binary files as well, and some write text without a name or with several solids.
-fn told_apart(bytes: &[u8]) -> Result<Cow<'_, [u8]>, MeshError> {
+fn normalize_stl(bytes: &[u8]) -> Result<Cow<'_, [u8]>, MeshError> {
     let count = bytes.get(HEAD - 4..HEAD).and_then(|count| count.try_into().ok()).map(u32::from_le_bytes);
     let found = bytes.len() as u64;
     let expected = count.map(|count| HEAD as u64 + TRIANGLE * u64::from(count));
-    let text = begins(bytes, b"solid");
+    let text = has_first_word(bytes, b"solid");
     if expected == Some(found) {
         if !text {
             return Ok(Cow::Borrowed(bytes));
@@ -55,18 +55,18 @@ fn told_apart(bytes: &[u8]) -> Result<Cow<'_, [u8]>, MeshError> {
         return Ok(Cow::Owned(blank));
     }
     match count.zip(expected) {
-        _ if text => one_solid(bytes).map(Cow::Owned),
+        _ if text => merge_solids(bytes).map(Cow::Owned),
         Some((triangles, expected)) => Err(MeshError::Length { triangles, expected, found }),
         None => Err(MeshError::Stl { reason: format!("{found} bytes are too few") }),
     }
 }
 
 /// All solids of a text as one, in lower case.
-fn one_solid(bytes: &[u8]) -> Result<Vec<u8>, MeshError> {
+fn merge_solids(bytes: &[u8]) -> Result<Vec<u8>, MeshError> {
     let mut all = b"solid part\n".to_vec();
     let mut within = false;
     for line in bytes.split(|byte| *byte == b'\n') {
-        let (begin, end) = (begins(line, b"solid"), begins(line, b"endsolid"));
+        let (begin, end) = (has_first_word(line, b"solid"), has_first_word(line, b"endsolid"));
         if (begin && within) || (end && !within) {
             return Err(MeshError::Stl { reason: "a solid begins before the last one ends".to_owned() });
         }
@@ -85,6 +85,6 @@ fn one_solid(bytes: &[u8]) -> Result<Vec<u8>, MeshError> {
 }
 
 /// Whether a line's first word begins so.
-fn begins(line: &[u8], word: &[u8]) -> bool {
+fn has_first_word(line: &[u8], word: &[u8]) -> bool {
     line.trim_ascii_start().get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word))
 }

@@ -5,44 +5,44 @@
 //! depends only on the column's distance from the path ([`silhouette`]). Where the axis is not along z, each column asks for the
 //! extremes of the solid's interval over time ([`tilted`]).
 
-mod contact;
-mod extent;
-mod partial;
+mod band_engagement;
+mod cutter_underside;
 pub mod silhouette;
 mod straight;
-mod surface;
+mod straight_contact;
+mod straight_footprint;
 mod tilted;
 
-pub(super) use partial::Partial;
-pub(super) use straight::{Circumstances, Straight};
-pub(super) use tilted::{Tilted, pace};
+pub(super) use band_engagement::BandEngagement;
+pub(super) use straight::{StraightSweep, SweepContext};
+pub(super) use tilted::{TiltedSweep, reference_length_mm};
 
-use crate::sim::Band;
+use crate::sim::DexelBand;
 use std::ops::Range;
 
 /// A piece of the path made ready for any band of columns.
 #[derive(Debug, Clone)]
-pub(super) enum Sweep {
+pub(super) enum PieceSweep {
     /// Three-axis: the tool axis along z all the way.
-    Straight(Box<Straight>),
+    Straight(Box<StraightSweep>),
     /// The tool axis in any direction, turning or not.
-    Tilted(Box<Tilted>),
+    Tilted(Box<TiltedSweep>),
 }
 
-impl Sweep {
+impl PieceSweep {
     /// Rows that it can change.
-    pub fn rows(&self) -> Range<usize> {
+    pub fn row_range(&self) -> Range<usize> {
         match self {
-            Self::Straight(sweep) => sweep.rows(),
-            Self::Tilted(sweep) => sweep.rows(),
+            Self::Straight(sweep) => sweep.row_range(),
+            Self::Tilted(sweep) => sweep.row_range(),
         }
     }
 
     /// Removes what it passes through from a band.
-    pub fn sweep(&self, band: &mut Band, scratch: &mut Vec<f32>) -> Partial {
+    pub fn sweep_band(&self, band: &mut DexelBand, scratch: &mut Vec<f32>) -> BandEngagement {
         match self {
-            Self::Straight(sweep) => sweep.sweep(band, scratch),
-            Self::Tilted(sweep) => sweep.sweep(band),
+            Self::Straight(sweep) => sweep.sweep_band(band, scratch),
+            Self::Tilted(sweep) => sweep.sweep_band(band),
         }
     }
 }

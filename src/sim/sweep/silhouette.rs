@@ -6,7 +6,7 @@
 //! `(q, w)`, w = rho cos(theta) being how far ahead of the axis the contact lies; q never falls on the way. It does not depend on where
 //! along the path the column is: so one short table serves a whole straight piece.
 
-use crate::sim::Profile;
+use crate::sim::Meridian;
 use std::f64::consts::FRAC_PI_2;
 
 /// Entries of the table for a corner radius between disc and cylinder, whose curve is smooth.
@@ -28,16 +28,16 @@ pub struct Silhouette {
 
 impl Silhouette {
     /// The curve of a profile that moves with a slope (rise over horizontal distance).
-    pub fn new(profile: &Profile, slope: f64) -> Self {
-        let radius = profile.radius();
-        let cones = profile.taper() > 0.0 || profile.bottom_angle() > 0.0;
+    pub fn new(profile: &Meridian, slope: f64) -> Self {
+        let radius = profile.radius_mm();
+        let cones = profile.taper_rad() > 0.0 || profile.bottom_angle_rad() > 0.0;
         let entries = if cones { CORNERED } else { SMOOTH };
         let mut table = vec![0.0; entries];
         let steps = (entries - 1) as f32;
         if slope == 0.0 {
             return Self { table, steps, inverse_radius: (1.0 / radius) as f32 };
         }
-        let points = curve(profile, slope.abs());
+        let points = sample_silhouette(profile, slope.abs());
         // The table runs from the rim inwards, so q falls.
         let mut upper = points.len().saturating_sub(1);
         for (index, entry) in table.iter_mut().enumerate() {
@@ -56,7 +56,7 @@ impl Silhouette {
 
     /// How far ahead of the axis the contact lies over a column at lateral distance `q` (below the radius).
     #[inline]
-    pub fn ahead(&self, q: f32) -> f32 {
+    pub fn contact_ahead_mm(&self, q: f32) -> f32 {
         let x = (1.0 - q * self.inverse_radius).max(0.0).sqrt() * self.steps;
         let index = (x as usize).min(self.table.len() - 2);
         let share = x - index as f32;
@@ -68,21 +68,21 @@ impl Silhouette {
 }
 
 /// The curve by walking up the meridian; q ascending.
-fn curve(profile: &Profile, slope: f64) -> Vec<(f64, f64)> {
+fn sample_silhouette(profile: &Meridian, slope: f64) -> Vec<(f64, f64)> {
     let mut points = Vec::with_capacity(3 * STEPS + 8);
     let mut add = |rho: f64, psi: f64| {
         let cos = if psi >= FRAC_PI_2 - 1e-12 { 0.0 } else { (slope / psi.tan()).min(1.0) };
         points.push((rho * (1.0 - cos * cos).max(0.0).sqrt(), rho * cos));
     };
     let steep = slope.atan();
-    let bottom = profile.bottom_angle();
-    let flank = FRAC_PI_2 - profile.taper();
+    let bottom = profile.bottom_angle_rad();
+    let flank = FRAC_PI_2 - profile.taper_rad();
     if bottom > 0.0 && steep < bottom {
         add(0.0, bottom);
-        add(profile.bottom_radius(), bottom);
+        add(profile.bottom_radius_mm(), bottom);
     }
     let [center, _] = profile.corner_center();
-    let arc = |psi: f64| center + profile.corner_radius() * psi.sin();
+    let arc = |psi: f64| center + profile.corner_radius_mm() * psi.sin();
     if steep < flank {
         let from = steep.max(bottom);
         for step in 0..=STEPS {
@@ -102,7 +102,7 @@ fn curve(profile: &Profile, slope: f64) -> Vec<(f64, f64)> {
                 }
             }
         }
-        add(profile.radius(), flank);
+        add(profile.radius_mm(), flank);
     }
     // Around the rim, where the flank ends.
     let from = steep.max(flank);
@@ -110,7 +110,7 @@ fn curve(profile: &Profile, slope: f64) -> Vec<(f64, f64)> {
         let theta_from = (slope / from.tan()).min(1.0).acos();
         let theta = theta_from + (FRAC_PI_2 - theta_from) * step as f64 / STEPS as f64;
         let psi = if step == STEPS { FRAC_PI_2 } else { (slope / theta.cos()).atan() };
-        add(profile.radius(), psi);
+        add(profile.radius_mm(), psi);
     }
     points
 }

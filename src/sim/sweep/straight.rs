@@ -1,28 +1,28 @@
 //! Straight pieces of a three-axis path.
 
-use super::contact::{Column, Motion};
-use super::extent::Extent;
-use super::partial::Partial;
-use super::surface::{Path, Row, Surface};
-use crate::sim::dexel::{Band, Layout, THINNEST};
-use crate::sim::{Collar, Cutter};
+use super::band_engagement::BandEngagement;
+use super::cutter_underside::{CutterUnderside, SweepPath, SweepRow};
+use super::straight_contact::{RemovedColumn, StraightContactFinder};
+use super::straight_footprint::StraightFootprint;
+use crate::sim::dexel::{DexelBand, DexelGrid, THINNEST};
+use crate::sim::{CutterModel, NonCuttingCylinder};
 
 /// Columns that are looked at together.
 const STEP: usize = 16;
 
 /// A straight piece, made ready for any band of columns.
 #[derive(Debug, Clone)]
-pub(in crate::sim) struct Straight {
+pub(in crate::sim) struct StraightSweep {
     /// x and y of the tip at the start.
     from: [f64; 2],
-    path: Path,
-    surface: Surface,
-    motion: Motion,
-    extent: Extent,
+    path: SweepPath,
+    surface: CutterUnderside,
+    motion: StraightContactFinder,
+    extent: StraightFootprint,
     /// Height of the flutes' upper end above the grid's base at the start; infinite where nothing stands above it.
     flutes_end: f32,
-    collars: Vec<(usize, Collar, Surface)>,
-    layout: Layout,
+    collars: Vec<(usize, NonCuttingCylinder, CutterUnderside)>,
+    layout: DexelGrid,
     ends: bool,
     /// Radius of the cutter where the flank leaves the stock: of a tapered one less than the whole.
     widest: f64,
@@ -30,7 +30,7 @@ pub(in crate::sim) struct Straight {
 
 /// What is known about a piece before its columns are looked at.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::sim) struct Circumstances {
+pub(in crate::sim) struct SweepContext {
     /// Whether the piece before it ended here with the same cutter, and removed what it found.
     pub continues: bool,
     /// Highest material there ever was.
@@ -41,14 +41,14 @@ pub(in crate::sim) struct Circumstances {
     pub detail: bool,
 }
 
-impl Straight {
+impl StraightSweep {
     /// A piece from tip to tip, the axis along z.
     pub fn new(
         from: [f64; 3],
         to: [f64; 3],
-        cutter: &Cutter,
-        layout: &Layout,
-        around: Circumstances,
+        cutter: &CutterModel,
+        layout: &DexelGrid,
+        around: SweepContext,
     ) -> Self {
         let [dx, dy, dz] = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
         let horizontal = dx.hypot(dy);
@@ -59,13 +59,13 @@ impl Straight {
         let slope = if vertical { 0.0 } else { dz / horizontal };
         let direction = if vertical { [0.0, 0.0] } else { [dx / horizontal, dy / horizontal] };
         let start = from[2].min(if vertical { to[2] } else { from[2] }) - layout.base;
-        let radius = profile.radius();
+        let radius = profile.radius_mm();
         let margin = layout.cell * 1e-2;
         let descends = dz < 0.0;
         let lowest_tip = from[2].min(to[2]);
         let reaches = |height: f64| around.highest > lowest_tip + height;
         // What the piece before left above its flutes is still there.
-        let continues = around.continues && !reaches(cutter.flute_length());
+        let continues = around.continues && !reaches(cutter.flute_length_mm());
         let (cleared_before, cleared_disc) = match continues {
             false => (f64::NEG_INFINITY, 0.0),
             true if vertical && dz >= 0.0 => (f64::INFINITY, 0.0),
@@ -73,41 +73,43 @@ impl Straight {
             true if descends => {
                 // Behind the contact that leaves the surface, the start's own surface is the lower one.
                 let sin = -slope / slope.hypot(1.0);
-                let plain = profile.taper() == 0.0 && profile.bottom_angle() == 0.0;
-                let reach = profile.corner_center()[0] + profile.corner_radius() * sin;
+                let plain = profile.taper_rad() == 0.0 && profile.bottom_angle_rad() == 0.0;
+                let reach = profile.corner_center()[0] + profile.corner_radius_mm() * sin;
                 (-(if plain { reach } else { radius }) - margin, 0.0)
             }
             true => {
-                let disc = if profile.bottom_angle() == 0.0 { profile.bottom_radius() } else { 0.0 };
+                let disc = if profile.bottom_angle_rad() == 0.0 { profile.bottom_radius_mm() } else { 0.0 };
                 (-margin, (disc - margin).max(0.0))
             }
         };
-        let extent = Extent {
+        let extent = StraightFootprint {
             direction,
             length: if vertical { 0.0 } else { horizontal },
             radius,
             cleared_before,
             cleared_disc,
         };
-        let flutes_end = if reaches(cutter.flute_length()) {
-            (from[2].max(if vertical { to[2] } else { from[2] }) + cutter.flute_length() - layout.base) as f32
+        let flutes_end = if reaches(cutter.flute_length_mm()) {
+            (from[2].max(if vertical { to[2] } else { from[2] }) + cutter.flute_length_mm() - layout.base)
+                as f32
         } else {
             f32::INFINITY
         };
         let near = cutter.collars.iter().copied().enumerate().filter(|(_, collar)| reaches(collar.from));
-        let collars =
-            near.map(|(index, collar)| (index, collar, Surface::disc(collar.radius, slope))).collect();
+        let collars = near
+            .map(|(index, collar)| (index, collar, CutterUnderside::flat_disc(collar.radius, slope)))
+            .collect();
         Self {
             from: [from[0], from[1]],
-            path: Path {
+            path: SweepPath {
                 ux: if vertical { 1.0 } else { direction[0] as f32 },
                 uy: direction[1] as f32,
                 length: extent.length as f32,
                 slope: slope as f32,
                 start: start as f32,
             },
-            surface: Surface::new(profile, slope),
-            motion: Motion {
+            surface: CutterUnderside::new(profile, slope),
+            motion: StraightContactFinder {
                 profile: profile.clone(),
                 across: if length > 0.0 && !vertical { horizontal / length } else { 0.0 },
                 along: if length > 0.0 { dz / length } else { 0.0 },
@@ -123,8 +125,8 @@ impl Straight {
             collars,
             layout: *layout,
             ends: around.ends,
-            widest: if profile.taper() > 0.0 {
-                profile.radius_at(around.highest - lowest_tip)
+            widest: if profile.taper_rad() > 0.0 {
+                profile.radius_at_height_mm(around.highest - lowest_tip)
             } else {
                 radius
             },
@@ -132,8 +134,8 @@ impl Straight {
     }
 
     /// Rows that the piece can change, as a range.
-    pub fn rows(&self) -> std::ops::Range<usize> {
-        let [low, high] = self.extent.rows();
+    pub fn row_range(&self) -> std::ops::Range<usize> {
+        let [low, high] = self.extent.y_range();
         let reach = self
             .collars
             .iter()
@@ -146,8 +148,8 @@ impl Straight {
     }
 
     /// Columns of a stretch of x seen from the start.
-    fn columns(&self, [from, to]: [f64; 2]) -> std::ops::Range<usize> {
-        let Layout { origin: [x0, _], cell, columns, .. } = self.layout;
+    fn column_range(&self, [from, to]: [f64; 2]) -> std::ops::Range<usize> {
+        let DexelGrid { origin: [x0, _], cell, columns, .. } = self.layout;
         let column = |x: f64| (self.from[0] + x - x0) / cell;
         // Casts round towards zero and saturate, and are instructions where `ceil` and `floor` are calls.
         let up = |at: f64| {
@@ -160,47 +162,47 @@ impl Straight {
     }
 
     /// Removes what the piece sweeps from a band.
-    pub fn sweep(&self, band: &mut Band, scratch: &mut Vec<f32>) -> Partial {
-        let mut partial = Partial::new();
-        let rows = self.rows();
-        let (first, end) = (rows.start.max(band.first_row), rows.end.min(band.first_row + band.rows()));
+    pub fn sweep_band(&self, band: &mut DexelBand, scratch: &mut Vec<f32>) -> BandEngagement {
+        let mut partial = BandEngagement::new();
+        let rows = self.row_range();
+        let (first, end) = (rows.start.max(band.first_row), rows.end.min(band.first_row + band.row_count()));
         // From the middle outwards, so that the contacts that dominate others come first.
         let middle = (((self.from[1] - self.layout.origin[1]) / self.layout.cell).max(0.0) as usize)
             .clamp(first, end.max(first));
         for row in (middle..end).chain((first..middle).rev()) {
-            let y = self.layout.center(0, row)[1] - self.from[1];
+            let y = self.layout.column_center(0, row)[1] - self.from[1];
             for collar in &self.collars {
-                self.touch(band, row, y, collar, scratch, &mut partial);
+                self.check_collision(band, row, y, collar, scratch, &mut partial);
             }
-            for stretch in self.extent.stretches(y) {
-                self.cut(band, row, y, self.columns(stretch), scratch, &mut partial);
+            for stretch in self.extent.x_ranges(y) {
+                self.cut_row(band, row, y, self.column_range(stretch), scratch, &mut partial);
             }
             if self.motion.across > 0.0
                 && y.abs() <= self.extent.length + self.extent.radius + self.layout.cell
             {
-                self.graze(band, row, y, &mut partial);
+                self.add_hidden_slivers(band, row, y, &mut partial);
             }
         }
         partial
     }
 
-    fn cut(
+    fn cut_row(
         &self,
-        band: &mut Band,
+        band: &mut DexelBand,
         row: usize,
         y: f64,
         columns: std::ops::Range<usize>,
         scratch: &mut Vec<f32>,
-        partial: &mut Partial,
+        partial: &mut BandEngagement,
     ) {
         if columns.is_empty() {
             return;
         }
-        let x = self.layout.center(columns.start, row)[0] - self.from[0];
+        let x = self.layout.column_center(columns.start, row)[0] - self.from[0];
         let offset = (row - band.first_row) * band.columns;
         scratch.resize(columns.len(), 0.0);
-        let seen = Row { x: x as f32, y: y as f32, cell: self.layout.cell as f32 };
-        self.surface.heights(scratch, seen, self.path);
+        let seen = SweepRow { x: x as f32, y: y as f32, cell: self.layout.cell as f32 };
+        self.surface.sweep_heights(scratch, seen, self.path);
         let range = offset + columns.start..offset + columns.end;
         let [ux, uy] = [f64::from(self.path.ux), f64::from(self.path.uy)];
         let place = |hit: usize| {
@@ -209,8 +211,8 @@ impl Straight {
         };
         // Usually a cut lowers the top of a column's only interval; what it does to others is for later.
         let mut others = Vec::new();
-        let simple = band.is_shallow() && !self.flutes_end.is_finite();
-        let (tops, lows) = band.stretch_mut(range.clone());
+        let simple = band.has_only_single_spans() && !self.flutes_end.is_finite();
+        let (tops, lows) = band.tops_and_lows_mut(range.clone());
         for (step, ((tops, lows), heights)) in
             tops.chunks_mut(STEP).zip(lows.chunks(STEP)).zip(scratch.chunks(STEP)).enumerate()
         {
@@ -227,23 +229,24 @@ impl Straight {
                     continue;
                 }
                 let (along, left) = place(hit);
-                let column = Column { along, left, low: f64::from(*height), top: f64::from(*top) };
+                let column = RemovedColumn { along, left, low: f64::from(*height), top: f64::from(*top) };
                 *top = *height;
-                self.motion.add(column, &self.surface, partial);
+                self.motion.add_column_contacts(column, &self.surface, partial);
             }
         }
         for (hit, lowest) in others {
             let (along, left) = place(hit);
-            let upper = if self.flutes_end.is_finite() { self.upper(along, left) } else { f32::INFINITY };
-            band.cut(range.start + hit, lowest, upper, |low, top| {
-                let column = Column { along, left, low: f64::from(low), top: f64::from(top) };
-                self.motion.add(column, &self.surface, partial);
+            let upper =
+                if self.flutes_end.is_finite() { self.flute_top_over(along, left) } else { f32::INFINITY };
+            band.cut_column(range.start + hit, lowest, upper, |low, top| {
+                let column = RemovedColumn { along, left, low: f64::from(low), top: f64::from(top) };
+                self.motion.add_column_contacts(column, &self.surface, partial);
             });
         }
     }
 
     /// Upper end of the flutes' sweep over a column.
-    fn upper(&self, along: f64, left: f64) -> f32 {
+    fn flute_top_over(&self, along: f64, left: f64) -> f32 {
         let radius = self.extent.radius;
         let half = (radius * radius - left * left).max(0.0).sqrt();
         let slope = self.path.slope;
@@ -253,12 +256,12 @@ impl Straight {
 
     /// Material closer to the flank than a cell: beside the path, or ahead of its end. A sliver of it may be in the cutter's way
     /// unseen. Material counts from the height at which the cutter is a cell thinner than it is at its widest.
-    fn graze(&self, band: &Band, row: usize, y: f64, partial: &mut Partial) {
+    fn add_hidden_slivers(&self, band: &DexelBand, row: usize, y: f64, partial: &mut BandEngagement) {
         let (radius, cell) = (self.widest, self.layout.cell);
         let slope = f64::from(self.path.slope);
         let end = self.motion.start + slope * self.extent.length;
         let inner = (radius - cell).max(0.0);
-        let above = self.motion.profile.height_at(inner) + 1e-3;
+        let above = self.motion.profile.height_at_radius_mm(inner) + 1e-3;
         let offset = (row - band.first_row) * band.columns;
         let tops = |columns: std::ops::Range<usize>| {
             band.top.get(offset + columns.start..offset + columns.end).unwrap_or_default()
@@ -270,16 +273,20 @@ impl Straight {
         if partial.graze < share(radius) {
             let level = (self.motion.start.min(end) + above) as f32;
             for lateral in [[radius, radius + cell], [-radius - cell, -radius]] {
-                let columns = self.columns(self.extent.beside(y, lateral));
+                let columns = self.column_range(self.extent.x_range_beside(y, lateral));
                 if tops(columns).iter().any(|top| *top > level) {
                     partial.graze = share(radius);
                 }
             }
         }
         let level = (end + above) as f32;
-        for stretch in (Extent { radius, ..self.extent }).ahead(y, cell).into_iter().filter(|_| self.ends) {
-            let columns = self.columns(stretch);
-            let x = self.layout.center(columns.start, row)[0] - self.from[0];
+        for stretch in (StraightFootprint { radius, ..self.extent })
+            .x_ranges_ahead(y, cell)
+            .into_iter()
+            .filter(|_| self.ends)
+        {
+            let columns = self.column_range(stretch);
+            let x = self.layout.column_center(columns.start, row)[0] - self.from[0];
             for (index, _) in tops(columns).iter().enumerate().filter(|(_, top)| **top > level) {
                 let x = x + index as f64 * cell;
                 let side = (y * f64::from(self.path.ux) - x * f64::from(self.path.uy)).abs();
@@ -289,33 +296,37 @@ impl Straight {
     }
 
     /// How deep a collar stands in material in a row: its lower end is a disc that moves with the tip.
-    fn touch(
+    fn check_collision(
         &self,
-        band: &Band,
+        band: &DexelBand,
         row: usize,
         y: f64,
-        (index, collar, disc): &(usize, Collar, Surface),
+        (index, collar, disc): &(usize, NonCuttingCylinder, CutterUnderside),
         scratch: &mut Vec<f32>,
-        partial: &mut Partial,
+        partial: &mut BandEngagement,
     ) {
-        let extent = Extent {
+        let extent = StraightFootprint {
             radius: collar.radius,
             cleared_before: f64::NEG_INFINITY,
             cleared_disc: 0.0,
             ..self.extent
         };
-        let path = Path { start: self.path.start + collar.from as f32, ..self.path };
+        let path = SweepPath { start: self.path.start + collar.from as f32, ..self.path };
         let offset = (row - band.first_row) * band.columns;
-        for stretch in extent.stretches(y) {
-            let columns = self.columns(stretch);
-            let x = self.layout.center(columns.start, row)[0] - self.from[0];
+        for stretch in extent.x_ranges(y) {
+            let columns = self.column_range(stretch);
+            let x = self.layout.column_center(columns.start, row)[0] - self.from[0];
             scratch.resize(columns.len(), 0.0);
-            disc.heights(scratch, Row { x: x as f32, y: y as f32, cell: self.layout.cell as f32 }, path);
+            disc.sweep_heights(
+                scratch,
+                SweepRow { x: x as f32, y: y as f32, cell: self.layout.cell as f32 },
+                path,
+            );
             let tops = band.top.get(offset + columns.start..offset + columns.end).unwrap_or_default();
             let depth = tops.iter().zip(scratch.iter()).map(|(top, height)| top - height);
             let depth = f64::from(depth.fold(f32::NEG_INFINITY, f32::max));
             if depth > self.layout.cell.min(0.05) {
-                partial.touch(*index, depth);
+                partial.record_collision(*index, depth);
             }
         }
     }

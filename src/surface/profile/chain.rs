@@ -1,6 +1,6 @@
 //! A chain: pieces that hang together.
 
-use super::piece::{Piece, Point};
+use super::chain_piece::{ChainPiece, Point};
 use std::f64::consts::TAU;
 
 /// The end of a piece and the start of the next are one point when no farther apart than this, mm.
@@ -12,7 +12,7 @@ pub const LARGEST: f64 = 1e7;
 /// Connected pieces from a start to an end. It may run towards +u or -u, stand upright in part, and overhang.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chain {
-    pieces: Vec<Piece>,
+    pieces: Vec<ChainPiece>,
 }
 
 /// Why pieces make no chain.
@@ -49,13 +49,13 @@ impl Chain {
     /// # Errors
     /// [`ChainError`] when there is no piece, a number is not finite or beyond [`LARGEST`], an arc is none, or two pieces lie
     /// farther apart than [`CONNECTED`]; it says which piece.
-    pub fn new(pieces: Vec<Piece>) -> Result<Self, ChainError> {
+    pub fn new(pieces: Vec<ChainPiece>) -> Result<Self, ChainError> {
         if pieces.is_empty() {
             return Err(ChainError::Empty);
         }
         let mut before: Option<Point> = None;
         for (index, piece) in pieces.iter().enumerate() {
-            fits(index, piece)?;
+            check_piece(index, piece)?;
             let start = piece.start();
             if let Some(gap) = before.map(|end| end.distance(start)).filter(|gap| *gap > CONNECTED) {
                 return Err(ChainError::Gap { piece: index, gap });
@@ -69,48 +69,48 @@ impl Chain {
     ///
     /// # Errors
     /// [`ChainError`] when there are fewer than two points or a number is not finite or beyond [`LARGEST`].
-    pub fn polyline(points: &[Point]) -> Result<Self, ChainError> {
+    pub fn from_points(points: &[Point]) -> Result<Self, ChainError> {
         let pair = |pair: &[Point]| match pair {
-            [from, to] => Some(Piece::line(*from, *to)),
+            [from, to] => Some(ChainPiece::line(*from, *to)),
             _ => None,
         };
         Self::new(points.windows(2).filter_map(pair).collect())
     }
 
     /// A chain of pieces that are known to fit.
-    pub(super) fn trusted(pieces: Vec<Piece>) -> Self {
+    pub(super) fn from_trusted(pieces: Vec<ChainPiece>) -> Self {
         Self { pieces }
     }
 
     /// Its pieces, at least one.
-    pub fn pieces(&self) -> &[Piece] {
+    pub fn pieces(&self) -> &[ChainPiece] {
         &self.pieces
     }
 
     /// Where it starts.
     pub fn start(&self) -> Point {
-        self.pieces.first().map(Piece::start).unwrap_or_default()
+        self.pieces.first().map(ChainPiece::start).unwrap_or_default()
     }
 
     /// Where it ends.
     pub fn end(&self) -> Point {
-        self.pieces.last().map(Piece::end).unwrap_or_default()
+        self.pieces.last().map(ChainPiece::end).unwrap_or_default()
     }
 
     /// Starts and ends of its pieces, in order: one more than there are pieces.
     pub fn vertices(&self) -> impl Iterator<Item = Point> + '_ {
-        std::iter::once(self.start()).chain(self.pieces.iter().map(Piece::end))
+        std::iter::once(self.start()).chain(self.pieces.iter().map(ChainPiece::end))
     }
 
     /// Its length, mm.
-    pub fn length(&self) -> f64 {
-        self.pieces.iter().map(Piece::length).sum()
+    pub fn length_mm(&self) -> f64 {
+        self.pieces.iter().map(ChainPiece::length_mm).sum()
     }
 
     /// The same chain from its end to its start.
     #[must_use]
     pub fn reversed(&self) -> Self {
-        Self { pieces: self.pieces.iter().rev().map(Piece::reversed).collect() }
+        Self { pieces: self.pieces.iter().rev().map(ChainPiece::reversed).collect() }
     }
 
     /// The same chain, moved, mm.
@@ -122,7 +122,7 @@ impl Chain {
     /// The same chain, z turned over.
     #[must_use]
     pub fn flipped(&self) -> Self {
-        Self { pieces: self.pieces.iter().map(Piece::flipped).collect() }
+        Self { pieces: self.pieces.iter().map(ChainPiece::flipped).collect() }
     }
 
     /// The path of the ball's centre, from that of its tip (its south pole).
@@ -138,15 +138,15 @@ impl Chain {
     }
 }
 
-fn fits(index: usize, piece: &Piece) -> Result<(), ChainError> {
+fn check_piece(index: usize, piece: &ChainPiece) -> Result<(), ChainError> {
     let fine = |number: f64| number.abs() <= LARGEST;
     match piece {
-        Piece::Line(line) => {
+        ChainPiece::Line(line) => {
             if ![line.from.u, line.from.z, line.to.u, line.to.z].into_iter().all(fine) {
                 return Err(ChainError::Number { piece: index });
             }
         }
-        Piece::Arc(arc) => {
+        ChainPiece::Arc(arc) => {
             if ![arc.centre.u, arc.centre.z, arc.radius, arc.start, arc.sweep].into_iter().all(fine) {
                 return Err(ChainError::Number { piece: index });
             }

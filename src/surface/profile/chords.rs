@@ -1,10 +1,10 @@
 //! The longest chords within a tolerance.
 
+use super::arc_fit::fit_longest_arc;
+use super::ball_compensation::make_centre_path;
 use super::chain::{Chain, ChainError, LARGEST};
-use super::compensate::centres;
-use super::fit::longest_arc;
-use super::piece::{Arc, Piece, Point};
-use super::wedge::longest_chord;
+use super::chain_piece::{ArcPiece, ChainPiece, Point};
+use super::direction_wedge::find_longest_chord;
 use std::f64::consts::FRAC_PI_2;
 
 /// Arcs are looked at in points between which they bulge by this share of the tolerance; chords keep to the rest of it.
@@ -22,7 +22,7 @@ const ARM_PIECES: usize = 64;
 
 /// On which side of the chain chords may lie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Side {
+pub enum ChordSide {
     /// Either side; vertices lie on the chain.
     #[default]
     Both,
@@ -62,99 +62,104 @@ pub enum ChordError {
 ///
 /// # Errors
 /// [`ChordError`] when the tolerance is not from 1e-6 to [`LARGEST`] mm.
-pub fn chords(chain: &Chain, tolerance: f64, keep_arcs: bool, side: Side) -> Result<Chain, ChordError> {
+pub fn fit_chords(
+    chain: &Chain,
+    tolerance: f64,
+    keep_arcs: bool,
+    side: ChordSide,
+) -> Result<Chain, ChordError> {
     if !(1e-6..=LARGEST).contains(&tolerance) {
         return Err(ChordError::Tolerance(tolerance));
     }
     Ok(match side {
-        Side::Both => follow(chain, tolerance, keep_arcs),
-        Side::Above => above(chain, tolerance, keep_arcs),
-        Side::Below => above(&chain.flipped(), tolerance, keep_arcs).flipped(),
+        ChordSide::Both => follow_chain(chain, tolerance, keep_arcs),
+        ChordSide::Above => fit_chords_above(chain, tolerance, keep_arcs),
+        ChordSide::Below => fit_chords_above(&chain.flipped(), tolerance, keep_arcs).flipped(),
     })
 }
 
 /// Chords on or above a chain: within h of its offset by h, which is the path of a small ball's centre.
-fn above(chain: &Chain, tolerance: f64, keep_arcs: bool) -> Chain {
+fn fit_chords_above(chain: &Chain, tolerance: f64, keep_arcs: bool) -> Chain {
     let sense = if chain.end().u >= chain.start().u { 1.0 } else { -1.0 };
     let mut before = Point::default();
     // Hollow bends between pieces; a right angle may also be hidden in many small ones.
     let mut bend = FRAC_PI_2;
-    for piece in chain.pieces().iter().filter(|piece| piece.length() > 0.0) {
-        let after = piece.direction(0.0);
+    for piece in chain.pieces().iter().filter(|piece| piece.length_mm() > 0.0) {
+        let after = piece.direction_at(0.0);
         let turn = (before.u * after.z - before.z * after.u).atan2(before.u * after.u + before.z * after.z);
         bend = bend.max(turn * sense);
-        before = piece.direction(1.0);
+        before = piece.direction_at(1.0);
     }
     // In a hollow corner the offset is farther away than h.
     let corner = 1.0 / (0.5 * bend.min(SHARPEST)).cos();
     let height = tolerance / (1.0 + corner);
-    follow(&centres(chain, height), height, keep_arcs)
+    follow_chain(&make_centre_path(chain, height), height, keep_arcs)
 }
 
 /// A place on the chain at which a chord may end.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct ChordVertex {
     pub point: Point,
     /// The arc that leads here from the place before; `None` for a line.
-    arc: Option<Arc>,
+    arc: Option<ArcPiece>,
     corner: bool,
 }
 
-fn follow(chain: &Chain, tolerance: f64, keep_arcs: bool) -> Chain {
-    let mut run = vec![Place { point: chain.start(), arc: None, corner: false }];
-    let mut pieces: Vec<Piece> = Vec::new();
+fn follow_chain(chain: &Chain, tolerance: f64, keep_arcs: bool) -> Chain {
+    let mut run = vec![ChordVertex { point: chain.start(), arc: None, corner: false }];
+    let mut pieces: Vec<ChainPiece> = Vec::new();
     for piece in chain.pieces() {
         match piece {
-            Piece::Arc(arc) if keep_arcs && arc.sagitta() > 2.0 * tolerance => {
-                chord_run(&run, tolerance, keep_arcs, &mut pieces);
+            ChainPiece::Arc(arc) if keep_arcs && arc.sagitta_mm() > 2.0 * tolerance => {
+                append_run_chords(&run, tolerance, keep_arcs, &mut pieces);
                 run.clear();
-                keep(&mut pieces, *arc, tolerance);
-                run.push(Place { point: piece.end(), arc: None, corner: false });
+                append_arc(&mut pieces, *arc, tolerance);
+                run.push(ChordVertex { point: piece.end(), arc: None, corner: false });
             }
-            Piece::Arc(arc) => {
+            ChainPiece::Arc(arc) => {
                 // sagitta = 2 r sin^2(sweep / 4)
                 let most = 4.0 * (SHARE * tolerance / (2.0 * arc.radius)).min(1.0).sqrt().asin();
                 // A million only bounds memory: an arc of 100 m within 1e-6 mm takes less.
                 let count = (arc.sweep.abs() / most).ceil().clamp(1.0, 1e6);
                 for index in 0..count as usize {
-                    let part = Arc {
+                    let part = ArcPiece {
                         start: arc.start + arc.sweep * (index as f64 / count),
                         sweep: arc.sweep / count,
                         ..*arc
                     };
-                    let point = Piece::Arc(part).end();
-                    run.push(Place { point, arc: Some(part), corner: false });
+                    let point = ChainPiece::Arc(part).end();
+                    run.push(ChordVertex { point, arc: Some(part), corner: false });
                 }
             }
-            Piece::Line(line) => run.push(Place { point: line.to, arc: None, corner: false }),
+            ChainPiece::Line(line) => run.push(ChordVertex { point: line.to, arc: None, corner: false }),
         }
     }
-    chord_run(&run, tolerance, keep_arcs, &mut pieces);
+    append_run_chords(&run, tolerance, keep_arcs, &mut pieces);
     if pieces.is_empty() {
-        pieces.push(Piece::line(chain.start(), chain.end()));
+        pieces.push(ChainPiece::line(chain.start(), chain.end()));
     }
-    Chain::trusted(pieces)
+    Chain::from_trusted(pieces)
 }
 
 /// Adds an arc, or makes the last one longer when it is of the same circle.
-fn keep(pieces: &mut Vec<Piece>, arc: Arc, tolerance: f64) {
+fn append_arc(pieces: &mut Vec<ChainPiece>, arc: ArcPiece, tolerance: f64) {
     // Both circles agree ten times better than the tolerance asks, so that sums of many merges stay within it.
     let close = tolerance / 10.0;
-    if let Some(Piece::Arc(last)) = pieces.last_mut()
+    if let Some(ChainPiece::Arc(last)) = pieces.last_mut()
         && last.centre.distance(arc.centre) <= close.min(1e-6)
         && (last.radius - arc.radius).abs() <= close.min(1e-6)
         && last.sweep.signum() == arc.sweep.signum()
         && (last.sweep + arc.sweep).abs() < std::f64::consts::TAU
-        && Piece::Arc(*last).end().distance(Piece::Arc(arc).start()) <= close.min(1e-6)
+        && ChainPiece::Arc(*last).end().distance(ChainPiece::Arc(arc).start()) <= close.min(1e-6)
     {
         last.sweep += arc.sweep;
         return;
     }
-    pieces.push(Piece::Arc(arc));
+    pieces.push(ChainPiece::Arc(arc));
 }
 
 /// Adds the chords of places between two arcs that stay.
-fn chord_run(run: &[Place], tolerance: f64, keep_arcs: bool, pieces: &mut Vec<Piece>) {
+fn append_run_chords(run: &[ChordVertex], tolerance: f64, keep_arcs: bool, pieces: &mut Vec<ChainPiece>) {
     let mut run = run.to_vec();
     let exact = if run.iter().any(|place| place.arc.is_some()) { 1.0 - SHARE } else { 1.0 };
     mark_corners(&mut run, tolerance);
@@ -162,25 +167,25 @@ fn chord_run(run: &[Place], tolerance: f64, keep_arcs: bool, pieces: &mut Vec<Pi
     let mut anchor = first.point;
     let mut at = 0;
     while at + 1 < run.len() {
-        let next = longest_chord(&run, at, anchor, tolerance * exact);
+        let next = find_longest_chord(&run, at, anchor, tolerance * exact);
         if keep_arcs
-            && let Some((end, arc)) = longest_arc(&run, at, anchor, next.0, tolerance * exact)
+            && let Some((end, arc)) = fit_longest_arc(&run, at, anchor, next.0, tolerance * exact)
             && let Some(place) = run.get(end)
         {
-            pieces.push(Piece::Arc(arc));
+            pieces.push(ChainPiece::Arc(arc));
             (at, anchor) = (end, place.point);
             continue;
         }
         if anchor != next.1 {
-            pieces.push(Piece::line(anchor, next.1));
+            pieces.push(ChainPiece::line(anchor, next.1));
         }
         (at, anchor) = next;
     }
 }
 
-impl Place {
+impl ChordVertex {
     /// The arc that leads here, where it is no line.
-    pub fn arc(&self) -> Option<Arc> {
+    pub fn incoming_arc(&self) -> Option<ArcPiece> {
         self.arc
     }
 
@@ -191,8 +196,8 @@ impl Place {
 }
 
 /// Marks the corners of a run.
-fn mark_corners(run: &mut [Place], tolerance: f64) {
-    let arm = |places: &mut dyn Iterator<Item = &Place>, at: Point| {
+fn mark_corners(run: &mut [ChordVertex], tolerance: f64) {
+    let arm = |places: &mut dyn Iterator<Item = &ChordVertex>, at: Point| {
         let mut far = places
             .take(ARM_PIECES)
             .map(|place| place.point)
@@ -209,7 +214,8 @@ fn mark_corners(run: &mut [Place], tolerance: f64) {
         .filter_map(|(index, places)| {
             let [before, at, after] = places else { return None };
             // The cheap look first: how it bends right here.
-            let near = |from: &Place, to: &Place| (to.point.u - from.point.u, to.point.z - from.point.z);
+            let near =
+                |from: &ChordVertex, to: &ChordVertex| (to.point.u - from.point.u, to.point.z - from.point.z);
             if !turn(near(before, at), near(at, after)) {
                 return None;
             }

@@ -1,13 +1,13 @@
 //! Rational B-splines of any degree.
 
-use super::curve::Curve;
-use super::piece::Point;
-use super::plane::Plane;
+use super::chain_piece::Point;
+use super::parametric_curve::ParametricCurve;
+use super::profile_plane::ProfilePlane;
 use crate::program::geometry::Spline;
 
 /// A NURBS curve.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Nurbs {
+pub struct NurbsCurve {
     degree: usize,
     /// Control points with their weights: (w u, w z, w).
     controls: Vec<[f64; 3]>,
@@ -47,7 +47,7 @@ pub enum NurbsError {
     Number,
 }
 
-impl Nurbs {
+impl NurbsCurve {
     /// The curve of `controls` (mm), their `weights` and the full knot vector.
     ///
     /// # Errors
@@ -92,23 +92,23 @@ impl Nurbs {
     ///
     /// # Errors
     /// [`NurbsError`] when its counts do not fit.
-    pub fn from_spline(spline: &Spline, plane: &Plane) -> Result<Self, NurbsError> {
-        let controls: Vec<Point> = spline.controls.iter().map(|point| plane.flat(*point)).collect();
+    pub fn from_spline(spline: &Spline, plane: &ProfilePlane) -> Result<Self, NurbsError> {
+        let controls: Vec<Point> = spline.controls.iter().map(|point| plane.to_plane(*point)).collect();
         Self::new(3, &controls, &vec![1.0; controls.len()], spline.knots.clone())
     }
 
-    fn knot(&self, index: usize) -> f64 {
+    fn knot_at(&self, index: usize) -> f64 {
         self.knots.get(index).copied().unwrap_or_default()
     }
 }
 
-impl Curve for Nurbs {
+impl ParametricCurve for NurbsCurve {
     /// De Boor's algorithm on the weighted points.
-    fn at(&self, parameter: f64) -> Point {
+    fn point_at(&self, parameter: f64) -> Point {
         let (degree, count) = (self.degree, self.controls.len());
-        let parameter = parameter.clamp(self.knot(degree), self.knot(count));
+        let parameter = parameter.clamp(self.knot_at(degree), self.knot_at(count));
         // The span that holds the parameter; the end belongs to the last span that has a length.
-        let end = self.knot(count);
+        let end = self.knot_at(count);
         let after =
             self.knots.partition_point(|knot| if parameter < end { *knot <= parameter } else { *knot < end });
         let span = after.saturating_sub(1).clamp(degree, count - 1);
@@ -116,8 +116,8 @@ impl Curve for Nurbs {
             self.controls.iter().skip(span - degree).take(degree + 1).copied().collect();
         for level in 1..=degree {
             for index in (level..=degree).rev() {
-                let low = self.knot(span + index - degree);
-                let high = self.knot(span + index + 1 - level);
+                let low = self.knot_at(span + index - degree);
+                let high = self.knot_at(span + index + 1 - level);
                 let share = if high > low { (parameter - low) / (high - low) } else { 0.0 };
                 let left = points.get(index - 1).copied().unwrap_or_default();
                 if let Some(right) = points.get_mut(index) {

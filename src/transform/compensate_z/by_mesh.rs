@@ -1,21 +1,23 @@
 //! Compensation against a model: the cutter lowered onto it along each pass.
 
-use super::leads::{self, Around, Moved, leads_written};
-use super::model::{lowered, seen_from_above};
-use super::passes::runs;
-use super::proof;
-use super::report::{Names, PassReport, Report};
-use super::step::Job;
-use super::words::Place;
-use super::write::Writer;
+use super::cutter_lowering::{lower_cutter, project_from_above};
+use super::findings::MotionFindings;
+use super::leads::{self, MovedPass, PassSurroundings, write_leads};
+use super::pass_writer::PassWriter;
+use super::report::{CompensateZReport, PassReport, PassReporter};
+use super::step::CompensateZJob;
+use super::vertical_passes::find_cutting_runs;
+use super::written_passes;
 use crate::diagnostic::{Diagnostic, codes};
+use crate::parameters::FilePath;
 use crate::program::Program;
 use crate::program::motion::Motion;
 use crate::sim::Mesh;
-use crate::surface::drop::{Cutter, Deviation, DropCutter, Space, deviation};
-use crate::transform::Context;
-use crate::values::FilePath;
-use crate::write::Editor;
+use crate::surface::drop_cutter::{
+    BallClearanceField, DropCutter, DropCutterShape, PathDeviation, measure_deviation,
+};
+use crate::transform::StepContext;
+use crate::write::ProgramEditor;
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -31,154 +33,174 @@ const AIR: f64 = 0.5;
 const PRINTED: f64 = 1e-4;
 
 /// A pass on its way.
-struct Work {
+struct MeshPass {
     run: Range<usize>,
     /// The tip's new points, for each motion.
     points: Vec<Vec<[f64; 3]>>,
     start: [f64; 3],
 }
 
-pub(super) fn run(
-    job: &Job,
+pub(super) fn compensate_by_mesh(
+    job: &CompensateZJob,
     path: &FilePath,
     program: Program,
     motions: &[Motion],
     meant: &[bool],
-    context: &mut Context<'_>,
-) -> Result<(Program, Report), Box<Diagnostic>> {
-    let mm = job.file.in_mm();
-    let place = Place { program: &program, motions };
+    context: &mut StepContext<'_>,
+) -> Result<(Program, CompensateZReport), Box<Diagnostic>> {
+    let mm = job.file.mm_per_unit();
+    let place = MotionFindings { program: &program, motions };
     let tilted = |(motion, meant): (&Motion, &bool)| *meant && (motion.to.axis - Vector3::z()).amax() > 1e-6;
     if let Some(at) = motions.iter().zip(meant).position(tilted) {
         let message = "the cutter is lowered along z, and here the tool axis is another";
-        return Err(place.fail(message.to_owned(), at, "tilted", context));
+        return Err(place.build_failure(message.to_owned(), at, "tilted", context));
     }
-    let mesh = mesh(path, mm, context)?;
-    let cutter = Cutter::new(2.0 * job.radius, job.corner)
-        .map_err(|why| context.fail(why.to_string(), &["radius"]))?;
+    let mesh = read_mesh(path, mm, context)?;
+    let cutter = DropCutterShape::new(2.0 * job.radius, job.corner)
+        .map_err(|why| context.step_failure(why.to_string(), &["radius"]))?;
     let dropped = DropCutter::new(&mesh, cutter);
-    let near = in_contact(job, motions, meant, &dropped);
-    let runs = runs(motions, &near, mm);
+    let near = find_contact_motions(job, motions, meant, &dropped);
+    let runs = find_cutting_runs(motions, &near, mm);
     let count = runs.len();
-    let made: Vec<Option<Work>> = runs.into_par_iter().map(|run| make(job, motions, run, &dropped)).collect();
-    let all: Vec<Work> = made.into_iter().flatten().collect();
+    let made: Vec<Option<MeshPass>> =
+        runs.into_par_iter().map(|run| make_mesh_pass(job, motions, run, &dropped)).collect();
+    let all: Vec<MeshPass> = made.into_iter().flatten().collect();
     let beside = count - all.len();
     if all.is_empty() {
         let message = "nothing of the model lies under the passes; is it in the coordinates and the unit of the CL file?";
-        return Err(context.fail(message, &["against", "mesh"]));
+        return Err(context.step_failure(message, &["against", "mesh"]));
     }
     let lift = Vector3::z() * if job.centre { job.radius } else { 0.0 };
-    let moved: Vec<Moved> = all.iter().filter_map(|work| work.moved(lift)).collect();
-    let height = |at: Point3<f64>| dropped.height(at.x, at.y).map(|drop| drop.tip_z + lift.z);
-    let ends = leads::around(&Around::new(&program, motions, meant, mm, job.lift()), &moved, &height)
-        .map_err(|why| place.stuck(why, context))?;
-    let writer = Writer::new(&program, motions, mm);
+    let moved: Vec<MovedPass> = all.iter().filter_map(|work| work.moved_pass(lift)).collect();
+    let height = |at: Point3<f64>| dropped.drop_at(at.x, at.y).map(|drop| drop.tip_z + lift.z);
+    let ends = leads::move_surroundings(
+        &PassSurroundings::new(&program, motions, meant, mm, job.lift_mm()),
+        &moved,
+        &height,
+    )
+    .map_err(|why| place.describe_lead_conflict(why, context))?;
+    let writer = PassWriter::new(&program, motions, mm);
     for index in ends.keys().copied().chain(all.iter().flat_map(|work| work.run.clone())) {
-        writer.check(&program, index).map_err(|why| place.unwritable(why, index, context))?;
+        writer
+            .check_writable(&program, index)
+            .map_err(|why| place.describe_unwritable_motion(why, index, context))?;
     }
-    let names = Names::new(&program, motions);
-    let mut reports: Vec<PassReport> =
-        all.iter().map(|work| names.pass(&work.run, work.points.iter().map(Vec::len).sum())).collect();
+    let names = PassReporter::new(&program, motions);
+    let mut reports: Vec<PassReport> = all
+        .iter()
+        .map(|work| names.start_report(&work.run, work.points.iter().map(Vec::len).sum()))
+        .collect();
     let original = program.clone();
-    let mut editor = Editor::new(program, context.step);
+    let mut editor = ProgramEditor::new(program, context.step);
     for work in &all {
         let points =
             work.points.iter().map(|own| own.iter().map(|at| Point3::from(*at) + lift).collect()).collect();
-        let written = writer.points(&mut editor, work.run.clone(), points)?;
-        let place = Place { program: &original, motions };
-        written.map_err(|why| place.unwritable(why, work.run.start, context))?;
+        let written = writer.write_points(&mut editor, work.run.clone(), points)?;
+        let place = MotionFindings { program: &original, motions };
+        written.map_err(|why| place.describe_unwritable_motion(why, work.run.start, context))?;
     }
-    leads_written(&writer, &mut editor, motions, &ends, &moved, mm, &original, context)?;
+    write_leads(&writer, &mut editor, motions, &ends, &moved, mm, &original, context)?;
     let program = editor.finish()?;
     let after: Vec<Motion> = program.motions().collect();
-    let place = Place { program: &original, motions };
+    let place = MotionFindings { program: &original, motions };
     let counts = all.iter().map(|work| (&work.run, work.points.iter().map(Vec::len).sum()));
-    let ranges = proof::ranges(motions, &after, counts).map_err(|motion| {
+    let ranges = written_passes::find_written_passes(motions, &after, counts).map_err(|motion| {
         let message = "the program with the new points does not read back with the motions it should have";
-        place.fail(message.to_owned(), motion, "from here on", context)
+        place.build_failure(message.to_owned(), motion, "from here on", context)
     })?;
-    prove(job, &mesh, cutter, &after, &ranges, lift, &all, &mut reports, &place, context)?;
-    between(job, &dropped, &after, &ranges, lift, &program, context);
-    let report = Report::new("mesh", (job.radius, job.corner), job.tolerance);
-    let report = Report { passes: reports, beside, ..report };
+    prove_mesh_passes(job, &mesh, cutter, &after, &ranges, lift, &all, &mut reports, &place, context)?;
+    report_gouging_links(job, &dropped, &after, &ranges, lift, &program, context);
+    let report = CompensateZReport::new("mesh", (job.radius, job.corner), job.tolerance);
+    let report = CompensateZReport { passes: reports, beside, ..report };
     Ok((program, report))
 }
 
 /// The motions that are meant and touch the model: one that is higher at either end than the cutter could stand there is a link, a retract or
 /// a plunge.
-fn in_contact(job: &Job, motions: &[Motion], meant: &[bool], cutter: &DropCutter) -> Vec<bool> {
-    let mm = job.file.in_mm();
+fn find_contact_motions(
+    job: &CompensateZJob,
+    motions: &[Motion],
+    meant: &[bool],
+    cutter: &DropCutter,
+) -> Vec<bool> {
+    let mm = job.file.mm_per_unit();
     // A larger ball than this one stood higher on slopes.
     let room = AIR + 2.0 * job.was.map_or(0.0, |was| (was - job.radius).abs());
     let lift = if job.was_centre { job.was.unwrap_or(0.0) } else { 0.0 };
     let above = |point: Point3<f64>| {
         let at = point * mm;
-        cutter.height(at.x, at.y).is_some_and(|drop| at.z - lift > drop.tip_z + room)
+        cutter.drop_at(at.x, at.y).is_some_and(|drop| at.z - lift > drop.tip_z + room)
     };
     let touches =
         |(motion, meant): (&Motion, &bool)| *meant && !above(motion.from.point) && !above(motion.to.point);
     motions.iter().zip(meant).map(touches).collect()
 }
 
-fn mesh(path: &FilePath, mm: f64, context: &Context<'_>) -> Result<Mesh, Box<Diagnostic>> {
-    let fail =
-        |why: String| context.fail(format!("{} cannot be used: {why}", path.as_str()), &["against", "mesh"]);
-    let full = path.beside(Path::new(context.recipe.source.name()));
+fn read_mesh(path: &FilePath, mm: f64, context: &StepContext<'_>) -> Result<Mesh, Box<Diagnostic>> {
+    let fail = |why: String| {
+        context.step_failure(format!("{} cannot be used: {why}", path.as_str()), &["against", "mesh"])
+    };
+    let full = path.resolve_beside(Path::new(context.recipe.source.name()));
     let bytes = std::fs::read(full).map_err(|error| fail(error.to_string()))?;
     let mesh = Mesh::from_stl(&bytes).map_err(|error| fail(error.to_string()))?;
     if mm == 1.0 { Ok(mesh) } else { mesh.scaled(mm).map_err(|error| fail(error.to_string())) }
 }
 
-fn make(job: &Job, motions: &[Motion], run: Range<usize>, cutter: &DropCutter) -> Option<Work> {
+fn make_mesh_pass(
+    job: &CompensateZJob,
+    motions: &[Motion],
+    run: Range<usize>,
+    cutter: &DropCutter,
+) -> Option<MeshPass> {
     // Printing has a little of the tolerance.
     let tolerance = 0.8 * job.tolerance;
-    let seen = seen_from_above(motions, &run, job.file.in_mm(), tolerance);
+    let seen = project_from_above(motions, &run, job.file.mm_per_unit(), tolerance);
     let lines: Vec<Vec<[f64; 2]>> = seen.into_iter().map(|(_, line)| line).collect();
-    let mut points = lowered(cutter, &lines, tolerance)?;
+    let mut points = lower_cutter(cutter, &lines, tolerance)?;
     let start = *points.first()?.first()?;
     // Each motion begins where the one before ends.
     let mut reached = start;
     for own in &mut points {
-        if own.first().is_some_and(|first| same(first, &reached)) {
+        if own.first().is_some_and(|first| is_same_point(first, &reached)) {
             own.remove(0);
         }
         if let Some(last) = own.last() {
             reached = *last;
         }
     }
-    Some(Work { run, points, start })
+    Some(MeshPass { run, points, start })
 }
 
-fn same(one: &[f64; 3], other: &[f64; 3]) -> bool {
+fn is_same_point(one: &[f64; 3], other: &[f64; 3]) -> bool {
     one.iter().zip(other).all(|(a, b)| (a - b).abs() <= 1e-9)
 }
 
-impl Work {
-    fn end(&self) -> [f64; 3] {
+impl MeshPass {
+    fn end_point(&self) -> [f64; 3] {
         self.points.iter().flatten().next_back().copied().unwrap_or(self.start)
     }
 
-    fn moved(&self, lift: Vector3<f64>) -> Option<Moved> {
-        let (start, end) = (Point3::from(self.start) + lift, Point3::from(self.end()) + lift);
-        Some(Moved { motions: self.run.clone(), start, end })
+    fn moved_pass(&self, lift: Vector3<f64>) -> Option<MovedPass> {
+        let (start, end) = (Point3::from(self.start) + lift, Point3::from(self.end_point()) + lift);
+        Some(MovedPass { motions: self.run.clone(), start, end })
     }
 }
 
 /// Measures the written passes in space.
 #[allow(clippy::too_many_arguments)] // one call, and a struct would only rename them
-fn prove(
-    job: &Job,
+fn prove_mesh_passes(
+    job: &CompensateZJob,
     mesh: &Mesh,
-    cutter: Cutter,
+    cutter: DropCutterShape,
     after: &[Motion],
     ranges: &[Range<usize>],
     lift: Vector3<f64>,
-    all: &[Work],
+    all: &[MeshPass],
     reports: &mut [PassReport],
-    place: &Place<'_>,
-    context: &Context<'_>,
+    place: &MotionFindings<'_>,
+    context: &StepContext<'_>,
 ) -> Result<(), Box<Diagnostic>> {
-    let mm = job.file.in_mm();
+    let mm = job.file.mm_per_unit();
     let path = |range: &Range<usize>| -> Vec<[f64; 3]> {
         let written = after.get(range.clone()).unwrap_or_default();
         let start = written.first().map(|motion| motion.from.point);
@@ -186,7 +208,7 @@ fn prove(
         points.map(|point| (point * mm - lift).coords.into()).collect()
     };
     let paths: Vec<Vec<[f64; 3]>> = ranges.iter().map(path).collect();
-    let found = look(job, mesh, cutter, &paths);
+    let found = measure_tip_paths(job, mesh, cutter, &paths);
     for ((work, found), report) in all.iter().zip(found).zip(reports) {
         let Some(found) = found else { continue };
         report.gouge_mm = found.gouge;
@@ -196,32 +218,37 @@ fn prove(
                 "measured again, this pass gouges the model by {:.4} mm at ({:.3}, {:.3}, {:.3}): more than the tolerance of {} mm",
                 found.gouge, found.gouge_at[0], found.gouge_at[1], found.gouge_at[2], job.tolerance
             );
-            return Err(place.fail(message, work.run.start, "the pass", context));
+            return Err(place.build_failure(message, work.run.start, "the pass", context));
         }
     }
     Ok(())
 }
 
 /// Looks at paths in space by other means than they were made.
-fn look(job: &Job, mesh: &Mesh, cutter: Cutter, paths: &[Vec<[f64; 3]>]) -> Vec<Option<Deviation>> {
+fn measure_tip_paths(
+    job: &CompensateZJob,
+    mesh: &Mesh,
+    cutter: DropCutterShape,
+    paths: &[Vec<[f64; 3]>],
+) -> Vec<Option<PathDeviation>> {
     if job.corner == job.radius {
         // Between two places, a ball passes what is free at both by no more than a tenth of the tolerance.
         let error = job.tolerance / 10.0;
         let step = (8.0 * job.radius * error).sqrt();
-        let space = Space::new(mesh, job.radius);
+        let space = BallClearanceField::new(mesh, job.radius);
         let one = |path: &Vec<[f64; 3]>| {
-            let seen = space.along(path, step)?;
+            let seen = space.measure_clearance(path, step)?;
             let (gouge, gap) = ((-seen.low).max(0.0), seen.high.max(0.0));
-            Some(Deviation { gouge, gouge_at: seen.low_at, gap, gap_at: seen.high_at, error })
+            Some(PathDeviation { gouge, gouge_at: seen.low_at, gap, gap_at: seen.high_at, error })
         };
         return paths.par_iter().map(one).collect();
     }
-    let length: f64 = paths.iter().flat_map(|path| path.windows(2)).map(distance).sum();
+    let length: f64 = paths.iter().flat_map(|path| path.windows(2)).map(segment_length).sum();
     let resolution = job.tolerance.max(length / LOOKS);
-    paths.par_iter().map(|path| deviation(mesh, cutter, path, resolution)).collect()
+    paths.par_iter().map(|path| measure_deviation(mesh, cutter, path, resolution)).collect()
 }
 
-fn distance(pair: &[[f64; 3]]) -> f64 {
+fn segment_length(pair: &[[f64; 3]]) -> f64 {
     match pair {
         [a, b] => (Vector3::from(*b) - Vector3::from(*a)).norm(),
         _ => 0.0,
@@ -229,41 +256,53 @@ fn distance(pair: &[[f64; 3]]) -> f64 {
 }
 
 /// Motions between passes that go through the model.
-fn between(
-    job: &Job,
+fn report_gouging_links(
+    job: &CompensateZJob,
     cutter: &DropCutter,
     after: &[Motion],
     ranges: &[Range<usize>],
     lift: Vector3<f64>,
     program: &Program,
-    context: &mut Context<'_>,
+    context: &mut StepContext<'_>,
 ) {
-    let mm = job.file.in_mm();
-    let place = Place { program, motions: after };
+    let mm = job.file.mm_per_unit();
+    let place = MotionFindings { program, motions: after };
     let operations: Vec<usize> =
         ranges.iter().filter_map(|range| after.get(range.start)).map(|motion| motion.operation).collect();
     for (index, motion) in after.iter().enumerate() {
         if !operations.contains(&motion.operation) || ranges.iter().any(|range| range.contains(&index)) {
             continue;
         }
-        let points = motion.path.samples(motion.from.point, motion.to.point);
+        let points = motion.path.sample_points(motion.from.point, motion.to.point);
         let deepest =
-            points.windows(2).map(|pair| deepest(job, cutter, pair, mm, lift.z)).fold(0.0, f64::max);
+            points.windows(2).map(|pair| deepest_gouge_mm(job, cutter, pair, mm, lift.z)).fold(0.0, f64::max);
         if deepest > job.tolerance + PRINTED * mm {
             let message = format!("between passes, the tool goes {deepest:.3} mm into the model here");
-            context.findings.push(place.finding(codes::BALL_GOUGES, message, index, "ends here", context));
+            context.findings.push(place.build_finding(
+                codes::BALL_GOUGES,
+                message,
+                index,
+                "ends here",
+                context,
+            ));
         }
     }
 }
 
 /// How far below the lowest height a straight move goes, looked at every eighth of the cutter's radius.
-fn deepest(job: &Job, cutter: &DropCutter, pair: &[Point3<f64>], mm: f64, lift: f64) -> f64 {
+fn deepest_gouge_mm(
+    job: &CompensateZJob,
+    cutter: &DropCutter,
+    pair: &[Point3<f64>],
+    mm: f64,
+    lift: f64,
+) -> f64 {
     let [from, to] = pair else { return 0.0 };
     let (from, to) = (from * mm, to * mm);
     let count = ((to - from).xy().norm() / (job.radius / 8.0)).ceil().clamp(1.0, 1e5) as usize;
     let below = |part: usize| {
         let at = from + (to - from) * (part as f64 / count as f64);
-        cutter.height(at.x, at.y).map_or(0.0, |drop| drop.tip_z + lift - at.z)
+        cutter.drop_at(at.x, at.y).map_or(0.0, |drop| drop.tip_z + lift - at.z)
     };
     (0..=count).map(below).fold(0.0, f64::max)
 }

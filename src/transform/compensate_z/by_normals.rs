@@ -1,88 +1,97 @@
 //! Compensation by contact normals: each point moves by its own.
 
-use super::leads::{self, Around, Moved, leads_written};
-use super::normals::{Contact, gouges};
-use super::passes::runs;
-use super::proof;
-use super::report::{Names, PassReport, Report};
-use super::step::Job;
-use super::words::Place;
-use super::write::Writer;
+use super::contact_normals::{BallContact, find_gouges};
+use super::findings::MotionFindings;
+use super::leads::{self, MovedPass, PassSurroundings, write_leads};
+use super::pass_writer::PassWriter;
+use super::report::{CompensateZReport, PassReport, PassReporter};
+use super::step::CompensateZJob;
+use super::vertical_passes::find_cutting_runs;
+use super::written_passes;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::Program;
-use crate::program::geometry::Path;
+use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
-use crate::transform::Context;
-use crate::write::Editor;
+use crate::transform::StepContext;
+use crate::write::ProgramEditor;
 use nalgebra::{Point3, Unit, Vector3};
 use std::ops::Range;
 
 /// Gouges that are told one by one.
 const TOLD: usize = 10;
 
-pub(super) fn run(
-    job: &Job,
+pub(super) fn compensate_by_normals(
+    job: &CompensateZJob,
     program: Program,
     motions: &[Motion],
     meant: &[bool],
-    context: &mut Context<'_>,
-) -> Result<(Program, Report), Box<Diagnostic>> {
-    let mm = job.file.in_mm();
-    let place = Place { program: &program, motions };
-    let runs = runs(motions, meant, mm);
-    let mut contacts: Vec<Contact> = Vec::new();
+    context: &mut StepContext<'_>,
+) -> Result<(Program, CompensateZReport), Box<Diagnostic>> {
+    let mm = job.file.mm_per_unit();
+    let place = MotionFindings { program: &program, motions };
+    let runs = find_cutting_runs(motions, meant, mm);
+    let mut contacts: Vec<BallContact> = Vec::new();
     let mut owners: Vec<usize> = Vec::new();
     for index in runs.iter().cloned().flatten() {
         let Some(motion) = motions.get(index) else { continue };
-        if !matches!(motion.path, Path::Line) {
+        if !matches!(motion.path, MotionPath::Line) {
             let message = "an arc or spline has no contact normal at each of its points; compensate it `against: profile`";
-            return Err(place.fail(message.to_owned(), index, "no straight motion", context));
+            return Err(place.build_failure(message.to_owned(), index, "no straight motion", context));
         }
-        let contact = job.contact(motion, mm).ok_or_else(|| {
+        let contact = job.find_contact(motion, mm).ok_or_else(|| {
             let message =
                 "this point has no contact normal (GOTO with nine values), which `against: normals` needs";
-            place.fail(message.to_owned(), index, "no normal", context)
+            place.build_failure(message.to_owned(), index, "no normal", context)
         })?;
         if contact.normal.dot(&contact.axis) < -1e-6 {
             let message =
                 "the contact normal points away from the tool, into the part: the ball would come from below";
-            return Err(place.fail(message.to_owned(), index, "points down", context));
+            return Err(place.build_failure(message.to_owned(), index, "points down", context));
         }
         contacts.push(contact);
         owners.push(index);
     }
-    tell_gouges(job, &contacts, &owners, &place, context);
-    let new =
-        |contact: &Contact| if job.centre { contact.centre(job.radius) } else { contact.tip(job.radius) };
-    let moved: Vec<Moved> =
-        runs.iter().filter_map(|run| moved(job, motions, run, &contacts, &owners, mm, &new)).collect();
-    let ends = leads::around(&Around::new(&program, motions, meant, mm, job.lift()), &moved, &|_| None)
-        .map_err(|why| place.stuck(why, context))?;
-    let writer = Writer::new(&program, motions, mm);
+    report_gouges(job, &contacts, &owners, &place, context);
+    let new = |contact: &BallContact| {
+        if job.centre { contact.ball_centre(job.radius) } else { contact.ball_tip(job.radius) }
+    };
+    let moved: Vec<MovedPass> = runs
+        .iter()
+        .filter_map(|run| move_run_ends(job, motions, run, &contacts, &owners, mm, &new))
+        .collect();
+    let ends = leads::move_surroundings(
+        &PassSurroundings::new(&program, motions, meant, mm, job.lift_mm()),
+        &moved,
+        &|_| None,
+    )
+    .map_err(|why| place.describe_lead_conflict(why, context))?;
+    let writer = PassWriter::new(&program, motions, mm);
     for index in ends.keys().copied().chain(owners.iter().copied()) {
-        writer.check(&program, index).map_err(|why| place.unwritable(why, index, context))?;
+        writer
+            .check_writable(&program, index)
+            .map_err(|why| place.describe_unwritable_motion(why, index, context))?;
     }
-    let names = Names::new(&program, motions);
-    let reports = reports(job, &runs, (&contacts, &owners), &names);
+    let names = PassReporter::new(&program, motions);
+    let reports = build_reports(job, &runs, (&contacts, &owners), &names);
     let original = program.clone();
-    let mut editor = Editor::new(program, context.step);
+    let mut editor = ProgramEditor::new(program, context.step);
     for (contact, index) in contacts.iter().zip(&owners) {
         let Some(motion) = motions.get(*index) else { continue };
-        editor.set_numbers(motion.last_statement(), &writer.numbers(new(contact)))?;
+        editor.set_numbers(motion.last_statement(), &writer.point_numbers(new(contact)))?;
     }
-    leads_written(&writer, &mut editor, motions, &ends, &moved, mm, &original, context)?;
+    write_leads(&writer, &mut editor, motions, &ends, &moved, mm, &original, context)?;
     let program = editor.finish()?;
     let after: Vec<Motion> = program.motions().collect();
     let counts = runs.iter().map(|run| (run, run.len()));
-    let place = Place { program: &original, motions };
+    let place = MotionFindings { program: &original, motions };
     let wrong = "the program with the new points does not read back as it should";
-    let ranges = proof::ranges(motions, &after, counts)
-        .map_err(|motion| place.fail(wrong.to_owned(), motion, "from here on", context))?;
+    let ranges = written_passes::find_written_passes(motions, &after, counts)
+        .map_err(|motion| place.build_failure(wrong.to_owned(), motion, "from here on", context))?;
     for (index, contact) in ranges.into_iter().flatten().zip(&contacts) {
         let read = after.get(index).map(|motion| motion.to.point * mm);
         // Half of the fourth decimal in each direction.
         if read.is_none_or(|read| (read - new(contact)).amax() > 1e-4 * mm) {
-            return Err(place.fail(
+            return Err(place.build_failure(
                 wrong.to_owned(),
                 index.min(motions.len().saturating_sub(1)),
                 "here",
@@ -90,14 +99,14 @@ pub(super) fn run(
             ));
         }
     }
-    let report = Report::new("normals", (job.radius, job.corner), job.tolerance);
-    let report = Report { passes: reports, ..report };
+    let report = CompensateZReport::new("normals", (job.radius, job.corner), job.tolerance);
+    let report = CompensateZReport { passes: reports, ..report };
     Ok((program, report))
 }
 
-impl Job {
+impl CompensateZJob {
     /// The contact that a motion ends at; `None` without a normal.
-    fn contact(&self, motion: &Motion, mm: f64) -> Option<Contact> {
+    fn find_contact(&self, motion: &Motion, mm: f64) -> Option<BallContact> {
         let normal = Unit::try_new(motion.normal?, 1e-9)?;
         let axis = Unit::try_new(motion.to.axis, 1e-9)?;
         let at = motion.to.point * mm;
@@ -107,41 +116,41 @@ impl Job {
             (Some(_), true) => normal.into_inner() * was,
             (Some(_), false) => (normal.into_inner() - axis.into_inner()) * was,
         };
-        Some(Contact { point: at - back, normal, axis })
+        Some(BallContact { point: at - back, normal, axis })
     }
 }
 
 /// A run's ends as they are to be.
-fn moved(
-    job: &Job,
+fn move_run_ends(
+    job: &CompensateZJob,
     motions: &[Motion],
     run: &Range<usize>,
-    contacts: &[Contact],
+    contacts: &[BallContact],
     owners: &[usize],
     mm: f64,
-    new: &impl Fn(&Contact) -> Point3<f64>,
-) -> Option<Moved> {
+    new: &impl Fn(&BallContact) -> Point3<f64>,
+) -> Option<MovedPass> {
     let at = |index: usize| owners.binary_search(&index).ok().and_then(|place| contacts.get(place));
     let (first, last) = (at(run.start)?, at(run.end.checked_sub(1)?)?);
     let before = run.start.checked_sub(1).and_then(|before| motions.get(before));
     // The point before the first contact moves by its own normal, if it has one, and else not at all.
-    let own = before.and_then(|motion| job.contact(motion, mm));
+    let own = before.and_then(|motion| job.find_contact(motion, mm));
     let start = match (own, before) {
         (Some(own), _) => new(&own),
-        (None, Some(motion)) => motion.to.point * mm + motion.to.axis * job.lift(),
+        (None, Some(motion)) => motion.to.point * mm + motion.to.axis * job.lift_mm(),
         (None, None) => new(first),
     };
-    Some(Moved { motions: run.clone(), start, end: new(last) })
+    Some(MovedPass { motions: run.clone(), start, end: new(last) })
 }
 
-fn tell_gouges(
-    job: &Job,
-    contacts: &[Contact],
+fn report_gouges(
+    job: &CompensateZJob,
+    contacts: &[BallContact],
     owners: &[usize],
-    place: &Place<'_>,
-    context: &mut Context<'_>,
+    place: &MotionFindings<'_>,
+    context: &mut StepContext<'_>,
 ) {
-    let found = gouges(contacts, job.radius, job.tolerance);
+    let found = find_gouges(contacts, job.radius, job.tolerance);
     for gouge in found.iter().take(TOLD) {
         let (Some(motion), Some(neighbour)) = (owners.get(gouge.contact), owners.get(gouge.neighbour)) else {
             continue;
@@ -150,11 +159,11 @@ fn tell_gouges(
             "the ball that touches here cuts {:.4} mm into another contact point of the path",
             gouge.depth
         );
-        let mut finding = place.finding(codes::BALL_GOUGES, message, *motion, "touches here", context);
+        let mut finding = place.build_finding(codes::BALL_GOUGES, message, *motion, "touches here", context);
         let statement =
             place.motions.get(*neighbour).and_then(|motion| place.program.statement(motion.last_statement()));
         if let Some(statement) = statement {
-            finding = finding.label(place.program.source(), statement.origin(), "is cut into");
+            finding = finding.with_label(place.program.source(), statement.origin(), "is cut into");
         }
         context.findings.push(finding);
     }
@@ -165,17 +174,19 @@ fn tell_gouges(
 }
 
 /// The reports of runs: of their balls, the deepest gouge of a contact point.
-fn reports(
-    job: &Job,
+fn build_reports(
+    job: &CompensateZJob,
     runs: &[Range<usize>],
-    (contacts, owners): (&[Contact], &[usize]),
-    names: &Names<'_>,
+    (contacts, owners): (&[BallContact], &[usize]),
+    names: &PassReporter<'_>,
 ) -> Vec<PassReport> {
-    let all = gouges(contacts, job.radius, 0.0);
+    let all = find_gouges(contacts, job.radius, 0.0);
     let deepest = |run: &Range<usize>| {
         let own =
             all.iter().filter(|gouge| owners.get(gouge.contact).is_some_and(|owner| run.contains(owner)));
         own.map(|gouge| gouge.depth).fold(0.0, f64::max)
     };
-    runs.iter().map(|run| PassReport { gouge_mm: deepest(run), ..names.pass(run, run.len()) }).collect()
+    runs.iter()
+        .map(|run| PassReport { gouge_mm: deepest(run), ..names.start_report(run, run.len()) })
+        .collect()
 }

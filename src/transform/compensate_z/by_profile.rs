@@ -1,19 +1,19 @@
 //! Compensation against the passes themselves.
 
-use super::clearance::height;
-use super::leads::{self, Around, Moved, leads_written};
-use super::passes::{Pass, passes};
-use super::profile::{self, Ball, Compensated};
-use super::report::{Names, PassReport, Report};
-use super::step::Job;
-use super::words::Place;
-use super::write::Writer;
+use super::findings::MotionFindings;
+use super::leads::{self, MovedPass, PassSurroundings, write_leads};
+use super::pass_profile::{self, CompensatedPass, CompensatingBall};
+use super::pass_writer::PassWriter;
+use super::report::{CompensateZReport, PassReport, PassReporter};
+use super::step::CompensateZJob;
+use super::tip_clearance::lowest_tip_height_mm;
+use super::vertical_passes::{VerticalPass, find_vertical_passes};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::Program;
 use crate::program::motion::Motion;
-use crate::surface::profile::{Chain, Piece, Point};
-use crate::transform::Context;
-use crate::write::Editor;
+use crate::surface::profile::{Chain, ChainPiece, Point};
+use crate::transform::StepContext;
+use crate::write::ProgramEditor;
 use nalgebra::Point3;
 use rayon::prelude::*;
 
@@ -24,25 +24,25 @@ const TOLD: usize = 10;
 const PRINTED: f64 = 1e-4;
 
 /// A pass on its way.
-struct Work {
-    pass: Pass,
+struct ProfilePass {
+    pass: VerticalPass,
     owners: Vec<usize>,
-    done: Compensated,
+    done: CompensatedPass,
     /// The path as its points will be, tip or centre.
     path: Chain,
 }
 
-pub(super) fn run(
-    job: &Job,
+pub(super) fn compensate_by_profile(
+    job: &CompensateZJob,
     program: Program,
     motions: &[Motion],
     meant: &[bool],
-    context: &mut Context<'_>,
-) -> Result<(Program, Report), Box<Diagnostic>> {
-    let mm = job.file.in_mm();
-    let place = Place { program: &program, motions };
-    let writer = Writer::new(&program, motions, mm);
-    let ball = Ball {
+    context: &mut StepContext<'_>,
+) -> Result<(Program, CompensateZReport), Box<Diagnostic>> {
+    let mm = job.file.mm_per_unit();
+    let place = MotionFindings { program: &program, motions };
+    let writer = PassWriter::new(&program, motions, mm);
+    let ball = CompensatingBall {
         radius: job.radius,
         was: job.was,
         was_centre: job.was_centre,
@@ -50,86 +50,100 @@ pub(super) fn run(
         tolerance: job.tolerance,
         arcs: job.arcs && writer.has_arcs(),
     };
-    let found = passes(motions, meant, mm).map_err(|why| place.no_pass(why, context))?;
-    let made: Vec<_> = found.into_par_iter().map(|pass| make(pass, motions, mm, &ball)).collect();
-    let mut all: Vec<Work> = Vec::with_capacity(made.len());
+    let found =
+        find_vertical_passes(motions, meant, mm).map_err(|why| place.describe_no_pass(why, context))?;
+    let made: Vec<_> =
+        found.into_par_iter().map(|pass| make_profile_pass(pass, motions, mm, &ball)).collect();
+    let mut all: Vec<ProfilePass> = Vec::with_capacity(made.len());
     for made in made {
-        all.push(made.map_err(|(motion, why)| place.fault(&why, motion, context))?);
+        all.push(made.map_err(|(motion, why)| place.describe_pass_fault(&why, motion, context))?);
     }
-    tell_unreachable(&all, &place, context);
-    let moved: Vec<Moved> = all.iter().map(Work::moved).collect();
+    report_unreachable(&all, &place, context);
+    let moved: Vec<MovedPass> = all.iter().map(ProfilePass::moved_pass).collect();
     let over = |at: Point3<f64>| {
         let exact = all.iter().map(|work| (&work.pass.plane, &work.done.exact));
-        height(exact, if ball.centre { ball.radius } else { 0.0 }, at)
+        lowest_tip_height_mm(exact, if ball.centre { ball.radius } else { 0.0 }, at)
     };
-    let ends = leads::around(&Around::new(&program, motions, meant, mm, job.lift()), &moved, &over)
-        .map_err(|why| place.stuck(why, context))?;
+    let ends = leads::move_surroundings(
+        &PassSurroundings::new(&program, motions, meant, mm, job.lift_mm()),
+        &moved,
+        &over,
+    )
+    .map_err(|why| place.describe_lead_conflict(why, context))?;
     for index in ends.keys().copied().chain(all.iter().flat_map(|work| work.pass.motions.clone())) {
-        writer.check(&program, index).map_err(|why| place.unwritable(why, index, context))?;
+        writer
+            .check_writable(&program, index)
+            .map_err(|why| place.describe_unwritable_motion(why, index, context))?;
     }
-    let names = Names::new(&program, motions);
-    let mut reports: Vec<PassReport> = all.iter().map(|work| work.report(&names)).collect();
+    let names = PassReporter::new(&program, motions);
+    let mut reports: Vec<PassReport> = all.iter().map(|work| work.build_report(&names)).collect();
     let original = program.clone();
-    let mut editor = Editor::new(program, context.step);
+    let mut editor = ProgramEditor::new(program, context.step);
     for work in &all {
         let contact = job.was.is_none();
-        let written = writer.pass(&mut editor, &work.pass, &work.path, (job.radius, contact))?;
-        let place = Place { program: &original, motions };
-        written.map_err(|why| place.unwritable(why, work.pass.motions.start, context))?;
+        let written = writer.write_pass(&mut editor, &work.pass, &work.path, (job.radius, contact))?;
+        let place = MotionFindings { program: &original, motions };
+        written.map_err(|why| place.describe_unwritable_motion(why, work.pass.motions.start, context))?;
     }
-    leads_written(&writer, &mut editor, motions, &ends, &moved, mm, &original, context)?;
+    write_leads(&writer, &mut editor, motions, &ends, &moved, mm, &original, context)?;
     let program = editor.finish()?;
-    prove(&program, &original, motions, &all, &ball, mm, &mut reports, context)?;
-    let report = Report::new("profile", (job.radius, job.corner), job.tolerance);
-    let report = Report { passes: reports, ..report };
+    prove_profile_passes(&program, &original, motions, &all, &ball, mm, &mut reports, context)?;
+    let report = CompensateZReport::new("profile", (job.radius, job.corner), job.tolerance);
+    let report = CompensateZReport { passes: reports, ..report };
     Ok((program, report))
 }
 
-fn make(pass: Pass, motions: &[Motion], mm: f64, ball: &Ball) -> Result<Work, (usize, profile::Fault)> {
+fn make_profile_pass(
+    pass: VerticalPass,
+    motions: &[Motion],
+    mm: f64,
+    ball: &CompensatingBall,
+) -> Result<ProfilePass, (usize, pass_profile::PassFault)> {
     let first = pass.motions.start;
-    let (path, owners) = profile::chain(motions, &pass, mm, ball.tolerance).map_err(|why| (first, why))?;
-    let done = profile::over(&path, ball).map_err(|why| (first, why))?;
+    let (path, owners) =
+        pass_profile::build_chain(motions, &pass, mm, ball.tolerance).map_err(|why| (first, why))?;
+    let done = pass_profile::compensate_pass(&path, ball).map_err(|why| (first, why))?;
     let path = if ball.centre { done.path.tip_to_centre(ball.radius) } else { done.path.clone() };
-    Ok(Work { pass, owners, done, path })
+    Ok(ProfilePass { pass, owners, done, path })
 }
 
-impl Work {
-    fn moved(&self) -> Moved {
-        let space = |at: Point| self.pass.plane.space(at);
-        Moved {
+impl ProfilePass {
+    fn moved_pass(&self) -> MovedPass {
+        let space = |at: Point| self.pass.plane.to_space(at);
+        MovedPass {
             motions: self.pass.motions.clone(),
             start: space(self.path.start()),
             end: space(self.path.end()),
         }
     }
 
-    fn report(&self, names: &Names<'_>) -> PassReport {
+    fn build_report(&self, names: &PassReporter<'_>) -> PassReport {
         PassReport {
             left_mm: self.done.unreachable.iter().map(|part| part.left).fold(0.0, f64::max),
-            profile: drawn(&self.done.contact),
-            ..names.pass(&self.pass.motions, self.path.pieces().len())
+            profile: to_drawing_points(&self.done.contact),
+            ..names.start_report(&self.pass.motions, self.path.pieces().len())
         }
     }
 }
 
 /// A chain as points, arcs every few degrees.
-pub(super) fn drawn(chain: &Chain) -> Vec<(f64, f64)> {
+pub(super) fn to_drawing_points(chain: &Chain) -> Vec<(f64, f64)> {
     let start = chain.start();
     let mut points = vec![(start.u, start.z)];
     for piece in chain.pieces() {
         let count = match piece {
-            Piece::Line(_) => 1,
-            Piece::Arc(arc) => (arc.sweep.abs() / 0.05).ceil().max(1.0) as usize,
+            ChainPiece::Line(_) => 1,
+            ChainPiece::Arc(arc) => (arc.sweep.abs() / 0.05).ceil().max(1.0) as usize,
         };
         points.extend((1..=count).map(|part| {
-            let at = piece.point(part as f64 / count as f64);
+            let at = piece.point_at(part as f64 / count as f64);
             (at.u, at.z)
         }));
     }
     points
 }
 
-fn tell_unreachable(all: &[Work], place: &Place<'_>, context: &mut Context<'_>) {
+fn report_unreachable(all: &[ProfilePass], place: &MotionFindings<'_>, context: &mut StepContext<'_>) {
     let mut count = 0;
     for work in all {
         for part in &work.done.unreachable {
@@ -148,7 +162,7 @@ fn tell_unreachable(all: &[Work], place: &Place<'_>, context: &mut Context<'_>) 
                 "the ball does not reach the profile from u = {:.3} to {:.3} mm along this pass: up to {:.3} mm are left",
                 part.from.u, part.to.u, part.left
             );
-            context.findings.push(place.finding(
+            context.findings.push(place.build_finding(
                 codes::UNREACHABLE,
                 message,
                 motion,
@@ -165,73 +179,75 @@ fn tell_unreachable(all: &[Work], place: &Place<'_>, context: &mut Context<'_>) 
 
 /// Measures the written passes.
 #[allow(clippy::too_many_arguments)] // one call, and a struct would only rename them
-fn prove(
+fn prove_profile_passes(
     program: &Program,
     original: &Program,
     before: &[Motion],
-    all: &[Work],
-    ball: &Ball,
+    all: &[ProfilePass],
+    ball: &CompensatingBall,
     mm: f64,
     reports: &mut [PassReport],
-    context: &Context<'_>,
+    context: &StepContext<'_>,
 ) -> Result<(), Box<Diagnostic>> {
     let after: Vec<Motion> = program.motions().collect();
-    let place = Place { program: original, motions: before };
-    let ranges =
-        super::proof::ranges(before, &after, all.iter().map(|work| (&work.pass.motions, pieces(&work.path))))
-            .map_err(|motion| {
-                place.fail(
-                    "the program with the new points does not read back with the motions it should have"
-                        .to_owned(),
-                    motion,
-                    "from here on",
-                    context,
-                )
-            })?;
+    let place = MotionFindings { program: original, motions: before };
+    let ranges = super::written_passes::find_written_passes(
+        before,
+        &after,
+        all.iter().map(|work| (&work.pass.motions, count_written_pieces(&work.path))),
+    )
+    .map_err(|motion| {
+        place.build_failure(
+            "the program with the new points does not read back with the motions it should have".to_owned(),
+            motion,
+            "from here on",
+            context,
+        )
+    })?;
     let measured: Vec<_> = all
         .par_iter()
         .zip(&ranges)
         .map(|(work, range)| {
-            let written = Pass { motions: range.clone(), plane: work.pass.plane };
-            let (path, _) = profile::chain(&after, &written, mm, ball.tolerance)?;
-            let tip = profile::tip(&path, ball);
-            Ok((profile::look(&work.done.contact, &tip, ball), drawn(&tip)))
+            let written = VerticalPass { motions: range.clone(), plane: work.pass.plane };
+            let (path, _) = pass_profile::build_chain(&after, &written, mm, ball.tolerance)?;
+            let tip = pass_profile::tip_chain(&path, ball);
+            Ok((pass_profile::measure_tip_chain(&work.done.contact, &tip, ball), to_drawing_points(&tip)))
         })
-        .collect::<Vec<Result<_, profile::Fault>>>();
+        .collect::<Vec<Result<_, pass_profile::PassFault>>>();
     for ((work, measured), report) in all.iter().zip(measured).zip(reports) {
         let first = work.pass.motions.start;
-        let (verdict, path) = measured.map_err(|why| place.fault(&why, first, context))?;
+        let (verdict, path) = measured.map_err(|why| place.describe_pass_fault(&why, first, context))?;
         report.gouge_mm = verdict.gouge;
         report.gap_mm = Some(verdict.gap);
         report.path = path;
-        report.naive = naive(&work.done.contact, ball.radius);
+        report.naive = naive_offset_points(&work.done.contact, ball.radius);
         let allowed = ball.tolerance + PRINTED * mm + verdict.bound;
         if verdict.gouge > allowed || verdict.gap > allowed {
             let message = format!(
                 "measured again, this pass gouges by {:.4} mm and leaves a gap of {:.4} mm: more than the tolerance of {} mm",
                 verdict.gouge, verdict.gap, ball.tolerance
             );
-            return Err(place.fail(message, first, "the pass", context));
+            return Err(place.build_failure(message, first, "the pass", context));
         }
     }
     Ok(())
 }
 
-fn pieces(path: &Chain) -> usize {
-    super::write::halves(path).len()
+fn count_written_pieces(path: &Chain) -> usize {
+    super::pass_writer::split_long_arcs(path).len()
 }
 
 /// Each point moved by the normal of its own piece: what must not be driven, for comparison.
-fn naive(contact: &Chain, radius: f64) -> Vec<(f64, f64)> {
+fn naive_offset_points(contact: &Chain, radius: f64) -> Vec<(f64, f64)> {
     let forward = if contact.end().u >= contact.start().u { 1.0 } else { -1.0 };
-    let moved = |piece: &Piece, share: f64| {
-        let (at, way) = (piece.point(share), piece.direction(share));
+    let moved = |piece: &ChainPiece, share: f64| {
+        let (at, way) = (piece.point_at(share), piece.direction_at(share));
         let length = way.u.hypot(way.z).max(1e-12);
         let (nu, nz) = (-way.z / length * forward, way.u / length * forward);
         (at.u + radius * nu, at.z + radius * (nz - 1.0))
     };
-    let of = |piece: &Piece| {
-        let count = if matches!(piece, Piece::Arc(_)) { 24 } else { 1 };
+    let of = |piece: &ChainPiece| {
+        let count = if matches!(piece, ChainPiece::Arc(_)) { 24 } else { 1 };
         (0..=count).map(|part| moved(piece, part as f64 / count as f64)).collect::<Vec<_>>()
     };
     contact.pieces().iter().flat_map(of).collect()

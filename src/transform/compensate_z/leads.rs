@@ -1,21 +1,21 @@
 //! Leads, links and rapids around passes: they move with the ends of their passes, and never below them.
 
-use super::passes::{UPRIGHT, cuts};
-use super::words::Place;
-use super::write::Writer;
+use super::findings::MotionFindings;
+use super::pass_writer::PassWriter;
+use super::vertical_passes::{UPRIGHT, is_cutting};
 use crate::diagnostic::Diagnostic;
-use crate::program::geometry::Path;
+use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::program::{Program, Record, Statement};
-use crate::transform::Context;
-use crate::write::Editor;
+use crate::transform::StepContext;
+use crate::write::ProgramEditor;
 use nalgebra::{Point3, Vector3};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// A pass whose ends have moved; mm.
 #[derive(Debug, Clone)]
-pub(super) struct Moved {
+pub(super) struct MovedPass {
     /// Its motions.
     pub motions: Range<usize>,
     /// Where it starts now.
@@ -25,7 +25,7 @@ pub(super) struct Moved {
 }
 
 /// What is known about the motions around passes.
-pub(super) struct Around<'a> {
+pub(super) struct PassSurroundings<'a> {
     pub motions: &'a [Motion],
     /// Length of the file's unit, mm.
     pub mm: f64,
@@ -39,7 +39,7 @@ pub(super) struct Around<'a> {
 
 /// Why what is around a pass cannot go with it; the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Stuck {
+pub(super) enum LeadConflict {
     /// The pass begins where a rapid ends.
     Rapid(usize),
     /// The pass goes on from, or into, a cut that is not meant.
@@ -48,7 +48,7 @@ pub(super) enum Stuck {
     Fixed(usize),
 }
 
-impl<'a> Around<'a> {
+impl<'a> PassSurroundings<'a> {
     pub fn new(program: &Program, motions: &'a [Motion], meant: &[bool], mm: f64, lift: f64) -> Self {
         let fixed = |motion: &Motion| {
             let record = program.statement(motion.last_statement()).map(Statement::record);
@@ -57,7 +57,7 @@ impl<'a> Around<'a> {
         let excluded = |(motion, meant): (&Motion, &bool)| {
             let way = motion.to.point - motion.from.point;
             let upright = (way - motion.to.axis * way.dot(&motion.to.axis)).norm() * mm <= UPRIGHT;
-            !*meant && cuts(motion) && (motion.class_is_told || !upright)
+            !*meant && is_cutting(motion) && (motion.class_is_told || !upright)
         };
         Self {
             motions,
@@ -68,56 +68,59 @@ impl<'a> Around<'a> {
         }
     }
 
-    fn is(&self, list: &[bool], index: usize) -> bool {
+    fn has_flag(&self, list: &[bool], index: usize) -> bool {
         list.get(index).copied().unwrap_or(false)
     }
 
-    fn stays(&self, index: usize) -> bool {
-        self.is(&self.fixed, index) || self.is(&self.excluded, index)
+    fn is_immovable(&self, index: usize) -> bool {
+        self.has_flag(&self.fixed, index) || self.has_flag(&self.excluded, index)
     }
 
-    fn point(&self, index: usize) -> Option<Point3<f64>> {
+    fn end_point_mm(&self, index: usize) -> Option<Point3<f64>> {
         self.motions.get(index).map(|motion| motion.to.point * self.mm)
     }
 
-    fn axis(&self, index: usize) -> Vector3<f64> {
+    fn tool_axis(&self, index: usize) -> Vector3<f64> {
         self.motions.get(index).map_or_else(Vector3::z, |motion| motion.to.axis)
     }
 
-    fn operation(&self, index: usize) -> Option<usize> {
+    fn operation_index(&self, index: usize) -> Option<usize> {
         self.motions.get(index).map(|motion| motion.operation)
     }
 
     /// Whether the motion before a pass can bring the tool to its new start, and the one after it take it from its end.
-    fn check(&self, pass: &Moved) -> Result<(), Stuck> {
-        let own = self.operation(pass.motions.start);
+    fn check_pass_ends(&self, pass: &MovedPass) -> Result<(), LeadConflict> {
+        let own = self.operation_index(pass.motions.start);
         let Some(before) = pass.motions.start.checked_sub(1) else {
-            return Err(Stuck::Fixed(pass.motions.start));
+            return Err(LeadConflict::Fixed(pass.motions.start));
         };
         // An end that stays where it was needs nobody to move.
         let same =
             |new: Point3<f64>, old: Option<Point3<f64>>| old.is_some_and(|old| (new - old).norm() <= 1e-6);
-        let last = pass.motions.end.checked_sub(1).and_then(|last| self.point(last));
+        let last = pass.motions.end.checked_sub(1).and_then(|last| self.end_point_mm(last));
         let after = pass.motions.end;
-        if !same(pass.end, last) && self.operation(after) == own && self.is(&self.excluded, after) {
-            return Err(Stuck::Excluded(after));
+        if !same(pass.end, last) && self.operation_index(after) == own && self.has_flag(&self.excluded, after)
+        {
+            return Err(LeadConflict::Excluded(after));
         }
-        if same(pass.start, self.point(before)) {
+        if same(pass.start, self.end_point_mm(before)) {
             return Ok(());
         }
-        if self.operation(before) != own || self.is(&self.fixed, before) {
-            return Err(Stuck::Fixed(before));
+        if self.operation_index(before) != own || self.has_flag(&self.fixed, before) {
+            return Err(LeadConflict::Fixed(before));
         }
-        if self.is(&self.excluded, before) {
-            return Err(Stuck::Excluded(before));
+        if self.has_flag(&self.excluded, before) {
+            return Err(LeadConflict::Excluded(before));
         }
-        let rapid =
-            self.motions.get(before).is_some_and(|motion| motion.rapid || matches!(motion.path, Path::Start));
-        let way = pass.start - self.point(before).unwrap_or(pass.start);
-        let up = self.axis(before);
+        let rapid = self
+            .motions
+            .get(before)
+            .is_some_and(|motion| motion.rapid || matches!(motion.path, MotionPath::Start));
+        let way = pass.start - self.end_point_mm(before).unwrap_or(pass.start);
+        let up = self.tool_axis(before);
         let across = (way - up * way.dot(&up)).norm();
         if rapid && (way.dot(&up) < -1e-6 || across > 1e-6) {
-            return Err(Stuck::Rapid(before));
+            return Err(LeadConflict::Rapid(before));
         }
         Ok(())
     }
@@ -131,31 +134,31 @@ impl<'a> Around<'a> {
 /// ends lower than it did.
 ///
 /// # Errors
-/// [`Stuck`] where that would move what is not to be moved.
-pub(super) fn around(
-    around: &Around<'_>,
-    passes: &[Moved],
+/// [`LeadConflict`] where that would move what is not to be moved.
+pub(super) fn move_surroundings(
+    around: &PassSurroundings<'_>,
+    passes: &[MovedPass],
     height: &dyn Fn(Point3<f64>) -> Option<f64>,
-) -> Result<BTreeMap<usize, Point3<f64>>, Stuck> {
+) -> Result<BTreeMap<usize, Point3<f64>>, LeadConflict> {
     let mut ends = BTreeMap::new();
     let last = around.motions.len();
     for (index, pass) in passes.iter().enumerate() {
-        around.check(pass)?;
+        around.check_pass_ends(pass)?;
         let next = passes.get(index + 1);
         if index == 0 {
-            gap(around, (None, Some(pass)), 0..pass.motions.start, &mut ends);
+            move_between_passes(around, (None, Some(pass)), 0..pass.motions.start, &mut ends);
         }
         let until = next.map_or(last, |next| next.motions.start);
-        gap(around, (Some(pass), next), pass.motions.end..until, &mut ends);
+        move_between_passes(around, (Some(pass), next), pass.motions.end..until, &mut ends);
     }
     for (index, end) in &mut ends {
         // The start of a pass is what was computed for it.
         if passes.iter().any(|pass| pass.motions.start == index + 1) {
             continue;
         }
-        let up = around.axis(*index);
+        let up = around.tool_axis(*index);
         let rapid = around.motions.get(*index).is_some_and(|motion| motion.rapid);
-        let old = around.point(*index).filter(|_| rapid).map(|old| old.coords.dot(&up) + around.lift);
+        let old = around.end_point_mm(*index).filter(|_| rapid).map(|old| old.coords.dot(&up) + around.lift);
         let least = height(*end).into_iter().chain(old).fold(f64::NEG_INFINITY, f64::max);
         let low = least - end.coords.dot(&up);
         // Rounding of the path itself is no reason to leave it.
@@ -167,49 +170,55 @@ pub(super) fn around(
 }
 
 /// The motions between two passes (or before the first, or after the last).
-fn gap(
-    around: &Around<'_>,
-    (left, reached): (Option<&Moved>, Option<&Moved>),
+fn move_between_passes(
+    around: &PassSurroundings<'_>,
+    (left, reached): (Option<&MovedPass>, Option<&MovedPass>),
     range: Range<usize>,
     ends: &mut BTreeMap<usize, Point3<f64>>,
 ) {
-    let own = left.or(reached).and_then(|pass| around.operation(pass.motions.start));
-    let next = reached.and_then(|pass| around.operation(pass.motions.start));
+    let own = left.or(reached).and_then(|pass| around.operation_index(pass.motions.start));
+    let next = reached.and_then(|pass| around.operation_index(pass.motions.start));
     if around.lift > 0.0 {
-        for index in range.clone().filter(|index| !around.stays(*index)) {
-            let operation = around.operation(index);
-            if let Some(at) = around.point(index).filter(|_| operation == own || operation == next) {
-                ends.insert(index, at + around.axis(index) * around.lift);
+        for index in range.clone().filter(|index| !around.is_immovable(*index)) {
+            let operation = around.operation_index(index);
+            if let Some(at) = around.end_point_mm(index).filter(|_| operation == own || operation == next) {
+                ends.insert(index, at + around.tool_axis(index) * around.lift);
             }
         }
     }
     let mut behind: BTreeMap<usize, bool> = BTreeMap::new();
     if let Some(left) = left {
-        let old = left.motions.end.checked_sub(1).and_then(|last| around.point(last)).unwrap_or(left.end);
+        let old =
+            left.motions.end.checked_sub(1).and_then(|last| around.end_point_mm(last)).unwrap_or(left.end);
         let mut lead = true;
         for index in range.clone() {
-            let (Some(motion), Some(at)) = (around.motions.get(index), around.point(index)) else { break };
+            let (Some(motion), Some(at)) = (around.motions.get(index), around.end_point_mm(index)) else {
+                break;
+            };
             lead &= !motion.rapid;
-            let above = is_above(at, old, around.axis(index));
-            if around.operation(index) != own || around.stays(index) || !lead && !above {
+            let above = is_straight_above(at, old, around.tool_axis(index));
+            if around.operation_index(index) != own || around.is_immovable(index) || !lead && !above {
                 break;
             }
-            ends.insert(index, shifted(at, (old, left.end), around.axis(index), above, around.lift));
+            ends.insert(
+                index,
+                shift_with_pass(at, (old, left.end), around.tool_axis(index), above, around.lift),
+            );
             behind.insert(index, above);
         }
     }
     let Some(ahead) = reached else { return };
-    let Some(old) = ahead.motions.start.checked_sub(1).and_then(|before| around.point(before)) else {
+    let Some(old) = ahead.motions.start.checked_sub(1).and_then(|before| around.end_point_mm(before)) else {
         return;
     };
     let mut lead = true;
     for index in range.clone().rev() {
-        let (Some(motion), Some(at)) = (around.motions.get(index), around.point(index)) else { break };
-        let above = is_above(at, old, around.axis(index));
-        if around.operation(index) != next || around.stays(index) || !lead && !above {
+        let (Some(motion), Some(at)) = (around.motions.get(index), around.end_point_mm(index)) else { break };
+        let above = is_straight_above(at, old, around.tool_axis(index));
+        if around.operation_index(index) != next || around.is_immovable(index) || !lead && !above {
             break;
         }
-        let wanted = shifted(at, (old, ahead.start), around.axis(index), above, around.lift);
+        let wanted = shift_with_pass(at, (old, ahead.start), around.tool_axis(index), above, around.lift);
         let share = (index + 1 - range.start) as f64 / range.len() as f64;
         let link = !motion.rapid && !above && index + 1 < ahead.motions.start;
         let new = match (ends.get(&index), behind.get(&index)) {
@@ -224,13 +233,13 @@ fn gap(
     }
 }
 
-fn is_above(at: Point3<f64>, end: Point3<f64>, up: Vector3<f64>) -> bool {
+fn is_straight_above(at: Point3<f64>, end: Point3<f64>, up: Vector3<f64>) -> bool {
     let way = at - end;
     (way - up * way.dot(&up)).norm() <= UPRIGHT
 }
 
 /// A point that goes with the end of a pass: straight above it at its own height (`lift` higher), or as one with it; never below it.
-fn shifted(
+fn shift_with_pass(
     at: Point3<f64>,
     (old, new): (Point3<f64>, Point3<f64>),
     up: Vector3<f64>,
@@ -249,15 +258,15 @@ fn shifted(
 
 /// Writes the ends around passes.
 #[allow(clippy::too_many_arguments)] // one call, and a struct would only rename them
-pub(super) fn leads_written(
-    writer: &Writer<'_>,
-    editor: &mut Editor,
+pub(super) fn write_leads(
+    writer: &PassWriter<'_>,
+    editor: &mut ProgramEditor,
     motions: &[Motion],
     ends: &BTreeMap<usize, Point3<f64>>,
-    moved: &[Moved],
+    moved: &[MovedPass],
     mm: f64,
     original: &Program,
-    context: &Context<'_>,
+    context: &StepContext<'_>,
 ) -> Result<(), Box<Diagnostic>> {
     let start_of = |index: usize| -> Point3<f64> {
         let before = index.checked_sub(1);
@@ -267,7 +276,7 @@ pub(super) fn leads_written(
             .or_else(|| motions.get(index).map(|motion| motion.from.point * mm))
             .unwrap_or_else(Point3::origin)
     };
-    let within = |index: usize| moved.iter().any(|pass: &Moved| contains(&pass.motions, index));
+    let within = |index: usize| moved.iter().any(|pass: &MovedPass| contains(&pass.motions, index));
     let touched = ends
         .keys()
         .copied()
@@ -280,8 +289,8 @@ pub(super) fn leads_written(
         let old = motions.get(index).map_or_else(Point3::origin, |motion| motion.to.point * mm);
         let end = ends.get(&index).copied().unwrap_or(old);
         let written = writer.move_end(editor, index, end, start_of(index))?;
-        let place = Place { program: original, motions };
-        written.map_err(|why| place.unwritable(why, index, context))?;
+        let place = MotionFindings { program: original, motions };
+        written.map_err(|why| place.describe_unwritable_motion(why, index, context))?;
     }
     Ok(())
 }

@@ -1,26 +1,26 @@
 //! `compensate_z`: the tip of a ball-nose cutter from the points that it shall touch (Dragoi 2009).
 //!
-//! [`passes`](self) are found in the motions; a pass becomes a profile and the envelope of the ball over it (`profile`), or the
-//! cutter is lowered onto a model along it (`model`), or every point moves by its own normal ([`normals`]). `leads` moves what lies
+//! [`vertical_passes`](self) are found in the motions; a pass becomes a profile and the envelope of the ball over it (`profile`), or the
+//! cutter is lowered onto a model along it (`model`), or every point moves by its own normal ([`contact_normals`]). `leads` moves what lies
 //! around passes, `write` writes it all, and the step measures what was written by other means.
 
+mod arc_template;
 mod by_mesh;
 mod by_normals;
 mod by_profile;
-mod clearance;
-mod ends;
+pub mod contact_normals;
+mod cutter_lowering;
+mod findings;
 mod leads;
-mod model;
-pub mod normals;
+mod motion_ends;
 mod parameters;
-mod passes;
-mod profile;
-mod proof;
+mod pass_profile;
+mod pass_writer;
 mod report;
 mod step;
-mod template;
-mod words;
-mod write;
+mod tip_clearance;
+mod vertical_passes;
+mod written_passes;
 
-pub use parameters::{Against, Arcs, CompensateZ, CutterPoint, PathPoint};
-pub use report::{PassReport, Report};
+pub use parameters::{ArcOutput, CompensateZ, CompensationReference, InputPointKind, OutputPointKind};
+pub use report::{CompensateZReport, PassReport};

@@ -1,7 +1,7 @@
 //! The parameters of `compensate_z`.
 
-use crate::recipe::Where;
-use crate::values::{FilePath, Positive};
+use crate::parameters::{FilePath, Positive};
+use crate::recipe::MotionFilter;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -26,30 +26,30 @@ pub struct CompensateZ {
     pub radius: Option<Positive>,
     /// What the points of the path are.
     #[serde(default)]
-    pub input: PathPoint,
+    pub input: InputPointKind,
     /// What they shall be.
     #[serde(default)]
-    pub output: CutterPoint,
+    pub output: OutputPointKind,
     /// Radius of the ball that the path was made for, where `input` is `tip` or `centre`; in the recipe's unit.
     pub was_radius: Option<Positive>,
     /// Allowed gouge and gap, in the recipe's unit; 0.005 mm when left out.
     pub tolerance: Option<Positive>,
     /// What the cutter is compensated against.
     #[serde(default)]
-    pub against: Against,
+    pub against: CompensationReference,
     /// Whether arcs are written as arcs where the file has a record for them.
     #[serde(default)]
-    pub arcs: Arcs,
+    pub arcs: ArcOutput,
     /// Which motions; all cuts when it is left out.
     #[serde(default)]
-    pub r#where: Where,
+    pub r#where: MotionFilter,
 }
 
 impl CompensateZ {
     /// The model that it is compensated against.
-    pub(in crate::transform) fn reads(&self) -> Option<&FilePath> {
+    pub(in crate::transform) fn mesh_path(&self) -> Option<&FilePath> {
         match &self.against {
-            Against::Mesh(path) => Some(path),
+            CompensationReference::Mesh(path) => Some(path),
             _ => None,
         }
     }
@@ -58,7 +58,7 @@ impl CompensateZ {
 /// What the points of a path are.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum PathPoint {
+pub enum InputPointKind {
     /// Points of the part, where the cutter shall touch it.
     #[default]
     Contact,
@@ -71,7 +71,7 @@ pub enum PathPoint {
 /// What points become.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum CutterPoint {
+pub enum OutputPointKind {
     /// The tip (south pole) of the cutter.
     #[default]
     Tip,
@@ -82,7 +82,7 @@ pub enum CutterPoint {
 /// What the cutter is compensated against.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Against {
+pub enum CompensationReference {
     /// The pass itself, as the part's profile in its vertical plane.
     #[default]
     Profile,
@@ -95,7 +95,7 @@ pub enum Against {
 /// Whether arcs are written as arcs.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Arcs {
+pub enum ArcOutput {
     /// Where the file has an arc that tells its sense to write them like: a CIRCLE (NX, SolidWorks, Makino), or INDIRV and TLON (CATIA).
     #[default]
     Keep,

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 /// What the step did.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Report {
+pub struct CompensateZReport {
     /// What the cutter was compensated against: `profile`, `normals` or `mesh`.
     pub against: &'static str,
     /// Radius of the ball, mm; of another cutter half its diameter.
@@ -22,7 +22,7 @@ pub struct Report {
     pub beside: usize,
 }
 
-impl Report {
+impl CompensateZReport {
     /// A report without passes yet.
     pub(super) fn new(
         against: &'static str,
@@ -62,20 +62,21 @@ pub struct PassReport {
 }
 
 /// Names the operations of a program for the reports of its passes.
-pub(super) struct Names<'a> {
+pub(super) struct PassReporter<'a> {
     program: &'a Program,
     motions: &'a [Motion],
     operations: Vec<String>,
 }
 
-impl<'a> Names<'a> {
+impl<'a> PassReporter<'a> {
     pub fn new(program: &'a Program, motions: &'a [Motion]) -> Self {
-        let operations = operation::operations(program).into_iter().map(|operation| operation.name).collect();
+        let operations =
+            operation::find_operations(program).into_iter().map(|operation| operation.name).collect();
         Self { program, motions, operations }
     }
 
     /// The report of a pass before anything was measured.
-    pub fn pass(&self, motions: &Range<usize>, after: usize) -> PassReport {
+    pub fn start_report(&self, motions: &Range<usize>, after: usize) -> PassReport {
         let first = self.motions.get(motions.start);
         let statement = first.and_then(|motion| self.program.statement(motion.statements.start));
         let origin = statement.map(|found| found.origin()).unwrap_or_default();

@@ -1,16 +1,16 @@
 //! `convert_units`: a program in millimetres or inches, in the other unit.
 
-mod factor;
-mod lengths;
-mod words;
+mod statement_pass;
+mod unit_conversion;
+mod unit_words;
 
-use super::{Context, Transform, stale, unchanged};
+use super::{StepContext, Transform, stale_records, unchanged_statements};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::{LengthUnit, Program, Record};
-use crate::write::Editor;
-use factor::Conversion;
+use crate::write::ProgramEditor;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use unit_conversion::UnitConversion;
 
 /// Converts a program to millimetres or inches.
 ///
@@ -34,45 +34,45 @@ pub struct ConvertUnits {
 }
 
 impl Transform for ConvertUnits {
-    fn apply(&self, program: Program, context: &mut Context<'_>) -> Result<Program, Box<Diagnostic>> {
-        let stated = self.stated(&program, context)?;
+    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>> {
+        let stated = self.check_stated_unit(&program, context)?;
         let Some(from) = stated.or(self.from) else {
-            let finding = context.at(
+            let finding = context.step_finding(
                 codes::STEP_FAILED,
                 "the file does not say what unit its lengths have, and neither does the step",
                 &[],
                 "asked for here",
             );
-            return Err(Box::new(finding.help(
+            return Err(Box::new(finding.with_help(
                 "Add `from: mm` or `from: inch`. Feeds in MMPM or IPM and the sizes of the tools tell which.",
             )));
         };
         if from == self.to {
             return Ok(program);
         }
-        if stated.is_none() && program.units_of_feeds() == Some(self.to) {
-            let finding = context.at(
+        if stated.is_none() && program.feed_length_unit() == Some(self.to) {
+            let finding = context.step_finding(
                 codes::STEP_FAILED,
                 "the feeds of this file name the new unit already, so the file seems to be converted",
                 &["from"],
                 "says that it is not",
             );
-            return Err(Box::new(finding.help(
+            return Err(Box::new(finding.with_help(
                 "A second conversion would put every point off by a factor of 25.4. If the lengths really are in the old unit, give the feeds \
                  its words first, by a `rewrite` step.",
             )));
         }
-        let mut found = Context { findings: Vec::new(), reports: Vec::new(), ..*context };
+        let mut found = StepContext { findings: Vec::new(), reports: Vec::new(), ..*context };
         if stated.is_none() {
-            found.findings.push(unit_still_unsaid(&found, self.to));
+            found.findings.push(unsaid_unit_finding(&found, self.to));
         }
-        stale::after_conversion(&program, &mut found);
-        unchanged::report(&program, |_| true, "converted", &mut found);
+        stale_records::report_stale_after_conversion(&program, &mut found);
+        unchanged_statements::report_unchanged_statements(&program, |_| true, "converted", &mut found);
         let found = found.findings;
-        let conversion = Conversion { from, to: self.to };
-        let mut editor = Editor::new(program, context.step);
-        editor.set_finer(conversion.more_decimals());
-        lengths::convert(&mut editor, conversion, context)?;
+        let conversion = UnitConversion { from, to: self.to };
+        let mut editor = ProgramEditor::new(program, context.step);
+        editor.set_extra_decimals(conversion.extra_decimals());
+        statement_pass::convert_statements(&mut editor, conversion, context)?;
         context.findings.extend(found);
         editor.finish()
     }
@@ -80,21 +80,21 @@ impl Transform for ConvertUnits {
 
 impl ConvertUnits {
     /// The unit that the file states, if all its records and the step agree.
-    fn stated(
+    fn check_stated_unit(
         &self,
         program: &Program,
-        context: &Context<'_>,
+        context: &StepContext<'_>,
     ) -> Result<Option<LengthUnit>, Box<Diagnostic>> {
         let mut stated = None;
-        for (index, statement) in program.live() {
+        for (index, statement) in program.live_statements() {
             let Record::Units(unit) = statement.record() else { continue };
             if stated.is_some_and(|before| before != *unit) {
                 let message = "the file changes its unit on the way; which of its lengths have which unit is not clear enough";
-                return Err(context.fail_at(message, program, index, "another unit than before"));
+                return Err(context.statement_failure(message, program, index, "another unit than before"));
             }
             if self.from.is_some_and(|from| from != *unit) {
                 let message = "`from` says another unit than the file itself";
-                return Err(context.fail_at(message, program, index, "the file's unit"));
+                return Err(context.statement_failure(message, program, index, "the file's unit"));
             }
             stated = Some(*unit);
         }
@@ -102,7 +102,7 @@ impl ConvertUnits {
     }
 }
 
-fn unit_still_unsaid(context: &Context<'_>, to: LengthUnit) -> Diagnostic {
+fn unsaid_unit_finding(context: &StepContext<'_>, to: LengthUnit) -> Diagnostic {
     let name = match to {
         LengthUnit::Mm => "millimetres",
         LengthUnit::Inch => "inches",
@@ -110,6 +110,6 @@ fn unit_still_unsaid(context: &Context<'_>, to: LengthUnit) -> Diagnostic {
     let message =
         format!("the file has no unit record, so nothing in it says that its lengths are {name} now");
     context
-        .at(codes::NOT_CHANGED, message, &["to"], "converted here")
-        .help("Tell the post, or check that it takes the unit from the words of the feeds (MMPM, IPM).")
+        .step_finding(codes::NOT_CHANGED, message, &["to"], "converted here")
+        .with_help("Tell the post, or check that it takes the unit from the words of the feeds (MMPM, IPM).")
 }

@@ -1,8 +1,8 @@
 //! The parameters of `correct_ramp`.
 
-use super::region;
-use crate::recipe::Where;
-use crate::values::{Finite, NonNegative, Positive};
+use super::tool_region;
+use crate::parameters::{Finite, NonNegative, Positive};
+use crate::recipe::MotionFilter;
 use schemars::JsonSchema;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
@@ -22,7 +22,7 @@ use serde::{Deserialize, Deserializer};
 #[serde(deny_unknown_fields)]
 pub struct CorrectRamp {
     /// The cutter; what is left out comes from `setup.tools` (`insert:`) and from the CL file.
-    pub tool: Option<RampTool>,
+    pub tool: Option<RampToolSpec>,
     /// Largest depth of cut A_p, in the recipe's unit. A steep ramp then begins at `depth_of_cut` + `clearance` above its end; without it, it
     /// begins where it did.
     pub depth_of_cut: Option<Positive>,
@@ -31,22 +31,22 @@ pub struct CorrectRamp {
     /// Where the tool's centre may go: where its disc covers only what the operation itself cuts at the ramp's level; the hull of that
     /// cutting, which also spans islands and, around an outside contour, the part; anywhere; or a polygon.
     #[serde(default)]
-    pub region: RampRegion,
+    pub region: RampRegionSpec,
     /// What becomes of a ramp that cannot be corrected: an error, so that nothing is written, or it is kept with a warning.
     #[serde(default)]
-    pub if_impossible: IfImpossible,
+    pub if_impossible: ImpossibleRampHandling,
     /// Straight descents: corrected into ramps, or kept with a warning, where they go down beside the stock.
     #[serde(default)]
-    pub plunges: Plunges,
+    pub plunges: PlungeHandling,
     /// Which motions; all when it is left out. A ramp is meant when its first descending motion is.
     #[serde(default)]
-    pub r#where: Where,
+    pub r#where: MotionFilter,
 }
 
 /// The cutter of a `correct_ramp` step; what is left out comes from the setup and from the CL file.
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct RampTool {
+pub struct RampToolSpec {
     /// Diameter D.
     pub diameter: Option<Positive>,
     /// Radius r of the insert's bottom circle.
@@ -58,7 +58,7 @@ pub struct RampTool {
 /// Where the tool's centre may go.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum RampRegion {
+pub enum RampRegionSpec {
     /// Where the tool covers only what the operation cuts at the ramp's level, or what the ramp itself covers.
     #[default]
     Milled,
@@ -68,13 +68,13 @@ pub enum RampRegion {
     /// Anywhere.
     None,
     /// Within a polygon of `[x, y]` corners, in the recipe's unit and the coordinates of the CL file (with a tilted tool, across its axis).
-    Polygon(#[serde(deserialize_with = "corners")] Vec<[Finite; 2]>),
+    Polygon(#[serde(deserialize_with = "read_corners")] Vec<[Finite; 2]>),
 }
 
 /// What becomes of a ramp that cannot be corrected.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum IfImpossible {
+pub enum ImpossibleRampHandling {
     /// Nothing is written.
     #[default]
     Error,
@@ -85,7 +85,7 @@ pub enum IfImpossible {
 /// What becomes of straight descents.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Plunges {
+pub enum PlungeHandling {
     /// They become ramps.
     #[default]
     Correct,
@@ -93,10 +93,10 @@ pub enum Plunges {
     Keep,
 }
 
-fn corners<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<[Finite; 2]>, D::Error> {
+fn read_corners<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<[Finite; 2]>, D::Error> {
     let corners = Vec::<[Finite; 2]>::deserialize(deserializer)?;
     let places: Vec<[f64; 2]> = corners.iter().map(|corner| corner.map(Finite::get)).collect();
-    region::Region::polygon(&places).map_err(|error| {
+    tool_region::ToolRegion::from_polygon(&places).map_err(|error| {
         D::Error::custom(format!(
             "{error}\nGive its corners in order, once around: [[x, y], [x, y], [x, y]]."
         ))

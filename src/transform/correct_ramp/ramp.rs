@@ -25,21 +25,21 @@ pub struct Ramp {
     /// P1, where the tool starts to descend in the material.
     pub start: Point3<f64>,
     /// The way down; never empty where a ramp was found.
-    pub steps: Vec<Step>,
+    pub steps: Vec<RampStep>,
 }
 
 /// A straight step or an arc about the tool axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Step {
+pub struct RampStep {
     /// Where it ends.
     pub to: Point3<f64>,
     /// Its arc; `None` for a straight step.
-    pub bend: Option<Bend>,
+    pub bend: Option<RampArc>,
 }
 
 /// The arc of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bend {
+pub struct RampArc {
     /// Centre.
     pub centre: Point2<f64>,
     /// Radians, counter-clockwise positive.
@@ -48,7 +48,7 @@ pub struct Bend {
 
 /// The run between two turning points.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Leg {
+pub struct RampLeg {
     /// Its steps.
     pub steps: Range<usize>,
     /// Largest distance of two of its points across the axis; of a straight leg its length.
@@ -57,14 +57,14 @@ pub struct Leg {
     pub straight: bool,
 }
 
-impl Step {
+impl RampStep {
     /// A straight step.
-    pub fn straight(to: Point3<f64>) -> Self {
+    pub fn straight_to(to: Point3<f64>) -> Self {
         Self { to, bend: None }
     }
 
     /// Length across the axis from where the step starts.
-    pub fn across(&self, from: Point3<f64>) -> f64 {
+    pub fn length_across_mm(&self, from: Point3<f64>) -> f64 {
         match self.bend {
             None => (self.to.xy() - from.xy()).norm(),
             Some(bend) => (from.xy() - bend.centre).norm() * bend.sweep.abs(),
@@ -72,7 +72,7 @@ impl Step {
     }
 
     /// Directions across the axis in which it starts and ends; `None` when it goes straight down.
-    fn directions(&self, from: Point3<f64>) -> Option<[Vector2<f64>; 2]> {
+    fn end_directions(&self, from: Point3<f64>) -> Option<[Vector2<f64>; 2]> {
         match self.bend {
             None => {
                 let way = self.to.xy() - from.xy();
@@ -89,10 +89,10 @@ impl Step {
     }
 
     /// Points along it across the axis, its start left out; arcs every 5 degrees. Of many turns the first and what the last is more.
-    pub fn samples(&self, from: Point3<f64>) -> Vec<Point2<f64>> {
+    pub fn sample_points_across(&self, from: Point3<f64>) -> Vec<Point2<f64>> {
         let Some(bend) = self.bend else { return vec![self.to.xy()] };
         let turns = bend.sweep.abs();
-        let sweep = bend.sweep.signum() * if turns > TAU { TAU + wrapped(turns) } else { turns };
+        let sweep = bend.sweep.signum() * if turns > TAU { TAU + wrap_angle(turns) } else { turns };
         let count = (sweep.abs() / 5f64.to_radians()).ceil().max(1.0) as usize;
         let spoke = from.xy() - bend.centre;
         let inner = (1..count).map(|index| {
@@ -105,24 +105,26 @@ impl Step {
 
 impl Ramp {
     /// A ramp of straight steps through points; `None` for fewer than two.
-    pub fn through(points: &[Point3<f64>]) -> Option<Self> {
+    pub fn from_points(points: &[Point3<f64>]) -> Option<Self> {
         let (start, rest) = points.split_first()?;
-        (!rest.is_empty())
-            .then(|| Self { start: *start, steps: rest.iter().map(|to| Step::straight(*to)).collect() })
+        (!rest.is_empty()).then(|| Self {
+            start: *start,
+            steps: rest.iter().map(|to| RampStep::straight_to(*to)).collect(),
+        })
     }
 
     /// Pn.
-    pub fn end(&self) -> Point3<f64> {
+    pub fn end_point(&self) -> Point3<f64> {
         self.steps.last().map_or(self.start, |step| step.to)
     }
 
     /// How far it descends.
-    pub fn height(&self) -> f64 {
-        self.start.z - self.end().z
+    pub fn height_mm(&self) -> f64 {
+        self.start.z - self.end_point().z
     }
 
     /// Each step with where it starts.
-    pub fn walk(&self) -> impl Iterator<Item = (Point3<f64>, &Step)> {
+    pub fn steps_with_starts(&self) -> impl Iterator<Item = (Point3<f64>, &RampStep)> {
         let starts = std::iter::once(self.start).chain(self.steps.iter().map(|step| step.to));
         starts.zip(&self.steps)
     }
@@ -133,15 +135,15 @@ impl Ramp {
     }
 
     /// The point before the step of that index, from P1 on; Pn behind the last.
-    pub(super) fn point(&self, index: usize) -> Point3<f64> {
+    pub(super) fn point_before_step(&self, index: usize) -> Point3<f64> {
         index
             .checked_sub(1)
-            .map_or(self.start, |before| self.steps.get(before).map_or(self.end(), |step| step.to))
+            .map_or(self.start, |before| self.steps.get(before).map_or(self.end_point(), |step| step.to))
     }
 
     /// The steps from the first that descends to the last; those before and after are level links.
-    pub(super) fn descent(&self) -> Range<usize> {
-        let down = |index: &usize| self.point(*index).z > self.point(index + 1).z;
+    pub(super) fn descending_steps(&self) -> Range<usize> {
+        let down = |index: &usize| self.point_before_step(*index).z > self.point_before_step(index + 1).z;
         let mut found = (0..self.steps.len()).filter(down);
         match found.next() {
             Some(first) => first..found.next_back().unwrap_or(first) + 1,
@@ -150,9 +152,9 @@ impl Ramp {
     }
 
     /// The way across the axis from P1 to Pn; arcs are sampled.
-    pub(super) fn path(&self) -> Vec<Point2<f64>> {
+    pub(super) fn path_across(&self) -> Vec<Point2<f64>> {
         let mut path = vec![self.start.xy()];
-        path.extend(self.walk().flat_map(|(from, step)| step.samples(from)));
+        path.extend(self.steps_with_starts().flat_map(|(from, step)| step.sample_points_across(from)));
         path
     }
 
@@ -165,18 +167,20 @@ impl Ramp {
 
     /// Whether it ends above or below where it starts.
     pub fn is_closed(&self) -> bool {
-        (self.end().xy() - self.start.xy()).norm() <= NOTHING
+        (self.end_point().xy() - self.start.xy()).norm() <= NOTHING
     }
 
     /// Length of the path.
-    pub fn length(&self) -> f64 {
-        self.walk().map(|(from, step)| step.across(from).hypot(step.to.z - from.z)).sum()
+    pub fn length_mm(&self) -> f64 {
+        self.steps_with_starts()
+            .map(|(from, step)| step.length_across_mm(from).hypot(step.to.z - from.z))
+            .sum()
     }
 
     /// Tangent of the steepest step's angle; infinite where it goes straight down.
-    pub fn steepest(&self) -> f64 {
-        let slope = |(from, step): (Point3<f64>, &Step)| {
-            let (down, across) = (from.z - step.to.z, step.across(from));
+    pub fn steepest_slope(&self) -> f64 {
+        let slope = |(from, step): (Point3<f64>, &RampStep)| {
+            let (down, across) = (from.z - step.to.z, step.length_across_mm(from));
             if down <= 0.0 {
                 0.0
             } else if across <= NOTHING {
@@ -185,15 +189,15 @@ impl Ramp {
                 down / across
             }
         };
-        self.walk().map(slope).fold(0.0, f64::max)
+        self.steps_with_starts().map(slope).fold(0.0, f64::max)
     }
 
     /// The legs that descend, in order.
-    pub fn legs(&self) -> Vec<Leg> {
+    pub fn descending_legs(&self) -> Vec<RampLeg> {
         let mut bounds = vec![0];
         let mut before: Option<Option<Vector2<f64>>> = None;
-        for (index, (from, step)) in self.walk().enumerate() {
-            let directions = step.directions(from);
+        for (index, (from, step)) in self.steps_with_starts().enumerate() {
+            let directions = step.end_directions(from);
             // A point given twice is no turning point.
             if directions.is_none() && (from.z - step.to.z).abs() <= NOTHING {
                 continue;
@@ -214,17 +218,17 @@ impl Ramp {
             [start, end] if start < end => Some(*start..*end),
             _ => None,
         });
-        ranges.filter(|steps| self.descends(steps)).map(|steps| self.leg(steps)).collect()
+        ranges.filter(|steps| self.has_descent(steps)).map(|steps| self.build_leg(steps)).collect()
     }
 
-    fn descends(&self, steps: &Range<usize>) -> bool {
-        steps.clone().any(|index| self.point(index).z > self.point(index + 1).z)
+    fn has_descent(&self, steps: &Range<usize>) -> bool {
+        steps.clone().any(|index| self.point_before_step(index).z > self.point_before_step(index + 1).z)
     }
 
-    fn leg(&self, steps: Range<usize>) -> Leg {
-        let mut points = vec![self.point(steps.start).xy()];
+    fn build_leg(&self, steps: Range<usize>) -> RampLeg {
+        let mut points = vec![self.point_before_step(steps.start).xy()];
         for (index, step) in steps.clone().zip(self.steps.iter().skip(steps.start)) {
-            points.extend(step.samples(self.point(index)));
+            points.extend(step.sample_points_across(self.point_before_step(index)));
         }
         let (first, last) = match (points.first(), points.last()) {
             (Some(first), Some(last)) => (*first, *last),
@@ -237,8 +241,8 @@ impl Ramp {
             (way - along * along.dot(&way)).norm()
         };
         let straight = points.iter().all(|point| beside(point) <= STRAIGHT);
-        let extent = if straight { chord.norm() } else { widest(&points) };
-        Leg { steps, extent, straight }
+        let extent = if straight { chord.norm() } else { largest_distance(&points) };
+        RampLeg { steps, extent, straight }
     }
 }
 
@@ -248,7 +252,7 @@ pub(super) fn is_sensible(value: f64) -> bool {
 }
 
 /// Largest distance between two of the points.
-fn widest(points: &[Point2<f64>]) -> f64 {
+fn largest_distance(points: &[Point2<f64>]) -> f64 {
     let sensible = points.iter().filter(|point| is_sensible(point.x) && is_sensible(point.y));
     let all: MultiPoint = sensible.map(|point| geo::Point::new(point.x, point.y)).collect();
     let hull: LineString = all.convex_hull().exterior().clone();
@@ -263,6 +267,6 @@ fn widest(points: &[Point2<f64>]) -> f64 {
 }
 
 /// The direction that an angle of a full circle leaves over, in `[0, 2 pi)`.
-pub(super) fn wrapped(angle: f64) -> f64 {
+pub(super) fn wrap_angle(angle: f64) -> f64 {
     angle.rem_euclid(TAU)
 }

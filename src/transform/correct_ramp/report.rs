@@ -1,12 +1,12 @@
 //! What `correct_ramp` found and did, in numbers.
 
-use super::correct::Lengthened;
-use super::limits::Measured;
+use super::ramp_correction::LengtheningMethod;
+use super::ramp_limits::RampMeasurement;
 use serde::Serialize;
 
 /// What the step did.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Report {
+pub struct CorrectRampReport {
     /// Every ramp that the step means, in the order of the program.
     pub ramps: Vec<RampReport>,
 }
@@ -25,13 +25,13 @@ pub struct RampReport {
     /// a_lim: steepest angle that the cutter allows, degrees.
     pub limit_degrees: f64,
     /// As it came.
-    pub before: Measured,
+    pub before: RampMeasurement,
     /// What became of it.
-    pub outcome: Outcome,
+    pub outcome: RampOutcome,
     /// As it was written, measured in what was written; `None` where it was not changed.
-    pub after: Option<Measured>,
+    pub after: Option<RampMeasurement>,
     /// How it became longer.
-    pub lengthened: Lengthened,
+    pub lengthened: LengtheningMethod,
     /// Ratio of the compression; 1 for none.
     pub compression: f64,
     /// Passes; of a helix 1 and the turns put in.
@@ -51,7 +51,7 @@ pub struct RampReport {
 /// What became of a ramp.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Outcome {
+pub enum RampOutcome {
     /// It keeps the limits as it is.
     Fits,
     /// It was corrected.

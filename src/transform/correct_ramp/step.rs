@@ -1,24 +1,24 @@
 //! The step: find, judge, correct, write, measure again.
 
-use super::correct::{Corrected, Lengthened, Task, correct};
-use super::cutter::{self, Cutter};
-use super::find::{Found, find};
-use super::kind::Kind;
-use super::level::Levels;
-use super::limits::{Indexable, Limits, Measured, keeps};
-use super::parameters::{CorrectRamp, IfImpossible, Plunges, RampRegion};
-use super::prove;
-use super::region::Region;
-use super::report::{Outcome, RampReport, Report};
-use super::words;
-use super::write::{self, Unwritable, Written};
+use super::findings;
+use super::level_motions::LevelMotions;
+use super::parameters::{CorrectRamp, ImpossibleRampHandling, PlungeHandling, RampRegionSpec};
+use super::ramp_correction::{CorrectedRamp, LengtheningMethod, RampTask, correct_ramp};
+use super::ramp_cutter::{self, RampCutter};
+use super::ramp_kind::RampKind;
+use super::ramp_limits::{IndexableCutter, RampLimits, RampMeasurement, is_within_limits};
+use super::ramp_proof;
+use super::ramp_search::{FoundRamp, find_ramps};
+use super::ramp_writer::{self, UnwritableRamp, WrittenRamp};
+use super::report::{CorrectRampReport, RampOutcome, RampReport};
+use super::tool_region::ToolRegion;
 use crate::diagnostic::Diagnostic;
-use crate::program::motion::{Motion, Tool};
+use crate::parameters::{Finite, NonNegative, Positive};
+use crate::program::motion::{ActiveTool, Motion};
 use crate::program::record::CutterCompensation;
 use crate::program::{LengthUnit, Program, Record, Statement, operation};
-use crate::transform::{Context, Selection, StepReport, Transform};
-use crate::values::{Finite, NonNegative, Positive};
-use crate::write::Editor;
+use crate::transform::{MotionSelection, StepContext, StepReport, Transform};
+use crate::write::ProgramEditor;
 use std::sync::Arc;
 
 /// How far printed coordinates may put two points nearer together, in the file's unit: half of the fourth decimal at both ends, both ways.
@@ -28,79 +28,84 @@ const ROUNDING: f64 = 2e-4;
 const CLEARANCE: f64 = 2.5;
 
 /// A ramp that is to be written anew.
-pub(super) struct Plan {
-    pub found: Found,
-    pub limits: Limits,
-    pub corrected: Corrected,
+pub(super) struct PlannedRamp {
+    pub found: FoundRamp,
+    pub limits: RampLimits,
+    pub corrected: CorrectedRamp,
     /// Its place among the reports.
     pub report: usize,
 }
 
 impl Transform for CorrectRamp {
-    fn apply(&self, program: Program, context: &mut Context<'_>) -> Result<Program, Box<Diagnostic>> {
-        let file = context.file_units(&program);
+    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>> {
+        let file = context.file_length_unit(&program);
         let motions: Vec<Motion> = program.motions().collect();
-        let mut look = Look::new(self, &program, &motions, file, context);
-        look.judge_all(context)?;
-        let Look { plans, mut reports, .. } = look;
-        let mut editor = Editor::new(program, context.step);
-        let mut written: Vec<Written> = Vec::with_capacity(plans.len());
+        let mut look = RampJudge::new(self, &program, &motions, file, context);
+        look.judge_ramps(context)?;
+        let RampJudge { plans, mut reports, .. } = look;
+        let mut editor = ProgramEditor::new(program, context.step);
+        let mut written: Vec<WrittenRamp> = Vec::with_capacity(plans.len());
         for plan in &plans {
-            let done = write::write(&mut editor, &motions, &plan.found, &plan.corrected.ramp, file.in_mm())?;
-            written.push(
-                done.map_err(|why| words::unproven(editor.program(), &motions, &plan.found, why, context))?,
-            );
+            let done = ramp_writer::write_ramp(
+                &mut editor,
+                &motions,
+                &plan.found,
+                &plan.corrected.ramp,
+                file.mm_per_unit(),
+            )?;
+            written.push(done.map_err(|why| {
+                findings::describe_unproven_ramp(editor.program(), &motions, &plan.found, why, context)
+            })?);
         }
         let program = editor.finish()?;
-        let rounding = ROUNDING * file.in_mm();
-        prove::prove(&program, &motions, &plans, &written, (file, rounding), &mut reports).map_err(
-            |(plan, why)| match plans.get(plan) {
-                Some(plan) => words::unproven(&program, &motions, &plan.found, why, context),
-                None => context.fail(why.to_string(), &[]),
-            },
-        )?;
-        context.reports.push(StepReport::CorrectRamp(Report { ramps: reports }));
+        let rounding = ROUNDING * file.mm_per_unit();
+        ramp_proof::prove_ramps(&program, &motions, &plans, &written, (file, rounding), &mut reports)
+            .map_err(|(plan, why)| match plans.get(plan) {
+                Some(plan) => findings::describe_unproven_ramp(&program, &motions, &plan.found, why, context),
+                None => context.step_failure(why.to_string(), &[]),
+            })?;
+        context.reports.push(StepReport::CorrectRamp(CorrectRampReport { ramps: reports }));
         Ok(program)
     }
 }
 
 /// An indexable cutter and its limits.
-type Known = (Indexable, Limits);
+type CutterAndLimits = (IndexableCutter, RampLimits);
 
 /// The ramps of a program and what is to become of them.
-struct Look<'a> {
+struct RampJudge<'a> {
     step: &'a CorrectRamp,
     program: &'a Program,
     motions: &'a [Motion],
     file: LengthUnit,
     operations: Vec<String>,
-    levels: Levels<'a>,
-    polygon: Option<Region>,
+    levels: LevelMotions<'a>,
+    polygon: Option<ToolRegion>,
     /// Statements that switch cutter compensation, and whether on.
     compensation: Vec<(usize, bool)>,
-    cutters: Vec<(Option<Arc<Tool>>, Option<Known>)>,
-    plans: Vec<Plan>,
+    cutters: Vec<(Option<Arc<ActiveTool>>, Option<CutterAndLimits>)>,
+    plans: Vec<PlannedRamp>,
     reports: Vec<RampReport>,
     impossible: Vec<Diagnostic>,
 }
 
-impl<'a> Look<'a> {
+impl<'a> RampJudge<'a> {
     fn new(
         step: &'a CorrectRamp,
         program: &'a Program,
         motions: &'a [Motion],
         file: LengthUnit,
-        context: &Context<'_>,
+        context: &StepContext<'_>,
     ) -> Self {
-        let recipe = context.recipe.units.in_mm();
+        let recipe = context.recipe.units.mm_per_unit();
         let polygon = match &step.region {
-            RampRegion::Hull | RampRegion::Milled => None,
-            RampRegion::None => Some(Region::Everywhere),
-            RampRegion::Polygon(corners) => {
+            RampRegionSpec::Hull | RampRegionSpec::Milled => None,
+            RampRegionSpec::None => Some(ToolRegion::Everywhere),
+            RampRegionSpec::Polygon(corners) => {
                 let corners: Vec<[f64; 2]> =
                     corners.iter().map(|corner| corner.map(|value: Finite| value.get() * recipe)).collect();
                 // The corners were checked where the recipe was read.
-                Region::polygon(&corners).ok()
+                ToolRegion::from_polygon(&corners).ok()
             }
         };
         Self {
@@ -108,10 +113,13 @@ impl<'a> Look<'a> {
             program,
             motions,
             file,
-            operations: operation::operations(program).into_iter().map(|operation| operation.name).collect(),
-            levels: Levels::new(motions, file.in_mm()),
+            operations: operation::find_operations(program)
+                .into_iter()
+                .map(|operation| operation.name)
+                .collect(),
+            levels: LevelMotions::new(motions, file.mm_per_unit()),
             polygon,
-            compensation: compensation(program),
+            compensation: find_compensation_switches(program),
             cutters: Vec::new(),
             plans: Vec::new(),
             reports: Vec::new(),
@@ -119,12 +127,12 @@ impl<'a> Look<'a> {
         }
     }
 
-    fn judge_all(&mut self, context: &mut Context<'_>) -> Result<(), Box<Diagnostic>> {
-        let recipe = context.recipe.units.in_mm();
+    fn judge_ramps(&mut self, context: &mut StepContext<'_>) -> Result<(), Box<Diagnostic>> {
+        let recipe = context.recipe.units.mm_per_unit();
         let depth = self.step.depth_of_cut.map(|depth| depth.get() * recipe);
-        let mut selection = Selection::new(&self.step.r#where, self.program, context);
+        let mut selection = MotionSelection::new(&self.step.r#where, self.program, context);
         let mut meant = Vec::new();
-        for found in find(self.motions, self.file.in_mm(), depth) {
+        for found in find_ramps(self.motions, self.file.mm_per_unit(), depth) {
             let first = self.motions.get(found.motions.start);
             if first.is_some_and(|motion| selection.contains(motion, context)) {
                 meant.push(found);
@@ -132,22 +140,28 @@ impl<'a> Look<'a> {
         }
         // What `where` selects is asked of ramps alone; a program may well have none.
         if meant.is_empty() && !self.motions.iter().any(|motion| selection.contains(motion, context)) {
-            selection.report(context);
+            selection.report_if_empty(context);
         }
-        let mut solid: Vec<(usize, Option<Arc<Tool>>)> = Vec::new();
+        let mut solid: Vec<(usize, Option<Arc<ActiveTool>>)> = Vec::new();
         let count = meant.len();
         for found in meant {
             let Some(first) = self.motions.get(found.motions.start) else { continue };
-            match self.limits(first, context)? {
-                Some(known) => self.judge(found, known, context),
+            match self.find_tool_limits(first, context)? {
+                Some(known) => self.judge_ramp(found, known, context),
                 None => solid.push((found.motions.start, first.tool.clone())),
             }
         }
         if let Some((index, tool)) = solid.first() {
             // A tool list with inserts serves many programs, and not each has an indexable cutter.
             let all = solid.len() == count && !context.setup.tools.iter().any(|entry| entry.insert.is_some());
-            let told =
-                words::without_insert(self.program, self.motions, *index, tool.as_deref(), all, context);
+            let told = findings::describe_missing_inserts(
+                self.program,
+                self.motions,
+                *index,
+                tool.as_deref(),
+                all,
+                context,
+            );
             if all {
                 return Err(told);
             }
@@ -164,17 +178,23 @@ impl<'a> Look<'a> {
     }
 
     /// The limits of a motion's tool; `None` for a tool without inserts.
-    fn limits(&mut self, motion: &Motion, context: &Context<'_>) -> Result<Option<Known>, Box<Diagnostic>> {
+    fn find_tool_limits(
+        &mut self,
+        motion: &Motion,
+        context: &StepContext<'_>,
+    ) -> Result<Option<CutterAndLimits>, Box<Diagnostic>> {
         if let Some((_, limits)) = self.cutters.iter().find(|(tool, _)| *tool == motion.tool) {
             return Ok(*limits);
         }
-        let none = Tool::default();
+        let none = ActiveTool::default();
         let tool = motion.tool.as_deref().unwrap_or(&none);
-        let limits = match cutter::of(self.step, tool, self.file, context) {
-            Cutter::Solid => None,
-            Cutter::Unknown(found) => return Err(found),
-            Cutter::Indexable(cutter) => {
-                let limits = cutter.limits().map_err(|error| context.fail(error.to_string(), &["tool"]))?;
+        let limits = match ramp_cutter::resolve_ramp_cutter(self.step, tool, self.file, context) {
+            RampCutter::Solid => None,
+            RampCutter::Unknown(found) => return Err(found),
+            RampCutter::Indexable(cutter) => {
+                let limits = cutter
+                    .ramp_limits()
+                    .map_err(|error| context.step_failure(error.to_string(), &["tool"]))?;
                 Some((cutter, limits))
             }
         };
@@ -182,32 +202,40 @@ impl<'a> Look<'a> {
         Ok(limits)
     }
 
-    fn judge(&mut self, found: Found, (cutter, limits): Known, context: &mut Context<'_>) {
-        let recipe = context.recipe.units.in_mm();
-        let (step, mm) = (self.step, self.file.in_mm());
+    fn judge_ramp(
+        &mut self,
+        found: FoundRamp,
+        (cutter, limits): CutterAndLimits,
+        context: &mut StepContext<'_>,
+    ) {
+        let recipe = context.recipe.units.mm_per_unit();
+        let (step, mm) = (self.step, self.file.mm_per_unit());
         let clearance = step.clearance.map_or(CLEARANCE, |clearance: NonNegative| clearance.get() * recipe);
         let begin = step.depth_of_cut.map(|depth: Positive| depth.get() * recipe + clearance);
         let rounding = ROUNDING * mm;
-        if keeps(&found.ramp, &limits, rounding) {
-            let report = self.report(&found, limits, Outcome::Fits);
+        if is_within_limits(&found.ramp, &limits, rounding) {
+            let report = self.build_report(&found, limits, RampOutcome::Fits);
             self.reports.push(report);
             return;
         }
         let region = match &self.polygon {
             Some(polygon) => polygon.clone(),
-            None if step.region == RampRegion::Hull => self.levels.hull(&found),
+            None if step.region == RampRegionSpec::Hull => self.levels.level_hull(&found),
             None => {
                 // No candidate goes farther than three legs away: the circle of few legs is the widest.
-                let reach = 3.0 * limits.shortest_leg.max(found.ramp.length());
-                self.levels.milled(&found, cutter.diameter / 2.0, reach)
+                let reach = 3.0 * limits.shortest_leg.max(found.ramp.length_mm());
+                self.levels.milled_region(&found, cutter.diameter / 2.0, reach)
             }
         };
-        let task = Task { limits, begin, region: &region, passes: &found.passes, rounding };
-        let kept_plunge = step.plunges == Plunges::Keep && Kind::of(&found.ramp) == Kind::Plunge;
-        let corrected = correct(&found.ramp, &task);
-        let mut report = self.report(&found, limits, Outcome::Kept);
-        let written = write::check(self.program, self.motions, &found.motions)
-            .and_then(|()| if self.is_compensated(&found) { Err(Unwritable::Compensation) } else { Ok(()) });
+        let task = RampTask { limits, begin, region: &region, passes: &found.passes, rounding };
+        let kept_plunge =
+            step.plunges == PlungeHandling::Keep && RampKind::classify_ramp(&found.ramp) == RampKind::Plunge;
+        let corrected = correct_ramp(&found.ramp, &task);
+        let mut report = self.build_report(&found, limits, RampOutcome::Kept);
+        let written =
+            ramp_writer::check_writable(self.program, self.motions, &found.motions).and_then(|()| {
+                if self.is_compensated(&found) { Err(UnwritableRamp::Compensation) } else { Ok(()) }
+            });
         let why_not = match (&corrected, written, found.has_level) {
             _ if kept_plunge => Some("`plunges: keep` leaves straight descents as they are".to_owned()),
             (_, _, false) => Some("it does not end at a level where cutting goes on".to_owned()),
@@ -215,20 +243,22 @@ impl<'a> Look<'a> {
             (_, Err(why), _) => Some(why.to_string()),
             _ => None,
         };
-        let place = words::Place { program: self.program, motions: self.motions, found: &found };
+        let place = findings::RampFindings { program: self.program, motions: self.motions, found: &found };
         match (corrected, why_not) {
             (Ok(Some(corrected)), None) => {
-                context.findings.push(words::corrected(&place, &report, &corrected, context));
-                report.outcome = Outcome::Corrected;
+                context
+                    .findings
+                    .push(findings::describe_corrected_ramp(&place, &report, &corrected, context));
+                report.outcome = RampOutcome::Corrected;
                 report.lengthened = corrected.lengthened;
                 report.compression = corrected.compression;
                 report.passes = corrected.passes;
-                self.plans.push(Plan { found, limits, corrected, report: self.reports.len() });
+                self.plans.push(PlannedRamp { found, limits, corrected, report: self.reports.len() });
             }
             (_, why) => {
                 let why = why.unwrap_or_default();
-                let keep = kept_plunge || step.if_impossible == IfImpossible::Keep;
-                let told = words::impossible(&place, &report, &why, keep, context);
+                let keep = kept_plunge || step.if_impossible == ImpossibleRampHandling::Keep;
+                let told = findings::describe_impossible_ramp(&place, &report, &why, keep, context);
                 if keep { context.findings.push(told) } else { self.impossible.push(told) }
             }
         }
@@ -236,7 +266,7 @@ impl<'a> Look<'a> {
     }
 
     /// Whether cutter compensation is on at a ramp, or switched in it.
-    fn is_compensated(&self, found: &Found) -> bool {
+    fn is_compensated(&self, found: &FoundRamp) -> bool {
         let motions = self.motions.get(found.motions.clone()).unwrap_or_default();
         let start = motions.first().map_or(0, |motion| motion.statements.start);
         let end = motions.last().map_or(0, |motion| motion.statements.end);
@@ -247,7 +277,7 @@ impl<'a> Look<'a> {
         on || within.count() > 0
     }
 
-    fn report(&self, found: &Found, limits: Limits, outcome: Outcome) -> RampReport {
+    fn build_report(&self, found: &FoundRamp, limits: RampLimits, outcome: RampOutcome) -> RampReport {
         let first = self.motions.get(found.motions.start);
         let origin = first
             .and_then(|motion| self.program.statement(motion.statements.start))
@@ -256,27 +286,27 @@ impl<'a> Look<'a> {
         RampReport {
             operation: self.operations.get(found.operation).cloned().unwrap_or_default(),
             line: self.program.source().line_column(origin.start).0 as u64,
-            kind: Kind::of(&found.ramp).name(),
+            kind: RampKind::classify_ramp(&found.ramp).display_name(),
             limit_leg_mm: limits.shortest_leg,
             limit_degrees: limits.steepest.atan().to_degrees(),
-            before: Measured::of(&found.ramp),
+            before: RampMeasurement::measure_ramp(&found.ramp),
             outcome,
             after: None,
-            lengthened: Lengthened::No,
+            lengthened: LengtheningMethod::No,
             compression: 1.0,
             passes: 1,
             added_mm: 0.0,
             added_seconds: None,
-            path_before: prove::drawn(&found.ramp),
+            path_before: ramp_proof::to_drawing_points(&found.ramp),
             path_after: Vec::new(),
         }
     }
 }
 
-fn compensation(program: &Program) -> Vec<(usize, bool)> {
+fn find_compensation_switches(program: &Program) -> Vec<(usize, bool)> {
     let switch = |(statement, found): (usize, &Statement)| match found.record() {
         Record::CutterCompensation(mode) => Some((statement, *mode != CutterCompensation::Off)),
         _ => None,
     };
-    program.live().filter_map(switch).collect()
+    program.live_statements().filter_map(switch).collect()
 }

@@ -3,51 +3,51 @@
 //! The transform `T` is given in printed coordinates. A frame that maps printed coordinates outside, `F`, becomes `F * T`; one
 //! that has already mapped outside coordinates to the printed ones (Creo), `M`, becomes `T^-1 * M`.
 
-use super::scope::Scope;
+use super::operation_scope::OperationScope;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::record::{FrameRecord, FrameWord};
 use crate::program::{Dialect, Program, Record};
-use crate::transform::numbers::{MatrixRows, set_matrix_row};
-use crate::transform::{Affine, Context};
-use crate::write::Editor;
+use crate::transform::statement_numbers::{MatrixRowCounter, set_matrix_row};
+use crate::transform::{Affine, StepContext};
+use crate::write::ProgramEditor;
 use nalgebra::{Matrix3, Vector3};
 
 /// Moves the frames of the operations in scope.
 ///
 /// # Errors
 /// Where no frame stands, or one that cannot take the transform.
-pub fn change(
+pub fn move_frames(
     program: Program,
     place: &Affine,
-    scope: &Scope,
-    context: &mut Context<'_>,
+    scope: &OperationScope,
+    context: &mut StepContext<'_>,
 ) -> Result<Program, Box<Diagnostic>> {
-    if place.mirrors() {
-        return Err(context.fail(
+    if place.has_mirror() {
+        return Err(context.step_failure(
             "a frame is right-handed and cannot hold a mirror; mirror the points (`change: points`)",
             &["mirror"],
         ));
     }
-    check(&program, place, scope, context)?;
-    let mut editor = Editor::new(program, context.step);
-    let mut rows = MatrixRows::default();
+    check_motions_in_frames(&program, place, scope, context)?;
+    let mut editor = ProgramEditor::new(program, context.step);
+    let mut rows = MatrixRowCounter::default();
     let mut comment_frame = None;
     for index in 0..editor.program().statements().len() {
         let Some(statement) = editor.program().statement(index).filter(|statement| statement.is_live())
         else {
             continue;
         };
-        let row = rows.read(statement.record());
+        let row = rows.observe_record(statement.record());
         if !scope.contains(index) {
             continue;
         }
         match (statement.record(), row) {
             (Record::Frame(frame), _) => {
-                let edits = edits(frame, place);
+                let edits = compute_frame_edits(frame, place);
                 editor.set_numbers(index, &edits)?;
             }
             (Record::MatrixRow(numbers), Some(_)) => {
-                let edits = row_edits(numbers, place);
+                let edits = compute_row_edits(numbers, place);
                 set_matrix_row(&mut editor, index, &edits)?;
                 comment_frame.get_or_insert(index);
             }
@@ -60,30 +60,30 @@ pub fn change(
         let span =
             editor.program().statement(index).map(crate::program::Statement::origin).unwrap_or_default();
         let finding = Diagnostic::new(codes::COMMENT_FRAME, message);
-        context.findings.push(finding.label(editor.program().source(), span, "changed here"));
+        context.findings.push(finding.with_label(editor.program().source(), span, "changed here"));
     }
     editor.finish()
 }
 
 /// Every selected motion has to stand in a frame that changes, and no other may.
-fn check(
+fn check_motions_in_frames(
     program: &Program,
     place: &Affine,
-    scope: &Scope,
-    context: &Context<'_>,
+    scope: &OperationScope,
+    context: &StepContext<'_>,
 ) -> Result<(), Box<Diagnostic>> {
     if program.dialect() == Dialect::SolidWorks {
-        return Err(context.fail(
+        return Err(context.step_failure(
             "SolidWorks CAM prints its points in world coordinates (TRNTYP/WORLD): its CSYS says how the setup stands and does \
              not map the points; use `change: points`",
             &["change"],
         ));
     }
-    let mut rows = MatrixRows::default();
+    let mut rows = MatrixRowCounter::default();
     let mut frame = None;
-    for (index, statement) in program.live() {
+    for (index, statement) in program.live_statements() {
         let record = statement.record();
-        let row = rows.read(record);
+        let row = rows.observe_record(record);
         if let (Record::Frame(found), true) = (record, scope.contains(index)) {
             check_frame(found, place, program, index, context)?;
         }
@@ -95,11 +95,16 @@ fn check(
             _ if record.is_motion() || matches!(record, Record::From(_)) => {
                 let moved = scope.contains(index);
                 match frame {
-                    None if moved => return Err(without_frame(program, index, context)),
+                    None if moved => return Err(missing_frame_error(program, index, context)),
                     Some(frame) if scope.contains(frame) != moved => {
                         let message = "one frame holds for operations that are selected and for others; select all of them, or use \
                                        `change: points`";
-                        return Err(context.fail_at(message, program, index, "stands in the same frame"));
+                        return Err(context.statement_failure(
+                            message,
+                            program,
+                            index,
+                            "stands in the same frame",
+                        ));
                     }
                     _ => {}
                 }
@@ -108,8 +113,8 @@ fn check(
         }
     }
     if frame.is_none() {
-        let finding = context.at(codes::STEP_FAILED, NO_FRAME, &["change"], "asked for here");
-        return Err(Box::new(finding.help(HELP)));
+        let finding = context.step_finding(codes::STEP_FAILED, NO_FRAME, &["change"], "asked for here");
+        return Err(Box::new(finding.with_help(HELP)));
     }
     Ok(())
 }
@@ -118,9 +123,9 @@ const NO_FRAME: &str =
     "there is no frame record (MSYS, CSYS, CAMERA, `$$*CATIA0`) that could move the points";
 const HELP: &str = "Use `change: points`, which is also the default.";
 
-fn without_frame(program: &Program, index: usize, context: &Context<'_>) -> Box<Diagnostic> {
-    let diagnostic = *context.fail_at(NO_FRAME, program, index, "stands in no frame");
-    Box::new(diagnostic.help(HELP))
+fn missing_frame_error(program: &Program, index: usize, context: &StepContext<'_>) -> Box<Diagnostic> {
+    let diagnostic = *context.statement_failure(NO_FRAME, program, index, "stands in no frame");
+    Box::new(diagnostic.with_help(HELP))
 }
 
 fn check_frame(
@@ -128,19 +133,19 @@ fn check_frame(
     place: &Affine,
     program: &Program,
     index: usize,
-    context: &Context<'_>,
+    context: &StepContext<'_>,
 ) -> Result<(), Box<Diagnostic>> {
     let message = match (frame.word, program.dialect()) {
-        (FrameWord::Csys, Dialect::Creo | Dialect::CreoGpost) if place.turns() => {
+        (FrameWord::Csys, Dialect::Creo | Dialect::CreoGpost) if place.changes_directions() => {
             "which way the rotation of this matrix turns is not known for Creo (measured is only that its translation is \
              already in the points): only `translate` can be put into it; use `change: points`"
         }
-        (FrameWord::Csys, Dialect::Creo | Dialect::CreoGpost) if !is_identity(frame) => {
+        (FrameWord::Csys, Dialect::Creo | Dialect::CreoGpost) if !has_identity_axes(frame) => {
             "this matrix turns, and which way is not known for Creo, so a translation cannot be put into it; use `change: points`"
         }
         (FrameWord::Csys, Dialect::Creo | Dialect::CreoGpost) => return Ok(()),
         (FrameWord::Trans | FrameWord::Origin, _)
-            if place.turns() && frame.numbers.iter().any(|number| *number != 0.0) =>
+            if place.changes_directions() && frame.numbers.iter().any(|number| *number != 0.0) =>
         {
             "the post shifts the points by this before the frame turns them; a turn cannot be put into the frame then"
         }
@@ -149,22 +154,22 @@ fn check_frame(
         }
         _ => return Ok(()),
     };
-    Err(context.fail_at(message, program, index, "the frame"))
+    Err(context.statement_failure(message, program, index, "the frame"))
 }
 
-fn is_identity(frame: &FrameRecord) -> bool {
+fn has_identity_axes(frame: &FrameRecord) -> bool {
     matches!(frame.numbers.as_slice(), [a, b, c, _, d, e, f, _, g, h, i, _]
         if Matrix3::new(*a, *b, *c, *d, *e, *f, *g, *h, *i) == Matrix3::identity())
 }
 
-fn edits(frame: &FrameRecord, place: &Affine) -> Vec<(usize, f64)> {
+fn compute_frame_edits(frame: &FrameRecord, place: &Affine) -> Vec<(usize, f64)> {
     match (frame.word, frame.numbers.as_slice()) {
         (FrameWord::Msys, [ox, oy, oz, xi, xj, xk, yi, yj, yk]) => {
             let (x, y) = (Vector3::new(*xi, *xj, *xk), Vector3::new(*yi, *yj, *yk));
             let axes = Matrix3::from_columns(&[x, y, x.cross(&y)]);
             let origin = Vector3::new(*ox, *oy, *oz) + axes * place.offset;
             let mut edits: Vec<_> = origin.iter().copied().enumerate().collect();
-            if place.turns() {
+            if place.changes_directions() {
                 let turned = axes * place.linear;
                 // Two columns of three: nalgebra keeps them one after the other.
                 edits.extend(turned.iter().take(6).enumerate().map(|(index, value)| (index + 3, *value)));
@@ -180,11 +185,11 @@ fn edits(frame: &FrameRecord, place: &Affine) -> Vec<(usize, f64)> {
 }
 
 /// A row of a CATIA matrix: three of the rotation, one of the translation.
-fn row_edits(row: &[f64; 4], place: &Affine) -> Vec<(usize, f64)> {
+fn compute_row_edits(row: &[f64; 4], place: &Affine) -> Vec<(usize, f64)> {
     let [a, b, c, d] = *row;
     let axes = nalgebra::RowVector3::new(a, b, c);
     let mut edits = vec![(3, d + (axes * place.offset).x)];
-    if place.turns() {
+    if place.changes_directions() {
         edits.extend((axes * place.linear).iter().copied().enumerate());
     }
     edits

@@ -1,21 +1,21 @@
 //! `move_origin`: the path moved, turned or mirrored, by its points or by its frame.
 
-mod arcs;
-mod axes;
+mod arc_sweeps;
+mod axis_notation;
 mod frame;
-mod place;
+mod handedness_words;
+mod move_parameters;
+mod move_tracker;
+mod operation_scope;
 mod points;
-mod scope;
-mod sides;
-mod walk;
 
-use super::{Context, Transform, stale, unchanged};
+use super::{StepContext, Transform, stale_records, unchanged_statements};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::Program;
-pub use place::{Mirror, Rotate};
+pub use move_parameters::{MirrorSpec, RotationSpec};
+pub use operation_scope::MoveScopeSpec;
+use operation_scope::OperationScope;
 use schemars::JsonSchema;
-pub use scope::Operations;
-use scope::Scope;
 use serde::Deserialize;
 
 /// Moves, turns or mirrors the path.
@@ -37,23 +37,23 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields)]
 pub struct MoveOrigin {
     /// The plane to mirror in: `x`, `y` or `z` (the plane normal to it, through the origin), or `{ normal: [1, 1, 0], through: [0, 0, 0] }`.
-    pub mirror: Option<Mirror>,
+    pub mirror: Option<MirrorSpec>,
     /// The turn: `{ axis: z, degrees: 90, about: [0, 0, 0] }`.
-    pub rotate: Option<Rotate>,
+    pub rotate: Option<RotationSpec>,
     /// What is added to every point: `[x, y, z]`, in the recipe's unit.
-    pub translate: Option<place::Triple>,
+    pub translate: Option<move_parameters::VectorSpec>,
     /// What gets new numbers: the points, or the frame they are printed in.
     #[serde(default)]
-    pub change: Changes,
+    pub change: MoveOriginTarget,
     /// Which operations; all when it is left out.
     #[serde(default)]
-    pub r#where: Operations,
+    pub r#where: MoveScopeSpec,
 }
 
 /// What `move_origin` changes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Changes {
+pub enum MoveOriginTarget {
     /// The points, directions and axes.
     #[default]
     Points,
@@ -64,7 +64,7 @@ pub enum Changes {
 impl MoveOrigin {
     /// Whether the step says a length, so that it matters in which unit it is meant.
     pub(in crate::transform) fn has_lengths(&self) -> bool {
-        let triple = |triple: &place::Triple| triple.iter().any(|value| value.get() != 0.0);
+        let triple = |triple: &move_parameters::VectorSpec| triple.iter().any(|value| value.get() != 0.0);
         self.translate.as_ref().is_some_and(triple)
             || self.rotate.as_ref().and_then(|rotate| rotate.about.as_ref()).is_some_and(triple)
             || self.mirror.as_ref().is_some_and(|mirror| mirror.through.norm() > 0.0)
@@ -72,46 +72,51 @@ impl MoveOrigin {
 }
 
 impl Transform for MoveOrigin {
-    fn apply(&self, program: Program, context: &mut Context<'_>) -> Result<Program, Box<Diagnostic>> {
+    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>> {
         if self.mirror.is_none() && self.rotate.is_none() && self.translate.is_none() {
-            return Err(context.fail("none of `mirror`, `rotate` and `translate` is given", &[]));
+            return Err(context.step_failure("none of `mirror`, `rotate` and `translate` is given", &[]));
         }
-        let file = context.file_units(&program);
-        let place = place::affine(
+        let file = context.file_length_unit(&program);
+        let place = move_parameters::compose_affine(
             self.mirror.as_ref(),
             self.rotate.as_ref(),
             self.translate.as_ref(),
             context.recipe.units,
             file,
         );
-        let scope = Scope::of(&self.r#where, &program, context);
+        let scope = OperationScope::select_operations(&self.r#where, &program, context);
         if scope.is_empty() || place.is_identity() {
             return Ok(program);
         }
-        if self.change == Changes::Frame {
-            return frame::change(program, &place, &scope, context);
+        if self.change == MoveOriginTarget::Frame {
+            return frame::move_frames(program, &place, &scope, context);
         }
-        let mut found = Context { findings: Vec::new(), reports: Vec::new(), ..*context };
-        if place.mirrors() {
-            found.findings.push(spindle_keeps_its_sense(&found));
+        let mut found = StepContext { findings: Vec::new(), reports: Vec::new(), ..*context };
+        if place.has_mirror() {
+            found.findings.push(mirrored_spindle_finding(&found));
         }
-        stale::after_move(&program, &place, &mut found);
-        unchanged::report(&program, |statement| scope.contains(statement), "moved", &mut found);
+        stale_records::report_stale_after_move(&program, &place, &mut found);
+        unchanged_statements::report_unchanged_statements(
+            &program,
+            |statement| scope.contains(statement),
+            "moved",
+            &mut found,
+        );
         let found = found.findings;
-        let sweeps = arcs::sweeps(&program);
-        let program = points::change(program, &place, &scope, context)?;
-        arcs::check(&program, &sweeps).map_err(|refusal| {
-            context.fail_at(refusal.message, &program, refusal.statement, refusal.label)
+        let sweeps = arc_sweeps::collect_sweeps(&program);
+        let program = points::move_points(program, &place, &scope, context)?;
+        arc_sweeps::check_sweeps(&program, &sweeps).map_err(|refusal| {
+            context.statement_failure(refusal.message, &program, refusal.statement, refusal.label)
         })?;
         context.findings.extend(found);
         Ok(program)
     }
 }
 
-fn spindle_keeps_its_sense(context: &Context<'_>) -> Diagnostic {
+fn mirrored_spindle_finding(context: &StepContext<'_>) -> Diagnostic {
     let message =
         "the spindle keeps its sense, so climb milling becomes conventional milling in the mirrored path";
-    context.at(codes::NOT_CHANGED, message, &["mirror"], "mirrored here").help(
+    context.step_finding(codes::NOT_CHANGED, message, &["mirror"], "mirrored here").with_help(
         "Check feeds, finish and thread sense; mirror the model in the CAM system to get a path that climbs.",
     )
 }

@@ -1,31 +1,32 @@
 //! `change: points`: every number of the path gets its new value.
 
-use super::scope::Scope;
-use super::walk::{Refusal, Walk};
-use super::{axes, sides};
+use super::move_tracker::{MoveRefusal, MoveTracker};
+use super::operation_scope::OperationScope;
+use super::{axis_notation, handedness_words};
 use crate::diagnostic::Diagnostic;
 use crate::parse;
 use crate::program::record::{ArcSense, CutterCompensation};
-use crate::program::{Program, Record, Role};
-use crate::transform::numbers::{self, word};
-use crate::transform::{Affine, Context};
-use crate::write::{self, Editor};
+use crate::program::{NumberRole, Program, Record};
+use crate::transform::statement_numbers::{self, major_word};
+use crate::transform::{Affine, StepContext};
+use crate::write::{self, ProgramEditor};
 use nalgebra::Vector3;
 
 /// Moves the points of the operations in scope.
 ///
 /// # Errors
 /// Where the file does not allow it; nothing is half done, because the program is gone.
-pub fn change(
+pub fn move_points(
     program: Program,
     place: &Affine,
-    scope: &Scope,
-    context: &mut Context<'_>,
+    scope: &OperationScope,
+    context: &mut StepContext<'_>,
 ) -> Result<Program, Box<Diagnostic>> {
-    let mut walk = Walk::new(place, program.dialect());
-    let six_values_seen =
-        program.live().any(|(_, it)| matches!(it.record(), Record::Goto(goto) if goto.axis.is_some()));
-    let mut editor = Editor::new(program, context.step);
+    let mut walk = MoveTracker::new(place, program.dialect());
+    let six_values_seen = program
+        .live_statements()
+        .any(|(_, it)| matches!(it.record(), Record::Goto(goto) if goto.axis.is_some()));
+    let mut editor = ProgramEditor::new(program, context.step);
     let mut plane_reported = false;
     for index in 0..editor.program().statements().len() {
         let program = editor.program();
@@ -33,72 +34,79 @@ pub fn change(
             continue;
         };
         let moved = scope.contains(index);
-        let text = program.text(statement);
+        let text = program.statement_text(statement);
         let record = statement.record();
-        let refused =
-            |refusal: Refusal| context.fail_at(refusal.message, program, refusal.statement, refusal.label);
-        let need = walk.read(index, record, text, moved).map_err(refused)?;
+        let refused = |refusal: MoveRefusal| {
+            context.statement_failure(refusal.message, program, refusal.statement, refusal.label)
+        };
+        let need = walk.observe_statement(index, record, text, moved).map_err(refused)?;
         if moved {
-            if let Some(refusal) = unmovable(record, text, index) {
+            if let Some(refusal) = refuse_unmovable(record, text, index) {
                 return Err(refused(refusal));
             }
-            let edits = edits(record, text, place, walk.multi_axis());
-            let words = Words::of(record, text);
-            if words == Words::Sides && !plane_kept(program, index, record, place, &walk).map_err(refused)? {
+            let edits = compute_edits(record, text, place, walk.is_multi_axis());
+            let words = HandednessWords::from_record(record, text);
+            if words == HandednessWords::Sides
+                && !is_compensation_plane_kept(program, index, record, place, &walk).map_err(refused)?
+            {
                 if !plane_reported {
                     let message = "this CUTCOM names no plane, and the tool axis it works about turns";
-                    context.not_changed(message, editor.program(), index);
+                    context.report_unchanged(message, editor.program(), index);
                 }
                 plane_reported = true;
             }
             if !edits.is_empty() {
                 editor.set_numbers(index, &edits)?;
             }
-            if place.mirrors() {
+            if place.has_mirror() {
                 match words {
-                    Words::Sides => sides::swap_sides(&mut editor, index)?,
-                    Words::Senses => sides::swap_senses(&mut editor, index)?,
-                    Words::None => {}
+                    HandednessWords::Sides => handedness_words::swap_sides(&mut editor, index)?,
+                    HandednessWords::Senses => handedness_words::swap_senses(&mut editor, index)?,
+                    HandednessWords::None => {}
                 }
             }
         }
         if let Some(need) = need {
-            match axes::write(&mut editor, index, need, walk.multi_axis(), six_values_seen)? {
-                axes::Written::Done => {}
-                axes::Written::WithMultax => walk.multax_inserted(),
-                axes::Written::Impossible => {
+            match axis_notation::write_axis(&mut editor, index, need, walk.is_multi_axis(), six_values_seen)?
+            {
+                axis_notation::AxisWriteOutcome::Done => {}
+                axis_notation::AxisWriteOutcome::WithMultax => walk.note_multax(),
+                axis_notation::AxisWriteOutcome::Impossible => {
                     let message = "the transform turns the tool axis, and this motion cannot state one in this dialect: nothing \
                                    before it does either";
                     let label = "has the axis 0,0,1 only by default";
-                    return Err(context.fail_at(message, editor.program(), index, label));
+                    return Err(context.statement_failure(message, editor.program(), index, label));
                 }
             }
         }
     }
     walk.finish().map_err(|refusal| {
-        context.fail_at(refusal.message, editor.program(), refusal.statement, refusal.label)
+        context.statement_failure(refusal.message, editor.program(), refusal.statement, refusal.label)
     })?;
     editor.finish()
 }
 
 /// The new values of a statement's numbers.
-fn edits(record: &Record, text: &[u8], place: &Affine, multi_axis: bool) -> Vec<(usize, f64)> {
+fn compute_edits(record: &Record, text: &[u8], place: &Affine, multi_axis: bool) -> Vec<(usize, f64)> {
     let in_words = matches!(record, Record::Circle(circle) if circle.sense != ArcSense::OfDialect);
-    let change = |role: Role, value: Vector3<f64>| match role {
-        Role::Point(_) => Some(place.point(value.into()).coords),
-        _ if !place.turns() => None,
+    let change = |role: NumberRole, value: Vector3<f64>| match role {
+        NumberRole::Point(_) => Some(place.transform_point(value.into()).coords),
+        _ if !place.changes_directions() => None,
         // The word of the sense is swapped instead, and the axis is a plain direction.
-        Role::ArcAxis(_) if !in_words => Some(place.arc_axis(value)),
-        Role::ArcAxis(_) | Role::Step(_) | Role::Direction(_) => Some(place.vector(value)),
+        NumberRole::ArcAxis(_) if !in_words => Some(place.transform_arc_axis(value)),
+        NumberRole::ArcAxis(_) | NumberRole::Step(_) | NumberRole::Direction(_) => {
+            Some(place.transform_vector(value))
+        }
         _ => None,
     };
     match record {
         Record::Goto(goto) => {
             let axis = goto.axis.unwrap_or_default();
             let values = [goto.point.x, goto.point.y, goto.point.z, axis.x, axis.y, axis.z];
-            let roles = [Role::Point(0), Role::Plain, Role::Plain, Role::Direction(0)];
+            let roles =
+                [NumberRole::Point(0), NumberRole::Plain, NumberRole::Plain, NumberRole::Direction(0)];
             let count = if goto.axis.is_some() { 4 } else { 1 };
-            numbers::change_triples(&values, roles.get(..count).unwrap_or_default(), change)
+            statement_numbers::map_triples(&values, roles.get(..count).unwrap_or_default(), change)
         }
         Record::Points(_)
         | Record::From(_)
@@ -110,8 +118,13 @@ fn edits(record: &Record, text: &[u8], place: &Affine, multi_axis: bool) -> Vec<
         | Record::DriveArc(_)
         | Record::Control(_)
         | Record::ToolAxis(_) => {
-            let values: Vec<f64> = parse::numbers(text).into_iter().map(|(_, value)| value).collect();
-            numbers::change_triples(&values, &numbers::roles(record, text, multi_axis), change)
+            let values: Vec<f64> =
+                parse::statement_numbers(text).into_iter().map(|(_, value)| value).collect();
+            statement_numbers::map_triples(
+                &values,
+                &statement_numbers::number_roles(record, text, multi_axis),
+                change,
+            )
         }
         _ => Vec::new(),
     }
@@ -119,17 +132,17 @@ fn edits(record: &Record, text: &[u8], place: &Affine, multi_axis: bool) -> Vec<
 
 /// Words of left and right in a statement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Words {
+enum HandednessWords {
     None,
     Sides,
     Senses,
 }
 
-impl Words {
-    fn of(record: &Record, text: &[u8]) -> Self {
+impl HandednessWords {
+    fn from_record(record: &Record, text: &[u8]) -> Self {
         match record {
             Record::CutterCompensation(_) => Self::Sides,
-            Record::Known if word(text) == "CUTCOM" => Self::Sides,
+            Record::Known if major_word(text) == "CUTCOM" => Self::Sides,
             Record::Circle(circle) if circle.sense != ArcSense::OfDialect => Self::Senses,
             _ => Self::None,
         }
@@ -137,16 +150,17 @@ impl Words {
 }
 
 /// Whether the plane that compensation works in is still the one that its record means; a named plane has to be.
-fn plane_kept(
+fn is_compensation_plane_kept(
     program: &Program,
     index: usize,
     record: &Record,
     place: &Affine,
-    walk: &Walk<'_>,
-) -> Result<bool, Refusal> {
-    let normal = write::syntax(program, index).as_ref().and_then(sides::plane_normal);
+    walk: &MoveTracker<'_>,
+) -> Result<bool, MoveRefusal> {
+    let normal =
+        write::statement_syntax(program, index).as_ref().and_then(handedness_words::named_plane_normal);
     match normal {
-        Some(normal) if !sides::keeps_plane(place, normal) => Err(Refusal {
+        Some(normal) if !handedness_words::keeps_plane(place, normal) => Err(MoveRefusal {
             message: "the transform turns the plane of cutter compensation away from the one that CUTCOM names",
             statement: index,
             label: "names its plane",
@@ -159,14 +173,14 @@ fn plane_kept(
 }
 
 /// Motions of part programs that no record describes: their places cannot be changed, and leaving them would cut across.
-fn unmovable(record: &Record, text: &[u8], index: usize) -> Option<Refusal> {
+fn refuse_unmovable(record: &Record, text: &[u8], index: usize) -> Option<MoveRefusal> {
     const MOTIONS: &[&str] =
         &["TLON", "TLLFT", "TLRGT", "GOFWD", "GOBACK", "GOLFT", "GORGT", "GOUP", "GODOWN", "POCKET"];
     let stands_in_the_way = *record == Record::Other && {
-        let word = word(text);
+        let word = major_word(text);
         MOTIONS.iter().any(|motion| word.starts_with(motion))
     };
-    stands_in_the_way.then_some(Refusal {
+    stands_in_the_way.then_some(MoveRefusal {
         message: "this motion has a form that clsmith does not understand, so it cannot be moved with the others",
         statement: index,
         label: "would stay where it is",

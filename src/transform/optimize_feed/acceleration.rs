@@ -3,11 +3,11 @@
 //! `v dv = a ds`: over a length L (mm) the feed (mm/min) changes at `a` ((mm/min)/s) so that `F2^2 - F1^2 = 120 a L`; the 120 is
 //! 2 x 60, from minutes and seconds.
 
-use super::parts::Span;
+use super::feed_segments::FeedSegment;
 
 /// A stretch of path at one feed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stretch {
+pub struct TimedSegment {
     /// Length in mm.
     pub length: f64,
     /// Feed in mm/min.
@@ -17,15 +17,15 @@ pub struct Stretch {
 }
 
 /// The path in mm that a change between two feeds (mm/min) needs at an acceleration ((mm/min)/s).
-pub fn distance(from: f64, to: f64, acceleration: f64) -> f64 {
+pub fn speed_change_distance_mm(from: f64, to: f64, acceleration: f64) -> f64 {
     (to * to - from * from).abs() / (120.0 * acceleration)
 }
 
 /// Lowers feeds to what a part can reach from the one before and leave for the one after, each within its own length. Never raises.
-pub(super) fn ease(spans: &mut [Span], acceleration: f64) {
-    let within = |span: &mut Span, beside: Option<(usize, f64)>| {
+pub(super) fn limit_feed_changes(spans: &mut [FeedSegment], acceleration: f64) {
+    let within = |span: &mut FeedSegment, beside: Option<(usize, f64)>| {
         if let Some((_, feed)) = beside.filter(|(chain, _)| *chain == span.chain && !span.fixed) {
-            span.feed = span.feed.min(reachable(feed, acceleration, span.length));
+            span.feed = span.feed.min(reachable_feed_mm_min(feed, acceleration, span.length));
         }
         Some((span.chain, span.feed))
     };
@@ -39,7 +39,7 @@ pub(super) fn ease(spans: &mut [Span], acceleration: f64) {
     }
 }
 
-fn reachable(from: f64, acceleration: f64, length: f64) -> f64 {
+fn reachable_feed_mm_min(from: f64, acceleration: f64, length: f64) -> f64 {
     (from * from + 120.0 * acceleration * length).sqrt()
 }
 
@@ -49,37 +49,37 @@ fn reachable(from: f64, acceleration: f64, length: f64) -> f64 {
 /// before it, speeds up inside itself and slows down inside itself towards a lower one after it. Where feeds cannot be reached in time,
 /// the machine is taken to look ahead, as every control does. Ends of chains are passed at feed. Stretches without length or feed
 /// take no time.
-pub fn seconds(path: &[Stretch], acceleration: Option<f64>) -> f64 {
+pub fn path_time_s(path: &[TimedSegment], acceleration: Option<f64>) -> f64 {
     let Some(acceleration) = acceleration.filter(|acceleration| *acceleration > 0.0) else {
         return path
             .iter()
-            .filter(|stretch| moves(stretch))
-            .map(|stretch| at_feed(stretch.length, stretch.feed))
+            .filter(|stretch| is_moving(stretch))
+            .map(|stretch| time_at_feed_s(stretch.length, stretch.feed))
             .sum();
     };
     let mut total = 0.0;
-    let mut chain: Vec<Stretch> = Vec::new();
+    let mut chain: Vec<TimedSegment> = Vec::new();
     for stretch in path {
         if stretch.breaks_chain {
-            total += seconds_of_chain(&chain, acceleration);
+            total += chain_time_s(&chain, acceleration);
             chain.clear();
         }
-        if moves(stretch) {
+        if is_moving(stretch) {
             chain.push(*stretch);
         }
     }
-    total + seconds_of_chain(&chain, acceleration)
+    total + chain_time_s(&chain, acceleration)
 }
 
-fn moves(stretch: &Stretch) -> bool {
+fn is_moving(stretch: &TimedSegment) -> bool {
     stretch.length > 0.0 && stretch.feed > 0.0
 }
 
-fn at_feed(length: f64, feed: f64) -> f64 {
+fn time_at_feed_s(length: f64, feed: f64) -> f64 {
     60.0 * length / feed
 }
 
-fn seconds_of_chain(chain: &[Stretch], acceleration: f64) -> f64 {
+fn chain_time_s(chain: &[TimedSegment], acceleration: f64) -> f64 {
     // Speeds at the borders: the lower of both feeds, and what can be reached from either side.
     let first = chain.first().map(|stretch| stretch.feed);
     let last = chain.last().map(|stretch| stretch.feed);
@@ -89,32 +89,35 @@ fn seconds_of_chain(chain: &[Stretch], acceleration: f64) -> f64 {
     });
     let mut speeds: Vec<f64> = first.into_iter().chain(inner).chain(last).collect();
     let mut before = f64::INFINITY;
-    for (speed, length) in speeds.iter_mut().zip(std::iter::once(0.0).chain(lengths(chain))) {
-        *speed = speed.min(reachable(before, acceleration, length));
+    for (speed, length) in speeds.iter_mut().zip(std::iter::once(0.0).chain(segment_lengths_mm(chain))) {
+        *speed = speed.min(reachable_feed_mm_min(before, acceleration, length));
         before = *speed;
     }
     let mut after = f64::INFINITY;
-    for (speed, length) in speeds.iter_mut().rev().zip(std::iter::once(0.0).chain(lengths(chain).rev())) {
-        *speed = speed.min(reachable(after, acceleration, length));
+    for (speed, length) in
+        speeds.iter_mut().rev().zip(std::iter::once(0.0).chain(segment_lengths_mm(chain).rev()))
+    {
+        *speed = speed.min(reachable_feed_mm_min(after, acceleration, length));
         after = *speed;
     }
     let borders = speeds.windows(2);
     let stretches = chain.iter().zip(borders).map(|(stretch, speeds)| match speeds {
-        [entry, exit] => trapezoid(stretch, *entry, *exit, acceleration),
+        [entry, exit] => trapezoid_time_s(stretch, *entry, *exit, acceleration),
         _ => 0.0,
     });
     stretches.sum()
 }
 
-fn lengths(chain: &[Stretch]) -> impl DoubleEndedIterator<Item = f64> {
+fn segment_lengths_mm(chain: &[TimedSegment]) -> impl DoubleEndedIterator<Item = f64> {
     chain.iter().map(|stretch| stretch.length)
 }
 
 /// Up from the entry speed to the feed, or as far as the length allows, and down to the exit speed.
-fn trapezoid(stretch: &Stretch, entry: f64, exit: f64, acceleration: f64) -> f64 {
+fn trapezoid_time_s(stretch: &TimedSegment, entry: f64, exit: f64, acceleration: f64) -> f64 {
     let crossing = ((entry * entry + exit * exit) / 2.0 + 60.0 * acceleration * stretch.length).sqrt();
     let peak = stretch.feed.min(crossing).max(entry).max(exit);
-    let ramps = distance(entry, peak, acceleration) + distance(exit, peak, acceleration);
+    let ramps = speed_change_distance_mm(entry, peak, acceleration)
+        + speed_change_distance_mm(exit, peak, acceleration);
     let flat = (stretch.length - ramps).max(0.0);
-    (peak - entry + peak - exit) / acceleration + at_feed(flat, peak)
+    (peak - entry + peak - exit) / acceleration + time_at_feed_s(flat, peak)
 }

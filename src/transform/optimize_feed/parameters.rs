@@ -1,10 +1,10 @@
 //! The parameters of `optimize_feed`.
 
-use super::feeds::{Rules, SplitRule, Window};
-use crate::machining::Source;
+use super::block_feeds::{FeedRules, FeedWindow, SplitRule};
+use crate::parameters::{Factor, Fraction, NonNegative, Positive, PositiveCount};
 use crate::program::MotionClass;
-use crate::recipe::{Where, not_empty};
-use crate::values::{Count, Factor, Fraction, NonNegative, Positive};
+use crate::recipe::{MotionFilter, deserialize_not_empty};
+use crate::simulation_run::EngagementModel;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -16,22 +16,22 @@ use serde::Deserialize;
 /// the simulation's own uncertainty. What the grid cannot know lowers the feed, never raises it.
 ///
 /// Rapids, drilling cycles and motions that are not selected keep their feeds. A second run changes nothing beyond
-/// `min_change`, unless `min_ratio` or `max_ratio` tie the feeds to the programmed ones.
+/// `default_min_change`, unless `min_ratio` or `max_ratio` tie the feeds to the programmed ones.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OptimizeFeed {
     /// What `target` is about.
     #[serde(default)]
-    pub criterion: Criterion,
+    pub criterion: LoadCriterion,
     /// The load that is allowed, in the criterion's unit.
     pub target: Positive,
     /// Further limits that hold at the same time; the lowest feed counts.
-    #[serde(default, deserialize_with = "not_empty")]
+    #[serde(default, deserialize_with = "deserialize_not_empty")]
     #[schemars(length(min = 1))]
-    pub limits: Option<Vec<Limit>>,
+    pub limits: Option<Vec<LoadLimitSpec>>,
     /// Which part of the path counts for a block.
     #[serde(default)]
-    pub window: WindowName,
+    pub window: WindowSpec,
     /// Lowest feed, in the recipe's unit per minute.
     pub min_feed: Option<Positive>,
     /// Highest feed, in the recipe's unit per minute; else the machine's `max_feed`. The lower of the two counts.
@@ -48,16 +48,16 @@ pub struct OptimizeFeed {
     /// Largest change of feed along the path, in the recipe's unit per minute and second; else the machine's.
     pub max_acceleration: Option<Positive>,
     /// Breaks long blocks whose load varies; never when left out.
-    pub split: Option<Split>,
+    pub split: Option<SplitSpec>,
     /// Smaller changes, as a share, keep the feed in force.
-    #[serde(default = "min_change")]
+    #[serde(default = "default_min_change")]
     pub min_change: Fraction,
     /// Feeds are rounded down to multiples of this, in the recipe's unit per minute; 0 for as many decimals as the file prints.
-    #[serde(default = "round_down_to")]
+    #[serde(default = "default_round_down_to")]
     pub round_down_to: NonNegative,
     /// What tells where the cutter is engaged.
     #[serde(default)]
-    pub engagement: EngagementName,
+    pub engagement: EngagementSpec,
     /// Distance of the simulation's columns, in the recipe's unit; else a fortieth of the smallest cutter's diameter. Only with
     /// `engagement: dexels`.
     pub cell: Option<Positive>,
@@ -65,20 +65,20 @@ pub struct OptimizeFeed {
     /// be missed. Only with `engagement: layers`.
     pub layer: Option<Positive>,
     /// Classes of motion that may get another feed.
-    #[serde(default = "motions")]
+    #[serde(default = "default_motions")]
     #[schemars(length(min = 1))]
     pub motions: Vec<MotionClass>,
     /// Which motions; all when it is left out.
     #[serde(default)]
-    pub r#where: Where,
+    pub r#where: MotionFilter,
 }
 
 /// A limit beside the target.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Limit {
+pub struct LoadLimitSpec {
     /// What it limits.
-    pub criterion: Criterion,
+    pub criterion: LoadCriterion,
     /// The load that is allowed, in the criterion's unit.
     pub target: Positive,
 }
@@ -86,7 +86,7 @@ pub struct Limit {
 /// What loads the cutter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, serde::Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Criterion {
+pub enum LoadCriterion {
     /// Largest local uncut chip thickness, in the recipe's unit.
     #[default]
     ChipThickness,
@@ -100,7 +100,7 @@ pub enum Criterion {
     Power,
 }
 
-impl Criterion {
+impl LoadCriterion {
     /// Its unit, in millimetres.
     pub fn unit(self) -> &'static str {
         match self {
@@ -113,7 +113,7 @@ impl Criterion {
     }
 
     /// Its name for people.
-    pub fn name(self) -> &'static str {
+    pub fn display_name(self) -> &'static str {
         match self {
             Self::ChipThickness => "chip thickness",
             Self::RemovalRate => "removal rate",
@@ -137,7 +137,7 @@ impl Criterion {
 /// Which part of the path counts for a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum WindowName {
+pub enum WindowSpec {
     /// All of the block: the target is never passed.
     #[default]
     Block,
@@ -149,7 +149,7 @@ pub enum WindowName {
 /// What tells where the cutter is engaged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum EngagementName {
+pub enum EngagementSpec {
     /// Columns of material along z: every cutter, every axis, shank and holder.
     #[default]
     Dexels,
@@ -161,63 +161,63 @@ pub enum EngagementName {
 /// When blocks are broken into parts; lengths in the recipe's unit.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Split {
+pub struct SplitSpec {
     /// Only blocks longer than this.
     pub above: Positive,
     /// No part is shorter than this.
     pub shortest: Positive,
     /// Most parts of one block.
-    pub at_most: Count,
+    pub at_most: PositiveCount,
 }
 
-fn min_change() -> Fraction {
+fn default_min_change() -> Fraction {
     Fraction::TWENTIETH
 }
 
-fn round_down_to() -> NonNegative {
+fn default_round_down_to() -> NonNegative {
     NonNegative::ONE
 }
 
-fn motions() -> Vec<MotionClass> {
+fn default_motions() -> Vec<MotionClass> {
     vec![MotionClass::Cut, MotionClass::Engage, MotionClass::StepOver]
 }
 
 impl OptimizeFeed {
     /// All limits, the target first, in millimetres.
-    pub(super) fn all_limits(&self, mm: f64) -> Vec<(Criterion, f64)> {
-        let in_mm = |limit: &Limit| {
+    pub(super) fn limits_in_mm(&self, mm: f64) -> Vec<(LoadCriterion, f64)> {
+        let in_mm = |limit: &LoadLimitSpec| {
             let unit = match limit.criterion {
-                Criterion::ChipThickness => mm,
-                Criterion::RemovalRate => mm * mm * mm,
-                Criterion::Force | Criterion::Torque | Criterion::Power => 1.0,
+                LoadCriterion::ChipThickness => mm,
+                LoadCriterion::RemovalRate => mm * mm * mm,
+                LoadCriterion::Force | LoadCriterion::Torque | LoadCriterion::Power => 1.0,
             };
             (limit.criterion, limit.target.get() * unit)
         };
-        let first = Limit { criterion: self.criterion, target: self.target };
+        let first = LoadLimitSpec { criterion: self.criterion, target: self.target };
         std::iter::once(&first).chain(self.limits.iter().flatten()).map(in_mm).collect()
     }
 
     /// What engagement is found with, in millimetres; the parameter that has no meaning with it, if one is given.
-    pub(super) fn source(&self, mm: f64) -> Result<Source, &'static str> {
+    pub(super) fn engagement_model(&self, mm: f64) -> Result<EngagementModel, &'static str> {
         match self.engagement {
-            EngagementName::Dexels if self.layer.is_some() => Err("layer"),
-            EngagementName::Dexels => Ok(Source::Dexels),
-            EngagementName::Layers if self.cell.is_some() => Err("cell"),
-            EngagementName::Layers => {
-                Ok(Source::Layers { thickness: self.layer.map(|layer| layer.get() * mm) })
+            EngagementSpec::Dexels if self.layer.is_some() => Err("layer"),
+            EngagementSpec::Dexels => Ok(EngagementModel::Dexels),
+            EngagementSpec::Layers if self.cell.is_some() => Err("cell"),
+            EngagementSpec::Layers => {
+                Ok(EngagementModel::Layers { thickness: self.layer.map(|layer| layer.get() * mm) })
             }
         }
     }
 
     /// The rules for feeds, in millimetres; `None` when neither step nor machine says a highest feed.
-    pub(super) fn rules(&self, mm: f64, machine: &crate::setup::Machine) -> Option<Rules> {
+    pub(super) fn feed_rules(&self, mm: f64, machine: &crate::setup::MachineLimits) -> Option<FeedRules> {
         let feed = |feed: Option<Positive>| feed.map(|feed| feed.get() * mm);
         let highest = [feed(self.max_feed), machine.max_feed.map(Positive::get)];
         let max_feed = highest.into_iter().flatten().reduce(f64::min)?;
-        Some(Rules {
+        Some(FeedRules {
             window: match self.window {
-                WindowName::Block => Window::Block,
-                WindowName::HalfBlocks => Window::HalfBlocks,
+                WindowSpec::Block => FeedWindow::Block,
+                WindowSpec::HalfBlocks => FeedWindow::HalfBlocks,
             },
             min_feed: feed(self.min_feed).unwrap_or(0.0),
             max_feed,

@@ -1,13 +1,13 @@
 //! What `optimize_feed` did, in numbers.
 
-use super::parameters::Criterion;
+use super::parameters::LoadCriterion;
 use serde::Serialize;
 
 /// What the step did.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Report {
+pub struct OptimizeFeedReport {
     /// What the target is about.
-    pub criterion: Criterion,
+    pub criterion: LoadCriterion,
     /// Its unit: everything here is in millimetres.
     pub unit: &'static str,
     /// The target.
@@ -24,9 +24,9 @@ pub struct Report {
     /// Change of feed along the path that times are computed with, (mm/min)/s; `None`: feeds change at once.
     pub acceleration: Option<f64>,
     /// The whole program.
-    pub whole: OperationReport,
+    pub whole: OperationFeedReport,
     /// Its operations, those without feed motions left out.
-    pub operations: Vec<OperationReport>,
+    pub operations: Vec<OperationFeedReport>,
     /// FEDRATs put in.
     pub feeds_added: usize,
     /// FEDRATs (and CYCLEs) given another feed.
@@ -37,7 +37,7 @@ pub struct Report {
 
 /// An operation, or all of them.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
-pub struct OperationReport {
+pub struct OperationFeedReport {
     /// Its name; empty for the whole program.
     pub name: String,
     /// Time at feed before, with acceleration, seconds.
@@ -54,9 +54,9 @@ pub struct OperationReport {
     pub at_target_after: f64,
 }
 
-impl OperationReport {
+impl OperationFeedReport {
     /// Share of the time saved; negative when it takes longer.
-    pub fn saved(&self) -> f64 {
+    pub fn saved_fraction(&self) -> f64 {
         if self.seconds_before > 0.0 { 1.0 - self.seconds_after / self.seconds_before } else { 0.0 }
     }
 }

@@ -1,19 +1,19 @@
 //! The step: simulate, decide, write, simulate again.
 
-use super::feeds::{Feeds, Rules, feeds};
-use super::gather::{Gathered, gather};
-use super::limits::Limits;
-use super::parameters::{Criterion, OptimizeFeed};
-use super::split::{Splits, split};
+use super::block_feeds::{BlockFeeds, FeedRules, plan_block_feeds};
+use super::block_measurement::{MeasuredBlocks, measure_blocks};
+use super::load_limits::LoadLimits;
+use super::motion_split::{SplitProgram, split_motions};
+use super::parameters::{LoadCriterion, OptimizeFeed};
 use crate::diagnostic::{Diagnostic, codes};
-use crate::machining::{Engaged, Machining, Options, Source};
+use crate::parameters::Positive;
 use crate::program::motion::Motion;
 use crate::program::{LengthUnit, Program, Statement};
 use crate::setup::Setup;
-use crate::transform::feed_plan::{FeedPlan, decimals_of_feed, rounded_down};
-use crate::transform::{Context, Selection, StepReport, Transform};
-use crate::values::Positive;
-use crate::write::Editor;
+use crate::simulation_run::{EngagementModel, EngagementRunResult, Machining, SimulationRunOptions};
+use crate::transform::feed_plan::{FeedPlan, decimals_of_feed, round_feed_down};
+use crate::transform::{MotionSelection, StepContext, StepReport, Transform};
+use crate::write::ProgramEditor;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -28,22 +28,23 @@ const NOISE: f64 = 1e-6;
 const TOLD: usize = 10;
 
 impl Transform for OptimizeFeed {
-    fn apply(&self, program: Program, context: &mut Context<'_>) -> Result<Program, Box<Diagnostic>> {
-        let job = Job::new(self, &program, context)?;
-        let (before, ran) = job.look(self, &program, context)?;
+    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>> {
+        let job = OptimizeFeedJob::new(self, &program, context)?;
+        let (before, ran) = job.simulate_blocks(self, &program, context)?;
         if !before.marks.iter().any(|mark| mark.cuts) {
-            return Err(job.nothing_cut(&program, &ran, context));
+            return Err(job.describe_nothing_cut(&program, &ran, context));
         }
         // Assumptions and crashes are told once, of the program as it came.
         context.findings.extend(ran.findings);
-        let Written { mut program, excused, parts } = job.write(program, &before, context)?;
+        let OptimizedProgram { mut program, excused, parts } =
+            job.plan_and_write_feeds(program, &before, context)?;
         let told = std::mem::take(&mut context.findings);
-        let proof = job.look(self, &program, context);
+        let proof = job.simulate_blocks(self, &program, context);
         context.findings = told;
         let (after, _) = proof?;
-        job.prove(&program, &after, &excused, context)?;
-        job.note((&mut program, context.step), &before, &after, &parts);
-        context.reports.push(StepReport::OptimizeFeed(job.report(
+        job.prove_targets(&program, &after, &excused, context)?;
+        job.add_load_notes((&mut program, context.step), &before, &after, &parts);
+        context.reports.push(StepReport::OptimizeFeed(job.build_report(
             &program,
             &before,
             &after,
@@ -55,7 +56,7 @@ impl Transform for OptimizeFeed {
 }
 
 /// The corrected program.
-struct Written {
+struct OptimizedProgram {
     program: Program,
     /// Numbers of the motions that pass a target at the lowest feed allowed.
     excused: BTreeSet<usize>,
@@ -64,83 +65,89 @@ struct Written {
 }
 
 /// The parameters in millimetres.
-pub(super) struct Job {
-    pub(super) limits: Vec<(Criterion, f64)>,
-    pub(super) rules: Rules,
-    options: Options,
-    source: Source,
+pub(super) struct OptimizeFeedJob {
+    pub(super) limits: Vec<(LoadCriterion, f64)>,
+    pub(super) rules: FeedRules,
+    options: SimulationRunOptions,
+    source: EngagementModel,
     pub(super) units: LengthUnit,
 }
 
-impl Job {
-    fn new(step: &OptimizeFeed, program: &Program, context: &Context<'_>) -> Result<Self, Box<Diagnostic>> {
-        let mm = context.recipe.units.in_mm();
-        let Some(rules) = step.rules(mm, &context.setup.machine) else {
+impl OptimizeFeedJob {
+    fn new(
+        step: &OptimizeFeed,
+        program: &Program,
+        context: &StepContext<'_>,
+    ) -> Result<Self, Box<Diagnostic>> {
+        let mm = context.recipe.units.mm_per_unit();
+        let Some(rules) = step.feed_rules(mm, &context.setup.machine) else {
             let message = "there is no highest feed: neither the step's `max_feed` nor the setup's `machine: { max_feed: ... }`";
-            return Err(context.fail(message, &[]));
+            return Err(context.step_failure(message, &[]));
         };
         if rules.min_feed > rules.max_feed {
             let (low, high) = (rules.min_feed / mm, rules.max_feed / mm);
-            return Err(
-                context.fail(format!("the lowest feed {low} is above the highest {high}"), &["min_feed"])
-            );
+            return Err(context
+                .step_failure(format!("the lowest feed {low} is above the highest {high}"), &["min_feed"]));
         }
-        let source = step.source(mm).map_err(|key| {
+        let source = step.engagement_model(mm).map_err(|key| {
             let other = if key == "cell" { "dexels" } else { "layers" };
-            context.fail(format!("`{key}` has a meaning with `engagement: {other}` only"), &[key])
+            context.step_failure(format!("`{key}` has a meaning with `engagement: {other}` only"), &[key])
         })?;
         let longest = rules.split.map_or(PIECE, |split| split.shortest.min(PIECE));
-        let limits = step.all_limits(mm);
-        let options = Options {
+        let limits = step.limits_in_mm(mm);
+        let options = SimulationRunOptions {
             cell: step.cell.map(Positive::get).map(|cell| cell * mm),
             longest,
             forces: limits.iter().any(|(criterion, _)| criterion.needs_material()),
-            ..Options::default()
+            ..SimulationRunOptions::default()
         };
-        Ok(Self { limits, rules, options, source, units: context.file_units(program) })
+        Ok(Self { limits, rules, options, source, units: context.file_length_unit(program) })
     }
 
     /// Simulates a program.
-    fn look(
+    fn simulate_blocks(
         &self,
         step: &OptimizeFeed,
         program: &Program,
-        context: &mut Context<'_>,
-    ) -> Result<(Gathered, Engaged), Box<Diagnostic>> {
+        context: &mut StepContext<'_>,
+    ) -> Result<(MeasuredBlocks, EngagementRunResult), Box<Diagnostic>> {
         let setup: &Setup = context.setup;
         let mut notes = Vec::new();
         let machining = Machining::new(program, setup, self.units, &mut notes).map_err(|found| {
             let placed = |found: Diagnostic| {
-                if found.labels.is_empty() { *self.at_step(found, context) } else { found }
+                if found.labels.is_empty() { *self.label_step(found, context) } else { found }
             };
             let found = found.into_iter().map(placed).collect();
-            several(found, &mut context.findings)
+            keep_last_error(found, &mut context.findings)
         })?;
         context.findings.extend(notes);
-        let needs = |need: fn(Criterion) -> bool| self.limits.iter().any(|(criterion, _)| need(*criterion));
-        if needs(Criterion::needs_teeth) {
-            let gaps = machining.tooling().teeth_gaps(program, setup);
+        let needs =
+            |need: fn(LoadCriterion) -> bool| self.limits.iter().any(|(criterion, _)| need(*criterion));
+        if needs(LoadCriterion::needs_teeth) {
+            let gaps = machining.tooling().find_missing_teeth(program, setup);
             if !gaps.is_empty() {
-                return Err(several(gaps, &mut context.findings));
+                return Err(keep_last_error(gaps, &mut context.findings));
             }
         }
-        let material = if needs(Criterion::needs_material) {
-            Some(setup.material().map_err(|found| self.at_step(*found, context))?.coefficients)
+        let material = if needs(LoadCriterion::needs_material) {
+            Some(setup.require_material().map_err(|found| self.label_step(*found, context))?.coefficients)
         } else {
             None
         };
-        let grain =
-            machining.grain(&self.options, self.source).map_err(|found| self.at_grain(*found, context))?;
-        let limits = Limits::new(self.limits.clone(), machining.tooling(), material, grain);
-        let mut selection = Selection::new(&step.r#where, program, context);
+        let grain = machining
+            .choose_resolution(&self.options, self.source)
+            .map_err(|found| self.label_resolution(*found, context))?;
+        let limits = LoadLimits::new(self.limits.clone(), machining.tooling(), material, grain);
+        let mut selection = MotionSelection::new(&step.r#where, program, context);
         let watch = context.watch;
-        let gathered = gather(&machining, (&self.options, self.source), &limits, watch, |motion: &Motion| {
-            !motion.rapid && step.motions.contains(&motion.class) && selection.contains(motion, context)
-        });
-        let gathered = gathered.map_err(|found| self.at_grain(*found, context))?;
-        selection.report(context);
+        let gathered =
+            measure_blocks(&machining, (&self.options, self.source), &limits, watch, |motion: &Motion| {
+                !motion.rapid && step.motions.contains(&motion.class) && selection.contains(motion, context)
+            });
+        let gathered = gathered.map_err(|found| self.label_resolution(*found, context))?;
+        selection.report_if_empty(context);
         let Some((mut gathered, ran)) = gathered else {
-            return Err(context.fail("it was stopped before it was done", &[]));
+            return Err(context.step_failure("it was stopped before it was done", &[]));
         };
         if !gathered.errors.is_empty() {
             let mut errors = std::mem::take(&mut gathered.errors);
@@ -150,37 +157,37 @@ impl Job {
                 let message = format!("{more} more motions cut with a feed or a speed that cannot be known");
                 errors.push(Diagnostic::new(codes::FEED_UNKNOWN, message));
             }
-            return Err(several(errors, &mut context.findings));
+            return Err(keep_last_error(errors, &mut context.findings));
         }
         Ok((gathered, ran))
     }
 
-    fn at_step(&self, found: Diagnostic, context: &Context<'_>) -> Box<Diagnostic> {
-        let place = context.recipe.step_place(usize::from(context.step.0));
-        Box::new(found.label(&context.recipe.source, place, "asked for by this step"))
+    fn label_step(&self, found: Diagnostic, context: &StepContext<'_>) -> Box<Diagnostic> {
+        let place = context.recipe.step_span(usize::from(context.step.0));
+        Box::new(found.with_label(&context.recipe.source, place, "asked for by this step"))
     }
 
-    fn at_grain(&self, found: Diagnostic, context: &Context<'_>) -> Box<Diagnostic> {
+    fn label_resolution(&self, found: Diagnostic, context: &StepContext<'_>) -> Box<Diagnostic> {
         let keys = match self.source {
-            Source::Dexels => ["cell"],
-            Source::Layers { .. } if found.code == codes::LAYERS => ["layer"],
-            Source::Layers { .. } => ["engagement"],
+            EngagementModel::Dexels => ["cell"],
+            EngagementModel::Layers { .. } if found.code == codes::LAYERS => ["layer"],
+            EngagementModel::Layers { .. } => ["engagement"],
         };
-        let place = context.recipe.step_value_place(usize::from(context.step.0), &keys);
-        Box::new(found.label(&context.recipe.source, place, "asked for here"))
+        let place = context.recipe.step_value_span(usize::from(context.step.0), &keys);
+        Box::new(found.with_label(&context.recipe.source, place, "asked for here"))
     }
 
     /// Decides the feeds and writes them.
-    fn write(
+    fn plan_and_write_feeds(
         &self,
         program: Program,
-        before: &Gathered,
-        context: &mut Context<'_>,
-    ) -> Result<Written, Box<Diagnostic>> {
+        before: &MeasuredBlocks,
+        context: &mut StepContext<'_>,
+    ) -> Result<OptimizedProgram, Box<Diagnostic>> {
         let mut blocks = before.blocks.clone();
         let step = context.step;
         let (splits, found) = loop {
-            let found = feeds(&blocks, &self.rules);
+            let found = plan_block_feeds(&blocks, &self.rules);
             let wanted: Vec<(usize, Vec<f64>)> = before
                 .marks
                 .iter()
@@ -192,7 +199,7 @@ impl Job {
                 })
                 .collect();
             let mut findings = Vec::new();
-            let splits = split(program.clone(), step, &wanted, &mut findings)?;
+            let splits = split_motions(program.clone(), step, &wanted, &mut findings)?;
             let kept: BTreeSet<usize> = splits.kept.iter().map(|(motion, _)| *motion).collect();
             let whole = blocks
                 .iter_mut()
@@ -208,8 +215,8 @@ impl Job {
                 break (splits, found);
             }
         };
-        self.warn(&program, before, &found, context);
-        let Splits { program, parts, .. } = splits;
+        self.report_below_minimum(&program, before, &found, context);
+        let SplitProgram { program, parts, .. } = splits;
         let slowest = found.below_minimum.iter().filter_map(|block| before.marks.get(*block));
         let excused = slowest.filter_map(|mark| parts.get(mark.motion).cloned()).flatten().collect();
         let mut wanted = std::collections::BTreeMap::new();
@@ -219,7 +226,7 @@ impl Job {
             let Some(range) = parts.get(mark.motion) else { continue };
             wanted.extend(range.clone().zip(feeds.iter().map(|part| part.feed)));
         }
-        let plan = FeedPlan::numbered(&program, |number, motion| {
+        let plan = FeedPlan::for_numbered_motions(&program, |number, motion| {
             let wanted = wanted.get(&number)?;
             let value = motion.feed?.value;
             let actual =
@@ -228,23 +235,29 @@ impl Job {
                 return None;
             }
             let decimals = motion.feed_from.map_or(0, |statement| decimals_of_feed(&program, statement));
-            Some(rounded_down(value * wanted / actual, decimals))
+            Some(round_feed_down(value * wanted / actual, decimals))
         });
-        let mut editor = Editor::new(program, step);
-        plan.write(&mut editor, &mut context.findings)?;
-        Ok(Written { program: editor.finish()?, excused, parts })
+        let mut editor = ProgramEditor::new(program, step);
+        plan.write_feeds(&mut editor, &mut context.findings)?;
+        Ok(OptimizedProgram { program: editor.finish()?, excused, parts })
     }
 
     /// Blocks that pass the target at the lowest feed allowed.
-    fn warn(&self, program: &Program, before: &Gathered, found: &Feeds, context: &mut Context<'_>) {
+    fn report_below_minimum(
+        &self,
+        program: &Program,
+        before: &MeasuredBlocks,
+        found: &BlockFeeds,
+        context: &mut StepContext<'_>,
+    ) {
         for block in found.below_minimum.iter().take(TOLD) {
             let Some(mark) = before.marks.get(*block) else { continue };
             let span = program.statement(mark.statement).map(Statement::origin).unwrap_or_default();
             let message = "the target is passed here at the lowest feed allowed";
-            let place = context.recipe.step_value_place(usize::from(context.step.0), &["min_feed"]);
+            let place = context.recipe.step_value_span(usize::from(context.step.0), &["min_feed"]);
             let finding = Diagnostic::new(codes::BELOW_MINIMUM, message)
-                .label(program.source(), span, "more than the target")
-                .label(&context.recipe.source, place, "the lowest feed");
+                .with_label(program.source(), span, "more than the target")
+                .with_label(&context.recipe.source, place, "the lowest feed");
             context.findings.push(finding);
         }
         if let Some(more) = found.below_minimum.len().checked_sub(TOLD).filter(|more| *more > 0) {
@@ -255,18 +268,23 @@ impl Job {
 }
 
 /// Of several errors the last one stops the step, the others are findings before it.
-fn several(mut found: Vec<Diagnostic>, findings: &mut Vec<Diagnostic>) -> Box<Diagnostic> {
+fn keep_last_error(mut found: Vec<Diagnostic>, findings: &mut Vec<Diagnostic>) -> Box<Diagnostic> {
     let last = found.pop().unwrap_or_else(|| Diagnostic::new(codes::STEP_FAILED, "the step cannot run"));
     findings.extend(found);
     Box::new(last)
 }
 
-impl Job {
+impl OptimizeFeedJob {
     /// A program that cuts nothing anywhere is in the wrong place over its stock, and all of it would run at the feed of air.
-    fn nothing_cut(&self, program: &Program, ran: &Engaged, context: &Context<'_>) -> Box<Diagnostic> {
+    fn describe_nothing_cut(
+        &self,
+        program: &Program,
+        ran: &EngagementRunResult,
+        context: &StepContext<'_>,
+    ) -> Box<Diagnostic> {
         let mut points = program.motions().filter(|motion| !motion.rapid).map(|motion| motion.to.point);
         let path = points.next().map(|first| points.fold((first, first), |(a, b), p| (a.inf(&p), b.sup(&p))));
-        let mm = self.units.in_mm();
+        let mm = self.units.mm_per_unit();
         let path = path.map(|(low, high)| (low * mm, high * mm));
         let path = path.map_or_else(String::new, |(low, high)| {
             format!(
@@ -278,6 +296,6 @@ impl Job {
         let message = format!(
             "no motion of this program cuts the stock: is it in the right place? In mm, the stock's lowest corner is at ({x:.1}, {y:.1}, {z:.1}){path}"
         );
-        context.fail(message, &[])
+        context.step_failure(message, &[])
     }
 }

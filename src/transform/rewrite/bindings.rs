@@ -1,13 +1,13 @@
 //! What a pattern bound in a statement.
 
-use super::expression::Value;
+use super::expression::ExpressionValue;
 use crate::number;
 use crate::program::operation;
 use std::ops::Range;
 
 /// A name that a pattern binds.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Name {
+pub(super) struct BoundName {
     /// Without the `$`.
     pub text: String,
     /// Whether it binds all remaining arguments.
@@ -35,49 +35,50 @@ impl<'t> Bindings<'t> {
     }
 
     /// Whether a name that is bound several times is bound to one value: equal numbers, or the same word.
-    pub fn agree(&self) -> bool {
+    pub fn is_consistent(&self) -> bool {
         self.found.iter().enumerate().all(|(index, (name, at))| {
             let earlier = self.found.iter().take(index).find(|(other, _)| other == name);
-            earlier.is_none_or(|(_, other)| value(self.bytes(other)) == value(self.bytes(at)))
+            earlier
+                .is_none_or(|(_, other)| parse_value(self.bytes_at(other)) == parse_value(self.bytes_at(at)))
         })
     }
 
     /// Where the argument of a name stands in the statement's text.
-    pub fn place(&self, name: &str) -> Option<Range<usize>> {
+    pub fn argument_range(&self, name: &str) -> Option<Range<usize>> {
         self.found.iter().find(|(bound, _)| *bound == name).map(|(_, at)| at.clone())
     }
 
     /// The bytes of the argument of a name, as they stand; nothing when it is not bound.
-    pub fn text(&self, name: &str) -> &'t [u8] {
-        self.place(name).map(|at| self.bytes(&at)).unwrap_or_default()
+    pub fn argument_text(&self, name: &str) -> &'t [u8] {
+        self.argument_range(name).map(|at| self.bytes_at(&at)).unwrap_or_default()
     }
 
     /// Its value.
-    pub fn value(&self, name: &str) -> Value {
-        value(self.text(name))
+    pub fn argument_value(&self, name: &str) -> ExpressionValue {
+        parse_value(self.argument_text(name))
     }
 
-    fn bytes(&self, at: &Range<usize>) -> &'t [u8] {
+    fn bytes_at(&self, at: &Range<usize>) -> &'t [u8] {
         self.text.get(at.clone()).unwrap_or_default()
     }
 }
 
-fn value(bytes: &[u8]) -> Value {
-    if let Some(number) = number::parse(bytes) {
-        return Value::Number(number);
+fn parse_value(bytes: &[u8]) -> ExpressionValue {
+    if let Some(number) = number::parse_number(bytes) {
+        return ExpressionValue::Number(number);
     }
     let inner = bytes.strip_prefix(b"'").and_then(|bytes| bytes.strip_suffix(b"'")).unwrap_or(bytes);
-    Value::Word(folded(&operation::text(inner)))
+    ExpressionValue::Word(fold_word(&operation::decode_text(inner)))
 }
 
 /// A word as words are compared: in upper case, runs of blanks as one.
-pub(super) fn folded(word: &str) -> String {
+pub(super) fn fold_word(word: &str) -> String {
     let words: Vec<String> = word.split_whitespace().map(str::to_ascii_uppercase).collect();
     words.join(" ")
 }
 
 /// What is said about a name that no argument is bound to.
-pub(super) fn unbound(name: &str, names: &[Name], usual: &str) -> String {
+pub(super) fn unbound_message(name: &str, names: &[BoundName], usual: &str) -> String {
     let known: Vec<String> = names
         .iter()
         .map(|name| if name.rest { format!("$...{}", name.text) } else { format!("${}", name.text) })

@@ -13,7 +13,7 @@ pub(super) enum Charset {
 
 impl Charset {
     /// What a program's file is written in.
-    pub fn of(program: &Program) -> Self {
+    pub fn from_program(program: &Program) -> Self {
         match std::str::from_utf8(program.source().bytes()) {
             Ok(_) => Self::Utf8,
             Err(_) => Self::Latin1,

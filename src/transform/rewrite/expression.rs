@@ -1,6 +1,6 @@
 //! Expressions of `if` and `${...}`: their types, checked when the recipe is read, and their values.
 
-use super::bindings::{self, Bindings, Name};
+use super::bindings::{self, Bindings, BoundName};
 use std::ops::Range;
 
 /// An expression on bound numbers and words.
@@ -17,12 +17,12 @@ pub(super) enum Expression {
     /// `-...`
     Minus(Box<Self>),
     /// `... < ...`
-    Binary(Box<Self>, Operator, Box<Self>),
+    Binary(Box<Self>, ExpressionOperator, Box<Self>),
 }
 
 /// What stands between two values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Operator {
+pub(super) enum ExpressionOperator {
     Or,
     And,
     Equal,
@@ -39,7 +39,7 @@ pub(super) enum Operator {
 
 /// What an expression gives, as far as the recipe alone tells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum ExpressionKind {
     Number,
     Word,
     Truth,
@@ -49,7 +49,7 @@ pub(super) enum Kind {
 
 /// What an expression gave.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Value {
+pub(super) enum ExpressionValue {
     Number(f64),
     /// In upper case.
     Word(String),
@@ -58,7 +58,7 @@ pub(super) enum Value {
 
 /// Why an expression has no value for a statement.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Trouble {
+pub(super) struct EvaluationError {
     /// What is wrong, for a person.
     pub message: String,
     /// The argument it is about, in the statement's text.
@@ -70,38 +70,41 @@ impl Expression {
     ///
     /// # Errors
     /// A message, with help after a line break.
-    pub fn kind(&self) -> Result<Kind, String> {
+    pub fn kind(&self) -> Result<ExpressionKind, String> {
         Ok(match self {
-            Self::Number(_) => Kind::Number,
-            Self::Word(_) => Kind::Word,
-            Self::Name(_) => Kind::Argument,
+            Self::Number(_) => ExpressionKind::Number,
+            Self::Word(_) => ExpressionKind::Word,
+            Self::Name(_) => ExpressionKind::Argument,
             Self::Not(value) => {
-                truth(value, "not")?;
-                Kind::Truth
+                require_truth(value, "not")?;
+                ExpressionKind::Truth
             }
             Self::Minus(value) => {
-                number(value, "-")?;
-                Kind::Number
+                require_number(value, "-")?;
+                ExpressionKind::Number
             }
             Self::Binary(left, operator, right) => match operator {
-                Operator::Or | Operator::And => {
-                    truth(left, operator.sign())?;
-                    truth(right, operator.sign())?;
-                    Kind::Truth
+                ExpressionOperator::Or | ExpressionOperator::And => {
+                    require_truth(left, operator.sign())?;
+                    require_truth(right, operator.sign())?;
+                    ExpressionKind::Truth
                 }
-                Operator::Equal | Operator::Unequal => {
-                    comparable(left.kind()?, right.kind()?)?;
-                    Kind::Truth
+                ExpressionOperator::Equal | ExpressionOperator::Unequal => {
+                    require_comparable(left.kind()?, right.kind()?)?;
+                    ExpressionKind::Truth
                 }
-                Operator::AtMost | Operator::AtLeast | Operator::Less | Operator::Greater => {
-                    number(left, operator.sign())?;
-                    number(right, operator.sign())?;
-                    Kind::Truth
+                ExpressionOperator::AtMost
+                | ExpressionOperator::AtLeast
+                | ExpressionOperator::Less
+                | ExpressionOperator::Greater => {
+                    require_number(left, operator.sign())?;
+                    require_number(right, operator.sign())?;
+                    ExpressionKind::Truth
                 }
                 _ => {
-                    number(left, operator.sign())?;
-                    number(right, operator.sign())?;
-                    Kind::Number
+                    require_number(left, operator.sign())?;
+                    require_number(right, operator.sign())?;
+                    ExpressionKind::Number
                 }
             },
         })
@@ -111,9 +114,13 @@ impl Expression {
     ///
     /// # Errors
     /// A message, with help after a line break.
-    pub fn check_names(&self, names: &[Name]) -> Result<(), String> {
+    pub fn check_names(&self, names: &[BoundName]) -> Result<(), String> {
         self.names().into_iter().try_for_each(|name| match names.iter().find(|known| known.text == *name) {
-            None => Err(bindings::unbound(name, names, "A word to compare with stands in quotes: 'MMPM'.")),
+            None => Err(bindings::unbound_message(
+                name,
+                names,
+                "A word to compare with stands in quotes: 'MMPM'.",
+            )),
             Some(known) if known.rest => Err(format!(
                 "`$...{name}` is not one value but several arguments\nBind the one that is meant: $NAME."
             )),
@@ -135,14 +142,14 @@ impl Expression {
     ///
     /// # Errors
     /// When an argument is of the wrong kind, or a number is divided by zero.
-    pub fn value(&self, bindings: &Bindings<'_>) -> Result<Value, Trouble> {
+    pub fn evaluate(&self, bindings: &Bindings<'_>) -> Result<ExpressionValue, EvaluationError> {
         match self {
-            Self::Number(value) => Ok(Value::Number(*value)),
-            Self::Word(word) => Ok(Value::Word(bindings::folded(word))),
-            Self::Name(name) => Ok(bindings.value(name)),
-            Self::Not(value) => Ok(Value::Truth(!value.truth(bindings)?)),
-            Self::Minus(value) => Ok(Value::Number(-value.number(bindings)?)),
-            Self::Binary(left, operator, right) => binary(left, *operator, right, bindings),
+            Self::Number(value) => Ok(ExpressionValue::Number(*value)),
+            Self::Word(word) => Ok(ExpressionValue::Word(bindings::fold_word(word))),
+            Self::Name(name) => Ok(bindings.argument_value(name)),
+            Self::Not(value) => Ok(ExpressionValue::Truth(!value.evaluate_truth(bindings)?)),
+            Self::Minus(value) => Ok(ExpressionValue::Number(-value.evaluate_number(bindings)?)),
+            Self::Binary(left, operator, right) => evaluate_binary(left, *operator, right, bindings),
         }
     }
 
@@ -150,59 +157,72 @@ impl Expression {
     ///
     /// # Errors
     /// As [`Expression::value`].
-    pub fn truth(&self, bindings: &Bindings<'_>) -> Result<bool, Trouble> {
-        match self.value(bindings)? {
-            Value::Truth(value) => Ok(value),
-            _ => Err(Trouble { message: "this is neither true nor false".to_owned(), at: None }),
+    pub fn evaluate_truth(&self, bindings: &Bindings<'_>) -> Result<bool, EvaluationError> {
+        match self.evaluate(bindings)? {
+            ExpressionValue::Truth(value) => Ok(value),
+            _ => Err(EvaluationError { message: "this is neither true nor false".to_owned(), at: None }),
         }
     }
 
-    fn number(&self, bindings: &Bindings<'_>) -> Result<f64, Trouble> {
-        match self.value(bindings)? {
-            Value::Number(value) => Ok(value),
-            Value::Word(word) => {
+    fn evaluate_number(&self, bindings: &Bindings<'_>) -> Result<f64, EvaluationError> {
+        match self.evaluate(bindings)? {
+            ExpressionValue::Number(value) => Ok(value),
+            ExpressionValue::Word(word) => {
                 let (name, at) = match self {
-                    Self::Name(name) => (format!("`${name}` is"), bindings.place(name)),
+                    Self::Name(name) => (format!("`${name}` is"), bindings.argument_range(name)),
                     _ => ("this is".to_owned(), None),
                 };
-                Err(Trouble { message: format!("{name} `{word}` here, which is not a number"), at })
+                Err(EvaluationError { message: format!("{name} `{word}` here, which is not a number"), at })
             }
-            Value::Truth(_) => Err(Trouble { message: "a number is wanted here".to_owned(), at: None }),
+            ExpressionValue::Truth(_) => {
+                Err(EvaluationError { message: "a number is wanted here".to_owned(), at: None })
+            }
         }
     }
 }
 
-fn binary(
+fn evaluate_binary(
     left: &Expression,
-    operator: Operator,
+    operator: ExpressionOperator,
     right: &Expression,
     bindings: &Bindings<'_>,
-) -> Result<Value, Trouble> {
-    let numbers = || Ok((left.number(bindings)?, right.number(bindings)?));
+) -> Result<ExpressionValue, EvaluationError> {
+    let numbers = || Ok((left.evaluate_number(bindings)?, right.evaluate_number(bindings)?));
     Ok(match operator {
-        Operator::Or => Value::Truth(left.truth(bindings)? || right.truth(bindings)?),
-        Operator::And => Value::Truth(left.truth(bindings)? && right.truth(bindings)?),
-        Operator::Equal => Value::Truth(left.value(bindings)? == right.value(bindings)?),
-        Operator::Unequal => Value::Truth(left.value(bindings)? != right.value(bindings)?),
-        Operator::AtMost => numbers().map(|(a, b)| Value::Truth(a <= b))?,
-        Operator::AtLeast => numbers().map(|(a, b)| Value::Truth(a >= b))?,
-        Operator::Less => numbers().map(|(a, b)| Value::Truth(a < b))?,
-        Operator::Greater => numbers().map(|(a, b)| Value::Truth(a > b))?,
-        Operator::Add => numbers().and_then(|(a, b)| finite(a + b))?,
-        Operator::Subtract => numbers().and_then(|(a, b)| finite(a - b))?,
-        Operator::Multiply => numbers().and_then(|(a, b)| finite(a * b))?,
-        Operator::Divide => numbers().and_then(|(a, b)| finite(a / b))?,
+        ExpressionOperator::Or => {
+            ExpressionValue::Truth(left.evaluate_truth(bindings)? || right.evaluate_truth(bindings)?)
+        }
+        ExpressionOperator::And => {
+            ExpressionValue::Truth(left.evaluate_truth(bindings)? && right.evaluate_truth(bindings)?)
+        }
+        ExpressionOperator::Equal => {
+            ExpressionValue::Truth(left.evaluate(bindings)? == right.evaluate(bindings)?)
+        }
+        ExpressionOperator::Unequal => {
+            ExpressionValue::Truth(left.evaluate(bindings)? != right.evaluate(bindings)?)
+        }
+        ExpressionOperator::AtMost => numbers().map(|(a, b)| ExpressionValue::Truth(a <= b))?,
+        ExpressionOperator::AtLeast => numbers().map(|(a, b)| ExpressionValue::Truth(a >= b))?,
+        ExpressionOperator::Less => numbers().map(|(a, b)| ExpressionValue::Truth(a < b))?,
+        ExpressionOperator::Greater => numbers().map(|(a, b)| ExpressionValue::Truth(a > b))?,
+        ExpressionOperator::Add => numbers().and_then(|(a, b)| require_finite(a + b))?,
+        ExpressionOperator::Subtract => numbers().and_then(|(a, b)| require_finite(a - b))?,
+        ExpressionOperator::Multiply => numbers().and_then(|(a, b)| require_finite(a * b))?,
+        ExpressionOperator::Divide => numbers().and_then(|(a, b)| require_finite(a / b))?,
     })
 }
 
-fn finite(value: f64) -> Result<Value, Trouble> {
+fn require_finite(value: f64) -> Result<ExpressionValue, EvaluationError> {
     if value.is_finite() {
-        return Ok(Value::Number(value));
+        return Ok(ExpressionValue::Number(value));
     }
-    Err(Trouble { message: "the result is no number: a division by zero, or too large".to_owned(), at: None })
+    Err(EvaluationError {
+        message: "the result is no number: a division by zero, or too large".to_owned(),
+        at: None,
+    })
 }
 
-impl Operator {
+impl ExpressionOperator {
     fn sign(self) -> &'static str {
         match self {
             Self::Or => "or",
@@ -221,9 +241,9 @@ impl Operator {
     }
 }
 
-fn truth(value: &Expression, sign: &str) -> Result<(), String> {
+fn require_truth(value: &Expression, sign: &str) -> Result<(), String> {
     match value.kind()? {
-        Kind::Truth => Ok(()),
+        ExpressionKind::Truth => Ok(()),
         _ => {
             let left = if sign == "not" { "" } else { "$F > 1000 " };
             Err(format!("`{sign}` stands with comparisons only\nFor example: {left}{sign} $U == 'MMPM'."))
@@ -231,22 +251,24 @@ fn truth(value: &Expression, sign: &str) -> Result<(), String> {
     }
 }
 
-fn number(value: &Expression, sign: &str) -> Result<(), String> {
+fn require_number(value: &Expression, sign: &str) -> Result<(), String> {
     match value.kind()? {
-        Kind::Number | Kind::Argument => Ok(()),
-        Kind::Word => Err(format!("`{sign}` stands with numbers only\nWords are compared by == and !=.")),
-        Kind::Truth => {
+        ExpressionKind::Number | ExpressionKind::Argument => Ok(()),
+        ExpressionKind::Word => {
+            Err(format!("`{sign}` stands with numbers only\nWords are compared by == and !=."))
+        }
+        ExpressionKind::Truth => {
             Err(format!("`{sign}` stands with numbers, not with a comparison\nJoin comparisons by `and`."))
         }
     }
 }
 
-fn comparable(left: Kind, right: Kind) -> Result<(), String> {
+fn require_comparable(left: ExpressionKind, right: ExpressionKind) -> Result<(), String> {
     match (left, right) {
-        (Kind::Truth, _) | (_, Kind::Truth) => {
+        (ExpressionKind::Truth, _) | (_, ExpressionKind::Truth) => {
             Err("`==` and `!=` compare numbers or words\nJoin comparisons by `and` or `or`.".to_owned())
         }
-        (Kind::Number, Kind::Word) | (Kind::Word, Kind::Number) => {
+        (ExpressionKind::Number, ExpressionKind::Word) | (ExpressionKind::Word, ExpressionKind::Number) => {
             Err("a number never equals a word\nA number stands without quotes.".to_owned())
         }
         _ => Ok(()),

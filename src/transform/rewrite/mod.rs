@@ -3,30 +3,30 @@
 mod bindings;
 mod charset;
 mod expression;
-mod look;
 mod pattern;
 mod region;
 mod reshape;
+mod rewrite_run;
 mod rule;
-mod search;
-mod subject;
+mod rule_matching;
+mod rule_subject;
+mod rule_text;
+mod spacing_style;
 mod template;
-mod text;
-mod wild;
-mod work;
+mod wildcards;
 
-pub use region::Region;
+pub use region::RewriteRegionSpec;
 pub use rule::RewriteRule;
 
-use super::{Context, Transform};
+use super::{StepContext, Transform};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::Program;
 use charset::Charset;
+use rewrite_run::RewriteRun;
+use rule_matching::ActiveRule;
 use schemars::JsonSchema;
-use search::Active;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error as _};
-use work::Work;
 
 /// Replaces, deletes and inserts statements by rules.
 ///
@@ -55,7 +55,7 @@ use work::Work;
 pub struct Rewrite {
     /// Which statements; all when it is left out.
     #[serde(default)]
-    pub r#where: Region,
+    pub r#where: RewriteRegionSpec,
     /// The rules, in the order in which they are tried.
     #[serde(deserialize_with = "at_least_one")]
     #[schemars(length(min = 1))]
@@ -63,44 +63,48 @@ pub struct Rewrite {
 }
 
 impl Transform for Rewrite {
-    fn apply(&self, program: Program, context: &mut Context<'_>) -> Result<Program, Box<Diagnostic>> {
+    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>> {
         let is_ascii = self.rules.iter().all(RewriteRule::is_ascii);
-        let charset = if is_ascii { Charset::Utf8 } else { Charset::of(&program) };
-        let mut rules = Active::all(self, charset);
-        let hits = match search::hits(self, &mut rules, &program) {
+        let charset = if is_ascii { Charset::Utf8 } else { Charset::from_program(&program) };
+        let mut rules = ActiveRule::activate_rules(self, charset);
+        let hits = match rule_matching::find_rule_matches(self, &mut rules, &program) {
             Ok(hits) => hits,
-            Err(stuck) => return Err(work::stuck(&stuck.trouble, stuck.hit, "if", &program, context)),
+            Err(stuck) => {
+                return Err(rewrite_run::rule_failure(&stuck.trouble, stuck.hit, "if", &program, context));
+            }
         };
         if hits.is_empty() && self.selects_nothing(&program) {
             let message = "`where` selects no statement of this program";
-            let finding = context.at(codes::NOTHING_SELECTED, message, &["where"], "selects nothing");
+            let finding =
+                context.step_finding(codes::NOTHING_SELECTED, message, &["where"], "selects nothing");
             context.findings.push(finding);
             return Ok(program);
         }
-        report_unused(&rules, context);
+        report_unused_rules(&rules, context);
         if hits.is_empty() {
             return Ok(program);
         }
-        Work::new(&rules, &hits, charset, context).done(program)
+        RewriteRun::new(&rules, &hits, charset, context).rewrite_program(program)
     }
 }
 
 impl Rewrite {
     fn selects_nothing(&self, program: &Program) -> bool {
-        let mut region = self.r#where.over(program);
-        !self.r#where.is_everything() && !program.live().any(|(index, _)| region.contains(index))
+        let mut region = self.r#where.start_cursor(program);
+        !self.r#where.is_everything() && !program.live_statements().any(|(index, _)| region.contains(index))
     }
 }
 
-fn report_unused(rules: &[Active<'_>], context: &mut Context<'_>) {
+fn report_unused_rules(rules: &[ActiveRule<'_>], context: &mut StepContext<'_>) {
     for rule in rules {
         // A rule whose `if` was never true has found its statements, and nothing to correct.
-        if rule.has_fitted() {
+        if rule.has_matched() {
             continue;
         }
         let index = rule.index.to_string();
         let message = format!("rule {} of this `rewrite` applies to no statement", rule.index + 1);
-        let finding = context.at(codes::RULE_UNUSED, message, &["rules", &index, "match"], "matches nothing");
+        let finding =
+            context.step_finding(codes::RULE_UNUSED, message, &["rules", &index, "match"], "matches nothing");
         context.findings.push(finding);
     }
 }

@@ -1,9 +1,9 @@
 //! `where:` for statements: the operations and tools they stand under.
 
+use crate::parameters::{Glob, ToolPattern};
 use crate::program::Program;
 use crate::program::motion::Motions;
 use crate::program::operation::{self, Operation};
-use crate::values::{Glob, ToolPattern};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -11,63 +11,63 @@ use serde::Deserialize;
 /// motions, not to statements, so they cannot be asked for here; a feed is asked for by `if`.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Region {
+pub struct RewriteRegionSpec {
     /// Names of operations; `*` and `?` are wildcards. What stands before the first operation belongs to it.
-    #[serde(default, deserialize_with = "crate::recipe::not_empty")]
+    #[serde(default, deserialize_with = "crate::recipe::deserialize_not_empty")]
     #[schemars(length(min = 1))]
     operations: Option<Vec<Glob>>,
     /// Numbers or names of tools: the tool in force behind the statement, so a LOAD/TOOL belongs to the tool that it loads.
-    #[serde(default, deserialize_with = "crate::recipe::not_empty")]
+    #[serde(default, deserialize_with = "crate::recipe::deserialize_not_empty")]
     #[schemars(length(min = 1))]
     tools: Option<Vec<ToolPattern>>,
 }
 
-impl Region {
+impl RewriteRegionSpec {
     /// Whether it leaves anything out.
     pub(super) fn is_everything(&self) -> bool {
         self.operations.is_none() && self.tools.is_none()
     }
 
     /// The region in a program, to be asked for statements in their order.
-    pub(super) fn over<'p>(&'p self, program: &'p Program) -> Walk<'p> {
+    pub(super) fn start_cursor<'p>(&'p self, program: &'p Program) -> RewriteRegionCursor<'p> {
         let operations = match self.operations {
-            Some(_) => operation::operations(program),
+            Some(_) => operation::find_operations(program),
             None => Vec::new(),
         };
-        Walk { region: self, operations, operation: 0, motions: program.motions(), read: 0 }
+        RewriteRegionCursor { region: self, operations, operation: 0, motions: program.motions(), read: 0 }
     }
 }
 
 /// A region on its way through a program.
-pub(super) struct Walk<'p> {
-    region: &'p Region,
+pub(super) struct RewriteRegionCursor<'p> {
+    region: &'p RewriteRegionSpec,
     operations: Vec<Operation>,
     operation: usize,
     motions: Motions<'p>,
     read: usize,
 }
 
-impl Walk<'_> {
+impl RewriteRegionCursor<'_> {
     /// Whether a statement stands in the region. Statements are asked for in order, each at most once.
     pub fn contains(&mut self, index: usize) -> bool {
-        self.operation_fits(index) && self.tool_fits(index)
+        self.is_in_operations(index) && self.is_under_tools(index)
     }
 
-    fn operation_fits(&mut self, index: usize) -> bool {
+    fn is_in_operations(&mut self, index: usize) -> bool {
         let Some(wanted) = &self.region.operations else { return true };
         while self.operations.get(self.operation).is_some_and(|operation| operation.statements.end <= index) {
             self.operation += 1;
         }
         let name = self.operations.get(self.operation).map(|operation| operation.name.as_str());
-        name.is_some_and(|name| wanted.iter().any(|glob| glob.matches(name)))
+        name.is_some_and(|name| wanted.iter().any(|glob| glob.matches_name(name)))
     }
 
-    fn tool_fits(&mut self, index: usize) -> bool {
+    fn is_under_tools(&mut self, index: usize) -> bool {
         let Some(wanted) = &self.region.tools else { return true };
         while self.read <= index && self.motions.read_statement().is_some() {
             self.read += 1;
         }
         let Some(tool) = self.motions.state().tool.as_deref() else { return false };
-        wanted.iter().any(|pattern| pattern.matches(tool.number, tool.name.as_deref()))
+        wanted.iter().any(|pattern| pattern.matches_tool(tool.number, tool.name.as_deref()))
     }
 }

@@ -1,10 +1,10 @@
 //! One rule: read from the recipe, every fault at its own text.
 
-use super::bindings::Name;
-use super::expression::{Expression, Kind};
-use super::pattern::Pattern;
-use super::template::Template;
-use super::text::condition;
+use super::bindings::BoundName;
+use super::expression::{Expression, ExpressionKind};
+use super::pattern::StatementPattern;
+use super::rule_text::parse_condition;
+use super::template::StatementTemplate;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, Error as _, MapAccess, SeqAccess, Visitor};
@@ -16,36 +16,36 @@ use std::fmt;
 #[schemars(deny_unknown_fields)]
 pub struct RewriteRule {
     /// The statement as it stands in the file, with `$NAME` for an argument and `$...NAME` for all remaining ones.
-    #[schemars(with = "Statement")]
-    pub(super) r#match: Pattern,
+    #[schemars(with = "StatementSchema")]
+    pub(super) r#match: StatementPattern,
     /// Only statements for which this is true: `$F > 1000 and $U == 'MMPM'`.
     #[schemars(with = "Option<String>")]
-    pub(super) r#if: Option<Condition>,
+    pub(super) r#if: Option<RuleCondition>,
     /// What to write in its place.
-    #[schemars(with = "Option<Statement>")]
-    pub(super) replace: Option<Template>,
+    #[schemars(with = "Option<StatementSchema>")]
+    pub(super) replace: Option<StatementTemplate>,
     /// Takes the statement out.
     #[schemars(default)]
     pub(super) delete: bool,
     /// A statement, or a list of them, to put in front of it.
-    #[schemars(with = "Option<Statements>")]
-    pub(super) insert_before: Vec<Template>,
+    #[schemars(with = "Option<StatementListSchema>")]
+    pub(super) insert_before: Vec<StatementTemplate>,
     /// A statement, or a list of them, to put behind it.
-    #[schemars(with = "Option<Statements>")]
-    pub(super) insert_after: Vec<Template>,
+    #[schemars(with = "Option<StatementListSchema>")]
+    pub(super) insert_after: Vec<StatementTemplate>,
 }
 
 impl RewriteRule {
     /// Whether its texts are the same in every character set.
     pub(super) fn is_ascii(&self) -> bool {
         let mut templates = self.replace.iter().chain(&self.insert_before).chain(&self.insert_after);
-        self.r#match.is_ascii() && templates.all(Template::is_ascii)
+        self.r#match.is_ascii() && templates.all(StatementTemplate::is_ascii)
     }
 }
 
 /// The expression of an `if`.
 #[derive(Debug, Clone)]
-pub(super) struct Condition(pub Expression);
+pub(super) struct RuleCondition(pub Expression);
 
 impl<'de> Deserialize<'de> for RewriteRule {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -56,7 +56,7 @@ impl<'de> Deserialize<'de> for RewriteRule {
 
 #[derive(Deserialize)]
 #[serde(field_identifier, rename_all = "snake_case")]
-enum Key {
+enum RuleKey {
     Match,
     If,
     Replace,
@@ -67,39 +67,39 @@ enum Key {
 
 /// What has been read so far. Names are checked as soon as both sides are known, whichever comes first.
 #[derive(Default)]
-struct Draft {
-    pattern: Option<Pattern>,
-    condition: Option<Condition>,
-    replace: Option<Template>,
+struct RuleDraft {
+    pattern: Option<StatementPattern>,
+    condition: Option<RuleCondition>,
+    replace: Option<StatementTemplate>,
     delete: bool,
-    before: Vec<Template>,
-    after: Vec<Template>,
+    before: Vec<StatementTemplate>,
+    after: Vec<StatementTemplate>,
 }
 
-impl Draft {
-    fn check_condition(&self, condition: &Condition) -> Result<(), String> {
-        self.names().map_or(Ok(()), |names| condition.0.check_names(names))
+impl RuleDraft {
+    fn check_condition(&self, condition: &RuleCondition) -> Result<(), String> {
+        self.pattern_names().map_or(Ok(()), |names| condition.0.check_names(names))
     }
 
-    fn check_template(&self, template: &Template) -> Result<(), String> {
-        self.names().map_or(Ok(()), |names| template.check_names(names))
+    fn check_template(&self, template: &StatementTemplate) -> Result<(), String> {
+        self.pattern_names().map_or(Ok(()), |names| template.check_names(names))
     }
 
-    fn check_replace(&self, template: &Template) -> Result<(), String> {
+    fn check_replace(&self, template: &StatementTemplate) -> Result<(), String> {
         match self.delete {
             true => Err(BOTH.to_owned()),
             false => self.check_template(template),
         }
     }
 
-    fn check_pattern(&self, pattern: &Pattern) -> Result<(), String> {
+    fn check_pattern(&self, pattern: &StatementPattern) -> Result<(), String> {
         let mut templates = self.replace.iter().chain(&self.before).chain(&self.after);
         templates.try_for_each(|template| template.check_names(pattern.names()))?;
         self.condition.iter().try_for_each(|condition| condition.0.check_names(pattern.names()))
     }
 
-    fn names(&self) -> Option<&[Name]> {
-        self.pattern.as_ref().map(Pattern::names)
+    fn pattern_names(&self) -> Option<&[BoundName]> {
+        self.pattern.as_ref().map(StatementPattern::names)
     }
 }
 
@@ -117,34 +117,42 @@ impl<'de> Visitor<'de> for RuleVisitor {
     }
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<RewriteRule, A::Error> {
-        let mut draft = Draft::default();
+        let mut draft = RuleDraft::default();
         let mut acts = false;
         while let Some(key) = map.next_key()? {
             match key {
-                Key::Match => {
-                    let seed =
-                        Text { read: Pattern::new, check: |found: &Pattern| draft.check_pattern(found) };
+                RuleKey::Match => {
+                    let seed = CheckedTextSeed {
+                        read: StatementPattern::new,
+                        check: |found: &StatementPattern| draft.check_pattern(found),
+                    };
                     draft.pattern = Some(map.next_value_seed(seed)?);
                 }
-                Key::If => {
-                    let seed = Text { read: read_condition, check: |found: &_| draft.check_condition(found) };
+                RuleKey::If => {
+                    let seed = CheckedTextSeed {
+                        read: read_condition,
+                        check: |found: &_| draft.check_condition(found),
+                    };
                     draft.condition = Some(map.next_value_seed(seed)?);
                 }
-                Key::Replace => {
-                    let seed = Text { read: Template::new, check: |found: &_| draft.check_replace(found) };
+                RuleKey::Replace => {
+                    let seed = CheckedTextSeed {
+                        read: StatementTemplate::new,
+                        check: |found: &_| draft.check_replace(found),
+                    };
                     draft.replace = Some(map.next_value_seed(seed)?);
                     acts = true;
                 }
-                Key::Delete => {
-                    draft.delete = map.next_value_seed(Delete { replaces: draft.replace.is_some() })?;
+                RuleKey::Delete => {
+                    draft.delete = map.next_value_seed(DeleteSeed { replaces: draft.replace.is_some() })?;
                     acts |= draft.delete;
                 }
-                Key::InsertBefore => {
-                    draft.before = map.next_value_seed(Templates(&draft))?;
+                RuleKey::InsertBefore => {
+                    draft.before = map.next_value_seed(TemplateListSeed(&draft))?;
                     acts = true;
                 }
-                Key::InsertAfter => {
-                    draft.after = map.next_value_seed(Templates(&draft))?;
+                RuleKey::InsertAfter => {
+                    draft.after = map.next_value_seed(TemplateListSeed(&draft))?;
                     acts = true;
                 }
             }
@@ -164,21 +172,21 @@ impl<'de> Visitor<'de> for RuleVisitor {
     }
 }
 
-fn read_condition(text: &str) -> Result<Condition, String> {
-    let expression = condition(text)?;
+fn read_condition(text: &str) -> Result<RuleCondition, String> {
+    let expression = parse_condition(text)?;
     match expression.kind()? {
-        Kind::Truth => Ok(Condition(expression)),
+        ExpressionKind::Truth => Ok(RuleCondition(expression)),
         _ => Err(format!("`{text}` is neither true nor false\nCompare it: {text} > 0.")),
     }
 }
 
 /// A text that becomes a `T`, and is checked against the rest of its rule where it stands.
-struct Text<R, C> {
+struct CheckedTextSeed<R, C> {
     read: R,
     check: C,
 }
 
-impl<'de, T, R, C> DeserializeSeed<'de> for Text<R, C>
+impl<'de, T, R, C> DeserializeSeed<'de> for CheckedTextSeed<R, C>
 where
     R: Fn(&str) -> Result<T, String>,
     C: Fn(&T) -> Result<(), String>,
@@ -192,11 +200,11 @@ where
     }
 }
 
-struct Delete {
+struct DeleteSeed {
     replaces: bool,
 }
 
-impl<'de> DeserializeSeed<'de> for Delete {
+impl<'de> DeserializeSeed<'de> for DeleteSeed {
     type Value = bool;
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<bool, D::Error> {
         match bool::deserialize(deserializer)? {
@@ -207,31 +215,34 @@ impl<'de> DeserializeSeed<'de> for Delete {
 }
 
 /// One statement, or a list of them.
-struct Templates<'d>(&'d Draft);
+struct TemplateListSeed<'d>(&'d RuleDraft);
 
-impl<'de> DeserializeSeed<'de> for Templates<'_> {
-    type Value = Vec<Template>;
-    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Vec<Template>, D::Error> {
+impl<'de> DeserializeSeed<'de> for TemplateListSeed<'_> {
+    type Value = Vec<StatementTemplate>;
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Vec<StatementTemplate>, D::Error> {
         deserializer.deserialize_any(self)
     }
 }
 
-impl<'de> Visitor<'de> for Templates<'_> {
-    type Value = Vec<Template>;
+impl<'de> Visitor<'de> for TemplateListSeed<'_> {
+    type Value = Vec<StatementTemplate>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("a statement or a list of statements")
     }
 
-    fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Vec<Template>, E> {
-        let template = Template::new(text).map_err(E::custom)?;
+    fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Vec<StatementTemplate>, E> {
+        let template = StatementTemplate::new(text).map_err(E::custom)?;
         self.0.check_template(&template).map_err(E::custom)?;
         Ok(vec![template])
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<Template>, A::Error> {
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<StatementTemplate>, A::Error> {
         let mut templates = Vec::new();
-        let seed = || Text { read: Template::new, check: |found: &_| self.0.check_template(found) };
+        let seed = || CheckedTextSeed {
+            read: StatementTemplate::new,
+            check: |found: &_| self.0.check_template(found),
+        };
         while let Some(template) = list.next_element_seed(seed())? {
             templates.push(template);
         }
@@ -243,9 +254,9 @@ impl<'de> Visitor<'de> for Templates<'_> {
 }
 
 /// Schema of one statement.
-struct Statement;
+struct StatementSchema;
 
-impl JsonSchema for Statement {
+impl JsonSchema for StatementSchema {
     fn inline_schema() -> bool {
         true
     }
@@ -258,9 +269,9 @@ impl JsonSchema for Statement {
 }
 
 /// Schema of one or several statements.
-struct Statements;
+struct StatementListSchema;
 
-impl JsonSchema for Statements {
+impl JsonSchema for StatementListSchema {
     fn inline_schema() -> bool {
         true
     }

@@ -1,23 +1,23 @@
 //! What a rule writes: a statement with `$NAME` and `${...}` in it.
 
-use super::bindings::{Bindings, Name, unbound};
+use super::bindings::{Bindings, BoundName, unbound_message};
 use super::charset::Charset;
-use super::expression::{Expression, Kind, Trouble, Value};
-use super::subject::{Class, Subject};
-use super::text::{Piece, pieces, quoted};
+use super::expression::{EvaluationError, Expression, ExpressionKind, ExpressionValue};
+use super::rule_subject::{RuleSubject, SubjectClass};
+use super::rule_text::{RuleTextPart, parse_rule_text, quote_text};
 use crate::parse;
-use crate::program::{Record, Role};
-use crate::write::Style;
+use crate::program::{NumberRole, Record};
+use crate::write::FileStyle;
 
 /// A statement to write.
 #[derive(Debug, Clone)]
-pub(super) struct Template {
-    pieces: Vec<Piece>,
+pub(super) struct StatementTemplate {
+    pieces: Vec<RuleTextPart>,
     is_ascii: bool,
 }
 
 /// What a template is filled in with.
-pub(super) struct Filling<'f> {
+pub(super) struct TemplateInputs<'f> {
     /// What the pattern bound.
     pub bindings: &'f Bindings<'f>,
     /// The matched statement.
@@ -25,33 +25,33 @@ pub(super) struct Filling<'f> {
     /// What it means.
     pub record: &'f Record,
     /// How the file writes numbers.
-    pub style: &'f Style,
+    pub style: &'f FileStyle,
     /// What the file is written in.
     pub charset: Charset,
 }
 
-impl Template {
+impl StatementTemplate {
     /// Reads a template.
     ///
     /// # Errors
     /// A message, with help after a line break.
     pub fn new(text: &str) -> Result<Self, String> {
-        let pieces = pieces(text)?;
+        let pieces = parse_rule_text(text)?;
         let mut tried = String::new();
         let mut is_plain = true;
         for piece in &pieces {
-            is_plain &= matches!(piece, Piece::Plain(_));
+            is_plain &= matches!(piece, RuleTextPart::Plain(_));
             match piece {
-                Piece::Plain(plain) => tried.push_str(plain),
-                Piece::Bound(_) | Piece::Rest(Some(_)) => tried.push('\u{7F}'),
-                Piece::Rest(None) => {
+                RuleTextPart::Plain(plain) => tried.push_str(plain),
+                RuleTextPart::Bound(_) | RuleTextPart::Rest(Some(_)) => tried.push('\u{7F}'),
+                RuleTextPart::Rest(None) => {
                     return Err(
                         "`$...` does not say what is to be written\nName it here and in `match`: $...REST."
                             .to_owned(),
                     );
                 }
-                Piece::Computed(expression) => {
-                    if expression.kind()? == Kind::Truth {
+                RuleTextPart::Computed(expression) => {
+                    if expression.kind()? == ExpressionKind::Truth {
                         return Err(
                             "`${...}` writes a number or a word\nA condition stands in `if`.".to_owned()
                         );
@@ -60,22 +60,22 @@ impl Template {
                 }
             }
         }
-        let subject = Subject::of(tried.as_bytes());
+        let subject = RuleSubject::from_text(tried.as_bytes());
         if !subject.is_whole(tried.as_bytes()) {
             let help =
                 "Give several statements as a list; a statement goes on in a new line only behind a `$`.";
             return Err(format!("this is not one statement\n{help}"));
         }
         // Arguments are known only when the rule runs; then the whole statement is read back again.
-        let problem = match parse::whole(tried.as_bytes()) {
+        let problem = match parse::read_whole_record(tried.as_bytes()) {
             Err(problem) if is_plain => Some(problem.problem),
-            _ if subject.class == Class::Other => Some("it starts with no word".to_owned()),
+            _ if subject.class == SubjectClass::Other => Some("it starts with no word".to_owned()),
             _ => None,
         };
         match problem {
             Some(problem) => Err(format!(
                 "{} is no CL statement: {problem}\nWrite a statement as it stands in the file.",
-                quoted(text)
+                quote_text(text)
             )),
             None => Ok(Self { pieces, is_ascii: text.is_ascii() }),
         }
@@ -90,18 +90,20 @@ impl Template {
     ///
     /// # Errors
     /// A message, with help after a line break.
-    pub fn check_names(&self, names: &[Name]) -> Result<(), String> {
+    pub fn check_names(&self, names: &[BoundName]) -> Result<(), String> {
         self.pieces.iter().try_for_each(|piece| match piece {
-            Piece::Bound(name) | Piece::Rest(Some(name))
+            RuleTextPart::Bound(name) | RuleTextPart::Rest(Some(name))
                 if !names.iter().any(|known| known.text == *name) =>
             {
-                Err(unbound(name, names, ""))
+                Err(unbound_message(name, names, ""))
             }
             // `${REST}` names; only what calculates needs one argument.
-            Piece::Computed(Expression::Name(name)) if names.iter().any(|known| known.text == *name) => {
+            RuleTextPart::Computed(Expression::Name(name))
+                if names.iter().any(|known| known.text == *name) =>
+            {
                 Ok(())
             }
-            Piece::Computed(expression) => expression.check_names(names),
+            RuleTextPart::Computed(expression) => expression.check_names(names),
             _ => Ok(()),
         })
     }
@@ -110,39 +112,41 @@ impl Template {
     ///
     /// # Errors
     /// When an expression has no value here, or the file cannot hold a letter of the template.
-    pub fn fill(&self, filling: &Filling<'_>) -> Result<Vec<u8>, Trouble> {
+    pub fn fill(&self, filling: &TemplateInputs<'_>) -> Result<Vec<u8>, EvaluationError> {
         let mut out = Vec::new();
         let mut comma_goes = false;
         for (index, piece) in self.pieces.iter().enumerate() {
             match piece {
-                Piece::Plain(plain) => {
+                RuleTextPart::Plain(plain) => {
                     let plain = match std::mem::take(&mut comma_goes) {
                         true => plain.trim_start().trim_start_matches(','),
                         false => plain,
                     };
                     let bytes = filling.charset.encode(plain);
-                    out.extend(bytes.map_err(|message| Trouble { message, at: None })?);
+                    out.extend(bytes.map_err(|message| EvaluationError { message, at: None })?);
                 }
-                Piece::Rest(None) => {}
-                Piece::Bound(name) | Piece::Rest(Some(name)) | Piece::Computed(Expression::Name(name)) => {
-                    let argument = filling.bindings.text(name);
+                RuleTextPart::Rest(None) => {}
+                RuleTextPart::Bound(name)
+                | RuleTextPart::Rest(Some(name))
+                | RuleTextPart::Computed(Expression::Name(name)) => {
+                    let argument = filling.bindings.argument_text(name);
                     if argument.is_empty() {
-                        comma_goes = self.comma_follows(index);
+                        comma_goes = self.has_comma_after(index);
                         if !comma_goes {
                             drop_separator(&mut out);
                         }
                     }
                     out.extend_from_slice(argument);
                 }
-                Piece::Computed(expression) => out.extend(computed(expression, filling)?),
+                RuleTextPart::Computed(expression) => out.extend(format_computed(expression, filling)?),
             }
         }
         Ok(out)
     }
 
-    fn comma_follows(&self, index: usize) -> bool {
+    fn has_comma_after(&self, index: usize) -> bool {
         let next = self.pieces.get(index + 1);
-        matches!(next, Some(Piece::Plain(plain)) if plain.trim_start().starts_with(','))
+        matches!(next, Some(RuleTextPart::Plain(plain)) if plain.trim_start().starts_with(','))
     }
 }
 
@@ -155,24 +159,32 @@ fn drop_separator(out: &mut Vec<u8>) {
     }
 }
 
-fn computed(expression: &Expression, filling: &Filling<'_>) -> Result<Vec<u8>, Trouble> {
-    let number = match expression.value(filling.bindings)? {
-        Value::Number(number) => number,
-        Value::Word(word) => {
-            return filling.charset.encode(&word).map_err(|message| Trouble { message, at: None });
+fn format_computed(
+    expression: &Expression,
+    filling: &TemplateInputs<'_>,
+) -> Result<Vec<u8>, EvaluationError> {
+    let number = match expression.evaluate(filling.bindings)? {
+        ExpressionValue::Number(number) => number,
+        ExpressionValue::Word(word) => {
+            return filling.charset.encode(&word).map_err(|message| EvaluationError { message, at: None });
         }
-        Value::Truth(_) => return Err(Trouble { message: "this is not a number".to_owned(), at: None }),
+        ExpressionValue::Truth(_) => {
+            return Err(EvaluationError { message: "this is not a number".to_owned(), at: None });
+        }
     };
     // In the style of the first number that it is made of.
-    let model = expression.names().into_iter().find_map(|name| match filling.bindings.value(name) {
-        Value::Number(value) => filling.bindings.place(name).map(|at| (at, value)),
+    let model = expression.names().into_iter().find_map(|name| match filling.bindings.argument_value(name) {
+        ExpressionValue::Number(value) => filling.bindings.argument_range(name).map(|at| (at, value)),
         _ => None,
     });
     let Some((at, old)) = model else { return Ok(number.to_string().into_bytes()) };
-    let places = parse::numbers(filling.text);
-    let roles = parse::roles(filling.record, filling.text);
-    let role =
-        places.iter().zip(roles).find(|((place, _), _)| *place == at).map_or(Role::Plain, |(_, role)| role);
+    let places = parse::statement_numbers(filling.text);
+    let roles = parse::number_roles(filling.record, filling.text);
+    let role = places
+        .iter()
+        .zip(roles)
+        .find(|((place, _), _)| *place == at)
+        .map_or(NumberRole::Plain, |(_, role)| role);
     let original = filling.text.get(at).unwrap_or_default();
-    Ok(filling.style.changed(role, original).print(number, number - old).into_bytes())
+    Ok(filling.style.changed_format(role, original).format_number(number, number - old).into_bytes())
 }

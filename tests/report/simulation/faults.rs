@@ -3,14 +3,14 @@
 use super::{SHOP, SLOT, close, setup, simulate};
 use crate::support::{program, snapshots};
 use clsmith::diagnostic::{Diagnostic, Severity};
-use clsmith::machining::{Machining, Options, Unwatched, Watch};
 use clsmith::program::LengthUnit;
 use clsmith::report::render::line;
-use clsmith::report::simulation::Simulated;
+use clsmith::report::simulation::SimulationReport;
+use clsmith::simulation_run::{Machining, RunWatcher, SilentWatcher, SimulationRunOptions};
 
 fn told(found: &[Diagnostic]) -> String {
     let mut out = Vec::new();
-    line::render(&mut out, found, None).unwrap();
+    line::render_lines(&mut out, found, None).unwrap();
     String::from_utf8(out).unwrap()
 }
 
@@ -78,8 +78,12 @@ fn a_run_that_costs_too_much_proposes_a_cell_that_fits() {
     let (program, setup) = (program(SLOT), setup(SHOP));
     let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new()).unwrap();
     let run = |cell: f64| {
-        Simulated::of(&machining, &Options { cell: Some(cell), ..Options::default() }, &Unwatched)
-            .unwrap_err()
+        SimulationReport::simulate_program(
+            &machining,
+            &SimulationRunOptions { cell: Some(cell), ..SimulationRunOptions::default() },
+            &SilentWatcher,
+        )
+        .unwrap_err()
     };
     snapshots("report").bind(|| {
         insta::assert_snapshot!("simulation_cost", told(&[run(0.001), run(3.0)].concat()));
@@ -89,13 +93,17 @@ fn a_run_that_costs_too_much_proposes_a_cell_that_fits() {
 #[test]
 fn a_stopped_run_gives_nothing() {
     struct Stop;
-    impl Watch for Stop {
-        fn progress(&self, _: f64, _: f64) {}
-        fn is_stopped(&self) -> bool {
+    impl RunWatcher for Stop {
+        fn report_progress(&self, _: f64, _: f64) {}
+        fn is_stop_requested(&self) -> bool {
             true
         }
     }
     let (program, setup) = (program(SLOT), setup(SHOP));
     let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new()).unwrap();
-    assert!(Simulated::of(&machining, &Options::default(), &Stop).unwrap().is_none());
+    assert!(
+        SimulationReport::simulate_program(&machining, &SimulationRunOptions::default(), &Stop)
+            .unwrap()
+            .is_none()
+    );
 }

@@ -5,10 +5,10 @@ mod outputs;
 
 use crate::support::program;
 use clsmith::diagnostic::Diagnostic;
-use clsmith::machining::{Machining, Options, Unwatched};
 use clsmith::program::LengthUnit;
-use clsmith::report::simulation::{Row, Simulated};
+use clsmith::report::simulation::{MotionRow, SimulationReport};
 use clsmith::setup::Setup;
+use clsmith::simulation_run::{Machining, SilentWatcher, SimulationRunOptions};
 use clsmith::source::Source;
 
 /// A slot of an end mill of 10 mm, 2 mm deep, from air through 60 mm of stock into air, in three motions; then half as wide on the way
@@ -48,13 +48,14 @@ pub fn setup(text: &str) -> Setup {
     Setup::load(&Source::new("shop.yaml", text.as_bytes().to_vec()).unwrap()).unwrap()
 }
 
-pub fn simulate(text: &str, shop: &str, units: LengthUnit) -> Result<Simulated, Vec<Diagnostic>> {
+pub fn simulate(text: &str, shop: &str, units: LengthUnit) -> Result<SimulationReport, Vec<Diagnostic>> {
     let (program, setup) = (program(text), setup(shop));
     let machining = Machining::new(&program, &setup, units, &mut Vec::new())?;
-    Simulated::of(&machining, &Options::default(), &Unwatched).map(Option::unwrap)
+    SimulationReport::simulate_program(&machining, &SimulationRunOptions::default(), &SilentWatcher)
+        .map(Option::unwrap)
 }
 
-fn row(simulated: &Simulated, line: usize) -> Row {
+fn row(simulated: &SimulationReport, line: usize) -> MotionRow {
     *simulated.motions.rows.iter().find(|row| row.line == Some(line)).unwrap()
 }
 

@@ -2,24 +2,24 @@
 
 use super::{SHOP, SLOT, simulate};
 use crate::support::{rounded_snapshots, snapshots};
-use clsmith::machining::Machining;
 use clsmith::program::LengthUnit;
-use clsmith::report::simulation::plot::{Moment, Series, plot};
-use clsmith::report::simulation::{Simulated, to_csv, to_json, to_text};
-use clsmith::sim::export;
+use clsmith::report::simulation::time_plot::{PlottedMotion, ProgramTimeSeries, draw_time_series};
+use clsmith::report::simulation::{SimulationReport, to_json, to_text, write_csv};
+use clsmith::sim::stl_export;
+use clsmith::simulation_run::Machining;
 
-fn slot() -> Simulated {
+fn slot() -> SimulationReport {
     simulate(SLOT, SHOP, LengthUnit::Mm).unwrap()
 }
 
 /// Without forces, which are the model's matter and have tests of their own.
-fn without_forces() -> Simulated {
+fn without_forces() -> SimulationReport {
     simulate(SLOT, &SHOP.replace("material: { k_tc: 2000, name: C45 }\n", ""), LengthUnit::Mm).unwrap()
 }
 
-fn csv(found: &Simulated) -> String {
+fn csv(found: &SimulationReport) -> String {
     let mut out = Vec::new();
-    to_csv(found, &mut out).unwrap();
+    write_csv(found, &mut out).unwrap();
     String::from_utf8(out).unwrap()
 }
 
@@ -57,8 +57,8 @@ fn the_number_of_threads_changes_no_byte() {
         pool.install(|| {
             let found = slot();
             let mut stl = Vec::new();
-            export::write_stl(&found.left, &mut stl).unwrap();
-            (csv(&found), to_json(&found), stl, plot(&[found.series("a")]).unwrap())
+            stl_export::write_stl(&found.left, &mut stl).unwrap();
+            (csv(&found), to_json(&found), stl, draw_time_series(&[found.to_time_series("a")]).unwrap())
         })
     };
     let one = run(1);
@@ -71,15 +71,15 @@ fn the_number_of_threads_changes_no_byte() {
 fn what_is_left_is_compared_with_a_target() {
     let mut found = slot();
     let mut stl = Vec::new();
-    export::write_stl(&found.left, &mut stl).unwrap();
-    let target = Machining::target(&stl, LengthUnit::Mm).unwrap();
-    found.compare(&target, "part.stl", None);
+    stl_export::write_stl(&found.left, &mut stl).unwrap();
+    let target = Machining::read_target_part(&stl, LengthUnit::Mm).unwrap();
+    found.compare_with_target(&target, "part.stl", None);
     let compared = found.target.clone().unwrap();
     assert_eq!((compared.gouge.columns, compared.excess.columns), (0, 0));
     assert!(found.findings.is_empty());
 
     let mut deep = simulate(&SLOT.replace(",-2.0000", ",-3.0000"), SHOP, LengthUnit::Mm).unwrap();
-    deep.compare(&target, "part.stl", Some(0.3));
+    deep.compare_with_target(&target, "part.stl", Some(0.3));
     let compared = deep.target.clone().unwrap();
     let thickest = compared.gouge.thickest.unwrap();
     assert!((thickest.mm - 1.0).abs() < 1e-4 && (thickest.at[2] + 3.0).abs() < 1e-4, "{thickest:?}");
@@ -87,11 +87,11 @@ fn what_is_left_is_compared_with_a_target() {
     let wanted = 60.0 * (15.0 - 2.0 * 0.25);
     assert!((compared.gouge.volume_mm3 - wanted).abs() < 1e-2, "{}", compared.gouge.volume_mm3);
     assert_eq!(deep.findings[0].code.id(), "CL0518");
-    deep.compare(&target, "part.stl", Some(1.1));
+    deep.compare_with_target(&target, "part.stl", Some(1.1));
     assert_eq!(deep.target.unwrap().gouge.columns, 0);
 
     let mut shallow = simulate(&SLOT.replace(",-2.0000", ",-1.0000"), SHOP, LengthUnit::Mm).unwrap();
-    shallow.compare(&target, "part.stl", None);
+    shallow.compare_with_target(&target, "part.stl", None);
     let compared = shallow.target.clone().unwrap();
     assert!((compared.excess.thickest.unwrap().mm - 1.0).abs() < 1e-4);
     assert!(shallow.findings.is_empty(), "excess is only reported");
@@ -101,11 +101,11 @@ fn what_is_left_is_compared_with_a_target() {
 fn a_wall_that_is_a_little_off_is_no_gouge_of_its_height() {
     // The slot as the target, and a program whose last motion is a tenth too far to the side: less than a cell.
     let mut stl = Vec::new();
-    export::write_stl(&slot().left, &mut stl).unwrap();
-    let target = Machining::target(&stl, LengthUnit::Mm).unwrap();
+    stl_export::write_stl(&slot().left, &mut stl).unwrap();
+    let target = Machining::read_target_part(&stl, LengthUnit::Mm).unwrap();
     let aside = |by: &str| {
         let mut found = simulate(&SLOT.replace(",15.0000,-2", by), SHOP, LengthUnit::Mm).unwrap();
-        found.compare(&target, "part.stl", None);
+        found.compare_with_target(&target, "part.stl", None);
         found.target.unwrap().gouge.columns
     };
     assert_eq!(aside(",14.8000,-2"), 0);
@@ -115,19 +115,20 @@ fn a_wall_that_is_a_little_off_is_no_gouge_of_its_height() {
 #[test]
 fn programs_are_drawn_over_each_other() {
     let found = slot();
-    let drawn = plot(&[found.series("before <1>"), found.series("after")]).unwrap();
+    let drawn =
+        draw_time_series(&[found.to_time_series("before <1>"), found.to_time_series("after")]).unwrap();
     assert!(drawn.starts_with("<svg width=\"1200\" height=\"800\"") && drawn.trim_end().ends_with("</svg>"));
     for text in ["thickest chip, mm", "feed, mm/min", "time, s", "before &lt;1&gt;", "after", "#AAAAAA"] {
         assert!(drawn.contains(text), "{text}");
     }
     // Nothing to draw is no error, and very long programs stay small.
-    assert!(plot(&[]).is_ok() && plot(&[Series::default()]).is_ok());
-    let moment = |index: u32| Moment {
+    assert!(draw_time_series(&[]).is_ok() && draw_time_series(&[ProgramTimeSeries::default()]).is_ok());
+    let moment = |index: u32| PlottedMotion {
         from: f64::from(index),
         to: f64::from(index + 1),
         chip_thickness_mm: Some(0.01 * f64::from(index % 7)),
         feed_mm_min: (!index.is_multiple_of(1000)).then_some(500.0),
     };
-    let long = Series { name: "long".to_owned(), moments: (0..200_000).map(moment).collect() };
-    assert!(plot(&[long]).unwrap().len() < 200_000);
+    let long = ProgramTimeSeries { name: "long".to_owned(), moments: (0..200_000).map(moment).collect() };
+    assert!(draw_time_series(&[long]).unwrap().len() < 200_000);
 }

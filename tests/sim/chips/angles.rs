@@ -41,7 +41,7 @@ fn the_engaged_radius_counts() {
 fn a_plunge_is_a_full_turn_and_air_is_none() {
     let profile = cutter(10.0, 0.0);
     same(plunge(&profile).immersion_deg(&profile, Clockwise), [0.0, 360.0]);
-    let air = Engagement::none(1.0, 0.0, 5.0);
+    let air = Engagement::empty_along(1.0, 0.0, 5.0);
     assert_eq!(air.immersion_deg(&profile, Clockwise), None);
     assert_eq!((air.axial_depth_mm(), air.radial_depth_mm()), (0.0, 0.0));
 }

@@ -3,7 +3,7 @@
 use super::super::solids::{cube, mesh, sphere, terrain};
 use super::{cutters, over, tip};
 use clsmith::sim::Mesh;
-use clsmith::surface::drop::{Cutter, DropCutter};
+use clsmith::surface::drop_cutter::{DropCutter, DropCutterShape};
 
 fn near(found: f64, expected: f64, within: f64) {
     assert!((found - expected).abs() <= within, "{found} is not {expected}");
@@ -15,12 +15,13 @@ fn planes_level_and_tilted() {
         for [a, b] in [[0.0, 0.0], [0.3, -0.2], [-1.4, 0.9], [0.0, 3.0]] {
             let drop = over(&terrain(40.0, 7, |x, y| 2.0 + a * x + b * y), cutter);
             let steep = f64::hypot(a, b);
-            let above = steep * cutter.flat_radius() + cutter.corner_radius() * (steep.hypot(1.0) - 1.0);
+            let above =
+                steep * cutter.flat_radius_mm() + cutter.corner_radius_mm() * (steep.hypot(1.0) - 1.0);
             for (x, y) in [(0.0, 0.0), (1.3, -4.1), (-10.0, 9.0), (17.123, 3.3)] {
-                let found = drop.height(x, y).unwrap();
+                let found = drop.drop_at(x, y).unwrap();
                 near(found.tip_z, 2.0 + a * x + b * y + above, 1e-5);
                 // A flat end's touch is 1e-6 inside its radius, which a slope makes as much higher.
-                if cutter.corner_radius() > 0.0 {
+                if cutter.corner_radius_mm() > 0.0 {
                     near(found.tip_z, 2.0 + a * x + b * y + above, 1e-9);
                 }
                 let length = steep.hypot(1.0);
@@ -37,13 +38,13 @@ fn planes_level_and_tilted() {
 #[test]
 fn a_ball_on_a_ball_is_as_near_as_facets_are() {
     let (fineness, large) = (60_u32, 20.0);
-    let ball = Cutter::ball(10.0).unwrap();
+    let ball = DropCutterShape::ball(10.0).unwrap();
     let drop = over(&sphere(large, fineness as usize), ball);
     // Facets are nowhere farther inside than the sagitta of their diagonals.
     let sagitta = large * (1.0 - (std::f64::consts::PI / f64::from(fineness) / f64::sqrt(2.0)).cos());
     for i in 0..200 {
         let (angle, r) = (f64::from(i), f64::from(i) * 0.09);
-        let found = drop.height(r * angle.cos(), r * angle.sin()).unwrap();
+        let found = drop.drop_at(r * angle.cos(), r * angle.sin()).unwrap();
         let exact = ((large + 5.0_f64).powi(2) - r * r).sqrt() - 5.0;
         let upright = (exact + 5.0) / (large + 5.0);
         assert!(found.tip_z <= exact + 1e-9, "{} > {exact}", found.tip_z);
@@ -54,9 +55,9 @@ fn a_ball_on_a_ball_is_as_near_as_facets_are() {
         near(y, r * angle.sin(), 1e-9);
         near(z, found.tip_z + 5.0, 1e-9);
     }
-    assert_eq!(drop.height(25.0, 0.0), None);
-    assert_eq!(drop.height(0.0, f64::NAN), None);
-    assert_eq!(drop.height(f64::INFINITY, 0.0), None);
+    assert_eq!(drop.drop_at(25.0, 0.0), None);
+    assert_eq!(drop.drop_at(0.0, f64::NAN), None);
+    assert_eq!(drop.drop_at(f64::INFINITY, 0.0), None);
 }
 
 #[test]
@@ -65,18 +66,18 @@ fn a_saddle_moves_the_tip_no_more_than_its_facets_are_off() {
     let bend = 0.02;
     let solid = terrain(30.0, 120, |x, y| bend * x * y);
     let off = bend * 0.5 * 0.5 / 4.0;
-    for cutter in [Cutter::ball(10.0).unwrap(), Cutter::new(10.0, 2.0).unwrap()] {
+    for cutter in [DropCutterShape::ball(10.0).unwrap(), DropCutterShape::new(10.0, 2.0).unwrap()] {
         let drop = over(&solid, cutter);
         for (x, y) in [(3.0, 4.0), (-10.2, 7.7), (0.1, -12.0), (14.0, 14.0)] {
             let (a, b) = (bend * y, bend * x);
             let (steep, length) = (f64::hypot(a, b), f64::hypot(1.0, f64::hypot(a, b)));
             // A flat bottom hangs over the saddle when it is level: only where it is steep enough is the touch at the corner's circle.
-            let far = cutter.flat_radius() + cutter.corner_radius() * steep / length;
+            let far = cutter.flat_radius_mm() + cutter.corner_radius_mm() * steep / length;
             let place = [x - far * a / steep, y - far * b / steep];
-            let tip_z = bend * x * y - cutter.corner_radius() * (1.0 - 1.0 / length);
+            let tip_z = bend * x * y - cutter.corner_radius_mm() * (1.0 - 1.0 / length);
             let found = tip(&drop, place[0], place[1]);
             assert!(found >= tip_z - off - 1e-9, "{found} {tip_z}");
-            if cutter.flat_radius() == 0.0 {
+            if cutter.flat_radius_mm() == 0.0 {
                 near(found, tip_z, off);
             }
         }
@@ -96,8 +97,8 @@ fn walls_touched_from_the_side_are_not_under_the_cutter() {
             let corner = beside / f64::sqrt(2.0);
             near(tip(&drop, 10.0 + corner, 10.0 + corner), 2.0 - cutter.height_at(beside), 1e-9);
         }
-        assert_eq!(drop.height(15.0, 3.0), None);
-        assert_eq!(drop.height(0.0, -15.0), None);
+        assert_eq!(drop.drop_at(15.0, 3.0), None);
+        assert_eq!(drop.drop_at(0.0, -15.0), None);
     }
 }
 
@@ -127,7 +128,7 @@ fn nearly_upright_walls_hold_the_cutter() {
         // The wall at +x leans outwards at the bottom.
         let leaning = |[x, y, z]: [f64; 3]| [if x > 0.0 && z < 0.0 { x + lean } else { x }, y, z];
         let solid = corners.into_iter().map(|triangle| triangle.map(leaning)).collect();
-        let ball = Cutter::ball(2.0).unwrap();
+        let ball = DropCutterShape::ball(2.0).unwrap();
         let drop = over(&solid, ball);
         // Between the wall's upper and lower end: at a height where the wall is a radius away.
         let found = tip(&drop, 11.0 - 2e-6 + lean / 2.0, 0.0);
@@ -152,9 +153,9 @@ fn more_material_never_lowers_and_sides_do_not_matter() {
         let inside_out = DropCutter::new(&inside_out, cutter);
         for i in 0..400 {
             let [x, y] = [0.61803, 0.41421].map(|step| 50.0 * (f64::from(i) * step).fract() - 25.0);
-            let [a, b] = [&alone, &joined].map(|drop| drop.height(x, y).map(|drop| drop.tip_z));
+            let [a, b] = [&alone, &joined].map(|drop| drop.drop_at(x, y).map(|drop| drop.tip_z));
             assert!(b.is_some() >= a.is_some() && b.unwrap_or(0.0) >= a.unwrap_or(-99.0) - 1e-12, "{x} {y}");
-            let turned = inside_out.height(x, y).map(|drop| drop.tip_z);
+            let turned = inside_out.drop_at(x, y).map(|drop| drop.tip_z);
             assert_eq!(a.is_some(), turned.is_some());
             near(a.unwrap_or(0.0), turned.unwrap_or(0.0), 1e-12);
         }

@@ -2,7 +2,7 @@
 
 use super::super::solids::{Triangles, cube, mesh, needle, terrain};
 use super::{cutters, over, tip};
-use clsmith::surface::drop::{Cutter, DropCutter, deviation};
+use clsmith::surface::drop_cutter::{DropCutter, DropCutterShape, measure_deviation};
 
 fn waves() -> Triangles {
     terrain(30.0, 60, |x, y| 2.0 * (x / 4.0).sin() * (y / 5.0).cos())
@@ -31,7 +31,7 @@ fn chords_over_waves_are_long_and_near() {
         let mut counts = Vec::new();
         for tolerance in [0.1, 0.01] {
             let line = [[-25.0, -7.0], [20.0, 3.0], [20.0, 5.0]];
-            let paths = drop.follow(&line, tolerance);
+            let paths = drop.follow_line(&line, tolerance);
             assert_eq!(paths.len(), 1);
             let path = &paths[0];
             assert_eq!(path[0][..2], line[0]);
@@ -50,7 +50,7 @@ fn chords_over_waves_are_long_and_near() {
 fn a_plane_takes_two_points() {
     for cutter in cutters() {
         let drop = over(&terrain(30.0, 9, |x, y| 0.4 * x - 0.1 * y), cutter);
-        let paths = drop.follow(&[[-12.0, -3.0], [11.0, 14.0]], 0.01);
+        let paths = drop.follow_line(&[[-12.0, -3.0], [11.0, 14.0]], 0.01);
         assert_eq!(paths.iter().map(Vec::len).collect::<Vec<_>>(), [2]);
     }
 }
@@ -66,8 +66,8 @@ fn needles_between_samples_are_found() {
     let mesh = mesh(&solid);
     for cutter in cutters() {
         let drop = DropCutter::new(&mesh, cutter);
-        let paths = drop.follow(&[[-24.0, 0.3], [24.0, 0.7]], 0.02);
-        let looked = deviation(&mesh, cutter, &paths[0], 0.005).unwrap();
+        let paths = drop.follow_line(&[[-24.0, 0.3], [24.0, 0.7]], 0.02);
+        let looked = measure_deviation(&mesh, cutter, &paths[0], 0.005).unwrap();
         assert!(looked.gouge <= 0.02, "{looked:?}");
         assert!(looked.gap <= 0.05, "{looked:?}");
     }
@@ -77,14 +77,14 @@ fn needles_between_samples_are_found() {
 fn steps_go_up_beside_the_wall() {
     let mut solid = cube([-20.0, -20.0, -9.0], [20.0, 20.0, 0.0]);
     solid.extend(cube([3.0, -5.0, -1.0], [7.0, 5.0, 4.0]));
-    let flat = Cutter::flat(6.0).unwrap();
+    let flat = DropCutterShape::flat(6.0).unwrap();
     let drop = over(&solid, flat);
-    let path = drop.follow(&[[-10.0, 0.0], [15.0, 0.0]], 0.01).remove(0);
+    let path = drop.follow_line(&[[-10.0, 0.0], [15.0, 0.0]], 0.01).remove(0);
     let heights: Vec<f64> = path.iter().map(|point| point[2]).collect();
     assert_eq!(heights, [0.0, 0.0, 4.0, 4.0, 0.0, 0.0], "{path:?}");
     assert!((path[1][0] - 0.0).abs() <= 0.01 && path[1][0] == path[2][0], "{path:?}");
     assert!((path[3][0] - 10.0).abs() <= 0.01 && path[3][0] == path[4][0], "{path:?}");
-    let looked = deviation(&mesh(&solid), flat, &path, 0.002).unwrap();
+    let looked = measure_deviation(&mesh(&solid), flat, &path, 0.002).unwrap();
     assert!(looked.gouge <= 0.002, "{looked:?}");
 }
 
@@ -93,7 +93,8 @@ fn stretches_without_material_part_the_path() {
     let mut solid = cube([-20.0, -5.0, -1.0], [-10.0, 5.0, 0.0]);
     solid.extend(cube([10.0, -5.0, -1.0], [20.0, 5.0, 2.0]));
     for cutter in cutters() {
-        let paths = over(&solid, cutter).follow(&[[-40.0, 0.0], [0.0, 0.0], [0.0, 0.0], [40.0, 0.0]], 0.01);
+        let paths =
+            over(&solid, cutter).follow_line(&[[-40.0, 0.0], [0.0, 0.0], [0.0, 0.0], [40.0, 0.0]], 0.01);
         let ends: Vec<[f64; 2]> = paths.iter().map(|path| [path[0][0], path[path.len() - 1][0]]).collect();
         assert_eq!(ends.len(), 2);
         for (found, expected) in ends.iter().flatten().zip([-25.0, -5.0, 5.0, 25.0]) {
@@ -101,8 +102,8 @@ fn stretches_without_material_part_the_path() {
         }
     }
     let drop = over(&solid, cutters()[0]);
-    assert!(drop.follow(&[[0.0, 0.0], [f64::INFINITY, 0.0]], 0.01).is_empty());
-    assert!(drop.follow(&[[0.0, 0.0]], 0.01).is_empty());
-    assert!(drop.follow(&[], 0.01).is_empty());
-    assert_eq!(drop.follow(&[[-15.0, 0.0], [-14.0, 0.0]], f64::NAN)[0].len(), 2);
+    assert!(drop.follow_line(&[[0.0, 0.0], [f64::INFINITY, 0.0]], 0.01).is_empty());
+    assert!(drop.follow_line(&[[0.0, 0.0]], 0.01).is_empty());
+    assert!(drop.follow_line(&[], 0.01).is_empty());
+    assert_eq!(drop.follow_line(&[[-15.0, 0.0], [-14.0, 0.0]], f64::NAN)[0].len(), 2);
 }

@@ -7,19 +7,19 @@ mod follow;
 mod soups;
 
 use super::solids::{Triangles, mesh};
-use clsmith::surface::drop::{Cutter, DropCutter};
+use clsmith::surface::drop_cutter::{DropCutter, DropCutterShape};
 
 /// Ball, bull-nose and flat end of 10 mm.
-fn cutters() -> [Cutter; 3] {
-    [5.0, 1.5, 0.0].map(|corner| Cutter::new(10.0, corner).unwrap())
+fn cutters() -> [DropCutterShape; 3] {
+    [5.0, 1.5, 0.0].map(|corner| DropCutterShape::new(10.0, corner).unwrap())
 }
 
-fn over(solid: &Triangles, cutter: Cutter) -> DropCutter {
+fn over(solid: &Triangles, cutter: DropCutterShape) -> DropCutter {
     DropCutter::new(&mesh(solid), cutter)
 }
 
 fn tip(drop: &DropCutter, x: f64, y: f64) -> f64 {
-    drop.height(x, y).unwrap().tip_z
+    drop.drop_at(x, y).unwrap().tip_z
 }
 
 /// The largest value of a function that rises and then falls, between two places.
@@ -36,7 +36,7 @@ fn largest(mut low: f64, mut high: f64, value: impl Fn(f64) -> f64) -> f64 {
 }
 
 /// The tip's height over one triangle by searching all of it: the height is concave, outside the cutter worse the farther.
-fn searched(cutter: &Cutter, [x, y]: [f64; 2], triangle: [[f64; 3]; 3]) -> f64 {
+fn searched(cutter: &DropCutterShape, [x, y]: [f64; 2], triangle: [[f64; 3]; 3]) -> f64 {
     let [a, b, c] = triangle;
     let mix = |p: [f64; 3], q: [f64; 3], t: f64| [0, 1, 2].map(|axis| p[axis] + (q[axis] - p[axis]) * t);
     largest(0.0, 1.0, |s| {
@@ -44,18 +44,18 @@ fn searched(cutter: &Cutter, [x, y]: [f64; 2], triangle: [[f64; 3]; 3]) -> f64 {
         largest(0.0, 1.0, |t| {
             let point = mix(from, to, t);
             let r = f64::hypot(point[0] - x, point[1] - y);
-            if r > cutter.radius() - 1e-6 {
+            if r > cutter.radius_mm() - 1e-6 {
                 return -1e6 - r;
             }
-            let across = (r - cutter.flat_radius()).max(0.0);
-            let corner = cutter.corner_radius();
+            let across = (r - cutter.flat_radius_mm()).max(0.0);
+            let corner = cutter.corner_radius_mm();
             point[2] - (corner - (corner * corner - across * across).max(0.0).sqrt())
         })
     })
 }
 
 /// The tip's height over a solid, by search.
-fn searched_all(cutter: &Cutter, place: [f64; 2], solid: &Triangles) -> Option<f64> {
+fn searched_all(cutter: &DropCutterShape, place: [f64; 2], solid: &Triangles) -> Option<f64> {
     let best = solid.iter().map(|triangle| searched(cutter, place, *triangle)).fold(f64::MIN, f64::max);
     (best > -1e5).then_some(best)
 }
@@ -71,9 +71,9 @@ fn cutters_that_cannot_be_are_refused() {
         (10.0, -0.1),
         (10.0, f64::NAN),
     ] {
-        assert!(Cutter::new(diameter, corner).is_err(), "{diameter} {corner}");
+        assert!(DropCutterShape::new(diameter, corner).is_err(), "{diameter} {corner}");
     }
-    let ball = Cutter::ball(10.0).unwrap();
-    assert_eq!([ball.radius(), ball.corner_radius(), ball.flat_radius()], [5.0, 5.0, 0.0]);
-    assert_eq!(Cutter::flat(10.0).unwrap(), Cutter::new(10.0, 0.0).unwrap());
+    let ball = DropCutterShape::ball(10.0).unwrap();
+    assert_eq!([ball.radius_mm(), ball.corner_radius_mm(), ball.flat_radius_mm()], [5.0, 5.0, 0.0]);
+    assert_eq!(DropCutterShape::flat(10.0).unwrap(), DropCutterShape::new(10.0, 0.0).unwrap());
 }

@@ -2,7 +2,7 @@
 
 use super::super::solids::{Triangles, mesh, tetrahedron};
 use super::{over, searched_all};
-use clsmith::surface::drop::{Cutter, deviation};
+use clsmith::surface::drop_cutter::{DropCutterShape, measure_deviation};
 use proptest::prelude::*;
 
 /// Corners on a coarse grid, where much is upright, level or in line, or anywhere.
@@ -20,10 +20,10 @@ fn soup() -> impl Strategy<Value = Triangles> {
         .prop_filter("a corner twice", |all| all.iter().all(|[a, b, c]| a != b && b != c && c != a))
 }
 
-fn cutter() -> impl Strategy<Value = Cutter> {
+fn cutter() -> impl Strategy<Value = DropCutterShape> {
     let corner = prop_oneof![Just(0.0), Just(1.0), 0.0..=1.0_f64];
     (prop_oneof![Just(4.0), 0.5..12.0_f64], corner)
-        .prop_map(|(diameter, corner)| Cutter::new(diameter, corner * diameter / 2.0).unwrap())
+        .prop_map(|(diameter, corner)| DropCutterShape::new(diameter, corner * diameter / 2.0).unwrap())
 }
 
 fn place() -> impl Strategy<Value = [f64; 2]> {
@@ -38,7 +38,7 @@ proptest! {
 
     #[test]
     fn heights_are_those_of_a_search(solid in soup(), cutter in cutter(), place in place()) {
-        let found = over(&solid, cutter).height(place[0], place[1]).map(|drop| drop.tip_z);
+        let found = over(&solid, cutter).drop_at(place[0], place[1]).map(|drop| drop.tip_z);
         let expected = searched_all(&cutter, place, &solid);
         match (found, expected) {
             (Some(found), Some(expected)) => {
@@ -54,11 +54,11 @@ proptest! {
     #[test]
     fn nothing_is_cut_into_and_more_never_lowers(one in soup(), other in soup(), cutter in cutter(), place in place()) {
         let both: Triangles = one.iter().chain(&other).copied().collect();
-        let [alone, joined] = [&one, &both].map(|solid| over(solid, cutter).height(place[0], place[1]));
+        let [alone, joined] = [&one, &both].map(|solid| over(solid, cutter).drop_at(place[0], place[1]));
         let [low, high] = [alone, joined].map(|drop| drop.map_or(-99.0, |drop| drop.tip_z));
         prop_assert!(high >= low - 1e-12);
         if let Some(found) = joined {
-            let looked = deviation(&mesh(&both), cutter, &[[place[0], place[1], found.tip_z]], 1e-4).unwrap();
+            let looked = measure_deviation(&mesh(&both), cutter, &[[place[0], place[1], found.tip_z]], 1e-4).unwrap();
             prop_assert!(looked.gouge <= 1.1e-4 && looked.gap <= 1.1e-4, "{looked:?}");
         }
     }
@@ -74,8 +74,8 @@ proptest! {
         let tolerance = 0.05;
         let drop = over(&solid, cutter);
         let mesh = mesh(&solid);
-        for run in drop.follow(&[from, to], tolerance) {
-            let looked = deviation(&mesh, cutter, &run, 0.01).unwrap();
+        for run in drop.follow_line(&[from, to], tolerance) {
+            let looked = measure_deviation(&mesh, cutter, &run, 0.01).unwrap();
             prop_assert!(looked.gouge <= tolerance + looked.error, "{looked:?}");
         }
     }

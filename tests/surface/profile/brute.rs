@@ -1,10 +1,10 @@
 //! The envelope by brute force, for comparison.
 
-use clsmith::surface::profile::{Chain, Piece, Point};
+use clsmith::surface::profile::{Chain, ChainPiece, Point};
 
 /// A chain through points.
 pub fn polyline(points: &[[f64; 2]]) -> Chain {
-    Chain::polyline(&points.iter().map(|[u, z]| Point::new(*u, *z)).collect::<Vec<_>>()).unwrap()
+    Chain::from_points(&points.iter().map(|[u, z]| Point::new(*u, *z)).collect::<Vec<_>>()).unwrap()
 }
 
 /// How far a centre is from the swept-out part: the least distance of its upward ray from the chain, in closed form for
@@ -17,11 +17,11 @@ fn from_point(point: Point, centre: Point) -> f64 {
     (point.u - centre.u).abs().hypot((centre.z - point.z).max(0.0))
 }
 
-fn from_piece(piece: &Piece, centre: Point) -> f64 {
+fn from_piece(piece: &ChainPiece, centre: Point) -> f64 {
     let mut best = from_point(piece.start(), centre).min(from_point(piece.end(), centre));
     // Where the piece crosses the ray or is level with the centre the distance is from the ray's foot or zero.
     match piece {
-        Piece::Line(line) => {
+        ChainPiece::Line(line) => {
             let (du, dz) = (line.to.u - line.from.u, line.to.z - line.from.z);
             let square = du * du + dz * dz;
             let mut shares = vec![
@@ -31,10 +31,10 @@ fn from_piece(piece: &Piece, centre: Point) -> f64 {
             ];
             shares.retain(|share| (0.0..=1.0).contains(share));
             for share in shares {
-                best = best.min(from_point(piece.point(share), centre));
+                best = best.min(from_point(piece.point_at(share), centre));
             }
         }
-        Piece::Arc(arc) => {
+        ChainPiece::Arc(arc) => {
             let towards = (centre.z - arc.centre.z).atan2(centre.u - arc.centre.u);
             let level = ((centre.z - arc.centre.z) / arc.radius).asin();
             let over = ((centre.u - arc.centre.u) / arc.radius).acos();
@@ -42,7 +42,7 @@ fn from_piece(piece: &Piece, centre: Point) -> f64 {
             for angle in [towards, towards + pi, level, pi - level, over, -over, 0.0, pi] {
                 let share = ((angle - arc.start) * arc.sweep.signum()).rem_euclid(2.0 * pi) / arc.sweep.abs();
                 if (0.0..=1.0).contains(&share) {
-                    best = best.min(from_point(piece.point(share), centre));
+                    best = best.min(from_point(piece.point_at(share), centre));
                 }
             }
         }
@@ -55,7 +55,7 @@ pub fn height(chain: &Chain, u: f64) -> Option<f64> {
     let mut best: Option<f64> = None;
     for piece in chain.pieces() {
         let z = match piece {
-            Piece::Line(line) => {
+            ChainPiece::Line(line) => {
                 let (low, high) = (line.from.u.min(line.to.u), line.from.u.max(line.to.u));
                 if u < low || u > high {
                     continue;
@@ -66,7 +66,7 @@ pub fn height(chain: &Chain, u: f64) -> Option<f64> {
                     line.from.z + (u - line.from.u) / (line.to.u - line.from.u) * (line.to.z - line.from.z)
                 }
             }
-            Piece::Arc(arc) => {
+            ChainPiece::Arc(arc) => {
                 let (a, b) = (piece.start().u, piece.end().u);
                 if u < a.min(b) || u > a.max(b) {
                     continue;
@@ -88,7 +88,7 @@ pub fn assert_touches(profile: &Chain, tip: &Chain, radius: f64, tolerance: f64)
     for piece in tip.pieces() {
         let upright = (piece.start().u - piece.end().u).abs() < 1e-9;
         for index in 0..=8 {
-            let point = piece.point(f64::from(index) / 8.0);
+            let point = piece.point_at(f64::from(index) / 8.0);
             let clear = clearance(profile, Point::new(point.u, point.z + radius)) - radius;
             assert!(clear > -tolerance, "gouge {clear} at {point:?} of {piece:?}");
             assert!(upright || clear < tolerance, "gap {clear} at {point:?} of {piece:?}");

@@ -1,7 +1,9 @@
 //! Few chords within the tolerance.
 
 use super::brute::polyline;
-use clsmith::surface::profile::{Chain, ChordError, Piece, Point, Side, chords, compensate};
+use clsmith::surface::profile::{
+    Chain, ChainPiece, ChordError, ChordSide, Point, compensate_profile, fit_chords,
+};
 use std::f64::consts::PI;
 
 /// Signed distances of samples of `chain` from `other` that is near it: the largest to either side (above positive).
@@ -14,7 +16,7 @@ fn deviations(chain: &Chain, other: &Chain) -> (f64, f64) {
     let samples = if pieces.len() > chain.pieces().len() { 20 } else { 3 };
     for piece in chain.pieces() {
         for index in 0..=samples {
-            let point = piece.point(f64::from(index) / f64::from(samples));
+            let point = piece.point_at(f64::from(index) / f64::from(samples));
             let window = pieces.iter().enumerate().skip(at.max(4) - 4).take(wide);
             let (best, signed) = window
                 .map(|(index, piece)| (index, signed(piece, point)))
@@ -28,15 +30,15 @@ fn deviations(chain: &Chain, other: &Chain) -> (f64, f64) {
     (above, below)
 }
 
-fn signed(piece: &Piece, point: Point) -> f64 {
+fn signed(piece: &ChainPiece, point: Point) -> f64 {
     let (distance, share) = match piece {
-        Piece::Line(line) => {
+        ChainPiece::Line(line) => {
             let (du, dz) = (line.to.u - line.from.u, line.to.z - line.from.z);
             let along = (point.u - line.from.u) * du + (point.z - line.from.z) * dz;
             let share = (along / (du * du + dz * dz)).clamp(0.0, 1.0);
-            (piece.point(if share.is_nan() { 0.0 } else { share }).distance(point), share)
+            (piece.point_at(if share.is_nan() { 0.0 } else { share }).distance(point), share)
         }
-        Piece::Arc(arc) => {
+        ChainPiece::Arc(arc) => {
             let angle = (point.z - arc.centre.z).atan2(point.u - arc.centre.u);
             let along = ((angle - arc.start) * arc.sweep.signum()).rem_euclid(2.0 * PI) / arc.sweep.abs();
             if along <= 1.0 {
@@ -47,33 +49,33 @@ fn signed(piece: &Piece, point: Point) -> f64 {
             }
         }
     };
-    let (foot, direction) = (piece.point(share), piece.direction(share));
+    let (foot, direction) = (piece.point_at(share), piece.direction_at(share));
     let left = direction.u * (point.z - foot.z) - direction.z * (point.u - foot.u);
     distance * left.signum()
 }
 
-fn assert_within(exact: &Chain, few: &Chain, tolerance: f64, side: Side) {
+fn assert_within(exact: &Chain, few: &Chain, tolerance: f64, side: ChordSide) {
     let (above, below) = deviations(few, exact);
     let (back_below, back_above) = deviations(exact, few);
-    let allowed = |wanted: Side| if side == wanted { 1e-9 } else { tolerance * (1.0 + 1e-9) };
-    assert!(above.max(back_above) <= allowed(Side::Below), "{above} {back_above} above");
-    assert!(below.max(back_below) <= allowed(Side::Above), "{below} {back_below} below");
+    let allowed = |wanted: ChordSide| if side == wanted { 1e-9 } else { tolerance * (1.0 + 1e-9) };
+    assert!(above.max(back_above) <= allowed(ChordSide::Below), "{above} {back_above} above");
+    assert!(below.max(back_below) <= allowed(ChordSide::Above), "{below} {back_below} below");
 }
 
 #[test]
 fn a_circle_takes_as_few_chords_as_the_closed_form() {
     for (radius, tolerance) in [(50.0_f64, 0.01_f64), (10.0, 0.002), (400.0, 0.05)] {
-        let arc = Chain::new(vec![Piece::arc(Point::new(0.0, 0.0), radius, PI, -PI)]).unwrap();
-        let few = chords(&arc, tolerance, false, Side::Both).unwrap();
+        let arc = Chain::new(vec![ChainPiece::arc(Point::new(0.0, 0.0), radius, PI, -PI)]).unwrap();
+        let few = fit_chords(&arc, tolerance, false, ChordSide::Both).unwrap();
         let optimum = (PI / (2.0 * (1.0 - tolerance / radius).acos())).ceil();
         let count = few.pieces().len() as f64;
         println!("circle R{radius} within {tolerance}: {count} chords, optimum {optimum}");
         assert!(count >= optimum && count <= (optimum * 1.05).ceil(), "{count} {optimum}");
-        assert_within(&arc, &few, tolerance, Side::Both);
+        assert_within(&arc, &few, tolerance, ChordSide::Both);
         assert!(
             few.pieces().iter().all(|piece| (piece.end().distance(Point::default()) - radius).abs() < 1e-9)
         );
-        let kept = chords(&arc, tolerance, true, Side::Both).unwrap();
+        let kept = fit_chords(&arc, tolerance, true, ChordSide::Both).unwrap();
         assert_eq!(kept.pieces(), arc.pieces());
     }
 }
@@ -82,11 +84,11 @@ fn a_circle_takes_as_few_chords_as_the_closed_form() {
 fn one_side_is_kept_to() {
     let wave: Vec<[f64; 2]> =
         (0..4000).map(|index| f64::from(index) * 0.02).map(|u| [u, 4.0 * (u * 0.25).sin()]).collect();
-    let path = compensate(&polyline(&wave), 3.0).unwrap();
-    let both = chords(&path, 0.02, false, Side::Both).unwrap().pieces().len();
-    for side in [Side::Above, Side::Below, Side::Both] {
+    let path = compensate_profile(&polyline(&wave), 3.0).unwrap();
+    let both = fit_chords(&path, 0.02, false, ChordSide::Both).unwrap().pieces().len();
+    for side in [ChordSide::Above, ChordSide::Below, ChordSide::Both] {
         for arcs in [false, true] {
-            let few = chords(&path, 0.02, arcs, side).unwrap();
+            let few = fit_chords(&path, 0.02, arcs, side).unwrap();
             println!("wave, {side:?}, arcs {arcs}: {} of {}", few.pieces().len(), path.pieces().len());
             assert_within(&path, &few, 0.02, side);
             assert!(few.pieces().len() as f64 <= 1.65 * both as f64);
@@ -104,15 +106,18 @@ fn chords_of_one_circle_become_one_arc() {
     );
     points.push([40.0, 20.0]);
     // Chords of two degrees bulge by 0.003 mm.
-    let few = chords(&polyline(&points), 0.01, true, Side::Both).unwrap();
+    let few = fit_chords(&polyline(&points), 0.01, true, ChordSide::Both).unwrap();
     assert_eq!(few.pieces().len(), 3, "{few:?}");
-    let Piece::Arc(arc) = few.pieces()[1] else { panic!("{few:?}") };
+    let ChainPiece::Arc(arc) = few.pieces()[1] else { panic!("{few:?}") };
     assert!((arc.radius - 20.0).abs() < 0.01 && (arc.sweep + PI).abs() < 0.01);
-    assert_within(&polyline(&points), &few, 0.01, Side::Both);
+    assert_within(&polyline(&points), &few, 0.01, ChordSide::Both);
     // Arcs that go on in one circle are one.
-    let quarter = |start: f64| Piece::arc(Point::new(0.0, 0.0), 10.0, start, -PI / 4.0);
-    let parts: Vec<Piece> = (0..4).map(|index| quarter(PI - PI / 4.0 * f64::from(index))).collect();
-    assert_eq!(chords(&Chain::new(parts).unwrap(), 0.01, true, Side::Both).unwrap().pieces().len(), 1);
+    let quarter = |start: f64| ChainPiece::arc(Point::new(0.0, 0.0), 10.0, start, -PI / 4.0);
+    let parts: Vec<ChainPiece> = (0..4).map(|index| quarter(PI - PI / 4.0 * f64::from(index))).collect();
+    assert_eq!(
+        fit_chords(&Chain::new(parts).unwrap(), 0.01, true, ChordSide::Both).unwrap().pieces().len(),
+        1
+    );
 }
 
 #[test]
@@ -121,13 +126,13 @@ fn small_arcs_of_a_chorded_curve_are_swallowed() {
         .map(|index| PI - f64::from(index) * PI / 3000.0)
         .map(|angle| [40.0 * angle.cos(), 20.0 * angle.sin()])
         .collect();
-    let path = compensate(&polyline(&dome), 5.0).unwrap();
+    let path = compensate_profile(&polyline(&dome), 5.0).unwrap();
     // A chord and a small arc for every point.
     assert!(path.pieces().len() > 5900);
-    let few = chords(&path, 0.01, false, Side::Both).unwrap();
+    let few = fit_chords(&path, 0.01, false, ChordSide::Both).unwrap();
     assert!(few.pieces().len() < 120, "{}", few.pieces().len());
-    assert_within(&path, &few, 0.01, Side::Both);
-    let arcs = chords(&path, 0.01, true, Side::Both).unwrap();
+    assert_within(&path, &few, 0.01, ChordSide::Both);
+    let arcs = fit_chords(&path, 0.01, true, ChordSide::Both).unwrap();
     println!(
         "dome's path: {} pieces, {} chords, {} with arcs",
         path.pieces().len(),
@@ -135,7 +140,7 @@ fn small_arcs_of_a_chorded_curve_are_swallowed() {
         arcs.pieces().len()
     );
     assert!(arcs.pieces().len() < few.pieces().len() / 2, "{}", arcs.pieces().len());
-    assert_within(&path, &arcs, 0.01, Side::Both);
+    assert_within(&path, &arcs, 0.01, ChordSide::Both);
 }
 
 #[test]
@@ -151,20 +156,20 @@ fn corners_and_lines_stay() {
         [90.0, 3.02],
     ];
     let chain = polyline(&corners);
-    let few = chords(&chain, 0.001, false, Side::Both).unwrap();
+    let few = fit_chords(&chain, 0.001, false, ChordSide::Both).unwrap();
     assert_eq!(few, chain);
     // A corner that a chord could cut within the tolerance.
     let flat: Vec<[f64; 2]> = (0..=100)
         .map(|index| f64::from(index) * 0.02)
         .map(|u| [u, if u < 1.0 { 0.0 } else { (u - 1.0) * 0.5 }])
         .collect();
-    let few = chords(&polyline(&flat), 0.1, false, Side::Both).unwrap();
+    let few = fit_chords(&polyline(&flat), 0.1, false, ChordSide::Both).unwrap();
     assert!(few.vertices().any(|point| point.distance(Point::new(1.0, 0.0)) < 1e-9), "{few:?}");
     // Straight pieces become one, a spike stays.
     let straight: Vec<[f64; 2]> = (0..500).map(|index| [f64::from(index), 0.5 * f64::from(index)]).collect();
-    assert_eq!(chords(&polyline(&straight), 1e-6, false, Side::Both).unwrap().pieces().len(), 1);
+    assert_eq!(fit_chords(&polyline(&straight), 1e-6, false, ChordSide::Both).unwrap().pieces().len(), 1);
     let spike = polyline(&[[0.0, 0.0], [9.0, 0.0], [9.0, 5.0], [9.0, 0.0], [20.0, 0.0]]);
-    let few = chords(&spike, 0.01, true, Side::Both).unwrap();
+    let few = fit_chords(&spike, 0.01, true, ChordSide::Both).unwrap();
     assert_eq!(few, spike);
 }
 
@@ -172,7 +177,7 @@ fn corners_and_lines_stay() {
 fn a_tolerance_must_be_one() {
     let line = polyline(&[[0.0, 0.0], [1.0, 0.0]]);
     for wrong in [0.0, -1.0, f64::NAN, 1e-9, f64::INFINITY] {
-        assert!(matches!(chords(&line, wrong, false, Side::Both), Err(ChordError::Tolerance(_))));
+        assert!(matches!(fit_chords(&line, wrong, false, ChordSide::Both), Err(ChordError::Tolerance(_))));
     }
 }
 
@@ -186,7 +191,7 @@ fn many_pieces_take_linear_time() {
         let chain = polyline(&points);
         let start = std::time::Instant::now();
         for arcs in [false, true] {
-            chords(&chain, 0.01, arcs, Side::Both).unwrap();
+            fit_chords(&chain, 0.01, arcs, ChordSide::Both).unwrap();
         }
         start.elapsed().as_secs_f64()
     };

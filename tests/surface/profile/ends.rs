@@ -1,16 +1,16 @@
 //! Where a tip path starts and ends: free ends, walls, overhangs.
 
 use super::brute::{assert_runs, assert_touches, polyline};
-use clsmith::surface::profile::{Chain, Piece, Point, compensate};
+use clsmith::surface::profile::{Chain, ChainPiece, Point, compensate_profile};
 use std::f64::consts::PI;
 
 const R: f64 = 5.0;
 
 fn tip(chain: &Chain) -> Chain {
-    let tip = compensate(chain, R).unwrap();
+    let tip = compensate_profile(chain, R).unwrap();
     assert_runs(&tip, chain.end().u >= chain.start().u);
     assert_touches(chain, &tip, R, 1e-9);
-    let back = compensate(&chain.reversed(), R).unwrap();
+    let back = compensate_profile(&chain.reversed(), R).unwrap();
     if chain.end().u > chain.start().u {
         assert!(back.start().distance(tip.end()) < 1e-9 && back.end().distance(tip.start()) < 1e-9);
     }
@@ -71,7 +71,7 @@ fn a_free_end_is_not_rolled_about() {
     let path = tip(&polyline(&[[0.0, 1.0], [0.5, 0.0], [1.0, 1.0]]));
     assert_eq!(path.pieces().len(), 1);
     near(path.start(), 0.5, 1.0 - R + (R * R - 0.25_f64).sqrt());
-    assert!(path.length() < 1e-9);
+    assert!(path.length_mm() < 1e-9);
     // No extent at all.
     let path = tip(&polyline(&[[4.0, 1.0], [4.0, 1.0]]));
     near(path.start(), 4.0, 1.0);
@@ -111,9 +111,9 @@ fn an_overhang_is_bridged_and_its_outermost_place_kept() {
     }
     // The chain ends under its own cap.
     let hook = Chain::new(vec![
-        Piece::line(Point::new(-30.0, 10.0), Point::new(0.0, 10.0)),
-        Piece::arc(Point::new(0.0, 0.0), 10.0, PI / 2.0, -PI),
-        Piece::line(Point::new(0.0, -10.0), Point::new(-20.0, -10.0)),
+        ChainPiece::line(Point::new(-30.0, 10.0), Point::new(0.0, 10.0)),
+        ChainPiece::arc(Point::new(0.0, 0.0), 10.0, PI / 2.0, -PI),
+        ChainPiece::line(Point::new(0.0, -10.0), Point::new(-20.0, -10.0)),
     ])
     .unwrap();
     let path = tip(&hook);
@@ -129,5 +129,5 @@ fn the_highest_of_crossing_lines_counts() {
     let spike = polyline(&[[0.0, 0.0], [20.0, 0.0], [20.0, 9.0], [20.0, 0.0], [40.0, 0.0]]);
     let path = tip(&spike);
     assert!(path.vertices().all(|point| point.z < 9.0 + 1e-9));
-    assert!(path.pieces().iter().any(|piece| piece.length() > 9.0 && matches!(piece, Piece::Arc(_))));
+    assert!(path.pieces().iter().any(|piece| piece.length_mm() > 9.0 && matches!(piece, ChainPiece::Arc(_))));
 }

@@ -1,13 +1,15 @@
 //! Tip paths that have closed forms.
 
 use super::brute::{assert_runs, assert_touches, height, polyline};
-use clsmith::surface::profile::{Chain, CompensateError, Piece, Point, check, compensate};
+use clsmith::surface::profile::{
+    BallCompensationError, Chain, ChainPiece, Point, check_tip_path, compensate_profile,
+};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 const R: f64 = 5.0;
 
 fn tip(chain: &Chain) -> Chain {
-    let tip = compensate(chain, R).unwrap();
+    let tip = compensate_profile(chain, R).unwrap();
     assert_runs(&tip, chain.end().u >= chain.start().u);
     assert_touches(chain, &tip, R, 1e-9);
     tip
@@ -43,13 +45,13 @@ fn a_slope_moves_by_the_papers_equations() {
 #[test]
 fn a_hollow_arc_wider_than_the_ball_shrinks_by_its_radius() {
     let profile = Chain::new(vec![
-        Piece::line(Point::new(-30.0, 0.0), Point::new(0.0, 0.0)),
-        Piece::arc(Point::new(0.0, 12.0), 12.0, -FRAC_PI_2, FRAC_PI_2),
-        Piece::line(Point::new(12.0, 12.0), Point::new(12.0, 30.0)),
+        ChainPiece::line(Point::new(-30.0, 0.0), Point::new(0.0, 0.0)),
+        ChainPiece::arc(Point::new(0.0, 12.0), 12.0, -FRAC_PI_2, FRAC_PI_2),
+        ChainPiece::line(Point::new(12.0, 12.0), Point::new(12.0, 30.0)),
     ])
     .unwrap();
     let path = tip(&profile);
-    let Piece::Arc(arc) = path.pieces()[1] else { panic!("{path:?}") };
+    let ChainPiece::Arc(arc) = path.pieces()[1] else { panic!("{path:?}") };
     near(arc.centre, 0.0, 7.0);
     assert!((arc.radius - 7.0).abs() < 1e-9);
     near(path.pieces()[1].end(), 7.0, 7.0);
@@ -61,9 +63,9 @@ fn a_hollow_arc_wider_than_the_ball_shrinks_by_its_radius() {
 #[test]
 fn a_hollow_arc_tighter_than_the_ball_is_bridged() {
     let profile = Chain::new(vec![
-        Piece::line(Point::new(-30.0, 0.0), Point::new(0.0, 0.0)),
-        Piece::arc(Point::new(0.0, 3.0), 3.0, -FRAC_PI_2, FRAC_PI_2),
-        Piece::line(Point::new(3.0, 3.0), Point::new(3.0, 30.0)),
+        ChainPiece::line(Point::new(-30.0, 0.0), Point::new(0.0, 0.0)),
+        ChainPiece::arc(Point::new(0.0, 3.0), 3.0, -FRAC_PI_2, FRAC_PI_2),
+        ChainPiece::line(Point::new(3.0, 3.0), Point::new(3.0, 30.0)),
     ])
     .unwrap();
     let path = tip(&profile);
@@ -72,9 +74,9 @@ fn a_hollow_arc_tighter_than_the_ball_is_bridged() {
     near(path.end(), -2.0, 25.0);
     // Exactly as wide as the ball: it fits, and nothing of the arc is left in the path.
     let same = Chain::new(vec![
-        Piece::line(Point::new(-30.0, 0.0), Point::new(0.0, 0.0)),
-        Piece::arc(Point::new(0.0, R), R, -FRAC_PI_2, FRAC_PI_2),
-        Piece::line(Point::new(R, R), Point::new(R, 30.0)),
+        ChainPiece::line(Point::new(-30.0, 0.0), Point::new(0.0, 0.0)),
+        ChainPiece::arc(Point::new(0.0, R), R, -FRAC_PI_2, FRAC_PI_2),
+        ChainPiece::line(Point::new(R, R), Point::new(R, 30.0)),
     ])
     .unwrap();
     near(tip(&same).pieces()[0].end(), 0.0, 0.0);
@@ -100,7 +102,7 @@ fn a_bulging_corner_gets_an_arc_of_the_balls_radius() {
     let profile = polyline(&[[-30.0, -15.0], [0.0, 0.0], [30.0, -15.0]]);
     let path = tip(&profile);
     assert_eq!(path.pieces().len(), 3);
-    let Piece::Arc(arc) = path.pieces()[1] else { panic!("{path:?}") };
+    let ChainPiece::Arc(arc) = path.pieces()[1] else { panic!("{path:?}") };
     near(arc.centre, 0.0, -R);
     assert!((arc.radius - R).abs() < 1e-12);
     assert!((arc.sweep + 2.0 * 0.5_f64.atan()).abs() < 1e-9);
@@ -108,11 +110,11 @@ fn a_bulging_corner_gets_an_arc_of_the_balls_radius() {
 
 #[test]
 fn a_bulging_arc_grows_by_the_radius() {
-    let profile = Chain::new(vec![Piece::arc(Point::new(3.0, 2.0), 20.0, PI, -PI)]).unwrap();
+    let profile = Chain::new(vec![ChainPiece::arc(Point::new(3.0, 2.0), 20.0, PI, -PI)]).unwrap();
     let path = tip(&profile);
     near(path.start(), 3.0 - 25.0, 2.0 - R);
     near(path.end(), 3.0 + 25.0, 2.0 - R);
-    let Piece::Arc(arc) = path.pieces()[0] else { panic!("{path:?}") };
+    let ChainPiece::Arc(arc) = path.pieces()[0] else { panic!("{path:?}") };
     assert!((arc.radius - 25.0).abs() < 1e-12 && path.pieces().len() == 1);
 }
 
@@ -162,15 +164,15 @@ fn pieces_without_length_and_twice_the_same_change_nothing() {
 fn the_check_by_samples_sees_what_is_wrong() {
     let profile = polyline(&[[0.0, 0.0], [20.0, 0.0], [40.0, 20.0], [60.0, 20.0]]);
     let path = tip(&profile);
-    let verdict = check(&profile, &path, R, 0.001);
+    let verdict = check_tip_path(&profile, &path, R, 0.001);
     assert!(verdict.gouge <= verdict.bound && verdict.gap <= verdict.bound, "{verdict:?}");
     assert!(verdict.bound < 1e-6);
     // Pointwise compensation of the corner's two sides, or none at all, gouges.
-    let verdict = check(&profile, &profile, R, 0.01);
+    let verdict = check_tip_path(&profile, &profile, R, 0.01);
     assert!(verdict.gouge > 1.0 && (20.0..40.0).contains(&verdict.gouge_at.u), "{verdict:?}");
-    let verdict = check(&profile, &path.shifted(0.0, 0.25), R, 0.01);
+    let verdict = check_tip_path(&profile, &path.shifted(0.0, 0.25), R, 0.01);
     assert!(verdict.gouge == 0.0 && (verdict.gap - 0.25).abs() < 1e-4, "{verdict:?}");
-    let verdict = check(&profile, &path.shifted(0.0, -0.25), R, 0.01);
+    let verdict = check_tip_path(&profile, &path.shifted(0.0, -0.25), R, 0.01);
     assert!((verdict.gouge - 0.25).abs() < 1e-4, "{verdict:?}");
 }
 
@@ -179,9 +181,9 @@ fn a_hundred_thousand_samples_are_checked_quickly() {
     let points: Vec<[f64; 2]> =
         (0..=2000).map(|index| f64::from(index) * 0.05).map(|u| [u, 3.0 * (u * 0.3).sin()]).collect();
     let profile = polyline(&points);
-    let path = compensate(&profile, R).unwrap();
+    let path = compensate_profile(&profile, R).unwrap();
     let start = std::time::Instant::now();
-    let verdict = check(&profile, &path, R, 0.001);
+    let verdict = check_tip_path(&profile, &path, R, 0.001);
     assert!(start.elapsed().as_secs_f64() < 5.0, "{:?}", start.elapsed());
     assert!(verdict.gouge <= verdict.bound && verdict.gap <= verdict.bound, "{verdict:?}");
 }
@@ -190,6 +192,6 @@ fn a_hundred_thousand_samples_are_checked_quickly() {
 fn a_ball_needs_a_radius() {
     let profile = polyline(&[[0.0, 0.0], [20.0, 0.0]]);
     for radius in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-4] {
-        assert!(matches!(compensate(&profile, radius), Err(CompensateError::Radius(_))));
+        assert!(matches!(compensate_profile(&profile, radius), Err(BallCompensationError::Radius(_))));
     }
 }

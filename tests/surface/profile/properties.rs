@@ -2,7 +2,8 @@
 
 use super::brute::{assert_runs, clearance, polyline};
 use clsmith::surface::profile::{
-    Chain, LARGEST, Piece, Point, Side, chords, compensate, recover, unreachable,
+    Chain, ChainPiece, ChordSide, LARGEST, Point, compensate_profile, find_unreachable_parts, fit_chords,
+    recover_profile,
 };
 use proptest::prelude::*;
 
@@ -18,10 +19,10 @@ fn chain(steps: &[Step]) -> Chain {
     let mut pieces = Vec::new();
     for step in steps {
         let piece = match *step {
-            Step::Line(du, dz) => Piece::line(at, Point::new(at.u + du, at.z + dz)),
+            Step::Line(du, dz) => ChainPiece::line(at, Point::new(at.u + du, at.z + dz)),
             Step::Arc(radius, start, sweep) => {
                 let centre = Point::new(at.u - radius * start.cos(), at.z - radius * start.sin());
-                Piece::arc(centre, radius, start, sweep)
+                ChainPiece::arc(centre, radius, start, sweep)
             }
         };
         at = piece.end();
@@ -66,14 +67,14 @@ proptest! {
     ) {
         let profile = if turn { chain(&steps).reversed() } else { chain(&steps) };
         let profile = if far { profile.shifted(1000.0, -300.0) } else { profile };
-        let tip = compensate(&profile, radius).unwrap();
+        let tip = compensate_profile(&profile, radius).unwrap();
         assert_runs(&tip, profile.end().u >= profile.start().u);
         // 1e-9 of the size, and what counts as upright.
         let tolerance = 1e-8;
         for piece in tip.pieces() {
             let upright = (piece.start().u - piece.end().u).abs() < 1e-8;
             for index in 0..=5 {
-                let point = piece.point(f64::from(index) / 5.0);
+                let point = piece.point_at(f64::from(index) / 5.0);
                 let clear = clearance(&profile, Point::new(point.u, point.z + radius)) - radius;
                 prop_assert!(clear > -tolerance, "gouge {clear} at {point:?} of {piece:?}");
                 prop_assert!(upright || clear < tolerance, "gap {clear} at {point:?} of {piece:?}");
@@ -84,20 +85,20 @@ proptest! {
     #[test]
     fn the_balls_path_leaves_out_nothing_between_its_ends(steps in steps(10), radius in 0.3..6.0) {
         let profile = chain(&steps);
-        let tip = compensate(&profile, radius).unwrap();
+        let tip = compensate_profile(&profile, radius).unwrap();
         let (low, high) = profile.vertices().fold((f64::MAX, f64::MIN), |(low, high), point| (low.min(point.u), high.max(point.u)));
         prop_assert!(tip.start().u >= low - 2.0 * 12.0 - radius && tip.end().u <= high + 2.0 * 12.0 + radius);
-        for part in unreachable(&profile, radius, 1e-6).unwrap() {
+        for part in find_unreachable_parts(&profile, radius, 1e-6).unwrap() {
             prop_assert!(part.first <= part.last && part.last < profile.pieces().len());
             prop_assert!(part.left.is_finite());
         }
         // Where a recovered profile lies above the profile, the ball cannot have touched; it never lies below what it touched.
-        let contact = recover(&tip, radius).unwrap();
+        let contact = recover_profile(&tip, radius).unwrap();
         // A lone wall has no side.
         if (contact.end().u - contact.start().u) * (profile.end().u - profile.start().u) < 1e-3 {
             return Ok(());
         }
-        let again = compensate(&contact, radius).unwrap();
+        let again = compensate_profile(&contact, radius).unwrap();
         for point in again.vertices() {
             let clear = clearance(&profile, Point::new(point.u, point.z + radius)) - radius;
             prop_assert!(clear > -1e-6, "gouge {clear} at {point:?}");
@@ -109,14 +110,14 @@ proptest! {
         steps in steps(20), tolerance in prop_oneof![Just(0.01), 0.001..0.5], arcs in any::<bool>(),
     ) {
         let exact = chain(&steps);
-        let few = chords(&exact, tolerance, arcs, Side::Both).unwrap();
+        let few = fit_chords(&exact, tolerance, arcs, ChordSide::Both).unwrap();
         Chain::new(few.pieces().to_vec()).unwrap();
         prop_assert!(few.start().distance(exact.start()) < 1e-9);
         prop_assert!(few.end().distance(exact.end()) < 1e-6);
         for (one, other) in [(&exact, &few), (&few, &exact)] {
             for piece in one.pieces() {
                 for index in 0..=16 {
-                    let point = piece.point(f64::from(index) / 16.0);
+                    let point = piece.point_at(f64::from(index) / 16.0);
                     let distance = other.pieces().iter().map(|piece| from(piece, point)).fold(f64::MAX, f64::min);
                     prop_assert!(distance <= tolerance * (1.0 + 1e-6), "{distance} at {point:?}");
                 }
@@ -126,18 +127,18 @@ proptest! {
 
     #[test]
     fn chords_on_one_side_keep_to_it(steps in steps(12), tolerance in 0.01..0.5, arcs in any::<bool>()) {
-        let exact = compensate(&chain(&steps), 2.0).unwrap();
-        let few = chords(&exact, tolerance, arcs, Side::Above).unwrap();
+        let exact = compensate_profile(&chain(&steps), 2.0).unwrap();
+        let few = fit_chords(&exact, tolerance, arcs, ChordSide::Above).unwrap();
         Chain::new(few.pieces().to_vec()).unwrap();
         let sense = if exact.end().u >= exact.start().u { 1.0 } else { -1.0 };
-        let bend = |pair: &[Piece]| {
-            let (a, b) = (pair[0].direction(1.0), pair[1].direction(0.0));
+        let bend = |pair: &[ChainPiece]| {
+            let (a, b) = (pair[0].direction_at(1.0), pair[1].direction_at(0.0));
             (a.u * b.z - a.z * b.u).atan2(a.u * b.u + a.z * b.z) * sense
         };
         let sharp = exact.pieces().windows(2).map(bend).fold(0.0, f64::max) > 2.0;
         for piece in few.pieces() {
             for index in 0..=16 {
-                let point = piece.point(f64::from(index) / 16.0);
+                let point = piece.point_at(f64::from(index) / 16.0);
                 // Above, and beside what is upright.
                 let clear = clearance(&exact, point);
                 let distance = exact.pieces().iter().map(|piece| from(piece, point)).fold(f64::MAX, f64::min);
@@ -154,13 +155,13 @@ proptest! {
     ) {
         let points: Vec<[f64; 2]> = points.into_iter().map(|(u, z)| [u, z]).collect();
         let profile = polyline(&points);
-        if let Ok(tip) = compensate(&profile, radius) {
+        if let Ok(tip) = compensate_profile(&profile, radius) {
             prop_assert!(tip.vertices().all(|point| point.u.is_finite() && point.z.is_finite()));
-            let _ = recover(&tip, radius);
-            let _ = unreachable(&profile, radius, tolerance);
+            let _ = recover_profile(&tip, radius);
+            let _ = find_unreachable_parts(&profile, radius, tolerance);
         }
-        for side in [Side::Both, Side::Above, Side::Below] {
-            let few = chords(&profile, tolerance, true, side).unwrap();
+        for side in [ChordSide::Both, ChordSide::Above, ChordSide::Below] {
+            let few = fit_chords(&profile, tolerance, true, side).unwrap();
             prop_assert!(few.vertices().all(|point| point.u.is_finite() && point.z.is_finite()));
         }
     }
@@ -181,15 +182,15 @@ fn wild() -> impl Strategy<Value = f64> {
     ]
 }
 
-fn from(piece: &Piece, point: Point) -> f64 {
+fn from(piece: &ChainPiece, point: Point) -> f64 {
     let ends = piece.start().distance(point).min(piece.end().distance(point));
     match piece {
-        Piece::Line(line) => {
+        ChainPiece::Line(line) => {
             let (du, dz) = (line.to.u - line.from.u, line.to.z - line.from.z);
             let share = ((point.u - line.from.u) * du + (point.z - line.from.z) * dz) / (du * du + dz * dz);
-            if (0.0..=1.0).contains(&share) { ends.min(piece.point(share).distance(point)) } else { ends }
+            if (0.0..=1.0).contains(&share) { ends.min(piece.point_at(share).distance(point)) } else { ends }
         }
-        Piece::Arc(arc) => {
+        ChainPiece::Arc(arc) => {
             let angle = (point.z - arc.centre.z).atan2(point.u - arc.centre.u);
             let along = ((angle - arc.start) * arc.sweep.signum()).rem_euclid(std::f64::consts::TAU);
             if along <= arc.sweep.abs() { (arc.centre.distance(point) - arc.radius).abs() } else { ends }

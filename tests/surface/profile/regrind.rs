@@ -1,7 +1,9 @@
 //! A reground ball: tip path, contact profile, and the other ball's tip path.
 
 use super::brute::{assert_runs, polyline};
-use clsmith::surface::profile::{Chain, Piece, Point, check, compensate, recover};
+use clsmith::surface::profile::{
+    Chain, ChainPiece, Point, check_tip_path, compensate_profile, recover_profile,
+};
 use std::f64::consts::PI;
 
 /// The largest distance of either chain's samples from the other, on samples.
@@ -11,21 +13,21 @@ fn apart(a: &Chain, b: &Chain) -> f64 {
             .pieces()
             .iter()
             .flat_map(|piece| {
-                let count = (piece.length() / 0.1).ceil().max(1.0) as usize;
+                let count = (piece.length_mm() / 0.1).ceil().max(1.0) as usize;
                 let piece = *piece;
-                (0..=count).map(move |index| piece.point(index as f64 / count as f64))
+                (0..=count).map(move |index| piece.point_at(index as f64 / count as f64))
             })
             .collect()
     };
     let distance = |point: Point, chain: &Chain| {
-        let of = |piece: &Piece| match piece {
-            Piece::Line(line) => {
+        let of = |piece: &ChainPiece| match piece {
+            ChainPiece::Line(line) => {
                 let (du, dz) = (line.to.u - line.from.u, line.to.z - line.from.z);
                 let along = (point.u - line.from.u) * du + (point.z - line.from.z) * dz;
                 let share = (along / (du * du + dz * dz)).clamp(0.0, 1.0);
-                piece.point(if share.is_nan() { 0.0 } else { share }).distance(point)
+                piece.point_at(if share.is_nan() { 0.0 } else { share }).distance(point)
             }
-            Piece::Arc(arc) => {
+            ChainPiece::Arc(arc) => {
                 let angle = (point.z - arc.centre.z).atan2(point.u - arc.centre.u);
                 let along = ((angle - arc.start) * arc.sweep.signum()).rem_euclid(2.0 * PI);
                 if along <= arc.sweep.abs() {
@@ -39,12 +41,12 @@ fn apart(a: &Chain, b: &Chain) -> f64 {
         for piece in chain.pieces() {
             // Pieces that are too far away anyway.
             let start = match piece {
-                Piece::Line(line) => line.from,
-                Piece::Arc(arc) => arc.centre,
+                ChainPiece::Line(line) => line.from,
+                ChainPiece::Arc(arc) => arc.centre,
             };
             let reach = match piece {
-                Piece::Line(_) => piece.length(),
-                Piece::Arc(arc) => arc.radius,
+                ChainPiece::Line(_) => piece.length_mm(),
+                ChainPiece::Arc(arc) => arc.radius,
             };
             if start.distance(point) - reach < best {
                 best = best.min(of(piece));
@@ -58,13 +60,13 @@ fn apart(a: &Chain, b: &Chain) -> f64 {
 
 fn parts() -> Vec<Chain> {
     let smooth = Chain::new(vec![
-        Piece::line(Point::new(-30.0, 0.0), Point::new(0.0, 0.0)),
-        Piece::arc(Point::new(0.0, 12.0), 12.0, -PI / 2.0, PI / 3.0),
-        Piece::line(
+        ChainPiece::line(Point::new(-30.0, 0.0), Point::new(0.0, 0.0)),
+        ChainPiece::arc(Point::new(0.0, 12.0), 12.0, -PI / 2.0, PI / 3.0),
+        ChainPiece::line(
             Point::new(12.0 * 0.75_f64.sqrt(), 6.0),
             Point::new(12.0 * 0.75_f64.sqrt() + 5.0, 6.0 + 5.0 * 3.0_f64.sqrt()),
         ),
-        Piece::line(
+        ChainPiece::line(
             Point::new(12.0 * 0.75_f64.sqrt() + 5.0, 6.0 + 5.0 * 3.0_f64.sqrt()),
             Point::new(50.0, 10.0),
         ),
@@ -79,16 +81,16 @@ fn parts() -> Vec<Chain> {
 #[test]
 fn to_a_smaller_ball_and_back() {
     for profile in parts() {
-        let first = compensate(&profile, 5.0).unwrap();
-        let contact = recover(&first, 5.0).unwrap();
+        let first = compensate_profile(&profile, 5.0).unwrap();
+        let contact = recover_profile(&first, 5.0).unwrap();
         assert_runs(&contact, profile.end().u >= profile.start().u);
         // The ball of the recovered profile goes where it went.
-        let again = compensate(&contact, 5.0).unwrap();
+        let again = compensate_profile(&contact, 5.0).unwrap();
         assert!(apart(&first, &again) < 1e-6, "{}", apart(&first, &again));
-        let smaller = compensate(&contact, 4.8).unwrap();
-        let verdict = check(&contact, &smaller, 4.8, 0.01);
+        let smaller = compensate_profile(&contact, 4.8).unwrap();
+        let verdict = check_tip_path(&contact, &smaller, 4.8, 0.01);
         assert!(verdict.gouge <= verdict.bound.max(1e-7), "{verdict:?}");
-        let back = compensate(&recover(&smaller, 4.8).unwrap(), 5.0).unwrap();
+        let back = compensate_profile(&recover_profile(&smaller, 4.8).unwrap(), 5.0).unwrap();
         assert!(apart(&first, &back) < 1e-6, "{}", apart(&first, &back));
     }
 }
@@ -96,7 +98,7 @@ fn to_a_smaller_ball_and_back() {
 #[test]
 fn a_profile_that_the_ball_fits_comes_back() {
     for profile in parts().into_iter().take(3) {
-        let contact = recover(&compensate(&profile, 1.0).unwrap(), 1.0).unwrap();
+        let contact = recover_profile(&compensate_profile(&profile, 1.0).unwrap(), 1.0).unwrap();
         // In the hollows of the wavy polyline each corner is rounded by the ball: 0.1 mm chords, far below a micrometre.
         assert!(apart(&profile, &contact) < 1e-4, "{}", apart(&profile, &contact));
     }

@@ -2,7 +2,7 @@
 
 use super::{compensate, envelope, in_plane, operation};
 use crate::support;
-use clsmith::program::geometry::Path;
+use clsmith::program::geometry::MotionPath;
 use nalgebra::Vector2;
 
 const R: f64 = 5.0;
@@ -116,7 +116,7 @@ fn arcs_stay_arcs_where_the_file_has_one_to_write_them_by() {
     let text = format!("{head}{body}");
     let before: Vec<_> = support::program(&text).motions().collect();
     let low = before.iter().find_map(|motion| match &motion.path {
-        Path::Arc(arc) => Some(arc.point(0.5).z),
+        MotionPath::Arc(arc) => Some(arc.point_at(0.5).z),
         _ => None,
     });
     assert!((low.unwrap() + 12.0).abs() < 1e-9, "the arc is a hollow");
@@ -125,7 +125,7 @@ fn arcs_stay_arcs_where_the_file_has_one_to_write_them_by() {
         .program
         .motions()
         .filter_map(|motion| match motion.path {
-            Path::Arc(arc) => Some(arc),
+            MotionPath::Arc(arc) => Some(arc),
             _ => None,
         })
         .collect();
@@ -190,7 +190,7 @@ fn catia_arcs_are_written_as_catia_does() {
         .program
         .motions()
         .filter_map(|motion| match motion.path {
-            Path::Arc(arc) => Some(arc.radius),
+            MotionPath::Arc(arc) => Some(arc.radius),
             _ => None,
         })
         .collect();
@@ -207,7 +207,8 @@ fn what_a_person_reads() {
     ]);
     let done = compensate("radius: 5, tolerance: 0.05", &text).unwrap();
     let mut shown = Vec::new();
-    clsmith::report::unified::write(&mut shown, &done.program, &Default::default()).unwrap();
+    clsmith::report::unified_diff::write_unified_diff(&mut shown, &done.program, &Default::default())
+        .unwrap();
     let mut shown = String::from_utf8(shown).unwrap();
     let report = clsmith::transform::StepReport::CompensateZ(done.report);
     shown.push_str(&clsmith::report::step_report::to_text(&report));

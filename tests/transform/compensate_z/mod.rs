@@ -13,8 +13,8 @@ use clsmith::program::Program;
 use clsmith::program::motion::Motion;
 use clsmith::setup::Setup;
 use clsmith::source::Source;
-use clsmith::transform::compensate_z::Report;
-use clsmith::transform::{Recipe, StepReport, run};
+use clsmith::transform::compensate_z::CompensateZReport;
+use clsmith::transform::{Recipe, StepReport, run_recipe};
 use nalgebra::Point3;
 use std::fmt::Write;
 
@@ -23,7 +23,7 @@ pub struct Done {
     pub text: String,
     pub program: Program,
     pub findings: Vec<Diagnostic>,
-    pub report: Report,
+    pub report: CompensateZReport,
 }
 
 impl Done {
@@ -69,8 +69,8 @@ pub fn compensate_beside(path: &str, parameters: &str, text: &str) -> Result<Don
     let recipe = format!("version: 1\nunits: mm\nsteps:\n  - compensate_z: {{ {parameters} }}\n");
     let recipe = Source::new(path, recipe.into_bytes()).unwrap();
     let recipe = Recipe::load(&recipe)?;
-    let setup = recipe.setup_with(Setup::default(), Setup::default());
-    let mut outcome = run(&recipe, &setup, support::program(text))?;
+    let setup = recipe.merge_setups(Setup::default(), Setup::default());
+    let mut outcome = run_recipe(&recipe, &setup, support::program(text))?;
     let Some(StepReport::CompensateZ(report)) = outcome.reports.pop() else { panic!("no report") };
     let text = String::from_utf8_lossy(&outcome.program.to_bytes()).into_owned();
     Ok(Done { text, program: outcome.program, findings: outcome.findings, report })

@@ -4,13 +4,13 @@ use super::*;
 use clsmith::program::LengthUnit;
 use clsmith::setup::Setup;
 use clsmith::source::Source;
-use clsmith::transform::{Recipe, run};
+use clsmith::transform::{Recipe, run_recipe};
 
 fn convert(from: &str, to: &str, program: Program) -> Program {
     let recipe = format!("version: 1\nsteps:\n  - convert_units: {{ from: {from}, to: {to} }}");
     let recipe = Source::new("recipe.yaml", recipe.into_bytes()).unwrap();
     let recipe = Recipe::load(&recipe).unwrap();
-    let program = run(&recipe, &Setup::default(), program).unwrap().program;
+    let program = run_recipe(&recipe, &Setup::default(), program).unwrap().program;
     clsmith::parse::parse(&support::text(program.to_bytes()), Some(program.dialect())).program
 }
 
@@ -19,7 +19,7 @@ fn every_file_comes_back_within_a_ten_thousandth() {
     for path in support::corpus() {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         let before = clsmith::parse::parse(&support::source(&path), None).program;
-        let (from, to, factor) = match before.stated_units() {
+        let (from, to, factor) = match before.stated_length_unit() {
             Some(LengthUnit::Inch) => ("inch", "mm", 25.4),
             _ => ("mm", "inch", 1.0 / 25.4),
         };

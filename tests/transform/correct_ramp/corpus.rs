@@ -2,7 +2,7 @@
 
 use super::correct_program;
 use crate::support;
-use clsmith::transform::correct_ramp::Outcome;
+use clsmith::transform::correct_ramp::RampOutcome;
 
 const TOOL: &str = "tool: { diameter: 25, insert_radius: 6, insert_height: 1 }";
 
@@ -38,7 +38,7 @@ fn every_file_runs_twice_to_the_same_bytes() {
         };
         let keep = format!("{TOOL}, if_impossible: keep");
         let once = correct_program(&keep, "", parse(std::fs::read(&path).unwrap())).unwrap();
-        let corrected = once.ramps.iter().filter(|ramp| ramp.outcome == Outcome::Corrected).count();
+        let corrected = once.ramps.iter().filter(|ramp| ramp.outcome == RampOutcome::Corrected).count();
         let original = String::from_utf8_lossy(&std::fs::read(&path).unwrap()).into_owned();
         assert_eq!(once.text == original, corrected == 0, "{}", path.display());
         if once.text.contains('\u{fffd}') {
@@ -46,6 +46,10 @@ fn every_file_runs_twice_to_the_same_bytes() {
         }
         let twice = correct_program(&keep, "", parse(once.text.clone().into_bytes())).unwrap();
         assert!(twice.text == once.text, "{}", path.display());
-        assert!(twice.outcomes().iter().all(|outcome| *outcome != Outcome::Corrected), "{}", path.display());
+        assert!(
+            twice.outcomes().iter().all(|outcome| *outcome != RampOutcome::Corrected),
+            "{}",
+            path.display()
+        );
     }
 }

@@ -11,8 +11,8 @@ use clsmith::diagnostic::Diagnostic;
 use clsmith::program::Program;
 use clsmith::setup::Setup;
 use clsmith::source::Source;
-use clsmith::transform::correct_ramp::{Outcome, RampReport};
-use clsmith::transform::{Outcome as Ran, Recipe, StepReport, run};
+use clsmith::transform::correct_ramp::{RampOutcome, RampReport};
+use clsmith::transform::{Recipe, RecipeOutcome as Ran, StepReport, run_recipe};
 
 /// What a step made of a program.
 pub struct Done {
@@ -22,7 +22,7 @@ pub struct Done {
 }
 
 impl Done {
-    pub fn outcomes(&self) -> Vec<Outcome> {
+    pub fn outcomes(&self) -> Vec<RampOutcome> {
         self.ramps.iter().map(|ramp| ramp.outcome).collect()
     }
 
@@ -45,8 +45,8 @@ pub fn correct_program(parameters: &str, setup: &str, program: Program) -> Resul
     let recipe = format!("version: 1\nunits: mm\n{setup}steps:\n  - correct_ramp: {{ {parameters} }}\n");
     let recipe = Source::new("recipe.yaml", recipe.into_bytes()).unwrap();
     let recipe = Recipe::load(&recipe)?;
-    let setup = recipe.setup_with(Setup::default(), Setup::default());
-    let Ran { program, findings, mut reports } = run(&recipe, &setup, program)?;
+    let setup = recipe.merge_setups(Setup::default(), Setup::default());
+    let Ran { program, findings, mut reports } = run_recipe(&recipe, &setup, program)?;
     let Some(StepReport::CorrectRamp(report)) = reports.pop() else { panic!("no report") };
     let text = String::from_utf8_lossy(&program.to_bytes()).into_owned();
     Ok(Done { text, findings, ramps: report.ramps })

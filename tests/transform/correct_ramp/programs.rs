@@ -2,12 +2,12 @@
 
 use super::{Done, FACE_MILL, correct};
 use crate::support;
-use clsmith::job::{Job, is_changed};
-use clsmith::report::{policy::Policy, step_report, unified};
+use clsmith::job::{CorrectionJob, is_program_changed};
+use clsmith::report::{finding_policy::FindingPolicy, step_report, unified_diff};
 use clsmith::setup::Setup;
 use clsmith::source::Source;
 use clsmith::transform::Recipe;
-use clsmith::transform::correct_ramp::{Lengthened, Outcome};
+use clsmith::transform::correct_ramp::{LengtheningMethod, RampOutcome};
 
 const FILES: [&str; 3] = ["nx/web-ramps.cls", "catia/web-ramps.aptsource", "creo/web-ramps.ncl"];
 
@@ -26,19 +26,19 @@ fn each_ramp_is_corrected_as_it_needs() {
         let done = web(file, "depth_of_cut: 2, clearance: 2.5");
         let kinds: Vec<&str> = done.ramps.iter().map(|ramp| ramp.kind).collect();
         assert_eq!(kinds, ["zigzag", "zigzag", "zigzag", "helix", "zigzag"], "{file}");
-        use Outcome::{Corrected, Fits};
+        use RampOutcome::{Corrected, Fits};
         assert_eq!(done.outcomes(), [Corrected, Corrected, Corrected, Corrected, Fits], "{file}");
         assert_eq!(done.codes(), ["CL0320"; 4], "{file}");
         let [short, steep, lower, helix, _] = &done.ramps[..] else { panic!() };
-        assert_eq!((short.lengthened, short.compression, short.passes), (Lengthened::Circle, 1.0, 1));
+        assert_eq!((short.lengthened, short.compression, short.passes), (LengtheningMethod::Circle, 1.0, 1));
         let after = short.after.unwrap();
         assert!(after.legs == 4 && (after.shortest_leg_mm - 38.0).abs() < 0.01, "{after:?}");
         // 4.5 mm above the floor instead of 20, of 100 mm of path: nu = 0.225.
-        assert_eq!((steep.lengthened, steep.passes), (Lengthened::No, 1));
+        assert_eq!((steep.lengthened, steep.passes), (LengtheningMethod::No, 1));
         assert!((steep.compression - 0.225).abs() < 1e-6, "{}", steep.compression);
         assert!((steep.after.unwrap().steepest_degrees - (4.5f64 / 100.0).atan().to_degrees()).abs() < 1e-3);
         assert!((lower.compression - 4.5 / 7.0).abs() < 1e-6);
-        assert_eq!(helix.lengthened, Lengthened::WidenedHelix);
+        assert_eq!(helix.lengthened, LengtheningMethod::WidenedHelix);
         assert!((helix.after.unwrap().shortest_leg_mm - 38.0).abs() < 0.01);
     }
 }
@@ -63,7 +63,7 @@ fn a_second_run_changes_nothing() {
             let once = web(file, more);
             let twice = correct(&format!("{FACE_MILL}, {more}"), &once.text).unwrap();
             assert!(twice.text == once.text, "{file}, {more}");
-            assert_eq!(twice.outcomes(), [Outcome::Fits; 5], "{file}, {more}");
+            assert_eq!(twice.outcomes(), [RampOutcome::Fits; 5], "{file}, {more}");
         }
     }
 }
@@ -108,15 +108,23 @@ fn what_a_person_reads() {
         let recipe = Source::new("recipe.yaml", recipe.into_bytes()).unwrap();
         let recipe = Recipe::load(&recipe).unwrap();
         let source = Source::new(file, text(file).into_bytes()).unwrap();
-        let policy = Policy::default();
-        let setup = recipe.setup_with(Setup::default(), Setup::default());
-        let watch = &clsmith::machining::Unwatched;
-        let done = Job { recipe: &recipe, setup: &setup, print: None, policy: &policy, dialect: None, watch }
-            .run(&source);
+        let policy = FindingPolicy::default();
+        let setup = recipe.merge_setups(Setup::default(), Setup::default());
+        let watch = &clsmith::simulation_run::SilentWatcher;
+        let done = CorrectionJob {
+            recipe: &recipe,
+            setup: &setup,
+            print: None,
+            policy: &policy,
+            dialect: None,
+            watch,
+        }
+        .correct_source(&source);
         let program = done.program.unwrap();
-        assert!(is_changed(&program));
+        assert!(is_program_changed(&program));
         let mut out = Vec::new();
-        unified::write(&mut out, &program, &unified::Options::default()).unwrap();
+        unified_diff::write_unified_diff(&mut out, &program, &unified_diff::UnifiedDiffOptions::default())
+            .unwrap();
         let mut shown = String::from_utf8_lossy(&out).into_owned();
         for report in &done.reports {
             shown.push_str(&step_report::to_text(report));

@@ -2,8 +2,8 @@
 
 use super::{FACE_MILL, correct, correct_program};
 use crate::support;
-use clsmith::program::geometry::Path;
-use clsmith::transform::correct_ramp::{Lengthened, Outcome};
+use clsmith::program::geometry::MotionPath;
+use clsmith::transform::correct_ramp::{LengtheningMethod, RampOutcome};
 
 /// An operation of a 50 mm cutter that ramps by `ramp` and then clears 200 x 120 mm at z -2.
 fn pocket(ramp: &str) -> String {
@@ -33,14 +33,14 @@ fn a_helix_of_arcs_stays_one_of_arcs() {
     let [helix] = &done.ramps[..] else { panic!() };
     assert_eq!(
         (helix.kind, helix.outcome, helix.lengthened),
-        ("helix", Outcome::Corrected, Lengthened::WidenedHelix)
+        ("helix", RampOutcome::Corrected, LengtheningMethod::WidenedHelix)
     );
     assert!((helix.before.shortest_leg_mm - 8.0).abs() < 1e-9);
     let program = support::program(&done.text);
     let arcs: Vec<_> = program
         .motions()
         .filter_map(|motion| match motion.path {
-            Path::Arc(arc) => Some(arc),
+            MotionPath::Arc(arc) => Some(arc),
             _ => None,
         })
         .collect();
@@ -69,7 +69,10 @@ fn a_steep_helix_of_half_turns_gets_more_of_them() {
     let done = correct(FACE_MILL, pocket(&ramp)).unwrap();
     let [helix] = &done.ramps[..] else { panic!() };
     // 20 mm in a turn of 125.7 mm is 9.04 degrees; two turns are enough.
-    assert_eq!((helix.outcome, helix.passes, helix.lengthened), (Outcome::Corrected, 2, Lengthened::No));
+    assert_eq!(
+        (helix.outcome, helix.passes, helix.lengthened),
+        (RampOutcome::Corrected, 2, LengtheningMethod::No)
+    );
     assert_eq!(done.text.matches("CIRCLE/").count(), 4);
     assert_eq!(correct(FACE_MILL, &done.text).unwrap().text, done.text);
 }
@@ -79,7 +82,7 @@ fn a_plunge_becomes_a_ramp_along_the_first_pass() {
     let ramp = format!("{DOWN}GOTO/60.0000,60.0000,-2.0000\n");
     let done = correct(FACE_MILL, pocket(&ramp)).unwrap();
     let [plunge] = &done.ramps[..] else { panic!() };
-    assert_eq!((plunge.kind, plunge.lengthened), ("plunge", Lengthened::AlongPass));
+    assert_eq!((plunge.kind, plunge.lengthened), ("plunge", LengtheningMethod::AlongPass));
     let after = plunge.after.unwrap();
     assert!(after.legs == 2 && after.shortest_leg_mm >= 38.0);
     let kept = correct(&format!("{FACE_MILL}, plunges: keep"), pocket(&ramp)).unwrap();
@@ -93,10 +96,10 @@ fn the_way_down_through_air_is_no_ramp_but_one_into_material_is() {
         "{DOWN}GOTO/60.0000,60.0000,1.0000\nGOTO/100.0000,60.0000,-0.5000\nGOTO/60.0000,60.0000,-2.0000\n"
     );
     let done = correct(FACE_MILL, pocket(&ramp)).unwrap();
-    assert_eq!((done.outcomes(), done.ramps[0].before.legs), (vec![Outcome::Fits], 2));
+    assert_eq!((done.outcomes(), done.ramps[0].before.legs), (vec![RampOutcome::Fits], 2));
     // With a depth of cut of 4 mm there is material up to z 2, where the plunge begins.
     let done = correct(&format!("{FACE_MILL}, depth_of_cut: 4"), pocket(&ramp)).unwrap();
-    assert_eq!((done.outcomes(), done.ramps[0].before.legs), (vec![Outcome::Corrected], 3));
+    assert_eq!((done.outcomes(), done.ramps[0].before.legs), (vec![RampOutcome::Corrected], 3));
 }
 
 #[test]
@@ -119,7 +122,10 @@ fn a_tilted_tool_ramps_in_its_own_frame() {
         }
     }
     let (one, other) = (correct(FACE_MILL, &upright).unwrap(), correct(FACE_MILL, &tilted).unwrap());
-    assert_eq!((one.outcomes(), other.outcomes()), (vec![Outcome::Corrected], vec![Outcome::Corrected]));
+    assert_eq!(
+        (one.outcomes(), other.outcomes()),
+        (vec![RampOutcome::Corrected], vec![RampOutcome::Corrected])
+    );
     let (a, b) = (one.ramps[0].after.unwrap(), other.ramps[0].after.unwrap());
     assert!((a.shortest_leg_mm - b.shortest_leg_mm).abs() < 1e-3 && a.legs == b.legs);
     assert!((a.steepest_degrees - b.steepest_degrees).abs() < 1e-2);
@@ -135,7 +141,7 @@ fn unmarked_ramps_are_found_by_geometry_and_surfaces_are_left_alone() {
     };
     let ramp = format!("{DOWN}GOTO/80.0000,60.0000,0.0000\nGOTO/60.0000,60.0000,-2.0000\n");
     let done = correct(FACE_MILL, unmarked(pocket(&ramp))).unwrap();
-    assert_eq!(done.outcomes(), [Outcome::Corrected]);
+    assert_eq!(done.outcomes(), [RampOutcome::Corrected]);
     // A finishing pass over waves: it goes down and up, with a flat here and there.
     let mut waves = String::from(
         "TOOL PATH/SURFACE,TOOL,FACE\nTLDATA/MILL,50.0000,6.0000,60.0000,0.0000,0.0000\nRAPID\nGOTO/0.0000,0.0000,20.0000\nFEDRAT/MMPM,300.0000\n",
@@ -218,7 +224,7 @@ fn around_an_outside_contour_the_part_is_no_place_to_ramp() {
         let inside = |[x, y, _]: &&[f64; 3]| (11.0..89.0).contains(x) && (11.0..49.0).contains(y);
         (lengthened, done.ramps[0].path_after.iter().filter(inside).count())
     };
-    assert_eq!(deepest("milled"), (Lengthened::AlongPass, 0));
+    assert_eq!(deepest("milled"), (LengtheningMethod::AlongPass, 0));
     let (_, inside) = deepest("hull");
     assert!(inside > 0, "the circle bulges into the boss");
 }

@@ -4,7 +4,7 @@ use super::*;
 use clsmith::program::{Dialect, Program};
 use clsmith::setup::Setup;
 use clsmith::source::Source;
-use clsmith::transform::{Recipe, run};
+use clsmith::transform::{Recipe, run_recipe};
 
 fn read(path: &std::path::Path) -> Program {
     clsmith::parse::parse(&support::source(path), None).program
@@ -15,14 +15,14 @@ fn reread(program: &Program) -> Program {
 }
 
 fn run_on(settings: &str, program: Program) -> Result<Program, String> {
-    let units = match program.stated_units() {
+    let units = match program.stated_length_unit() {
         Some(clsmith::program::LengthUnit::Inch) => "inch",
         _ => "mm",
     };
     let recipe = format!("version: 1\nunits: {units}\nsteps:\n  - move_origin: {settings}");
     let recipe = Source::new("recipe.yaml", recipe.into_bytes()).unwrap();
     let recipe = Recipe::load(&recipe).unwrap();
-    run(&recipe, &Setup::default(), program)
+    run_recipe(&recipe, &Setup::default(), program)
         .map(|outcome| outcome.program)
         .map_err(|found| found.last().unwrap().message.clone())
 }
@@ -98,7 +98,7 @@ fn the_golden_pair_moves_by_its_offset_to_the_tenth_decimal() {
     }
     assert_eq!(points, 35_418);
     for (old, new) in before.statements().iter().zip(after.statements()) {
-        let (old, new) = (before.text(old), after.text(new));
+        let (old, new) = (before.statement_text(old), after.statement_text(new));
         if old.starts_with(b"GOTO") {
             let axis = |text: &[u8]| text[text.iter().position(|byte| *byte == b'$').unwrap()..].to_vec();
             assert_eq!(axis(old), axis(new));

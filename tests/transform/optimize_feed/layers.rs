@@ -2,9 +2,9 @@
 
 use super::step::{corrected, feeds, program, recipe, snapshot};
 use crate::support;
-use clsmith::machining::{Machining, Options, Unwatched};
 use clsmith::program::LengthUnit;
 use clsmith::setup::Setup;
+use clsmith::simulation_run::{Machining, SilentWatcher, SimulationRunOptions};
 use clsmith::source::Source;
 use std::fmt::Write;
 
@@ -32,15 +32,15 @@ fn chips(text: &str, step: &str) -> Vec<[f64; 2]> {
     let setup = Setup::load(&Source::new("shop.yaml", setup.into_bytes()).unwrap()).unwrap();
     let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new()).unwrap();
     let teeth = machining.tooling().cutters()[0].teeth.clone().unwrap();
-    let options = Options { cell: Some(0.25), longest: 1.0, ..Options::default() };
+    let options = SimulationRunOptions { cell: Some(0.25), longest: 1.0, ..SimulationRunOptions::default() };
     let mut found = Vec::new();
     machining
-        .run(&options, &Unwatched, &mut |cut| {
+        .simulate_program(&options, &SilentWatcher, &mut |cut| {
             let Some(feed) = cut.motion.feed.filter(|_| !cut.motion.rapid) else { return };
             let chip = cut.pieces.iter().fold([0.0f64; 2], |[estimate, bound], (_, piece)| {
                 [
-                    estimate.max(piece.chip_thickness(&teeth, feed.value, 5000.0)),
-                    bound.max(piece.chip_thickness_bound(&teeth, feed.value, 5000.0)),
+                    estimate.max(piece.chip_thickness_mm(&teeth, feed.value, 5000.0)),
+                    bound.max(piece.chip_thickness_bound_mm(&teeth, feed.value, 5000.0)),
                 ]
             });
             found.push(chip);

@@ -1,19 +1,21 @@
 //! What holds for every path.
 
-use clsmith::transform::optimize_feed::acceleration::seconds;
-use clsmith::transform::optimize_feed::feeds::{Block, Feeds, Load, Piece, Rules, SplitRule, Window, feeds};
+use clsmith::transform::optimize_feed::acceleration::path_time_s;
+use clsmith::transform::optimize_feed::block_feeds::{
+    BlockFeeds, FeedBlock, FeedLimit, FeedRules, FeedWindow, LimitedPiece, SplitRule, plan_block_feeds,
+};
 use proptest::prelude::*;
 
-fn load() -> impl Strategy<Value = Load> {
+fn load() -> impl Strategy<Value = FeedLimit> {
     prop_oneof![
-        3 => Just(Load::Air),
-        6 => (50.0..4000.0f64).prop_map(Load::Limit),
-        1 => Just(Load::Limit(f64::INFINITY)),
+        3 => Just(FeedLimit::Air),
+        6 => (50.0..4000.0f64).prop_map(FeedLimit::Limit),
+        1 => Just(FeedLimit::Limit(f64::INFINITY)),
     ]
 }
 
-fn blocks() -> impl Strategy<Value = Vec<Block>> {
-    let piece = (0.05..3.0f64, load()).prop_map(|(length, load)| Piece { length, load });
+fn blocks() -> impl Strategy<Value = Vec<FeedBlock>> {
+    let piece = (0.05..3.0f64, load()).prop_map(|(length, load)| LimitedPiece { length, load });
     let block = (
         prop::collection::vec(piece, 1..8),
         prop_oneof![Just(1000.0), 100.0..3000.0f64],
@@ -24,20 +26,20 @@ fn blocks() -> impl Strategy<Value = Vec<Block>> {
     );
     let block = block.prop_map(|(pieces, programmed, touched, splittable, breaks_chain, empty)| {
         let length = if empty { 0.0 } else { pieces.iter().map(|piece| piece.length).sum() };
-        Block { length, programmed, touched, splittable, breaks_chain, pieces }
+        FeedBlock { length, programmed, touched, splittable, breaks_chain, pieces }
     });
     prop::collection::vec(block, 1..25)
 }
 
-fn rules() -> impl Strategy<Value = Rules> {
+fn rules() -> impl Strategy<Value = FeedRules> {
     let feeds = (prop_oneof![Just(0.0), 10.0..300.0f64], prop::option::of(2000.0..6000.0f64));
     let way = (prop_oneof![Just(0.0), 0.1..2.0f64], prop::option::of(500.0..20000.0f64), any::<bool>());
     let change =
         (prop_oneof![Just(0.0), 0.01..0.3f64], prop_oneof![Just(0.0), Just(1.0), Just(0.1), Just(25.0)]);
     (feeds, way, change, prop::option::of((0.3..2.0f64, 2..9usize))).prop_map(
         |((min_feed, air_feed), (margin, max_acceleration, half), (min_change, round_down_to), split)| {
-            Rules {
-                window: if half { Window::HalfBlocks } else { Window::Block },
+            FeedRules {
+                window: if half { FeedWindow::HalfBlocks } else { FeedWindow::Block },
                 min_feed,
                 max_feed: 5000.0,
                 min_ratio: None,
@@ -54,9 +56,9 @@ fn rules() -> impl Strategy<Value = Rules> {
 }
 
 /// Pieces of a block with their places in it, in mm.
-fn places(block: &Block) -> Vec<(f64, f64, Load)> {
+fn places(block: &FeedBlock) -> Vec<(f64, f64, FeedLimit)> {
     let mut start = 0.0;
-    let place = |piece: &Piece| {
+    let place = |piece: &LimitedPiece| {
         let from = start;
         start += piece.length;
         (from, start, piece.load)
@@ -65,9 +67,9 @@ fn places(block: &Block) -> Vec<(f64, f64, Load)> {
 }
 
 /// Parts of a block with their places in it, in mm, and feeds.
-fn parts(block: &Block, found: &Feeds, index: usize) -> Vec<(f64, f64, f64)> {
+fn parts(block: &FeedBlock, found: &BlockFeeds, index: usize) -> Vec<(f64, f64, f64)> {
     let mut start = 0.0;
-    let part = |part: &clsmith::transform::optimize_feed::feeds::Part| {
+    let part = |part: &clsmith::transform::optimize_feed::block_feeds::PlannedSegment| {
         let from = start;
         start = part.end * block.length;
         (from, start, part.feed)
@@ -76,7 +78,7 @@ fn parts(block: &Block, found: &Feeds, index: usize) -> Vec<(f64, f64, f64)> {
 }
 
 /// Feeds that are what they were, whether or not a block was without any say in them.
-fn changed(block: &Block, feed: f64) -> bool {
+fn changed(block: &FeedBlock, feed: f64) -> bool {
     block.touched && block.length > 0.0 && feed != block.programmed
 }
 
@@ -85,8 +87,8 @@ proptest! {
 
     #[test]
     fn limits_hold_and_untouched_blocks_stay(blocks in blocks(), rules in rules()) {
-        let rules = Rules { window: Window::Block, ..rules };
-        let found = feeds(&blocks, &rules);
+        let rules = FeedRules { window: FeedWindow::Block, ..rules };
+        let found = plan_block_feeds(&blocks, &rules);
         for (index, block) in blocks.iter().enumerate() {
             for (from, to, feed) in parts(block, &found, index) {
                 if !block.touched {
@@ -99,7 +101,7 @@ proptest! {
                 for (start, end, load) in places(block) {
                     let inside = end.min(to) - start.max(from) > 1e-6;
                     match load {
-                        Load::Limit(limit) if inside => {
+                        FeedLimit::Limit(limit) if inside => {
                             prop_assert!(feed <= limit.max(rules.min_feed), "{} over {}", feed, limit);
                             prop_assert!(limit >= rules.min_feed || found.below_minimum.contains(&index));
                         }
@@ -110,14 +112,14 @@ proptest! {
         }
         let least = |index: &usize| {
             let limits = blocks[*index].pieces.iter().map(|piece| piece.load);
-            limits.filter_map(|load| match load { Load::Limit(limit) => Some(limit), Load::Air => None }).fold(f64::INFINITY, f64::min)
+            limits.filter_map(|load| match load { FeedLimit::Limit(limit) => Some(limit), FeedLimit::Air => None }).fold(f64::INFINITY, f64::min)
         };
         prop_assert!(found.below_minimum.iter().all(|index| least(index) < rules.min_feed));
     }
 
     #[test]
     fn parts_are_long_enough_and_not_too_many(blocks in blocks(), rules in rules()) {
-        let found = feeds(&blocks, &rules);
+        let found = plan_block_feeds(&blocks, &rules);
         prop_assert_eq!(found.parts.len(), blocks.len());
         for (index, block) in blocks.iter().enumerate() {
             let parts = parts(block, &found, index);
@@ -137,10 +139,10 @@ proptest! {
 
     #[test]
     fn acceleration_holds_to_the_rounding(blocks in blocks(), rules in rules(), a in 500.0..20000.0f64) {
-        let rules = Rules { max_acceleration: Some(a), ..rules };
-        let exact = Rules { min_change: 0.0, round_down_to: 0.0, ..rules };
+        let rules = FeedRules { max_acceleration: Some(a), ..rules };
+        let exact = FeedRules { min_change: 0.0, round_down_to: 0.0, ..rules };
         for (rules, slack, step) in [(exact, 1.0, 0.0), (rules, (1.0 - rules.min_change).powi(2), rules.round_down_to)] {
-            let found = feeds(&blocks, &rules);
+            let found = plan_block_feeds(&blocks, &rules);
             // Feed, length and whether it was decided, part by part; blocks without length take no part.
             let mut last: Option<(f64, f64, bool)> = None;
             for (index, block) in blocks.iter().enumerate() {
@@ -173,34 +175,34 @@ proptest! {
 
     #[test]
     fn a_second_run_changes_nothing(blocks in blocks(), rules in rules()) {
-        let rules = Rules { split: None, ..rules };
-        let once = feeds(&blocks, &rules);
+        let rules = FeedRules { split: None, ..rules };
+        let once = plan_block_feeds(&blocks, &rules);
         let mut again = blocks.clone();
         for (block, parts) in again.iter_mut().zip(&once.parts) {
             block.programmed = parts[0].feed;
         }
-        let twice = feeds(&again, &rules);
+        let twice = plan_block_feeds(&again, &rules);
         prop_assert_eq!(&once.parts, &twice.parts);
-        prop_assert_eq!(&once, &feeds(&blocks, &rules));
+        prop_assert_eq!(&once, &plan_block_feeds(&blocks, &rules));
     }
 
     #[test]
     fn parts_that_are_blocks_keep_their_feeds(blocks in blocks(), rules in rules()) {
         let split = rules.split.map(|rule| SplitRule { at_most: 1000, shortest: 0.0, ..rule });
         // A smaller change keeps the feed in force, and a part of its own has another one in force than a part of a block.
-        let rules = Rules { split, window: Window::Block, max_acceleration: None, min_change: 0.0, ..rules };
-        let once = feeds(&blocks, &rules);
+        let rules = FeedRules { split, window: FeedWindow::Block, max_acceleration: None, min_change: 0.0, ..rules };
+        let once = plan_block_feeds(&blocks, &rules);
         let mut again = Vec::new();
         for (index, block) in blocks.iter().enumerate() {
             for (number, (from, to, feed)) in parts(block, &once, index).into_iter().enumerate() {
-                let inside = |(start, end, load): (f64, f64, Load)| Piece { length: end.min(to) - start.max(from), load };
+                let inside = |(start, end, load): (f64, f64, FeedLimit)| LimitedPiece { length: end.min(to) - start.max(from), load };
                 let pieces = places(block).into_iter().map(inside).filter(|piece| piece.length > 1e-9).collect();
                 let breaks_chain = block.breaks_chain && number == 0;
-                again.push((feed, Block { length: to - from, programmed: feed, breaks_chain, pieces, ..block.clone() }));
+                again.push((feed, FeedBlock { length: to - from, programmed: feed, breaks_chain, pieces, ..block.clone() }));
             }
         }
-        let (before, again): (Vec<f64>, Vec<Block>) = again.into_iter().unzip();
-        let twice = feeds(&again, &rules);
+        let (before, again): (Vec<f64>, Vec<FeedBlock>) = again.into_iter().unzip();
+        let twice = plan_block_feeds(&again, &rules);
         for ((feed, parts), block) in before.iter().zip(&twice.parts).zip(&again) {
             let known = block.length == 0.0 || parts.iter().all(|part| (part.feed - feed).abs() < 1e-6);
             prop_assert!(known, "{feed} became {parts:?} {block:?}");
@@ -209,8 +211,8 @@ proptest! {
 
     #[test]
     fn near_material_air_goes_no_faster_than_the_cut(blocks in blocks(), rules in rules()) {
-        let rules = Rules { window: Window::Block, max_acceleration: None, min_change: 0.0, round_down_to: 0.0, ..rules };
-        let found = feeds(&blocks, &rules);
+        let rules = FeedRules { window: FeedWindow::Block, max_acceleration: None, min_change: 0.0, round_down_to: 0.0, ..rules };
+        let found = plan_block_feeds(&blocks, &rules);
         // Every 0.03 mm along each chain: place, whether it cuts, its feed, and whether it could be decided. A cut in a block that
         // holds air as well may be slowed down by other material near that air: there its limit counts, not its feed.
         let mut chain: Vec<(f64, bool, f64, bool)> = Vec::new();
@@ -242,12 +244,12 @@ proptest! {
                     let count = ((end - start) / 0.03).ceil() as usize;
                     for step in 0..count {
                         let at = travelled + start + (end - start) * (step as f64 + 0.5) / count as f64;
-                        let has_air = block.pieces.iter().any(|piece| piece.load == Load::Air);
+                        let has_air = block.pieces.iter().any(|piece| piece.load == FeedLimit::Air);
                         let beside = match load {
-                            Load::Limit(limit) if block.touched && has_air => limit.min(rules.max_feed).max(feed),
+                            FeedLimit::Limit(limit) if block.touched && has_air => limit.min(rules.max_feed).max(feed),
                             _ => feed,
                         };
-                        let cuts = load != Load::Air;
+                        let cuts = load != FeedLimit::Air;
                         chain.push((at, cuts, if cuts { beside } else { feed }, block.touched));
                     }
                 }
@@ -259,12 +261,12 @@ proptest! {
 
     #[test]
     fn slower_takes_longer_and_acceleration_takes_time(blocks in blocks(), a in 500.0..20000.0f64) {
-        let rules = Rules { max_feed: 5000.0, air_feed: Some(5000.0), ..Rules::default() };
-        let free = feeds(&blocks, &rules);
-        let eased = feeds(&blocks, &Rules { max_acceleration: Some(a), ..rules });
-        let path = free.stretches(&blocks);
-        prop_assert!(seconds(&path, Some(a)) >= seconds(&path, None) * (1.0 - 1e-9));
-        prop_assert!(seconds(&eased.stretches(&blocks), None) >= seconds(&path, None) * (1.0 - 1e-9));
+        let rules = FeedRules { max_feed: 5000.0, air_feed: Some(5000.0), ..FeedRules::default() };
+        let free = plan_block_feeds(&blocks, &rules);
+        let eased = plan_block_feeds(&blocks, &FeedRules { max_acceleration: Some(a), ..rules });
+        let path = free.timed_segments(&blocks);
+        prop_assert!(path_time_s(&path, Some(a)) >= path_time_s(&path, None) * (1.0 - 1e-9));
+        prop_assert!(path_time_s(&eased.timed_segments(&blocks), None) >= path_time_s(&path, None) * (1.0 - 1e-9));
         let length: f64 = path.iter().map(|stretch| stretch.length).sum();
         let whole: f64 = blocks.iter().map(|block| block.length).sum();
         prop_assert!((length - whole).abs() < 1e-9 * whole.max(1.0));

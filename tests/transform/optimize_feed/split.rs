@@ -2,15 +2,15 @@
 
 use crate::support;
 use clsmith::program::{Dialect, StepId};
-use clsmith::transform::optimize_feed::split::{Splits, Whole, split};
+use clsmith::transform::optimize_feed::motion_split::{SplitProgram, UnsplitReason, split_motions};
 
 /// Splits one motion and gives the text and the result.
-fn split_one(dialect: Dialect, text: &str, motion: usize, shares: &[f64]) -> (String, Splits) {
+fn split_one(dialect: Dialect, text: &str, motion: usize, shares: &[f64]) -> (String, SplitProgram) {
     let program = support::program_of(dialect, text);
     let mut findings = Vec::new();
-    let result = split(program, StepId(0), &[(motion, shares.to_vec())], &mut findings).unwrap();
+    let result = split_motions(program, StepId(0), &[(motion, shares.to_vec())], &mut findings).unwrap();
     let surprises = result.kept.iter().filter(|(_, why)| {
-        use Whole::{GoBack, Helix, NotReadBack, OppositeAxis, UnsaidAxis};
+        use UnsplitReason::{GoBack, Helix, NotReadBack, OppositeAxis, UnsaidAxis};
         matches!(why, UnsaidAxis | OppositeAxis | Helix | GoBack | NotReadBack)
     });
     assert_eq!(findings.len(), surprises.count());
@@ -23,7 +23,7 @@ fn text_of(dialect: Dialect, text: &str, motion: usize, shares: &[f64]) -> Strin
     text
 }
 
-fn kept(dialect: Dialect, text: &str, motion: usize) -> Whole {
+fn kept(dialect: Dialect, text: &str, motion: usize) -> UnsplitReason {
     let (after, result) = split_one(dialect, text, motion, &[0.5]);
     assert_eq!(after, text);
     result.kept[0].1
@@ -118,29 +118,35 @@ GOTO/0.000000, -10.000000, 0.000000
 fn what_has_no_form_for_its_parts_stays_whole() {
     let goto = "GOTO/0.0000,0.0000,0.0000,0.0000000,0.0000000,1.0000000\n";
     let with = |rest: &str| format!("{goto}{rest}");
-    assert_eq!(kept(Dialect::Nx, &with("RAPID\nGOTO/1.0000,0.0000,0.0000\n"), 1), Whole::Rapid);
-    assert_eq!(kept(Dialect::Nx, goto, 0), Whole::OtherStatement);
-    assert_eq!(kept(Dialect::Nx, &with("GODLTA/1.0000,0.0000,0.0000\n"), 1), Whole::OtherStatement);
-    assert_eq!(kept(Dialect::Nx, &with("GOTO/1,0,0,2,0,0,3,0,0\n"), 1), Whole::SharedStatement);
-    assert_eq!(kept(Dialect::Nx, &with("GOTO/1,0,0,0,0,1,0,1,0\n"), 1), Whole::ContactNormal);
-    assert_eq!(kept(Dialect::Nx, &with("TLAXIS/1,0,0\nGOTO/1.0000,0.0000,0.0000\n"), 1), Whole::UnsaidAxis);
-    assert_eq!(kept(Dialect::Nx, &with("GOTO/1.0000,0.0000,0.0000,0,0,-1\n"), 1), Whole::OppositeAxis);
+    assert_eq!(kept(Dialect::Nx, &with("RAPID\nGOTO/1.0000,0.0000,0.0000\n"), 1), UnsplitReason::Rapid);
+    assert_eq!(kept(Dialect::Nx, goto, 0), UnsplitReason::OtherStatement);
+    assert_eq!(kept(Dialect::Nx, &with("GODLTA/1.0000,0.0000,0.0000\n"), 1), UnsplitReason::OtherStatement);
+    assert_eq!(kept(Dialect::Nx, &with("GOTO/1,0,0,2,0,0,3,0,0\n"), 1), UnsplitReason::SharedStatement);
+    assert_eq!(kept(Dialect::Nx, &with("GOTO/1,0,0,0,0,1,0,1,0\n"), 1), UnsplitReason::ContactNormal);
+    assert_eq!(
+        kept(Dialect::Nx, &with("TLAXIS/1,0,0\nGOTO/1.0000,0.0000,0.0000\n"), 1),
+        UnsplitReason::UnsaidAxis
+    );
+    assert_eq!(
+        kept(Dialect::Nx, &with("GOTO/1.0000,0.0000,0.0000,0,0,-1\n"), 1),
+        UnsplitReason::OppositeAxis
+    );
     let helix = "CIRCLE/4.0000,0.0000,0.0000,0.0000000,0.0000000,1.0000000,4.0000,0.06,0.5,1.0,0.0,TIMES,2\nGOTO/8.0000,0.0000,-1.0000\n";
-    assert_eq!(kept(Dialect::Nx, &with(helix), 1), Whole::Helix);
+    assert_eq!(kept(Dialect::Nx, &with(helix), 1), UnsplitReason::Helix);
     let hole = "CYCLE/DRILL,RAPTO,3.0000,FEDTO,-5.0000,MMPM,250.0000\nGOTO/1.0000,0.0000,0.0000\n";
-    assert_eq!(kept(Dialect::Nx, &with(hole), 1), Whole::Hole);
-    assert_eq!(kept(Dialect::Catia, &CATIA.replace("GOFWD", "GOBACK"), 1), Whole::GoBack);
+    assert_eq!(kept(Dialect::Nx, &with(hole), 1), UnsplitReason::Hole);
+    assert_eq!(kept(Dialect::Catia, &CATIA.replace("GOFWD", "GOBACK"), 1), UnsplitReason::GoBack);
 }
 
 #[test]
 fn parts_too_short_for_their_decimals_are_not_written() {
     let text = "GOTO/0.0000,0.0000,0.0000\nGOTO/0.0001,0.0000,0.0000\nGOTO/9.0000,0.0000,0.0000\n";
-    assert_eq!(kept(Dialect::Nx, text, 1), Whole::NotReadBack);
+    assert_eq!(kept(Dialect::Nx, text, 1), UnsplitReason::NotReadBack);
     // The other motion is split all the same.
     let program = support::program_of(Dialect::Nx, text);
     let mut findings = Vec::new();
     let wanted = [(2, vec![0.5]), (1, vec![0.5])];
-    let result = split(program, StepId(0), &wanted, &mut findings).unwrap();
-    assert_eq!((result.kept, findings.len()), (vec![(1, Whole::NotReadBack)], 1));
+    let result = split_motions(program, StepId(0), &wanted, &mut findings).unwrap();
+    assert_eq!((result.kept, findings.len()), (vec![(1, UnsplitReason::NotReadBack)], 1));
     assert_eq!(result.parts, [0..1, 1..2, 2..4]);
 }

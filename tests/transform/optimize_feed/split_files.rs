@@ -1,10 +1,10 @@
 //! Every motion of every file split in three, and read back.
 
 use crate::support;
-use clsmith::program::geometry::Path as ClPath;
+use clsmith::program::geometry::MotionPath as ClPath;
 use clsmith::program::motion::Motion;
-use clsmith::program::{Change, Dialect, Program, Record, StepId};
-use clsmith::transform::optimize_feed::split::{Splits, Whole, split};
+use clsmith::program::{Dialect, Program, Record, StatementChange, StepId};
+use clsmith::transform::optimize_feed::motion_split::{SplitProgram, UnsplitReason, split_motions};
 use nalgebra::Point3;
 use std::collections::BTreeMap;
 
@@ -14,14 +14,14 @@ const SHARES: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
 const SHORT: f64 = 0.01;
 
 /// Splits whatever is long enough; everything that must hold then is checked. Gives how many motions were split, and why others not.
-fn split_all(name: &str, before: &Program) -> (usize, BTreeMap<Whole, usize>) {
+fn split_all(name: &str, before: &Program) -> (usize, BTreeMap<UnsplitReason, usize>) {
     let old: Vec<Motion> = before.motions().collect();
     let wanted: Vec<_> = (0..old.len())
         .filter(|index| old[*index].length() > SHORT)
         .map(|index| (index, SHARES.to_vec()))
         .collect();
     let mut findings = Vec::new();
-    let result = split(before.clone(), StepId(0), &wanted, &mut findings).unwrap();
+    let result = split_motions(before.clone(), StepId(0), &wanted, &mut findings).unwrap();
     let again =
         clsmith::parse::parse(&support::text(result.program.to_bytes()), Some(before.dialect())).program;
     let new: Vec<Motion> = again.motions().collect();
@@ -52,13 +52,13 @@ fn split_all(name: &str, before: &Program) -> (usize, BTreeMap<Whole, usize>) {
     (splits, why)
 }
 
-fn range_end(result: &Splits) -> usize {
+fn range_end(result: &SplitProgram) -> usize {
     result.parts.last().map_or(0, |range| range.end)
 }
 
 fn point(motion: &Motion, share: f64) -> Point3<f64> {
     match &motion.path {
-        ClPath::Arc(arc) => arc.point(share),
+        ClPath::Arc(arc) => arc.point_at(share),
         _ => motion.from.point + (motion.to.point - motion.from.point) * share,
     }
 }
@@ -111,16 +111,18 @@ fn assert_statements(name: &str, before: &Program, after: &Program) {
                 | Record::StartDirection(_)
         );
         match statement.change() {
-            Change::Inserted(_) => {
+            StatementChange::Inserted(_) => {
                 assert!(new, "{name}");
                 continue;
             }
-            Change::Untouched => assert_eq!(after.text(statement), before.text(old.next().unwrap())),
-            Change::Edited(_) => {
+            StatementChange::Untouched => {
+                assert_eq!(after.statement_text(statement), before.statement_text(old.next().unwrap()))
+            }
+            StatementChange::Edited(_) => {
                 assert!(matches!(statement.record(), Record::MoveArc(_) | Record::DriveArc(_)), "{name}");
                 old.next().unwrap();
             }
-            Change::Deleted(_) => panic!("{name}: deleted"),
+            StatementChange::Deleted(_) => panic!("{name}: deleted"),
         }
     }
     assert!(old.next().is_none());
@@ -136,8 +138,11 @@ fn fixtures_split_in_three_read_back_as_they_were() {
         *of_dialect.entry(dialect.name()).or_default() += splits;
         for reason in why.keys() {
             let expected = match reason {
-                Whole::Helix => name == "pocket-3axis.cls",
-                Whole::NotReadBack | Whole::UnsaidAxis | Whole::OppositeAxis | Whole::GoBack => false,
+                UnsplitReason::Helix => name == "pocket-3axis.cls",
+                UnsplitReason::NotReadBack
+                | UnsplitReason::UnsaidAxis
+                | UnsplitReason::OppositeAxis
+                | UnsplitReason::GoBack => false,
                 _ => true,
             };
             assert!(expected, "{name}: {reason:?}");
@@ -154,7 +159,7 @@ fn real_files_split_in_three_read_back_as_they_were() {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         let before = clsmith::parse::parse(&support::source(&path), None).program;
         let (splits, why) = split_all(&name, &before);
-        let lost = why.get(&Whole::NotReadBack).copied().unwrap_or_default();
+        let lost = why.get(&UnsplitReason::NotReadBack).copied().unwrap_or_default();
         assert!(lost * 20 <= splits.max(20), "{name}: {lost} of {splits} do not read back");
     }
 }

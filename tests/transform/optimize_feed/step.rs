@@ -3,7 +3,7 @@
 use crate::support;
 use crate::transform::try_apply;
 use clsmith::diagnostic::Diagnostic;
-use clsmith::report::render::human::HumanOptions;
+use clsmith::report::render::human::HumanRenderOptions;
 
 /// A program of one operation with a flat cutter of 10 mm at 5000 rev/min.
 pub fn program(body: &str) -> String {
@@ -58,7 +58,8 @@ fn stopped(recipe: &str, text: &str) -> Vec<Diagnostic> {
 pub fn snapshot(name: &str, recipe: &str, text: &str) {
     let found = stopped(recipe, text);
     let mut out = Vec::new();
-    clsmith::report::render::human::render(&mut out, &found, None, &HumanOptions::default()).unwrap();
+    clsmith::report::render::human::render_human(&mut out, &found, None, &HumanRenderOptions::default())
+        .unwrap();
     support::snapshots("optimize_feed").bind(|| insta::assert_snapshot!(name, String::from_utf8_lossy(&out)));
 }
 
@@ -182,7 +183,7 @@ fn long_blocks_are_split_where_the_load_changes_and_arcs_stay_arcs() {
     let arcs = support::clean_motions(&support::program(&done))
         .into_iter()
         .filter_map(|motion| match motion.path {
-            clsmith::program::geometry::Path::Arc(arc) => Some(arc),
+            clsmith::program::geometry::MotionPath::Arc(arc) => Some(arc),
             _ => None,
         })
         .collect::<Vec<_>>();

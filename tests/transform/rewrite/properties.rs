@@ -2,10 +2,10 @@
 
 use super::rules;
 use crate::support;
-use clsmith::program::{Change, Program};
+use clsmith::program::{Program, StatementChange};
 use clsmith::setup::Setup;
 use clsmith::source::Source;
-use clsmith::transform::{Recipe, run};
+use clsmith::transform::{Recipe, run_recipe};
 use proptest::prelude::*;
 
 const PROGRAMS: &[&str] = &[
@@ -74,8 +74,10 @@ fn condition() -> impl Strategy<Value = Option<&'static str>> {
 
 /// The pieces of a program that no step touched, in order.
 fn untouched(program: &Program) -> Vec<(usize, Vec<u8>)> {
-    let kept = program.statements().iter().filter(|statement| statement.change() == Change::Untouched);
-    kept.map(|statement| (statement.origin().start as usize, program.text(statement).to_vec())).collect()
+    let kept =
+        program.statements().iter().filter(|statement| statement.change() == StatementChange::Untouched);
+    kept.map(|statement| (statement.origin().start as usize, program.statement_text(statement).to_vec()))
+        .collect()
 }
 
 proptest! {
@@ -108,15 +110,15 @@ proptest! {
         let recipe = format!("version: 1\nsteps:\n{}", rules(&[&rule]));
         let Ok(recipe) = Recipe::load(&Source::new("recipe.yaml", recipe.into_bytes()).unwrap()) else { return Ok(()) };
         let parsed = clsmith::parse::parse(&support::text(program), None).program;
-        let Ok(done) = run(&recipe, &Setup::default(), parsed) else { return Ok(()) };
+        let Ok(done) = run_recipe(&recipe, &Setup::default(), parsed) else { return Ok(()) };
         for (start, text) in untouched(&done.program) {
             prop_assert_eq!(&program.as_bytes()[start..start + text.len()], text.as_slice());
         }
         // What is written is read back as the same statements.
         let bytes = done.program.to_bytes();
         let again = clsmith::parse::parse(&support::text(&bytes), None).program;
-        let live: Vec<&[u8]> = done.program.live().map(|(_, statement)| done.program.text(statement)).collect();
-        let read: Vec<&[u8]> = again.statements().iter().map(|statement| again.text(statement)).collect();
+        let live: Vec<&[u8]> = done.program.live_statements().map(|(_, statement)| done.program.statement_text(statement)).collect();
+        let read: Vec<&[u8]> = again.statements().iter().map(|statement| again.statement_text(statement)).collect();
         prop_assert_eq!(live, read);
     }
 
@@ -130,7 +132,7 @@ proptest! {
         ] {
             let recipe = format!("version: 1\nsteps:\n{}", rules(&[&rule]));
             if let Ok(recipe) = Recipe::load(&support::text(recipe)) {
-                let _ = run(&recipe, &Setup::default(), support::program("A/1\nB/2,3\nA/ON\n"));
+                let _ = run_recipe(&recipe, &Setup::default(), support::program("A/1\nB/2,3\nA/ON\n"));
             }
         }
     }
@@ -150,13 +152,13 @@ fn a_rule_for_one_word_leaves_every_other_byte_of_the_corpus() {
             ])
         );
         let recipe = Recipe::load(&support::text(recipe)).unwrap();
-        let done = run(&recipe, &Setup::default(), parsed.program).unwrap();
-        for (_, statement) in done.program.live() {
+        let done = run_recipe(&recipe, &Setup::default(), parsed.program).unwrap();
+        for (_, statement) in done.program.live_statements() {
             assert_eq!(
                 statement.change(),
-                Change::Untouched,
+                StatementChange::Untouched,
                 "{path:?}: {:?}",
-                String::from_utf8_lossy(done.program.text(statement))
+                String::from_utf8_lossy(done.program.statement_text(statement))
             );
         }
     }

@@ -2,7 +2,7 @@
 //!
 //! The piece is cut into legs on which the axis turns little ([`leg`]); over a column the sweep of a leg goes from the lowest
 //! place of the solid's lower surface to the highest of its upper one, each found as the least value of a convex
-//! function of time ([`search`]), and what overlaps of the legs is put together.
+//! function of time ([`leg_extremum`]), and what overlaps of the legs is put together.
 //!
 //! **Error bound.** While the axis stands still, the only error is the search's: a tolerance `e = min(0.02 cell, 0.002 mm)`, of
 //! which it takes a quarter, measured along z. A turning axis adds concave parts to the surface over a column: for a rigid motion
@@ -13,29 +13,29 @@
 //! the cutter did not reach, but for the rounding of heights.
 //!
 //! **Shares** relate to the tip's speed, as feeds do, so they exceed 1 where a turn moves the surface faster than the tip. Where the tip
-//! stands still ([`pace`]) they relate to the fastest point of the flutes.
+//! stands still ([`reference_length_mm`]) they relate to the fastest point of the flutes.
 
-mod beside;
-mod ground;
+mod column_line;
 mod leg;
-mod line;
-mod search;
-mod solid;
-mod touch;
+mod leg_extremum;
+mod leg_footprint;
+mod near_passes;
+mod revolved_solid;
+mod tilted_contact;
 
-use super::partial::Partial;
-use super::straight::Circumstances;
-use crate::sim::Cutter;
-use crate::sim::dexel::{Band, Layout};
-use crate::sim::run::Piece;
-use beside::{Beside, Guard, lowest};
-use ground::Ground;
-use leg::{Leg, Pose, Side, Turn};
+use super::band_engagement::BandEngagement;
+use super::straight::SweepContext;
+use crate::sim::CutterModel;
+use crate::sim::dexel::{DexelBand, DexelGrid};
+use crate::sim::simulation::PathPiece;
+use leg::{GridPose, SolidSpanEnd, SweepLeg, TurningMotion};
+use leg_extremum::{LegExtremumQuery, PassingTime, find_leg_extremum};
+use leg_footprint::LegFootprint;
 use nalgebra::Vector3;
-use search::{Ask, Passing, least};
-use solid::Solid;
+use near_passes::{FlankSilhouette, NonCuttingSolid, lowest_height_on_leg};
+use revolved_solid::RevolvedSolid;
 use std::ops::Range;
-use touch::Touches;
+use tilted_contact::TiltedContactFinder;
 
 /// Tips closer together than this (mm) stand still: below the resolution of any file.
 const STILL: f64 = 1e-7;
@@ -45,28 +45,28 @@ const MOST: f64 = 4096.0;
 
 /// A leg with what every column asks of it.
 #[derive(Debug, Clone)]
-struct Part {
-    passing: Option<Passing>,
-    ground: Ground,
+struct PreparedLeg {
+    passing: Option<PassingTime>,
+    ground: LegFootprint,
     lowest: f64,
 }
 
 /// A piece with a tilted axis, made ready for any band of columns.
 #[derive(Debug, Clone)]
-pub(in crate::sim) struct Tilted {
-    legs: Vec<(Leg, Solid)>,
-    parts: Vec<Part>,
-    touches: Touches,
-    beside: Beside,
-    guards: Vec<Guard>,
+pub(in crate::sim) struct TiltedSweep {
+    legs: Vec<(SweepLeg, RevolvedSolid)>,
+    parts: Vec<PreparedLeg>,
+    touches: TiltedContactFinder,
+    beside: FlankSilhouette,
+    guards: Vec<NonCuttingSolid>,
     tolerance: f64,
     rows: Range<usize>,
-    layout: Layout,
+    layout: DexelGrid,
 }
 
 /// Length of the way that shares relate to: the tip's, or, where it stands still, that of the outermost point of flutes of a radius and
 /// a length.
-pub(in crate::sim) fn pace(piece: &Piece, [radius, flutes]: [f64; 2]) -> f64 {
+pub(in crate::sim) fn reference_length_mm(piece: &PathPiece, [radius, flutes]: [f64; 2]) -> f64 {
     let travel = (piece.to.point - piece.from.point).norm();
     if travel > STILL {
         return travel;
@@ -75,48 +75,53 @@ pub(in crate::sim) fn pace(piece: &Piece, [radius, flutes]: [f64; 2]) -> f64 {
     angle * radius.hypot(flutes)
 }
 
-impl Tilted {
+impl TiltedSweep {
     /// A piece between two poses.
-    pub fn new(piece: &Piece, cutter: &Cutter, layout: &Layout, around: Circumstances) -> Self {
+    pub fn new(piece: &PathPiece, cutter: &CutterModel, layout: &DexelGrid, around: SweepContext) -> Self {
         let base = Vector3::new(0.0, 0.0, layout.base);
-        let [from, to] = [piece.from, piece.to].map(|place| Pose {
+        let [from, to] = [piece.from, piece.to].map(|place| GridPose {
             tip: place.point.coords - base,
             axis: place.axis.try_normalize(1e-12).unwrap_or_else(Vector3::z),
         });
-        let turn = Turn::new(from, to);
+        let turn = TurningMotion::new(from, to);
         let travel = to.tip - from.tip;
         let highest = around.highest - layout.base;
         let tolerance = (0.02 * layout.cell).min(0.002);
-        let solid = Solid::of(&cutter.profile, reach(&from, &to, cutter.radius(), highest));
+        let solid = RevolvedSolid::from_meridian(
+            &cutter.profile,
+            reachable_height_mm(&from, &to, cutter.radius_mm(), highest),
+        );
         let way = if solid.is_ball() {
             travel.dot(&from.axis).abs().max(travel.dot(&to.axis).abs())
         } else {
             travel.norm()
         };
-        let far = solid.top().hypot(solid.radius());
+        let far = solid.top_mm().hypot(solid.radius_mm());
         let hidden = turn.angle * way + 1.5 * far * turn.angle * turn.angle;
         let count = (hidden / (0.5 * tolerance)).sqrt().ceil().clamp(1.0, MOST);
-        let legs = turn.legs(count as usize);
-        let parts: Vec<Part> = legs
+        let legs = turn.split_legs(count as usize);
+        let parts: Vec<PreparedLeg> = legs
             .iter()
-            .map(|leg| Part {
-                passing: Passing::new(leg, &solid),
-                ground: Ground::new(leg, solid.radius(), [0.0, solid.top()]),
-                lowest: lowest(leg, &solid),
+            .map(|leg| PreparedLeg {
+                passing: PassingTime::new(leg, &solid),
+                ground: LegFootprint::new(leg, solid.radius_mm(), [0.0, solid.top_mm()]),
+                lowest: lowest_height_on_leg(leg, &solid),
             })
             .collect();
-        let low = |solid: &Solid| legs.iter().map(|leg| lowest(leg, solid)).fold(f64::INFINITY, f64::min);
-        let guards: Vec<Guard> = cutter
+        let low = |solid: &RevolvedSolid| {
+            legs.iter().map(|leg| lowest_height_on_leg(leg, solid)).fold(f64::INFINITY, f64::min)
+        };
+        let guards: Vec<NonCuttingSolid> = cutter
             .collars
             .iter()
             .enumerate()
-            .map(|(index, collar)| Guard { index, solid: Solid::collar(collar) })
+            .map(|(index, collar)| NonCuttingSolid { index, solid: RevolvedSolid::from_non_cutting(collar) })
             .filter(|guard| low(&guard.solid) < highest)
             .collect();
         let cuts = parts.iter().any(|part| part.lowest < highest);
         let mut rows = Range { start: usize::MAX, end: 0 };
-        let mut widen = |ground: &Ground, margin: usize| {
-            let more = ground.rows(layout);
+        let mut widen = |ground: &LegFootprint, margin: usize| {
+            let more = ground.row_range(layout);
             rows.start = rows.start.min(more.start.saturating_sub(margin));
             rows.end = rows.end.max((more.end + margin).min(layout.rows));
         };
@@ -124,24 +129,25 @@ impl Tilted {
             // Beside the flank one row more is looked at.
             parts.iter().for_each(|part| widen(&part.ground, 2));
         }
-        guards.iter().for_each(|guard| legs.iter().for_each(|leg| widen(&guard.ground(leg), 0)));
+        guards.iter().for_each(|guard| legs.iter().for_each(|leg| widen(&guard.leg_footprint(leg), 0)));
         let length = travel.norm();
         let direction = (length > STILL).then(|| travel / length);
         let along = direction.map_or(0.0, |direction| direction.dot(&from.axis));
         let [flank, start] = cutter.profile.flank_start();
         Self {
-            touches: Touches {
+            touches: TiltedContactFinder {
                 profile: cutter.profile.clone(),
-                pace: (pace(piece, [cutter.radius(), cutter.flute_length()]) / count).max(1e-12),
+                pace: (reference_length_mm(piece, [cutter.radius_mm(), cutter.flute_length_mm()]) / count)
+                    .max(1e-12),
                 direction,
                 cell: layout.cell,
                 detail: around.detail,
                 continues: around.continues,
             },
-            beside: Beside {
+            beside: FlankSilhouette {
                 radius: flank.max(1e-9),
-                slope: cutter.profile.taper().tan(),
-                heights: [start, if cuts { solid.top() } else { start }],
+                slope: cutter.profile.taper_rad().tan(),
+                heights: [start, if cuts { solid.top_mm() } else { start }],
                 across: (1.0 - along * along).max(0.0).sqrt(),
                 direction,
             },
@@ -155,50 +161,50 @@ impl Tilted {
     }
 
     /// Rows that the piece can change.
-    pub fn rows(&self) -> Range<usize> {
+    pub fn row_range(&self) -> Range<usize> {
         self.rows.clone()
     }
 
     /// Removes what the piece sweeps from a band.
-    pub fn sweep(&self, band: &mut Band) -> Partial {
-        let mut partial = Partial::new();
+    pub fn sweep_band(&self, band: &mut DexelBand) -> BandEngagement {
+        let mut partial = BandEngagement::new();
         let (first, end) =
-            (self.rows.start.max(band.first_row), self.rows.end.min(band.first_row + band.rows()));
+            (self.rows.start.max(band.first_row), self.rows.end.min(band.first_row + band.row_count()));
         let mut ranges: Vec<Range<usize>> = Vec::with_capacity(self.parts.len());
         let mut spans = Vec::new();
         for row in first..end {
             for guard in &self.guards {
                 for (leg, _) in &self.legs {
-                    let depth = guard.depth(leg, band, &self.layout, row, self.tolerance);
+                    let depth = guard.collision_depth_mm(leg, band, &self.layout, row, self.tolerance);
                     if depth > self.layout.cell.min(0.05) {
-                        partial.touch(guard.index, depth);
+                        partial.record_collision(guard.index, depth);
                     }
                 }
             }
             ranges.clear();
-            ranges.extend(self.parts.iter().map(|part| part.ground.columns(row, &self.layout)));
+            ranges.extend(self.parts.iter().map(|part| part.ground.column_range(row, &self.layout)));
             let from = ranges.iter().map(|range| range.start).min().unwrap_or(0);
             let to =
                 ranges.iter().filter(|range| !range.is_empty()).map(|range| range.end).max().unwrap_or(0);
             for column in from..to {
-                self.column(band, [column, row], &ranges, &mut spans, &mut partial);
+                self.cut_column(band, [column, row], &ranges, &mut spans, &mut partial);
             }
         }
         for (leg, _) in &self.legs {
-            let share = self.beside.graze(leg, band, &self.layout, f64::from(partial.graze));
+            let share = self.beside.hidden_sliver_ratio(leg, band, &self.layout, f64::from(partial.graze));
             partial.graze = partial.graze.max(share as f32);
         }
         partial
     }
 
     /// Cuts one column.
-    fn column(
+    fn cut_column(
         &self,
-        band: &mut Band,
+        band: &mut DexelBand,
         [column, row]: [usize; 2],
         ranges: &[Range<usize>],
         spans: &mut Vec<[f64; 2]>,
-        partial: &mut Partial,
+        partial: &mut BandEngagement,
     ) {
         let index = (row - band.first_row) * band.columns + column;
         let Some((top, low)) = band.top.get(index).zip(band.low.get(index)) else { return };
@@ -206,58 +212,68 @@ impl Tilted {
             return;
         }
         let top = f64::from(*top);
-        let floor = if band.is_deep(index) {
-            band.intervals(index).last().map_or(0.0, |[low, _]| f64::from(low))
+        let floor = if band.has_lower_spans(index) {
+            band.column_spans(index).last().map_or(0.0, |[low, _]| f64::from(low))
         } else {
             f64::from(*low)
         };
-        let place = self.layout.center(column, row);
+        let place = self.layout.column_center(column, row);
         spans.clear();
         for (((leg, solid), part), range) in self.legs.iter().zip(&self.parts).zip(ranges) {
             if part.lowest >= top || !range.contains(&column) {
                 continue;
             }
-            if let Some(span) = self.span(leg, solid, part, place, [floor, top]) {
-                join(spans, span);
+            if let Some(span) = self.leg_span(leg, solid, part, place, [floor, top]) {
+                merge_span(spans, span);
             }
         }
         for [from, to] in spans.iter() {
-            band.cut(index, *from as f32, *to as f32, |low, top| {
+            band.cut_column(index, *from as f32, *to as f32, |low, top| {
                 let taken = [f64::from(low), f64::from(top)];
                 if taken[1] - taken[0] < self.tolerance / 4.0 {
                     // A film that rounding left is no contact.
                     partial.removed += taken[1] - taken[0];
                 } else {
-                    self.touches.add(place, taken, &self.legs, partial);
+                    self.touches.add_column_contacts(place, taken, &self.legs, partial);
                 }
             });
         }
     }
 
     /// What a leg takes out of a column whose material is between two heights.
-    fn span(
+    fn leg_span(
         &self,
-        leg: &Leg,
-        solid: &Solid,
-        part: &Part,
+        leg: &SweepLeg,
+        solid: &RevolvedSolid,
+        part: &PreparedLeg,
         place: [f64; 2],
         [floor, top]: [f64; 2],
     ) -> Option<[f64; 2]> {
         let tolerance = self.tolerance / 4.0;
         let passing = part.passing.as_ref();
-        let lower = Ask { side: Side::Lower, enough: floor, useless: top - tolerance, tolerance };
-        let found = least(leg, solid, passing, place, lower)?;
+        let lower = LegExtremumQuery {
+            side: SolidSpanEnd::Lower,
+            enough: floor,
+            useless: top - tolerance,
+            tolerance,
+        };
+        let found = find_leg_extremum(leg, solid, passing, place, lower)?;
         if found.other >= top {
             return Some([found.value, f64::INFINITY]);
         }
-        let upper = Ask { side: Side::Upper, enough: -top, useless: -floor - tolerance, tolerance };
-        let other = least(leg, solid, passing, place, upper)?;
+        let upper = LegExtremumQuery {
+            side: SolidSpanEnd::Upper,
+            enough: -top,
+            useless: -floor - tolerance,
+            tolerance,
+        };
+        let other = find_leg_extremum(leg, solid, passing, place, upper)?;
         Some([found.value.min(other.other), -other.value])
     }
 }
 
 /// Height above the tip up to which the cutter can meet material below a height.
-fn reach(from: &Pose, to: &Pose, radius: f64, highest: f64) -> f64 {
+fn reachable_height_mm(from: &GridPose, to: &GridPose, radius: f64, highest: f64) -> f64 {
     let rise = from.axis.z.min(to.axis.z);
     // Between two axes that look up, all look up as steeply.
     if rise < 0.05 {
@@ -267,7 +283,7 @@ fn reach(from: &Pose, to: &Pose, radius: f64, highest: f64) -> f64 {
 }
 
 /// Adds an interval to some that do not touch.
-fn join(spans: &mut Vec<[f64; 2]>, [mut low, mut high]: [f64; 2]) {
+fn merge_span(spans: &mut Vec<[f64; 2]>, [mut low, mut high]: [f64; 2]) {
     spans.retain(|[from, to]| {
         let apart = *to < low || *from > high;
         if !apart {

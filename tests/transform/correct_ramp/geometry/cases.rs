@@ -1,12 +1,12 @@
 //! Worked cases: what goes in, what comes out, each number from a closed form.
 
 use super::{LIMITS, all_near, near, points, ramp};
-use clsmith::transform::correct_ramp::region::Region;
-use clsmith::transform::correct_ramp::{Impossible, Lengthened, Task, correct};
+use clsmith::transform::correct_ramp::tool_region::ToolRegion;
+use clsmith::transform::correct_ramp::{ImpossibleCorrection, LengtheningMethod, RampTask, correct_ramp};
 use nalgebra::Vector2;
 
 /// How it becomes longer, nu, passes and P1..Pn.
-type Expected = (Lengthened, f64, usize, Vec<[f64; 3]>);
+type Expected = (LengtheningMethod, f64, usize, Vec<[f64; 3]>);
 
 /// What a ramp is corrected to; legs of 10 mm, 1 in 10.
 struct Case {
@@ -16,7 +16,7 @@ struct Case {
     region: Option<[[f64; 2]; 2]>,
     begin: Option<f64>,
     first_pass: Option<[f64; 2]>,
-    expected: Result<Expected, Impossible>,
+    expected: Result<Expected, ImpossibleCorrection>,
 }
 
 const PLAIN: Case = Case {
@@ -25,11 +25,11 @@ const PLAIN: Case = Case {
     region: None,
     begin: None,
     first_pass: None,
-    expected: Err(Impossible::NoDirection),
+    expected: Err(ImpossibleCorrection::NoDirection),
 };
 
-fn box_(x: [f64; 2], y: [f64; 2]) -> Region {
-    Region::polygon(&[[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]]).unwrap()
+fn box_(x: [f64; 2], y: [f64; 2]) -> ToolRegion {
+    ToolRegion::from_polygon(&[[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]]).unwrap()
 }
 
 fn lengthened() -> Vec<Case> {
@@ -42,34 +42,34 @@ fn lengthened() -> Vec<Case> {
         Case {
             name: "two legs of 10 over a chord of 12: their apex is 8 off",
             ramp: &[[0.0, 0.0, 1.0], [6.0, 2.0, 0.5], [12.0, 0.0, 0.0]],
-            expected: Ok((Lengthened::Circle, 1.0, 1, apex(8.0))),
+            expected: Ok((LengtheningMethod::Circle, 1.0, 1, apex(8.0))),
             ..PLAIN
         },
         Case {
             name: "on the other side of the chord",
             ramp: &[[0.0, 0.0, 1.0], [5.0, -2.0, 0.5], [12.0, 0.0, 0.0]],
-            expected: Ok((Lengthened::Circle, 1.0, 1, apex(-8.0))),
+            expected: Ok((LengtheningMethod::Circle, 1.0, 1, apex(-8.0))),
             ..PLAIN
         },
         Case {
             name: "no room on the left",
             ramp: &[[0.0, 0.0, 1.0], [6.0, 2.0, 0.5], [12.0, 0.0, 0.0]],
             region: Some([[0.0, 12.0], [-9.0, 7.0]]),
-            expected: Ok((Lengthened::MirroredCircle, 1.0, 1, apex(-8.0))),
+            expected: Ok((LengtheningMethod::MirroredCircle, 1.0, 1, apex(-8.0))),
             ..PLAIN
         },
         Case {
             name: "no room on the right",
             ramp: &[[0.0, 0.0, 1.0], [6.0, -2.0, 0.5], [12.0, 0.0, 0.0]],
             region: Some([[0.0, 12.0], [-7.0, 9.0]]),
-            expected: Ok((Lengthened::MirroredCircle, 1.0, 1, apex(8.0))),
+            expected: Ok((LengtheningMethod::MirroredCircle, 1.0, 1, apex(8.0))),
             ..PLAIN
         },
         Case {
             name: "three legs, centre beyond the chord: a trapezoid",
             ramp: &[[0.0, 0.0, 1.5], [8.0, 4.0, 1.0], [14.0, 4.0, 0.5], [22.0, 0.0, 0.0]],
             expected: Ok((
-                Lengthened::Circle,
+                LengtheningMethod::Circle,
                 1.0,
                 1,
                 vec![[0.0, 0.0, 1.5], [6.0, 8.0, 1.0], [16.0, 8.0, 0.5], [22.0, 0.0, 0.0]],
@@ -80,7 +80,7 @@ fn lengthened() -> Vec<Case> {
             name: "three legs, centre before the chord: a square",
             ramp: &[[0.0, 0.0, 1.5], [2.0, 3.0, 1.0], [8.0, 3.0, 0.5], [10.0, 0.0, 0.0]],
             expected: Ok((
-                Lengthened::Circle,
+                LengtheningMethod::Circle,
                 1.0,
                 1,
                 vec![[0.0, 0.0, 1.5], [0.0, 10.0, 1.0], [10.0, 10.0, 0.5], [10.0, 0.0, 0.0]],
@@ -91,7 +91,7 @@ fn lengthened() -> Vec<Case> {
             name: "closed, counter-clockwise: an equilateral triangle",
             ramp: &[[0.0, 0.0, 0.9], [2.0, -1.0, 0.6], [2.0, 1.0, 0.3], [0.0, 0.0, 0.0]],
             expected: Ok((
-                Lengthened::Circle,
+                LengtheningMethod::Circle,
                 1.0,
                 1,
                 vec![[0.0, 0.0, 0.9], [side, -5.0, 0.6], [side, 5.0, 0.3], [0.0, 0.0, 0.0]],
@@ -103,7 +103,7 @@ fn lengthened() -> Vec<Case> {
             ramp: &[[0.0, 0.0, 0.9], [2.0, 1.0, 0.6], [2.0, -1.0, 0.3], [0.0, 0.0, 0.0]],
             region: Some([[-9.0, 3.0], [-5.0, 5.0]]),
             expected: Ok((
-                Lengthened::MirroredCircle,
+                LengtheningMethod::MirroredCircle,
                 1.0,
                 1,
                 vec![[0.0, 0.0, 0.9], [-side, 5.0, 0.6], [-side, -5.0, 0.3], [0.0, 0.0, 0.0]],
@@ -114,7 +114,7 @@ fn lengthened() -> Vec<Case> {
             name: "to and fro: two legs around are the diameter there and back",
             ramp: &[[1.0, 0.0, 1.0], [4.0, 0.0, 0.5], [1.0, 0.0, 0.0]],
             expected: Ok((
-                Lengthened::Circle,
+                LengtheningMethod::Circle,
                 1.0,
                 1,
                 vec![[1.0, 0.0, 1.0], [11.0, 0.0, 0.5], [1.0, 0.0, 0.0]],
@@ -125,7 +125,7 @@ fn lengthened() -> Vec<Case> {
             name: "the mean leg is longer than the least one: no leg gets shorter on the whole",
             ramp: &[[0.0, 0.0, 1.0], [9.0, 0.0, 0.5], [9.0, 21.0, 0.0]],
             expected: Ok((
-                Lengthened::Circle,
+                LengtheningMethod::Circle,
                 1.0,
                 1,
                 // Two legs of 15 over sqrt(522): sqrt(225 - 522 / 4) to the right of the middle.
@@ -140,14 +140,14 @@ fn lengthened() -> Vec<Case> {
             name: "a chord that is long enough, where there is room for nothing else",
             ramp: &[[0.0, 0.0, 1.0], [3.0, 4.0, 0.5], [30.0, 0.0, 0.0]],
             region: Some([[0.0, 30.0], [-4.5, 4.5]]),
-            expected: Ok((Lengthened::AlongChord, 1.0, 1, vec![[0.0, 0.0, 1.0], [30.0, 0.0, 0.0]])),
+            expected: Ok((LengtheningMethod::AlongChord, 1.0, 1, vec![[0.0, 0.0, 1.0], [30.0, 0.0, 0.0]])),
             ..PLAIN
         },
         Case {
             name: "one leg: beyond its end and back",
             ramp: &[[0.0, 0.0, 1.3], [6.0, 0.0, 0.0]],
             expected: Ok((
-                Lengthened::AlongChord,
+                LengtheningMethod::AlongChord,
                 1.0,
                 1,
                 vec![[0.0, 0.0, 1.3], [16.0, 0.0, 0.5], [6.0, 0.0, 0.0]],
@@ -159,7 +159,7 @@ fn lengthened() -> Vec<Case> {
             ramp: &[[0.0, 0.0, 1.3], [6.0, 0.0, 0.0]],
             region: Some([[-10.0, 12.0], [-1.0, 1.0]]),
             expected: Ok((
-                Lengthened::AlongChord,
+                LengtheningMethod::AlongChord,
                 1.0,
                 1,
                 vec![[0.0, 0.0, 1.3], [-10.0, 0.0, 0.8], [6.0, 0.0, 0.0]],
@@ -171,7 +171,7 @@ fn lengthened() -> Vec<Case> {
             ramp: &[[0.0, 0.0, 1.7], [6.0, 0.0, 0.0]],
             region: Some([[-4.0, 10.0], [-1.0, 1.0]]),
             expected: Ok((
-                Lengthened::AlongChord,
+                LengtheningMethod::AlongChord,
                 1.0,
                 1,
                 vec![[0.0, 0.0, 1.7], [10.0, 0.0, 1.2], [-4.0, 0.0, 0.5], [6.0, 0.0, 0.0]],
@@ -184,7 +184,7 @@ fn lengthened() -> Vec<Case> {
             region: Some([[-1.0, 7.0], [-1.0, 11.0]]),
             first_pass: Some([0.0, 2.0]),
             expected: Ok((
-                Lengthened::AlongPass,
+                LengtheningMethod::AlongPass,
                 1.0,
                 1,
                 vec![[0.0, 0.0, 1.0], [6.0, 10.0, 10.0 / (10.0 + reach)], [6.0, 0.0, 0.0]],
@@ -197,7 +197,7 @@ fn lengthened() -> Vec<Case> {
             region: Some([[-2.0, 8.0], [-1.0, 11.0]]),
             first_pass: Some([-3.0, 4.0]),
             expected: Ok((
-                Lengthened::AlongPass,
+                LengtheningMethod::AlongPass,
                 1.0,
                 1,
                 vec![[0.0, 0.0, 1.0], [6.0 - 0.6 * back, 0.8 * back, back / (10.0 + back)], [6.0, 0.0, 0.0]],
@@ -209,7 +209,7 @@ fn lengthened() -> Vec<Case> {
             ramp: &[[0.0, 0.0, 2.0], [0.0, 0.0, 0.0]],
             first_pass: Some([3.0, 0.0]),
             expected: Ok((
-                Lengthened::AlongPass,
+                LengtheningMethod::AlongPass,
                 1.0,
                 1,
                 vec![[0.0, 0.0, 2.0], [10.0, 0.0, 1.0], [0.0, 0.0, 0.0]],
@@ -221,7 +221,7 @@ fn lengthened() -> Vec<Case> {
             ramp: &[[0.0, 0.0, 4.0], [0.0, 0.0, 0.0]],
             first_pass: Some([1.0, 0.0]),
             expected: Ok((
-                Lengthened::AlongPass,
+                LengtheningMethod::AlongPass,
                 1.0,
                 2,
                 vec![[0.0, 0.0, 4.0], [10.0, 0.0, 3.0], [0.0, 0.0, 2.0], [10.0, 0.0, 1.0], [0.0, 0.0, 0.0]],
@@ -238,14 +238,14 @@ fn flattened() -> Vec<Case> {
             name: "compression alone: 0.25 times 2/5 is 0.1",
             ramp: DEEP,
             begin: Some(2.0),
-            expected: Ok((Lengthened::No, 0.4, 1, vec![[0.0, 0.0, 2.0], [20.0, 0.0, 0.0]])),
+            expected: Ok((LengtheningMethod::No, 0.4, 1, vec![[0.0, 0.0, 2.0], [20.0, 0.0, 0.0]])),
             ..PLAIN
         },
         Case {
             name: "open: forward, back, forward",
             ramp: DEEP,
             expected: Ok((
-                Lengthened::No,
+                LengtheningMethod::No,
                 1.0,
                 3,
                 vec![[0.0, 0.0, 5.0], [20.0, 0.0, 10.0 / 3.0], [0.0, 0.0, 5.0 / 3.0], [20.0, 0.0, 0.0]],
@@ -257,7 +257,7 @@ fn flattened() -> Vec<Case> {
             ramp: DEEP,
             begin: Some(4.5),
             expected: Ok((
-                Lengthened::No,
+                LengtheningMethod::No,
                 0.9,
                 3,
                 vec![[0.0, 0.0, 4.5], [20.0, 0.0, 3.0], [0.0, 0.0, 1.5], [20.0, 0.0, 0.0]],
@@ -269,7 +269,7 @@ fn flattened() -> Vec<Case> {
             ramp: &[[0.0, 0.0, 4.0], [20.0, 0.0, 0.0]],
             begin: Some(4.5),
             expected: Ok((
-                Lengthened::No,
+                LengtheningMethod::No,
                 1.0,
                 3,
                 vec![[0.0, 0.0, 4.0], [20.0, 0.0, 8.0 / 3.0], [0.0, 0.0, 4.0 / 3.0], [20.0, 0.0, 0.0]],
@@ -280,7 +280,7 @@ fn flattened() -> Vec<Case> {
             name: "closed: the same way around again",
             ramp: &[[0.0, 0.0, 4.0], [10.0, 0.0, 2.0], [0.0, 0.0, 0.0]],
             expected: Ok((
-                Lengthened::No,
+                LengtheningMethod::No,
                 1.0,
                 2,
                 vec![[0.0, 0.0, 4.0], [10.0, 0.0, 3.0], [0.0, 0.0, 2.0], [10.0, 0.0, 1.0], [0.0, 0.0, 0.0]],
@@ -291,7 +291,7 @@ fn flattened() -> Vec<Case> {
             name: "longer first, and then no layers are needed: 2 over 20 instead of over 12",
             ramp: &[[0.0, 0.0, 2.0], [6.0, 2.0, 1.0], [12.0, 0.0, 0.0]],
             expected: Ok((
-                Lengthened::Circle,
+                LengtheningMethod::Circle,
                 1.0,
                 1,
                 vec![[0.0, 0.0, 2.0], [6.0, 8.0, 1.0], [12.0, 0.0, 0.0]],
@@ -303,19 +303,19 @@ fn flattened() -> Vec<Case> {
             ramp: &[[0.0, 0.0, 1.0], [6.0, 1.0, 0.5], [8.0, 0.0, 0.0]],
             region: Some([[-1.0, 9.0], [-2.0, 2.0]]),
             first_pass: Some([1.0, 0.0]),
-            expected: Err(Impossible::Region(10.0)),
+            expected: Err(ImpossibleCorrection::Region(10.0)),
             ..PLAIN
         },
         Case {
             name: "one leg straight down and no pass to follow",
             ramp: &[[0.0, 0.0, 2.0], [0.0, 0.0, 0.0]],
-            expected: Err(Impossible::NoDirection),
+            expected: Err(ImpossibleCorrection::NoDirection),
             ..PLAIN
         },
         Case {
             name: "as deep as no one ramps: 1000 over 10, there and back 500 times",
             ramp: &[[0.0, 0.0, 1000.0], [10.0, 0.0, 0.0]],
-            expected: Err(Impossible::TooMany(1001.0)),
+            expected: Err(ImpossibleCorrection::TooMany(1001.0)),
             ..PLAIN
         },
     ]
@@ -325,15 +325,15 @@ fn flattened() -> Vec<Case> {
 fn worked_cases() {
     for case in lengthened().into_iter().chain(flattened()) {
         println!("{}", case.name);
-        let region = case.region.map_or(Region::Everywhere, |[x, y]| box_(x, y));
-        let task = Task {
+        let region = case.region.map_or(ToolRegion::Everywhere, |[x, y]| box_(x, y));
+        let task = RampTask {
             limits: LIMITS,
             begin: case.begin,
             region: &region,
             passes: &case.first_pass.map(Vector2::from).into_iter().collect::<Vec<_>>(),
             rounding: 0.0,
         };
-        match (correct(&ramp(case.ramp), &task), case.expected) {
+        match (correct_ramp(&ramp(case.ramp), &task), case.expected) {
             (Ok(Some(found)), Ok((lengthened, compression, passes, expected))) => {
                 assert_eq!((found.lengthened, found.passes), (lengthened, passes));
                 near(found.compression, compression);

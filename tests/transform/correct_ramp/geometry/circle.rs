@@ -1,7 +1,9 @@
 //! The circumscribed circle.
 
 use super::near;
-use clsmith::transform::correct_ramp::circle::{Side, arc, on_circle, own_side};
+use clsmith::transform::correct_ramp::circumscribed_circle::{
+    BulgeSide, find_arc_angle, find_own_side, place_on_circle,
+};
 use nalgebra::Point2;
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -32,7 +34,7 @@ fn centre(a: Point2<f64>, b: Point2<f64>, c: Point2<f64>) -> Point2<f64> {
 fn the_root_of_the_leg_equation_is_found_on_both_sides_of_the_chord() {
     for legs in [2, 3, 4, 7] {
         for (s, e) in [(10.0, 3.0), (10.0, -3.0), (10.0, 0.0), (0.05, 4.0), (40.0, -9.0), (12.0, 80.0)] {
-            let arc = arc(s, leg(s, e, legs), legs).unwrap();
+            let arc = find_arc_angle(s, leg(s, e, legs), legs).unwrap();
             near(centre_distance(s, arc) / s.max(e.abs()), e / s.max(e.abs()));
         }
     }
@@ -41,22 +43,26 @@ fn the_root_of_the_leg_equation_is_found_on_both_sides_of_the_chord() {
 #[test]
 fn squares_and_triangles_come_out() {
     // Three legs as long as the chord: a square. Its centre is half a side off.
-    near(arc(10.0, 10.0, 3).unwrap(), 1.5 * PI);
+    near(find_arc_angle(10.0, 10.0, 3).unwrap(), 1.5 * PI);
     // Two: an equilateral triangle.
-    near(arc(10.0, 10.0, 2).unwrap(), 4.0 * PI / 3.0);
+    near(find_arc_angle(10.0, 10.0, 2).unwrap(), 4.0 * PI / 3.0);
     // Half a circle in two: the centre lies on the chord.
-    near(arc(10.0, 50f64.sqrt(), 2).unwrap(), PI);
+    near(find_arc_angle(10.0, 50f64.sqrt(), 2).unwrap(), PI);
 }
 
 #[test]
 fn legs_that_only_just_reach_lie_on_the_chord() {
     for leg in [2.0, 3.0] {
-        assert_eq!(arc(9.0, leg, 3), None);
-        let line =
-            on_circle(&places(&[[0.0, 0.0], [1.0, 1.0], [2.0, 2.0], [9.0, 0.0]]), leg, Side::Left, false);
+        assert_eq!(find_arc_angle(9.0, leg, 3), None);
+        let line = place_on_circle(
+            &places(&[[0.0, 0.0], [1.0, 1.0], [2.0, 2.0], [9.0, 0.0]]),
+            leg,
+            BulgeSide::Left,
+            false,
+        );
         assert_eq!(line.unwrap(), places(&[[0.0, 0.0], [3.0, 0.0], [6.0, 0.0], [9.0, 0.0]]));
     }
-    assert_eq!(on_circle(&places(&[[0.0, 0.0], [1.0, 0.0]]), 5.0, Side::Left, false), None);
+    assert_eq!(place_on_circle(&places(&[[0.0, 0.0], [1.0, 0.0]]), 5.0, BulgeSide::Left, false), None);
 }
 
 #[test]
@@ -69,9 +75,9 @@ fn a_closed_ramp_becomes_a_regular_polygon() {
         }));
         own.push([1.0, 2.0]);
         let own = places(&own);
-        assert_eq!(own_side(&own, true), Side::Left);
-        for (side, away) in [(Side::Left, 1.0), (Side::Right, -1.0)] {
-            let moved = on_circle(&own, 12.0, side, true).unwrap();
+        assert_eq!(find_own_side(&own, true), BulgeSide::Left);
+        for (side, away) in [(BulgeSide::Left, 1.0), (BulgeSide::Right, -1.0)] {
+            let moved = place_on_circle(&own, 12.0, side, true).unwrap();
             let radius = 12.0 / (2.0 * (PI / f64::from(legs)).sin());
             let centre = own[0] + nalgebra::Vector2::new(away * radius, 0.0);
             for pair in moved.windows(2) {
@@ -91,27 +97,27 @@ fn the_circle_lies_where_the_points_were() {
         let mut all = vec![[0.0, 0.0]];
         all.extend(inner);
         all.push(if closed { [0.0, 0.0] } else { [10.0, 0.0] });
-        own_side(&places(&all), closed)
+        find_own_side(&places(&all), closed)
     };
-    assert_eq!(side(&[[3.0, 2.0], [5.0, 1.0]], false), Side::Left);
-    assert_eq!(side(&[[3.0, -2.0], [5.0, -1.0]], false), Side::Right);
+    assert_eq!(side(&[[3.0, 2.0], [5.0, 1.0]], false), BulgeSide::Left);
+    assert_eq!(side(&[[3.0, -2.0], [5.0, -1.0]], false), BulgeSide::Right);
     // On both sides: the larger area.
-    assert_eq!(side(&[[3.0, 4.0], [6.0, -1.0]], false), Side::Left);
-    assert_eq!(side(&[[3.0, 1.0], [6.0, -4.0]], false), Side::Right);
+    assert_eq!(side(&[[3.0, 4.0], [6.0, -1.0]], false), BulgeSide::Left);
+    assert_eq!(side(&[[3.0, 1.0], [6.0, -4.0]], false), BulgeSide::Right);
     // In line, also beyond the ends.
-    assert_eq!(side(&[[3.0, 0.0]], false), Side::Left);
-    assert_eq!(side(&[[14.0, 0.0], [-3.0, 0.0]], false), Side::Left);
+    assert_eq!(side(&[[3.0, 0.0]], false), BulgeSide::Left);
+    assert_eq!(side(&[[14.0, 0.0], [-3.0, 0.0]], false), BulgeSide::Left);
     // Around: the sense.
-    assert_eq!(side(&[[3.0, 0.0], [3.0, 3.0]], true), Side::Left);
-    assert_eq!(side(&[[3.0, 3.0], [3.0, 0.0]], true), Side::Right);
-    assert_eq!(side(&[[3.0, 3.0]], true), Side::Left);
-    assert_eq!(Side::Left.mirrored(), Side::Right);
+    assert_eq!(side(&[[3.0, 0.0], [3.0, 3.0]], true), BulgeSide::Left);
+    assert_eq!(side(&[[3.0, 3.0], [3.0, 0.0]], true), BulgeSide::Right);
+    assert_eq!(side(&[[3.0, 3.0]], true), BulgeSide::Left);
+    assert_eq!(BulgeSide::Left.mirrored(), BulgeSide::Right);
 }
 
 #[test]
 fn a_ramp_that_almost_closes_almost_goes_around() {
     let own = places(&[[0.0, 0.0], [1.0, 2.0], [-1.0, 2.0], [0.0011, 0.0]]);
-    let moved = on_circle(&own, 10.0, Side::Left, false).unwrap();
+    let moved = place_on_circle(&own, 10.0, BulgeSide::Left, false).unwrap();
     for pair in moved.windows(2) {
         near((pair[1] - pair[0]).norm(), 10.0);
     }
@@ -132,8 +138,8 @@ proptest! {
         let along = nalgebra::Rotation2::new(angle) * nalgebra::Vector2::x();
         let own: Vec<_> = (0..=legs).map(|index| first + along * (s * index as f64 / legs as f64)).collect();
         let target = more * s / legs as f64;
-        let side = if left { Side::Left } else { Side::Right };
-        let moved = on_circle(&own, target, side, false).unwrap();
+        let side = if left { BulgeSide::Left } else { BulgeSide::Right };
+        let moved = place_on_circle(&own, target, side, false).unwrap();
         prop_assert_eq!((moved[0], moved[legs]), (own[0], own[legs]));
         let centre = centre(moved[0], moved[1], moved[2]);
         let radius = (moved[0] - centre).norm();
@@ -158,9 +164,9 @@ proptest! {
     ) {
         let longer = more * s / legs as f64;
         let shorter = (1.0 + (more - 1.0) * less) * s / legs as f64;
-        let e = centre_distance(s, arc(s, longer, legs).unwrap());
+        let e = centre_distance(s, find_arc_angle(s, longer, legs).unwrap());
         prop_assert!((leg(s, e, legs) - longer).abs() < 1e-8);
-        if let Some(arc) = arc(s, shorter, legs) {
+        if let Some(arc) = find_arc_angle(s, shorter, legs) {
             prop_assert!(centre_distance(s, arc) <= e + 1e-9 * e.abs());
         }
     }

@@ -9,13 +9,13 @@ mod properties;
 mod region;
 mod shapes;
 
-use clsmith::transform::correct_ramp::limits::Limits;
-use clsmith::transform::correct_ramp::ramp::{Bend, Ramp, Step};
+use clsmith::transform::correct_ramp::ramp::{Ramp, RampArc, RampStep};
+use clsmith::transform::correct_ramp::ramp_limits::RampLimits;
 use nalgebra::{Point2, Point3, Rotation2};
 use std::f64::consts::TAU;
 
 /// Legs of 10 mm or more, descending 1 mm in 10.
-const LIMITS: Limits = Limits { shortest_leg: 10.0, steepest: 0.1 };
+const LIMITS: RampLimits = RampLimits { shortest_leg: 10.0, steepest: 0.1 };
 
 #[track_caller]
 fn near(actual: f64, expected: f64) {
@@ -33,7 +33,7 @@ fn all_near(actual: &[[f64; 3]], expected: &[[f64; 3]]) {
 
 /// Straight steps through points.
 fn ramp(points: &[[f64; 3]]) -> Ramp {
-    Ramp::through(&points.iter().map(|place| Point3::from(*place)).collect::<Vec<_>>()).unwrap()
+    Ramp::from_points(&points.iter().map(|place| Point3::from(*place)).collect::<Vec<_>>()).unwrap()
 }
 
 fn points(ramp: &Ramp) -> Vec<[f64; 3]> {
@@ -61,7 +61,7 @@ impl Turns {
                 centre + Rotation2::new(TAU * self.turns * share) * nalgebra::Vector2::new(self.radius, 0.0);
             Point3::new(place.x, place.y, self.height * (1.0 - share))
         };
-        let bend = self.arcs.then_some(Bend { centre, sweep: TAU * self.turns / self.steps as f64 });
-        Ramp { start: at(0), steps: (1..=self.steps).map(|index| Step { to: at(index), bend }).collect() }
+        let bend = self.arcs.then_some(RampArc { centre, sweep: TAU * self.turns / self.steps as f64 });
+        Ramp { start: at(0), steps: (1..=self.steps).map(|index| RampStep { to: at(index), bend }).collect() }
     }
 }

@@ -1,11 +1,11 @@
 //! What holds for every ramp.
 
 use super::Turns;
-use clsmith::transform::correct_ramp::kind::Kind;
-use clsmith::transform::correct_ramp::limits::{Limits, keeps};
-use clsmith::transform::correct_ramp::ramp::{Bend, Ramp, Step};
-use clsmith::transform::correct_ramp::region::Region;
-use clsmith::transform::correct_ramp::{Impossible, Lengthened, Task, correct};
+use clsmith::transform::correct_ramp::ramp::{Ramp, RampArc, RampStep};
+use clsmith::transform::correct_ramp::ramp_kind::RampKind;
+use clsmith::transform::correct_ramp::ramp_limits::{RampLimits, is_within_limits};
+use clsmith::transform::correct_ramp::tool_region::ToolRegion;
+use clsmith::transform::correct_ramp::{ImpossibleCorrection, LengtheningMethod, RampTask, correct_ramp};
 use nalgebra::{Point2, Point3, Rotation2, Vector2};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
@@ -29,7 +29,7 @@ fn zigzag() -> impl Strategy<Value = Ramp> {
             let last =
                 if closed { points[0].xy() } else { (legs[0].0 + (legs[1].0 - legs[0].0) * 0.3) * scale };
             points.push(Point3::new(last.x, last.y, z));
-            Ramp::through(&points).unwrap()
+            Ramp::from_points(&points).unwrap()
         },
     )
 }
@@ -55,12 +55,13 @@ fn along_shape() -> impl Strategy<Value = Ramp> {
         let steps = shape.into_iter().map(|(place, sweep, fall)| {
             let (across, bend) = match sweep {
                 None => (place, None),
-                Some(sweep) => {
-                    (place + Rotation2::new(sweep) * (at.xy() - place), Some(Bend { centre: place, sweep }))
-                }
+                Some(sweep) => (
+                    place + Rotation2::new(sweep) * (at.xy() - place),
+                    Some(RampArc { centre: place, sweep }),
+                ),
             };
             at = Point3::new(across.x, across.y, at.z - fall);
-            Step { to: at, bend }
+            RampStep { to: at, bend }
         });
         Ramp { steps: steps.collect(), start }
     })
@@ -92,7 +93,7 @@ fn any_region(ramp: &Ramp, extra: &[Point2<f64>], kind: u8) -> Option<Vec<Point2
 /// The points of a way, arcs every degree or so.
 fn way(ramp: &Ramp) -> Vec<Point2<f64>> {
     let mut all = vec![ramp.start.xy()];
-    for (from, step) in ramp.walk() {
+    for (from, step) in ramp.steps_with_starts() {
         let pieces = step.bend.map_or(1, |bend| (bend.sweep.abs() * 60.0).ceil().max(1.0) as usize);
         all.extend((1..pieces).filter_map(|piece| {
             let bend = step.bend?;
@@ -143,7 +144,8 @@ fn inside(corners: &[Point2<f64>], point: Point2<f64>, near: f64) -> bool {
 
 /// The farthest that an arc of a ramp leaves the chords of 5 degrees that stand for it.
 fn bulge(ramp: &Ramp) -> f64 {
-    let radii = ramp.walk().filter_map(|(from, step)| Some((from.xy() - step.bend?.centre).norm()));
+    let radii =
+        ramp.steps_with_starts().filter_map(|(from, step)| Some((from.xy() - step.bend?.centre).norm()));
     radii.fold(0.0, f64::max) * (1.0 - 2.5f64.to_radians().cos())
 }
 
@@ -160,43 +162,43 @@ proptest! {
         first_pass in prop::option::of(place(1.0)),
         rounding in prop_oneof![3 => Just(0.0), 1 => Just(2e-4)],
     ) {
-        let limits = Limits { shortest_leg, steepest };
+        let limits = RampLimits { shortest_leg, steepest };
         let corners = any_region(&ramp, &extra, region_kind);
         let region = match &corners {
-            None => Region::Everywhere,
-            Some(corners) if region_kind < 3 => Region::hull(corners.iter().copied()),
+            None => ToolRegion::Everywhere,
+            Some(corners) if region_kind < 3 => ToolRegion::from_hull(corners.iter().copied()),
             Some(corners) => {
-                Region::polygon(&corners.iter().map(|at| [at.x, at.y]).collect::<Vec<_>>()).unwrap()
+                ToolRegion::from_polygon(&corners.iter().map(|at| [at.x, at.y]).collect::<Vec<_>>()).unwrap()
             }
         };
         let passes: Vec<_> = first_pass.map(|at| at.coords).into_iter().collect();
-        let task = Task { limits, begin, region: &region, passes: &passes, rounding };
-        let found = match correct(&ramp, &task) {
+        let task = RampTask { limits, begin, region: &region, passes: &passes, rounding };
+        let found = match correct_ramp(&ramp, &task) {
             Ok(None) => {
-                prop_assert!(keeps(&ramp, &limits, rounding));
+                prop_assert!(is_within_limits(&ramp, &limits, rounding));
                 return Ok(());
             }
             Ok(Some(found)) => found,
             Err(why) => {
-                prop_assert!(region_kind > 0 || !matches!(why, Impossible::Region(_)), "{why}");
+                prop_assert!(region_kind > 0 || !matches!(why, ImpossibleCorrection::Region(_)), "{why}");
                 return Ok(());
             }
         };
-        prop_assert!(!keeps(&ramp, &limits, rounding));
-        prop_assert!(keeps(&found.ramp, &limits, rounding));
-        prop_assert_eq!(correct(&found.ramp, &task), Ok(None), "a second time changes nothing");
+        prop_assert!(!is_within_limits(&ramp, &limits, rounding));
+        prop_assert!(is_within_limits(&found.ramp, &limits, rounding));
+        prop_assert_eq!(correct_ramp(&found.ramp, &task), Ok(None), "a second time changes nothing");
         // P1 stays across the axis, Pn altogether; nothing rises.
         prop_assert_eq!(found.ramp.start.xy(), ramp.start.xy());
-        prop_assert_eq!(found.ramp.end(), ramp.end());
-        prop_assert!(found.ramp.walk().all(|(from, step)| step.to.z <= from.z + 1e-12));
+        prop_assert_eq!(found.ramp.end_point(), ramp.end_point());
+        prop_assert!(found.ramp.steps_with_starts().all(|(from, step)| step.to.z <= from.z + 1e-12));
         prop_assert!(found.ramp.start.z <= ramp.start.z);
         // Counted anew: no step is steeper, and what moved has no leg that is shorter.
         let least = match found.lengthened {
-            Lengthened::No | Lengthened::WidenedHelix => 0.0,
-            _ if matches!(Kind::of(&found.ramp), Kind::Helix(_)) => 0.0,
+            LengtheningMethod::No | LengtheningMethod::WidenedHelix => 0.0,
+            _ if matches!(RampKind::classify_ramp(&found.ramp), RampKind::Helix(_)) => 0.0,
             _ => shortest_leg - 1e-6,
         };
-        for (from, step) in found.ramp.walk() {
+        for (from, step) in found.ramp.steps_with_starts() {
             let across = match step.bend {
                 None => (step.to.xy() - from.xy()).norm(),
                 Some(bend) => (from.xy() - bend.centre).norm() * bend.sweep.abs(),
@@ -209,7 +211,7 @@ proptest! {
         let same_way = |point: &Point2<f64>| {
             before.windows(2).any(|pair| distance(*point, [pair[0], pair[1]]) <= 1e-9 + bulge(&ramp))
         };
-        if found.lengthened == Lengthened::No && found.passes == 1 {
+        if found.lengthened == LengtheningMethod::No && found.passes == 1 {
             prop_assert_eq!(before.len(), after.len());
         }
         if let Some(corners) = &corners {
@@ -217,7 +219,7 @@ proptest! {
             for pair in after.windows(2) {
                 for share in [0.0, 0.2, 0.4, 0.5, 0.6, 0.8, 1.0] {
                     let point = pair[0] + (pair[1] - pair[0]) * share;
-                    let stays = found.lengthened == Lengthened::No && same_way(&point);
+                    let stays = found.lengthened == LengtheningMethod::No && same_way(&point);
                     prop_assert!(stays || inside(corners, point, near), "{point} of {:?}", found.lengthened);
                 }
             }
@@ -233,17 +235,17 @@ proptest! {
         let mut all = values.iter().map(|[x, y, z]| Point3::new(*x, *y, *z));
         let start = all.next().unwrap();
         let steps = all.zip(&arcs).map(|(to, arc)| {
-            Step { to, bend: arc.map(|[x, y, sweep]| Bend { centre: Point2::new(x, y), sweep }) }
+            RampStep { to, bend: arc.map(|[x, y, sweep]| RampArc { centre: Point2::new(x, y), sweep }) }
         });
         let ramp = Ramp { start, steps: steps.collect() };
-        let region = Region::hull(ramp.points().map(|point| point.xy()));
+        let region = ToolRegion::from_hull(ramp.points().map(|point| point.xy()));
         let [shortest_leg, steepest, begin] = limits;
-        let limits = Limits { shortest_leg, steepest };
-        for region in [&region, &Region::Everywhere] {
+        let limits = RampLimits { shortest_leg, steepest };
+        for region in [&region, &ToolRegion::Everywhere] {
             let passes = &[Vector2::new(begin, steepest)];
-            let task = Task { limits, begin: Some(begin), region, passes, rounding: 0.0 };
-            if let Ok(Some(found)) = correct(&ramp, &task) {
-                prop_assert!(keeps(&found.ramp, &limits, 0.0));
+            let task = RampTask { limits, begin: Some(begin), region, passes, rounding: 0.0 };
+            if let Ok(Some(found)) = correct_ramp(&ramp, &task) {
+                prop_assert!(is_within_limits(&found.ramp, &limits, 0.0));
             }
         }
     }

@@ -1,0 +1,215 @@
+//! All files of a batch, several at once.
+
+use super::batch_plan::{BatchPlan, PlannedFile, PreparedRecipe};
+use super::file_run::{self, FileRunResult, FileRunSettings};
+use super::memory_budget::{MemoryQueue, MemoryTicket};
+use super::{BatchJournal, BatchRecord, FileOutcome, JournalEntry, LockedFolder};
+use crate::diagnostic::{Diagnostic, codes};
+use crate::fingerprint::Digest;
+use crate::program::Dialect;
+use crate::report::finding_policy::FindingPolicy;
+use crate::simulation_run;
+use crate::write::Interrupt;
+use std::collections::BTreeMap;
+use std::io;
+use std::path::Path;
+use std::sync::mpsc;
+
+/// A batch that is ready to run.
+pub struct BatchRun<'a> {
+    /// Which files.
+    pub plan: &'a BatchPlan,
+    /// The recipes, in the order of the jobs.
+    pub works: &'a [PreparedRecipe],
+    /// Which findings stop a file.
+    pub policy: &'a FindingPolicy,
+    /// The dialect, where it is forced.
+    pub dialect: Option<Dialect>,
+    /// What else decides results, in words: policy and dialect.
+    pub options: &'a str,
+    /// Where outputs go.
+    pub folder: &'a LockedFolder,
+    /// The threads: so many files at once, and what steps do in parallel.
+    pub pool: &'a rayon::ThreadPool,
+    /// Memory for all files together, in bytes.
+    pub memory: u64,
+    /// Whether no file is begun after one has failed.
+    pub fail_fast: bool,
+    /// Whether files that are done and unchanged are skipped.
+    pub resume: bool,
+    /// The wish to stop.
+    pub interrupt: &'a Interrupt,
+}
+
+/// Somebody who watches a batch; called from many threads.
+pub trait BatchWatcher: Sync {
+    /// A file begins; what is returned is told how far its steps are, and asked whether to stop.
+    fn begin_file(&self, file: &PlannedFile) -> Box<dyn simulation_run::RunWatcher + '_>;
+
+    /// A file has ended; `before` if it was done by an earlier run.
+    fn end_file(&self, file: &PlannedFile, record: &BatchRecord, findings: &[Diagnostic], before: bool);
+}
+
+/// What came of a batch.
+#[derive(Debug)]
+pub struct BatchOutcome {
+    /// What became of each file, sorted by name. Those that were not run are there, too.
+    pub records: Vec<BatchRecord>,
+    /// How many were done by an earlier run.
+    pub before: usize,
+    /// Findings about the batch itself.
+    pub findings: Vec<Diagnostic>,
+    /// Whether somebody stopped it; `records` is then of no use, the journal is.
+    pub interrupted: bool,
+}
+
+impl BatchRun<'_> {
+    /// Runs it.
+    ///
+    /// # Errors
+    /// [`codes::UNWRITABLE`] if the journal cannot be begun, [`codes::OUTPUT_IN_USE`] if shards of another batch run.
+    pub fn run_batch(&self, watch: &dyn BatchWatcher) -> Result<BatchOutcome, Box<Diagnostic>> {
+        let id = self.plan.batch_id(self.works, self.options);
+        let mine = self.plan.files_of_shard(self.folder.folder().shard());
+        self.folder.check_same_batch(id)?;
+        self.folder.remove_leftovers(self.plan);
+        let known = if self.resume { self.find_finished_files(&mine) } else { BTreeMap::new() };
+        let unwritable = |error: io::Error| {
+            let journal = self.folder.folder().journal_path();
+            let message = format!("the journal {} cannot be written: {error}", journal.display());
+            Box::new(Diagnostic::new(codes::UNWRITABLE, message))
+        };
+        let journal = BatchJournal::begin_journal(self.folder, id, known.values()).map_err(unwritable)?;
+        let settings = FileRunSettings {
+            policy: self.policy,
+            dialect: self.dialect,
+            options: self.options,
+            folder: self.folder,
+            interrupt: self.interrupt,
+        };
+        let needs =
+            mine.iter().filter_map(|&index| self.plan.files.get(index).map(|file| (index, file.need)));
+        let queue = MemoryQueue::new(needs, self.memory);
+        let (tell, told) = mpsc::channel();
+        let work = |tell: mpsc::Sender<_>| {
+            while let Some(ticket) = queue.take_next() {
+                // In the pool, so that all files and what their steps do in parallel have so many threads together; the
+                // wait for room is outside, where it keeps no thread from its work.
+                let ended = self.pool.install(|| self.run_ticket(settings, &ticket, &known, &journal, watch));
+                let stop = ended.as_ref().is_none_or(|(_, end)| self.fail_fast && end.has_failed());
+                if stop || self.interrupt.is_raised() {
+                    queue.close_queue();
+                }
+                if let Some(ended) = ended {
+                    // The receiver lives longer than this.
+                    let _ = tell.send(ended);
+                }
+            }
+        };
+        let work = &work;
+        std::thread::scope(|scope| {
+            for _ in 1..self.pool.current_num_threads().min(mine.len()) {
+                let tell = tell.clone();
+                // Where the system gives no more threads, those there are do it.
+                let _ = std::thread::Builder::new().spawn_scoped(scope, move || work(tell));
+            }
+            work(tell);
+        });
+        Ok(self.gather_records(&mine, told.into_iter().collect()))
+    }
+
+    fn find_finished_files(&self, mine: &[usize]) -> BTreeMap<usize, JournalEntry> {
+        let mut all = BatchJournal::read_entries(self.folder);
+        let files = mine.iter().filter_map(|&index| Some((index, self.plan.files.get(index)?)));
+        files
+            .filter_map(|(index, file)| {
+                Some((index, all.remove(&(file.input.clone(), file.output_name.clone()))?))
+            })
+            .collect()
+    }
+
+    /// Does the file of a ticket; `None` once somebody stopped the batch.
+    fn run_ticket(
+        &self,
+        settings: FileRunSettings<'_>,
+        ticket: &MemoryTicket<'_>,
+        known: &BTreeMap<usize, JournalEntry>,
+        journal: &BatchJournal,
+        watch: &dyn BatchWatcher,
+    ) -> Option<(usize, FileCompletion)> {
+        let file = self.plan.files.get(ticket.file)?;
+        let work = self.works.get(file.job)?;
+        if self.interrupt.is_raised() {
+            return None;
+        }
+        let steps = watch.begin_file(file);
+        let ended = file_run::run_file(settings, file, work, known.get(&ticket.file), steps.as_ref());
+        let (record, findings, key, before) = match ended {
+            FileRunResult::Before(record) => (record, Vec::new(), None, true),
+            FileRunResult::Now { record, findings, key } => (record, findings, key, false),
+            FileRunResult::Interrupted => return None,
+        };
+        drop(steps);
+        watch.end_file(file, &record, &findings, before);
+        let lost = key.and_then(|key| journal.add_entry(&JournalEntry { key, record: record.clone() }).err());
+        Some((ticket.file, FileCompletion { record, before, lost }))
+    }
+
+    fn gather_records(&self, mine: &[usize], ended: Vec<(usize, FileCompletion)>) -> BatchOutcome {
+        let mut ended: BTreeMap<usize, FileCompletion> = ended.into_iter().collect();
+        let interrupted = self.interrupt.is_raised();
+        let mut ran = BatchOutcome {
+            records: Vec::new(),
+            before: 0,
+            findings: self.find_changed_inputs(),
+            interrupted,
+        };
+        for &index in mine {
+            let Some(file) = self.plan.files.get(index) else { continue };
+            let Some(FileCompletion { record, before, lost }) = ended.remove(&index) else {
+                let work = self.works.get(file.job);
+                ran.records.extend(work.map(|work| BatchRecord::new(file, work, FileOutcome::NotRun)));
+                continue;
+            };
+            ran.before += usize::from(before);
+            ran.records.push(record);
+            ran.findings.extend(lost.map(|error| {
+                let message = format!(
+                    "the journal cannot be written: {error}; --resume will do again what came after {}",
+                    file.input
+                );
+                Diagnostic::new(codes::UNWRITABLE, message)
+            }));
+        }
+        ran
+    }
+
+    /// Setups and models that are no longer what the results were made with.
+    fn find_changed_inputs(&self) -> Vec<Diagnostic> {
+        let prints = self.works.iter().flat_map(|work| &work.print.files);
+        let all: BTreeMap<&str, Digest> = prints.map(|file| (file.path.as_str(), file.sha256)).collect();
+        let changed = all.into_iter().filter(|(path, then)| {
+            // Names that are no UTF-8 were opened by another path than is known here; they are left out.
+            Digest::from_file(Path::new(path)).is_ok_and(|now| now != *then)
+        });
+        changed
+            .map(|(path, _)| {
+                let message = format!("{path} was changed while the batch ran");
+                Diagnostic::new(codes::INPUT_CHANGED, message)
+                    .with_help("Some files may have been done with the old one and some with the new: run the batch again, without --resume.")
+            })
+            .collect()
+    }
+}
+
+struct FileCompletion {
+    record: BatchRecord,
+    before: bool,
+    lost: Option<io::Error>,
+}
+
+impl FileCompletion {
+    fn has_failed(&self) -> bool {
+        self.record.outcome == FileOutcome::Failed
+    }
+}

@@ -1,0 +1,226 @@
+//! One file of a batch: read, correct, look whether it is still the same, write.
+
+use super::batch_plan::{PlannedFile, PreparedRecipe, report_outside_link};
+use super::{BatchRecord, FileOutcome, JournalEntry, LockedFolder, StatementChangeCounts};
+use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
+use crate::fingerprint::Digest;
+use crate::job::{self, CorrectionJob};
+use crate::program::{Dialect, Program};
+use crate::report::finding_policy::FindingPolicy;
+use crate::simulation_run::RunWatcher;
+use crate::source::Source;
+use crate::write::{Interrupt, is_interrupt};
+use std::fs::{self, Metadata};
+use std::io::{self, Read, Write};
+use std::path::Path;
+use std::time::{Duration, Instant, SystemTime};
+
+/// What all files of a batch are done with.
+#[derive(Clone, Copy)]
+pub(super) struct FileRunSettings<'a> {
+    pub policy: &'a FindingPolicy,
+    pub dialect: Option<Dialect>,
+    pub options: &'a str,
+    pub folder: &'a LockedFolder,
+    pub interrupt: &'a Interrupt,
+}
+
+/// How a file ended.
+pub(super) enum FileRunResult {
+    /// It was done before, and nothing changed since.
+    Before(BatchRecord),
+    /// It is done now. The key is there if its output is.
+    Now { record: BatchRecord, findings: Vec<Diagnostic>, key: Option<Digest> },
+    /// Somebody stopped the batch; nothing was written.
+    Interrupted,
+}
+
+/// A file younger than this may be changed again within one tick of the file system's clock, so its time proves nothing.
+const YOUNG: Duration = Duration::from_secs(2);
+
+pub(super) fn run_file(
+    settings: FileRunSettings<'_>,
+    file: &PlannedFile,
+    work: &PreparedRecipe,
+    before: Option<&JournalEntry>,
+    watch: &dyn RunWatcher,
+) -> FileRunResult {
+    if let Some(done) = before.filter(|done| is_still_done(settings, file, work, done)) {
+        // A recipe that was moved is the same recipe; its name is the one of now.
+        return FileRunResult::Before(BatchRecord { recipe: work.name.clone(), ..done.record.clone() });
+    }
+    let started = Instant::now();
+    let mut record = BatchRecord::new(file, work, FileOutcome::Failed);
+    let findings = match correct_file(settings, file, work, &mut record, watch) {
+        Ok(findings) => findings,
+        Err(FileRunStop::Interrupted) => return FileRunResult::Interrupted,
+        Err(FileRunStop::Found(found)) => settings.policy.apply(vec![*found]),
+    };
+    record.count_findings(&findings, &file.input.to_string());
+    record.seconds = Some(started.elapsed().as_secs_f64());
+    let input = record.sha256.input.filter(|_| record.outcome.is_written());
+    let key = input.map(|input| work.print.result_key(input, settings.options));
+    FileRunResult::Now { record, findings, key }
+}
+
+/// Whether input, recipe, options and version are those of then, and the output is still what was written.
+fn is_still_done(
+    settings: FileRunSettings<'_>,
+    file: &PlannedFile,
+    work: &PreparedRecipe,
+    done: &JournalEntry,
+) -> bool {
+    let is_file = |path: &Path| fs::symlink_metadata(path).is_ok_and(|there| there.is_file());
+    let output = settings.folder.folder().root().join(&file.output);
+    done.record.outcome.is_written()
+        && fs::metadata(&file.path).is_ok_and(|there| there.is_file())
+        && is_file(&output)
+        && Digest::from_file(&file.path)
+            .is_ok_and(|now| work.print.result_key(now, settings.options) == done.key)
+        && Digest::from_file(&output).is_ok_and(|now| done.record.sha256.output == Some(now))
+}
+
+/// An input that somebody wrote to while it was read.
+pub fn report_input_changed(name: &str) -> Diagnostic {
+    Diagnostic::new(codes::INPUT_CHANGED, format!("{name} was changed while it was read"))
+}
+
+enum FileRunStop {
+    Found(Box<Diagnostic>),
+    Interrupted,
+}
+
+impl FileRunStop {
+    fn from_finding(code: DiagnosticCode, message: String) -> Self {
+        Self::Found(Box::new(Diagnostic::new(code, message)))
+    }
+}
+
+fn correct_file(
+    settings: FileRunSettings<'_>,
+    file: &PlannedFile,
+    work: &PreparedRecipe,
+    record: &mut BatchRecord,
+    watch: &dyn RunWatcher,
+) -> Result<Vec<Diagnostic>, FileRunStop> {
+    let name = file.input.to_string();
+    let unreadable = |error: io::Error| {
+        FileRunStop::from_finding(codes::UNREADABLE, format!("{name} cannot be read: {error}"))
+    };
+    let began = SystemTime::now();
+    let (bytes, stamp) = read_input(&file.path).map_err(unreadable)?;
+    let source = Source::new(name.clone(), bytes)
+        .map_err(|error| FileRunStop::from_finding(codes::TOO_LARGE, error.to_string()))?;
+    let digest = Digest::from_bytes(source.bytes());
+    record.sha256.input = Some(digest);
+    let job = CorrectionJob {
+        recipe: &work.recipe,
+        setup: &work.setup,
+        print: Some(&work.print),
+        policy: settings.policy,
+        dialect: settings.dialect,
+        watch,
+    };
+    let done = job.correct_source(&source);
+    if settings.interrupt.is_raised() {
+        return Err(FileRunStop::Interrupted);
+    }
+    if !is_unchanged(&file.path, &stamp, began, digest).map_err(unreadable)? {
+        return Err(FileRunStop::Found(Box::new(report_input_changed(&name))));
+    }
+    if let Some(program) = done.program {
+        write_corrected(settings, file, &program)?;
+        record.sha256.output =
+            Some(Digest::from_reader(ChunkReader::new(program.byte_chunks())).map_err(unreadable)?);
+        record.changed = StatementChangeCounts::count_changes(&program);
+        record.outcome =
+            if job::is_program_changed(&program) { FileOutcome::Corrected } else { FileOutcome::Unchanged };
+    }
+    Ok(done.findings)
+}
+
+/// What tells a file from a changed one without reading it.
+#[derive(PartialEq)]
+struct InputStamp {
+    size: u64,
+    modified: Option<SystemTime>,
+}
+
+impl InputStamp {
+    fn from_metadata(there: &Metadata) -> Self {
+        Self { size: there.len(), modified: there.modified().ok() }
+    }
+}
+
+fn read_input(path: &Path) -> io::Result<(Vec<u8>, InputStamp)> {
+    // Looked at before it is opened: opening a pipe waits for somebody to write.
+    if !fs::metadata(path)?.is_file() {
+        return Err(io::Error::other("it is no file"));
+    }
+    let mut file = fs::File::open(path)?;
+    let there = file.metadata()?;
+    let mut bytes = Vec::with_capacity(usize::try_from(there.len()).unwrap_or_default());
+    file.read_to_end(&mut bytes)?;
+    Ok((bytes, InputStamp::from_metadata(&there)))
+}
+
+/// Whether a file is the one that was read, from `began` on.
+fn is_unchanged(path: &Path, stamp: &InputStamp, began: SystemTime, digest: Digest) -> io::Result<bool> {
+    if InputStamp::from_metadata(&fs::metadata(path)?) != *stamp {
+        return Ok(false);
+    }
+    let young = |modified: SystemTime| began.duration_since(modified).map_or(true, |age| age < YOUNG);
+    if stamp.modified.is_none_or(young) { Ok(Digest::from_file(path)? == digest) } else { Ok(true) }
+}
+
+fn write_corrected(
+    settings: FileRunSettings<'_>,
+    file: &PlannedFile,
+    program: &Program,
+) -> Result<(), FileRunStop> {
+    let folder = settings.folder.folder();
+    let target = folder.root().join(&file.output);
+    let unwritable = |error: io::Error| {
+        FileRunStop::from_finding(
+            codes::UNWRITABLE,
+            format!("{} cannot be written: {error}", file.output_name),
+        )
+    };
+    if let Some(parent) = target.parent() {
+        fs::create_dir_all(parent).map_err(unwritable)?;
+    }
+    // Again: somebody may have put a link there since the batch was planned.
+    let mut parts = file.output.ancestors().filter(|path| !path.as_os_str().is_empty());
+    if let Some(link) = parts.find(|path| folder.is_link(path)) {
+        return Err(FileRunStop::Found(Box::new(report_outside_link(link))));
+    }
+    let all = |out: &mut dyn Write| program.byte_chunks().try_for_each(|piece| out.write_all(piece));
+    folder
+        .temporary_files()
+        .write_file(&target, settings.interrupt, all)
+        .map_err(|error| if is_interrupt(&error) { FileRunStop::Interrupted } else { unwritable(error) })
+}
+
+/// Slices one after the other, to be read.
+struct ChunkReader<'p, I> {
+    pieces: I,
+    now: &'p [u8],
+}
+
+impl<'p, I: Iterator<Item = &'p [u8]>> ChunkReader<'p, I> {
+    fn new(pieces: I) -> Self {
+        Self { pieces, now: &[] }
+    }
+}
+
+impl<'p, I: Iterator<Item = &'p [u8]>> Read for ChunkReader<'p, I> {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        while self.now.is_empty() {
+            match self.pieces.next() {
+                Some(piece) => self.now = piece,
+                None => return Ok(0),
+            }
+        }
+        self.now.read(into)
+    }
+}

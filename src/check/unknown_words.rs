@@ -1,0 +1,69 @@
+//! Words that clsmith does not know.
+
+use super::{Lint, LintFindings};
+use crate::diagnostic::codes;
+use crate::program::{Record, Statement};
+
+/// Words whose loss changes what the machine does.
+const MATTER: &[&str] = &[
+    "GOTO",
+    "FROM",
+    "GOHOME",
+    "GODLTA",
+    "CIRCLE",
+    "MOVARC",
+    "INDIRV",
+    "RAPID",
+    "NURBS",
+    "KNOT",
+    "CNTRL",
+    "FEDRAT",
+    "SPINDL",
+    "CUTCOM",
+    "COOLNT",
+    "CYCLE",
+    "LOADTL",
+    "LOAD",
+    "TOOLNO",
+    "TLDATA",
+    "CUTTER",
+    "TLAXIS",
+    "MULTAX",
+    "MSYS",
+    "CSYS",
+    "TRANS",
+    "ORIGIN",
+    "ROTABL",
+    "UNITS",
+    "DELAY",
+    "FINI",
+    "STOP",
+    "END-OF-PATH",
+];
+
+/// Unknown words, and those that look like a slip.
+#[derive(Default)]
+pub(super) struct UnknownWordLint {
+    ended: bool,
+}
+
+impl Lint for UnknownWordLint {
+    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
+        self.ended |= matches!(statement.record(), Record::ProgramEnd);
+        // What stands after the end has its own finding.
+        if self.ended || !matches!(statement.record(), Record::Other) {
+            return;
+        }
+        let syntax = found.statement_syntax(index);
+        let major = syntax.major_word();
+        let span = found.text_span(index, &syntax.word);
+        let meant = MATTER.iter().find(|word| strsim::osa_distance(&major, word) == 1);
+        match meant {
+            Some(word) => {
+                let message = format!("`{major}` is not known; did you mean `{word}`?");
+                found.report(codes::MISSPELT_WORD, span, message, "");
+            }
+            None => found.report(codes::UNKNOWN_WORD, span, format!("the word `{major}` is not known"), ""),
+        }
+    }
+}

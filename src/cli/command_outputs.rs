@@ -1,0 +1,124 @@
+//! Writing outputs, and Ctrl-C.
+
+use super::input_files::STANDARD;
+use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::write::{Interrupt, is_interrupt, is_same_file, write_atomically_unless};
+use std::io::{self, Write};
+use std::path::Path;
+use std::sync::{Arc, LockResult, Mutex, MutexGuard};
+
+/// Where outputs are written: one at a time, and to its end or not at all.
+#[derive(Clone, Default)]
+pub struct CommandOutputs {
+    interrupt: Interrupt,
+    writing: Arc<Mutex<()>>,
+}
+
+impl CommandOutputs {
+    /// The wish to stop.
+    pub fn interrupt(&self) -> &Interrupt {
+        &self.interrupt
+    }
+
+    /// Ctrl-C ends the process at once, but while an output is written: then the writer stops between two chunks and takes its
+    /// temporary file along. `before` is done before the last word.
+    pub fn stop_on_ctrl_c(&self, before: impl Fn() + Send + 'static) -> io::Result<()> {
+        let Self { interrupt, writing } = self.clone();
+        ctrlc::set_handler(move || {
+            interrupt.raise();
+            if let Ok(_nobody_writes) = writing.try_lock() {
+                before();
+                eprintln!("clsmith: stopped");
+                std::process::exit(130);
+            }
+        })
+        .map_err(io::Error::other)
+    }
+
+    /// For work on many files: the first Ctrl-C asks it to stop, so that it can end what it began, the second ends the process
+    /// at once. `before` is done before any word.
+    pub fn stop_gently(&self, before: impl Fn() + Send + 'static) -> io::Result<()> {
+        let interrupt = self.interrupt.clone();
+        ctrlc::set_handler(move || {
+            before();
+            if interrupt.is_raised() {
+                eprintln!("clsmith: stopped");
+                std::process::exit(130);
+            }
+            interrupt.raise();
+            eprintln!("clsmith: stopping; Ctrl-C again ends it at once");
+        })
+        .map_err(io::Error::other)
+    }
+
+    /// Writes an output; a finding when that fails for another reason than Ctrl-C or a reader that went away.
+    pub fn write_output(
+        &self,
+        target: &Path,
+        write_all: impl Fn(&mut dyn Write) -> io::Result<()>,
+    ) -> io::Result<Option<Diagnostic>> {
+        let _held = self.hold_ctrl_c();
+        self.write_held_output(target, write_all)
+    }
+
+    /// Keeps Ctrl-C from ending the process at once, for who has something to take away first and looks at the interrupt.
+    pub fn hold_ctrl_c(&self) -> LockResult<MutexGuard<'_, ()>> {
+        self.writing.lock()
+    }
+
+    /// As [`CommandOutputs::write_output`], for who holds the outputs already.
+    pub fn write_held_output(
+        &self,
+        target: &Path,
+        write_all: impl Fn(&mut dyn Write) -> io::Result<()>,
+    ) -> io::Result<Option<Diagnostic>> {
+        let done = if target == Path::new(STANDARD) {
+            let mut out = io::BufWriter::new(io::stdout().lock());
+            write_all(&mut out).and_then(|()| out.flush())
+        } else {
+            write_atomically_unless(target, &self.interrupt, write_all)
+        };
+        match done {
+            Ok(()) => Ok(None),
+            Err(error) if is_interrupt(&error) || error.kind() == io::ErrorKind::BrokenPipe => Err(error),
+            Err(error) => Ok(Some(report_unwritable(target, &error))),
+        }
+    }
+}
+
+/// A finding when an output would go over an input; standard input and output are no files.
+pub fn find_overwritten_input<'a>(
+    mut outputs: impl Iterator<Item = &'a Path>,
+    inputs: &[&Path],
+) -> Option<Diagnostic> {
+    outputs.find_map(|target| {
+        let files = inputs.iter().filter(|path| **path != Path::new(STANDARD));
+        let mut files = files.filter(|_| target != Path::new(STANDARD));
+        let hit = files.find(|path| is_same_file(path, target))?;
+        let message = format!("writing {} would overwrite the input {}", target.display(), hit.display());
+        Some(Diagnostic::new(codes::OUTPUT_IS_INPUT, message))
+    })
+}
+
+/// An output that cannot be written.
+pub fn report_unwritable(target: &Path, error: &io::Error) -> Diagnostic {
+    Diagnostic::new(codes::UNWRITABLE, format!("{} cannot be written: {error}", target.display()))
+}
+
+/// What only people see may fail: with `clsmith ... 2>&1 | head` the outputs are still written.
+pub fn ignore_closed_pipe(shown: io::Result<()>) -> io::Result<()> {
+    match shown {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        shown => shown,
+    }
+}
+
+/// A summary on standard output, or on standard error when an output goes there.
+pub fn print_summary(text: &str, output_is_taken: bool) -> io::Result<()> {
+    if output_is_taken {
+        return io::stderr().lock().write_all(text.as_bytes());
+    }
+    let mut out = io::stdout().lock();
+    out.write_all(text.as_bytes())?;
+    out.flush()
+}

@@ -1,0 +1,80 @@
+//! Options of findings, and showing them.
+
+use super::terminal::{self, ColorMode};
+use clap::{Args, ValueEnum};
+use clsmith::diagnostic::Diagnostic;
+use clsmith::report::finding_policy::FindingPolicy;
+use clsmith::report::render::{human, json, line, sarif};
+use std::io::{self, Write};
+
+/// Form of findings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FindingFormat {
+    /// With the lines they are about, for people.
+    Human,
+    /// `file:line:column: CODE: message`, for editors.
+    Line,
+    /// JSON.
+    Json,
+    /// SARIF 2.1.0, for code hosts.
+    Sarif,
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Findings")]
+pub struct FindingArgs {
+    /// Treat a code as an error; `warnings` for all of them. May be given several times
+    #[arg(long, value_name = "CODE", value_delimiter = ',')]
+    deny: Vec<String>,
+    /// Drop a code: it is not shown and does not stop anything. May be given several times
+    #[arg(long, value_name = "CODE", value_delimiter = ',')]
+    allow: Vec<String>,
+    /// Show notes, too
+    #[arg(long)]
+    notes: bool,
+    /// Form of the findings
+    #[arg(long, value_enum, default_value = "human", value_name = "FORM")]
+    pub format: FindingFormat,
+    /// How many findings of one code are shown to people; 0 shows all
+    #[arg(long, default_value_t = 10, value_name = "N")]
+    max_per_code: usize,
+    /// Colours in what people read
+    #[arg(long, value_enum, default_value = "auto", value_name = "WHEN")]
+    pub color: ColorMode,
+}
+
+impl FindingArgs {
+    /// The policy that the options ask for.
+    pub fn build_policy(&self) -> Result<FindingPolicy, String> {
+        FindingPolicy::from_code_lists(
+            self.deny.iter().map(String::as_str),
+            self.allow.iter().map(String::as_str),
+            self.notes,
+        )
+    }
+
+    /// Writes findings in the form asked for. `file` is the run's one file, if it has one.
+    pub fn write_findings(
+        &self,
+        out: &mut dyn Write,
+        is_terminal: bool,
+        findings: &[Diagnostic],
+        file: Option<&str>,
+    ) -> io::Result<()> {
+        match self.format {
+            FindingFormat::Human => {
+                let options = human::HumanRenderOptions {
+                    color: self.color.is_wanted(is_terminal),
+                    unicode: terminal::has_unicode(),
+                    width: terminal::width_columns(),
+                    per_code: self.max_per_code,
+                    ..human::HumanRenderOptions::default()
+                };
+                human::render_human(out, findings, file, &options)
+            }
+            FindingFormat::Line => line::render_lines(out, findings, file),
+            FindingFormat::Json => json::render_json(out, findings),
+            FindingFormat::Sarif => sarif::render_sarif(out, findings, file),
+        }
+    }
+}

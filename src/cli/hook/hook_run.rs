@@ -1,0 +1,295 @@
+//! One run of the hook, from the export to the line in the log.
+
+use super::exit_codes::{REFUSED, STOPPED, judge_post_outcome};
+use super::post_process::{self, PostOutcome};
+use super::post_workspace::PostWorkspace;
+use super::{HookArgs, OnError};
+use crate::cli::command_exit::CommandExit;
+use crate::cli::command_outputs::{CommandOutputs, ignore_closed_pipe, report_unwritable};
+use crate::cli::input_files;
+use crate::cli::progress::CommandProgress;
+use crate::cli::terminal::escape_controls;
+use crate::cli::unattended::{
+    self, LogLine, LoggedInput, LoggedOutput, RunLog, UnattendedCorrection, UnattendedOutcome,
+};
+use clsmith::batch;
+use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::fingerprint::Digest;
+use clsmith::report::finding_policy::FindingPolicy;
+use clsmith::report::{changes, step_report};
+use clsmith::source::Source;
+use clsmith::write::{is_interrupt, is_same_file};
+use serde::Serialize;
+use std::ffi::{OsStr, OsString};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// What is known of a run so far; in the end it becomes a line of the log.
+pub struct HookRun<'h> {
+    hook: &'h HookArgs,
+    outputs: &'h CommandOutputs,
+    log: Option<RunLog>,
+    started: Instant,
+    time: String,
+    input: LoggedInput,
+    correction: UnattendedCorrection,
+    output: Option<LoggedOutput>,
+    post: Option<LoggedPost>,
+}
+
+/// What the log says about the post.
+#[derive(Debug, Serialize)]
+struct LoggedPost {
+    /// As it stands after `--`, `{}` included.
+    command: Vec<String>,
+    /// `exit`, `signal`, `timed_out`, `stopped`, `missing`, `not_started`.
+    ended: &'static str,
+    /// The exit code or the signal.
+    code: Option<i32>,
+    seconds: f64,
+    /// Files that it left beside the program, where they were put.
+    left: Vec<String>,
+}
+
+/// What only the hook's lines say.
+#[derive(Debug, Serialize)]
+struct HookLogFields<'r> {
+    post: Option<&'r LoggedPost>,
+    exit: i32,
+}
+
+impl<'h> HookRun<'h> {
+    pub fn new(hook: &'h HookArgs, outputs: &'h CommandOutputs, log: Option<RunLog>) -> Self {
+        let input = LoggedInput { path: hook.input.to_string_lossy().into_owned(), sha256: None };
+        Self {
+            hook,
+            outputs,
+            log,
+            started: Instant::now(),
+            time: unattended::utc_now(),
+            input,
+            correction: UnattendedCorrection::refused(Vec::new()),
+            output: None,
+            post: None,
+        }
+    }
+
+    /// Corrects, keeps, posts, logs.
+    pub fn run_hook(mut self, policy: &FindingPolicy, progress: &CommandProgress) -> io::Result<CommandExit> {
+        let source = match input_files::read_source(&self.hook.input) {
+            Ok(source) => source,
+            Err(found) => {
+                self.show_and_keep_findings(vec![*found])?;
+                return self.finish_and_log(REFUSED);
+            }
+        };
+        self.input.sha256 = Some(Digest::from_bytes(source.bytes()));
+        // From here on Ctrl-C leaves a line in the log and no file behind.
+        let outputs = self.outputs;
+        let _held = outputs.hold_ctrl_c();
+        progress.begin_bar(&self.input.path);
+        self.correction = self.correct_source(policy, progress, &source);
+        progress.clear_bar();
+        if outputs.interrupt().is_raised() {
+            return self.finish_and_log(STOPPED);
+        }
+        self.hook.show_findings(&self.correction.findings)?;
+        let passes_original = self.hook.on_error == OnError::PassOriginal;
+        if self.correction.outcome == UnattendedOutcome::Refused {
+            if !passes_original {
+                return self.finish_and_log(REFUSED);
+            }
+            self.correction.outcome = UnattendedOutcome::PassedOriginal;
+            let message = format!(
+                "{} goes to the post UNTOUCHED, without what the recipe is there for",
+                self.input.path
+            );
+            self.show_and_keep_findings(vec![Diagnostic::new(codes::PASSED_ORIGINAL, message)])?;
+        }
+        if let Some(found) = self.keep_program(&source)? {
+            self.show_and_keep_findings(vec![found])?;
+            if !passes_original {
+                self.correction.outcome = UnattendedOutcome::Refused;
+                return self.finish_and_log(REFUSED);
+            }
+        }
+        if let Some(found) = self.check_input_unchanged() {
+            self.show_and_keep_findings(vec![found])?;
+            self.correction.outcome = UnattendedOutcome::Refused;
+            return self.finish_and_log(REFUSED);
+        }
+        let exit = self.run_post(&source)?;
+        self.finish_and_log(exit)
+    }
+
+    fn correct_source(
+        &self,
+        policy: &FindingPolicy,
+        progress: &CommandProgress,
+        source: &Arc<Source>,
+    ) -> UnattendedCorrection {
+        let args = &self.hook.recipe;
+        let name = self.hook.program_file_name().to_string_lossy();
+        match args.read_chooser() {
+            Ok(chooser) => unattended::correct_unattended(args, &chooser, policy, progress, &name, source),
+            Err(found) => UnattendedCorrection::without_recipe(found),
+        }
+    }
+
+    /// Shows findings and remembers them.
+    fn show_and_keep_findings(&mut self, findings: Vec<Diagnostic>) -> io::Result<()> {
+        self.hook.show_findings(&findings)?;
+        self.correction.findings.extend(findings);
+        Ok(())
+    }
+
+    /// What there is to say when the export is not what was read any more: who writes it was not done.
+    fn check_input_unchanged(&self) -> Option<Diagnostic> {
+        let now = Digest::from_file(&self.hook.input).ok();
+        (now != self.input.sha256).then(|| batch::report_input_changed(&self.input.path))
+    }
+
+    /// Keeps what the post is to get.
+    fn keep_program(&self, source: &Arc<Source>) -> io::Result<Option<Diagnostic>> {
+        let Some(target) = self.hook.keep_path() else { return Ok(None) };
+        if let Some(hit) = self.list_read_files().into_iter().find(|path| is_same_file(path, &target)) {
+            let message = format!("keeping {} would overwrite {}", target.display(), hit.display());
+            return Ok(Some(Diagnostic::new(codes::OUTPUT_IS_INPUT, message)));
+        }
+        if let Some(folder) = self.hook.keep_folder()
+            && let Err(error) = std::fs::create_dir_all(folder)
+        {
+            return Ok(Some(report_unwritable(folder, &error)));
+        }
+        let written = self.outputs.write_held_output(&target, |out| {
+            self.correction.byte_chunks(source).try_for_each(|piece| out.write_all(piece))
+        });
+        match written {
+            // The wish to stop is looked at again before the post runs.
+            Err(error) if is_interrupt(&error) => Ok(None),
+            written => written,
+        }
+    }
+
+    /// Files of this run that nothing may overwrite.
+    fn list_read_files(&self) -> Vec<PathBuf> {
+        let given = self.hook.recipe.input_files().chain([&self.hook.input]).chain(&self.hook.log).cloned();
+        let print = self.correction.recipe.iter().flat_map(|recipe| &recipe.print.files);
+        given.chain(print.map(|file| PathBuf::from(&file.path))).collect()
+    }
+
+    /// Runs the post; the exit code.
+    fn run_post(&mut self, source: &Arc<Source>) -> io::Result<i32> {
+        let desk = match PostWorkspace::create_with_program(
+            self.hook.program_file_name(),
+            self.correction.byte_chunks(source),
+        ) {
+            Ok(desk) => desk,
+            Err(found) => {
+                self.show_and_keep_findings(vec![*found])?;
+                self.correction.outcome = UnattendedOutcome::Refused;
+                return Ok(REFUSED);
+            }
+        };
+        if !self.hook.quiet {
+            ignore_closed_pipe(self.show_summary())?;
+        }
+        self.output = Some(LoggedOutput {
+            path: self.hook.keep_path().map(|path| path.to_string_lossy().into_owned()),
+            sha256: Digest::from_chunks(self.correction.byte_chunks(source)),
+        });
+        let (program, arguments) = match self.hook.post.split_first() {
+            Some((program, arguments)) => (program.as_os_str(), arguments),
+            None => (OsStr::new(""), Default::default()),
+        };
+        let path = desk.program_path().as_os_str();
+        let arguments: Vec<OsString> =
+            arguments.iter().map(|argument| post_process::fill_path_mark(argument, path)).collect();
+        let begun = Instant::now();
+        let ended = post_process::run_post(program, &arguments, self.hook.timeout, self.outputs.interrupt())?;
+        let mut record = LoggedPost::new(&self.hook.post, &ended, begun.elapsed().as_secs_f64());
+        let (mut exit, found) = judge_post_outcome(&program.to_string_lossy(), self.hook.timeout, &ended);
+        let mut found: Vec<Diagnostic> = found.into_iter().collect();
+        if matches!(ended, PostOutcome::Exit(_)) {
+            let mut protected = self.list_read_files();
+            protected.extend(self.hook.keep_path());
+            let folder = self.hook.input.parent().unwrap_or(Path::new(""));
+            let (put, faults) = desk.copy_post_outputs(folder, &protected, self.outputs.interrupt());
+            if !self.hook.quiet {
+                put.iter().for_each(|path| {
+                    eprintln!("{}: from the post", escape_controls(&path.to_string_lossy()))
+                });
+            }
+            record.left = put.iter().map(|path| path.to_string_lossy().into_owned()).collect();
+            // Who looks at the code alone must not take an older NC program for the new one.
+            if exit == 0 && faults.iter().any(Diagnostic::is_error) {
+                exit = REFUSED;
+            }
+            found.extend(faults);
+        }
+        found.extend(desk.remove_folder().err().map(|found| *found));
+        self.post = Some(record);
+        self.show_and_keep_findings(found)?;
+        Ok(exit)
+    }
+
+    /// What the recipe did, for who looks on.
+    fn show_summary(&self) -> io::Result<()> {
+        let mut err = io::stderr().lock();
+        let name = escape_controls(&self.input.path);
+        let recipe = self.correction.recipe.as_ref();
+        let by = recipe.map(|recipe| format!("{} ({})", recipe.path, recipe.chosen_by)).unwrap_or_default();
+        match self.correction.outcome {
+            UnattendedOutcome::Corrected => {
+                writeln!(err, "{name}: corrected by {by}")?;
+                err.write_all(changes::steps_to_text(&self.correction.steps).as_bytes())?;
+            }
+            UnattendedOutcome::Unchanged => writeln!(err, "{name}: {by} found nothing to change")?,
+            UnattendedOutcome::Passed => {
+                writeln!(err, "{name}: no rule fits, so it goes to the post as it is")?
+            }
+            UnattendedOutcome::PassedOriginal | UnattendedOutcome::Refused | UnattendedOutcome::Stopped => {}
+        }
+        let mut reports = self.correction.reports.iter();
+        reports.try_for_each(|report| err.write_all(step_report::to_text(report).as_bytes()))
+    }
+
+    /// The last word, and the line in the log.
+    fn finish_and_log(mut self, exit: i32) -> io::Result<CommandExit> {
+        let stopped = self.outputs.interrupt().is_raised()
+            && self.post.as_ref().is_none_or(|post| matches!(post.ended, "stopped"));
+        let exit = if stopped { STOPPED } else { exit };
+        if stopped {
+            self.correction.outcome = UnattendedOutcome::Stopped;
+            eprintln!("clsmith: stopped");
+        } else if self.correction.outcome == UnattendedOutcome::Refused {
+            eprintln!("{}: nothing was posted", escape_controls(&self.input.path));
+        }
+        let Some(mut log) = self.log.take() else { return Ok(CommandExit::Posted(exit)) };
+        let more = HookLogFields { post: self.post.as_ref(), exit };
+        let when = (self.time.as_str(), self.started);
+        let output = self.output.as_ref();
+        let record = LogLine::from_correction("hook", when, &self.input, &self.correction, output, more);
+        if let Err(found) = log.add_line(&record) {
+            self.hook.show_findings(&[*found])?;
+        }
+        Ok(CommandExit::Posted(exit))
+    }
+}
+
+impl LoggedPost {
+    fn new(command: &[OsString], ended: &PostOutcome, seconds: f64) -> Self {
+        let (ended, code) = match ended {
+            PostOutcome::Exit(code) => ("exit", Some(*code)),
+            PostOutcome::Signal(signal) => ("signal", Some(*signal)),
+            PostOutcome::TimedOut => ("timed_out", None),
+            PostOutcome::Stopped => ("stopped", None),
+            PostOutcome::Missing(_) => ("missing", None),
+            PostOutcome::NotStarted(_) => ("not_started", None),
+        };
+        let command = command.iter().map(|part| part.to_string_lossy().into_owned()).collect();
+        Self { command, ended, code, seconds, left: Vec::new() }
+    }
+}

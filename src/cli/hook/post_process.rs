@@ -1,0 +1,138 @@
+//! The post-processor: an external program that is started, waited for, and stopped with all it started.
+
+use clsmith::write::Interrupt;
+use process_wrap::std::{ChildWrapper, CommandWrap};
+use std::ffi::{OsStr, OsString};
+use std::io;
+use std::process::{Command, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
+
+/// The longest pause between two looks at the post.
+const LONGEST_PAUSE: Duration = Duration::from_millis(50);
+
+/// What stands for the program in arguments.
+pub const MARK: &str = "{}";
+
+/// How the post ended.
+#[derive(Debug)]
+pub enum PostOutcome {
+    /// By itself, with this code.
+    Exit(i32),
+    /// By this signal.
+    Signal(i32),
+    /// The time was over.
+    TimedOut,
+    /// Ctrl-C.
+    Stopped,
+    /// It was not found.
+    Missing(io::Error),
+    /// It could not be started.
+    NotStarted(io::Error),
+}
+
+/// Starts a program with its arguments as they are, waits for it, and kills it and everything it started when the time is
+/// over or somebody wants to stop. Its output goes where ours goes; its input is empty, so that a question cannot hang it.
+pub fn run_post(
+    program: &OsStr,
+    arguments: &[OsString],
+    timeout: Option<Duration>,
+    interrupt: &Interrupt,
+) -> io::Result<PostOutcome> {
+    let mut command = Command::new(program);
+    command.args(arguments).stdin(Stdio::null());
+    let mut command = CommandWrap::from(command);
+    #[cfg(unix)]
+    command.wrap(process_wrap::std::ProcessGroup::leader());
+    #[cfg(windows)]
+    command.wrap(process_wrap::std::JobObject);
+    let started = Instant::now();
+    let mut child = match command.spawn() {
+        Ok(child) => child,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(PostOutcome::Missing(error)),
+        Err(error) => return Ok(PostOutcome::NotStarted(error)),
+    };
+    let mut pause = Duration::from_millis(1);
+    loop {
+        if let Some(status) = child.try_wait()? {
+            return Ok(outcome_of_status(status));
+        }
+        if interrupt.is_raised() {
+            stop_process_group(child.as_mut())?;
+            return Ok(PostOutcome::Stopped);
+        }
+        let left = timeout.map(|timeout| timeout.saturating_sub(started.elapsed()));
+        if left.is_some_and(|left| left.is_zero()) {
+            stop_process_group(child.as_mut())?;
+            return Ok(PostOutcome::TimedOut);
+        }
+        std::thread::sleep(left.map_or(pause, |left| pause.min(left)));
+        pause = (pause * 2).min(LONGEST_PAUSE);
+    }
+}
+
+fn outcome_of_status(status: ExitStatus) -> PostOutcome {
+    #[cfg(unix)]
+    if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
+        return PostOutcome::Signal(signal);
+    }
+    // Only a signal leaves no code.
+    PostOutcome::Exit(status.code().unwrap_or(1))
+}
+
+/// Ends a program and all it started: asks first where that can be done, then kills.
+fn stop_process_group(child: &mut dyn ChildWrapper) -> io::Result<()> {
+    #[cfg(unix)]
+    {
+        /// How long a post that is to end may tidy up before it is killed.
+        const GRACE: Duration = Duration::from_secs(2);
+        const SIGTERM: i32 = 15;
+        let asked = Instant::now();
+        if child.signal(SIGTERM).is_ok() {
+            while asked.elapsed() < GRACE && child.try_wait()?.is_none() {
+                std::thread::sleep(LONGEST_PAUSE);
+            }
+        }
+    }
+    // Also after the program itself has ended: what it started may have been asked and not have listened. When nothing is left,
+    // there is nothing to kill, and that is no error.
+    let _ = child.start_kill();
+    child.wait().map(drop)
+}
+
+/// Whether an argument holds a `{}`.
+pub fn has_path_mark(argument: &OsStr) -> bool {
+    fill_path_mark(argument, OsStr::new("")) != argument
+}
+
+/// An argument with every `{}` replaced by a path; all other bytes stay.
+#[cfg(unix)]
+pub fn fill_path_mark(argument: &OsStr, path: &OsStr) -> OsString {
+    use std::os::unix::ffi::{OsStrExt, OsStringExt};
+    OsString::from_vec(replace_all(argument.as_bytes(), MARK.as_bytes(), path.as_bytes()))
+}
+
+/// An argument with every `{}` replaced by a path; all other units stay.
+#[cfg(windows)]
+pub fn filled(argument: &OsStr, path: &OsStr) -> OsString {
+    use std::os::windows::ffi::{OsStrExt, OsStringExt};
+    let wide = |text: &OsStr| text.encode_wide().collect::<Vec<u16>>();
+    OsString::from_wide(&replace_all(&wide(argument), &wide(OsStr::new(MARK)), &wide(path)))
+}
+
+fn replace_all<T: Copy + PartialEq>(text: &[T], mark: &[T], by: &[T]) -> Vec<T> {
+    let mut out = Vec::with_capacity(text.len() + by.len());
+    let mut rest = text;
+    while let Some((first, others)) = rest.split_first() {
+        match rest.strip_prefix(mark) {
+            Some(behind) => {
+                out.extend_from_slice(by);
+                rest = behind;
+            }
+            None => {
+                out.push(*first);
+                rest = others;
+            }
+        }
+    }
+    out
+}

@@ -1,0 +1,130 @@
+//! The private folder in which the post finds the program, and what it leaves there.
+//!
+//! The program keeps its file's name, since many posts derive the names of their outputs from it and write them beside it. What
+//! stands there when the post has ended is put where it would have come without the hook: beside the export.
+
+use crate::cli::command_outputs::report_unwritable;
+use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::write::{Interrupt, is_same_file, write_atomically_unless};
+use std::ffi::OsStr;
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// The private folder; it goes when this goes.
+pub struct PostWorkspace {
+    folder: TempDir,
+    file: PathBuf,
+}
+
+impl PostWorkspace {
+    /// A folder that only this user can look into, with one file in it.
+    pub fn create_with_program<'b>(
+        name: &OsStr,
+        pieces: impl Iterator<Item = &'b [u8]>,
+    ) -> Result<Self, Box<Diagnostic>> {
+        let mut builder = tempfile::Builder::new();
+        builder.prefix("clsmith-hook-");
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            // Programs are a shop's knowledge; the default would leave it to the umask who may read them.
+            builder.permissions(fs::Permissions::from_mode(0o700));
+        }
+        let folder = builder.tempdir().map_err(|error| {
+            let message = format!("the private folder for the post cannot be made: {error}");
+            Box::new(Diagnostic::new(codes::UNWRITABLE, message))
+        })?;
+        let file = folder.path().join(name);
+        let fill = || {
+            let mut out = io::BufWriter::new(File::create_new(&file)?);
+            for piece in pieces {
+                out.write_all(piece)?;
+            }
+            out.flush()
+        };
+        fill().map_err(|error| Box::new(report_unwritable(&file, &error)))?;
+        Ok(Self { folder, file })
+    }
+
+    /// The program for the post.
+    pub fn program_path(&self) -> &Path {
+        &self.file
+    }
+
+    /// Puts what the post left beside the program into a folder, over what an earlier run put there but never over a protected
+    /// file. Tells where everything went, and what could not be put there.
+    pub fn copy_post_outputs(
+        &self,
+        to: &Path,
+        protected: &[PathBuf],
+        interrupt: &Interrupt,
+    ) -> (Vec<PathBuf>, Vec<Diagnostic>) {
+        let (mut put, mut found) = (Vec::new(), Vec::new());
+        let (left, others) = match self.list_post_outputs() {
+            Ok(left) => left,
+            Err(error) => {
+                let message = format!("what the post left cannot be read: {error}");
+                return (put, vec![Diagnostic::new(codes::UNREADABLE, message)]);
+            }
+        };
+        for other in others {
+            let message = format!("the post left {}, which is no file and is thrown away", other.display());
+            found.push(Diagnostic::new(codes::UNREADABLE, message));
+        }
+        for from in left {
+            let Ok(name) = from.strip_prefix(self.folder.path()) else { continue };
+            let target = to.join(name);
+            if let Some(input) = protected.iter().find(|input| is_same_file(input, &target)) {
+                let message = format!("the post's {} would overwrite {}", name.display(), input.display());
+                found.push(Diagnostic::new(codes::OUTPUT_IS_INPUT, message));
+                continue;
+            }
+            match copy_file(&from, &target, interrupt) {
+                Ok(()) => put.push(target),
+                Err(error) => found.push(report_unwritable(&target, &error)),
+            }
+        }
+        (put, found)
+    }
+
+    /// The files in the folder besides the program, sorted, and what is neither file nor folder: links are not followed.
+    fn list_post_outputs(&self) -> io::Result<(Vec<PathBuf>, Vec<PathBuf>)> {
+        let (mut left, mut others) = (Vec::new(), Vec::new());
+        let mut folders = vec![self.folder.path().to_path_buf()];
+        while let Some(folder) = folders.pop() {
+            for entry in fs::read_dir(folder)? {
+                let entry = entry?;
+                let kind = entry.file_type()?;
+                if kind.is_dir() {
+                    folders.push(entry.path());
+                } else if !kind.is_file() {
+                    others.push(entry.path());
+                } else if entry.path() != self.file {
+                    left.push(entry.path());
+                }
+            }
+        }
+        left.sort();
+        others.sort();
+        Ok((left, others))
+    }
+
+    /// Takes the folder away.
+    pub fn remove_folder(self) -> Result<(), Box<Diagnostic>> {
+        let path = self.folder.path().to_path_buf();
+        self.folder.close().map_err(|error| {
+            let message = format!("{} cannot be taken away: {error}", path.display());
+            Box::new(Diagnostic::new(codes::UNWRITABLE, message))
+        })
+    }
+}
+
+fn copy_file(from: &Path, to: &Path, interrupt: &Interrupt) -> io::Result<()> {
+    if let Some(folder) = to.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        fs::create_dir_all(folder)?;
+    }
+    let mut file = File::open(from)?;
+    write_atomically_unless(to, interrupt, |out| io::copy(&mut file, out).map(drop))
+}

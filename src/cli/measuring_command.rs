@@ -1,0 +1,130 @@
+//! The course of a command that measures one program by its setup: `simulate` and `chips`.
+
+use crate::cli::command_exit::CommandExit;
+use crate::cli::command_outputs::{CommandOutputs, ignore_closed_pipe, print_summary};
+use crate::cli::command_stop::CommandStop;
+use crate::cli::finding_args::FindingArgs;
+use crate::cli::input_files::STANDARD;
+use crate::cli::progress::CommandProgress;
+use crate::cli::terminal;
+use clsmith::diagnostic::Diagnostic;
+use clsmith::parse::parse;
+use clsmith::program::{Dialect, Program};
+use clsmith::report::finding_policy::FindingPolicy;
+use clsmith::write::is_interrupt;
+use std::io;
+use std::path::Path;
+
+/// What every such command is given.
+pub struct MeasuringCommand<'a> {
+    /// The subcommand.
+    pub command: &'static str,
+    /// The program.
+    pub program: &'a Path,
+    /// Where outputs go.
+    pub outputs: Vec<&'a Path>,
+    /// Neither summary nor progress.
+    pub quiet: bool,
+    /// Threads; as many as there are cores if `None`.
+    pub threads: Option<u16>,
+    /// Which findings stop, and how they are shown.
+    pub findings: &'a FindingArgs,
+}
+
+/// Findings, and who stops the run on the way: what a command's own part gets.
+pub struct MeasuringContext<'r> {
+    /// Which findings stop.
+    pub policy: &'r FindingPolicy,
+    /// Progress, and Ctrl-C.
+    pub progress: &'r CommandProgress,
+    /// Findings that do not stop the run.
+    pub findings: &'r mut Vec<Diagnostic>,
+}
+
+impl MeasuringContext<'_> {
+    /// Reads a program; errors in its text stop the run.
+    pub fn read_program(&mut self, path: &Path, dialect: Option<Dialect>) -> Result<Program, CommandStop> {
+        let source = crate::cli::input_files::read_source(path).map_err(|found| *found)?;
+        let parsed = parse(&source, dialect);
+        self.findings.extend(parsed.diagnostics);
+        if self.policy.apply(self.findings.clone()).iter().any(Diagnostic::is_error) {
+            return Err(CommandStop::Found(Vec::new()));
+        }
+        Ok(parsed.program)
+    }
+}
+
+impl MeasuringCommand<'_> {
+    /// Measures, tells, and writes: nothing is written while an error stands. `problem` is what is wrong with the command line; `measure`
+    /// makes everything but the outputs; `write` returns what kept an output from being written.
+    pub fn run_measurement<T>(
+        &self,
+        problem: Option<String>,
+        measure: impl FnOnce(&mut MeasuringContext<'_>) -> Result<T, CommandStop>,
+        summary: impl FnOnce(&T) -> String,
+        write: impl FnOnce(&T, &[Diagnostic], &CommandOutputs) -> io::Result<Option<Diagnostic>>,
+    ) -> io::Result<CommandExit> {
+        let policy = match problem.map_or_else(|| self.findings.build_policy(), Err) {
+            Ok(policy) => policy,
+            Err(problem) => {
+                eprintln!("clsmith {}: {problem}", self.command);
+                return Ok(CommandExit::Usage);
+            }
+        };
+        if let Some(threads) = self.threads {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into());
+            pool.build_global().map_err(io::Error::other)?;
+        }
+        let outputs = CommandOutputs::default();
+        let progress = CommandProgress::new(self.quiet, outputs.interrupt());
+        outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
+        let mut findings = Vec::new();
+        let done =
+            measure(&mut MeasuringContext { policy: &policy, progress: &progress, findings: &mut findings });
+        progress.clear_bar();
+        let measured = match done {
+            Ok(measured) => measured,
+            Err(CommandStop::Interrupted) => return Ok(CommandExit::Interrupted),
+            Err(CommandStop::Found(found)) => {
+                findings.extend(found);
+                self.show_findings(&policy.apply(findings))?;
+                return self.say_nothing_written();
+            }
+        };
+        let findings = policy.apply(findings);
+        if !findings.is_empty() {
+            self.show_findings(&findings)?;
+        }
+        if !self.quiet {
+            // Standard output may be an output's.
+            let is_taken = self.outputs.contains(&Path::new(STANDARD));
+            ignore_closed_pipe(print_summary(&summary(&measured), is_taken))?;
+        }
+        if findings.iter().any(Diagnostic::is_error) {
+            return self.say_nothing_written();
+        }
+        match write(&measured, &findings, &outputs) {
+            Ok(None) => Ok(CommandExit::Done),
+            Ok(Some(found)) => {
+                self.show_findings(&[found])?;
+                Ok(CommandExit::Errors)
+            }
+            Err(error) if is_interrupt(&error) => Ok(CommandExit::Interrupted),
+            Err(error) => Err(error),
+        }
+    }
+
+    fn say_nothing_written(&self) -> io::Result<CommandExit> {
+        if !self.quiet && !self.outputs.is_empty() {
+            eprintln!("{}: nothing was written", self.program.display());
+        }
+        Ok(CommandExit::Errors)
+    }
+
+    fn show_findings(&self, findings: &[Diagnostic]) -> io::Result<()> {
+        let mut err = io::stderr().lock();
+        let file = self.program.to_string_lossy();
+        let seen = terminal::is_stderr_terminal();
+        ignore_closed_pipe(self.findings.write_findings(&mut err, seen, findings, Some(&file)))
+    }
+}

@@ -1,0 +1,74 @@
+//! `--report` and `--summary`: what changed, as a page and as Markdown.
+
+use super::command_outputs::CommandOutputs;
+use super::progress::CommandProgress;
+use clap::Args;
+use clsmith::diagnostic::Diagnostic;
+use clsmith::report::comparison::{Comparison, ComparisonRuns, ComparisonSubject, to_markdown};
+use clsmith::report::html;
+use clsmith::simulation_run::SimulationRunOptions;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Reports for people.
+#[derive(Debug, Args)]
+pub struct ReportArgs {
+    /// What changed as one HTML page: tables, charts, the path in 3D. Simulates the program before and after when the setup
+    /// has stock and tools
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+    /// What changed as Markdown, for merge requests. Simulates as --report does
+    #[arg(long, value_name = "FILE")]
+    summary: Option<PathBuf>,
+}
+
+impl ReportArgs {
+    /// Whether any is asked for.
+    pub fn is_wanted(&self) -> bool {
+        self.named_outputs().next().is_some()
+    }
+
+    /// The options that are given, with their files.
+    pub fn named_outputs(&self) -> impl Iterator<Item = (&'static str, &Path)> {
+        let both = [("--report", &self.report), ("--summary", &self.summary)];
+        both.into_iter().filter_map(|(name, path)| Some((name, path.as_deref()?)))
+    }
+
+    /// The files.
+    pub fn output_paths(&self) -> impl Iterator<Item = &Path> {
+        self.named_outputs().map(|(_, path)| path)
+    }
+
+    /// Simulates and writes what is asked for; a finding when a file cannot be written.
+    pub fn simulate_and_write(
+        &self,
+        subject: ComparisonSubject<'_>,
+        progress: &CommandProgress,
+        outputs: &CommandOutputs,
+    ) -> io::Result<Option<Diagnostic>> {
+        let Some(runs) =
+            ComparisonRuns::simulate_subject(&subject, &SimulationRunOptions::default(), progress)
+        else {
+            return outputs.interrupt().check().map(|()| None);
+        };
+        self.write_reports(&Comparison::from_runs(subject, &runs), outputs)
+    }
+
+    /// Writes what is asked for; a finding when a file cannot be written.
+    pub fn write_reports(
+        &self,
+        comparison: &Comparison<'_>,
+        outputs: &CommandOutputs,
+    ) -> io::Result<Option<Diagnostic>> {
+        if let Some(path) = &self.report
+            && let Some(found) = outputs.write_output(path, |out| html::write_page(comparison, out))?
+        {
+            return Ok(Some(found));
+        }
+        if let Some(path) = &self.summary {
+            let text = to_markdown(comparison);
+            return outputs.write_output(path, |out| out.write_all(text.as_bytes()));
+        }
+        Ok(None)
+    }
+}

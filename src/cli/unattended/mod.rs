@@ -1,0 +1,9 @@
+//! What commands that stand between the CAM system and the post have in common: `hook` and `watch`.
+
+mod recipe_args;
+mod run_log;
+mod unattended_correction;
+
+pub use recipe_args::{RecipeArgs, RecipeChooser};
+pub use run_log::{LogLine, LoggedInput, LoggedOutput, RunLog, utc_now};
+pub use unattended_correction::{UnattendedCorrection, UnattendedOutcome, correct_unattended};

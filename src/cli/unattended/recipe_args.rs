@@ -1,0 +1,71 @@
+//! Options that say which recipe a program gets.
+
+use crate::cli::input_files;
+use clap::Args;
+use clsmith::diagnostic::Diagnostic;
+use clsmith::program::{Dialect, Program};
+use clsmith::recipe_rules::{RecipeChoice, RecipeRuleFacts, RecipeRules};
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub struct RecipeArgs {
+    /// The recipe (YAML)
+    #[arg(long, value_name = "RECIPE", required_unless_present = "select", conflicts_with = "select")]
+    recipe: Option<PathBuf>,
+    /// Rules that choose the recipe by machine, tool, operation or file name (`clsmith schema --select`)
+    #[arg(long, value_name = "RECIPES")]
+    select: Option<PathBuf>,
+    /// A setup file; overrides the recipe's setup. With --select, a rule names it
+    #[arg(long, value_name = "FILE", conflicts_with = "select")]
+    setup: Option<PathBuf>,
+    /// The dialect, instead of finding it from the text
+    #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
+    pub dialect: Option<Dialect>,
+}
+
+/// Who says which recipe a program gets.
+pub enum RecipeChooser {
+    /// The same for all.
+    One(RecipeChoice),
+    /// The first rule that fits.
+    Rules(RecipeRules),
+}
+
+impl RecipeArgs {
+    /// Reads the rules, if there are any.
+    pub fn read_chooser(&self) -> Result<RecipeChooser, Vec<Diagnostic>> {
+        if let Some(path) = &self.select {
+            let source = input_files::read_source(path).map_err(|found| vec![*found])?;
+            return RecipeRules::load(&source).map(RecipeChooser::Rules);
+        }
+        let recipe = self.recipe.clone().unwrap_or_default();
+        Ok(RecipeChooser::One(RecipeChoice::Recipe {
+            recipe,
+            setup: self.setup.clone(),
+            by: "--recipe".to_owned(),
+        }))
+    }
+
+    /// Files that are read whatever the program: no output may be one of them.
+    pub fn input_files(&self) -> impl Iterator<Item = &PathBuf> {
+        [&self.recipe, &self.select, &self.setup].into_iter().flatten()
+    }
+}
+
+impl RecipeChooser {
+    /// What becomes of a program.
+    pub fn choose_recipe(&self, file: &str, program: &Program) -> Result<RecipeChoice, Box<Diagnostic>> {
+        match self {
+            Self::One(choice) => Ok(choice.clone()),
+            Self::Rules(rules) => rules.choose_recipe(&RecipeRuleFacts::from_program(file, program)),
+        }
+    }
+
+    /// Every recipe that may be chosen.
+    pub fn list_choices(&self) -> Vec<RecipeChoice> {
+        match self {
+            Self::One(choice) => vec![choice.clone()],
+            Self::Rules(rules) => rules.list_choices(),
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! The log: one line of JSON a run, whole or not at all.
+
+use super::{UnattendedCorrection, UnattendedOutcome};
+use crate::cli::command_outputs::report_unwritable;
+use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::fingerprint::{Digest, RecipeFingerprint, VERSION};
+use clsmith::report::changes::StepChanges;
+use clsmith::report::render::line;
+use clsmith::write::is_same_file;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// How many errors a line repeats; all are counted.
+const ERRORS: usize = 5;
+
+/// A line of the log. New keys may come; `version` changes when a reader would have to.
+#[derive(Debug, Serialize)]
+pub struct LogLine<'r, More> {
+    /// Version of the structure: 1.
+    version: u32,
+    /// When the run began, UTC.
+    time: &'r str,
+    /// `hook` or `watch`.
+    command: &'r str,
+    /// Version of clsmith.
+    clsmith: &'static str,
+    /// The program as it came.
+    input: &'r LoggedInput,
+    /// What became of it.
+    outcome: UnattendedOutcome,
+    /// The recipe; `null` where none was read.
+    recipe: Option<&'r LoggedRecipe>,
+    /// What each step changed.
+    steps: &'r [StepChanges],
+    /// How many findings of each code there were.
+    findings: BTreeMap<&'static str, usize>,
+    /// The first errors, a line each.
+    errors: Vec<String>,
+    /// The program as it went on; `null` where none did.
+    output: Option<&'r LoggedOutput>,
+    /// What only this command has to say.
+    #[serde(flatten)]
+    more: More,
+    /// How long all took.
+    seconds: f64,
+}
+
+/// The program as it came. A name that is no UTF-8 has `\u{fffd}` for what cannot be written.
+#[derive(Debug, Clone, Serialize)]
+pub struct LoggedInput {
+    pub path: String,
+    /// `null` where it could not be read.
+    pub sha256: Option<Digest>,
+}
+
+/// A recipe with all that it depends on.
+#[derive(Debug, Clone, Serialize)]
+pub struct LoggedRecipe {
+    pub path: String,
+    /// `--recipe`, `rule 2`, `otherwise`.
+    pub chosen_by: String,
+    #[serde(flatten)]
+    pub print: RecipeFingerprint,
+}
+
+/// The program as it went on.
+#[derive(Debug, Clone, Serialize)]
+pub struct LoggedOutput {
+    /// Where it stays; `null` where it was for the post alone.
+    pub path: Option<String>,
+    pub sha256: Digest,
+}
+
+impl<'r, More> LogLine<'r, More> {
+    /// A line about a program that came at a time; `started` is the same moment for measuring.
+    pub fn from_correction(
+        command: &'r str,
+        (time, started): (&'r str, Instant),
+        input: &'r LoggedInput,
+        correction: &'r UnattendedCorrection,
+        output: Option<&'r LoggedOutput>,
+        more: More,
+    ) -> Self {
+        Self {
+            version: 1,
+            time,
+            command,
+            clsmith: VERSION,
+            input,
+            outcome: correction.outcome,
+            recipe: correction.recipe.as_ref(),
+            steps: &correction.steps,
+            findings: count_by_severity(&correction.findings),
+            errors: list_errors(&correction.findings, &input.path),
+            output,
+            more,
+            seconds: started.elapsed().as_secs_f64(),
+        }
+    }
+}
+
+/// Now, in UTC, as RFC 3339 with milliseconds: `2026-03-01T06:30:00.250Z`.
+pub fn utc_now() -> String {
+    // Cut, not rounded: a time of a log is never in the future.
+    format!("{:.3}", jiff::Timestamp::now())
+}
+
+fn count_by_severity(findings: &[Diagnostic]) -> BTreeMap<&'static str, usize> {
+    let mut counts = BTreeMap::new();
+    for found in findings {
+        *counts.entry(found.code.id()).or_default() += 1;
+    }
+    counts
+}
+
+/// `part.cls:12:13: CL0003: ...`, a line each.
+fn list_errors(findings: &[Diagnostic], file: &str) -> Vec<String> {
+    let errors = findings.iter().filter(|found| found.is_error()).take(ERRORS);
+    errors
+        .filter_map(|found| {
+            let mut text = Vec::new();
+            line::render_lines(&mut text, std::slice::from_ref(found), Some(file)).ok()?;
+            Some(String::from_utf8_lossy(&text).trim_end().to_owned())
+        })
+        .collect()
+}
+
+/// Ends a line that a full disk has cut, so that it does not spoil the next one. Pipes and devices have no end to look at.
+fn end_cut_line(file: &mut File) -> io::Result<()> {
+    if !file.metadata()?.is_file() || file.seek(SeekFrom::End(0))? == 0 {
+        return Ok(());
+    }
+    let mut last = [0];
+    file.seek(SeekFrom::End(-1))?;
+    file.read_exact(&mut last)?;
+    if last == *b"\n" { Ok(()) } else { file.write_all(b"\n") }
+}
+
+/// A log that lines are added to.
+pub struct RunLog {
+    path: PathBuf,
+    file: File,
+}
+
+impl RunLog {
+    /// Opens a log, before anything is done that could not be logged.
+    pub fn open<'p>(
+        path: &Path,
+        inputs: impl IntoIterator<Item = &'p PathBuf>,
+    ) -> Result<Self, Box<Diagnostic>> {
+        if let Some(input) = inputs.into_iter().find(|input| is_same_file(input, path)) {
+            let message =
+                format!("the log {} would be written into the input {}", path.display(), input.display());
+            return Err(Box::new(Diagnostic::new(codes::OUTPUT_IS_INPUT, message)));
+        }
+        let file = File::options().read(true).append(true).create(true).open(path);
+        let file = file.and_then(|mut file| end_cut_line(&mut file).map(|()| file));
+        let file = file.map_err(|error| Box::new(report_unwritable(path, &error)))?;
+        Ok(Self { path: path.to_path_buf(), file })
+    }
+
+    /// Adds a line, in one write to the end of the file: lines of several runs do not mix.
+    pub fn add_line(&mut self, record: &impl Serialize) -> Result<(), Box<Diagnostic>> {
+        let written = serde_json::to_vec(record).map_err(io::Error::from).and_then(|mut line| {
+            line.push(b'\n');
+            self.file.write_all(&line)
+        });
+        written.map_err(|error| Box::new(report_unwritable(&self.path, &error)))
+    }
+}

@@ -1,0 +1,138 @@
+//! One program through the recipe that is chosen for it.
+
+use super::run_log::LoggedRecipe;
+use super::{RecipeArgs, RecipeChooser};
+use crate::cli::input_files::{self, LoadedRecipe};
+use clsmith::diagnostic::Diagnostic;
+use clsmith::fingerprint::RecipeFingerprint;
+use clsmith::job::{CorrectionJob, JobOutcome, is_program_changed};
+use clsmith::parse::parse;
+use clsmith::program::Program;
+use clsmith::recipe_rules::RecipeChoice;
+use clsmith::report::changes::{self, StepChanges};
+use clsmith::report::finding_policy::FindingPolicy;
+use clsmith::simulation_run::RunWatcher;
+use clsmith::source::Source;
+use clsmith::transform::StepReport;
+use serde::Serialize;
+use std::sync::Arc;
+
+/// What became of a program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum UnattendedOutcome {
+    /// The recipe changed it.
+    Corrected,
+    /// The recipe found nothing to change.
+    Unchanged,
+    /// A selection says that it goes on as it is.
+    Passed,
+    /// It could not be corrected, and goes on as it is all the same.
+    PassedOriginal,
+    /// It could not be corrected, and stops here.
+    Refused,
+    /// Ctrl-C came first.
+    Stopped,
+}
+
+/// A program after its recipe, or why not.
+pub struct UnattendedCorrection {
+    /// What became of it; `Refused` when an error stands.
+    pub outcome: UnattendedOutcome,
+    /// The program as it is to go on; `None` when it is refused or passed.
+    pub program: Option<Program>,
+    /// What was found.
+    pub findings: Vec<Diagnostic>,
+    /// What each step changed.
+    pub steps: Vec<StepChanges>,
+    /// What steps say about themselves.
+    pub reports: Vec<StepReport>,
+    /// The recipe, once it was read.
+    pub recipe: Option<LoggedRecipe>,
+    /// Whether it is refused for what stands around it, a broken recipe say, and may go through when that is put right.
+    pub surroundings: bool,
+}
+
+impl UnattendedCorrection {
+    fn without_program(outcome: UnattendedOutcome, findings: Vec<Diagnostic>) -> Self {
+        Self {
+            outcome,
+            program: None,
+            findings,
+            steps: Vec::new(),
+            reports: Vec::new(),
+            recipe: None,
+            surroundings: false,
+        }
+    }
+
+    /// A program that cannot be corrected.
+    pub fn refused(findings: Vec<Diagnostic>) -> Self {
+        Self::without_program(UnattendedOutcome::Refused, findings)
+    }
+
+    /// A program whose recipe cannot be used.
+    pub fn without_recipe(findings: Vec<Diagnostic>) -> Self {
+        Self { surroundings: true, ..Self::refused(findings) }
+    }
+
+    /// The bytes that go on: the corrected program, or the file as it came.
+    pub fn byte_chunks<'p>(&'p self, source: &'p Source) -> Box<dyn Iterator<Item = &'p [u8]> + 'p> {
+        match &self.program {
+            Some(program) => Box::new(program.byte_chunks()),
+            None => Box::new(std::iter::once(source.bytes())),
+        }
+    }
+}
+
+/// Chooses the recipe for a program and applies it. `file` is the name of its file, without the folder.
+pub fn correct_unattended(
+    args: &RecipeArgs,
+    chooser: &RecipeChooser,
+    policy: &FindingPolicy,
+    watch: &dyn RunWatcher,
+    file: &str,
+    source: &Arc<Source>,
+) -> UnattendedCorrection {
+    let choice = match chooser {
+        // The program need not be looked at before.
+        RecipeChooser::One(choice) => Ok(choice.clone()),
+        RecipeChooser::Rules(_) => chooser.choose_recipe(file, &parse(source, args.dialect).program),
+    };
+    let (path, given, by) = match choice {
+        Ok(RecipeChoice::Recipe { recipe, setup, by }) => (recipe, setup, by),
+        Ok(RecipeChoice::Pass) => {
+            return UnattendedCorrection::without_program(UnattendedOutcome::Passed, Vec::new());
+        }
+        Err(found) => return UnattendedCorrection::refused(vec![*found]),
+    };
+    let LoadedRecipe { recipe, setup, texts } = match input_files::read_recipe(&path, given.as_deref()) {
+        Ok(loaded) => loaded,
+        Err(found) => return UnattendedCorrection::without_recipe(found),
+    };
+    let print = match RecipeFingerprint::read_files(&texts, &recipe, &setup) {
+        Ok(print) => print,
+        Err(found) => return UnattendedCorrection::without_recipe(vec![*found]),
+    };
+    let used = LoggedRecipe { path: path.to_string_lossy().into_owned(), chosen_by: by, print };
+    let print = Some(&used.print);
+    let job = CorrectionJob { recipe: &recipe, setup: &setup, print, policy, dialect: args.dialect, watch };
+    let JobOutcome { program, findings, reports } = job.correct_source(source);
+    let names = recipe.step_names();
+    let steps =
+        program.as_ref().map_or_else(Vec::new, |program| changes::count_step_changes(program, &names).0);
+    let outcome = match &program {
+        Some(program) if is_program_changed(program) => UnattendedOutcome::Corrected,
+        Some(_) => UnattendedOutcome::Unchanged,
+        None => UnattendedOutcome::Refused,
+    };
+    UnattendedCorrection {
+        outcome,
+        program,
+        findings,
+        steps,
+        reports,
+        recipe: Some(used),
+        surroundings: false,
+    }
+}

@@ -1,0 +1,188 @@
+//! What a watch does with a program once its recipe is through: write it or move it aside, tell, remember, log.
+
+use super::folder_scan::ExportedFile;
+use super::refused_programs::{RefusedMove, move_aside};
+use super::watch_folders::LOCK;
+use super::watch_run::{ExportStatus, TakenExport, WatchRun};
+use crate::cli::command_exit::CommandExit;
+use crate::cli::command_outputs::report_unwritable;
+use crate::cli::terminal::escape_controls;
+use crate::cli::unattended::{LogLine, LoggedInput, LoggedOutput, UnattendedCorrection, UnattendedOutcome};
+use clsmith::batch;
+use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::fingerprint::Digest;
+use clsmith::report::render::human;
+use clsmith::source::Source;
+use clsmith::write::is_same_file;
+use serde::Serialize;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// What only the lines of a watch say.
+#[derive(Debug, Serialize)]
+struct WatchLogFields<'r> {
+    /// Where a refused program is now.
+    refused_to: Option<&'r str>,
+}
+
+impl WatchRun<'_> {
+    /// Writes what came of a program and remembers it.
+    pub fn write_corrected(
+        &mut self,
+        export: &ExportedFile,
+        digest: Digest,
+        source: &Source,
+        correction: UnattendedCorrection,
+        when: (String, Instant),
+    ) -> io::Result<TakenExport> {
+        let target = self.folders.out.join(&export.name);
+        let print = correction.recipe.iter().flat_map(|recipe| &recipe.print.files);
+        let mut inputs =
+            print.map(|file| PathBuf::from(&file.path)).chain(self.watch.recipe.input_files().cloned());
+        if is_same_file(&target, &export.path) || inputs.any(|input| is_same_file(&target, &input)) {
+            let message = format!("writing {} would overwrite an input", target.display());
+            return Ok(Err(vec![Diagnostic::new(codes::OUTPUT_IS_INPUT, message)]));
+        }
+        if let Some(found) = self.find_write_conflict(export, &target) {
+            return Ok(Err(vec![found]));
+        }
+        let new = Digest::from_chunks(correction.byte_chunks(source));
+        // After a crash between output and state the output stands already, and nobody must see it change.
+        if Digest::from_file(&target).ok() != Some(new) {
+            if let Some(folder) = target.parent()
+                && let Err(error) = fs::create_dir_all(folder)
+            {
+                return Ok(Err(vec![report_unwritable(folder, &error)]));
+            }
+            let pieces = |out: &mut dyn io::Write| {
+                correction.byte_chunks(source).try_for_each(|piece| out.write_all(piece))
+            };
+            if let Some(found) = self.outputs.write_output(&target, pieces)? {
+                return Ok(Err(vec![found]));
+            }
+        }
+        let name = export.name.to_string_lossy();
+        if !correction.findings.is_empty() {
+            self.watch.show_findings(&correction.findings, &name)?;
+        }
+        self.print_outcome(&name, &correction, &target);
+        self.remember_done(export, digest, correction.outcome)?;
+        let output = LoggedOutput { path: Some(target.to_string_lossy().into_owned()), sha256: new };
+        self.add_to_log(export, digest, &correction, (Some(output), None), when)?;
+        Ok(Ok(ExportStatus::Done))
+    }
+
+    /// Why a corrected program must not be written: where refused ones lie, over what the watch keeps, or through a link.
+    fn find_write_conflict(&self, export: &ExportedFile, target: &Path) -> Option<Diagnostic> {
+        let folders = self.folders;
+        let kept = [Some(&folders.state), self.watch.log.as_ref()];
+        let is_kept = kept.into_iter().flatten().any(|kept| is_same_file(target, kept) || target == kept);
+        let is_lock = export.name.as_os_str() == LOCK;
+        if is_kept || is_lock || target.starts_with(&folders.refused) {
+            let message = format!(
+                "writing {} would overwrite what this watch keeps: refused programs, state, log or lock",
+                target.display()
+            );
+            return Some(Diagnostic::new(codes::OUTPUT_IS_INPUT, message));
+        }
+        let mut parts = export.name.ancestors().filter(|part| !part.as_os_str().is_empty());
+        let link = parts.find(|part| {
+            fs::symlink_metadata(folders.out.join(part)).is_ok_and(|there| there.file_type().is_symlink())
+        })?;
+        Some(batch::report_outside_link(&folders.out.join(link)))
+    }
+
+    /// Moves a program that cannot be corrected aside.
+    pub fn move_refused(
+        &mut self,
+        export: &ExportedFile,
+        digest: Digest,
+        correction: UnattendedCorrection,
+        when: (String, Instant),
+    ) -> io::Result<TakenExport> {
+        let name = export.name.to_string_lossy();
+        let mut text = Vec::new();
+        human::render_human(
+            &mut text,
+            &correction.findings,
+            Some(&name),
+            &human::HumanRenderOptions::default(),
+        )?;
+        let text = String::from_utf8_lossy(&text);
+        let moved = match move_aside(export, digest, &text, &self.folders.refused) {
+            Ok(moved) => moved,
+            Err(found) => return Ok(Err(vec![*found])),
+        };
+        let (to, stays) = match moved {
+            RefusedMove::Changed => return Ok(Ok(ExportStatus::Settling(Instant::now()))),
+            RefusedMove::To(to) => (to, None),
+            RefusedMove::Copied(to, found) => (to, Some(found)),
+        };
+        self.worst = self.worst.max(CommandExit::Errors);
+        self.watch.show_findings(&correction.findings, &name)?;
+        eprintln!("{}: refused -> {}", escape_controls(&name), escape_controls(&to.to_string_lossy()));
+        let before = self.folders.out.join(&export.name);
+        if before.is_file() {
+            let before = before.to_string_lossy();
+            eprintln!("{}: {} is of an earlier export", escape_controls(&name), escape_controls(&before));
+        }
+        if let Some(found) = stays {
+            self.watch.show_findings(&[*found], &name)?;
+            // It stays among the exports, and must not be refused again for ever.
+            self.remember_done(export, digest, UnattendedOutcome::Refused)?;
+        }
+        let to = to.to_string_lossy().into_owned();
+        self.add_to_log(export, digest, &correction, (None, Some(&to)), when)?;
+        Ok(Ok(ExportStatus::Done))
+    }
+
+    fn print_outcome(&self, name: &str, correction: &UnattendedCorrection, target: &Path) {
+        if self.watch.quiet {
+            return;
+        }
+        let what = match (correction.outcome, &correction.recipe) {
+            (UnattendedOutcome::Corrected, Some(recipe)) => {
+                format!("corrected by {} ({})", recipe.path, recipe.chosen_by)
+            }
+            (UnattendedOutcome::Unchanged, Some(recipe)) => {
+                format!("nothing to change for {} ({})", recipe.path, recipe.chosen_by)
+            }
+            _ => "no rule fits, passed as it is".to_owned(),
+        };
+        eprintln!("{}: {what} -> {}", escape_controls(name), escape_controls(&target.to_string_lossy()));
+    }
+
+    fn remember_done(
+        &mut self,
+        export: &ExportedFile,
+        digest: Digest,
+        outcome: UnattendedOutcome,
+    ) -> io::Result<()> {
+        match self.state.remember_program(&export.name, digest, outcome) {
+            Ok(()) => Ok(()),
+            Err(found) => self.tell_once(*found),
+        }
+    }
+
+    fn add_to_log(
+        &mut self,
+        export: &ExportedFile,
+        digest: Digest,
+        correction: &UnattendedCorrection,
+        (output, refused_to): (Option<LoggedOutput>, Option<&str>),
+        (time, started): (String, Instant),
+    ) -> io::Result<()> {
+        let Some(log) = &mut self.log else { return Ok(()) };
+        let path = export.path.to_string_lossy().into_owned();
+        let input = LoggedInput { path, sha256: Some(digest) };
+        let more = WatchLogFields { refused_to };
+        let record =
+            LogLine::from_correction("watch", (&time, started), &input, correction, output.as_ref(), more);
+        match log.add_line(&record) {
+            Ok(()) => Ok(()),
+            Err(found) => self.tell_once(*found),
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! A look at the folder: which files are there, and how they were when we looked.
+
+use super::watch_folders::LOCK;
+use clsmith::diagnostic::{Diagnostic, codes};
+use globset::GlobMatcher;
+use std::fs::{self, DirEntry, Metadata};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+/// A file that is to be taken.
+pub struct ExportedFile {
+    /// Its path below the watched folder; names are bytes, not text.
+    pub name: PathBuf,
+    /// Where it is.
+    pub path: PathBuf,
+    /// How it is.
+    pub stamp: ExportStamp,
+}
+
+/// How a file is; two equal ones mean that nobody has written to it between.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ExportStamp {
+    /// Bytes.
+    pub size: u64,
+    modified: Option<SystemTime>,
+    // A copy may keep the time of its original, but never that of its own entry on the disk.
+    #[cfg(unix)]
+    entry: (u64, i64, i64),
+}
+
+impl ExportStamp {
+    /// How a file is now.
+    pub fn read_stamp(path: &Path) -> io::Result<Self> {
+        fs::metadata(path).map(|metadata| Self::from(&metadata))
+    }
+}
+
+impl From<&Metadata> for ExportStamp {
+    fn from(metadata: &Metadata) -> Self {
+        #[cfg(unix)]
+        let entry = {
+            use std::os::unix::fs::MetadataExt;
+            (metadata.ino(), metadata.ctime(), metadata.ctime_nsec())
+        };
+        Self {
+            size: metadata.len(),
+            modified: metadata.modified().ok(),
+            #[cfg(unix)]
+            entry,
+        }
+    }
+}
+
+/// All files in a folder that a pattern fits, in the order of their names, and what was wrong with others.
+pub fn scan_exports(watched: &Path, glob: &GlobMatcher) -> (Vec<ExportedFile>, Vec<Diagnostic>) {
+    let (mut found, mut faults) = (Vec::new(), Vec::new());
+    // A pattern without a slash or two stars can only fit the folder's own files.
+    let pattern = glob.glob().glob();
+    let is_deep = pattern.contains('/') || pattern.contains("**");
+    let mut folders = vec![watched.to_path_buf()];
+    while let Some(folder) = folders.pop() {
+        let entries = fs::read_dir(&folder).and_then(|entries| entries.collect::<io::Result<Vec<_>>>());
+        let entries = match entries {
+            Ok(entries) => entries,
+            Err(error) => {
+                faults.push(report_unreadable(&folder, &error));
+                continue;
+            }
+        };
+        for entry in entries {
+            match classify_entry(watched, glob, &entry) {
+                Ok(Some(WatchedEntry::Folder)) if is_deep => folders.push(entry.path()),
+                Ok(Some(WatchedEntry::Export(export))) => found.push(export),
+                Ok(_) => {}
+                Err(fault) => faults.push(*fault),
+            }
+        }
+    }
+    found.sort_by(|a, b| a.name.cmp(&b.name));
+    (found, faults)
+}
+
+enum WatchedEntry {
+    Folder,
+    Export(ExportedFile),
+}
+
+fn classify_entry(
+    watched: &Path,
+    glob: &GlobMatcher,
+    entry: &DirEntry,
+) -> Result<Option<WatchedEntry>, Box<Diagnostic>> {
+    let path = entry.path();
+    let failed = |error: io::Error| match error.kind() {
+        // Gone since the folder was read.
+        io::ErrorKind::NotFound => None,
+        _ => Some(Box::new(report_unreadable(&path, &error))),
+    };
+    let kind = match entry.file_type() {
+        Ok(kind) => kind,
+        Err(error) => return failed(error).map_or(Ok(None), Err),
+    };
+    if kind.is_dir() {
+        return Ok(Some(WatchedEntry::Folder));
+    }
+    let Ok(name) = path.strip_prefix(watched).map(Path::to_path_buf) else { return Ok(None) };
+    if !glob.is_match(&name) || entry.file_name() == LOCK {
+        return Ok(None);
+    }
+    if kind.is_symlink() && fs::canonicalize(&path).is_ok_and(|real| !real.starts_with(watched)) {
+        let message = format!("{} leads out of the watched folder and is left alone", name.display());
+        return Err(Box::new(Diagnostic::new(codes::LEAVES_FOLDER, message)));
+    }
+    match fs::metadata(&path) {
+        Ok(metadata) if metadata.is_file() => {
+            let stamp = ExportStamp::from(&metadata);
+            Ok(Some(WatchedEntry::Export(ExportedFile { name, path, stamp })))
+        }
+        Ok(metadata) if metadata.is_dir() => Ok(None),
+        // Reading a pipe would wait for ever.
+        Ok(_) => {
+            let message = format!("{} is no file (a pipe or device) and is left alone", name.display());
+            Err(Box::new(Diagnostic::new(codes::UNREADABLE, message)))
+        }
+        Err(error) => failed(error).map_or(Ok(None), Err),
+    }
+}
+
+/// A file or folder that cannot be read.
+pub fn report_unreadable(path: &Path, error: &io::Error) -> Diagnostic {
+    Diagnostic::new(codes::UNREADABLE, format!("{} cannot be read: {error}", path.display()))
+}

@@ -1,0 +1,112 @@
+//! Refused programs: moved aside with what is wrong with them, over nothing that stands there.
+//!
+//! The diagnostics come first and the original goes last, so a kill on the way loses nothing, and the next try finds its own
+//! work and ends it.
+
+use super::folder_scan::{ExportStamp, ExportedFile, report_unreadable};
+use crate::cli::command_outputs::report_unwritable;
+use clsmith::diagnostic::Diagnostic;
+use clsmith::fingerprint::Digest;
+use clsmith::write::write_new_atomically;
+use std::ffi::OsString;
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// What became of a refused program.
+pub enum RefusedMove {
+    /// It is aside, and no longer among the exports.
+    To(PathBuf),
+    /// It is aside, and among the exports, too: it cannot be taken away from there.
+    Copied(PathBuf, Box<Diagnostic>),
+    /// It has changed since it was read.
+    Changed,
+}
+
+/// More refused programs of one name are a fault of something else.
+const MOST: usize = 10_000;
+
+/// Moves a program aside.
+pub fn move_aside(
+    export: &ExportedFile,
+    digest: Digest,
+    diagnostics: &str,
+    folder: &Path,
+) -> Result<RefusedMove, Box<Diagnostic>> {
+    let text = Digest::from_bytes(diagnostics.as_bytes());
+    for number in 0..MOST {
+        let target = numbered_path(&folder.join(&export.name), number);
+        let beside = path_with_suffix(&target, ".diagnostics.txt");
+        // What has our content is from a try that did not come to its end.
+        if !is_free_or_same(&target, digest)? || !is_free_or_same(&beside, text)? {
+            continue;
+        }
+        write_new_file(&beside, |out| out.write_all(diagnostics.as_bytes()))?;
+        let is_new = write_new_file(&target, |out| io::copy(&mut File::open(&export.path)?, out).map(drop))?;
+        if !is_free_or_same(&target, digest)? {
+            // Somebody exports anew at this moment: what was copied is nothing that anybody exported.
+            if is_new {
+                let _ = fs::remove_file(&target);
+                let _ = fs::remove_file(&beside);
+            }
+            return Ok(RefusedMove::Changed);
+        }
+        if ExportStamp::read_stamp(&export.path).ok() != Some(export.stamp) {
+            return Ok(RefusedMove::Changed);
+        }
+        return Ok(match fs::remove_file(&export.path) {
+            Ok(()) => RefusedMove::To(target),
+            Err(error) => RefusedMove::Copied(target, Box::new(report_unwritable(&export.path, &error))),
+        });
+    }
+    let full = io::Error::other(format!("there are {MOST} refused programs of this name"));
+    Err(Box::new(report_unwritable(&folder.join(&export.name), &full)))
+}
+
+/// Whether nothing stands there, or just this content.
+fn is_free_or_same(path: &Path, digest: Digest) -> Result<bool, Box<Diagnostic>> {
+    match Digest::from_file(path) {
+        Ok(found) => Ok(found == digest),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(true),
+        // A folder of this name, say.
+        Err(_) if fs::symlink_metadata(path).is_ok() => Ok(false),
+        Err(error) => Err(Box::new(report_unreadable(path, &error))),
+    }
+}
+
+/// Writes a file that is not there; one that is there stays. Whether it was written.
+fn write_new_file(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<bool, Box<Diagnostic>> {
+    let make = || {
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder)?;
+        }
+        match write_new_atomically(path, write) {
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Ok(false),
+            written => written.map(|()| true),
+        }
+    };
+    make().map_err(|error| Box::new(report_unwritable(path, &error)))
+}
+
+/// `part.cls`, `part.1.cls`, `part.2.cls`.
+fn numbered_path(path: &Path, number: usize) -> PathBuf {
+    if number == 0 {
+        return path.to_path_buf();
+    }
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push(format!(".{number}"));
+    if let Some(end) = path.extension() {
+        name.push(".");
+        name.push(end);
+    }
+    path.with_file_name(name)
+}
+
+fn path_with_suffix(path: &Path, end: &str) -> PathBuf {
+    let mut name: OsString = path.as_os_str().to_owned();
+    name.push(end);
+    PathBuf::from(name)
+}

@@ -1,0 +1,90 @@
+//! The folders of a watch: side by side, and each with one watch at most.
+
+use super::WatchArgs;
+use crate::cli::command_outputs::report_unwritable;
+use clsmith::diagnostic::{Diagnostic, codes};
+use std::fs::{self, File, TryLockError};
+use std::path::{Path, PathBuf};
+
+/// Name of the lock in the watched folder and in the one for corrected programs.
+pub const LOCK: &str = ".clsmith-watch.lock";
+
+/// The folders, real and locked.
+pub struct WatchFolders {
+    /// Where exports land, with every link followed.
+    pub watched: PathBuf,
+    /// Where corrected programs go.
+    pub out: PathBuf,
+    /// Where refused programs go.
+    pub refused: PathBuf,
+    /// The file that remembers what was done.
+    pub state: PathBuf,
+    /// Held as long as the watch runs; the operating system lets them go, however it ends.
+    _locks: Vec<File>,
+}
+
+impl WatchFolders {
+    /// Looks at the folders, makes those for outputs, and locks.
+    pub fn open_and_lock(watch: &WatchArgs) -> Result<Self, Vec<Diagnostic>> {
+        let watched = fs::canonicalize(&watch.folder).map_err(|error| {
+            let message = format!("{} cannot be read: {error}", watch.folder.display());
+            vec![Diagnostic::new(codes::UNREADABLE, message)]
+        })?;
+        if !watched.is_dir() {
+            let message = format!("{} is no folder", watch.folder.display());
+            return Err(vec![Diagnostic::new(codes::UNREADABLE, message)]);
+        }
+        let refused = watch.refused.clone().unwrap_or_else(|| watch.out.join("refused"));
+        let state = watch.state.clone().unwrap_or_else(|| watch.out.join(".clsmith-watch.jsonl"));
+        // Before anything is made: a refused command line leaves no folder behind.
+        let folders = [(&watch.out, true), (&refused, true)];
+        let files = [Some(&state), watch.log.as_ref()].into_iter().flatten().map(|file| (file, false));
+        for (path, is_folder) in folders.into_iter().chain(files) {
+            let real = resolve_future_path(path);
+            if real.starts_with(&watched) || (is_folder && watched.starts_with(&real)) {
+                let message = format!(
+                    "{} and the watched folder {} lie in each other",
+                    path.display(),
+                    watched.display()
+                );
+                return Err(vec![Diagnostic::new(codes::WATCHED_FOLDERS, message)]);
+            }
+        }
+        for folder in [&watch.out, &refused] {
+            fs::create_dir_all(folder).map_err(|error| vec![report_unwritable(folder, &error)])?;
+        }
+        let mut locks = vec![lock_folder(&watch.out).map_err(|found| vec![*found])?];
+        match lock_folder(&watched) {
+            Ok(held) => locks.push(held),
+            // A folder of exports that can only be read cannot be locked; the one for outputs is.
+            Err(found) if found.code == codes::UNWRITABLE => {}
+            Err(found) => return Err(vec![*found]),
+        }
+        Ok(Self { watched, out: watch.out.clone(), refused, state, _locks: locks })
+    }
+}
+
+/// Where a path leads once it is there: links are followed as far as there is something.
+fn resolve_future_path(path: &Path) -> PathBuf {
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+    for above in path.ancestors() {
+        if let (Ok(real), Ok(rest)) = (fs::canonicalize(above), path.strip_prefix(above)) {
+            return if rest.as_os_str().is_empty() { real } else { real.join(rest) };
+        }
+    }
+    path
+}
+
+fn lock_folder(folder: &Path) -> Result<File, Box<Diagnostic>> {
+    let path = folder.join(LOCK);
+    let file = File::options().write(true).create(true).truncate(false).open(&path);
+    let file = file.map_err(|error| Box::new(report_unwritable(&path, &error)))?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(TryLockError::WouldBlock) => {
+            let message = format!("another watch is at work in {}", folder.display());
+            Err(Box::new(Diagnostic::new(codes::WATCHED_ALREADY, message)))
+        }
+        Err(TryLockError::Error(error)) => Err(Box::new(report_unwritable(&path, &error))),
+    }
+}

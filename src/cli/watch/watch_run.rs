@@ -1,0 +1,242 @@
+//! The watch at work: look, wait until a file rests, correct it, write it, remember it.
+
+use super::WatchArgs;
+use super::folder_scan::{ExportStamp, ExportedFile, report_unreadable, scan_exports};
+use super::watch_folders::WatchFolders;
+use super::watch_state::WatchState;
+use crate::cli::command_exit::CommandExit;
+use crate::cli::command_outputs::CommandOutputs;
+use crate::cli::progress::CommandProgress;
+use crate::cli::terminal::escape_controls;
+use crate::cli::unattended::{self, RunLog, UnattendedCorrection, UnattendedOutcome};
+use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::fingerprint::Digest;
+use clsmith::report::finding_policy::FindingPolicy;
+use clsmith::source::Source;
+use clsmith::write::is_interrupt;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// The longest pause between two tries of what fails.
+const LONGEST_PAUSE: Duration = Duration::from_secs(300);
+
+/// What a watch knows.
+pub struct WatchRun<'w> {
+    pub(super) watch: &'w WatchArgs,
+    pub(super) folders: &'w WatchFolders,
+    pub(super) outputs: &'w CommandOutputs,
+    policy: &'w FindingPolicy,
+    progress: &'w CommandProgress,
+    pub(super) log: Option<RunLog>,
+    pub(super) state: WatchState,
+    seen: BTreeMap<PathBuf, SeenExport>,
+    told: BTreeSet<String>,
+    pub(super) worst: CommandExit,
+}
+
+/// A file that was seen.
+struct SeenExport {
+    stamp: ExportStamp,
+    status: ExportStatus,
+}
+
+/// What a file waits for.
+#[derive(Clone)]
+pub enum ExportStatus {
+    /// Not to change for some time, from then on.
+    Settling(Instant),
+    /// For nothing: it was done, or is told and left.
+    Done,
+    /// Another try at that time, after that pause; the message was told.
+    Failed { next: Instant, pause: Duration, message: String },
+}
+
+/// What a file that was taken waits for, or what stands in the way around it.
+pub type TakenExport = Result<ExportStatus, Vec<Diagnostic>>;
+
+impl<'w> WatchRun<'w> {
+    pub fn new(
+        watch: &'w WatchArgs,
+        folders: &'w WatchFolders,
+        outputs: &'w CommandOutputs,
+        policy: &'w FindingPolicy,
+        progress: &'w CommandProgress,
+        (log, state): (Option<RunLog>, WatchState),
+    ) -> Self {
+        let (seen, told) = (BTreeMap::new(), BTreeSet::new());
+        Self { watch, folders, outputs, policy, progress, log, state, seen, told, worst: CommandExit::Done }
+    }
+
+    /// Watches, until Ctrl-C; with `--once` until what is there is done.
+    pub fn watch_folder(mut self) -> io::Result<CommandExit> {
+        let begun = Instant::now();
+        let pause = if self.watch.once { self.watch.poll.min(self.watch.settle) } else { self.watch.poll };
+        let mut first: Option<BTreeSet<PathBuf>> = None;
+        loop {
+            let (mut exports, faults) = scan_exports(&self.folders.watched, &self.watch.files);
+            for fault in faults {
+                self.tell_once(fault)?;
+            }
+            if self.watch.once {
+                let names = || exports.iter().map(|export| export.name.clone()).collect();
+                let first = first.get_or_insert_with(names);
+                exports.retain(|export| first.contains(&export.name));
+            }
+            // Exports come in the order of their names.
+            self.seen.retain(|name, _| exports.binary_search_by(|export| export.name.cmp(name)).is_ok());
+            for export in &exports {
+                match self.take_settled(export) {
+                    Err(error) if is_interrupt(&error) => return Ok(CommandExit::Interrupted),
+                    done => done?,
+                }
+                // Ctrl-C while an output was written is only remembered, and may come when all is written.
+                if self.outputs.interrupt().is_raised() {
+                    return Ok(CommandExit::Interrupted);
+                }
+            }
+            if self.watch.once && self.is_once_finished(begun)? {
+                return Ok(self.worst);
+            }
+            std::thread::sleep(pause);
+        }
+    }
+
+    /// Whether `--once` has done what it can: a file that goes on changing is left.
+    fn is_once_finished(&mut self, begun: Instant) -> io::Result<bool> {
+        let settling: Vec<String> = self
+            .seen
+            .iter()
+            .filter(|(_, seen)| matches!(seen.status, ExportStatus::Settling(_)))
+            .map(|(name, _)| escape_controls(&name.to_string_lossy()))
+            .collect();
+        if settling.is_empty() {
+            return Ok(true);
+        }
+        if begun.elapsed() < self.watch.settle * 3 {
+            return Ok(false);
+        }
+        for name in settling {
+            eprintln!("{name}: still changing, left for the next time");
+        }
+        self.worst = self.worst.max(CommandExit::Errors);
+        Ok(true)
+    }
+
+    /// Takes a file if it has come to rest.
+    fn take_settled(&mut self, export: &ExportedFile) -> io::Result<()> {
+        let now = Instant::now();
+        let status = match self.seen.get(&export.name) {
+            Some(seen) if seen.stamp == export.stamp => seen.status.clone(),
+            _ => {
+                self.set_status(export, ExportStatus::Settling(now));
+                return Ok(());
+            }
+        };
+        let pause = match &status {
+            ExportStatus::Done => return Ok(()),
+            ExportStatus::Settling(since) if now.duration_since(*since) < self.watch.settle => return Ok(()),
+            ExportStatus::Failed { next, .. } if now < *next => return Ok(()),
+            ExportStatus::Settling(_) => self.watch.poll,
+            ExportStatus::Failed { pause, .. } => (*pause * 2).min(LONGEST_PAUSE),
+        };
+        let taken = self.take_export(export)?;
+        let after = match taken {
+            Ok(after) => after,
+            Err(found) => {
+                self.worst = self.worst.max(CommandExit::Errors);
+                let message: String = found.iter().map(|found| found.message.as_str()).collect();
+                if !matches!(&status, ExportStatus::Failed { message: before, .. } if *before == message) {
+                    self.watch.show_findings(&found, &export.name.to_string_lossy())?;
+                    eprintln!("{}: left, and tried again", escape_controls(&export.name.to_string_lossy()));
+                }
+                ExportStatus::Failed { next: Instant::now() + pause, pause, message }
+            }
+        };
+        self.set_status(export, after);
+        Ok(())
+    }
+
+    fn set_status(&mut self, export: &ExportedFile, status: ExportStatus) {
+        self.seen.insert(export.name.clone(), SeenExport { stamp: export.stamp, status });
+    }
+
+    /// Reads, corrects and writes one file; what it then waits for, or what stands around it that is in the way.
+    fn take_export(&mut self, export: &ExportedFile) -> io::Result<TakenExport> {
+        let changed = || Ok(Ok(ExportStatus::Settling(Instant::now())));
+        let fits = export.stamp.size < u64::from(u32::MAX);
+        let read = || -> io::Result<_> {
+            let bytes = if fits { Some(fs::read(&export.path)?) } else { None };
+            let digest = match &bytes {
+                Some(bytes) => Digest::from_bytes(bytes),
+                None => Digest::from_file(&export.path)?,
+            };
+            let is_done = self.state.is_done(&export.name, digest);
+            let rests = is_done || Digest::from_file(&export.path)? == digest;
+            Ok((bytes, digest, is_done, rests && ExportStamp::read_stamp(&export.path)? == export.stamp))
+        };
+        let (bytes, digest, is_done, rests) = match read() {
+            Ok(read) => read,
+            // Taken away again.
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return changed(),
+            Err(error) => return Ok(Err(vec![report_unreadable(&export.path, &error)])),
+        };
+        if !rests {
+            return changed();
+        }
+        if is_done {
+            return Ok(Ok(ExportStatus::Done));
+        }
+        let when = (unattended::utc_now(), Instant::now());
+        let name = export.path.to_string_lossy().into_owned();
+        self.progress.begin_bar(&export.name.to_string_lossy());
+        let source = Source::new(name, bytes.unwrap_or_default());
+        let correction = match (&source, fits) {
+            (Ok(source), true) => self.correct_source(&export.name, source),
+            _ => {
+                let message =
+                    format!("the file has {} bytes; clsmith reads files below 4 GiB", export.stamp.size);
+                UnattendedCorrection::refused(vec![Diagnostic::new(codes::TOO_LARGE, message)])
+            }
+        };
+        self.progress.clear_bar();
+        if correction.surroundings {
+            return Ok(Err(correction.findings));
+        }
+        // A new export while we worked: the one that was read is of no use to anybody.
+        if ExportStamp::read_stamp(&export.path).ok() != Some(export.stamp) {
+            return changed();
+        }
+        match source {
+            Ok(source) if correction.outcome != UnattendedOutcome::Refused => {
+                self.write_corrected(export, digest, &source, correction, when)
+            }
+            _ => self.move_refused(export, digest, correction, when),
+        }
+    }
+
+    fn correct_source(&self, name: &Path, source: &std::sync::Arc<Source>) -> UnattendedCorrection {
+        let args = &self.watch.recipe;
+        let file = name.file_name().unwrap_or_default().to_string_lossy();
+        // Read anew for each program, so that a corrected recipe counts from the next one on.
+        match args.read_chooser() {
+            Ok(chooser) => {
+                unattended::correct_unattended(args, &chooser, self.policy, self.progress, &file, source)
+            }
+            Err(found) => UnattendedCorrection::without_recipe(found),
+        }
+    }
+
+    /// Tells what would otherwise be told at every look.
+    pub(super) fn tell_once(&mut self, found: Diagnostic) -> io::Result<()> {
+        if found.is_error() {
+            self.worst = self.worst.max(CommandExit::Errors);
+        }
+        if self.told.insert(found.message.clone()) {
+            self.watch.show_findings(&[found], &self.folders.watched.to_string_lossy())?;
+        }
+        Ok(())
+    }
+}

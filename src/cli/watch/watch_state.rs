@@ -1,0 +1,105 @@
+//! What was done, by content: a line of JSON for each program, added after its output stands.
+//!
+//! A kill between the two does a program once more, to the same bytes. A line that a crash has cut is passed over, and the next
+//! one starts on a line of its own.
+
+use crate::cli::command_outputs::report_unwritable;
+use crate::cli::unattended::{UnattendedOutcome, utc_now};
+use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::fingerprint::Digest;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// A line of the file.
+#[derive(Debug, Serialize)]
+struct WatchStateLine<'l> {
+    version: u32,
+    time: String,
+    path: &'l str,
+    sha256: Digest,
+    outcome: UnattendedOutcome,
+}
+
+/// What of a line counts when it is read.
+#[derive(Debug, Deserialize)]
+struct WatchStateEntry {
+    path: String,
+    sha256: Digest,
+}
+
+/// What was done.
+pub struct WatchState {
+    path: PathBuf,
+    file: File,
+    /// The content that was done last, by name.
+    done: BTreeMap<String, Digest>,
+}
+
+impl WatchState {
+    /// Reads what was done before. Also tells how many lines could not be read.
+    pub fn open(path: &Path) -> Result<(Self, usize), Box<Diagnostic>> {
+        let bytes = match fs::read(path) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
+            Err(error) => {
+                let message = format!("{} cannot be read: {error}", path.display());
+                return Err(Box::new(Diagnostic::new(codes::UNREADABLE, message)));
+            }
+        };
+        let (mut done, mut bad) = (BTreeMap::new(), 0);
+        for line in bytes.split(|&byte| byte == b'\n').filter(|line| !line.trim_ascii().is_empty()) {
+            match serde_json::from_slice(line) {
+                Ok(WatchStateEntry { path, sha256 }) => drop(done.insert(path, sha256)),
+                Err(_) => bad += 1,
+            }
+        }
+        let open = || {
+            let mut file = File::options().append(true).create(true).open(path)?;
+            if bytes.last().is_some_and(|&last| last != b'\n') {
+                file.write_all(b"\n")?;
+            }
+            Ok(file)
+        };
+        let file = open().map_err(|error: io::Error| Box::new(report_unwritable(path, &error)))?;
+        Ok((Self { path: path.to_path_buf(), file, done }, bad))
+    }
+
+    /// Whether this content was the last one done under this name.
+    pub fn is_done(&self, name: &Path, digest: Digest) -> bool {
+        self.done.get(&encode_name(name)) == Some(&digest)
+    }
+
+    /// Remembers a program, on the disk before this returns.
+    pub fn remember_program(
+        &mut self,
+        name: &Path,
+        digest: Digest,
+        outcome: UnattendedOutcome,
+    ) -> Result<(), Box<Diagnostic>> {
+        let key = encode_name(name);
+        let line = WatchStateLine { version: 1, time: utc_now(), path: &key, sha256: digest, outcome };
+        let written = serde_json::to_vec(&line).map_err(io::Error::from).and_then(|mut line| {
+            line.push(b'\n');
+            self.file.write_all(&line)?;
+            self.file.sync_data()
+        });
+        self.done.insert(key, digest);
+        written.map_err(|error| Box::new(report_unwritable(&self.path, &error)))
+    }
+}
+
+/// A name as text, each name another one: `%` and bytes that are no UTF-8 stand as `%25`, `%FF`.
+fn encode_name(name: &Path) -> String {
+    let mut key = String::new();
+    for chunk in name.as_os_str().as_encoded_bytes().utf8_chunks() {
+        key.push_str(&chunk.valid().replace('%', "%25"));
+        for byte in chunk.invalid() {
+            let _ = write!(key, "%{byte:02X}");
+        }
+    }
+    key
+}

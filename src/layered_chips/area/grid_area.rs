@@ -1,0 +1,177 @@
+//! Areas as borders on the grid.
+
+use super::AreaGrid;
+use i_overlay::i_float::int::point::IntPoint;
+use i_overlay::i_shape::flat::buffer::FlatContoursBuffer;
+
+/// An area on the grid: borders that wind around it. In what a [`super::Clipper`] returns they wind around every place of it once:
+/// outer borders counter-clockwise, holes clockwise, in no order.
+#[derive(Debug, Clone, Default)]
+pub struct GridArea {
+    pub(super) borders: FlatContoursBuffer,
+}
+
+/// A box on the grid, its sides included.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct GridBox {
+    pub(crate) low: [i32; 2],
+    pub(crate) high: [i32; 2],
+}
+
+impl GridBox {
+    /// Whether it has a point in common with another one.
+    pub(crate) fn intersects(&self, other: &Self) -> bool {
+        let ([x0, y0], [x1, y1]) = (self.low, self.high);
+        let ([u0, v0], [u1, v1]) = (other.low, other.high);
+        x0 <= u1 && u0 <= x1 && y0 <= v1 && v0 <= y1
+    }
+
+    /// On which outer sides of it a point is, a bit for each.
+    fn outer_sides(&self, point: IntPoint) -> u8 {
+        let ([x0, y0], [x1, y1]) = (self.low, self.high);
+        u8::from(point.x < x0)
+            | u8::from(point.x > x1) << 1
+            | u8::from(point.y < y0) << 2
+            | u8::from(point.y > y1) << 3
+    }
+}
+
+impl PartialEq for GridArea {
+    /// Whether both have the same borders, corner by corner.
+    fn eq(&self, other: &Self) -> bool {
+        self.borders.ranges == other.borders.ranges && self.borders.points == other.borders.points
+    }
+}
+
+impl GridArea {
+    /// The area that borders (x, y in mm) wind around at all, still as they are.
+    pub fn new<'a>(grid: &AreaGrid, borders: impl IntoIterator<Item = &'a [[f64; 2]]>) -> Self {
+        let mut region = Self::default();
+        borders.into_iter().for_each(|border| region.add_boundary(grid, border));
+        region
+    }
+
+    /// Adds a border, in mm.
+    pub fn add_boundary(&mut self, grid: &AreaGrid, border: &[[f64; 2]]) {
+        let start = self.borders.points.len();
+        grid.add_grid_points(border, &mut self.borders.points);
+        self.close_boundary(start);
+    }
+
+    /// Whether it has no border.
+    pub fn is_empty(&self) -> bool {
+        self.borders.ranges.is_empty()
+    }
+
+    /// How many corners its borders have.
+    pub fn vertex_count(&self) -> usize {
+        self.borders.points.len()
+    }
+
+    /// Sum of what its borders enclose, mm2: the area when they wind around it once.
+    pub fn area_mm2(&self, grid: &AreaGrid) -> f64 {
+        let twice: i128 = self.contours().map(twice_area).sum();
+        twice as f64 / 2.0 * grid.step_mm() * grid.step_mm()
+    }
+
+    /// The box around it.
+    pub fn bounding_box(&self) -> Option<GridBox> {
+        let first = self.borders.points.first()?;
+        let start = GridBox { low: [first.x, first.y], high: [first.x, first.y] };
+        Some(self.borders.points.iter().fold(start, |GridBox { low: [x0, y0], high: [x1, y1] }, point| {
+            GridBox { low: [x0.min(point.x), y0.min(point.y)], high: [x1.max(point.x), y1.max(point.y)] }
+        }))
+    }
+
+    pub(crate) fn clear(&mut self) {
+        self.borders.clear_and_reserve(0, 0);
+    }
+
+    pub(super) fn contours(&self) -> impl Iterator<Item = &[IntPoint]> {
+        self.borders.ranges.iter().filter_map(|range| self.borders.points.get(range.clone()))
+    }
+
+    pub(crate) fn append(&mut self, other: &Self) {
+        other.contours().for_each(|contour| self.borders.add_contour(contour));
+    }
+
+    /// The area between two lines parallel to an axis.
+    pub(crate) fn from_box(window: &GridBox) -> Self {
+        let ([x0, y0], [x1, y1]) = (window.low, window.high);
+        let mut region = Self::default();
+        let corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)].map(|(x, y)| IntPoint::new(x, y));
+        region.borders.add_contour(&corners);
+        region
+    }
+
+    /// Adds borders that wind around every place of a window as those of another region do, with fewer corners: what runs on one outer
+    /// side of the window runs straight. No place of a border within the window moves.
+    pub(crate) fn add_simplified_within(&mut self, window: &GridBox, other: &Self) {
+        for contour in other.contours() {
+            let start = self.borders.points.len();
+            let Some((&first, rest)) = contour.split_first() else { continue };
+            let mut all = window.outer_sides(first);
+            let (mut last, mut since) = (first, window.outer_sides(first));
+            self.borders.points.push(first);
+            for &point in rest.iter().chain([&first]) {
+                let sides = window.outer_sides(point);
+                // `since`: the sides on which all is that lies between the last corner kept and `last`.
+                if since & sides == 0 {
+                    if self.borders.points.get(start..).and_then(<[_]>::last) != Some(&last) {
+                        self.borders.points.push(last);
+                    }
+                    since = window.outer_sides(last) & sides;
+                }
+                since &= sides;
+                all &= sides;
+                last = point;
+            }
+            if all != 0 {
+                self.borders.points.truncate(start);
+            }
+            self.close_boundary(start);
+        }
+    }
+
+    /// Leaves out borders that enclose nothing thicker than rounding.
+    pub(super) fn drop_slivers(&mut self) {
+        let FlatContoursBuffer { points, ranges } = &mut self.borders;
+        ranges.retain(|range| points.get(range.clone()).is_some_and(is_thick));
+    }
+
+    /// Makes the points from `start` on a border, unless it encloses nothing.
+    fn close_boundary(&mut self, start: usize) {
+        let end = self.borders.points.len();
+        if end >= start + 3 {
+            self.borders.ranges.push(start..end);
+        } else {
+            self.borders.points.truncate(start);
+        }
+    }
+}
+
+/// Thickness up to which a border is a sliver: corners are rounded to half a step, and crossings a step or two more.
+const THINNEST: i128 = 2;
+
+/// Whether a border encloses something thicker than rounding.
+pub(super) fn is_thick(contour: &[IntPoint]) -> bool {
+    twice_area(contour).abs() > THINNEST * axis_parallel_length(contour)
+}
+
+fn vertex_pairs(contour: &[IntPoint]) -> impl Iterator<Item = (&IntPoint, &IntPoint)> {
+    contour.iter().zip(contour.iter().skip(1).chain(contour.first()))
+}
+
+/// Twice the area, square steps; positive counter-clockwise.
+pub(super) fn twice_area(contour: &[IntPoint]) -> i128 {
+    let cross = |(a, b): (&IntPoint, &IntPoint)| {
+        i128::from(i64::from(a.x) * i64::from(b.y) - i64::from(b.x) * i64::from(a.y))
+    };
+    vertex_pairs(contour).map(cross).sum()
+}
+
+/// Length of a border along the axes, steps.
+fn axis_parallel_length(contour: &[IntPoint]) -> i128 {
+    let way = |(a, b): (&IntPoint, &IntPoint)| i64::from(a.x.abs_diff(b.x)) + i64::from(a.y.abs_diff(b.y));
+    i128::from(vertex_pairs(contour).map(way).sum::<i64>())
+}

@@ -1,0 +1,213 @@
+//! Intervals of time in which nothing changes in the diagram's topology, and the events between them.
+//!
+//! Over an interval of time every curve is enclosed by interval arithmetic. When each cell of the circle has a curve of one sign, or one
+//! that only rises or falls, its roots are known to be functions of time, one in each bracket; when the brackets of different curves are
+//! apart, so is the order of the roots. Otherwise the interval is halved, down to an eight-millionth of the step, where something
+//! happens: a fold (a branch of the envelope begins or ends), a split, a branch that runs into the bottom disc's chord.
+
+use super::circle_cells::{CircleCells, CurveRoots, RootBracket};
+use super::moving_roots;
+use crate::layered_chips::interval::IntervalF64;
+use crate::layered_chips::section_family::{DiagramCurve, FamilyWindow, SectionFamily};
+use crate::layered_chips::swept_area::GRAZES;
+use crate::layered_chips::trig_polynomial::{AngleSinCos, TrigPolynomial};
+
+/// Shortest interval of time that is halved: an eight-millionth of the step.
+const SHORTEST: f64 = 1.0 / (1 << 23) as f64;
+
+/// Narrowest cells for an interval of the whole step, radians; those of shorter ones go with the root of time, as folds do.
+const FINEST: f64 = 0.1;
+
+/// Events at most; a diagram with more has curves that coincide.
+const MOST_EVENTS: usize = 512;
+
+/// Slabs at most, likewise.
+const MOST_SLABS: usize = 4096;
+
+/// An interval of time in which the roots of all curves are functions of time that do not cross.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DiagramSlab {
+    /// Beginning and end.
+    pub t: [f64; 2],
+    /// The roots by curve, in the order of [`DiagramCurve::ALL`]; those of the face only where there is a chord.
+    pub roots: [CurveRoots; 4],
+}
+
+/// What happens to the envelope at an event, so far as it was proved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum EventProof {
+    /// In the box of angles, the envelope is one arc with one lowest (or highest) time: two branches begin (`true`) or end there.
+    Fold {
+        /// Least and largest angle, radians.
+        angles: [f64; 2],
+        /// Whether they begin.
+        begins: bool,
+    },
+    /// Not told apart at this resolution: branches may cross, split or meet in the box.
+    Open {
+        /// Least and largest angle, radians.
+        angles: [f64; 2],
+    },
+    /// Nothing happens to the envelope itself; it meets a chord, or a chord comes or goes.
+    Elsewhere,
+}
+
+/// A time at which the topology changes, known to an eight-millionth of the step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TopologyEvent {
+    /// When.
+    pub t: f64,
+    /// What happens to the envelope.
+    pub proof: EventProof,
+}
+
+/// The step in slabs, with the events between them; events next to each other in time are one.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct DiagramSlabs {
+    /// In time's order.
+    pub slabs: Vec<DiagramSlab>,
+    /// In time's order.
+    pub events: Vec<TopologyEvent>,
+    /// Whether there were so many of either that the rest was left out: curves that run along each other.
+    pub given_up: bool,
+}
+
+/// Cuts the whole step into slabs.
+pub fn cut_into_slabs(family: &SectionFamily) -> DiagramSlabs {
+    let mut found = DiagramSlabs::default();
+    let circle = CircleCells::new();
+    let circles = CurveCells([circle.clone(), circle.clone(), circle.clone(), circle]);
+    bisect_time(family, IntervalF64 { lo: 0.0, hi: 1.0 }, circles, &mut found);
+    found
+}
+
+/// The circle in cells, for every curve.
+#[derive(Clone)]
+struct CurveCells([CircleCells; 4]);
+
+fn bisect_time(family: &SectionFamily, t: IntervalF64, mut circles: CurveCells, found: &mut DiagramSlabs) {
+    if found.events.len() >= MOST_EVENTS || found.slabs.len() >= MOST_SLABS {
+        found.given_up = true;
+        return;
+    }
+    let window = family.window_over(t);
+    let finest = FINEST * (t.hi - t.lo).sqrt();
+    if let Some(roots) = isolate_all_roots(family, &window, &mut circles, finest) {
+        found.slabs.push(DiagramSlab { t: [t.lo, t.hi], roots });
+        return;
+    }
+    if t.hi - t.lo <= SHORTEST {
+        let [edge, ..] = &circles.0;
+        let event = TopologyEvent { t: t.middle(), proof: prove_event(&window, edge) };
+        found.events.push(event);
+        return;
+    }
+    let middle = t.middle();
+    bisect_time(family, IntervalF64 { lo: t.lo, hi: middle }, circles.clone(), found);
+    bisect_time(family, IntervalF64 { lo: middle, hi: t.hi }, circles, found);
+}
+
+/// The roots of all curves, if they are certain and apart.
+fn isolate_all_roots(
+    family: &SectionFamily,
+    window: &FamilyWindow<'_>,
+    circles: &mut CurveCells,
+    finest: f64,
+) -> Option<[CurveRoots; 4]> {
+    let [edge_cells, bottom_cells, top_cells, face_cells] = &mut circles.0;
+    let (edge, _) = window.enclose_curve(DiagramCurve::Edge);
+    let edge_roots = if edge.max_magnitude() <= family.zero_threshold() {
+        CurveRoots { brackets: Vec::new(), positive: true }
+    } else {
+        isolate_curve_roots(edge_cells, &edge, finest)?
+    };
+    let (bottom, _) = window.enclose_curve(DiagramCurve::Bottom);
+    let bottom_roots = isolate_flute_end_roots(bottom_cells, &bottom, finest)?;
+    let nothing = CurveRoots { brackets: Vec::new(), positive: true };
+    let mut top_roots = nothing.clone();
+    if family.has_top() {
+        let (curve, _) = window.enclose_curve(DiagramCurve::Top);
+        top_roots = isolate_flute_end_roots(top_cells, &curve, finest)?;
+    }
+    if bottom_roots.brackets.is_empty() && top_roots.brackets.is_empty() {
+        return Some([edge_roots, bottom_roots, top_roots, nothing]);
+    }
+    let (face, _) = window.enclose_curve(DiagramCurve::Face);
+    // A disc that slides in its own plane neither advances nor retreats anywhere.
+    let slides = face.max_magnitude() <= family.zero_threshold() / family.step().mill().radius;
+    let face_roots = if slides { nothing } else { isolate_curve_roots(face_cells, &face, finest)? };
+    // Turning about the tip, f is zero all along the bottom disc's rim: the order of two curves that are one does not matter.
+    let pivots = family.pivots_about_tip();
+    let others = [(&edge_roots, DiagramCurve::Edge, pivots), (&face_roots, DiagramCurve::Face, false)];
+    for (other, curve, same) in others {
+        (same || has_no_common_root(&bottom_roots, DiagramCurve::Bottom, other, curve, window))
+            .then_some(())?;
+        has_no_common_root(&top_roots, DiagramCurve::Top, other, curve, window).then_some(())?;
+    }
+    has_no_common_root(&bottom_roots, DiagramCurve::Bottom, &top_roots, DiagramCurve::Top, window)
+        .then_some(())?;
+    Some([edge_roots, bottom_roots, top_roots, face_roots])
+}
+
+/// The roots of an end of the flutes.
+fn isolate_flute_end_roots(
+    cells: &mut CircleCells,
+    curve: &TrigPolynomial<IntervalF64>,
+    finest: f64,
+) -> Option<CurveRoots> {
+    // An upright end in the layer's height cuts everything off, however rounding has it.
+    if curve.max_magnitude() <= GRAZES {
+        return Some(CurveRoots { brackets: Vec::new(), positive: false });
+    }
+    isolate_curve_roots(cells, curve, finest)
+}
+
+fn isolate_curve_roots(
+    cells: &mut CircleCells,
+    curve: &TrigPolynomial<IntervalF64>,
+    finest: f64,
+) -> Option<CurveRoots> {
+    let TrigPolynomial([constant, others @ ..]) = curve;
+    let swing: f64 = others.iter().map(|k| k.magnitude()).sum();
+    // Most layers are nowhere near the ends of the flutes.
+    if constant.lo > swing || constant.hi < -swing {
+        return Some(CurveRoots { brackets: Vec::new(), positive: constant.lo > 0.0 });
+    }
+    cells.classify_cells(curve, finest);
+    cells.isolate_roots(curve)
+}
+
+/// Whether no root of one curve meets one of the other.
+fn has_no_common_root(
+    a: &CurveRoots,
+    a_curve: DiagramCurve,
+    b: &CurveRoots,
+    b_curve: DiagramCurve,
+    window: &FamilyWindow<'_>,
+) -> bool {
+    for a in &a.brackets {
+        for b in &b.brackets {
+            if can_brackets_meet(a, b) && !moving_roots::is_root_apart(a, a_curve, b_curve, window) {
+                return false;
+            }
+        }
+    }
+    true
+}
+
+fn can_brackets_meet(a: &RootBracket, b: &RootBracket) -> bool {
+    let turn = std::f64::consts::TAU;
+    [-turn, 0.0, turn].into_iter().any(|shift| a.lo <= b.hi + shift && b.lo + shift <= a.hi)
+}
+
+/// What can be said of the envelope in the box of which nothing is known.
+fn prove_event(window: &FamilyWindow<'_>, cells: &CircleCells) -> EventProof {
+    let Some(x) = cells.unknown_angles() else { return EventProof::Elsewhere };
+    let (edge, rate) = window.enclose_curve(DiagramCurve::Edge);
+    let angle = AngleSinCos::from_interval(x);
+    // Where f_t and f_xx keep their signs the zero set is t(x) with t'' = -f_xx / f_t wherever t' = 0: at most one extremum.
+    match (rate.value_at(&angle).sign(), edge.second_derivative_at(&angle).sign()) {
+        (Some(later), Some(bend)) => EventProof::Fold { angles: [x.lo, x.hi], begins: later != bend },
+        _ => EventProof::Open { angles: [x.lo, x.hi] },
+    }
+}

@@ -1,0 +1,236 @@
+//! Samples of a piece of a chip: its border closely, its middle coarsely.
+
+use super::moving_cylinder::{CylinderContact, CylinderFace, MovingCylinder};
+use crate::layered_chips::Polygon;
+use nalgebra::Vector3;
+use std::f64::consts::{PI, TAU};
+
+/// Distance of samples on a border as a share of the radius: 0.4 of a bin.
+const SPACING: f64 = 0.02;
+
+/// Most samples of one straight edge.
+const MOST: f64 = 512.0;
+
+/// Samples of the middle in each direction.
+const INSIDE: usize = 8;
+
+/// Neighbours on a border further apart than this (radians) are not joined: the contact jumped.
+const JUMP: f64 = 0.5;
+
+/// Parts of the normal in the layer below which a width in the layer says nothing of a thickness.
+const LEVEL: f64 = 0.05;
+
+/// A layer: the height of its middle, and its thickness, mm.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LayerSlab {
+    pub z: f64,
+    pub thickness: f64,
+}
+
+/// A contact as a bin takes it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ContactSample {
+    pub flank: bool,
+    pub angle: f64,
+    /// Lengths along the meridian, mm.
+    pub along: [f64; 2],
+    pub share: f64,
+    pub bound: f64,
+    pub thickness: f64,
+}
+
+/// The samples of a piece; none of a film that chords left.
+pub(super) fn sample_polygon(
+    motion: &MovingCylinder,
+    slab: &LayerSlab,
+    polygon: &Polygon,
+) -> Vec<ContactSample> {
+    let borders: Vec<&Vec<[f64; 2]>> = std::iter::once(&polygon.outer).chain(&polygon.holes).collect();
+    let mut found = Vec::new();
+    for border in &borders {
+        let around: Vec<Option<(CylinderContact, f64)>> =
+            subdivide_boundary(border, SPACING * motion.radius_mm())
+                .into_iter()
+                .map(|place| {
+                    let contact = motion.find_first_contact(&Vector3::new(place[0], place[1], slab.z))?;
+                    Some((contact, material_thickness_mm(&borders, place, &contact)))
+                })
+                .collect();
+        sample_boundary(motion, slab, &around, &mut found);
+    }
+    if found.is_empty() {
+        return found;
+    }
+    let spacing = sample_interior(motion, slab, &borders, &mut found);
+    // Between the samples of the middle, what the bottom engages reaches further in.
+    let innermost = |sample: &ContactSample| if sample.flank { f64::INFINITY } else { sample.along[0] };
+    let innermost = found.iter().map(innermost).fold(f64::INFINITY, f64::min) - spacing;
+    found.iter_mut().filter(|sample| !sample.flank).for_each(|sample| sample.along[0] = innermost.max(0.0));
+    found
+}
+
+/// Samples of a border, joined where neighbours are more than a bin apart. What is as thin as chords may leave is passed over, unless
+/// a neighbour is not: at a chip's corner it has no thickness either.
+fn sample_boundary(
+    motion: &MovingCylinder,
+    slab: &LayerSlab,
+    around: &[Option<(CylinderContact, f64)>],
+    found: &mut Vec<ContactSample>,
+) {
+    let count = around.len();
+    let at = |index: usize| around.get(index % count.max(1)).copied().flatten();
+    let thickness = |index: usize| {
+        let near =
+            [index + count - 1, index, index + 1].map(|index| at(index).map_or(0.0, |(_, width)| width));
+        near.into_iter().fold(0.0, f64::max)
+    };
+    for index in 0..count {
+        let Some((contact, _)) = at(index) else { continue };
+        let thickness = thickness(index);
+        if thickness <= motion.chord_error_mm() {
+            continue;
+        }
+        let gap = |other: usize| {
+            let other = at(other).filter(|(other, _)| other.face == contact.face)?;
+            let turn = normalize_angle(other.0.angle - contact.angle);
+            (turn.abs() < JUMP).then_some(turn)
+        };
+        let (before, after) = (gap(index + count - 1), gap(index + 1));
+        let apart = before.map_or(0.0, f64::abs).max(after.map_or(0.0, f64::abs));
+        let sample = sample_contact(motion, slab, &contact, apart / 2.0, thickness);
+        found.push(sample);
+        if let (Some(turn), Some((next, _))) = (after, at(index + 1)) {
+            let parts = (turn.abs() / (TAU / 240.0)).ceil() as usize;
+            found.extend((1..parts).map(|part| {
+                let part = part as f64 / parts as f64;
+                let share = contact.share + (next.share - contact.share) * part;
+                ContactSample { angle: contact.angle + turn * part, share, ..sample }
+            }));
+        }
+    }
+}
+
+/// Adds samples of the middle; returns their distance, mm.
+fn sample_interior(
+    motion: &MovingCylinder,
+    slab: &LayerSlab,
+    borders: &[&Vec<[f64; 2]>],
+    found: &mut Vec<ContactSample>,
+) -> f64 {
+    let mut window = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+    for place in borders.iter().flat_map(|border| border.iter()) {
+        for ([low, high], at) in window.iter_mut().zip(place) {
+            (*low, *high) = (low.min(*at), high.max(*at));
+        }
+    }
+    let [[x0, x1], [y0, y1]] = window;
+    let step = [(x1 - x0) / INSIDE as f64, (y1 - y0) / INSIDE as f64];
+    for (column, row) in (0..INSIDE).flat_map(|column| (0..INSIDE).map(move |row| (column, row))) {
+        let place = [x0 + step[0] * (column as f64 + 0.5), y0 + step[1] * (row as f64 + 0.5)];
+        // A place is inside when a line to one side of it crosses the borders an odd number of times.
+        let crossings = borders.iter().flat_map(|border| find_boundary_crossings(border, place, [1.0, 0.0]));
+        if crossings.filter(|at| *at > 0.0).count() % 2 == 0 {
+            continue;
+        }
+        let Some(contact) = motion.find_first_contact(&Vector3::new(place[0], place[1], slab.z)) else {
+            continue;
+        };
+        let width = material_thickness_mm(borders, place, &contact);
+        if width > motion.chord_error_mm() {
+            found.push(sample_contact(motion, slab, &contact, SPACING, width));
+        }
+    }
+    step[0].max(step[1])
+}
+
+fn sample_contact(
+    motion: &MovingCylinder,
+    slab: &LayerSlab,
+    contact: &CylinderContact,
+    apart: f64,
+    thickness: f64,
+) -> ContactSample {
+    let upright = contact.upright.max(1e-3);
+    let half = slab.thickness / 2.0 / upright;
+    let lean = (1.0 - upright * upright).max(0.0).sqrt();
+    let flank = contact.face == CylinderFace::Flank;
+    let radius = motion.radius_mm();
+    let along = match contact.face {
+        CylinderFace::Flank => {
+            [contact.height - half, contact.height + half].map(|height| radius + height.max(0.0))
+        }
+        CylinderFace::Bottom => [contact.rho; 2],
+        CylinderFace::Top => [radius + contact.height; 2],
+    };
+    let turned = motion.turn_per_mm() * (half + radius * apart);
+    let bound = if flank && contact.most > 0.0 {
+        // Moved about the axis to the next sample, and to the side by what chords and the lean of half a layer may hide.
+        let angle = (contact.share / contact.most).clamp(-1.0, 1.0).acos();
+        let aside = (motion.chord_error_mm() + half * lean) / radius;
+        let side = ((angle - apart).max(0.0).sin() - aside).max(0.0);
+        contact.most * (1.0 - side * side).max(0.0).sqrt()
+    } else {
+        contact.share
+    };
+    ContactSample {
+        flank,
+        angle: contact.angle,
+        along,
+        share: contact.share,
+        bound: bound + turned,
+        thickness,
+    }
+}
+
+/// Thickness along the normal of the material that holds a place, mm; infinite where its width in the layer does not tell.
+fn material_thickness_mm(borders: &[&Vec<[f64; 2]>], place: [f64; 2], contact: &CylinderContact) -> f64 {
+    let level = contact.normal.x.hypot(contact.normal.y);
+    if level < LEVEL {
+        return f64::INFINITY;
+    }
+    let way = [contact.normal.x / level, contact.normal.y / level];
+    let all: Vec<f64> =
+        borders.iter().flat_map(|border| find_boundary_crossings(border, place, way)).collect();
+    let side = |sign: f64| {
+        let beyond = || all.iter().map(|at| at * sign).filter(|at| *at > 1e-6);
+        // From the middle of the first stretch on, an odd number of crossings is left where that is inside.
+        if beyond().count() % 2 == 1 { beyond().fold(f64::INFINITY, f64::min) } else { 0.0 }
+    };
+    (side(1.0) + side(-1.0)) * level
+}
+
+/// Where a line through a place crosses a border, mm along it.
+fn find_boundary_crossings(
+    border: &[[f64; 2]],
+    [x, y]: [f64; 2],
+    [ux, uy]: [f64; 2],
+) -> impl Iterator<Item = f64> {
+    let seen = move |[px, py]: &[f64; 2]| {
+        let (dx, dy) = (px - x, py - y);
+        [dx * ux + dy * uy, dy * ux - dx * uy]
+    };
+    boundary_edges(border).filter_map(move |(a, b)| {
+        let ([a, above], [b, below]) = (seen(a), seen(b));
+        ((above > 0.0) != (below > 0.0)).then(|| a + (b - a) * above / (above - below))
+    })
+}
+
+fn boundary_edges(border: &[[f64; 2]]) -> impl Iterator<Item = (&[f64; 2], &[f64; 2])> {
+    border.iter().zip(border.iter().cycle().skip(1))
+}
+
+/// The corners of a border with places between them no further apart than a distance.
+fn subdivide_boundary(border: &[[f64; 2]], apart: f64) -> Vec<[f64; 2]> {
+    let mut places = Vec::with_capacity(2 * border.len());
+    for ([ax, ay], [bx, by]) in boundary_edges(border) {
+        let parts = ((bx - ax).hypot(by - ay) / apart).ceil().clamp(1.0, MOST);
+        let between = (0..parts as usize).map(|part| part as f64 / parts);
+        places.extend(between.map(|part| [ax + (bx - ax) * part, ay + (by - ay) * part]));
+    }
+    places
+}
+
+/// An angle from -pi to pi.
+fn normalize_angle(angle: f64) -> f64 {
+    (angle + PI).rem_euclid(TAU) - PI
+}

@@ -1,0 +1,101 @@
+//! A chip as the engagement that feeds are made from.
+//!
+//! Every place of a chip was reached by the cutter's surface at one time and in one direction about the axis. At each time the directions
+//! engaged form arcs whose ends lie on the chip's border, so the border is sampled, and the middle besides: for each sample the moment at
+//! which the moving cylinder reaches it is solved for, and there the share of the feed with which the surface advances is exact.
+//!
+//! **Bounds.** [`EngagementBin::share_bound`] holds what lies between samples, what chords may hide (twice the tolerance), and what lies between the
+//! middle of a layer and its upper and lower side as the axis leans and turns. What it does not hold: material that reaches no layer's
+//! middle, so lower than a layer, and stock whose own walls lean within a layer. Material thinner than twice the tolerance is what
+//! chords of an earlier pass left, and no contact.
+
+mod contact_samples;
+mod moving_cylinder;
+
+use super::chip::{Chip, LayerChip};
+use super::mill_step::FlatMill;
+use crate::sim::{Engagement, EngagementBin, PathPiece};
+use contact_samples::{ContactSample, LayerSlab};
+use moving_cylinder::MovingCylinder;
+
+/// The engagement of a piece of path with this chip, which was cut with a mill and chords within `tolerance` (mm).
+///
+/// Lengths along the meridian are radii on the bottom and the radius plus the height above the tip on the flank. Collars are
+/// not looked at.
+pub fn measure_engagement(chip: &Chip, mill: &FlatMill, piece: &PathPiece, tolerance: f64) -> Engagement {
+    let mut found = Engagement::empty_for_piece(piece, [mill.radius, mill.flutes]);
+    if chip.layers.is_empty() {
+        return found;
+    }
+    let motion = MovingCylinder::new(mill, piece, found.length_mm, 2.0 * tolerance + 1e-5);
+    for layer in &chip.layers {
+        let slab = LayerSlab { z: layer.z, thickness: layer.thickness };
+        if layer.inside_mm2 > 0.0 {
+            // How it was reached is not known: it has the largest share there can be.
+            found.removed_mm3 += layer.inside_mm2 * layer.thickness;
+            let span = motion.meridian_range_at_start(&slab);
+            add_bin(
+                &mut found,
+                &motion,
+                0.0,
+                span,
+                EngagementBin { share: 1.0, share_bound: 1.0, ..EngagementBin::EMPTY },
+            );
+        }
+        for polygon in &layer.pieces {
+            let samples = contact_samples::sample_polygon(&motion, &slab, polygon);
+            if samples.is_empty() {
+                continue;
+            }
+            found.removed_mm3 += polygon.area_mm2() * layer.thickness;
+            samples.iter().for_each(|sample| add_sample(&mut found, &motion, sample));
+        }
+    }
+    found
+}
+
+/// The largest share of the way of a piece with which the cutter's surface advances into the chip on one layer, anywhere on the piece;
+/// `None` where no sample of the chip is reached by what advances (a film that chords left).
+///
+/// The thickest chip of a tooth follows: this share of the feed of a tooth. Between samples, a fiftieth of the radius apart, it may be
+/// larger by the square of that.
+pub fn largest_feed_fraction(
+    layer: &LayerChip,
+    mill: &FlatMill,
+    piece: &PathPiece,
+    tolerance: f64,
+) -> Option<f64> {
+    let length = Engagement::empty_for_piece(piece, [mill.radius, mill.flutes]).length_mm;
+    let motion = MovingCylinder::new(mill, piece, length, 2.0 * tolerance + 1e-5);
+    let slab = LayerSlab { z: layer.z, thickness: layer.thickness };
+    let samples =
+        layer.pieces.iter().flat_map(|polygon| contact_samples::sample_polygon(&motion, &slab, polygon));
+    samples.map(|sample| sample.share).reduce(f64::max)
+}
+
+fn add_sample(found: &mut Engagement, motion: &MovingCylinder, sample: &ContactSample) {
+    let bin = EngagementBin {
+        share: sample.share as f32,
+        share_bound: sample.bound.max(sample.share) as f32,
+        radial: if sample.flank { 1.0 } else { 0.0 },
+        thickness: sample.thickness as f32,
+        ..EngagementBin::EMPTY
+    };
+    add_bin(found, motion, sample.angle, sample.along, bin);
+}
+
+/// Adds a bin that is engaged between two lengths along the meridian.
+fn add_bin(
+    found: &mut Engagement,
+    motion: &MovingCylinder,
+    angle: f64,
+    [low, high]: [f64; 2],
+    bin: EngagementBin,
+) {
+    let radius = motion.radius_mm();
+    found.add_contact(angle, &EngagementBin { low: low as f32, high: high as f32, ..bin });
+    let left = angle.sin() * high.min(radius);
+    found.lateral = [found.lateral[0].min(left), found.lateral[1].max(left)];
+    let heights = [low, high].map(|along| (along - radius).max(0.0));
+    found.height = [found.height[0].min(heights[0]), found.height[1].max(heights[1])];
+}

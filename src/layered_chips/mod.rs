@@ -1,0 +1,32 @@
+//! The exact undeformed chips of a flat end mill between two places of the cutter, layer by layer, in three and five axes.
+//!
+//! The workpiece is a stack of layers z = const. Between two places the tip goes straight and the axis turns evenly; on a layer
+//! the cutter is a family of [`mill_step`]s, and what the family covers is bounded by its first and last edge and its envelope, which
+//! the boundary construction [`boundary_diagram`] finds ("An accurate and efficient approach to geometric modeling of undeformed chips in
+//! five-axis CNC milling", Computer-Aided Design 88, 2017). [`swept_area`] turns the diagram into areas, [`stack`] keeps the
+//! workpiece, [`chip`] is what one piece of path removes, and [`measure_engagement()`] what feeds are made from.
+//!
+//! Everything is in millimetres, radians and the workpiece frame.
+
+pub mod area;
+pub mod boundary_diagram;
+pub mod chip;
+mod engagement;
+mod interval;
+mod jet;
+pub mod layer_ellipse;
+pub mod mill_step;
+pub mod section_family;
+pub mod stack;
+pub mod stl_export;
+pub mod swept_area;
+mod trig_polynomial;
+
+pub use area::Polygon;
+pub use boundary_diagram::BoundaryDiagram;
+pub use chip::{Chip, LayerChip, cut_chips};
+pub use engagement::{largest_feed_fraction, measure_engagement};
+pub use mill_step::{FlatMill, MillStep, MillStepError};
+pub use section_family::SectionFamily;
+pub use stack::{Layer, LayerRemoval, LayerStack, LayerStackError};
+pub use swept_area::{LayerSweptArea, RimDirections};

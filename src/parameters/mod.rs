@@ -1,0 +1,15 @@
+//! Values that are right once they are read: numbers with a range, units, name patterns, paths.
+//!
+//! A parameter of type [`Positive`] needs no check in the transform that uses it. The check happens while the YAML is read,
+//! so the error points at the number itself; the JSON schema tells editors the same range.
+
+mod file_path;
+mod name_patterns;
+mod numbers;
+
+pub use crate::program::LengthUnit;
+pub use file_path::FilePath;
+pub use name_patterns::{Glob, GlobError, ToolPattern};
+pub use numbers::{
+    Degrees, Factor, Finite, Fraction, HelixAngle, NonNegative, PointAngle, Positive, PositiveCount, Slope,
+};

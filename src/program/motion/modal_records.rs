@@ -1,0 +1,150 @@
+//! Statements that set something which holds until it is set again: feed, spindle, tool, axis, frame, cycle, operation.
+
+use super::modal_state::{CoordinateFrame, MotionProblemKind};
+use super::state_machine::Motions;
+use crate::program::geometry::Pose;
+use crate::program::record::{FrameRecord, FrameWord};
+use crate::program::{Record, operation};
+use nalgebra::{Matrix3, Vector3};
+use std::sync::Arc;
+
+impl Motions<'_> {
+    pub(super) fn process_modal_record(&mut self, index: usize, record: &Record) {
+        let state = &mut self.state;
+        match record {
+            Record::Feed(feed) => {
+                let unit = feed.unit.or(state.feed.and_then(|(before, _)| before.unit));
+                state.feed = Some((crate::program::Feed { value: feed.value, unit }, index));
+                // CAM systems write no FEDRAT between RAPID and its motion; APT says a feed ends a rapid.
+                if let Some(rapid) = self.pending.rapid.take() {
+                    self.report_problem(rapid, MotionProblemKind::RapidWithoutMotion);
+                }
+            }
+            Record::Spindle(spindle) => {
+                let spindle = spindle.inherit_from(state.spindle.as_deref());
+                state.spindle = Some(Arc::new(spindle));
+            }
+            Record::CutterCompensation(compensation) => state.compensation = Some((*compensation, index)),
+            Record::ToolCall(call) => state.change_tool(|tool| {
+                let another = tool.number.is_some_and(|number| number != call.number);
+                if another && tool.loaded && call.loads {
+                    tool.name = None;
+                    // A tool that nothing describes must not pass for the one before it.
+                    tool.data = tool.data.take().filter(|_| tool.shape_is_new);
+                }
+                tool.number = Some(call.number);
+                tool.loaded |= call.loads;
+                tool.shape_is_new &= !call.loads;
+            }),
+            Record::ToolData(data) => state.change_tool(|tool| {
+                tool.data = Some(data.as_ref().clone());
+                tool.shape_is_new = true;
+            }),
+            Record::ToolAxis(axis) if !self.program.dialect().has_setup_axis() => {
+                state.axis = normalize_axis(**axis)
+            }
+            Record::MultiAxis(on) => state.multi_axis = *on,
+            Record::Frame(frame) => self.process_frame(index, frame),
+            Record::FrameMark => self.pending.matrix = Some((index, Vec::new())),
+            Record::MatrixRow(row) => {
+                if let Some((_, rows)) = &mut self.pending.matrix
+                    && rows.len() < 3
+                {
+                    rows.push(**row);
+                    if rows.len() == 3 {
+                        self.finish_matrix();
+                    }
+                }
+            }
+            Record::Cycle(cycle) => {
+                let before = state.cycle.as_ref().map(|(before, _)| before.as_ref());
+                let cycle_in_force = cycle.inherit_from(before);
+                let own = cycle.feed.map(|_| index);
+                self.cycle_feed = own.or(self.cycle_feed.filter(|_| cycle_in_force.feed.is_some()));
+                state.cycle = Some((Arc::new(cycle_in_force), index));
+            }
+            Record::CycleOff => self.last_cycle = state.cycle.take().or(self.last_cycle.take()),
+            Record::CycleOn => state.cycle = state.cycle.take().or_else(|| self.last_cycle.clone()),
+            Record::Marked(mark) => state.marked = mark.class,
+            Record::OperationStart(_) => self.start_operation(index),
+            Record::OperationEnd => state.marked = None,
+            Record::Units(units) => state.units = Some(*units),
+            _ => {}
+        }
+    }
+
+    pub(super) fn start_operation(&mut self, index: usize) {
+        if self.operations_seen {
+            self.state.operation += 1;
+        }
+        self.operations_seen = true;
+        let Some(statement) = self.program.statement(index) else { return };
+        if let Some(name) = operation::tool_name(self.program, statement) {
+            // A TOOL PATH describes its tool anew; a number comes with the LOAD that follows, or is the one loaded.
+            self.state.change_tool(|tool| {
+                if tool.name.as_deref() != Some(name.as_str()) {
+                    tool.data = None;
+                    if tool.name.is_some() {
+                        tool.number = None;
+                        tool.loaded = false;
+                    }
+                }
+                tool.name = Some(name);
+            });
+        }
+        if self.program.dialect() == crate::program::Dialect::Nx {
+            self.state.axis = Vector3::z();
+        }
+    }
+
+    pub(super) fn process_frame(&mut self, index: usize, record: &FrameRecord) {
+        let at = |index: usize| record.numbers.get(index).copied().unwrap_or_default();
+        let three = |start: usize| Vector3::new(at(start), at(start + 1), at(start + 2));
+        match record.word {
+            FrameWord::Msys => {
+                let (x, y) = (three(3), three(6));
+                let axes = Matrix3::from_columns(&[x, y, x.cross(&y)]);
+                let frame = CoordinateFrame { statement: index, origin: three(0), axes };
+                self.express_pose_in(&frame);
+                self.state.frame = Some(Arc::new(frame));
+            }
+            FrameWord::Csys => {
+                let axes = Matrix3::new(at(0), at(1), at(2), at(4), at(5), at(6), at(8), at(9), at(10));
+                let origin = Vector3::new(at(3), at(7), at(11));
+                self.state.frame = Some(Arc::new(CoordinateFrame { statement: index, origin, axes }));
+            }
+            FrameWord::Trans => self.state.shift = three(0),
+            FrameWord::Origin => self.state.shift = -three(0),
+            FrameWord::Rotary => {}
+        }
+    }
+
+    /// NX prints points in MSYS: in a new one the tool stands where it stood, with other coordinates.
+    pub(super) fn express_pose_in(&mut self, new: &CoordinateFrame) {
+        let (Some(pose), Some(old)) = (self.state.pose, self.state.frame.as_deref()) else { return };
+        if (old.origin, old.axes) == (new.origin, new.axes) {
+            return;
+        }
+        self.last_tangent = None;
+        self.state.pose = new.axes.try_inverse().map(|inverse| Pose {
+            point: (inverse * (old.origin + old.axes * pose.point.coords - new.origin)).into(),
+            axis: normalize_axis(inverse * (old.axes * pose.axis)),
+        });
+    }
+
+    pub(super) fn finish_matrix(&mut self) {
+        let Some((statement, rows)) = self.pending.matrix.take() else { return };
+        if let [[a, b, c, x], [d, e, f, y], [g, h, i, z]] = rows.as_slice() {
+            let axes = Matrix3::new(*a, *b, *c, *d, *e, *f, *g, *h, *i);
+            let origin = Vector3::new(*x, *y, *z);
+            self.state.frame = Some(Arc::new(CoordinateFrame { statement, origin, axes }));
+        } else {
+            self.report_problem(statement, MotionProblemKind::BrokenFrame);
+        }
+    }
+}
+
+/// A printed axis as it is, unless it is more than its rounding away from a unit vector.
+pub(super) fn normalize_axis(axis: Vector3<f64>) -> Vector3<f64> {
+    if (axis.norm_squared() - 1.0).abs() < 2e-3 { axis } else { axis.try_normalize(1e-6).unwrap_or(axis) }
+}

@@ -1,0 +1,27 @@
+//! Comments that clsmith itself has written into a file (`provenance:`), as a later run finds them.
+
+/// A comment of clsmith's own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ProvenanceComment {
+    /// A line of the header: version, recipe, input.
+    Header,
+    /// `clsmith scale_feed: ...`: what a step did to the record that follows.
+    Change,
+}
+
+/// The word that such a comment begins with, after the file's comment mark.
+pub const OWN_WORD: &str = "clsmith";
+
+impl ProvenanceComment {
+    /// Whether a statement's text is one.
+    pub fn from_text(text: &[u8]) -> Option<Self> {
+        let text = text.trim_ascii_start();
+        let text = text.strip_prefix(b"$$").or_else(|| text.strip_prefix(b"REMARK"))?;
+        let rest = text.strip_prefix(b" ")?.strip_prefix(OWN_WORD.as_bytes())?.strip_prefix(b" ")?;
+        let word = rest.iter().take_while(|byte| byte.is_ascii_lowercase() || **byte == b'_').count();
+        match rest.get(word..) {
+            Some([b':', ..]) if word > 0 => Some(Self::Change),
+            _ => Some(Self::Header),
+        }
+    }
+}

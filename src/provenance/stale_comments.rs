@@ -1,0 +1,43 @@
+//! Comments of an earlier run that a run without comments makes untrue.
+
+use super::comment_places::CommentPlaces;
+use crate::diagnostic::{Diagnostic, codes};
+use crate::program::{Program, ProvenanceComment, Statement, StatementChange};
+use std::collections::BTreeSet;
+
+/// A finding when steps changed records that carry comments of an earlier run, which now tell of other numbers than the file
+/// has. For a run that writes no comments of its own.
+pub fn find_stale_comments(program: &Program) -> Option<Diagnostic> {
+    let own = |statement: &Statement| {
+        ProvenanceComment::from_text(program.statement_text(statement)) == Some(ProvenanceComment::Change)
+    };
+    let mut commented = BTreeSet::new();
+    let mut last = None;
+    for (index, statement) in program.live_statements() {
+        if own(statement) {
+            last = Some(last.unwrap_or(index));
+        } else if last.take().is_some() {
+            commented.insert(index);
+        }
+    }
+    if commented.is_empty() {
+        return None;
+    }
+    let places = CommentPlaces::from_program(program);
+    let changed = |statement: &Statement| statement.change() != StatementChange::Untouched && !own(statement);
+    let all = program.statements().iter().enumerate();
+    let mut hit = all.filter(|(index, statement)| {
+        changed(statement) && commented.contains(&places.comment_position(*index))
+    });
+    let (_, first) = hit.next()?;
+    let more = hit.count();
+    let message = match more {
+        0 => "an earlier run's comment tells of this record as it was then".to_owned(),
+        more => format!("earlier runs' comments tell of this record and {more} more as they were then"),
+    };
+    Some(Diagnostic::new(codes::STALE_COMMENTS, message).with_label(
+        program.source(),
+        first.origin(),
+        "changed again",
+    ))
+}

@@ -1,0 +1,98 @@
+//! `where:` — which part of a program a step applies to.
+
+use super::parameters::{Glob, NonNegative, Positive, ToolPattern};
+use crate::program::MotionClass;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde::de::{Deserializer, Error as _};
+
+/// Which part of the program a step applies to. What is given must all fit; of a list, one has to. Empty: everything.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MotionFilter {
+    /// Names of operations; `*` and `?` are wildcards.
+    #[serde(default, deserialize_with = "deserialize_not_empty")]
+    #[schemars(length(min = 1))]
+    pub operations: Option<Vec<Glob>>,
+    /// Numbers or names of tools.
+    #[serde(default, deserialize_with = "deserialize_not_empty")]
+    #[schemars(length(min = 1))]
+    pub tools: Option<Vec<ToolPattern>>,
+    /// Kinds of motion.
+    #[serde(default, deserialize_with = "deserialize_not_empty")]
+    #[schemars(length(min = 1))]
+    pub motions: Option<Vec<MotionClass>>,
+    /// Range of the programmed feed, in the recipe's unit per minute. Motions without a feed do not fit.
+    #[serde(default, deserialize_with = "deserialize_feed_range")]
+    pub feed: Option<FeedRange>,
+}
+
+/// A range of feeds, both ends included.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FeedRange {
+    /// Lowest feed that fits, in the recipe's unit per minute.
+    pub min: Option<NonNegative>,
+    /// Highest feed that fits, in the recipe's unit per minute.
+    pub max: Option<Positive>,
+}
+
+/// What is known about a motion when a step asks whether it is meant.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct MotionFacts<'a> {
+    /// Name of the operation it belongs to.
+    pub operation: Option<&'a str>,
+    /// Number of the tool in the spindle.
+    pub tool_number: Option<u32>,
+    /// Name of the tool in the spindle.
+    pub tool_name: Option<&'a str>,
+    /// What the motion is for.
+    pub motion: Option<MotionClass>,
+    /// Programmed feed, in the recipe's unit per minute; `None` for rapids.
+    pub feed: Option<f64>,
+}
+
+impl MotionFilter {
+    /// Whether a motion is meant. What is asked for but not known does not fit.
+    pub fn matches_motion(&self, facts: &MotionFacts<'_>) -> bool {
+        is_unset_or_any(&self.operations, |glob| facts.operation.is_some_and(|name| glob.matches_name(name)))
+            && is_unset_or_any(&self.tools, |tool| tool.matches_tool(facts.tool_number, facts.tool_name))
+            && is_unset_or_any(&self.motions, |&kind| facts.motion == Some(kind))
+            && self.feed.is_none_or(|range| facts.feed.is_some_and(|feed| range.contains(feed)))
+    }
+}
+
+fn is_unset_or_any<T>(wanted: &Option<Vec<T>>, fits: impl FnMut(&T) -> bool) -> bool {
+    wanted.as_ref().is_none_or(|wanted| wanted.iter().any(fits))
+}
+
+impl FeedRange {
+    /// Whether a feed lies in the range.
+    pub fn contains(self, feed: f64) -> bool {
+        self.min.is_none_or(|min| feed >= min.get()) && self.max.is_none_or(|max| feed <= max.get())
+    }
+}
+
+/// Lists that must select something if they are given.
+pub(crate) fn deserialize_not_empty<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<Vec<T>>, D::Error> {
+    let list = Option::<Vec<T>>::deserialize(deserializer)?;
+    if list.as_ref().is_some_and(Vec::is_empty) {
+        return Err(D::Error::custom("an empty list selects nothing\nRemove the key to select everything."));
+    }
+    Ok(list)
+}
+
+fn deserialize_feed_range<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<FeedRange>, D::Error> {
+    let range = Option::<FeedRange>::deserialize(deserializer)?;
+    match range {
+        Some(FeedRange { min: None, max: None }) => {
+            Err(D::Error::custom("neither `min` nor `max` is given\nGive one of them, or both."))
+        }
+        Some(FeedRange { min: Some(min), max: Some(max) }) if min.get() > max.get() => {
+            Err(D::Error::custom(format!("`min` ({min}) is above `max` ({max})\nNo feed fits such a range.")))
+        }
+        range => Ok(range),
+    }
+}

@@ -1,0 +1,82 @@
+//! A recipe as it is written: what serde reads, and what the JSON schema tells editors.
+
+use super::Provenance;
+use super::parameters::LengthUnit;
+use crate::setup::SetupText;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{self, Deserialize, Deserializer, Unexpected, Visitor};
+use std::borrow::Cow;
+use std::fmt;
+
+/// A recipe: the transforms to apply to CL data, in order, with their parameters.
+#[derive(Debug, serde::Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "clsmith recipe", rename = "Recipe")]
+pub(super) struct RecipeText<S> {
+    /// The version of the rules this recipe is written by: 1.
+    pub version: RecipeVersion,
+    /// The unit of every length in this recipe; feeds are in this unit per minute.
+    #[serde(default)]
+    pub units: LengthUnit,
+    /// A file with the keys of `setup`, relative to this recipe's folder; what `setup` says overrides it.
+    pub setup_file: Option<String>,
+    /// What stands around the program: machine, stock, tools, material.
+    #[serde(default)]
+    pub setup: SetupText,
+    /// What the corrected file says about the run that made it.
+    #[serde(default)]
+    pub provenance: Provenance,
+    /// The transforms, applied one after the other.
+    pub steps: Vec<S>,
+}
+
+/// JSON schema of a recipe with steps of type `S`, for editors.
+pub fn recipe_schema<S: JsonSchema>() -> serde_json::Value {
+    schemars::schema_for!(RecipeText<S>).to_value()
+}
+
+/// A version of the recipe's rules that this clsmith knows.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct RecipeVersion(u32);
+
+impl RecipeVersion {
+    /// The only one so far.
+    const KNOWN: u32 = 1;
+
+    pub fn get(self) -> u32 {
+        self.0
+    }
+}
+
+impl<'de> Deserialize<'de> for RecipeVersion {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(RecipeVersionVisitor)
+    }
+}
+
+struct RecipeVersionVisitor;
+
+impl Visitor<'_> for RecipeVersionVisitor {
+    type Value = RecipeVersion;
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "version {}", RecipeVersion::KNOWN)
+    }
+    fn visit_u64<E: de::Error>(self, value: u64) -> Result<RecipeVersion, E> {
+        if value == u64::from(RecipeVersion::KNOWN) {
+            return Ok(RecipeVersion(RecipeVersion::KNOWN));
+        }
+        Err(E::invalid_value(Unexpected::Unsigned(value), &self))
+    }
+}
+
+impl JsonSchema for RecipeVersion {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        "Version".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "const": RecipeVersion::KNOWN })
+    }
+}

@@ -1,0 +1,144 @@
+//! Which recipe a program gets: a file of rules over machine, tool, operation and file name; the first that fits wins.
+//!
+//! So one hook serves a shop. [`RecipeRules::load`] reads the file, [`RecipeRuleFacts::from_program`] looks into a program, [`RecipeRules::choose_recipe`] decides.
+
+mod rule_facts;
+mod rules_text;
+
+pub use rule_facts::RecipeRuleFacts;
+pub use rules_text::rules_schema;
+
+use crate::diagnostic::{Diagnostic, codes};
+use crate::parameters::{FilePath, Glob, ToolPattern};
+use crate::source::{Source, Span};
+use crate::yaml::{YamlDocument, YamlPathSegment};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A file of rules.
+#[derive(Debug)]
+pub struct RecipeRules {
+    source: Arc<Source>,
+    document: YamlDocument,
+    rules: Vec<RecipeRule>,
+    otherwise: RecipeFallback,
+}
+
+/// What a program must be like, and the recipe it then gets.
+#[derive(Debug)]
+struct RecipeRule {
+    when: RecipeRuleCondition,
+    job: RecipeAndSetup,
+}
+
+/// What a program must be like: all that is given must fit, of each list one.
+#[derive(Debug)]
+struct RecipeRuleCondition {
+    machine: Option<Vec<Glob>>,
+    tool: Option<Vec<ToolPattern>>,
+    operation: Option<Vec<Glob>>,
+    file: Option<Vec<Glob>>,
+}
+
+/// The files that a rule names, as they are written.
+#[derive(Debug)]
+struct RecipeAndSetup {
+    recipe: FilePath,
+    setup: Option<FilePath>,
+}
+
+/// What becomes of a program that no rule fits.
+#[derive(Debug)]
+enum RecipeFallback {
+    Recipe(RecipeAndSetup),
+    Pass,
+    Stop,
+}
+
+/// What becomes of a program.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum RecipeChoice {
+    /// It is corrected.
+    Recipe {
+        /// The recipe, as seen from where clsmith runs.
+        recipe: PathBuf,
+        /// The setup file that overrides the recipe's, likewise.
+        setup: Option<PathBuf>,
+        /// What chose it, for people: `rule 2` or `otherwise`.
+        by: String,
+    },
+    /// It goes on as it is.
+    Pass,
+}
+
+impl RecipeRules {
+    /// Reads a file of rules. The recipes that it names are not opened.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the file, each at its place.
+    pub fn load(source: &Arc<Source>) -> Result<Self, Vec<Diagnostic>> {
+        rules_text::load_rules(source)
+    }
+
+    /// What becomes of a program.
+    ///
+    /// # Errors
+    /// [`codes::NO_RULE`] when no rule fits and `otherwise` does not say what to do then, or says `stop`.
+    pub fn choose_recipe(&self, facts: &RecipeRuleFacts) -> Result<RecipeChoice, Box<Diagnostic>> {
+        for (index, rule) in self.rules.iter().enumerate() {
+            if rule.when.matches_facts(facts) {
+                return Ok(self.make_choice(&rule.job, format!("rule {}", index + 1)));
+            }
+        }
+        match &self.otherwise {
+            RecipeFallback::Recipe(job) => Ok(self.make_choice(job, "otherwise".to_owned())),
+            RecipeFallback::Pass => Ok(RecipeChoice::Pass),
+            RecipeFallback::Stop => Err(Box::new(self.report_no_rule(facts))),
+        }
+    }
+
+    /// Every recipe that a rule may choose, with its setup.
+    pub fn list_choices(&self) -> Vec<RecipeChoice> {
+        let rules = self.rules.iter().enumerate();
+        let mut all: Vec<RecipeChoice> =
+            rules.map(|(index, rule)| self.make_choice(&rule.job, format!("rule {}", index + 1))).collect();
+        if let RecipeFallback::Recipe(job) = &self.otherwise {
+            all.push(self.make_choice(job, "otherwise".to_owned()));
+        }
+        all
+    }
+
+    fn make_choice(&self, job: &RecipeAndSetup, by: String) -> RecipeChoice {
+        let here = Path::new(self.source.name());
+        let setup = job.setup.as_ref().map(|setup| setup.resolve_beside(here));
+        RecipeChoice::Recipe { recipe: job.recipe.resolve_beside(here), setup, by }
+    }
+
+    fn report_no_rule(&self, facts: &RecipeRuleFacts) -> Diagnostic {
+        let message = format!("no rule fits this program: {facts}");
+        let span = self.key_span("otherwise").or_else(|| self.key_span("rules")).unwrap_or_default();
+        Diagnostic::new(codes::NO_RULE, message).with_label(&self.source, span, "none of these, then stop")
+    }
+
+    fn key_span(&self, key: &'static str) -> Option<Span> {
+        self.document.key_span(&[YamlPathSegment::Key(key)])
+    }
+}
+
+impl RecipeRuleCondition {
+    fn matches_facts(&self, facts: &RecipeRuleFacts) -> bool {
+        let any = |globs: &Option<Vec<Glob>>, names: &[String]| {
+            globs
+                .as_ref()
+                .is_none_or(|globs| names.iter().any(|name| globs.iter().any(|glob| glob.matches_name(name))))
+        };
+        let tool = self.tool.as_ref().is_none_or(|patterns| {
+            facts.tools.iter().any(|(number, name)| {
+                patterns.iter().any(|pattern| pattern.matches_tool(*number, name.as_deref()))
+            })
+        });
+        tool && any(&self.machine, &facts.machines)
+            && any(&self.operation, &facts.operations)
+            && any(&self.file, std::slice::from_ref(&facts.file))
+    }
+}

@@ -1,0 +1,98 @@
+//! What `correct_ramp` found and did, as a table.
+
+mod ramp_panels;
+
+pub use ramp_panels::build_panels;
+
+use super::render::safe_text::to_safe_line;
+use super::text_format::{format_duration, format_fixed, format_table};
+use crate::transform::correct_ramp::{CorrectRampReport, RampOutcome, RampReport};
+use std::fmt::Write;
+
+/// Ramps told one by one at most; the rest is counted.
+const TOLD: usize = 40;
+
+/// The report as text.
+pub fn to_text(report: &CorrectRampReport) -> String {
+    let count = |outcome: RampOutcome| report.ramps.iter().filter(|ramp| ramp.outcome == outcome).count();
+    let (fit, corrected, kept) =
+        (count(RampOutcome::Fits), count(RampOutcome::Corrected), count(RampOutcome::Kept));
+    let mut out = format!(
+        "\ncorrect_ramp: {} ramps; {fit} within the cutter's limits, {corrected} corrected and measured again, {kept} kept\n",
+        report.ramps.len()
+    );
+    let told: Vec<&RampReport> =
+        report.ramps.iter().filter(|ramp| ramp.outcome != RampOutcome::Fits).collect();
+    let fitting = report.ramps.iter().filter(|ramp| ramp.outcome == RampOutcome::Fits);
+    let shown: Vec<&RampReport> = told.iter().copied().chain(fitting).take(TOLD).collect();
+    if shown.is_empty() {
+        return out;
+    }
+    let mut rows = vec![
+        [
+            "line",
+            "operation",
+            "ramp",
+            "legs",
+            "shortest mm",
+            "limit",
+            "steepest deg",
+            "limit",
+            "height mm",
+            "passes",
+            "added mm",
+            "time",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
+    ];
+    for ramp in &shown {
+        rows.extend(ramp_rows(ramp));
+    }
+    out.push_str(&format_table(&rows));
+    let more = report.ramps.len() - shown.len();
+    if more > 0 {
+        let _ = writeln!(out, "  and {more} more");
+    }
+    out
+}
+
+/// A row for the ramp as it came, and one for what it became.
+fn ramp_rows(ramp: &RampReport) -> Vec<Vec<String>> {
+    let passes = |count: usize| if count == 0 { String::new() } else { count.to_string() };
+    let row = |line: String,
+               name: String,
+               kind: String,
+               measured: &crate::transform::correct_ramp::ramp_limits::RampMeasurement| {
+        vec![
+            line,
+            name,
+            kind,
+            measured.legs.to_string(),
+            format_fixed(measured.shortest_leg_mm, 3),
+            format_fixed(ramp.limit_leg_mm, 3),
+            format_fixed(measured.steepest_degrees, 2),
+            format_fixed(ramp.limit_degrees, 2),
+            format_fixed(measured.height_mm, 3),
+        ]
+    };
+    let state = match ramp.outcome {
+        RampOutcome::Kept => format!("{}, kept", ramp.kind),
+        _ => ramp.kind.to_owned(),
+    };
+    let mut before = row(ramp.line.to_string(), to_safe_line(&ramp.operation), state, &ramp.before);
+    before.extend([passes(1), String::new(), String::new()]);
+    let Some(measured) = &ramp.after else { return vec![before] };
+    let mut after = row(String::new(), String::new(), "corrected".to_owned(), measured);
+    let time = ramp.added_seconds.map_or_else(|| "?".to_owned(), format_signed_duration);
+    after.extend([passes(ramp.passes), format_signed(ramp.added_mm), time]);
+    vec![before, after]
+}
+
+fn format_signed(value: f64) -> String {
+    format!("{}{}", if value < 0.0 { "-" } else { "+" }, format_fixed(value.abs(), 1))
+}
+
+fn format_signed_duration(seconds: f64) -> String {
+    format!("{}{}", if seconds < 0.0 { "-" } else { "+" }, format_duration(seconds.abs()))
+}

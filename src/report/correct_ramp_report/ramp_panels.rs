@@ -1,0 +1,82 @@
+//! Ramps as drawings: from above, and their height along the way.
+
+use crate::report::path_drawing::{PanelPath, PanelPathStyle, PathPanel};
+use crate::transform::correct_ramp::{CorrectRampReport, RampOutcome, RampReport};
+
+/// Ramps drawn at most.
+const DRAWN: usize = 12;
+
+/// Two panels for each ramp that was corrected: across the tool axis, and height along the path, with the steepest slope allowed.
+pub fn build_panels(report: &CorrectRampReport) -> Vec<PathPanel> {
+    let corrected = report.ramps.iter().filter(|ramp| ramp.outcome == RampOutcome::Corrected);
+    corrected.take(DRAWN).flat_map(|ramp| [build_top_view(ramp), build_height_panel(ramp)]).collect()
+}
+
+fn panel_title(ramp: &RampReport) -> String {
+    let name = if ramp.operation.is_empty() { String::new() } else { format!("{}, ", ramp.operation) };
+    format!("{name}line {}: {}", ramp.line, ramp.kind)
+}
+
+fn build_top_view(ramp: &RampReport) -> PathPanel {
+    let flat = |path: &[[f64; 3]]| path.iter().map(|[x, y, _]| (*x, *y)).collect();
+    let path = |name: &str, look: PanelPathStyle, points: &[[f64; 3]]| PanelPath {
+        name: name.to_owned(),
+        look,
+        points: flat(points),
+    };
+    PathPanel {
+        title: panel_title(ramp),
+        right: "x, mm",
+        up: "y, mm",
+        one_scale: true,
+        paths: vec![
+            path("before", PanelPathStyle::Before, &ramp.path_before),
+            path("after", PanelPathStyle::After, &ramp.path_after),
+        ],
+    }
+}
+
+fn build_height_panel(ramp: &RampReport) -> PathPanel {
+    let before = unroll_heights(&ramp.path_before);
+    let after = unroll_heights(&ramp.path_after);
+    let end = before.last().map_or(0.0, |last| last.1);
+    let height = before.first().map_or(0.0, |first| first.1) - end;
+    // The steepest slope allowed, up to the height where the ramp began.
+    let across = height / ramp.limit_degrees.to_radians().tan();
+    let limit = vec![(0.0, end + height), (across, end)];
+    let path = |name: &str, look: PanelPathStyle, points: Vec<(f64, f64)>| PanelPath {
+        name: name.to_owned(),
+        look,
+        points,
+    };
+    PathPanel {
+        title: "height along the way".to_owned(),
+        right: "way across the tool axis, mm",
+        up: "z, mm",
+        one_scale: false,
+        paths: vec![
+            path(
+                &format!("steepest allowed, {:.1} degrees", ramp.limit_degrees),
+                PanelPathStyle::Reference,
+                limit,
+            ),
+            path("before", PanelPathStyle::Before, before),
+            path("after", PanelPathStyle::After, after),
+        ],
+    }
+}
+
+/// Height over the way gone across the axis.
+fn unroll_heights(path: &[[f64; 3]]) -> Vec<(f64, f64)> {
+    let mut gone = 0.0;
+    let mut last: Option<[f64; 3]> = None;
+    path.iter()
+        .map(|[x, y, z]| {
+            if let Some([x0, y0, _]) = last {
+                gone += (x - x0).hypot(y - y0);
+            }
+            last = Some([*x, *y, *z]);
+            (gone, *z)
+        })
+        .collect()
+}

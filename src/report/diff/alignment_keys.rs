@@ -1,0 +1,125 @@
+//! What statements are aligned by: their meaning where it is the same, their shape where it is not.
+
+use crate::parse;
+use crate::program::{FieldKind, Program, Record, Statement, StatementField, StatementSyntax, fold_text};
+use crate::report::record_kind::RecordKind;
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+/// The keys of a program's live statements.
+#[derive(Debug, Default)]
+pub(super) struct AlignmentKeys {
+    /// Index of each statement in the program.
+    pub(super) index: Vec<u32>,
+    /// Equal for statements that say the same, whatever their blanks and zeros.
+    pub(super) meaning: Vec<u64>,
+    /// Equal for statements that may be the same one with other numbers.
+    pub(super) shape: Vec<u32>,
+}
+
+impl AlignmentKeys {
+    pub(super) fn from_program(program: &Program) -> Self {
+        let mut keys = Self::default();
+        for (index, statement) in program.live_statements() {
+            let text = program.statement_text(statement);
+            keys.index.push(index as u32);
+            keys.meaning.push(hash_meaning(statement.record(), text));
+            keys.shape.push(hash_shape(statement.record(), text));
+        }
+        keys
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.index.len()
+    }
+}
+
+fn hash_meaning(record: &Record, text: &[u8]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    match record {
+        Record::Goto(goto) => {
+            // Adding 0 makes one zero of the two.
+            goto.point.iter().for_each(|value| (value + 0.0).to_bits().hash(&mut hasher));
+            if let Some(axis) = goto.axis {
+                axis.iter().for_each(|value| (value + 0.0).to_bits().hash(&mut hasher));
+            }
+        }
+        Record::Feed(feed) => {
+            feed.value.to_bits().hash(&mut hasher);
+            feed.unit.hash(&mut hasher);
+        }
+        _ => bytes_without_layout(record, text).for_each(|byte| hasher.write_u8(byte)),
+    }
+    RecordKind::from_record(record).hash(&mut hasher);
+    hasher.finish()
+}
+
+/// A statement's bytes without what is only layout: line ends; in records also blanks.
+fn bytes_without_layout<'t>(record: &Record, text: &'t [u8]) -> impl Iterator<Item = u8> + 't {
+    let people = RecordKind::from_record(record) == RecordKind::Comment;
+    text.trim_ascii_end().iter().copied().filter(move |byte| people || !matches!(byte, b' ' | b'\t'))
+}
+
+fn hash_shape(record: &Record, text: &[u8]) -> u32 {
+    let kind = RecordKind::from_record(record);
+    let mut hasher = DefaultHasher::new();
+    kind.hash(&mut hasher);
+    match kind {
+        // Words of different dialects for one thing are one shape; of these, the word is all we know.
+        RecordKind::Other
+        | RecordKind::Structure
+        | RecordKind::Tool
+        | RecordKind::Frame
+        | RecordKind::Mark
+        | RecordKind::Spline => {
+            let word = text.trim_ascii_start();
+            let letters = word.iter().take_while(|byte| byte.is_ascii_alphanumeric() || **byte == b'_');
+            letters.for_each(|byte| hasher.write_u8(byte.to_ascii_uppercase()));
+        }
+        RecordKind::Comment => text.trim_ascii().is_empty().hash(&mut hasher),
+        _ => std::mem::discriminant(record).hash(&mut hasher),
+    }
+    hasher.finish() as u32
+}
+
+/// Whether two statements say the same: equal fields, whatever their layout and the style of their numbers.
+pub(super) fn have_same_meaning(a: (&Program, &Statement), b: (&Program, &Statement)) -> bool {
+    let (record_a, record_b) = (a.1.record(), b.1.record());
+    let (text_a, text_b) = (a.0.statement_text(a.1), b.0.statement_text(b.1));
+    if std::mem::discriminant(record_a) != std::mem::discriminant(record_b) {
+        return false;
+    }
+    match (record_a, record_b) {
+        // Of these the record is all that the statement says.
+        (Record::Goto(_) | Record::From(_) | Record::Feed(_) | Record::ToolAxis(_), _)
+        | (Record::Control(_) | Record::Knot(_) | Record::MatrixRow(_) | Record::Rapid, _) => {
+            record_a == record_b
+        }
+        _ if bytes_without_layout(record_a, text_a).eq(bytes_without_layout(record_b, text_b)) => true,
+        (Record::Comment | Record::Text | Record::Unparsed | Record::Blank, _) => false,
+        _ => have_same_fields(&parse::syntax(text_a), &parse::syntax(text_b)),
+    }
+}
+
+fn have_same_fields(a: &StatementSyntax<'_>, b: &StatementSyntax<'_>) -> bool {
+    a.major_word() == b.major_word() && are_fields_equal(&a.fields, a, &b.fields, b)
+}
+
+fn are_fields_equal(
+    left: &[StatementField],
+    a: &StatementSyntax<'_>,
+    right: &[StatementField],
+    b: &StatementSyntax<'_>,
+) -> bool {
+    left.len() == right.len()
+        && left.iter().zip(right).all(|(one, other)| match (&one.kind, &other.kind) {
+            (FieldKind::Number(one), FieldKind::Number(other)) => one == other,
+            (FieldKind::Group(one), FieldKind::Group(other)) => {
+                fold_text(a.bytes_at(&one.word)) == fold_text(b.bytes_at(&other.word))
+                    && are_fields_equal(&one.fields, a, &other.fields, b)
+            }
+            (FieldKind::Text, FieldKind::Text) => {
+                fold_text(a.bytes_at(&one.at)) == fold_text(b.bytes_at(&other.at))
+            }
+            (one_kind, other_kind) => one_kind == other_kind && a.bytes_at(&one.at) == b.bytes_at(&other.at),
+        })
+}

@@ -1,0 +1,160 @@
+//! Which findings stand, and how bad they are: `--deny`, `--allow`, `--notes`.
+
+use crate::diagnostic::codes::{
+    BAD_RESULTS, BAD_UNDO, EXIT_CODE_SHARED, INPUT_CHANGED, LEAVES_FOLDER, NEWER_RUN_REPORT, NO_RULE,
+    NO_RUN_REPORT, NOT_ONE_BATCH, NOTHING_MATCHES, OTHER_FILE, OUTPUT_IN_USE, OUTPUT_IS_INPUT,
+    OUTPUTS_COLLIDE, OUTSIDE_OUTPUT, PASSED_ORIGINAL, POST_KILLED, POST_MISSING, POST_NOT_STARTED,
+    POST_TIMED_OUT, RESULTS_MISSING, TOO_LARGE, UNREADABLE, UNWRITABLE, WATCHED_ALREADY, WATCHED_FOLDERS,
+};
+use crate::diagnostic::{CATALOGUE, Diagnostic, DiagnosticCode, DiagnosticLabel, Severity, find_code};
+use crate::source::Span;
+use std::cmp::Ordering;
+
+/// What the user wants of findings.
+#[derive(Debug, Clone, Default)]
+pub struct FindingPolicy {
+    /// Codes that are errors, whatever the catalogue says.
+    pub deny: Vec<DiagnosticCode>,
+    /// Codes that are dropped: not shown, and no reason not to write.
+    pub allow: Vec<DiagnosticCode>,
+    /// Whether every remaining warning is an error.
+    pub deny_warnings: bool,
+    /// Whether notes are shown.
+    pub notes: bool,
+}
+
+/// Findings that end a run; dropping them would end it without a word.
+const NEVER_ALLOWED: &[DiagnosticCode] = &[
+    UNREADABLE,
+    UNWRITABLE,
+    TOO_LARGE,
+    OUTPUT_IS_INPUT,
+    POST_MISSING,
+    POST_NOT_STARTED,
+    POST_TIMED_OUT,
+    POST_KILLED,
+    NO_RULE,
+    WATCHED_FOLDERS,
+    WATCHED_ALREADY,
+    NOTHING_MATCHES,
+    OUTPUTS_COLLIDE,
+    OUTSIDE_OUTPUT,
+    OUTPUT_IN_USE,
+    INPUT_CHANGED,
+    BAD_RESULTS,
+    NOT_ONE_BATCH,
+    RESULTS_MISSING,
+    NO_RUN_REPORT,
+    NEWER_RUN_REPORT,
+    OTHER_FILE,
+    BAD_UNDO,
+];
+
+/// Findings about the run itself; without them a program would go on, or be left, and nobody knew.
+const NEVER_SILENT: &[DiagnosticCode] = &[PASSED_ORIGINAL, EXIT_CODE_SHARED, LEAVES_FOLDER];
+
+impl FindingPolicy {
+    /// Reads what `--deny` and `--allow` were given: codes in any case, and `warnings` to deny every warning.
+    ///
+    /// # Errors
+    /// A sentence about the first word that is no code, a code that is both denied and allowed, or one that cannot be
+    /// allowed because it ends the run.
+    pub fn from_code_lists<'a>(
+        deny: impl IntoIterator<Item = &'a str>,
+        allow: impl IntoIterator<Item = &'a str>,
+        notes: bool,
+    ) -> Result<Self, String> {
+        let mut policy = Self { notes, ..Self::default() };
+        for word in deny {
+            if word.trim().eq_ignore_ascii_case("warnings") {
+                policy.deny_warnings = true;
+            } else {
+                policy.deny.push(parse_code(word)?);
+            }
+        }
+        for word in allow {
+            if word.trim().eq_ignore_ascii_case("warnings") {
+                return Err(
+                    "`warnings` can be denied but not allowed; name the codes you know to be harmless".into(),
+                );
+            }
+            let code = parse_code(word)?;
+            if NEVER_ALLOWED.contains(&code) {
+                return Err(format!("{code} cannot be allowed: {} ends the run", code.meaning()));
+            }
+            if NEVER_SILENT.contains(&code) {
+                return Err(format!("{code} cannot be allowed, it is always told: {}", code.meaning()));
+            }
+            if policy.deny.contains(&code) {
+                return Err(format!("{code} is both denied and allowed"));
+            }
+            policy.allow.push(code);
+        }
+        Ok(policy)
+    }
+
+    /// The findings that stand, with their severities, sorted by file, place and code and each only once.
+    ///
+    /// A denied note is shown even if notes are not. A code named in `allow` is dropped even if warnings are denied.
+    pub fn apply(&self, mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
+        diagnostics.retain(|found| !self.allow.contains(&found.code));
+        for found in &mut diagnostics {
+            let warning = self.deny_warnings && found.severity == Severity::Warning;
+            if warning || self.deny.contains(&found.code) {
+                found.severity = Severity::Error;
+            }
+        }
+        diagnostics.retain(|found| self.notes || found.severity != Severity::Note);
+        sort_findings(&mut diagnostics);
+        diagnostics
+    }
+}
+
+/// Sorts findings by file, place and code, and removes exact duplicates. Findings without a place come first.
+pub fn sort_findings(diagnostics: &mut Vec<Diagnostic>) {
+    diagnostics.sort_by(compare_findings);
+    diagnostics.dedup_by(|a, b| compare_findings(a, b) == Ordering::Equal);
+}
+
+/// Compares all there is, so that equal means duplicate and the order does not depend on who found it first.
+fn compare_findings(a: &Diagnostic, b: &Diagnostic) -> Ordering {
+    finding_place(a)
+        .cmp(&finding_place(b))
+        .then_with(|| a.code.cmp(&b.code))
+        .then_with(|| b.severity.cmp(&a.severity))
+        .then_with(|| a.message.cmp(&b.message))
+        .then_with(|| a.help.cmp(&b.help))
+        .then_with(|| a.labels.iter().map(label_parts).cmp(b.labels.iter().map(label_parts)))
+}
+
+fn finding_place(found: &Diagnostic) -> Option<(&str, Span)> {
+    found.labels.first().map(|label| (label.source.name(), label.span))
+}
+
+fn label_parts(label: &DiagnosticLabel) -> (&str, Span, &str) {
+    (label.source.name(), label.span, &label.message)
+}
+
+/// Looks up a code that a user typed, in any case.
+///
+/// # Errors
+/// A sentence that says so and proposes the nearest code.
+pub fn parse_code(text: &str) -> Result<DiagnosticCode, String> {
+    let text = text.trim();
+    find_code(text).ok_or_else(|| match find_nearest_code(text) {
+        Some(near) => format!("`{text}` is not a code; did you mean {near} ({})?", near.meaning()),
+        None => format!("`{text}` is not a code; codes look like CL0001"),
+    })
+}
+
+fn find_nearest_code(text: &str) -> Option<DiagnosticCode> {
+    let upper = text.to_ascii_uppercase();
+    // `CL1`, `1` and `0001` mean CL0001.
+    let digits = upper.trim_start_matches("CL").trim_start_matches(['-', '_', ' ']);
+    if let Some(found) = digits.parse::<u16>().ok().and_then(|number| find_code(&format!("CL{number:04}"))) {
+        return Some(found);
+    }
+    let all = CATALOGUE.iter().flat_map(|rows| rows.iter()).copied();
+    let near = all.map(|code| (strsim::damerau_levenshtein(code.id(), &upper), code));
+    near.filter(|(distance, _)| *distance <= 2).min().map(|(_, code)| code)
+}

@@ -1,0 +1,63 @@
+//! Arrays in the page: little-endian bytes, sorted by significance, deflated, in base64.
+//!
+//! Bytes of one significance stand together because those of neighbouring numbers are alike; row numbers travel as differences for the
+//! same reason. `page/data.js` is the way back.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use flate2::Compression;
+use flate2::write::DeflateEncoder;
+use std::io::{self, Write};
+
+/// An array on its way into the page.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PageArray {
+    /// Numbers that are measured; NaN is not known.
+    F32(Vec<f32>),
+    /// Numbers that grow, as their differences.
+    Growing(Vec<u32>),
+    /// Small indices.
+    U16(Vec<u16>),
+    /// Bytes.
+    U8(Vec<u8>),
+}
+
+impl PageArray {
+    fn kind_name(&self) -> &'static str {
+        match self {
+            Self::F32(_) => "f32",
+            Self::Growing(_) => "growing",
+            Self::U16(_) => "u16",
+            Self::U8(_) => "u8",
+        }
+    }
+
+    fn byte_planes(&self) -> Vec<u8> {
+        match self {
+            Self::F32(values) => split_byte_planes(values.iter().map(|value| value.to_le_bytes())),
+            Self::Growing(values) => {
+                let before = std::iter::once(0).chain(values.iter().copied());
+                split_byte_planes(
+                    values.iter().zip(before).map(|(value, before)| value.wrapping_sub(before).to_le_bytes()),
+                )
+            }
+            Self::U16(values) => split_byte_planes(values.iter().map(|value| value.to_le_bytes())),
+            Self::U8(values) => values.clone(),
+        }
+    }
+
+    /// The array as an element of the page; the browser does not look into scripts of a type that it does not know.
+    pub fn to_element(&self, name: &str) -> io::Result<String> {
+        let mut deflated = DeflateEncoder::new(Vec::new(), Compression::new(6));
+        deflated.write_all(&self.byte_planes())?;
+        let text = STANDARD.encode(deflated.finish()?);
+        Ok(format!(
+            "<script type=\"text/plain\" data-array=\"{name}\" data-kind=\"{}\">{text}</script>\n",
+            self.kind_name()
+        ))
+    }
+}
+
+fn split_byte_planes<const N: usize>(numbers: impl Iterator<Item = [u8; N]> + Clone) -> Vec<u8> {
+    (0..N).flat_map(|plane| numbers.clone().filter_map(move |bytes| bytes.get(plane).copied())).collect()
+}

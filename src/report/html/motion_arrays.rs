@@ -1,0 +1,190 @@
+//! One program as arrays: where it goes, how fast, what it cuts, and where it stands in the listing.
+
+use super::array_encoding::PageArray;
+use super::listing::NONE;
+use crate::program::motion::Motion;
+use crate::program::operation::find_operations;
+use crate::program::{MotionClass, Program};
+use crate::report::comparison::{ComparisonSubject, measure_motion};
+use crate::report::simulation::{MotionRow, SimulationReport};
+use crate::sim::{PathLinearizer, ToolPose};
+
+/// Chords are no further from their arcs than this in the drawing, mm.
+pub const CHORD_MM: f64 = 0.02;
+
+/// Flags of a motion.
+const RAPID: u8 = 1;
+/// It does not begin where the motion before ended; its first vertex is where it begins.
+const JUMPS: u8 = 2;
+
+/// The arrays of a program, one value a motion; first points, which come from nowhere, are no motions.
+#[derive(Debug, Default)]
+pub struct PageMotionArrays {
+    /// Vertices of the path, mm from `origin` in the workpiece frame.
+    pub vertices: Vec<[f32; 3]>,
+    /// How many vertices there are up to the end of each motion.
+    pub ends: Vec<u32>,
+    /// Flags.
+    pub flags: Vec<u8>,
+    /// Class.
+    pub class: Vec<u8>,
+    /// Operation.
+    pub operation: Vec<u16>,
+    /// Tool, an index of `tools`.
+    pub tool: Vec<u16>,
+    /// Row of the listing.
+    pub row: Vec<u32>,
+    /// Length, mm.
+    pub length: Vec<f32>,
+    /// Time, s; 0 where it is not known.
+    pub seconds: Vec<f32>,
+    /// Feed, mm/min; NaN in rapids and where it is not known.
+    pub feed: Vec<f32>,
+    /// What the simulation told, by name.
+    pub loads: Vec<(&'static str, Vec<f32>)>,
+    /// What became of each motion ([`super::change`]).
+    pub change: Vec<u8>,
+    /// The motion before that each comes from, or [`NONE`].
+    pub pair: Vec<u32>,
+    /// Names of tools.
+    pub tools: Vec<String>,
+    /// Names of operations.
+    pub operations: Vec<String>,
+    /// The motion that ends at each statement, or [`NONE`]; the first of several.
+    pub ended_by: Vec<u32>,
+    /// Index of the statement that ends each motion.
+    pub statement: Vec<u32>,
+}
+
+/// A quantity's name, and where a motion's row has it.
+type PageLoadColumn = (&'static str, fn(&MotionRow) -> Option<f64>);
+
+/// The quantities of a simulation that charts show.
+const LOADS: [PageLoadColumn; 5] = [
+    ("chip", |row| row.chip_thickness_mm),
+    ("removal", |row| row.removal_rate_mm3_min),
+    ("force", |row| row.force_n),
+    ("torque", |row| row.torque_nm),
+    ("power", |row| row.power_kw),
+];
+
+impl PageMotionArrays {
+    /// The arrays of a program. `rows` has the row of each of its statements.
+    pub fn from_program(
+        subject: &ComparisonSubject<'_>,
+        program: &Program,
+        simulated: Option<&SimulationReport>,
+        rows: &[u32],
+        origin: [f64; 3],
+    ) -> Self {
+        let units = subject.resolve_length_unit(program).unit;
+        let rapid = subject.rapid_feed_mm_min();
+        let mut side = Self {
+            operations: find_operations(program).into_iter().map(|operation| operation.name).collect(),
+            ended_by: vec![NONE; program.statements().len()],
+            ..Self::default()
+        };
+        let mut trace = PathLinearizer::new(units.mm_per_unit(), CHORD_MM, f64::INFINITY);
+        let mut steps = Vec::new();
+        // First points count for the workpiece frame, which is the first motion's.
+        for motion in program.motions() {
+            trace.adopt_workpiece_frame(&motion);
+            if motion.path == crate::program::geometry::MotionPath::Start {
+                continue;
+            }
+            steps.clear();
+            trace.append_pieces(&motion, 0, &mut steps);
+            side.push_path(&steps, motion.rapid, origin);
+            let measured = measure_motion(&motion, units, rapid);
+            side.length.push(measured.length_mm as f32);
+            side.seconds.push(measured.seconds.unwrap_or(0.0) as f32);
+            side.feed
+                .push(measured.feed_mm_min.filter(|_| !motion.rapid).map_or(f32::NAN, |feed| feed as f32));
+            side.push_motion_facts(&motion, rows);
+        }
+        if let Some(rows) = simulated.map(|simulated| &simulated.motions.rows) {
+            for (name, value) in LOADS {
+                if rows.iter().any(|row| value(row).is_some()) {
+                    let values = rows.iter().map(|row| value(row).map_or(f32::NAN, |value| value as f32));
+                    side.loads.push((name, values.collect()));
+                }
+            }
+        }
+        side
+    }
+
+    fn push_path(&mut self, steps: &[crate::sim::MotionPiece], rapid: bool, origin: [f64; 3]) {
+        let mut flags = if rapid { RAPID } else { 0 };
+        for (index, step) in steps.iter().enumerate() {
+            let from = to_drawing_vertex(&step.piece.from, origin);
+            if index == 0 && self.vertices.last() != Some(&from) {
+                flags |= JUMPS;
+                self.vertices.push(from);
+            }
+            self.vertices.push(to_drawing_vertex(&step.piece.to, origin));
+        }
+        self.flags.push(flags);
+        self.ends.push(self.vertices.len() as u32);
+    }
+
+    fn push_motion_facts(&mut self, motion: &Motion, rows: &[u32]) {
+        let statement = motion.last_statement();
+        self.class.push(class_index(motion.class));
+        self.operation.push(u16::try_from(motion.operation).unwrap_or(u16::MAX));
+        let called = motion.tool.as_ref().map(|tool| tool.display_name()).unwrap_or_default();
+        // The tool in force is nearly always one of the last.
+        let tool = self.tools.iter().rposition(|tool| *tool == called).unwrap_or_else(|| {
+            self.tools.push(called);
+            self.tools.len() - 1
+        });
+        self.tool.push(u16::try_from(tool).unwrap_or(u16::MAX));
+        self.row.push(rows.get(statement).copied().unwrap_or(NONE));
+        if let Some(place) = self.ended_by.get_mut(statement).filter(|place| **place == NONE) {
+            *place = self.statement.len() as u32;
+        }
+        self.statement.push(statement as u32);
+    }
+
+    /// Where a motion's vertices are, its beginning included.
+    pub fn motion_vertices(&self, motion: usize) -> &[[f32; 3]] {
+        let end = self.ends.get(motion).map_or(0, |end| *end as usize);
+        let start =
+            motion.checked_sub(1).and_then(|before| self.ends.get(before)).map_or(0, |end| *end as usize);
+        let jumps = self.flags.get(motion).is_some_and(|flags| flags & JUMPS != 0);
+        let first = if jumps { start } else { start.saturating_sub(1) };
+        self.vertices.get(first..end).unwrap_or_default()
+    }
+
+    /// The arrays by name.
+    pub fn into_arrays(self, prefix: &str) -> Vec<(String, PageArray)> {
+        let vertices = |axis: usize| {
+            PageArray::F32(self.vertices.iter().filter_map(|vertex| vertex.get(axis).copied()).collect())
+        };
+        let mut all = vec![
+            ("x", vertices(0)),
+            ("y", vertices(1)),
+            ("z", vertices(2)),
+            ("ends", PageArray::Growing(self.ends)),
+            ("flags", PageArray::U8(self.flags)),
+            ("class", PageArray::U8(self.class)),
+            ("operation", PageArray::U16(self.operation)),
+            ("tool", PageArray::U16(self.tool)),
+            ("row", PageArray::Growing(self.row)),
+            ("length", PageArray::F32(self.length)),
+            ("seconds", PageArray::F32(self.seconds)),
+            ("feed", PageArray::F32(self.feed)),
+            ("change", PageArray::U8(self.change)),
+            ("pair", PageArray::Growing(self.pair)),
+        ];
+        all.extend(self.loads.into_iter().map(|(name, values)| (name, PageArray::F32(values))));
+        all.into_iter().map(|(name, array)| (format!("{prefix}.{name}"), array)).collect()
+    }
+}
+
+fn to_drawing_vertex(place: &ToolPose, [x, y, z]: [f64; 3]) -> [f32; 3] {
+    [place.point.x - x, place.point.y - y, place.point.z - z].map(|value| value as f32)
+}
+
+fn class_index(class: MotionClass) -> u8 {
+    MotionClass::ALL.iter().position(|other| *other == class).unwrap_or(0) as u8
+}

@@ -1,0 +1,125 @@
+//! Everything that scripts draw.
+
+use super::array_encoding::PageArray;
+use super::listing::ProgramListing;
+use super::motion_arrays::PageMotionArrays;
+use super::stock_height_field::StockHeightField;
+use super::{markup, motion_change};
+use crate::program::{MotionClass, Program};
+use crate::report::comparison::{Comparison, ComparisonSubject};
+use crate::report::text_format::{format_count, format_short};
+use rayon::prelude::*;
+use serde_json::{Value, json};
+use std::io::{self, Write};
+
+/// More statements than this make no page that a browser opens.
+const MOST_STATEMENTS: usize = 6_000_000;
+
+/// Nor does more text, in bytes.
+const MOST_TEXT: usize = 300 << 20;
+
+/// The arrays, and what stands beside them.
+#[derive(Debug)]
+pub struct PageArrays {
+    facts: Value,
+    arrays: Vec<(String, PageArray)>,
+    /// Why something is not drawn, and how what is drawn is simplified.
+    pub missing: Vec<String>,
+}
+
+impl PageArrays {
+    pub fn from_comparison(comparison: &Comparison<'_>) -> Self {
+        let subject = &comparison.subject;
+        let program = subject.program;
+        let mut missing = Vec::new();
+        let statements = program.statements().len();
+        if statements > MOST_STATEMENTS || program.source().bytes().len() > MOST_TEXT {
+            let statements = format_count(statements as u64);
+            missing.push(format!("a program of {statements} statements is too large to be drawn in a page"));
+            return Self { facts: json!({ "sides": [] }), arrays: Vec::new(), missing };
+        }
+        let listing = ProgramListing::from_program(program);
+        let origin = choose_drawing_origin(subject, program);
+        let runs = comparison.runs;
+        let mut after =
+            PageMotionArrays::from_program(subject, program, runs.after.as_ref(), &listing.after, origin);
+        let mut before = subject.before.map(|before| {
+            PageMotionArrays::from_program(subject, before, runs.before.as_ref(), &listing.before, origin)
+        });
+        if let Some(before) = &mut before {
+            motion_change::pair_motions(before, &mut after, &listing);
+        }
+        let stock = runs.after.as_ref().and_then(|simulated| StockHeightField::from_dexels(&simulated.left));
+        if let Some(stock) = &stock {
+            missing.push(format!(
+                "the stock that is left is drawn as {} x {} columns {} mm apart, each as high as the highest material in it{}; \
+                 undercuts are not drawn",
+                stock.columns,
+                stock.rows,
+                format_short(stock.cell),
+                if stock.coarser > 1 {
+                    format!(" ({0} x {0} columns of the simulation)", stock.coarser)
+                } else {
+                    String::new()
+                },
+            ));
+        }
+        let facts = build_facts(comparison, before.as_ref(), &after, stock.as_ref(), origin);
+        let mut arrays = vec![
+            ("text".to_owned(), PageArray::U8(listing.text)),
+            ("kinds".to_owned(), PageArray::U8(listing.kinds)),
+            ("steps".to_owned(), PageArray::U16(listing.steps)),
+        ];
+        arrays.extend(before.map(|side| side.into_arrays("before")).into_iter().flatten());
+        arrays.extend(after.into_arrays("after"));
+        arrays.extend(stock.map(|stock| ("stock".to_owned(), PageArray::F32(stock.heights))));
+        Self { facts, arrays, missing }
+    }
+
+    /// Writes them as elements of the page.
+    pub fn write_elements(&self, out: &mut dyn Write) -> io::Result<()> {
+        writeln!(
+            out,
+            "<script type=\"application/json\" id=\"facts\">{}</script>",
+            markup::to_script_json(&self.facts)
+        )?;
+        let elements: Vec<io::Result<String>> =
+            self.arrays.par_iter().map(|(name, array)| array.to_element(name)).collect();
+        elements.into_iter().try_for_each(|element| out.write_all(element?.as_bytes()))
+    }
+}
+
+/// Where the drawing's coordinates count from: near the path, so that `f32` is fine enough, and in whole mm, so that nothing is rounded.
+fn choose_drawing_origin(subject: &ComparisonSubject<'_>, program: &Program) -> [f64; 3] {
+    let unit = subject.resolve_length_unit(program).unit.mm_per_unit();
+    let first = ComparisonSubject::motions_after_start(program).next();
+    first.map_or([0.0; 3], |motion| {
+        [motion.to.point.x, motion.to.point.y, motion.to.point.z].map(|at| (at * unit).round())
+    })
+}
+
+fn build_facts(
+    comparison: &Comparison<'_>,
+    before: Option<&PageMotionArrays>,
+    after: &PageMotionArrays,
+    stock: Option<&StockHeightField>,
+    origin: [f64; 3],
+) -> Value {
+    let side = |name: &str, side: &PageMotionArrays| {
+        let loads: Vec<&str> = side.loads.iter().map(|(name, _)| *name).collect();
+        json!({ "name": name, "tools": side.tools, "operations": side.operations, "loads": loads })
+    };
+    let steps: Vec<&str> =
+        comparison.changes.iter().flat_map(|changes| &changes.steps).map(|step| step.name.as_str()).collect();
+    let sides: Vec<Value> =
+        before.map(|before| side("before", before)).into_iter().chain([side("after", after)]).collect();
+    json!({
+        "sides": sides,
+        "steps": steps,
+        "classes": MotionClass::ALL.map(|class| class.to_string().replace('_', " ")),
+        "origin": origin,
+        "stock": stock.map(|stock| json!({
+            "first": stock.first, "cell": stock.cell, "columns": stock.columns, "rows": stock.rows, "low": stock.low,
+        })),
+    })
+}

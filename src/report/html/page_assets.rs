@@ -1,0 +1,93 @@
+//! The parts of the page that are the same in every page, and the policy that lets no other script run.
+
+use super::markup;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use sha2::{Digest, Sha256};
+use std::io::{self, Write};
+
+const TEMPLATE: &str = include_str!("page/page.html");
+
+/// The libraries: name, script, licence.
+const LIBRARIES: [(&str, &str, &str); 2] = [
+    ("uPlot 1.6.32", include_str!("vendor/uPlot.iife.min.js"), include_str!("vendor/uPlot.LICENSE")),
+    ("three.js 0.187.0", include_str!("vendor/three.iife.min.js"), include_str!("vendor/three.LICENSE")),
+];
+
+/// The page's own scripts, which share one scope, in the order in which they are read.
+const SCRIPTS: [&str; 8] = [
+    include_str!("page/data.js"),
+    include_str!("page/program.js"),
+    include_str!("page/colors.js"),
+    include_str!("page/charts.js"),
+    include_str!("page/scene.js"),
+    include_str!("page/view.js"),
+    include_str!("page/listing.js"),
+    include_str!("page/main.js"),
+];
+
+const STYLES: [&str; 2] = [include_str!("vendor/uPlot.min.css"), include_str!("page/page.css")];
+
+/// The template as pieces: a mark, and the text after it. The first piece has no mark.
+pub fn split_template() -> impl Iterator<Item = (Option<&'static str>, &'static str)> {
+    TEMPLATE.split("{{").enumerate().map(|(index, piece)| match piece.split_once("}}") {
+        Some((mark, text)) if index > 0 => (Some(mark), text),
+        _ => (None, piece),
+    })
+}
+
+/// The page's scripts as one.
+fn page_script() -> String {
+    format!("(() => {{\n\"use strict\";\n{}}})();\n", SCRIPTS.concat())
+}
+
+fn page_style() -> String {
+    STYLES.join("\n")
+}
+
+/// The Content-Security-Policy: nothing is loaded, and only these scripts and styles count.
+pub fn content_security_policy() -> String {
+    let hash = |text: &str| format!("'sha256-{}'", STANDARD.encode(Sha256::digest(text.as_bytes())));
+    let mut scripts: Vec<String> = LIBRARIES.iter().map(|(_, script, _)| hash(script)).collect();
+    scripts.push(hash(&page_script()));
+    format!(
+        "default-src 'none'; base-uri 'none'; form-action 'none'; img-src data: blob:; style-src {}; script-src {}",
+        hash(&page_style()),
+        scripts.join(" "),
+    )
+}
+
+pub fn write_styles(out: &mut dyn Write) -> io::Result<()> {
+    write!(out, "<style>{}</style>", page_style())
+}
+
+pub fn write_scripts(out: &mut dyn Write) -> io::Result<()> {
+    for (_, script, _) in LIBRARIES {
+        writeln!(out, "<script>{script}</script>")?;
+    }
+    writeln!(out, "<script>{}</script>", page_script())
+}
+
+pub fn write_licences(out: &mut dyn Write) -> io::Result<()> {
+    for (name, _, licence) in LIBRARIES {
+        write!(out, "<h3>{name}</h3><pre>")?;
+        markup::write_text(out, licence)?;
+        out.write_all(b"</pre>")?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_part_of_the_page_ends_its_element() {
+        let own = page_script();
+        for script in LIBRARIES.iter().map(|(_, script, _)| *script).chain([own.as_str()]) {
+            let lower = script.to_ascii_lowercase();
+            assert!(!lower.contains("</script") && !lower.contains("<!--"));
+        }
+        assert!(!page_style().to_ascii_lowercase().contains("</style"));
+    }
+}

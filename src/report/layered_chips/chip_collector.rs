@@ -1,0 +1,252 @@
+//! The rows and sums, motion by motion.
+
+use super::chip_merging::merge_piece_chips;
+use super::chip_thickness::{ChipThicknessModel, STANDS, tip_travel_mm};
+use super::move_scene::{MoveScene, build_scene};
+use super::{ChipReport, ChipReportOptions, ChipRow, ChipTotals, OperationChips, UncutMotion};
+use crate::layered_chips::chip::LayerChip;
+use crate::program::geometry::MotionPath;
+use crate::program::motion::Motion;
+use crate::program::operation;
+use crate::report::text_format::format_counted;
+use crate::report::tool_name;
+use crate::sim::MotionPiece;
+use crate::simulation_run::Machining;
+use crate::simulation_run::layer_run::{
+    LayerRunOptions, LayerRunResult, MotionChips, UncutReason, to_flat_mill,
+};
+use std::collections::BTreeSet;
+
+/// What grows while motions go by.
+pub(super) struct ChipCollector<'m, 'p> {
+    machining: &'m Machining<'p>,
+    keep: ChipReportOptions,
+    /// Of the borders' chords, mm.
+    tolerance: f64,
+    rapid: Option<f64>,
+    names: Vec<String>,
+    operations: Vec<OperationChips>,
+    totals: ChipTotals,
+    pub rows: Vec<ChipRow>,
+    pub skipped: Vec<UncutMotion>,
+    scenes: Vec<MoveScene>,
+    /// Tools whose teeth nobody says, where one of them cuts.
+    toothless: BTreeSet<String>,
+    /// Cuts at a feed or speed that is not known, and cuts that turn about a tip that stands.
+    unknown: usize,
+    standing: usize,
+    /// Rapids of tools whose shape nobody says, and motions that go nowhere.
+    shapeless: usize,
+    still: usize,
+}
+
+impl<'m, 'p> ChipCollector<'m, 'p> {
+    pub fn new(machining: &'m Machining<'p>, keep: ChipReportOptions, tolerance: f64) -> Self {
+        let names = operation::find_operations(machining.program()).into_iter().map(|found| found.name);
+        let names: Vec<String> = names.collect();
+        let operation = |name: &String| OperationChips { name: name.clone(), ..OperationChips::default() };
+        Self {
+            machining,
+            keep,
+            tolerance,
+            rapid: machining.setup().machine.rapid_feed.map(|feed| feed.get()),
+            operations: names.iter().map(operation).collect(),
+            names,
+            totals: ChipTotals::default(),
+            rows: Vec::new(),
+            skipped: Vec::new(),
+            scenes: Vec::new(),
+            toothless: BTreeSet::new(),
+            unknown: 0,
+            standing: 0,
+            shapeless: 0,
+            still: 0,
+        }
+    }
+
+    /// Adds a motion.
+    pub fn add_motion(&mut self, cut: &MotionChips<'_>) {
+        if cut.motion.path == MotionPath::Start {
+            return;
+        }
+        self.totals.motions += 1;
+        self.totals.chips_mm3 += cut.volume_mm3();
+        let layers = || cut.piece_chips().flat_map(|chip| &chip.layers);
+        let inside_mm3: f64 = layers().map(|layer| layer.inside_mm2 * layer.thickness).sum();
+        self.totals.inside_mm3 += inside_mm3;
+        let reason = self.find_uncut_reason(cut);
+        self.totals.skipped += usize::from(reason.is_some());
+        if !cut.asked {
+            return;
+        }
+        let tool = tool_name(cut.motion.tool.as_deref());
+        let operation = self.names.get(cut.motion.operation).cloned().unwrap_or_default();
+        if let Some(reason) = reason {
+            let (operation, tool) = (operation.clone(), tool.clone());
+            self.skipped.push(UncutMotion { line: cut.line, operation, tool, reason });
+        }
+        if cut.left_out.is_some() || (!cut.pieces.is_empty() && cut.piece_chips().next().is_none()) {
+            return;
+        }
+        let pace = self.build_thickness_model(cut, &tool);
+        let chips = cut.pieces.iter().filter_map(|(step, chip)| Some((step, chip.as_ref().ok()?)));
+        let chips = chips.flat_map(|(step, chip)| chip.layers.iter().map(move |layer| (step, layer)));
+        let chips = chips.map(|(step, layer)| (layer, pace.max_chip_thickness_mm(step, layer)));
+        let drawn = self.is_scene_wanted(cut);
+        let mut layers = merge_piece_chips(chips, cut.stack.grid(), self.keep.borders || drawn);
+        if drawn {
+            self.scenes.extend(build_scene(cut, &layers, self.machining));
+        }
+        if !self.keep.borders {
+            layers.iter_mut().for_each(|layer| layer.polygons.clear());
+        }
+        let row = ChipRow {
+            line: cut.line,
+            operation,
+            rapid: cut.motion.rapid,
+            length_mm: cut.motion.length() * self.machining.length_unit().mm_per_unit(),
+            feed_mm_min: self.motion_feed_mm_min(cut.motion),
+            volume_mm3: cut.volume_mm3(),
+            inside_mm3,
+            chip_thickness_mm: match layers
+                .iter()
+                .filter_map(|layer| layer.chip_thickness_mm)
+                .reduce(f64::max)
+            {
+                _ if cut.volume_mm3() <= 0.0 => Some(0.0),
+                most => most.filter(|_| pace.known),
+            },
+            layers,
+            tool,
+        };
+        if let Some(sums) = self.operations.get_mut(cut.motion.operation) {
+            if sums.motions == 0 {
+                sums.tool.clone_from(&row.tool);
+            }
+            sums.add_motion(&row);
+        }
+        self.rows.push(row);
+    }
+
+    /// Why a motion was not cut, or in part.
+    fn find_uncut_reason(&mut self, cut: &MotionChips<'_>) -> Option<String> {
+        match cut.left_out {
+            Some(UncutReason::Tool) => Some("the tool is no flat end mill".to_owned()),
+            Some(UncutReason::Unknown) => {
+                self.shapeless += 1;
+                Some("a rapid of a tool whose shape is not known".to_owned())
+            }
+            // There is nothing to cut, so nothing is missing.
+            Some(UncutReason::Still) => {
+                self.still += 1;
+                None
+            }
+            None => cut.first_refusal().map(|(refusal, count)| match cut.pieces.len() {
+                1 => refusal.to_string(),
+                all => format!("{count} of {all} pieces: {refusal}"),
+            }),
+        }
+    }
+
+    /// The feed of a motion, mm/min.
+    fn motion_feed_mm_min(&self, motion: &Motion) -> Option<f64> {
+        if motion.rapid {
+            return self.rapid;
+        }
+        let rpm = motion.spindle_rpm().filter(|rpm| *rpm > 0.0);
+        let feed = motion.feed?.mm_per_minute(self.machining.length_unit(), rpm, Some(motion.length()));
+        feed.filter(|feed| *feed > 0.0)
+    }
+
+    /// What makes a thickness of an advance; counts what is missing where the motion cuts.
+    fn build_thickness_model(&mut self, cut: &MotionChips<'_>, tool: &str) -> ChipThicknessModel<'m> {
+        let cutter = cut.cutter.and_then(|index| self.machining.tooling().cutters().get(index));
+        let rpm = cut.motion.spindle_rpm().filter(|rpm| *rpm > 0.0);
+        let per_turn = self.motion_feed_mm_min(cut.motion).zip(rpm).map(|(feed, rpm)| feed / rpm);
+        let mill = cutter.and_then(|cutter| to_flat_mill(cutter).ok());
+        let mut pace = ChipThicknessModel { cutter, mill, per_turn, tolerance: self.tolerance, known: false };
+        let cuts = |(step, chip): &(MotionPiece, Result<crate::layered_chips::chip::Chip, _>)| {
+            let removes =
+                chip.as_ref().is_ok_and(|chip| chip.layers.iter().any(|layer| layer.area_mm2 > 0.0));
+            removes.then(|| tip_travel_mm(step))
+        };
+        let ways: Vec<f64> = cut.pieces.iter().filter_map(cuts).collect();
+        if ways.is_empty() {
+            return pace;
+        }
+        if cutter.is_some_and(|cutter| cutter.teeth.is_none()) {
+            self.toothless.insert(tool.to_owned());
+        } else if pace.per_turn.is_none() {
+            self.unknown += 1;
+        } else if ways.iter().any(|way| *way <= STANDS) {
+            self.standing += 1;
+        } else {
+            pace.known = true;
+        }
+        pace
+    }
+
+    /// Whether there is to be a picture of a motion.
+    fn is_scene_wanted(&self, cut: &MotionChips<'_>) -> bool {
+        let shown = |layer: &LayerChip| {
+            let here = |z: f64| (z - layer.z).abs() <= layer.thickness / 2.0;
+            layer.area_mm2 > 0.0 && self.keep.at.is_none_or(here)
+        };
+        self.scenes.len() < self.keep.scenes && cut.piece_chips().flat_map(|chip| &chip.layers).any(shown)
+    }
+
+    /// Puts everything together.
+    pub fn into_report(mut self, options: LayerRunOptions, ran: LayerRunResult) -> ChipReport {
+        self.totals.stock_mm3 = ran.before_mm3;
+        self.totals.left_mm3 = ran.left.volume_mm3();
+        let assumptions = self.list_assumptions();
+        ChipReport {
+            file: self.machining.program().source().name().to_owned(),
+            options,
+            totals: self.totals,
+            operations: self.operations.into_iter().filter(|sums| sums.motions > 0).collect(),
+            assumptions,
+            skipped: self.skipped,
+            rows: self.rows,
+            scenes: self.scenes,
+            findings: ran.findings,
+            left: ran.left,
+        }
+    }
+
+    fn list_assumptions(&self) -> Vec<String> {
+        let mut said = vec![
+            "what stands above the flutes is not looked at; `clsmith simulate` finds collisions".to_owned(),
+        ];
+        let cuts = |count: usize| format_counted(count, "cut", "cuts");
+        for tool in &self.toothless {
+            let tool = if tool.is_empty() { "the tool".to_owned() } else { format!("tool {tool}") };
+            said.push(format!("the teeth of {tool} are not said under `setup.tools`: no chip thickness"));
+        }
+        if self.unknown > 0 {
+            let cuts = cuts(self.unknown);
+            said.push(format!("feed or spindle speed of {cuts} is not known: no chip thickness"));
+        }
+        if self.standing > 0 {
+            let cuts = cuts(self.standing);
+            said.push(format!(
+                "{cuts} turn about a tip that stands, and a feed does not say how fast: no chip thickness"
+            ));
+        }
+        if self.totals.inside_mm3 > 5e-4 {
+            said.push(format!(
+                "{:.3} mm3 stood inside a cutter where a motion began: taken away, and part of no chip",
+                self.totals.inside_mm3
+            ));
+        }
+        if self.shapeless > 0 {
+            let rapids = format_counted(self.shapeless, "rapid", "rapids");
+            said.push(format!("{rapids} of tools whose shape is not known cut nothing"));
+        }
+        if self.still > 0 {
+            let motions = format_counted(self.still, "motion goes", "motions go");
+            said.push(format!("{motions} nowhere and cut nothing"));
+        }
+        said
+    }
+}

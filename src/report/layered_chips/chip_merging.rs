@@ -1,0 +1,110 @@
+//! The chips of a motion's pieces as one, layer by layer.
+
+use super::ChipLayerRow;
+use crate::layered_chips::Polygon;
+use crate::layered_chips::area::{AreaGrid, Clipper, GridArea, signed_area_mm2};
+use crate::layered_chips::chip::LayerChip;
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+/// Joins the chips of pieces of path that follow each other. `thickness` is the thickest chip of a tooth on a layer of a piece, `grid`
+/// the one that the workpiece was cut on; `borders`: whether to keep them.
+///
+/// Areas add up, for what one piece removed the next one does not find; where chips of several pieces meet, their borders become one.
+pub(super) fn merge_piece_chips<'a>(
+    chips: impl Iterator<Item = (&'a LayerChip, Option<f64>)>,
+    grid: &AreaGrid,
+    borders: bool,
+) -> Vec<ChipLayerRow> {
+    let mut layers: BTreeMap<usize, (ChipLayerRow, Vec<&[Polygon]>)> = BTreeMap::new();
+    for (chip, thickness) in chips {
+        let (row, parts) = layers.entry(chip.layer).or_insert_with(|| {
+            let row = ChipLayerRow {
+                number: chip.layer,
+                z: chip.z,
+                thickness_mm: chip.thickness,
+                ..ChipLayerRow::default()
+            };
+            (row, Vec::new())
+        });
+        row.area_mm2 += chip.area_mm2;
+        row.inside_mm2 += chip.inside_mm2;
+        row.arcs_deg.extend(&chip.arcs_deg);
+        // `None` is less than any thickness.
+        row.chip_thickness_mm = [row.chip_thickness_mm, thickness].into_iter().flatten().reduce(f64::max);
+        if !chip.pieces.is_empty() {
+            parts.push(&chip.pieces);
+        }
+    }
+    let whole = |(mut row, parts): (ChipLayerRow, Vec<&[Polygon]>)| {
+        row.arcs_deg = merge_arcs(&row.arcs_deg);
+        let polygons = match parts.as_slice() {
+            [] => Cow::Borrowed([].as_slice()),
+            [only] => Cow::Borrowed(*only),
+            several => Cow::Owned(merge_polygons(several, grid)),
+        };
+        row.count = polygons.len();
+        if borders {
+            row.polygons = polygons.into_owned();
+        }
+        row
+    };
+    layers.into_values().map(whole).collect()
+}
+
+/// Holes thinner than this, mm, are what chords left between one piece of path and the next.
+const THINNEST: f64 = 0.005;
+
+/// Whether a border encloses something thicker than chords leave.
+fn is_thick_boundary(border: &[[f64; 2]]) -> bool {
+    let next = border.iter().cycle().skip(1);
+    let around: f64 = border.iter().zip(next).map(|([ax, ay], [bx, by])| (bx - ax).hypot(by - ay)).sum();
+    signed_area_mm2(border).abs() > THINNEST * around / 2.0
+}
+
+/// Polygons beside each other as few.
+fn merge_polygons(parts: &[&[Polygon]], grid: &AreaGrid) -> Vec<Polygon> {
+    let polygons = parts.iter().flat_map(|part| part.iter());
+    let borders = polygons.flat_map(|polygon| std::iter::once(&polygon.outer).chain(&polygon.holes));
+    let mut whole =
+        Clipper::default().extract_polygons(&GridArea::new(grid, borders.map(Vec::as_slice)), grid).0;
+    whole.iter_mut().for_each(|polygon| polygon.holes.retain(|hole| is_thick_boundary(hole)));
+    whole
+}
+
+/// Arcs of a circle in degrees as few that do not overlap, in order, each beginning in -180..180.
+fn merge_arcs(arcs: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    const TURN: f64 = 360.0;
+    let mut flat: Vec<[f64; 2]> = Vec::new();
+    for [from, to] in arcs {
+        if to - from >= TURN {
+            return vec![[-180.0, 180.0]];
+        }
+        let start = (from + 180.0).rem_euclid(TURN) - 180.0;
+        let end = start + (to - from);
+        flat.push([start, end.min(180.0)]);
+        if end > 180.0 {
+            flat.push([-180.0, end - TURN]);
+        }
+    }
+    flat.sort_by(|[a, _], [b, _]| a.total_cmp(b));
+    let mut joined: Vec<[f64; 2]> = Vec::new();
+    for [from, to] in flat {
+        match joined.last_mut() {
+            Some([_, end]) if from <= *end => *end = end.max(to),
+            _ => joined.push([from, to]),
+        }
+    }
+    // What was cut at +-180 is one arc again.
+    if let ([[first, end], .., [_, last]], 2..) = (joined.as_slice(), joined.len())
+        && *first <= -180.0
+        && *last >= 180.0
+    {
+        let end = *end + TURN;
+        joined.remove(0);
+        if let Some([_, last]) = joined.last_mut() {
+            *last = end;
+        }
+    }
+    joined
+}

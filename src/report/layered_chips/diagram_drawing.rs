@@ -1,0 +1,201 @@
+//! Boundary construction diagrams: theta across, time up, as the figures of the paper that they come from.
+
+use super::ChipReport;
+use super::move_scene::{MoveScene, MoveSceneLayer};
+use super::panel_sheet::{
+    ADVANCING, BRANCH, EDGE, LegendSample, OUTSIDE, PanelArea, RETREATING, draw_sheet, drawing_error,
+};
+use crate::layered_chips::MillStep;
+use crate::layered_chips::boundary_diagram::{BoundaryDiagram, BranchEnd, EdgeState, EnvelopeBranch};
+use crate::layered_chips::section_family::{DiagramCurve, SectionFamily};
+use crate::report::text_format::format_short;
+use plotters::element::DashedPathElement;
+use plotters::prelude::*;
+use std::f64::consts::TAU;
+use std::io;
+
+const PANEL: (u32, u32) = (480, 330);
+
+/// Panels in a row.
+const IN_A_ROW: usize = 2;
+
+/// Rows of the shading, and angles at which each is looked at first.
+const ROWS: usize = 100;
+const ANGLES: usize = 180;
+
+/// Points of a branch between two events.
+const STEPS: usize = 32;
+
+/// Draws the diagram of each move that was kept as a scene, on the layer at a height or on the one where its chip is largest.
+///
+/// Of an arc, which is cut in straight pieces, it is the first piece's.
+///
+/// # Errors
+/// What the drawing library returns, which for a drawing in memory is nothing.
+pub fn draw_diagrams(report: &ChipReport, at: Option<f64>) -> io::Result<String> {
+    let columns = report.scenes.len().clamp(1, IN_A_ROW);
+    let rows = report.scenes.len().div_ceil(columns).max(1);
+    let legend = [
+        (LegendSample::Filled(ADVANCING), "advances"),
+        (LegendSample::Filled(RETREATING), "retreats"),
+        (LegendSample::Filled(OUTSIDE), "no edge"),
+        (LegendSample::Line(BRANCH), "envelope"),
+        (LegendSample::Dot(BRANCH), "fold"),
+        (LegendSample::Ring(BRANCH), "split"),
+    ];
+    draw_sheet((columns, rows), PANEL, &legend, |number, area| match report.scenes.get(number) {
+        Some(scene) => draw_diagram(area, scene, at),
+        None => Ok(()),
+    })
+}
+
+/// The layer whose diagram is drawn.
+fn choose_diagram_layer(scene: &MoveScene, at: Option<f64>) -> Option<&MoveSceneLayer> {
+    let area = |layer: &MoveSceneLayer| layer.chip.iter().map(|piece| piece.area_mm2()).sum::<f64>();
+    match at {
+        // A height on the border of two layers is in both: the upper one, as in the picture of layers.
+        Some(z) => scene.layers.iter().rfind(|layer| layer.contains_height(z)),
+        None => scene.layers.iter().reduce(|a, b| if area(b) > area(a) { b } else { a }),
+    }
+}
+
+fn draw_diagram(area: &PanelArea<'_>, scene: &MoveScene, at: Option<f64>) -> io::Result<()> {
+    let (Some(layer), Some(piece)) = (choose_diagram_layer(scene, at), scene.pieces.first()) else {
+        return Ok(());
+    };
+    let Ok(step) = MillStep::new(scene.mill, piece) else { return Ok(()) };
+    let diagram = BoundaryDiagram::new(&SectionFamily::new(&step, layer.z));
+    let mut title = format!("line {}, z {}", scene.line, format_short(layer.z));
+    if scene.pieces.len() > 1 {
+        title.push_str(&format!(", first of {} pieces", scene.pieces.len()));
+    }
+    let mut chart = ChartBuilder::on(area)
+        .caption(title, ("sans-serif", 14))
+        .margin(10)
+        .set_label_area_size(LabelAreaPosition::Left, 44)
+        .set_label_area_size(LabelAreaPosition::Bottom, 40)
+        .build_cartesian_2d(0.0..360.0, 0.0..1.0)
+        .map_err(drawing_error)?;
+    chart
+        .configure_mesh()
+        .disable_mesh()
+        .x_labels(9)
+        .x_label_formatter(&|theta| format!("{theta:.0}"))
+        .y_labels(6)
+        .x_desc("theta, degrees")
+        .y_desc("t")
+        .label_style(("sans-serif", 11))
+        .axis_desc_style(("sans-serif", 13))
+        .draw()
+        .map_err(drawing_error)?;
+    chart.draw_series(shade_edge_states(&diagram)).map_err(drawing_error)?;
+    for line in trace_flute_ends(&diagram) {
+        chart
+            .draw_series(LineSeries::new(line, RGBColor(90, 90, 90).stroke_width(1)))
+            .map_err(drawing_error)?;
+    }
+    let branches = diagram.trace_branches(STEPS);
+    for line in branches.iter().flat_map(|branch| wrap_angles(&branch.points)) {
+        chart.draw_series(LineSeries::new(line, BRANCH.stroke_width(2))).map_err(drawing_error)?;
+    }
+    for (point, end) in branches.iter().flat_map(branch_end_points) {
+        let style = match end {
+            BranchEnd::Edge => continue,
+            BranchEnd::Fold => BRANCH.filled(),
+            BranchEnd::Open => BRANCH.stroke_width(2),
+        };
+        chart.draw_series([Circle::new(point, 4, style)]).map_err(drawing_error)?;
+    }
+    // The first edge and the last, as in the picture of layers.
+    let first = DashedPathElement::new(vec![(0.0, 0.0), (360.0, 0.0)], 8, 5, EDGE.stroke_width(3));
+    chart.draw_series(std::iter::once(first)).map_err(drawing_error)?;
+    let last = LineSeries::new([(0.0, 1.0), (360.0, 1.0)], EDGE.stroke_width(3));
+    chart.draw_series(last).map_err(drawing_error)?;
+    Ok(())
+}
+
+/// What the edge does, row by row: borders between regions are found to a thousandth of a degree.
+fn shade_edge_states(diagram: &BoundaryDiagram) -> Vec<Rectangle<(f64, f64)>> {
+    let mut boxes = Vec::new();
+    for row in 0..ROWS {
+        let [low, middle, high] = [0.0, 0.5, 1.0].map(|part| (row as f64 + part) / ROWS as f64);
+        let region = |theta: f64| diagram.edge_state_at(theta, middle);
+        let mut add = |from: f64, to: f64, region: EdgeState| {
+            let color = match region {
+                EdgeState::Advancing => ADVANCING,
+                EdgeState::Retreating => RETREATING,
+                EdgeState::Outside => OUTSIDE,
+            };
+            let corners = [(from.to_degrees(), low), (to.to_degrees(), high)];
+            boxes.push(Rectangle::new(corners, color.filled()));
+        };
+        let (mut start, mut now) = (0.0, region(0.0));
+        for index in 1..=ANGLES {
+            let [mut from, mut to] = [index - 1, index].map(|index| TAU * index as f64 / ANGLES as f64);
+            let next = region(to);
+            if next == now {
+                continue;
+            }
+            for _ in 0..11 {
+                let between = f64::midpoint(from, to);
+                if region(between) == now { from = between } else { to = between }
+            }
+            add(start, to, now);
+            (start, now) = (to, next);
+        }
+        add(start, TAU, now);
+    }
+    boxes
+}
+
+/// Where the ends of the flutes cut the ellipse off.
+fn trace_flute_ends(diagram: &BoundaryDiagram) -> Vec<Vec<(f64, f64)>> {
+    let of_stretch = |stretch: &crate::layered_chips::boundary_diagram::time_segments::TimeSegment| {
+        let tracks = stretch
+            .tracks
+            .iter()
+            .filter(|track| matches!(track.curve, DiagramCurve::Bottom | DiagramCurve::Top));
+        let lines = tracks.flat_map(|track| {
+            let [from, to] = stretch.t;
+            let point = |index: usize| {
+                let t = from + (to - from) * index as f64 / STEPS as f64;
+                [stretch.track_angle_at(diagram.family(), track, t), t]
+            };
+            wrap_angles(&(0..=STEPS).map(point).collect::<Vec<_>>())
+        });
+        lines.collect::<Vec<_>>()
+    };
+    diagram.time_segments().iter().flat_map(of_stretch).collect()
+}
+
+/// Angles in radians and times as lines between 0 and 360 degrees, broken where they go round.
+fn wrap_angles(points: &[[f64; 2]]) -> Vec<Vec<(f64, f64)>> {
+    let turn = |theta: f64| (theta / TAU).floor();
+    let mut lines: Vec<Vec<(f64, f64)>> = Vec::new();
+    let mut last: Option<[f64; 2]> = None;
+    for &[theta, t] in points {
+        let at = |theta: f64, t: f64, turns: f64| ((theta - turns * TAU).to_degrees(), t);
+        match (last, lines.last_mut()) {
+            (Some([before, t0]), Some(line)) if turn(before) != turn(theta) => {
+                let border = TAU * turn(before).max(turn(theta));
+                let share = if theta == before { 0.0 } else { (border - before) / (theta - before) };
+                let crossing = t0 + (t - t0) * share;
+                line.push(at(border, crossing, turn(before)));
+                lines.push(vec![at(border, crossing, turn(theta)), at(theta, t, turn(theta))]);
+            }
+            (Some(_), Some(line)) => line.push(at(theta, t, turn(theta))),
+            _ => lines.push(vec![at(theta, t, turn(theta))]),
+        }
+        last = Some([theta, t]);
+    }
+    lines
+}
+
+/// Both ends of a branch.
+fn branch_end_points(branch: &EnvelopeBranch) -> Vec<((f64, f64), BranchEnd)> {
+    let point = |point: Option<&[f64; 2]>, end: BranchEnd| {
+        point.map(|[theta, t]| ((theta.rem_euclid(TAU).to_degrees(), *t), end))
+    };
+    let both = [point(branch.points.first(), branch.begins), point(branch.points.last(), branch.ends)];
+    both.into_iter().flatten().collect()
+}

@@ -1,0 +1,44 @@
+//! JSON that is indented where people look, and on one line below: a polygon of a hundred points is no hundred lines.
+
+use serde_json::ser::{CompactFormatter, Formatter, PrettyFormatter};
+use std::io::{self, Write};
+
+/// Lists and objects nested deeper than this stand on one line: those inside a layer.
+const DEEPEST: usize = 5;
+
+/// Indents down to a depth.
+#[derive(Default)]
+pub(super) struct DepthLimitedFormatter {
+    pretty: PrettyFormatter<'static>,
+    compact: CompactFormatter,
+    depth: usize,
+}
+
+macro_rules! by_depth {
+    ($($name:ident($($argument:ident: $type:ty),*) $step:literal;)*) => {
+        $(fn $name<W: ?Sized + Write>(&mut self, writer: &mut W, $($argument: $type),*) -> io::Result<()> {
+            if $step > 0 {
+                self.depth += 1;
+            }
+            let indented = self.depth <= DEEPEST;
+            if $step < 0 {
+                self.depth -= 1;
+            }
+            if indented { self.pretty.$name(writer, $($argument),*) } else { self.compact.$name(writer, $($argument),*) }
+        })*
+    };
+}
+
+impl Formatter for DepthLimitedFormatter {
+    by_depth! {
+        begin_array() 1;
+        end_array() -1;
+        begin_array_value(first: bool) 0;
+        end_array_value() 0;
+        begin_object() 1;
+        end_object() -1;
+        begin_object_key(first: bool) 0;
+        begin_object_value() 0;
+        end_object_value() 0;
+    }
+}

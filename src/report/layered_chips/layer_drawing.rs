@@ -1,0 +1,192 @@
+//! Layers of moves as a drawing: small multiples, a column for each move and a row for each layer from the highest; the layers of a
+//! single move stand side by side.
+
+use super::ChipReport;
+use super::move_scene::{MoveScene, MoveSceneLayer};
+use super::panel_sheet::{CHIP, EDGE, LegendSample, PanelArea, WORKPIECE, draw_sheet, drawing_error};
+use crate::layered_chips::area::{AreaGrid, Clipper, GridArea};
+use crate::layered_chips::boundary_diagram::BoundaryDiagram;
+use crate::layered_chips::section_family::SectionFamily;
+use crate::layered_chips::swept_area::{LayerSweptArea, RimDirections};
+use crate::layered_chips::{MillStep, Polygon};
+use crate::report::text_format::format_short;
+use crate::sim::PathPiece;
+use plotters::element::DashedPathElement;
+use plotters::prelude::*;
+use std::io;
+
+/// Width and height of a panel, pixels, and what of it are labels, title and margin.
+const PANEL: (u32, u32) = (320, 310);
+const AROUND: (u32, u32) = (60, 50);
+
+/// Panels in a row when there is one layer only, or one move.
+const IN_A_ROW: usize = 6;
+
+/// Layers drawn of several moves, and of one.
+const LAYERS: usize = 4;
+const LAYERS_OF_ONE: usize = 12;
+
+/// A panel.
+struct LayerPanel<'r> {
+    scene: &'r MoveScene,
+    /// The layer, where the move cuts it.
+    layer: Option<&'r MoveSceneLayer>,
+    first: Vec<[f64; 2]>,
+    last: Vec<[f64; 2]>,
+}
+
+/// Draws the moves that were kept as scenes, the layer at one height or a few of all layers.
+///
+/// # Errors
+/// What the drawing library returns, which for a drawing in memory is nothing.
+pub fn draw_layers(report: &ChipReport, at: Option<f64>) -> io::Result<String> {
+    let heights = choose_layer_heights(report, at);
+    let panels: Vec<LayerPanel<'_>> = heights
+        .iter()
+        .flat_map(|z| report.scenes.iter().map(|scene| LayerPanel::new(scene, *z, report.options.tolerance)))
+        .collect();
+    let one_row = heights.len() == 1 || report.scenes.len() == 1;
+    let columns = if one_row { panels.len().min(IN_A_ROW) } else { report.scenes.len() }.max(1);
+    let rows = panels.len().div_ceil(columns).max(1);
+    // One scale for all panels, each around its own move.
+    let half = panels.iter().flat_map(|panel| panel.content_sizes_mm()).fold(1e-3, f64::max) * 0.56;
+    let legend = [
+        (LegendSample::Filled(WORKPIECE), "workpiece after the move"),
+        (LegendSample::Filled(CHIP), "chip"),
+        (LegendSample::Dashes(EDGE), "cutter before"),
+        (LegendSample::Line(EDGE), "cutter after"),
+    ];
+    draw_sheet((columns, rows), PANEL, &legend, |number, area| match panels.get(number) {
+        Some(panel) => panel.draw_panel(area, half, report.left.grid()),
+        None => Ok(()),
+    })
+}
+
+/// The layers to draw, from the highest.
+fn choose_layer_heights(report: &ChipReport, at: Option<f64>) -> Vec<f64> {
+    let layers = report.scenes.iter().flat_map(|scene| &scene.layers);
+    let shown = layers.filter(|layer| at.is_none_or(|z| layer.contains_height(z)));
+    let mut heights: Vec<f64> = shown.map(|layer| layer.z).collect();
+    heights.sort_by(|a, b| b.total_cmp(a));
+    heights.dedup();
+    // A height on the border of two layers is in both: the upper one.
+    let most = match (at, report.scenes.len()) {
+        (Some(_), _) => 1,
+        (None, 1) => LAYERS_OF_ONE,
+        (None, _) => LAYERS,
+    };
+    let last = heights.len().saturating_sub(1);
+    if heights.len() <= most {
+        return heights;
+    }
+    let pick = |index: usize| index * last / most.saturating_sub(1).max(1);
+    (0..most).filter_map(|index| heights.get(pick(index)).copied()).collect()
+}
+
+impl<'r> LayerPanel<'r> {
+    fn new(scene: &'r MoveScene, z: f64, tolerance: f64) -> Self {
+        let cover = |piece: Option<&PathPiece>| {
+            let step = piece.and_then(|piece| MillStep::new(scene.mill, piece).ok());
+            step.map(|step| {
+                LayerSweptArea::new(
+                    &BoundaryDiagram::new(&SectionFamily::new(&step, z)),
+                    &RimDirections::new(&step, tolerance),
+                )
+            })
+        };
+        Self {
+            scene,
+            layer: scene.layers.iter().find(|layer| layer.z == z),
+            first: cover(scene.pieces.first()).unwrap_or_default().first,
+            last: cover(scene.pieces.last()).unwrap_or_default().last,
+        }
+    }
+
+    /// Lower and upper corner of what must be seen; `None` where there is nothing.
+    fn content_corners(&self) -> Option<([f64; 2], [f64; 2])> {
+        let chip = self.layer.iter().flat_map(|layer| layer.chip.iter().flat_map(|piece| &piece.outer));
+        let points = self.first.iter().chain(&self.last).chain(chip);
+        points.fold(None, |bounds, &[x, y]| {
+            let ([x0, y0], [x1, y1]) = bounds.unwrap_or(([x, y], [x, y]));
+            Some(([x0.min(x), y0.min(y)], [x1.max(x), y1.max(y)]))
+        })
+    }
+
+    /// Width and height of what must be seen.
+    fn content_sizes_mm(&self) -> impl Iterator<Item = f64> {
+        self.content_corners().into_iter().flat_map(|([x0, y0], [x1, y1])| [x1 - x0, y1 - y0])
+    }
+
+    fn draw_panel(&self, area: &PanelArea<'_>, half: f64, grid: &AreaGrid) -> io::Result<()> {
+        let Some(([x0, y0], [x1, y1])) = self.content_corners() else { return Ok(()) };
+        let (x, y) = (f64::midpoint(x0, x1), f64::midpoint(y0, y1));
+        let tall = half * f64::from(PANEL.1 - AROUND.1) / f64::from(PANEL.0 - AROUND.0);
+        let (wide, tall) = (half * (half / tall).max(1.0), tall.max(half));
+        let mut title = format!("line {}", self.scene.line);
+        if let Some(layer) = self.layer {
+            title.push_str(&format!(", z {}", format_short(layer.z)));
+        }
+        let mut chart = ChartBuilder::on(area)
+            .caption(title, ("sans-serif", 14))
+            .margin(6)
+            .set_label_area_size(LabelAreaPosition::Left, 48)
+            .set_label_area_size(LabelAreaPosition::Bottom, 24)
+            .build_cartesian_2d(x - wide..x + wide, y - tall..y + tall)
+            .map_err(drawing_error)?;
+        chart
+            .configure_mesh()
+            .disable_mesh()
+            .x_labels(5)
+            .y_labels(5)
+            .label_style(("sans-serif", 11))
+            .draw()
+            .map_err(drawing_error)?;
+        let window = [[x - wide, y - tall], [x + wide, y - tall], [x + wide, y + tall], [x - wide, y + tall]];
+        let filled = |polygons: &[Polygon], color: RGBColor| {
+            let seen = clip_to_window(polygons, &window, grid);
+            let shapes = seen.into_iter().map(move |polygon| {
+                let points = join_boundaries(&polygon).into_iter().map(|[x, y]| (x, y)).collect::<Vec<_>>();
+                plotters::element::Polygon::new(points, color.filled())
+            });
+            shapes.collect::<Vec<_>>()
+        };
+        if let Some(layer) = self.layer {
+            chart.draw_series(filled(&layer.workpiece, WORKPIECE)).map_err(drawing_error)?;
+            chart.draw_series(filled(&layer.chip, CHIP)).map_err(drawing_error)?;
+        }
+        let closed = |border: &[[f64; 2]]| {
+            let points = border.iter().chain(border.first()).map(|[x, y]| (*x, *y));
+            points.collect::<Vec<_>>()
+        };
+        if !self.first.is_empty() {
+            let dashes = DashedPathElement::new(closed(&self.first), 6, 4, EDGE.stroke_width(1));
+            chart.draw_series(std::iter::once(dashes)).map_err(drawing_error)?;
+        }
+        let solid = PathElement::new(closed(&self.last), EDGE.stroke_width(2));
+        chart.draw_series(std::iter::once(solid)).map_err(drawing_error)?;
+        Ok(())
+    }
+}
+
+/// What is seen of polygons in a window.
+fn clip_to_window(polygons: &[Polygon], window: &[[f64; 2]], grid: &AreaGrid) -> Vec<Polygon> {
+    let borders = polygons.iter().flat_map(|polygon| std::iter::once(&polygon.outer).chain(&polygon.holes));
+    let area = GridArea::new(grid, borders.map(Vec::as_slice));
+    let (mut clipper, mut inside, mut outside) =
+        (Clipper::default(), GridArea::default(), GridArea::default());
+    clipper.split_area(&area, &GridArea::new(grid, [window]), &mut inside, &mut outside);
+    clipper.extract_polygons(&inside, grid).0
+}
+
+/// A polygon's borders as one: to each hole and back along the same line, which encloses nothing.
+fn join_boundaries(polygon: &Polygon) -> Vec<[f64; 2]> {
+    let mut border = polygon.outer.clone();
+    let back = polygon.outer.first();
+    for hole in &polygon.holes {
+        border.extend(back);
+        border.extend(hole);
+        border.extend(hole.first());
+    }
+    border.extend(back.filter(|_| !polygon.holes.is_empty()));
+    border
+}

@@ -1,0 +1,91 @@
+//! A sheet of small panels with a legend below: what both drawings have in common.
+//!
+//! Sizes are fixed and no fonts are measured, so the same chips make the same bytes.
+
+use plotters::coord::Shift;
+use plotters::element::DashedPathElement;
+use plotters::prelude::*;
+use std::fmt::Display;
+use std::io;
+
+/// Height of the legend below the panels, pixels.
+const LEGEND: u32 = 44;
+
+/// Room at the left of the legend, and between a sample and its text.
+const MARGIN: i32 = 16;
+
+pub(super) const WORKPIECE: RGBColor = RGBColor(205, 205, 205);
+pub(super) const CHIP: RGBColor = RGBColor(235, 130, 40);
+pub(super) const EDGE: RGBColor = RGBColor(0, 70, 150);
+pub(super) const ADVANCING: RGBColor = RGBColor(250, 214, 170);
+pub(super) const RETREATING: RGBColor = RGBColor(214, 228, 244);
+pub(super) const OUTSIDE: RGBColor = RGBColor(190, 190, 190);
+pub(super) const BRANCH: RGBColor = RGBColor(180, 30, 40);
+
+/// A panel's drawing area.
+pub(super) type PanelArea<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+/// A sample in the legend.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum LegendSample {
+    Filled(RGBColor),
+    Line(RGBColor),
+    Dashes(RGBColor),
+    Dot(RGBColor),
+    Ring(RGBColor),
+}
+
+/// Draws panels in rows and columns. `draw` gets the area of each panel with its number, row by row.
+pub(super) fn draw_sheet(
+    (columns, rows): (usize, usize),
+    panel: (u32, u32),
+    legend: &[(LegendSample, &str)],
+    mut draw: impl FnMut(usize, &PanelArea<'_>) -> io::Result<()>,
+) -> io::Result<String> {
+    let pixels = |count: usize, size: u32| u32::try_from(count).unwrap_or(1) * size;
+    let (wide, high) = (pixels(columns, panel.0), pixels(rows, panel.1));
+    // A single panel still has room for the legend.
+    let size = (wide.max(pixels(legend.len(), 170)), high + LEGEND);
+    let mut text = String::new();
+    {
+        let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
+        root.fill(&WHITE).map_err(drawing_error)?;
+        let (panels, below) = root.split_vertically(high);
+        let (panels, _) = panels.split_horizontally(wide);
+        for (number, area) in panels.split_evenly((rows, columns)).iter().enumerate() {
+            draw(number, area)?;
+        }
+        draw_legend(&below, legend)?;
+        root.present().map_err(drawing_error)?;
+    }
+    Ok(text)
+}
+
+fn draw_legend(area: &PanelArea<'_>, legend: &[(LegendSample, &str)]) -> io::Result<()> {
+    let middle = i32::try_from(LEGEND / 2).unwrap_or_default();
+    let mut x = MARGIN;
+    for (sample, text) in legend {
+        let line = |style: ShapeStyle| PathElement::new(vec![(x, middle), (x + 24, middle)], style);
+        let drawn = match sample {
+            LegendSample::Filled(color) => {
+                area.draw(&Rectangle::new([(x, middle - 7), (x + 24, middle + 7)], color.filled()))
+            }
+            LegendSample::Line(color) => area.draw(&line(color.stroke_width(2))),
+            LegendSample::Dashes(color) => {
+                let ends = [(x, middle), (x + 24, middle)];
+                area.draw(&DashedPathElement::new(ends, 5, 3, color.stroke_width(2)))
+            }
+            LegendSample::Dot(color) => area.draw(&Circle::new((x + 12, middle), 4, color.filled())),
+            LegendSample::Ring(color) => area.draw(&Circle::new((x + 12, middle), 4, color.stroke_width(2))),
+        };
+        drawn.map_err(drawing_error)?;
+        area.draw(&Text::new(*text, (x + 32, middle - 7), ("sans-serif", 13))).map_err(drawing_error)?;
+        // A letter is about seven pixels wide; nothing is measured.
+        x += 32 + 7 * i32::try_from(text.len()).unwrap_or_default() + MARGIN;
+    }
+    Ok(())
+}
+
+pub(super) fn drawing_error(error: impl Display) -> io::Error {
+    io::Error::other(format!("the drawing failed: {error}"))
+}

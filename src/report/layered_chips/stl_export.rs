@@ -1,0 +1,29 @@
+//! Chips as solids.
+
+use super::{ChipLayerRow, ChipReport};
+use crate::layered_chips::chip::{Chip, LayerChip};
+use crate::layered_chips::stl_export::write_chip_stl;
+use std::io::{self, Write};
+
+/// The chips of all motions that are asked for as one binary STL in mm, where borders were kept: each a stack of its layers, one beside
+/// or above the other as they were cut.
+///
+/// # Errors
+/// What [`write_chip_stl`] returns.
+pub fn write_stl(report: &ChipReport, out: &mut dyn Write) -> io::Result<()> {
+    let layers = report.rows.iter().flat_map(|row| &row.layers).map(to_layer_chip);
+    write_chip_stl(&Chip { layers: layers.collect() }, out)
+}
+
+fn to_layer_chip(row: &ChipLayerRow) -> LayerChip {
+    LayerChip {
+        layer: row.number,
+        z: row.z,
+        thickness: row.thickness_mm,
+        area_mm2: row.area_mm2,
+        inside_mm2: row.inside_mm2,
+        pieces: row.polygons.clone(),
+        arcs_deg: Vec::new(),
+        advance_mm: 0.0,
+    }
+}

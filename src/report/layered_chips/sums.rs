@@ -1,0 +1,90 @@
+//! Sums and largest values.
+
+use super::{ChipLayerRow, ChipRow};
+use crate::report::rounding::serialize_rounded;
+use serde::Serialize;
+
+/// A largest value and where it is.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ChipPeak {
+    /// The value.
+    #[serde(serialize_with = "serialize_rounded")]
+    pub value: f64,
+    /// The line of the motion.
+    pub line: usize,
+    /// The height of the layer, mm; of a whole motion none.
+    pub z: Option<f64>,
+}
+
+/// Sums of everything that ran, also before the lines that are asked for; volumes in mm3.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct ChipTotals {
+    /// The workpiece before.
+    #[serde(serialize_with = "serialize_rounded")]
+    pub stock_mm3: f64,
+    /// All chips.
+    #[serde(serialize_with = "serialize_rounded")]
+    pub chips_mm3: f64,
+    /// What stood inside the cutter where a motion began, and is part of no chip.
+    #[serde(serialize_with = "serialize_rounded")]
+    pub inside_mm3: f64,
+    /// The workpiece after.
+    #[serde(serialize_with = "serialize_rounded")]
+    pub left_mm3: f64,
+    /// Motions that ran.
+    pub motions: usize,
+    /// Motions that were not cut, or in part.
+    pub skipped: usize,
+}
+
+/// The motions of an operation that are asked for.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct OperationChips {
+    /// Its name; empty where the file has none.
+    pub name: String,
+    /// The first tool that moves in it.
+    pub tool: String,
+    /// Motions.
+    pub motions: usize,
+    /// Motions with a chip.
+    pub cutting: usize,
+    /// Volume of the chips, mm3.
+    #[serde(serialize_with = "serialize_rounded")]
+    pub volume_mm3: f64,
+    /// The largest chip of a motion, mm3.
+    pub chip_mm3: Option<ChipPeak>,
+    /// The largest area on a layer, mm2.
+    pub area_mm2: Option<ChipPeak>,
+    /// The thickest chip of a tooth, mm.
+    pub chip_thickness_mm: Option<ChipPeak>,
+    /// The largest engagement on a layer, degrees.
+    pub engaged_deg: Option<ChipPeak>,
+    /// Most separate pieces on a layer.
+    pub pieces: Option<ChipPeak>,
+}
+
+impl OperationChips {
+    /// Adds a motion.
+    pub(super) fn add_motion(&mut self, row: &ChipRow) {
+        self.motions += 1;
+        self.cutting += usize::from(row.volume_mm3 > 0.0);
+        self.volume_mm3 += row.volume_mm3;
+        raise_peak(&mut self.chip_mm3, row.volume_mm3, row.line, None);
+        for layer in &row.layers {
+            let at = |largest: &mut Option<ChipPeak>, value: f64| {
+                raise_peak(largest, value, row.line, Some(crate::report::rounding::round_to_micro(layer.z)));
+            };
+            let ChipLayerRow { area_mm2, chip_thickness_mm, count, .. } = layer;
+            at(&mut self.area_mm2, *area_mm2);
+            at(&mut self.chip_thickness_mm, chip_thickness_mm.unwrap_or(0.0));
+            at(&mut self.engaged_deg, layer.engaged_deg());
+            at(&mut self.pieces, *count as f64);
+        }
+    }
+}
+
+fn raise_peak(largest: &mut Option<ChipPeak>, value: f64, line: usize, z: Option<f64>) {
+    if value > largest.map_or(0.0, |largest| largest.value) {
+        *largest = Some(ChipPeak { value, line, z });
+    }
+}

@@ -1,0 +1,165 @@
+//! Line drawings as SVG: panels in two columns, each with a few paths laid over each other.
+//!
+//! Sizes are fixed and no fonts are measured, so the same paths make the same bytes.
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use std::fmt::Display;
+use std::io;
+
+/// Width and height of a panel in pixels.
+const PANEL: (u32, u32) = (640, 380);
+
+/// Room around the drawing inside a panel: margins and labels.
+const LABELS: (u32, u32) = (100, 61);
+
+/// Height of a panel's title.
+const TITLE: u32 = 30;
+
+/// One drawing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PathPanel {
+    /// What stands above it.
+    pub title: String,
+    /// What goes to the right.
+    pub right: &'static str,
+    /// What goes up.
+    pub up: &'static str,
+    /// Whether both directions have one scale.
+    pub one_scale: bool,
+    /// The paths; later ones are drawn over earlier ones.
+    pub paths: Vec<PanelPath>,
+}
+
+/// A path in a panel.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PanelPath {
+    /// Its name in the legend; none when empty.
+    pub name: String,
+    /// How it looks.
+    pub look: PanelPathStyle,
+    /// Its points.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// How a path looks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PanelPathStyle {
+    /// As it was: grey.
+    Before,
+    /// As it is: blue, its points marked.
+    After,
+    /// What it is compared with: black and thin.
+    Reference,
+    /// A wrong way: red.
+    Wrong,
+}
+
+impl PanelPathStyle {
+    fn shape_style(self) -> ShapeStyle {
+        match self {
+            Self::Before => RGBColor(160, 160, 160).stroke_width(2),
+            Self::After => RGBColor(0, 90, 181).stroke_width(2),
+            Self::Reference => RGBColor(40, 40, 40).stroke_width(1),
+            Self::Wrong => RGBColor(200, 50, 40).stroke_width(2),
+        }
+    }
+}
+
+/// Draws panels; `None` when there are none.
+///
+/// # Errors
+/// What the drawing library returns, which for a drawing in memory is nothing.
+pub fn draw_path_panels(panels: &[PathPanel]) -> io::Result<Option<String>> {
+    if panels.is_empty() {
+        return Ok(None);
+    }
+    let columns = panels.len().min(2);
+    let rows = panels.len().div_ceil(columns);
+    let size = (PANEL.0 * columns as u32, PANEL.1 * u32::try_from(rows).unwrap_or(1));
+    let mut text = String::new();
+    {
+        let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
+        root.fill(&WHITE).map_err(drawing_error)?;
+        for (area, panel) in root.split_evenly((rows, columns)).iter().zip(panels) {
+            draw_path_panel(area, panel)?;
+        }
+        root.present().map_err(drawing_error)?;
+    }
+    Ok(Some(text))
+}
+
+fn draw_path_panel(area: &DrawingArea<SVGBackend<'_>, Shift>, panel: &PathPanel) -> io::Result<()> {
+    let [right, up] = find_axis_ranges(panel);
+    let mut chart = ChartBuilder::on(area)
+        .caption(panel.title.as_str(), ("sans-serif", 16))
+        .margin(12)
+        .set_label_area_size(LabelAreaPosition::Left, 76)
+        .set_label_area_size(LabelAreaPosition::Bottom, 44)
+        .build_cartesian_2d(right.0..right.1, up.0..up.1)
+        .map_err(drawing_error)?;
+    chart
+        .configure_mesh()
+        .light_line_style(TRANSPARENT)
+        .x_desc(panel.right)
+        .y_desc(panel.up)
+        .label_style(("sans-serif", 13))
+        .axis_desc_style(("sans-serif", 14))
+        .draw()
+        .map_err(drawing_error)?;
+    for path in &panel.paths {
+        let style = path.look.shape_style();
+        let line = LineSeries::new(path.points.iter().copied(), style);
+        let drawn = chart.draw_series(line).map_err(drawing_error)?;
+        if !path.name.is_empty() {
+            drawn
+                .label(path.name.as_str())
+                .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + 18, y)], style));
+        }
+        if path.look == PanelPathStyle::After && path.points.len() <= 60 {
+            let dots = path.points.iter().map(|at| Circle::new(*at, 3, style.filled()));
+            chart.draw_series(dots).map_err(drawing_error)?;
+        }
+    }
+    if panel.paths.iter().all(|path| path.name.is_empty()) {
+        return Ok(());
+    }
+    chart
+        .configure_series_labels()
+        .position(SeriesLabelPosition::UpperRight)
+        .label_font(("sans-serif", 13))
+        .background_style(WHITE.mix(0.85))
+        .border_style(RGBColor(200, 200, 200))
+        .draw()
+        .map_err(drawing_error)
+}
+
+/// What a panel shows to the right and up: everything, a little room around it, and one scale where that is asked for.
+fn find_axis_ranges(panel: &PathPanel) -> [(f64, f64); 2] {
+    let points = || panel.paths.iter().flat_map(|path| &path.points);
+    let range = |value: fn(&(f64, f64)) -> f64| {
+        let bounds = points().map(value).filter(|value| value.is_finite());
+        let (low, high) = bounds
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+        if low > high { (0.0, 1.0) } else { (low, high) }
+    };
+    let ranges = [range(|at| at.0), range(|at| at.1)];
+    let mut sizes = ranges.map(|(low, high)| ((high - low) * 1.16).max(1e-3));
+    if panel.one_scale {
+        let [wide, high] = [(PANEL.0 - LABELS.0), (PANEL.1 - LABELS.1 - TITLE)].map(f64::from);
+        let [x, y] = sizes;
+        let scale = (x / wide).max(y / high);
+        sizes = [scale * wide, scale * high];
+    }
+    let around = |((low, high), size): ((f64, f64), f64)| {
+        let middle = 0.5 * (low + high);
+        (middle - size / 2.0, middle + size / 2.0)
+    };
+    let [x, y] = ranges;
+    let [wide, tall] = sizes;
+    [around((x, wide)), around((y, tall))]
+}
+
+fn drawing_error(error: impl Display) -> io::Error {
+    io::Error::other(format!("the drawing failed: {error}"))
+}

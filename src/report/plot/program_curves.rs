@@ -1,0 +1,184 @@
+//! Programs as curves.
+
+use super::curve_drawing::{CurvePanel, PlotCurve, PlotSegment, draw_curve_panels};
+use crate::program::geometry::MotionPath;
+use crate::program::{LengthUnit, Program};
+use crate::report::comparison::measure_motion;
+use crate::report::simulation::{MotionRow, SimulationReport};
+use crate::sim::PathLinearizer;
+use std::io;
+
+/// Chords are no further from their arcs than this in a drawing, mm.
+const CHORD_MM: f64 = 0.05;
+
+/// What goes up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PlotQuantity {
+    /// Feed.
+    Feed,
+    /// Thickest chip.
+    Chip,
+    /// Removal rate.
+    Removal,
+    /// Cutting force.
+    Force,
+    /// Torque.
+    Torque,
+    /// Power.
+    Power,
+    /// Height of the tip.
+    Z,
+}
+
+impl PlotQuantity {
+    /// All of them.
+    pub const ALL: [Self; 7] =
+        [Self::Feed, Self::Chip, Self::Removal, Self::Force, Self::Torque, Self::Power, Self::Z];
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Feed => "feed",
+            Self::Chip => "chip",
+            Self::Removal => "removal",
+            Self::Force => "force",
+            Self::Torque => "torque",
+            Self::Power => "power",
+            Self::Z => "z",
+        }
+    }
+
+    /// Its name and unit at an axis.
+    pub fn axis_title(self) -> &'static str {
+        match self {
+            Self::Feed => "feed, mm/min",
+            Self::Chip => "thickest chip, mm",
+            Self::Removal => "removal rate, mm³/min",
+            Self::Force => "force, N",
+            Self::Torque => "torque, N m",
+            Self::Power => "power, kW",
+            Self::Z => "z, mm",
+        }
+    }
+
+    /// Whether a simulation is needed to know it.
+    pub fn is_simulated(self) -> bool {
+        !matches!(self, Self::Feed | Self::Z)
+    }
+
+    fn row_value(self, row: &MotionRow) -> Option<f64> {
+        match self {
+            Self::Chip => row.chip_thickness_mm,
+            Self::Removal => row.removal_rate_mm3_min,
+            Self::Force => row.force_n,
+            Self::Torque => row.torque_nm,
+            Self::Power => row.power_kw,
+            Self::Feed | Self::Z => None,
+        }
+    }
+}
+
+/// What goes to the right.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PlotAbscissa {
+    /// Time. Motions whose time is not known take none.
+    Time,
+    /// The path.
+    Path,
+}
+
+impl PlotAbscissa {
+    /// Its name and unit at an axis.
+    pub fn axis_title(self) -> &'static str {
+        match self {
+            Self::Time => "time, s",
+            Self::Path => "path, mm",
+        }
+    }
+}
+
+/// A program to be drawn.
+#[derive(Debug, Clone, Copy)]
+pub struct PlottedProgram<'a> {
+    /// What it is called.
+    pub name: &'a str,
+    /// The program.
+    pub program: &'a Program,
+    /// The unit of its lengths.
+    pub units: LengthUnit,
+    /// The machine's rapid feed, mm/min.
+    pub rapid_feed: Option<f64>,
+    /// Its simulation.
+    pub simulated: Option<&'a SimulationReport>,
+}
+
+/// Draws quantities of programs as SVG, a panel each. With several programs, all but the last are grey and stand behind it.
+///
+/// # Errors
+/// What the drawing library returns, which for a drawing in memory is nothing.
+pub fn draw_programs(
+    programs: &[PlottedProgram<'_>],
+    quantities: &[PlotQuantity],
+    along: PlotAbscissa,
+) -> io::Result<String> {
+    draw_curve_panels(along.axis_title(), &build_panels(programs, quantities, along))
+}
+
+/// What [`draw_programs`] draws: a panel for each quantity, in their order.
+pub fn build_panels(
+    programs: &[PlottedProgram<'_>],
+    quantities: &[PlotQuantity],
+    along: PlotAbscissa,
+) -> Vec<CurvePanel> {
+    let panel = |quantity: &PlotQuantity| CurvePanel {
+        up: quantity.axis_title().to_owned(),
+        from_zero: *quantity != PlotQuantity::Z,
+        curves: programs.iter().map(|program| build_curve(program, *quantity, along)).collect(),
+    };
+    quantities.iter().map(panel).collect()
+}
+
+fn build_curve(plotted: &PlottedProgram<'_>, quantity: PlotQuantity, along: PlotAbscissa) -> PlotCurve {
+    let mut trace = PathLinearizer::new(plotted.units.mm_per_unit(), CHORD_MM, f64::INFINITY);
+    let mut stretches = Vec::new();
+    let mut pieces = Vec::new();
+    let (mut at, mut number) = (0.0, 0);
+    for motion in plotted.program.motions() {
+        trace.adopt_workpiece_frame(&motion);
+        if motion.path == MotionPath::Start {
+            continue;
+        }
+        let moved = measure_motion(&motion, plotted.units, plotted.rapid_feed);
+        let size = match along {
+            PlotAbscissa::Time => moved.seconds.unwrap_or(0.0),
+            PlotAbscissa::Path => moved.length_mm,
+        };
+        let (from, to) = (at, at + size);
+        let row = plotted.simulated.and_then(|simulated| simulated.motions.rows.get(number));
+        number += 1;
+        if size <= 0.0 {
+            continue;
+        }
+        at = to;
+        match quantity {
+            PlotQuantity::Z => {
+                pieces.clear();
+                trace.append_pieces(&motion, 0, &mut pieces);
+                stretches.extend(pieces.iter().map(|step| PlotSegment {
+                    from: from + size * step.from,
+                    to: from + size * step.to,
+                    values: Some([step.piece.from.point.z, step.piece.to.point.z]),
+                }));
+            }
+            PlotQuantity::Feed => {
+                let feed = moved.feed_mm_min.filter(|_| !moved.rapid);
+                stretches.push(PlotSegment { from, to, values: feed.map(|feed| [feed; 2]) });
+            }
+            _ => {
+                let value = row.and_then(|row| quantity.row_value(row));
+                stretches.push(PlotSegment { from, to, values: value.map(|value| [value; 2]) });
+            }
+        }
+    }
+    PlotCurve { name: plotted.name.to_owned(), stretches }
+}

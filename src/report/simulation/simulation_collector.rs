@@ -1,0 +1,252 @@
+//! The rows and sums, motion by motion.
+
+use super::unknown_feeds::UnknownFeedCollector;
+use super::{MotionRow, MotionRows, OperationSums, SimulationFaultCounts, SimulationSums};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::program::geometry::MotionPath;
+use crate::program::motion::{ActiveTool, Motion};
+use crate::program::operation;
+use crate::program::record::SpindleDirection;
+use crate::report::{statement_line, tool_name};
+use crate::sim::{CutterModel, CuttingLoads, Engagement, LoadModel};
+use crate::simulation_run::{EngagedMotion, Machining};
+use crate::transform::optimize_feed::acceleration::{self, TimedSegment};
+use std::sync::Arc;
+
+/// What grows while motions go by.
+pub(super) struct SimulationCollector<'m, 'p> {
+    machining: &'m Machining<'p>,
+    /// Less removed volume than this is what rounding leaves, mm3.
+    speck: f64,
+    rapid: Option<f64>,
+    /// The force models, where the material is known.
+    models: Option<Vec<Option<[LoadModel; 2]>>>,
+    motions: MotionRows,
+    tools: Vec<Option<Arc<ActiveTool>>>,
+    totals: SimulationSums,
+    operations: Vec<(Option<usize>, SimulationSums)>,
+    path: Vec<TimedSegment>,
+    /// Tool of the last motion at feed, unless a rapid came after it.
+    chained: Option<usize>,
+    faults: SimulationFaultCounts,
+    unknown: UnknownFeedCollector,
+    senseless: usize,
+}
+
+/// What came of it.
+pub(super) struct CollectedSimulation {
+    pub motions: MotionRows,
+    pub totals: SimulationSums,
+    pub operations: Vec<OperationSums>,
+    pub accelerated_seconds: Option<f64>,
+    pub faults: SimulationFaultCounts,
+    pub assumptions: Vec<String>,
+    pub findings: Vec<Diagnostic>,
+}
+
+impl<'m, 'p> SimulationCollector<'m, 'p> {
+    pub fn new(machining: &'m Machining<'p>, cell: f64) -> Self {
+        let machine = &machining.setup().machine;
+        let rapid = machine.rapid_feed.map(|feed| feed.get());
+        let material = machining.setup().require_material().ok();
+        let names = operation::find_operations(machining.program());
+        let sums = SimulationSums::new(rapid.is_some());
+        Self {
+            machining,
+            speck: cell.powi(3),
+            rapid,
+            models: material.map(|material| machining.tooling().build_load_models(material.coefficients)),
+            totals: sums,
+            operations: vec![(None, sums); names.len()],
+            motions: MotionRows {
+                operations: names.into_iter().map(|operation| operation.name).collect(),
+                ..MotionRows::default()
+            },
+            tools: Vec::new(),
+            path: Vec::new(),
+            chained: None,
+            faults: SimulationFaultCounts::default(),
+            unknown: UnknownFeedCollector::default(),
+            senseless: 0,
+        }
+    }
+
+    /// Adds a motion.
+    pub fn add_motion(&mut self, cut: &EngagedMotion<'_>) {
+        let motion = cut.motion;
+        if motion.path == MotionPath::Start {
+            return;
+        }
+        let program = self.machining.program();
+        let unit = self.machining.length_unit();
+        let rpm = motion.spindle_rpm().filter(|rpm| *rpm > 0.0);
+        let feed = if motion.rapid {
+            self.rapid
+        } else {
+            let length = Some(motion.length());
+            motion.feed.and_then(|feed| feed.mm_per_minute(unit, rpm, length)).filter(|feed| *feed > 0.0)
+        };
+        let length_mm = motion.length() * unit.mm_per_unit();
+        let statement = program.statement(motion.last_statement());
+        let mut row = MotionRow {
+            line: statement.and_then(|statement| statement_line(program, statement)),
+            operation: motion.operation,
+            tool: self.tool_index(motion),
+            rapid: motion.rapid,
+            length_mm,
+            feed_mm_min: feed,
+            seconds: if length_mm > 0.0 { feed.map(|feed| length_mm / feed * 60.0) } else { Some(0.0) },
+            ..MotionRow::default()
+        };
+        let whole = cut.whole_engagement();
+        let removed = whole.as_ref().map_or(0.0, |whole| whole.removed_mm3);
+        let cutters = self.machining.tooling().cutters();
+        match (&whole, cut.cutter.and_then(|index| cutters.get(index))) {
+            (Some(whole), Some(cutter)) if whole.has_removed_material() => {
+                self.fill_cutting_row(cut, whole, cutter, rpm, &mut row)
+            }
+            (_, Some(_)) => self.fill_air_row(&mut row),
+            (_, None) => {}
+        }
+        if let Some(whole) = &whole {
+            self.faults.collisions += usize::from(whole.contact.is_some());
+            if whole.has_removed_material() && removed >= self.speck {
+                let stands = motion.spindle.as_deref().is_none_or(|spindle| !spindle.on);
+                self.faults.rapids_in_material += usize::from(motion.rapid);
+                self.faults.spindle_stands += usize::from(!motion.rapid && stands);
+                self.unknown.check_motion(program, motion, feed, rpm);
+            }
+        }
+        self.append_feed_path(&row);
+        self.totals.add_motion(&row, removed);
+        if let Some((tool, sums)) = self.operations.get_mut(row.operation) {
+            tool.get_or_insert(row.tool);
+            sums.add_motion(&row, removed);
+        }
+        self.motions.rows.push(row);
+    }
+
+    /// A motion that cuts.
+    fn fill_cutting_row(
+        &mut self,
+        cut: &EngagedMotion<'_>,
+        whole: &Engagement,
+        cutter: &CutterModel,
+        rpm: Option<f64>,
+        row: &mut MotionRow,
+    ) {
+        let told = cut.motion.spindle.as_deref().and_then(|spindle| spindle.direction);
+        self.senseless += usize::from(told.is_none() && rpm.is_some());
+        let sense = told.unwrap_or(SpindleDirection::Clockwise);
+        let [_, high] = whole.height;
+        row.axial_depth_mm = Some(whole.axial_depth_mm());
+        row.radial_depth_mm =
+            Some(whole.radial_depth_mm().min(2.0 * cutter.profile.radius_at_height_mm(high)));
+        let angles = whole.immersion_deg(&cutter.profile, sense);
+        row.engagement_start_deg = angles.map(|[start, _]| start);
+        row.engagement_end_deg = angles.map(|[_, end]| end);
+        row.removal_rate_mm3_min = row.feed_mm_min.map(|feed| whole.removal_rate_mm3_min(feed));
+        let Some((feed, rpm)) = row.feed_mm_min.zip(rpm) else { return };
+        let pieces =
+            || cut.pieces.iter().map(|(_, piece)| piece).filter(|piece| piece.has_removed_material());
+        row.chip_thickness_mm = cutter
+            .teeth
+            .as_ref()
+            .map(|teeth| pieces().map(|piece| piece.chip_thickness_mm(teeth, feed, rpm)).fold(0.0, f64::max));
+        let models =
+            self.models.as_ref().zip(cut.cutter).and_then(|(models, index)| models.get(index)?.as_ref());
+        let Some([clockwise, counter]) = models else { return };
+        let model = if sense == SpindleDirection::Clockwise { clockwise } else { counter };
+        // Piece by piece: what is engaged at the ends of an arc is not engaged at once.
+        let none = CuttingLoads { force_n: 0.0, torque_nm: 0.0, power_kw: 0.0 };
+        let largest =
+            pieces().map(|piece| model.cutting_loads(piece, feed, rpm)).fold(none, |a, b| CuttingLoads {
+                force_n: a.force_n.max(b.force_n),
+                torque_nm: a.torque_nm.max(b.torque_nm),
+                power_kw: a.power_kw.max(b.power_kw),
+            });
+        row.force_n = Some(largest.force_n);
+        row.torque_nm = Some(largest.torque_nm);
+        row.power_kw = Some(largest.power_kw);
+    }
+
+    /// A motion that cuts nothing.
+    fn fill_air_row(&self, row: &mut MotionRow) {
+        let zero = Some(0.0);
+        row.chip_thickness_mm = zero;
+        row.removal_rate_mm3_min = zero;
+        row.axial_depth_mm = zero;
+        row.radial_depth_mm = zero;
+        if self.models.is_some() {
+            (row.force_n, row.torque_nm, row.power_kw) = (zero, zero, zero);
+        }
+    }
+
+    /// The path for the time with acceleration: rapids and tool changes end chains of motions at feed.
+    fn append_feed_path(&mut self, row: &MotionRow) {
+        if row.rapid {
+            self.chained = None;
+        } else if let Some(feed) = row.feed_mm_min {
+            let breaks_chain = self.chained != Some(row.tool);
+            self.path.push(TimedSegment { length: row.length_mm, feed, breaks_chain });
+            self.chained = Some(row.tool);
+        }
+    }
+
+    /// Index of a motion's tool.
+    fn tool_index(&mut self, motion: &Motion) -> usize {
+        let same = |known: &Option<Arc<ActiveTool>>| match (known, &motion.tool) {
+            (Some(a), Some(b)) => Arc::ptr_eq(a, b) || (a.number, &a.name) == (b.number, &b.name),
+            (None, None) => true,
+            _ => false,
+        };
+        if let Some(index) = self.tools.iter().rposition(same) {
+            return index;
+        }
+        self.tools.push(motion.tool.clone());
+        self.motions.tools.push(tool_name(motion.tool.as_deref()));
+        self.tools.len() - 1
+    }
+
+    /// Puts everything together.
+    pub fn into_collected(mut self) -> CollectedSimulation {
+        let program = self.machining.program();
+        let acceleration = self.machining.setup().machine.max_acceleration.map(|most| most.get());
+        self.faults.unknown_feeds = self.unknown.count;
+        let mut findings = self.unknown.into_findings(program);
+        let gaps = self.machining.tooling().find_missing_teeth(program, self.machining.setup());
+        // The rows can do without: the cells stay empty.
+        findings.extend(gaps.into_iter().map(|gap| Diagnostic { severity: Severity::Warning, ..gap }));
+        let mut assumptions = Vec::new();
+        if self.models.is_none() {
+            assumptions.push("no material is given, so forces are not computed".to_owned());
+        }
+        if self.rapid.is_none() && self.totals.rapid_mm > 0.0 {
+            assumptions.push("the machine's rapid feed is not known, so rapids take no time".to_owned());
+        }
+        if self.senseless > 0 {
+            let count = self.senseless;
+            let what = if count == 1 { "1 cut" } else { &format!("{count} cuts") };
+            assumptions.push(format!("the sense of the spindle is not said for {what}: taken as clockwise"));
+        }
+        let tools = &self.motions.tools;
+        let named = self.operations.iter().zip(&self.motions.operations);
+        let operations = named
+            .filter(|((_, sums), _)| sums.motions > 0)
+            .map(|((tool, sums), name)| OperationSums {
+                name: name.clone(),
+                tool: tool.and_then(|tool| tools.get(tool)).cloned().unwrap_or_default(),
+                sums: *sums,
+            })
+            .collect();
+        CollectedSimulation {
+            totals: self.totals,
+            operations,
+            accelerated_seconds: acceleration.map(|most| acceleration::path_time_s(&self.path, Some(most))),
+            faults: self.faults,
+            assumptions,
+            findings,
+            motions: self.motions,
+        }
+    }
+}

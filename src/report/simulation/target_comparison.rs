@@ -1,0 +1,99 @@
+//! What is left against the part that shall be.
+
+use super::SimulationReport;
+use crate::diagnostic::{Diagnostic, codes};
+use crate::report::rounding::serialize_rounded;
+use crate::sim::{Mesh, TargetDeviation};
+use serde::Serialize;
+
+/// How what is left differs from the target. What is within the tolerance in some direction does not count.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TargetComparison {
+    /// What the target is called.
+    pub file: String,
+    /// The tolerance, mm.
+    #[serde(serialize_with = "serialize_rounded")]
+    pub tolerance_mm: f64,
+    /// Material of the target that is gone.
+    pub gouge: TargetMismatch,
+    /// Material that is left and not in the target.
+    pub excess: TargetMismatch,
+}
+
+/// Material on one side only.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct TargetMismatch {
+    /// Its volume, mm3.
+    #[serde(serialize_with = "serialize_rounded")]
+    pub volume_mm3: f64,
+    /// Columns with it.
+    pub columns: usize,
+    /// Where it is thickest along z.
+    pub thickest: Option<ThickestMismatch>,
+}
+
+/// The thickest piece along z.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ThickestMismatch {
+    /// Its thickness, mm.
+    #[serde(serialize_with = "serialize_rounded")]
+    pub mm: f64,
+    /// Where, in mm: of a gouge the lower end, of excess the upper one.
+    pub at: [f64; 3],
+}
+
+impl SimulationReport {
+    /// Looks at what is left against a target in mm; a gouge is a finding ([`codes::GOUGE`]), excess is only reported. Without a
+    /// tolerance (mm) it is the distance of columns. `name` is what the target is called.
+    pub fn compare_with_target(&mut self, target: &Mesh, name: &str, tolerance: Option<f64>) {
+        let layout = *self.left.grid();
+        let tolerance_mm = tolerance.unwrap_or(layout.cell);
+        // Both are on one grid, so that they can be compared.
+        let found = TargetDeviation::measure_by_distance(&self.left, &target.to_dexels(layout), tolerance_mm)
+            .unwrap_or_default();
+        let thickest = |piece: Option<(f64, [f64; 3])>| {
+            piece.map(|(mm, at)| ThickestMismatch { mm, at: at.map(crate::report::rounding::round_to_micro) })
+        };
+        let compared = TargetComparison {
+            file: name.to_owned(),
+            tolerance_mm,
+            gouge: TargetMismatch {
+                volume_mm3: found.gouge_mm3,
+                columns: found.columns_gouged,
+                thickest: thickest(found.deepest_gouge),
+            },
+            excess: TargetMismatch {
+                volume_mm3: found.excess_mm3,
+                columns: found.columns_in_excess,
+                thickest: thickest(found.highest_excess),
+            },
+        };
+        if let Some(ThickestMismatch { mm, at: [x, y, z] }) = compared.gouge.thickest {
+            let message = format!(
+                "{:.3} mm3 of the target {name} are gone, the thickest piece with {mm:.3} mm along z at x {x:.3}, y {y:.3}, z {z:.3} mm",
+                compared.gouge.volume_mm3,
+            );
+            self.findings.push(Diagnostic::new(codes::GOUGE, message));
+        }
+        self.findings.extend(self.find_target_outside_stock(target, name, tolerance_mm));
+        self.target = Some(compared);
+    }
+
+    /// A target that no cut can bring out of this stock, because it stands out of its box.
+    fn find_target_outside_stock(&self, target: &Mesh, name: &str, tolerance: f64) -> Option<Diagnostic> {
+        let layout = self.left.grid();
+        let (low, high) = target.bounds();
+        let sizes = [layout.columns, layout.rows].map(|count| count as f64 * layout.cell);
+        let beside = low.into_iter().zip(high).zip(layout.origin).zip(sizes);
+        let out = beside.map(|(((low, high), origin), size)| {
+            let start = origin - layout.cell / 2.0;
+            (start - low).max(high - start - size)
+        });
+        let out = out.fold(0.0, f64::max);
+        (out > tolerance.max(layout.cell)).then(|| {
+            let message = format!("the target {name} stands {out:.3} mm out of the stock in x or y");
+            let help = "Target and program must stand in the same coordinates and unit.";
+            Diagnostic::new(codes::GOUGE, message).with_help(help)
+        })
+    }
+}

@@ -1,0 +1,74 @@
+//! Chip thickness and feed along time, as a drawing.
+//!
+//! Two panels one above the other, as in the paper that block-by-block correction comes from: the criterion (the thickest chip of each
+//! motion), and the feed. Several programs may be drawn over each other.
+
+use super::SimulationReport;
+use crate::report::plot::{CurvePanel, PlotCurve, PlotSegment, draw_curve_panels};
+use std::io;
+
+/// A program in a drawing.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ProgramTimeSeries {
+    /// What it is called.
+    pub name: String,
+    /// Its motions along time.
+    pub moments: Vec<PlottedMotion>,
+}
+
+/// A motion along time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlottedMotion {
+    /// When it begins, s.
+    pub from: f64,
+    /// When it ends, s.
+    pub to: f64,
+    /// The thickest chip, mm.
+    pub chip_thickness_mm: Option<f64>,
+    /// The feed, mm/min; `None` in a rapid.
+    pub feed_mm_min: Option<f64>,
+}
+
+impl SimulationReport {
+    /// The motions along time. A motion whose time is not known, such as a rapid of a machine whose rapid feed nobody says, is left
+    /// out.
+    pub fn to_time_series(&self, name: impl Into<String>) -> ProgramTimeSeries {
+        let mut at = 0.0;
+        let timed = self.motions.rows.iter().filter_map(|row| {
+            let seconds = row.seconds.filter(|seconds| *seconds > 0.0)?;
+            let from = at;
+            at += seconds;
+            let feed_mm_min = row.feed_mm_min.filter(|_| !row.rapid);
+            Some(PlottedMotion { from, to: at, chip_thickness_mm: row.chip_thickness_mm, feed_mm_min })
+        });
+        ProgramTimeSeries { name: name.into(), moments: timed.collect() }
+    }
+}
+
+/// Draws programs as SVG. With several, all but the last are grey and stand behind it: what was before, and what is after.
+///
+/// # Errors
+/// What the drawing library returns, which for a drawing in memory is nothing.
+pub fn draw_time_series(series: &[ProgramTimeSeries]) -> io::Result<String> {
+    let panel = |up: &str, value: fn(&PlottedMotion) -> Option<f64>| CurvePanel {
+        up: up.to_owned(),
+        from_zero: true,
+        curves: series.iter().map(|series| build_curve(series, value)).collect(),
+    };
+    draw_curve_panels(
+        "time, s",
+        &[
+            panel("thickest chip, mm", |moment| moment.chip_thickness_mm),
+            panel("feed, mm/min", |moment| moment.feed_mm_min),
+        ],
+    )
+}
+
+fn build_curve(series: &ProgramTimeSeries, value: fn(&PlottedMotion) -> Option<f64>) -> PlotCurve {
+    let stretch = |moment: &PlottedMotion| PlotSegment {
+        from: moment.from,
+        to: moment.to,
+        values: value(moment).map(|value| [value; 2]),
+    };
+    PlotCurve { name: series.name.clone(), stretches: series.moments.iter().map(stretch).collect() }
+}

@@ -1,0 +1,69 @@
+//! Cuts whose feed or speed is not known, as findings: a few with their places, the rest as a number.
+
+use crate::diagnostic::{Diagnostic, codes};
+use crate::program::motion::Motion;
+use crate::program::{Program, Statement};
+use crate::source::Span;
+
+/// Findings that are told one by one.
+const TOLD: usize = 10;
+
+/// Collects them.
+#[derive(Debug, Default)]
+pub(super) struct UnknownFeedCollector {
+    told: Vec<Diagnostic>,
+    first: Option<Span>,
+    pub count: usize,
+}
+
+impl UnknownFeedCollector {
+    /// A motion that cuts. `feed` is what is known of its feed, `rpm` of its speed. That the spindle stands is another finding.
+    pub fn check_motion(&mut self, program: &Program, motion: &Motion, feed: Option<f64>, rpm: Option<f64>) {
+        let speed = motion.spindle.as_deref().and_then(|spindle| spindle.speed);
+        let turns = motion.spindle.as_deref().is_some_and(|spindle| spindle.on);
+        let label_of_feed = motion.feed_from.unwrap_or_else(|| motion.last_statement());
+        let per_turn = motion.feed.is_some_and(|feed| feed.unit_or_default().is_per_revolution());
+        let (message, statement, label) = if motion.rapid {
+            return;
+        } else if motion.feed.is_none() {
+            ("this motion cuts, and no feed is in force", motion.last_statement(), "cuts")
+        } else if motion.feed.is_some_and(|feed| feed.value <= 0.0) {
+            ("this feed is no speed, and motions cut with it", label_of_feed, "in force where the tool cuts")
+        } else if turns && rpm.is_none() && speed.is_some_and(|speed| speed <= 0.0) {
+            ("the spindle is to turn at 0 rev/min while the tool cuts", motion.last_statement(), "cuts")
+        } else if turns && rpm.is_none() && per_turn {
+            (
+                "the feed is per revolution, and no spindle speed in rev/min is in force",
+                motion.last_statement(),
+                "cuts",
+            )
+        } else if turns && rpm.is_none() {
+            ("the tool cuts, and no spindle speed in rev/min is in force", motion.last_statement(), "cuts")
+        } else if feed.is_none() && !per_turn {
+            ("the feed of this cut is not known", motion.last_statement(), "cuts")
+        } else {
+            return;
+        };
+        self.count += 1;
+        let span = program.statement(statement).map(Statement::origin).unwrap_or_default();
+        self.first.get_or_insert(span);
+        // A feed that many motions cut with is told once.
+        let known = |found: &Diagnostic| found.labels.first().is_some_and(|label| label.span == span);
+        if self.told.len() < TOLD && !self.told.iter().any(known) {
+            let found = Diagnostic::new(codes::FEED_UNKNOWN, message);
+            self.told.push(found.with_label(program.source(), span, label));
+        }
+    }
+
+    /// All findings.
+    pub fn into_findings(mut self, program: &Program) -> Vec<Diagnostic> {
+        let rest = self.count - self.told.len().min(self.count);
+        if let Some(span) = self.first.filter(|_| rest > 0) {
+            let what = if rest == 1 { "motion cuts" } else { "motions cut" };
+            let message = format!("{rest} more {what} at a feed or a speed that is not known");
+            let found = Diagnostic::new(codes::FEED_UNKNOWN, message);
+            self.told.push(found.with_label(program.source(), span, "the first of them"));
+        }
+        self.told
+    }
+}

@@ -1,0 +1,221 @@
+//! The one pass over a program that makes its statistics.
+
+use super::feed_rows::FeedRowCollector;
+use super::totals::{MotionLengthAndTime, MotionTotals};
+use super::{
+    ClassStats, FrameStats, MotionBoundingBox, OperationStats, PathShapeCounts, ProgramStats, ReportedRange,
+    ResolvedLengthUnit, ToolStats,
+};
+use crate::program::geometry::MotionPath;
+use crate::program::motion::{ActiveTool, CoordinateFrame, Motion};
+use crate::program::{LengthUnit, MotionClass, Program, Record, operation};
+use crate::setup::Setup;
+use std::sync::Arc;
+
+/// What grows while motions go by.
+struct StatsCollector<'p> {
+    program: &'p Program,
+    unit: LengthUnit,
+    rapid: Option<f64>,
+    totals: MotionTotals,
+    classes: Vec<ClassStats>,
+    feeds: FeedRowCollector,
+    feed: Option<ReportedRange>,
+    spindle_rpm: Option<ReportedRange>,
+    paths: PathShapeCounts,
+    hole: Option<usize>,
+    box_of_feed: Option<MotionBoundingBox>,
+    box_of_all: Option<MotionBoundingBox>,
+    frames: Vec<(Arc<CoordinateFrame>, FrameStats)>,
+    frame: Option<(Arc<CoordinateFrame>, usize)>,
+    tools: Vec<(ActiveTool, ToolStats)>,
+    tool: Option<(Arc<ActiveTool>, usize)>,
+    operations: Vec<OperationStats>,
+}
+
+pub(super) fn collect_stats(program: &Program, setup: &Setup, units: ResolvedLengthUnit) -> ProgramStats {
+    let rapid = setup.machine.rapid_feed.map(|feed| 60.0 * units.unit.mm_per_unit() / feed.get());
+    let totals = MotionTotals::new(rapid.is_some());
+    let operations = operation::find_operations(program).into_iter();
+    let mut all = StatsCollector {
+        program,
+        unit: units.unit,
+        rapid,
+        totals,
+        classes: MotionClass::ALL.map(|class| ClassStats { class, totals }).into(),
+        feeds: FeedRowCollector::default(),
+        feed: None,
+        spindle_rpm: None,
+        paths: PathShapeCounts::default(),
+        hole: None,
+        box_of_feed: None,
+        box_of_all: None,
+        frames: Vec::new(),
+        frame: None,
+        tools: Vec::new(),
+        tool: None,
+        operations: operations
+            .map(|operation| OperationStats { name: operation.name, tool: None, totals, feed: None })
+            .collect(),
+    };
+    program.motions().for_each(|motion| all.add_motion(&motion));
+    let (bytes, lines) = count_bytes_and_lines(program);
+    let unreadable = |record: &Record| matches!(record, Record::Unparsed | Record::Definition);
+    ProgramStats {
+        version: 1,
+        file: program.source().name().to_owned(),
+        bytes,
+        lines,
+        dialect: program.dialect().into(),
+        units,
+        statements: program.live_statements().count(),
+        unreadable: program.live_statements().filter(|(_, statement)| unreadable(statement.record())).count(),
+        totals: all.totals,
+        classes: all.classes.into_iter().filter(|class| class.totals.motions > 0).collect(),
+        feeds: all.feeds.into_rows(),
+        feed: all.feed,
+        spindle_rpm: all.spindle_rpm,
+        paths: all.paths,
+        box_of_feed: all.box_of_feed,
+        box_of_all: all.box_of_all,
+        frames: all.frames.into_iter().map(|(_, frame)| frame).collect(),
+        tools: all.tools.into_iter().map(|(_, tool)| tool).collect(),
+        operations: all.operations,
+    }
+}
+
+impl StatsCollector<'_> {
+    fn add_motion(&mut self, motion: &Motion) {
+        MotionBoundingBox::include_motion(&mut self.box_of_all, motion);
+        let measured = MotionLengthAndTime::from_motion(motion, self.unit, self.rapid);
+        if !measured.moves {
+            return;
+        }
+        self.totals.add_motion(&measured);
+        if let Some(class) = self.classes.get_mut(motion.class as usize) {
+            class.totals.add_motion(&measured);
+        }
+        self.count_path_shape(motion);
+        self.count_frame_motion(motion);
+        let tool = self.tool_index(motion);
+        if let Some((_, stats)) = tool.and_then(|tool| self.tools.get_mut(tool)) {
+            stats.totals.add_motion(&measured);
+        }
+        let rate = if motion.rapid { None } else { self.add_feed_motion(motion, &measured) };
+        if let Some(operation) = self.operations.get_mut(motion.operation) {
+            operation.totals.add_motion(&measured);
+            operation.tool = operation.tool.or(tool);
+            if let Some(rate) = rate {
+                ReportedRange::include_value(&mut operation.feed, rate);
+            }
+        }
+    }
+
+    /// A motion at feed; gives its feed in the file's unit per minute.
+    fn add_feed_motion(&mut self, motion: &Motion, measured: &MotionLengthAndTime) -> Option<f64> {
+        MotionBoundingBox::include_motion(&mut self.box_of_feed, motion);
+        if let Some(rpm) = motion.spindle_rpm() {
+            ReportedRange::include_value(&mut self.spindle_rpm, rpm);
+        }
+        let feed = motion.feed?;
+        self.feeds.add_motion(feed, measured);
+        // Of a move in inverse time that only turns the tool there is no feed in length.
+        let length = Some(measured.length).filter(|length| *length > 0.0);
+        let rate = feed.mm_per_minute(self.unit, motion.spindle_rpm(), length)? / self.unit.mm_per_unit();
+        ReportedRange::include_value(&mut self.feed, rate);
+        Some(rate)
+    }
+
+    fn count_path_shape(&mut self, motion: &Motion) {
+        match &motion.path {
+            MotionPath::Arc(arc) if arc.rise.abs() > crate::program::geometry::SAME_POINT => {
+                self.paths.helices += 1;
+            }
+            MotionPath::Arc(_) => self.paths.arcs += 1,
+            MotionPath::Spline(_) => self.paths.splines += 1,
+            MotionPath::Line => self.paths.lines += 1,
+            MotionPath::Start => {}
+        }
+        let hole = motion.hole.as_ref().map(|(hole, _)| *hole);
+        if hole.is_some() && hole != self.hole {
+            self.paths.holes += 1;
+            self.hole = hole;
+        }
+    }
+
+    fn tool_index(&mut self, motion: &Motion) -> Option<usize> {
+        let tool = motion.tool.as_ref()?;
+        if let Some((last, index)) = &self.tool
+            && Arc::ptr_eq(last, tool)
+        {
+            return Some(*index);
+        }
+        let same = |known: &ActiveTool| {
+            known.number == tool.number && known.name == tool.name && known.data == tool.data
+        };
+        let index = self.tools.iter().position(|(known, _)| same(known)).unwrap_or(self.tools.len());
+        if index == self.tools.len() {
+            let totals = MotionTotals::new(self.rapid.is_some());
+            self.tools.push((tool.as_ref().clone(), describe_tool(tool, totals)));
+        }
+        self.tool = Some((Arc::clone(tool), index));
+        Some(index)
+    }
+
+    fn count_frame_motion(&mut self, motion: &Motion) {
+        let Some(frame) = &motion.frame else { return };
+        let index = match &self.frame {
+            Some((last, index)) if Arc::ptr_eq(last, frame) => *index,
+            _ => {
+                let same = |known: &CoordinateFrame| known.origin == frame.origin && known.axes == frame.axes;
+                let found = self.frames.iter().position(|(known, _)| same(known));
+                found.unwrap_or_else(|| {
+                    self.frames.push((Arc::clone(frame), self.describe_frame(frame)));
+                    self.frames.len() - 1
+                })
+            }
+        };
+        self.frame = Some((Arc::clone(frame), index));
+        if let Some((_, stats)) = self.frames.get_mut(index) {
+            stats.motions += 1;
+        }
+    }
+
+    fn describe_frame(&self, frame: &CoordinateFrame) -> FrameStats {
+        let statement = self.program.statement(frame.statement);
+        FrameStats {
+            line: statement.and_then(|statement| super::super::statement_line(self.program, statement)),
+            origin: frame.origin.into(),
+            z_axis: frame.axes.column(2).into_owned().into(),
+            motions: 0,
+        }
+    }
+}
+
+fn describe_tool(tool: &ActiveTool, totals: MotionTotals) -> ToolStats {
+    let data = tool.data.as_ref();
+    ToolStats {
+        number: tool.number,
+        name: tool.name.clone(),
+        diameter: data.and_then(|data| data.diameter),
+        corner_radius: data.and_then(|data| data.corner_radius),
+        length: data.and_then(|data| data.length),
+        flute_length: data.and_then(|data| data.flute_length),
+        taper_degrees: data.and_then(|data| data.taper_degrees),
+        tip_degrees: data.and_then(|data| data.tip_degrees),
+        totals,
+    }
+}
+
+/// Bytes and lines. A piece ends where a statement does, so a CRLF never stands in two.
+fn count_bytes_and_lines(program: &Program) -> (u64, u64) {
+    let (mut bytes, mut lines, mut open) = (0, 0, false);
+    for piece in program.byte_chunks().filter(|piece| !piece.is_empty()) {
+        bytes += piece.len() as u64;
+        lines += memchr::memchr_iter(b'\n', piece).count() as u64;
+        let lone = |&at: &usize| piece.get(at + 1) != Some(&b'\n');
+        lines += memchr::memchr_iter(b'\r', piece).filter(lone).count() as u64;
+        open = !piece.ends_with(b"\n") && !piece.ends_with(b"\r");
+    }
+    (bytes, lines + u64::from(open))
+}

@@ -1,0 +1,251 @@
+//! What was made over a surface: findings, a summary, and the drawing of one plane.
+
+use super::path_drawing::{PanelPath, PanelPathStyle, PathPanel, draw_path_panels};
+use crate::diagnostic::{Diagnostic, codes};
+use crate::program::LengthUnit;
+use crate::surface::profile::{Chain, ChainPiece, Point, check_tip_path};
+use crate::surface_milling::{SurfaceMillingOptions, SurfaceProgram};
+use crate::write::new_program::can_write_arcs;
+use std::fmt::Write;
+use std::io;
+
+/// Arcs are drawn in so many chords a radian.
+const CHORDS: f64 = 24.0;
+
+/// What stands in the way of writing it, and what its user should know.
+pub fn collect_findings(surfaced: &SurfaceProgram, options: &SurfaceMillingOptions) -> Vec<Diagnostic> {
+    let units = options.words.units;
+    let proof = &surfaced.proof;
+    let mut found = Vec::new();
+    if !proof.is_within(options.tolerance) {
+        let worse = if proof.gouge >= proof.gap {
+            format!(
+                "the deepest gouge is {} {units} at {}",
+                format_fine_length(proof.gouge, units),
+                format_point(proof.gouge_at, units)
+            )
+        } else {
+            format!(
+                "the largest gap is {} {units} at {}",
+                format_fine_length(proof.gap, units),
+                format_point(proof.gap_at, units)
+            )
+        };
+        let tolerance = format_fine_length(options.tolerance, units);
+        let message = format!("{worse}, more than the tolerance of {tolerance} {units}");
+        found.push(Diagnostic::new(codes::NOT_WITHIN_TOLERANCE, message));
+    }
+    if options.words.spindle.is_none() {
+        let message = "no `--spindle` is given, so the program says no spindle speed";
+        found.push(Diagnostic::new(codes::SECTION_WITHOUT_SPINDLE, message));
+    }
+    let left = surfaced.unreached.iter().max_by(|a, b| a.left.total_cmp(&b.left));
+    if let Some(most) = left {
+        let count = surfaced.unreached.len();
+        let places = if count == 1 { "one place".to_owned() } else { format!("{count} places") };
+        let [u, z, left] = [most.from.u, most.from.z, most.left].map(|mm| mm / units.mm_per_unit());
+        let message = format!(
+            "the ball does not touch {places} of the profile; most, {left:.4} {units}, is left at ({u:.4}, {z:.4})"
+        );
+        found.push(Diagnostic::new(codes::NOT_REACHED, message));
+    }
+    found
+}
+
+/// The summary, a few lines.
+pub fn to_text(surfaced: &SurfaceProgram, options: &SurfaceMillingOptions, name: &str) -> String {
+    let units = options.words.units;
+    let mm = units.mm_per_unit();
+    let mut text = String::new();
+    let (planes, passes) = (surfaced.planes, surfaced.passes);
+    let planes = if planes == 1 {
+        "1 plane".to_owned()
+    } else {
+        format!("{planes} planes {:.4} {units} apart", surfaced.spacing / mm)
+    };
+    let passes = if passes == 1 { "1 pass".to_owned() } else { format!("{passes} passes") };
+    let cutting = surfaced.cutting_length_mm() / mm;
+    let _ = writeln!(
+        text,
+        "{name}: {planes}, {passes}, {cutting:.0} {units} of cutting in {} motions",
+        surfaced.cutting_motion_count()
+    );
+    if surfaced.empty > 0 {
+        let _ = writeln!(
+            text,
+            "{} planes beside these meet nothing of the part: a flank that faces across the planes is not cut",
+            surfaced.empty
+        );
+    }
+    let proof = &surfaced.proof;
+    let _ = writeln!(
+        text,
+        "deepest gouge {} {units} at {}, largest gap {} {units} at {}; tolerance {}, the check may miss {}",
+        format_fine_length(proof.gouge, units),
+        format_point(proof.gouge_at, units),
+        format_fine_length(proof.gap, units),
+        format_point(proof.gap_at, units),
+        format_fine_length(options.tolerance, units),
+        format_fine_length(proof.bound, units),
+    );
+    let _ = writeln!(
+        text,
+        "left between passes on level ground: {} {units}",
+        format_fine_length(surfaced.scallop_height_mm(options.radius), units)
+    );
+    if options.arcs && !can_write_arcs(options.words.dialect) {
+        let _ = writeln!(text, "arcs are chords: how {} turns them is not known", options.words.dialect);
+    }
+    text
+}
+
+/// The middle plane: the part's line, its points shifted one by one (which gouges), and the tip's path; and the same where shifting gouges
+/// deepest.
+///
+/// # Errors
+/// What the drawing library returns, which for a drawing in memory is nothing.
+pub fn draw_middle_plane(surfaced: &SurfaceProgram, options: &SurfaceMillingOptions) -> io::Result<String> {
+    let Some((offset, line, tips)) = &surfaced.figure else { return Ok(String::new()) };
+    let units = options.words.units;
+    let mm = units.mm_per_unit();
+    let radius = options.radius;
+    let shifted = shift_contact_points(line, radius);
+    let wrong =
+        Chain::from_points(&shifted).ok().map(|naive| check_tip_path(line, &naive, radius, radius / 200.0));
+    let scaled = |points: &[Point]| -> Vec<(f64, f64)> {
+        points.iter().map(|point| (point.u / mm, point.z / mm)).collect()
+    };
+    let path = |name: &str, look, points: &[Point]| PanelPath {
+        name: name.to_owned(),
+        look,
+        points: scaled(points),
+    };
+    let paths = |named: bool| {
+        let name = |name: &'static str| if named { name } else { "" };
+        let mut paths = vec![
+            path(name("part"), PanelPathStyle::Reference, &sample_chain(line)),
+            path(name("points shifted one by one"), PanelPathStyle::Wrong, &shifted),
+        ];
+        for (index, tip) in tips.iter().enumerate() {
+            paths.push(path(
+                if index == 0 { name("tip") } else { "" },
+                PanelPathStyle::After,
+                &sample_chain(tip),
+            ));
+        }
+        paths
+    };
+    let panel = |title: String, paths| PathPanel {
+        title,
+        right: abscissa_title(units),
+        up: ordinate_title(units),
+        one_scale: true,
+        paths,
+    };
+    let title =
+        format!("plane at {:.3}, ball of radius {} {units}", offset / mm, format_fine_length(radius, units));
+    let mut panels = vec![panel(title, paths(true))];
+    if let Some(wrong) = wrong.filter(|wrong| wrong.gouge > options.tolerance) {
+        let (at, half) = (wrong.gouge_at, 1.2 * radius);
+        let window = [at.u - half, at.u + half, at.z - half, at.z + half].map(|value| value / mm);
+        let close = paths(true).into_iter().flat_map(|path| clip_path(path, window));
+        let title =
+            format!("where shifted points gouge deepest: {} {units}", format_fine_length(wrong.gouge, units));
+        panels.push(panel(title, close.collect()));
+    }
+    Ok(draw_path_panels(&panels)?.unwrap_or_default())
+}
+
+/// The parts of a path in a window (least and most to the right, least and most up).
+fn clip_path(path: PanelPath, [left, right, low, high]: [f64; 4]) -> Vec<PanelPath> {
+    let mut parts: Vec<Vec<(f64, f64)>> = Vec::new();
+    for pair in path.points.windows(2) {
+        let [(u0, z0), (u1, z1)] = *pair else { continue };
+        let (du, dz) = (u1 - u0, z1 - z0);
+        // From which share of the line to which it is inside all four sides (Liang and Barsky 1984).
+        let (mut from, mut to) = (0.0f64, 1.0f64);
+        for (across, inside) in [(-du, u0 - left), (du, right - u0), (-dz, z0 - low), (dz, high - z0)] {
+            let share = inside / across;
+            if across < 0.0 {
+                from = from.max(share);
+            } else if across > 0.0 {
+                to = to.min(share);
+            } else if inside < 0.0 {
+                to = -1.0;
+            }
+        }
+        if from > to {
+            continue;
+        }
+        let [start, end] = [from, to].map(|share| (u0 + du * share, z0 + dz * share));
+        match parts.last_mut().filter(|part| part.last() == Some(&start)) {
+            Some(part) => part.push(end),
+            None => parts.push(vec![start, end]),
+        }
+    }
+    // One entry in the legend for all parts.
+    let name = |index: usize| if index == 0 { path.name.clone() } else { String::new() };
+    let part = |(index, points)| PanelPath { name: name(index), look: path.look, points };
+    parts.into_iter().enumerate().map(part).collect()
+}
+
+/// Every contact point by itself: contact + R (n - z), n the upward normal (Dragoi 2009, eq. (1) and (2)).
+fn shift_contact_points(line: &Chain, radius: f64) -> Vec<Point> {
+    let mut points = Vec::new();
+    for piece in line.pieces() {
+        let count = match piece {
+            // Dense, so that a window shows all of it.
+            ChainPiece::Line(line) => {
+                (line.from.distance(line.to) / radius * CHORDS).ceil().clamp(1.0, 2000.0)
+            }
+            ChainPiece::Arc(arc) => (arc.sweep.abs() * CHORDS).ceil().max(1.0),
+        };
+        let mut part = 0.0;
+        while part <= count {
+            let (at, along) = (piece.point_at(part / count), piece.direction_at(part / count));
+            // Turned to the left, and up.
+            let up = if along.u < 0.0 { -1.0 } else { 1.0 };
+            points.push(Point::new(at.u - up * radius * along.z, at.z + up * radius * along.u - radius));
+            part += 1.0;
+        }
+    }
+    points
+}
+
+/// A chain as points to draw.
+fn sample_chain(chain: &Chain) -> Vec<Point> {
+    let mut points = vec![chain.start()];
+    for piece in chain.pieces() {
+        let count = match piece {
+            ChainPiece::Line(_) => 1.0,
+            ChainPiece::Arc(arc) => (arc.sweep.abs() * CHORDS).ceil().max(1.0),
+        };
+        let mut part = 1.0;
+        while part <= count {
+            points.push(piece.point_at(part / count));
+            part += 1.0;
+        }
+    }
+    points
+}
+
+fn abscissa_title(units: LengthUnit) -> &'static str {
+    if units == LengthUnit::Inch { "u, inch" } else { "u, mm" }
+}
+
+fn ordinate_title(units: LengthUnit) -> &'static str {
+    if units == LengthUnit::Inch { "z, inch" } else { "z, mm" }
+}
+
+/// A small length, to four digits that count, without zeros behind.
+fn format_fine_length(mm: f64, units: LengthUnit) -> String {
+    let value = mm / units.mm_per_unit();
+    let text = format!("{value:.6}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text.is_empty() { "0".to_owned() } else { text.to_owned() }
+}
+
+fn format_point([x, y, z]: [f64; 3], units: LengthUnit) -> String {
+    let [x, y, z] = [x, y, z].map(|mm| mm / units.mm_per_unit());
+    format!("({x:.3}, {y:.3}, {z:.3})")
+}

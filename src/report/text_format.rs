@@ -1,0 +1,111 @@
+//! Numbers and tables for people.
+
+use crate::program::LengthUnit;
+use std::fmt::Write;
+
+/// Joins cells to columns; the first column is left-aligned, others right. Rows are indented by two blanks.
+pub(crate) fn format_table(rows: &[Vec<String>]) -> String {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |column: usize| {
+        rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let mut out = String::new();
+    for row in rows {
+        let mut line = String::new();
+        for (column, (cell, width)) in row.iter().zip(&widths).enumerate() {
+            let _ = match column {
+                0 => write!(line, "  {cell:<width$}"),
+                _ => write!(line, "  {cell:>width$}"),
+            };
+        }
+        out.push_str(line.trim_end());
+        out.push('\n');
+    }
+    out
+}
+
+/// `1234567` as `1,234,567`.
+pub(crate) fn format_count(value: u64) -> String {
+    group_thousands(&value.to_string())
+}
+
+/// A number with a fixed number of decimals and its thousands apart; never `-0`.
+pub(super) fn format_fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let negative_zero = text.starts_with('-') && text.bytes().all(|byte| matches!(byte, b'-' | b'0' | b'.'));
+    let text = text.strip_prefix('-').filter(|_| negative_zero).unwrap_or(&text);
+    group_thousands(text)
+}
+
+/// A number with at most three decimals and no trailing zeros.
+pub(super) fn format_short(value: f64) -> String {
+    let text = format_fixed(value, 3);
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+fn group_thousands(text: &str) -> String {
+    let digits = text.find('.').unwrap_or(text.len());
+    let mut out = String::with_capacity(text.len() + digits / 3);
+    for (index, c) in text.chars().enumerate() {
+        let after_digit = out.ends_with(|last: char| last.is_ascii_digit());
+        if c.is_ascii_digit() && after_digit && index < digits && (digits - index).is_multiple_of(3) {
+            out.push(',');
+        }
+        out.push(c);
+    }
+    out
+}
+
+/// A length for a sentence: metres from 10 m on in metric files, else the file's unit.
+pub(super) fn format_length(value: f64, unit: LengthUnit) -> String {
+    match unit {
+        LengthUnit::Mm if value.abs() >= 10_000.0 => format!("{} m", format_fixed(value / 1000.0, 1)),
+        LengthUnit::Mm | LengthUnit::Inch => format!("{} {}", format_short(value), unit_name(unit)),
+    }
+}
+
+/// `mm` or `in`.
+pub(super) fn unit_name(unit: LengthUnit) -> &'static str {
+    match unit {
+        LengthUnit::Mm => "mm",
+        LengthUnit::Inch => "in",
+    }
+}
+
+/// Seconds as `4.2 s`, `29:55` or `1:02:03`.
+pub(crate) fn format_duration(seconds: f64) -> String {
+    if !seconds.is_finite() {
+        return "?".to_owned();
+    }
+    if seconds < 59.95 {
+        return format!("{seconds:.1} s");
+    }
+    let whole = seconds.round() as u64;
+    let (hours, minutes, seconds) = (whole / 3600, whole / 60 % 60, whole % 60);
+    match hours {
+        0 => format!("{minutes}:{seconds:02}"),
+        _ => format!("{}:{minutes:02}:{seconds:02}", format_count(hours)),
+    }
+}
+
+/// `3 arcs`, `1 arc`.
+pub(crate) fn format_counted(number: usize, one: &str, many: &str) -> String {
+    format!("{} {}", format_count(number as u64), if number == 1 { one } else { many })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_for_people() {
+        assert_eq!(format_count(1_234_567), "1,234,567");
+        assert_eq!(format_fixed(-1234.5, 2), "-1,234.50");
+        assert_eq!(format_fixed(-0.001, 2), "0.00");
+        assert_eq!(format_short(1000.0), "1,000");
+        assert_eq!(format_duration(59.97), "1:00");
+        assert_eq!(format_duration(3723.0), "1:02:03");
+        assert_eq!(format_length(12_345.0, LengthUnit::Mm), "12.3 m");
+    }
+}

@@ -1,0 +1,100 @@
+//! What steps made of a program, as a unified diff.
+//!
+//! A program carries its changes: each statement knows its place in the file and its text now. So the diff needs no search;
+//! it is written statement by statement, in time linear in the file. It is a patch: applied to the file it gives the program
+//! byte for byte, whatever the encoding and the line ends.
+
+mod hunk;
+
+use crate::program::{Program, StatementChange};
+use hunk::HunkWriter;
+use std::io::{self, Write};
+
+/// How a unified diff is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct UnifiedDiffOptions {
+    /// Unchanged lines around a change.
+    pub context: usize,
+    /// ANSI colours.
+    pub color: bool,
+    /// For a terminal: a CR before a line's end is left out and control characters are replaced, since text in a CL file
+    /// must not talk to the terminal. What is written is no patch any more.
+    pub display: bool,
+}
+
+impl Default for UnifiedDiffOptions {
+    fn default() -> Self {
+        Self { context: 3, color: false, display: false }
+    }
+}
+
+/// Writes the changes that a program carries as a unified diff; nothing when it carries none.
+///
+/// Lines end at LF, as `patch` has it.
+///
+/// # Errors
+/// What the writer returns.
+pub fn write_unified_diff(
+    out: &mut dyn Write,
+    program: &Program,
+    options: &UnifiedDiffOptions,
+) -> io::Result<()> {
+    let mut hunks = HunkWriter::new(out, program.source().name(), options);
+    let (mut old, mut new) = (Vec::new(), Vec::new());
+    for statement in program.statements() {
+        let origin = program.source().slice(statement.origin());
+        // An untouched statement is whole lines, unless lone CRs put several on one line.
+        let untouched = statement.change() == StatementChange::Untouched && origin.ends_with(b"\n");
+        if untouched && old.is_empty() && new.is_empty() {
+            split_lines(origin).try_for_each(|line| hunks.push_unchanged(line))?;
+            continue;
+        }
+        old.extend_from_slice(origin);
+        if statement.is_live() {
+            new.extend_from_slice(program.statement_text(statement));
+        }
+        if ends_complete(&old) && ends_complete(&new) {
+            write_changed_lines(&mut hunks, &old, &new)?;
+            old.clear();
+            new.clear();
+        }
+    }
+    write_changed_lines(&mut hunks, &old, &new)?;
+    hunks.finish()
+}
+
+/// The diff as bytes, for callers that keep it.
+pub fn to_bytes(program: &Program, options: &UnifiedDiffOptions) -> Vec<u8> {
+    let mut out = Vec::new();
+    // Writing to memory cannot fail.
+    let _ = write_unified_diff(&mut out, program, options);
+    out
+}
+
+fn ends_complete(text: &[u8]) -> bool {
+    text.is_empty() || text.ends_with(b"\n")
+}
+
+/// Lines that became others, those at both ends that did not taken out.
+fn write_changed_lines(hunks: &mut HunkWriter<'_>, old: &[u8], new: &[u8]) -> io::Result<()> {
+    let old: Vec<&[u8]> = split_lines(old).collect();
+    let new: Vec<&[u8]> = split_lines(new).collect();
+    let head = old.iter().zip(&new).take_while(|(old, new)| old == new).count();
+    let rest = old.len().min(new.len()) - head;
+    let ends = old.iter().rev().zip(new.iter().rev()).take(rest);
+    let tail = ends.take_while(|(old, new)| old == new).count();
+    for line in old.iter().take(head) {
+        hunks.push_unchanged(line)?;
+    }
+    old.iter().take(old.len() - tail).skip(head).for_each(|line| hunks.push_removed(line));
+    new.iter().take(new.len() - tail).skip(head).for_each(|line| hunks.push_added(line));
+    for line in old.iter().skip(old.len() - tail) {
+        hunks.push_unchanged(line)?;
+    }
+    Ok(())
+}
+
+/// Lines as `patch` sees them, each with its LF; the last one perhaps without.
+fn split_lines(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    text.split_inclusive(|byte| *byte == b'\n')
+}

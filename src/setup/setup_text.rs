@@ -1,0 +1,89 @@
+//! A setup as it is written: what serde reads, and what the JSON schema tells editors.
+
+use super::machine_limits::MachineText;
+use super::material::MaterialText;
+use super::setup_reader::SetupReader;
+use super::stock_text::StockText;
+use super::tools::ToolText;
+use super::{Setup, YamlLocation};
+use crate::diagnostic::Diagnostic;
+use crate::parameters::LengthUnit;
+use crate::source::Source;
+use crate::yaml::YamlDocument;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::sync::Arc;
+
+/// A setup file as it is written.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename_all = "snake_case")]
+#[schemars(title = "clsmith setup file")]
+struct SetupFileText {
+    /// The unit of every length in this file; feeds are in this unit per minute.
+    #[serde(default)]
+    units: LengthUnit,
+    /// The machine and its limits.
+    #[serde(default)]
+    machine: MachineText,
+    /// What there is before the first cut.
+    stock: Option<StockText>,
+    /// What the CL file does not say about tools; the first entry that fits a tool counts.
+    #[serde(default)]
+    tools: Option<Vec<ToolText>>,
+    /// The material that is cut.
+    material: Option<MaterialText>,
+}
+
+/// What stands around the program: machine, stock, tools, material.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "Setup")]
+pub(crate) struct SetupText {
+    /// The machine and its limits.
+    #[serde(default)]
+    machine: MachineText,
+    /// What there is before the first cut.
+    stock: Option<StockText>,
+    /// What the CL file does not say about tools; the first entry that fits a tool counts.
+    tools: Option<Vec<ToolText>>,
+    /// The material that is cut.
+    material: Option<MaterialText>,
+}
+
+/// Reads a setup file.
+pub(super) fn load_setup(source: &Arc<Source>) -> Result<Setup, Vec<Diagnostic>> {
+    let document = YamlDocument::parse(source).map_err(|diagnostic| vec![*diagnostic])?;
+    let SetupFileText { units, machine, stock, tools, material } = document.deserialize_checked(|_| None)?;
+    SetupText { machine, stock, tools, material }
+        .check_setup(units, YamlLocation::new(&Arc::new(document), &[]))
+}
+
+/// JSON schema of a setup file.
+pub(super) fn setup_file_schema() -> serde_json::Value {
+    schemars::schema_for!(SetupFileText).to_value()
+}
+
+impl SetupText {
+    /// The setup in millimetres, with its places.
+    ///
+    /// # Errors
+    /// What serde cannot see: values that are right by themselves and do not fit together. At most 20 findings.
+    pub(crate) fn check_setup(
+        self,
+        units: LengthUnit,
+        place: YamlLocation,
+    ) -> Result<Setup, Vec<Diagnostic>> {
+        let mut reader = SetupReader::new(units);
+        let list = place.at_key("tools");
+        let tools = self.tools.into_iter().flatten().enumerate();
+        let setup = Setup {
+            machine: self.machine.check_limits(units),
+            stock: self.stock.and_then(|stock| stock.check_stock(&mut reader, place.at_key("stock"))),
+            tools: tools.map(|(index, tool)| tool.check_tool(&mut reader, list.at_index(index))).collect(),
+            material: self
+                .material
+                .and_then(|material| material.check_material(&mut reader, &place.at_key("material"))),
+        };
+        reader.finish_value(setup)
+    }
+}

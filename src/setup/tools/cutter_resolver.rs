@@ -1,0 +1,189 @@
+//! A cutter for the simulation: what the CL file tells, completed and overridden by the setup.
+
+use super::file_tool_data::FileToolData;
+use super::tool_data_fault::{ToolDataFault, ToolDataFaultKind};
+use super::tool_entry::ToolEntry;
+use super::tool_text::SAME;
+use crate::diagnostic::{Diagnostic, codes};
+use crate::program::LengthUnit;
+use crate::program::motion::ActiveTool;
+use crate::setup::Setup;
+use crate::sim::cutter::NonCuttingKind;
+use crate::sim::{CutterModel, Meridian, NonCuttingCylinder};
+use crate::source::{Source, Span};
+use std::sync::Arc;
+
+/// Flutes of unknown length are this many diameters long: more than those of any cutter whose flutes would matter to
+/// the path.
+const FLUTE_DIAMETERS: f64 = 4.0;
+
+/// A cutter, and what had to be assumed about it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ResolvedCutter {
+    /// The cutter.
+    pub cutter: CutterModel,
+    /// What neither the CL file nor the setup says, each as `corner radius 0: neither the CL file nor setup.tools says
+    /// one`.
+    pub assumptions: Vec<String>,
+}
+
+impl ResolvedCutter {
+    /// One note ([`codes::ASSUMPTION`]) about everything assumed of a tool, at a place of the CL file that uses it;
+    /// `None` when nothing was.
+    pub fn note_assumptions(
+        &self,
+        tool: &ActiveTool,
+        source: &Arc<Source>,
+        span: Span,
+    ) -> Option<Diagnostic> {
+        if self.assumptions.is_empty() {
+            return None;
+        }
+        let message = format!("{} is taken with {}", tool.display_name(), self.assumptions.join("; "));
+        Some(Diagnostic::new(codes::ASSUMPTION, message).with_label(source, span, "used here"))
+    }
+}
+
+impl Setup {
+    /// The cutter that a tool of the CL file is, in millimetres; `units` are the CL file's. Teeth are `None` where the
+    /// setup does not say how many ([`Setup::report_missing_teeth`]).
+    ///
+    /// Worth calling once for each distinct tool, not for each motion.
+    ///
+    /// # Errors
+    /// [`ToolDataFault`] when the diameter is unknown, the numbers make no cutter, or it is no milling cutter.
+    pub fn resolve_cutter(
+        &self,
+        tool: &ActiveTool,
+        units: LengthUnit,
+    ) -> Result<ResolvedCutter, ToolDataFault> {
+        let entry = self.find_tool_entry(tool);
+        let told = FileToolData::from_tool_data(tool.data.as_ref(), units);
+        CutterResolver { tool, entry, told, assumptions: Vec::new() }.resolve_cutter()
+    }
+}
+
+struct CutterResolver<'a> {
+    tool: &'a ActiveTool,
+    entry: Option<&'a ToolEntry>,
+    told: FileToolData,
+    assumptions: Vec<String>,
+}
+
+impl CutterResolver<'_> {
+    fn resolve_cutter(mut self) -> Result<ResolvedCutter, ToolDataFault> {
+        let own = |field: fn(&ToolEntry) -> Option<f64>| self.entry.and_then(field);
+        let diameter = match (own(|entry| entry.diameter), self.told) {
+            (Some(diameter), _) => diameter,
+            (None, FileToolData { other: true, .. }) => {
+                return Err(self.make_gap(ToolDataFaultKind::NoMillingCutter));
+            }
+            (None, FileToolData { diameter: Some(diameter), .. }) => diameter,
+            (None, _) => return Err(self.make_gap(ToolDataFaultKind::Diameter)),
+        };
+        let (corner, taper, tip) =
+            (own(|entry| entry.corner_radius), own(|entry| entry.taper), own(|entry| entry.tip));
+        let tip =
+            tip.or(self.told.tip).unwrap_or_else(|| self.assume_zero("a flat bottom (tip 0)", "its angle"));
+        let corner =
+            corner.or(self.told.corner_radius).unwrap_or_else(|| self.assume_zero("corner radius 0", "one"));
+        let corner = self.snap_to_ball_mm(diameter, corner);
+        let taper = taper.or(self.told.taper).unwrap_or_else(|| self.assume_zero("taper 0", "one"));
+        let flute_length = self.resolve_flute_length_mm(diameter, tip);
+        let profile = Meridian::new(diameter, corner, taper, tip, flute_length).map_err(|error| {
+            let (taper, tip) = (taper.to_degrees(), tip.to_degrees());
+            self.make_gap(ToolDataFaultKind::Shape {
+                error,
+                diameter,
+                corner_radius: corner,
+                flute_length,
+                taper,
+                tip,
+            })
+        })?;
+        let collars = self.resolve_shank_and_holder(&profile)?;
+        let teeth = self.entry.and_then(|entry| entry.teeth.clone());
+        if teeth.is_some() && self.entry.is_some_and(|entry| !entry.helix_is_told) {
+            self.assumptions.push("helix 0: setup.tools says none".to_owned());
+        }
+        Ok(ResolvedCutter { cutter: CutterModel { profile, collars, teeth }, assumptions: self.assumptions })
+    }
+
+    fn make_gap(&self, kind: ToolDataFaultKind) -> ToolDataFault {
+        ToolDataFault::new(self.tool, self.entry, kind)
+    }
+
+    /// Takes 0 for something that nobody says.
+    fn assume_zero(&mut self, what: &str, none: &str) -> f64 {
+        self.assumptions.push(format!("{what}: neither the CL file nor setup.tools says {none}"));
+        0.0
+    }
+
+    /// The corner radius, without what printing has rounded off that of a ball.
+    fn snap_to_ball_mm(&self, diameter: f64, corner: f64) -> f64 {
+        let half = diameter / 2.0;
+        if corner > 0.0 && (corner - half).abs() <= self.told.rounding { half } else { corner }
+    }
+
+    fn resolve_flute_length_mm(&mut self, diameter: f64, tip: f64) -> f64 {
+        if let Some(flutes) = self.entry.and_then(|entry| entry.flute_length).or(self.told.flute_length) {
+            return flutes;
+        }
+        let shank_end = self.entry.and_then(|entry| entry.shank).map(|shank| shank.length);
+        let (length, why) = match (self.told.length, shank_end) {
+            (Some(length), Some(end)) if length > end => (end, "setup.tools says only where the shank ends"),
+            (Some(length), _) => (length, "the CL file says only how long the tool is"),
+            (None, Some(end)) => (end, "setup.tools says only where the shank ends"),
+            (None, None) => {
+                let bottom = diameter / 2.0 * tip.tan();
+                (FLUTE_DIAMETERS * diameter + bottom, "neither the CL file nor setup.tools says one")
+            }
+        };
+        self.assumptions.push(format!("flute length {} mm: {why}", format_short(length)));
+        length
+    }
+
+    /// Shank and holder.
+    fn resolve_shank_and_holder(
+        &mut self,
+        profile: &Meridian,
+    ) -> Result<Vec<NonCuttingCylinder>, ToolDataFault> {
+        let flutes = profile.height_mm();
+        let (shank, holder) = self.entry.map_or((None, None), |entry| (entry.shank, entry.holder));
+        let (radius, end) = match (shank, self.told.length) {
+            (Some(shank), _) if shank.length < flutes - SAME => {
+                let (flute_length, length) = (flutes, shank.length);
+                return Err(self.make_gap(ToolDataFaultKind::Shank { flute_length, length }));
+            }
+            (Some(shank), _) => (shank.diameter / 2.0, shank.length),
+            (None, Some(length)) if length > flutes + SAME => {
+                let (diameter, length_text) = (format_short(2.0 * profile.radius_mm()), format_short(length));
+                self.assumptions.push(format!(
+                    "a shank of {diameter} mm up to {length_text} mm, as thick as the cutter: setup.tools says none"
+                ));
+                (profile.radius_mm(), length)
+            }
+            (None, _) => (profile.radius_mm(), flutes),
+        };
+        let mut collars = Vec::new();
+        if end > flutes + SAME {
+            collars.push(NonCuttingCylinder { kind: NonCuttingKind::Shank, radius, from: flutes, to: end });
+        }
+        match holder {
+            Some(holder) => collars.push(NonCuttingCylinder {
+                kind: NonCuttingKind::Holder,
+                radius: holder.diameter / 2.0,
+                from: end,
+                to: end + holder.length,
+            }),
+            None => self.assumptions.push("no holder: setup.tools says none".to_owned()),
+        }
+        Ok(collars)
+    }
+}
+
+/// A length with at most four decimals.
+pub(super) fn format_short(value: f64) -> String {
+    let text = format!("{value:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}

@@ -1,0 +1,198 @@
+//! What is missing before a tool can be simulated, and what to write where to fill it.
+
+use super::cutter_resolver::format_short;
+use super::tool_entry::ToolEntry;
+use crate::diagnostic::{Diagnostic, codes};
+use crate::program::motion::ActiveTool;
+use crate::setup::{Setup, YamlLocation};
+use crate::sim::MeridianError;
+use crate::source::{Source, Span};
+use std::fmt::Write;
+use std::sync::Arc;
+
+/// Why a tool cannot be simulated.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ToolDataFault {
+    /// What is missing or wrong.
+    pub kind: ToolDataFaultKind,
+    tool: Box<ToolGapSubject>,
+}
+
+/// The tool that a finding is about.
+#[derive(Debug, Clone, PartialEq)]
+struct ToolGapSubject {
+    /// `tool 3`.
+    called: String,
+    /// `{ number: 3 }`.
+    matches: String,
+    /// The setup's entry for the tool.
+    entry: Option<YamlLocation>,
+}
+
+/// What is missing or wrong.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ToolDataFaultKind {
+    /// Nobody says the diameter.
+    Diameter,
+    /// The CL file describes a lathe tool, a wire or the like.
+    NoMillingCutter,
+    /// The numbers make no cutter; lengths in mm, angles in degrees.
+    Shape {
+        /// Why.
+        error: MeridianError,
+        /// The diameter.
+        diameter: f64,
+        /// The corner radius.
+        corner_radius: f64,
+        /// The length of the flutes.
+        flute_length: f64,
+        /// The flank's angle against the axis.
+        taper: f64,
+        /// The bottom's angle against the plane.
+        tip: f64,
+    },
+    /// The shank ends below the end of the flutes; lengths in mm from the tip.
+    Shank {
+        /// The length of the flutes.
+        flute_length: f64,
+        /// Where the shank ends.
+        length: f64,
+    },
+}
+
+impl ToolDataFault {
+    pub(super) fn new(tool: &ActiveTool, entry: Option<&ToolEntry>, kind: ToolDataFaultKind) -> Self {
+        Self { kind, tool: Box::new(ToolGapSubject::new(tool, entry)) }
+    }
+
+    /// The gap as a finding ([`codes::TOOL_SHAPE`]) at the statement of the CL file that needs the tool, and at the
+    /// setup's entry for it.
+    pub fn diagnostic(&self, source: &Arc<Source>, span: Span) -> Diagnostic {
+        let called = &self.tool.called;
+        let (message, keys) = match self.kind {
+            ToolDataFaultKind::Diameter => {
+                (format!("the diameter of {called} is not known"), "diameter: …".to_owned())
+            }
+            ToolDataFaultKind::NoMillingCutter => {
+                let message = format!("{called} is no milling cutter, and only those can be simulated");
+                (message, "diameter: …".to_owned())
+            }
+            ToolDataFaultKind::Shape { error, diameter, corner_radius, flute_length, taper, tip } => {
+                let (key, numbers) = match error {
+                    MeridianError::Diameter => {
+                        ("diameter: …", format!("diameter {} mm", format_short(diameter)))
+                    }
+                    MeridianError::Corner => (
+                        "corner_radius: …",
+                        format!(
+                            "corner radius {} mm, diameter {} mm",
+                            format_short(corner_radius),
+                            format_short(diameter)
+                        ),
+                    ),
+                    MeridianError::Angle => (
+                        "taper: …, tip: …",
+                        format!("taper {}, tip {} degrees", format_short(taper), format_short(tip)),
+                    ),
+                    MeridianError::Height => (
+                        "flute_length: …",
+                        format!(
+                            "flutes {} mm, diameter {} mm",
+                            format_short(flute_length),
+                            format_short(diameter)
+                        ),
+                    ),
+                };
+                (format!("no cutter is like {called}: {error} ({numbers})"), key.to_owned())
+            }
+            ToolDataFaultKind::Shank { flute_length, length } => {
+                let message = format!(
+                    "the shank of {called} ends {} mm above its tip, below the end of its flutes at {} mm",
+                    format_short(length),
+                    format_short(flute_length)
+                );
+                let keys =
+                    format!("shank: {{ diameter: …, length: … }}, flute_length: {}", format_short(length));
+                (message, keys)
+            }
+        };
+        let help = match self.kind {
+            ToolDataFaultKind::NoMillingCutter => format!(
+                "Simulate its operations elsewhere; or, if it is one after all, describe it: {}",
+                self.tool.yaml_snippet(&keys)
+            ),
+            _ => self.tool.word_help(&keys),
+        };
+        let diagnostic =
+            Diagnostic::new(codes::TOOL_SHAPE, message).with_help(help).with_label(source, span, "used here");
+        self.tool.label_entry(diagnostic)
+    }
+}
+
+impl ToolGapSubject {
+    fn new(tool: &ActiveTool, entry: Option<&ToolEntry>) -> Self {
+        let entry = entry.map(|entry| entry.place.clone());
+        Self { called: tool.display_name(), matches: exact_tool_match(tool), entry }
+    }
+
+    /// What to write where.
+    fn word_help(&self, keys: &str) -> String {
+        match &self.entry {
+            Some(_) => format!("Say `{keys}` in the entry that fits this tool."),
+            None => format!("Say it under `setup:`: {}", self.yaml_snippet(keys)),
+        }
+    }
+
+    fn yaml_snippet(&self, keys: &str) -> String {
+        format!("`tools: [ {{ match: {}, {keys} }} ]`.", self.matches)
+    }
+
+    fn label_entry(&self, diagnostic: Diagnostic) -> Diagnostic {
+        match &self.entry {
+            Some(place) => {
+                diagnostic.with_label(place.source(), place.value_span(), "the entry for this tool")
+            }
+            None => diagnostic,
+        }
+    }
+}
+
+impl Setup {
+    /// That chip thickness or forces need the number of teeth of a tool ([`codes::TEETH_MISSING`]), at the statement of
+    /// the CL file that uses it.
+    pub fn report_missing_teeth(&self, tool: &ActiveTool, source: &Arc<Source>, span: Span) -> Diagnostic {
+        let tool = ToolGapSubject::new(tool, self.find_tool_entry(tool));
+        let message = format!("chip thickness needs the number of teeth of {}", tool.called);
+        let help = match &tool.entry {
+            Some(_) => {
+                "Add `teeth: 4`, or as many as there are, to the entry that fits this tool.".to_owned()
+            }
+            None => format!("Say it under `setup:`: {}", tool.yaml_snippet("teeth: 4")),
+        };
+        tool.label_entry(Diagnostic::new(codes::TEETH_MISSING, message).with_help(help).with_label(
+            source,
+            span,
+            "used here",
+        ))
+    }
+}
+
+/// What `match` fits exactly this tool.
+fn exact_tool_match(tool: &ActiveTool) -> String {
+    match (tool.number, &tool.name) {
+        (Some(number), _) => format!("{{ number: {number} }}"),
+        (None, Some(name)) => {
+            let mut pattern = String::new();
+            for character in name.chars() {
+                // In single quotes a quote is written twice; wildcards take a backslash.
+                let _ = match character {
+                    '\'' => write!(pattern, "''"),
+                    '*' | '?' | '[' | ']' | '{' | '}' | '\\' => write!(pattern, "\\{character}"),
+                    other => write!(pattern, "{other}"),
+                };
+            }
+            format!("{{ name: '{pattern}' }}")
+        }
+        (None, None) => "{}".to_owned(),
+    }
+}

@@ -1,0 +1,46 @@
+//! Intervals of one column: put together, and told apart.
+
+use super::DexelSpan;
+use super::dexel::THINNEST;
+
+/// Makes any intervals those of a column: from above to below, overlaps and gaps up to [`THINNEST`] closed, slivers dropped.
+pub(super) fn join_spans(intervals: &mut Vec<DexelSpan>) {
+    intervals.sort_unstable_by(|[_, a], [_, b]| b.total_cmp(a));
+    intervals.dedup_by(|[low, top], [low_above, _]| {
+        let joins = *top + THINNEST >= *low_above;
+        if joins {
+            *low_above = low_above.min(*low);
+        }
+        joins
+    });
+    intervals.retain(|[low, top]| top - low > THINNEST);
+}
+
+/// Where two columns differ, from above to below; `found` is told whether it is the first that has material there.
+pub(super) fn find_span_differences(
+    a: &[DexelSpan],
+    b: &[DexelSpan],
+    mut found: impl FnMut(DexelSpan, bool),
+) {
+    if a == b {
+        return;
+    }
+    let ends = |of: &[DexelSpan], first: bool| -> Vec<(f32, bool)> {
+        of.iter().flat_map(|[low, top]| [(*top, first), (*low, first)]).collect()
+    };
+    let mut all = ends(a, true);
+    all.append(&mut ends(b, false));
+    all.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    let (mut in_a, mut in_b, mut above) = (false, false, f32::INFINITY);
+    for (height, first) in all {
+        if in_a != in_b && above > height {
+            found([height, above], in_a);
+        }
+        if first {
+            in_a = !in_a;
+        } else {
+            in_b = !in_b;
+        }
+        above = height;
+    }
+}

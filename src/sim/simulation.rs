@@ -1,0 +1,139 @@
+//! Running pieces of a path over the stock.
+//!
+//! Columns do not know of each other, so bands of rows are worked on in parallel, each by all pieces of a batch in order; what
+//! the bands found is put together in the order of the bands. So the result is the same whatever the number of threads.
+
+use super::CutterModel;
+use super::dexel::Dexels;
+use super::engagement::Engagement;
+use super::sweep::{BandEngagement, PieceSweep, StraightSweep, SweepContext, TiltedSweep};
+use nalgebra::Vector3;
+use rayon::prelude::*;
+
+/// A place of the cutter: its tip, and its axis as a unit vector from the tip into the holder.
+pub type ToolPose = crate::program::geometry::Pose;
+
+/// A straight piece of the path; between its ends the tip goes straight and the axis turns evenly.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PathPiece {
+    /// Where it begins.
+    pub from: ToolPose,
+    /// Where it ends.
+    pub to: ToolPose,
+    /// Index of the cutter.
+    pub cutter: usize,
+}
+
+/// The stock under the cutter.
+#[derive(Debug)]
+pub struct Simulation {
+    stock: Dexels,
+    highest: f64,
+    last: Option<(ToolPose, usize)>,
+    detail: bool,
+}
+
+impl Simulation {
+    /// Begins with a stock. `detail` fills the engagement finely enough for forces, which takes several times as long.
+    pub fn new(stock: Dexels, detail: bool) -> Self {
+        let highest = stock.highest_z_mm().unwrap_or(f64::NEG_INFINITY);
+        Self { stock, highest, last: None, detail }
+    }
+
+    /// What is left.
+    pub fn stock(&self) -> &Dexels {
+        &self.stock
+    }
+
+    /// What is left, for keeps.
+    pub fn into_stock(self) -> Dexels {
+        self.stock
+    }
+
+    /// Moves cutters along pieces; one engagement for each. Pieces of an unknown cutter engage nothing.
+    pub fn sweep_pieces(&mut self, pieces: &[PathPiece], cutters: &[CutterModel]) -> Vec<Engagement> {
+        let sweeps: Vec<Option<PieceSweep>> = pieces
+            .iter()
+            .enumerate()
+            .map(|(index, piece)| {
+                let goes_on = pieces.get(index + 1).is_some_and(|next| is_continued_by(piece, next));
+                self.prepare_sweep(piece, cutters, !goes_on)
+            })
+            .collect();
+        let found: Vec<Vec<(usize, BandEngagement)>> = self
+            .stock
+            .bands_mut()
+            .par_iter_mut()
+            .map(|band| {
+                let mut scratch = Vec::new();
+                let mut found = Vec::new();
+                let rows = band.first_row..band.first_row + band.row_count();
+                for (index, sweep) in sweeps.iter().enumerate() {
+                    let Some(sweep) = sweep else { continue };
+                    let reach = sweep.row_range();
+                    if reach.start < rows.end && rows.start < reach.end {
+                        let partial = sweep.sweep_band(band, &mut scratch);
+                        if !partial.is_empty() {
+                            found.push((index, partial));
+                        }
+                    }
+                }
+                found
+            })
+            .collect();
+        let mut engagements: Vec<Engagement> =
+            pieces.iter().map(|piece| empty_engagement(piece, cutters)).collect();
+        let cell = self.stock.grid().cell;
+        for (index, partial) in found.iter().flatten() {
+            if let Some(engagement) = engagements.get_mut(*index) {
+                partial.add_to_engagement(engagement, cell * cell, cell / 2.0);
+            }
+        }
+        if self.detail {
+            for (engagement, piece) in
+                engagements.iter_mut().zip(pieces).filter(|(found, _)| found.has_removed_material())
+            {
+                let profile = cutters.get(piece.cutter).map(|cutter| &cutter.profile);
+                let radius = profile.map_or(0.0, |profile| profile.radius_at_height_mm(engagement.height[1]));
+                engagement.fill_empty_bins(radius, cell);
+            }
+        }
+        engagements
+    }
+
+    fn prepare_sweep(
+        &mut self,
+        piece: &PathPiece,
+        cutters: &[CutterModel],
+        ends: bool,
+    ) -> Option<PieceSweep> {
+        let cutter = cutters.get(piece.cutter)?;
+        let continues = self.last == Some((piece.from, piece.cutter));
+        self.last = Some((piece.to, piece.cutter));
+        let around = SweepContext { continues, ends, highest: self.highest, detail: self.detail };
+        let layout = self.stock.grid();
+        if !is_vertical(&piece.from.axis) || !is_vertical(&piece.to.axis) {
+            return Some(PieceSweep::Tilted(Box::new(TiltedSweep::new(piece, cutter, layout, around))));
+        }
+        let [from, to] = [piece.from.point, piece.to.point].map(|point| [point.x, point.y, point.z]);
+        Some(PieceSweep::Straight(Box::new(StraightSweep::new(from, to, cutter, layout, around))))
+    }
+}
+
+/// Whether an axis is along z, to less than any machine can hold: 0.00001 mm at 100 mm.
+fn is_vertical(axis: &Vector3<f64>) -> bool {
+    axis.z > 0.0 && axis.x.hypot(axis.y) <= 1e-7
+}
+
+fn empty_engagement(piece: &PathPiece, cutters: &[CutterModel]) -> Engagement {
+    let size =
+        cutters.get(piece.cutter).map_or([0.0; 2], |cutter| [cutter.radius_mm(), cutter.flute_length_mm()]);
+    Engagement::empty_for_piece(piece, size)
+}
+
+/// Whether a piece is followed by one of the same cutter that turns by less than 30 degrees.
+fn is_continued_by(piece: &PathPiece, next: &PathPiece) -> bool {
+    let (this, that) = (piece.to.point - piece.from.point, next.to.point - next.from.point);
+    let ahead = this.dot(&that) > 0.866 * this.norm() * that.norm();
+    ahead && piece.cutter == next.cutter && piece.to.point == next.from.point
+}

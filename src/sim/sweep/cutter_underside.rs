@@ -1,0 +1,149 @@
+//! The heights of a sweep over a row of columns: the inner loop of the simulation.
+//!
+//! One loop for each family of cutters, each without branches so that the compiler turns it into vector instructions.
+
+use super::silhouette::Silhouette;
+use crate::sim::Meridian;
+
+/// A row of columns as seen from the start of a piece, mm: x of the first column, y of the row, distance of columns.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SweepRow {
+    pub x: f32,
+    pub y: f32,
+    pub cell: f32,
+}
+
+/// A straight piece: its direction across (unit), horizontal length, rise over horizontal distance, height of the tip at its
+/// start.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SweepPath {
+    pub ux: f32,
+    pub uy: f32,
+    pub length: f32,
+    pub slope: f32,
+    pub start: f32,
+}
+
+/// The underside of a cutter, by what its sweep asks of it.
+#[derive(Debug, Clone)]
+pub(super) enum CutterUnderside {
+    /// A flat end with an edge: where the contact lies ahead, as a share of the half chord (-1, 0 or 1).
+    Flat { radius2: f32, side: f32 },
+    /// A ball: the same share is the sine of the slope.
+    Ball { radius: f32, radius2: f32, side: f32 },
+    /// A bull-nose cutter on a level path.
+    LevelBull { center: f32, corner: f32, corner2: f32, radius2: f32 },
+    /// A bull-nose cutter on a slope.
+    Bull { center: f32, corner: f32, corner2: f32, radius2: f32, silhouette: Box<Silhouette> },
+    /// Anything else: cones below or beside.
+    Any { profile: Meridian, radius2: f32, silhouette: Box<Silhouette> },
+}
+
+impl CutterUnderside {
+    /// The surface of a profile for paths of a slope.
+    pub fn new(profile: &Meridian, slope: f64) -> Self {
+        let radius2 = (profile.radius_mm() * profile.radius_mm()) as f32;
+        let (corner, [center, _]) = (profile.corner_radius_mm(), profile.corner_center());
+        let plain = profile.taper_rad() == 0.0 && profile.bottom_angle_rad() == 0.0;
+        let silhouette = || Box::new(Silhouette::new(profile, slope));
+        let corner2 = (corner * corner) as f32;
+        let (center, corner) = (center as f32, corner as f32);
+        match () {
+            () if plain && corner == 0.0 => {
+                let side = if slope == 0.0 { 0.0 } else { slope.signum() as f32 };
+                Self::Flat { radius2, side }
+            }
+            () if plain && center == 0.0 => {
+                Self::Ball { radius: corner, radius2, side: (slope / slope.hypot(1.0)) as f32 }
+            }
+            () if plain && slope == 0.0 => Self::LevelBull { center, corner, corner2, radius2 },
+            () if plain => Self::Bull { center, corner, corner2, radius2, silhouette: silhouette() },
+            () => Self::Any { profile: profile.clone(), radius2, silhouette: silhouette() },
+        }
+    }
+
+    /// A flat disc, for paths of a slope.
+    pub fn flat_disc(radius: f64, slope: f64) -> Self {
+        let side = if slope == 0.0 { 0.0 } else { slope.signum() as f32 };
+        Self::Flat { radius2: (radius * radius) as f32, side }
+    }
+
+    /// How far ahead of the axis the lowest contact over a column lies, at lateral distance `q` from the path.
+    pub fn contact_ahead_mm(&self, q: f32) -> f32 {
+        match self {
+            Self::Flat { radius2, side } | Self::Ball { radius2, side, .. } => {
+                side * (radius2 - q * q).max(0.0).sqrt()
+            }
+            Self::LevelBull { .. } => 0.0,
+            Self::Bull { silhouette, .. } | Self::Any { silhouette, .. } => silhouette.contact_ahead_mm(q),
+        }
+    }
+
+    /// Lowest height of the sweep over each column of a row; infinite where it does not pass.
+    pub fn sweep_heights(&self, out: &mut [f32], row: SweepRow, path: SweepPath) {
+        match self {
+            Self::Flat { radius2, side } => {
+                let (r2, side) = (*radius2, *side);
+                if side == 0.0 {
+                    sweep_row_heights(out, row, path, r2, |_| 0.0, |_| 0.0);
+                } else {
+                    sweep_row_heights(out, row, path, r2, |q2| side * (r2 - q2).max(0.0).sqrt(), |_| 0.0);
+                }
+            }
+            Self::Ball { radius, radius2, side } => {
+                let (radius, r2, side) = (*radius, *radius2, *side);
+                let height = |rho2: f32| radius - (r2 - rho2).max(0.0).sqrt();
+                if side == 0.0 {
+                    sweep_row_heights(out, row, path, r2, |_| 0.0, height);
+                } else {
+                    sweep_row_heights(out, row, path, r2, |q2| side * (r2 - q2).max(0.0).sqrt(), height);
+                }
+            }
+            Self::LevelBull { center, corner, corner2, radius2 } => {
+                let (center, corner, corner2) = (*center, *corner, *corner2);
+                sweep_row_heights(out, row, path, *radius2, |_| 0.0, torus_height(center, corner, corner2));
+            }
+            Self::Bull { center, corner, corner2, radius2, silhouette } => {
+                let ahead = |q2: f32| silhouette.contact_ahead_mm(q2.sqrt());
+                sweep_row_heights(out, row, path, *radius2, ahead, torus_height(*center, *corner, *corner2));
+            }
+            Self::Any { profile, radius2, silhouette } => {
+                let ahead = |q2: f32| silhouette.contact_ahead_mm(q2.sqrt());
+                let height = |rho2: f32| profile.height_at_radius_mm(f64::from(rho2.sqrt())) as f32;
+                sweep_row_heights(out, row, path, *radius2, ahead, height);
+            }
+        }
+    }
+}
+
+fn torus_height(center: f32, corner: f32, corner2: f32) -> impl Fn(f32) -> f32 {
+    move |rho2| {
+        let across = (rho2.sqrt() - center).max(0.0);
+        corner - (corner2 - across * across).max(0.0).sqrt()
+    }
+}
+
+/// The closed form: `ahead` gives the contact's place ahead of the axis from q squared, `height` the profile from rho squared.
+#[inline(always)]
+fn sweep_row_heights(
+    out: &mut [f32],
+    row: SweepRow,
+    path: SweepPath,
+    radius2: f32,
+    ahead: impl Fn(f32) -> f32,
+    height: impl Fn(f32) -> f32,
+) {
+    // A contact on the rim itself must not be lost to rounding.
+    let reach2 = radius2 * (1.0 + 1e-5);
+    for (index, out) in out.iter_mut().enumerate() {
+        let x = row.x + index as i32 as f32 * row.cell;
+        let along = x * path.ux + row.y * path.uy;
+        let left = row.y * path.ux - x * path.uy;
+        let q2 = left * left;
+        let at = (along - ahead(q2)).max(0.0).min(path.length);
+        let offset = along - at;
+        let rho2 = offset * offset + q2;
+        let z = path.start + path.slope * at + height(rho2);
+        *out = if rho2 <= reach2 { z } else { f32::INFINITY };
+    }
+}

@@ -1,0 +1,46 @@
+//! A column's line in the frame of a tilted cutter.
+
+/// A vertical line seen from a pose of the cutter; `s` counts upwards from the tip's height.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ColumnLine {
+    /// Height along the axis at s = 0.
+    pub height: f64,
+    /// Its growth: z part of the axis.
+    pub rise: f64,
+    /// Square of the distance from the axis at s = 0.
+    pub across2: f64,
+    /// Square of the axis' horizontal part.
+    pub lean2: f64,
+}
+
+impl ColumnLine {
+    /// A line at a horizontal offset from the tip of a cutter with a unit axis.
+    #[inline]
+    pub fn new([x, y]: [f64; 2], axis: [f64; 3]) -> Self {
+        let [ax, ay, az] = axis;
+        let height = x * ax + y * ay;
+        Self { height, rise: az, across2: x * x + y * y - height * height, lean2: ax * ax + ay * ay }
+    }
+
+    /// Height along the axis.
+    #[inline]
+    pub fn axial_height_at(&self, s: f64) -> f64 {
+        self.height + self.rise * s
+    }
+
+    /// Square of the distance from the axis.
+    #[inline]
+    pub fn squared_radius_at(&self, s: f64) -> f64 {
+        (self.across2 + s * (self.lean2 * s - 2.0 * self.height * self.rise)).max(0.0)
+    }
+
+    /// The part between two heights along the axis.
+    #[inline]
+    pub fn clip_to_heights(&self, low: f64, high: f64) -> Option<[f64; 2]> {
+        if self.rise.abs() < 1e-9 {
+            return (low..=high).contains(&self.height).then_some([-1e6, 1e6]);
+        }
+        let ends = [(low - self.height) / self.rise, (high - self.height) / self.rise];
+        Some(if self.rise > 0.0 { ends } else { [ends[1], ends[0]] })
+    }
+}

@@ -1,0 +1,142 @@
+//! Running a program over its stock.
+
+use super::faults::FaultCollector;
+use super::{Machining, RunWatcher, SimulationRunOptions};
+use crate::diagnostic::{Diagnostic, codes};
+use crate::program::motion::Motion;
+use crate::sim::{Dexels, Engagement, MotionPiece, PathLinearizer, PathPiece, Simulation};
+
+/// Pieces that are worked on together: enough for every thread, few enough to stay small.
+const BATCH: usize = 1024;
+
+/// Largest distance of a chord from its arc, as a share of a cell and in mm.
+const SAGITTA: (f64, f64) = (0.02, 0.002);
+
+/// How far the chords of arcs and splines are from them at most, mm, with columns `cell` mm apart.
+pub fn chord_tolerance_mm(cell: f64) -> f64 {
+    (cell * SAGITTA.0).min(SAGITTA.1)
+}
+
+/// A motion and what it engaged.
+#[derive(Debug)]
+pub struct EngagedMotion<'a> {
+    /// The motion.
+    pub motion: &'a Motion,
+    /// Its number among all motions of the program.
+    pub number: usize,
+    /// Index of its cutter; `None` where the shape of a tool in a rapid is not known.
+    pub cutter: Option<usize>,
+    /// Its pieces in order, with the share of its length where each begins and ends; none for a motion that stays.
+    pub pieces: &'a [(MotionPiece, Engagement)],
+}
+
+impl EngagedMotion<'_> {
+    /// What the whole motion engaged; `None` for one that stays.
+    pub fn whole_engagement(&self) -> Option<Engagement> {
+        let (first, rest) = self.pieces.split_first()?;
+        let mut whole = first.1.clone();
+        rest.iter().for_each(|(_, piece)| whole.append_piece(piece));
+        Some(whole)
+    }
+}
+
+/// What is left after a run.
+#[derive(Debug)]
+pub struct DexelRunResult {
+    /// The stock that is left.
+    pub left: Dexels,
+    /// Volume of the stock before, mm3.
+    pub before_mm3: f64,
+    /// Distance of columns, mm.
+    pub cell: f64,
+    /// Collisions, cuts at rapid or without spindle.
+    pub findings: Vec<Diagnostic>,
+}
+
+impl Machining<'_> {
+    /// Runs the whole program. `sink` gets every motion in order with what it engaged. `None` when `watch` stopped it.
+    ///
+    /// # Errors
+    /// As [`Machining::estimate_cost`].
+    pub fn simulate_program(
+        &self,
+        options: &SimulationRunOptions,
+        watch: &dyn RunWatcher,
+        sink: &mut dyn FnMut(&EngagedMotion<'_>),
+    ) -> Result<Option<DexelRunResult>, Box<Diagnostic>> {
+        let plan = self.estimate_cost(options)?;
+        let stock = self.stock.to_dexels(plan.cell, usize::MAX).map_err(|error| {
+            Box::new(Diagnostic::new(codes::TOO_MUCH, format!("the stock cannot be simulated: {error}")))
+        })?;
+        let before_mm3 = stock.volume_mm3();
+        let mut simulation = Simulation::new(stock, options.forces);
+        let mut trace =
+            PathLinearizer::new(self.units.mm_per_unit(), chord_tolerance_mm(plan.cell), options.longest);
+        let mut faults = FaultCollector::default();
+        let mut batch = PieceBatch::default();
+        let mut done = 0.0;
+        let mut motions = self.program.motions().enumerate();
+        loop {
+            let next = motions.next();
+            if let Some((number, motion)) = &next {
+                trace.adopt_workpiece_frame(motion);
+                let cutter = self.tooling.cutter_index(motion);
+                let start = batch.steps.len();
+                if let Some(cutter) = cutter {
+                    trace.append_pieces(motion, cutter, &mut batch.steps);
+                }
+                done += motion.length() * self.units.mm_per_unit();
+                batch.motions.push((*number, motion.clone(), cutter, start..batch.steps.len()));
+            }
+            if batch.steps.len() >= BATCH || next.is_none() {
+                batch.simulate_batch(self, &mut simulation, plan.cell, &mut faults, sink);
+                watch.report_progress(done, plan.path_mm);
+                if watch.is_stop_requested() {
+                    return Ok(None);
+                }
+            }
+            if next.is_none() {
+                break;
+            }
+        }
+        let findings = faults.collect_findings(self.program);
+        Ok(Some(DexelRunResult { left: simulation.into_stock(), before_mm3, cell: plan.cell, findings }))
+    }
+}
+
+/// Motions that wait to be simulated together.
+#[derive(Default)]
+struct PieceBatch {
+    steps: Vec<MotionPiece>,
+    motions: Vec<(usize, Motion, Option<usize>, std::ops::Range<usize>)>,
+}
+
+impl PieceBatch {
+    fn simulate_batch(
+        &mut self,
+        machining: &Machining<'_>,
+        simulation: &mut Simulation,
+        cell: f64,
+        faults: &mut FaultCollector,
+        sink: &mut dyn FnMut(&EngagedMotion<'_>),
+    ) {
+        let cutters = machining.tooling.cutters();
+        let pieces: Vec<PathPiece> = self.steps.iter().map(|step| step.piece).collect();
+        let engaged = simulation.sweep_pieces(&pieces, cutters);
+        let found: Vec<(MotionPiece, Engagement)> = self.steps.drain(..).zip(engaged).collect();
+        for (number, motion, cutter, range) in self.motions.drain(..) {
+            let cut = EngagedMotion {
+                motion: &motion,
+                number,
+                cutter,
+                pieces: found.get(range).unwrap_or_default(),
+            };
+            if let (Some(whole), Some(cutter)) =
+                (cut.whole_engagement(), cutter.and_then(|index| cutters.get(index)))
+            {
+                faults.check_engagement(machining.program, &motion, &whole, cutter, cell);
+            }
+            sink(&cut);
+        }
+    }
+}

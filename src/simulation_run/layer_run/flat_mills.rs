@@ -1,0 +1,35 @@
+//! Which tools of a program are flat end mills, and why the others are not.
+
+use crate::layered_chips::FlatMill;
+use crate::sim::CutterModel;
+
+/// Lengths in mm and angles in radians below which a corner, a taper or a point is none: no grinder could make it.
+const NONE: f64 = 1e-6;
+
+/// A cutter as a flat end mill.
+///
+/// # Errors
+/// What it has that a flat end mill has not, to be read after "tool 3 has".
+pub fn to_flat_mill(cutter: &CutterModel) -> Result<FlatMill, String> {
+    let profile = &cutter.profile;
+    if profile.bottom_angle_rad() > NONE {
+        return Err(format!(
+            "a bottom that is {:.1} degrees from flat",
+            profile.bottom_angle_rad().to_degrees()
+        ));
+    }
+    if profile.corner_radius_mm() > NONE {
+        let ball = profile.bottom_radius_mm() <= NONE;
+        let what = if ball { "a ball of radius" } else { "a corner radius of" };
+        return Err(format!("{what} {} mm", format_short(profile.corner_radius_mm())));
+    }
+    if profile.taper_rad() > NONE {
+        return Err(format!("a taper of {:.2} degrees", profile.taper_rad().to_degrees()));
+    }
+    Ok(FlatMill { radius: profile.radius_mm(), flutes: profile.height_mm() })
+}
+
+fn format_short(value: f64) -> String {
+    let text = format!("{value:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}

@@ -1,0 +1,251 @@
+//! The run itself.
+
+use super::flat_mills::to_flat_mill;
+use super::stock_reach::can_reach_stock;
+use super::{LayerRunOptions, LayerRunResult, MotionChips, UncutReason};
+use crate::diagnostic::{Diagnostic, codes};
+use crate::layered_chips::chip::{Chip, cut_chips};
+use crate::layered_chips::stack::LayerStack;
+use crate::layered_chips::{FlatMill, MillStepError};
+use crate::program::geometry::MotionPath;
+use crate::program::motion::Motion;
+use crate::program::{Program, Statement};
+use crate::sim::{MotionPiece, PathLinearizer, PathPiece};
+use crate::simulation_run::faults::FaultCollector;
+use crate::simulation_run::tooling::statement_span;
+use crate::simulation_run::{Machining, RunWatcher};
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+/// Pieces that are worked on together: enough for every thread, few enough to stay small.
+const BATCH: usize = 512;
+
+/// Ways below this in the file's unit are none: finer than any file's decimals.
+const SAME_PLACE: f64 = 1e-9;
+
+/// Turns below this many radians are none: 0.00001 mm at 100 mm.
+const SAME_AXIS: f64 = 1e-7;
+
+impl Machining<'_> {
+    /// Runs the program in layers, up to the last line asked for. `sink` gets every motion in order with its chip. `None` when
+    /// `watch` stopped it.
+    ///
+    /// # Errors
+    /// [`codes::LAYERS`] when the stock cannot be cut into such layers.
+    pub fn simulate_layers(
+        &self,
+        options: &LayerRunOptions,
+        watch: &dyn RunWatcher,
+        sink: &mut dyn FnMut(&MotionChips<'_>),
+    ) -> Result<Option<LayerRunResult>, Box<Diagnostic>> {
+        let stack = LayerStack::new(&self.stock, options.layer).map_err(|error| {
+            let message = format!("the stock cannot be cut into layers of {} mm: {error}", options.layer);
+            Box::new(Diagnostic::new(codes::LAYERS, message))
+        })?;
+        let before_mm3 = stack.volume_mm3();
+        let mut running = LayerRunner::new(self, options, stack);
+        let unit = self.units.mm_per_unit();
+        let last = *options.lines.end();
+        let motions =
+            || self.program.motions().map(|motion| (end_line_number(self.program, &motion), motion));
+        let whole: f64 =
+            motions().take_while(|(line, _)| *line <= last).map(|(_, motion)| motion.length() * unit).sum();
+        let mut done = 0.0;
+        for (line, motion) in motions().take_while(|(line, _)| *line <= last) {
+            done += motion.length() * unit;
+            let alone = options.one_by_one && options.lines.contains(&line);
+            if alone {
+                running.cut_queued(sink);
+            }
+            running.queue_motion(line, motion);
+            if alone || running.steps.len() >= BATCH {
+                running.cut_queued(sink);
+                watch.report_progress(done, whole);
+            }
+            if watch.is_stop_requested() {
+                return Ok(None);
+            }
+        }
+        running.cut_queued(sink);
+        let findings = running.collect_findings();
+        Ok(Some(LayerRunResult { left: running.stack, before_mm3, findings }))
+    }
+}
+
+/// 1-based line of the statement that ends a motion.
+fn end_line_number(program: &Program, motion: &Motion) -> usize {
+    let start = program.statement(motion.last_statement()).map(Statement::origin).unwrap_or_default().start;
+    program.source().line_column(start).0
+}
+
+/// A motion that waits to be cut together with others.
+struct WaitingMotion {
+    motion: Motion,
+    line: usize,
+    cutter: Option<usize>,
+    left_out: Option<UncutReason>,
+    steps: Range<usize>,
+}
+
+struct LayerRunner<'r> {
+    machining: &'r Machining<'r>,
+    options: &'r LayerRunOptions,
+    stack: LayerStack,
+    trace: PathLinearizer,
+    /// One for each cutter; those that are no flat end mills stand empty and are never asked for.
+    mills: Vec<Result<FlatMill, UnsuitableTool>>,
+    faults: FaultCollector,
+    steps: Vec<MotionPiece>,
+    waiting: Vec<WaitingMotion>,
+}
+
+/// A tool that is no flat end mill.
+struct UnsuitableTool {
+    has: String,
+    motions: usize,
+    first: Option<usize>,
+}
+
+impl<'r> LayerRunner<'r> {
+    fn new(machining: &'r Machining<'_>, options: &'r LayerRunOptions, stack: LayerStack) -> Self {
+        let other = |has: String| UnsuitableTool { has, motions: 0, first: None };
+        let mills =
+            machining.tooling.cutters().iter().map(|cutter| to_flat_mill(cutter).map_err(other)).collect();
+        Self {
+            machining,
+            options,
+            stack,
+            trace: PathLinearizer::new(machining.units.mm_per_unit(), options.tolerance, options.longest),
+            mills,
+            faults: FaultCollector::default(),
+            steps: Vec::new(),
+            waiting: Vec::new(),
+        }
+    }
+
+    /// Lets a motion wait, with its pieces where it has some.
+    fn queue_motion(&mut self, line: usize, motion: Motion) {
+        self.trace.adopt_workpiece_frame(&motion);
+        let start = self.steps.len();
+        let cutter = self.machining.tooling.cutter_index(&motion);
+        let left_out = self.check_uncut(&motion, cutter);
+        if let Some(cutter) = cutter.filter(|_| left_out.is_none()) {
+            self.trace.append_pieces(&motion, cutter, &mut self.steps);
+        }
+        let steps = start..self.steps.len();
+        self.waiting.push(WaitingMotion { motion, line, cutter, left_out, steps });
+    }
+
+    /// Why a motion is not cut; tells of it, too.
+    fn check_uncut(&mut self, motion: &Motion, cutter: Option<usize>) -> Option<UncutReason> {
+        if motion.path == MotionPath::Start {
+            return None;
+        }
+        let turns = motion.from.axis.angle(&motion.to.axis) > SAME_AXIS;
+        if motion.length() <= SAME_PLACE && !turns {
+            let message = "this motion goes nowhere: place and axis are those before it".to_owned();
+            self.faults.add_finding(self.machining.program, motion, codes::STILL_MOTION, message, "stays");
+            return Some(UncutReason::Still);
+        }
+        match cutter.and_then(|index| self.mills.get_mut(index)) {
+            Some(Ok(_)) => None,
+            Some(Err(other)) => {
+                other.motions += 1;
+                other.first.get_or_insert(motion.last_statement());
+                Some(UncutReason::Tool)
+            }
+            None => Some(UncutReason::Unknown),
+        }
+    }
+
+    /// Cuts what waits.
+    fn cut_queued(&mut self, sink: &mut dyn FnMut(&MotionChips<'_>)) {
+        let nothing = FlatMill { radius: 0.0, flutes: 0.0 };
+        let mills: Vec<FlatMill> =
+            self.mills.iter().map(|mill| mill.as_ref().copied().unwrap_or(nothing)).collect();
+        let pieces: Vec<PathPiece> = self.steps.iter().map(|step| step.piece).collect();
+        let chips = cut_chips(&mut self.stack, &mills, &pieces, self.options.tolerance);
+        let bounds = self.machining.stock.bounds();
+        let harmless = |step: &MotionPiece| {
+            mills.get(step.piece.cutter).is_some_and(|mill| !can_reach_stock(&step.piece, mill, bounds))
+        };
+        let found: Vec<(MotionPiece, Result<Chip, MillStepError>)> = self
+            .steps
+            .drain(..)
+            .zip(chips)
+            .map(|(step, chip)| match chip {
+                // A chord of an arc that rounding has made a point, or a piece beside all material.
+                Err(MillStepError::Still) => (step, Ok(Chip::default())),
+                Err(_) if harmless(&step) => (step, Ok(Chip::default())),
+                chip => (step, chip),
+            })
+            .collect();
+        for WaitingMotion { motion, line, cutter, left_out, steps } in std::mem::take(&mut self.waiting) {
+            let cut = MotionChips {
+                motion: &motion,
+                line,
+                asked: self.options.lines.contains(&line),
+                cutter,
+                left_out,
+                pieces: found.get(steps).unwrap_or_default(),
+                stack: &self.stack,
+            };
+            check_layer_motion(&mut self.faults, self.machining, self.options, &mills, &cut);
+            sink(&cut);
+        }
+    }
+
+    /// All findings: those of motions, and one for each tool that is no flat end mill.
+    fn collect_findings(&mut self) -> Vec<Diagnostic> {
+        let program = self.machining.program;
+        let mut findings = std::mem::take(&mut self.faults).collect_findings(program);
+        for (index, other) in self.mills.iter().enumerate() {
+            let (Err(other), Some(tool)) = (other, self.machining.tooling.tool_of_cutter(index)) else {
+                continue;
+            };
+            let Some(first) = other.first else { continue };
+            let motions = match other.motions {
+                1 => "its motion is left out, and the material that it".to_owned(),
+                more => format!("its {more} motions are left out, and the material that they"),
+            };
+            let message = format!("{} has {}: {motions} would remove stays", tool.display_name(), other.has);
+            let found = Diagnostic::new(codes::NO_FLAT_MILL, message);
+            findings.push(found.with_label(
+                program.source(),
+                statement_span(program, first),
+                "its first motion",
+            ));
+        }
+        findings
+    }
+}
+
+/// What is wrong with a motion.
+fn check_layer_motion(
+    faults: &mut FaultCollector,
+    machining: &Machining<'_>,
+    options: &LayerRunOptions,
+    mills: &[FlatMill],
+    cut: &MotionChips<'_>,
+) {
+    if let Some((refusal, count)) = cut.first_refusal() {
+        let message = match cut.pieces.len() {
+            1 => format!(
+                "this motion cannot be modelled, and the material that it would remove stays: {refusal}"
+            ),
+            all => format!(
+                "{count} of the {all} pieces of this motion cannot be modelled, and the material that they would remove stays: {refusal}"
+            ),
+        };
+        faults.add_finding(machining.program, cut.motion, codes::CHIP_REFUSED, message, "left out");
+    }
+    let radius = cut.cutter.and_then(|index| mills.get(index)).map_or(0.0, |mill| mill.radius);
+    let length = cut.motion.length() * machining.units.mm_per_unit();
+    // Slivers between the chords of one border and the next are no cuts.
+    let sliver = options.tolerance * (length + TAU * radius);
+    let layers = cut.piece_chips().flat_map(|chip| &chip.layers).filter(|layer| layer.area_mm2 > sliver);
+    let removed: f64 = layers.map(|layer| layer.area_mm2 * layer.thickness).sum();
+    if removed > 0.0 {
+        faults.check_removal(machining.program, cut.motion, removed);
+    }
+}

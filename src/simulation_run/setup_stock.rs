@@ -1,0 +1,61 @@
+//! The stock that a setup describes, with its files read.
+
+use crate::diagnostic::{Diagnostic, codes};
+use crate::program::LengthUnit;
+use crate::setup::{FileRef, Setup, StockBodyShape};
+use crate::sim::{Mesh, MeshError, SolidBody, Stock, stock_file};
+use std::sync::Arc;
+
+/// The stock of a setup.
+///
+/// # Errors
+/// When there is none, or a file of it cannot be used.
+pub(super) fn build_stock(setup: &Setup) -> Result<Stock, Vec<Diagnostic>> {
+    let described = setup.require_stock().map_err(|found| vec![*found])?;
+    let mut errors = Vec::new();
+    let mut bodies = Vec::new();
+    for body in &described.bodies {
+        match &body.shape {
+            StockBodyShape::Block { low, high } => bodies.push(SolidBody::Block { from: *low, to: *high }),
+            StockBodyShape::Cylinder { diameter, from, to } => {
+                bodies.push(SolidBody::Cylinder { diameter: *diameter, from: *from, to: *to });
+            }
+            StockBodyShape::Stl { file, units } => match read_stl_mesh(file, *units) {
+                Ok(found) => bodies.push(SolidBody::Mesh(Arc::new(found))),
+                Err(found) => errors.push(found),
+            },
+            StockBodyShape::Saved(file) => match read_saved_stock(file) {
+                Ok(found) => bodies.push(found),
+                Err(found) => errors.push(found),
+            },
+        }
+    }
+    if !errors.is_empty() {
+        return Err(errors);
+    }
+    Stock::new(bodies, described.allowance_mm).map_err(|error| {
+        let place = &described.place;
+        let found = Diagnostic::new(codes::STOCK_FILE, format!("the stock cannot be used: {error}"));
+        vec![found.with_label(place.source(), place.value_span(), "described here")]
+    })
+}
+
+fn read_file_bytes(file: &FileRef) -> Result<Vec<u8>, Diagnostic> {
+    std::fs::read(&file.path).map_err(|error| file.make_stock_finding(&error.to_string()))
+}
+
+fn read_stl_mesh(file: &FileRef, units: LengthUnit) -> Result<Mesh, Diagnostic> {
+    read_mesh_mm(&read_file_bytes(file)?, units).map_err(|error| file.make_stock_finding(&error.to_string()))
+}
+
+fn read_saved_stock(file: &FileRef) -> Result<SolidBody, Diagnostic> {
+    let dexels = stock_file::read_clstock(&read_file_bytes(file)?)
+        .map_err(|error| file.make_stock_finding(&error.to_string()))?;
+    Ok(SolidBody::Remains(Arc::new(dexels)))
+}
+
+/// A mesh in millimetres.
+pub(super) fn read_mesh_mm(bytes: &[u8], units: LengthUnit) -> Result<Mesh, MeshError> {
+    let mesh = Mesh::from_stl(bytes)?;
+    if units == LengthUnit::Mm { Ok(mesh) } else { mesh.scaled(units.mm_per_unit()) }
+}

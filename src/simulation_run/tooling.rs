@@ -1,0 +1,111 @@
+//! The tools of a program and their cutters.
+
+use crate::diagnostic::Diagnostic;
+use crate::program::motion::{ActiveTool, Motion};
+use crate::program::record::SpindleDirection;
+use crate::program::{LengthUnit, Program, Statement};
+use crate::setup::Setup;
+use crate::sim::{CutterModel, CuttingCoefficients, LoadModel};
+use crate::source::Span;
+use std::sync::Arc;
+
+/// The distinct tools of a program in the order of their use, each with its cutter.
+#[derive(Debug, Clone, Default)]
+pub struct Tooling {
+    tools: Vec<UsedTool>,
+    cutters: Vec<CutterModel>,
+}
+
+#[derive(Debug, Clone)]
+struct UsedTool {
+    tool: Arc<ActiveTool>,
+    /// The first statement that moves it.
+    statement: usize,
+}
+
+impl Tooling {
+    pub(super) fn from_program(
+        program: &Program,
+        setup: &Setup,
+        units: LengthUnit,
+        findings: &mut Vec<Diagnostic>,
+        errors: &mut Vec<Diagnostic>,
+    ) -> Self {
+        let mut found = Self::default();
+        let mut gaps: Vec<Arc<ActiveTool>> = Vec::new();
+        let none = Arc::new(ActiveTool::default());
+        for motion in program.motions() {
+            // A tool that only ever moves in rapids cuts nothing, but may crash: it is simulated when its shape is known.
+            let tool = motion.tool.as_ref().unwrap_or(&none);
+            if found.find_tool(tool).is_some() || gaps.iter().any(|gap| is_same_tool(gap, tool)) {
+                continue;
+            }
+            let statement = motion.last_statement();
+            let span = statement_span(program, statement);
+            match setup.resolve_cutter(tool, units) {
+                Ok(resolved) => {
+                    findings.extend(resolved.note_assumptions(tool, program.source(), span));
+                    found.tools.push(UsedTool { tool: Arc::clone(tool), statement });
+                    found.cutters.push(resolved.cutter);
+                }
+                Err(gap) if !motion.rapid => {
+                    gaps.push(Arc::clone(tool));
+                    errors.push(gap.diagnostic(program.source(), span));
+                }
+                Err(_) => {}
+            }
+        }
+        found
+    }
+
+    fn find_tool(&self, tool: &Arc<ActiveTool>) -> Option<usize> {
+        // The tool in force is nearly always one of the last.
+        self.tools.iter().rposition(|used| is_same_tool(&used.tool, tool))
+    }
+
+    /// Index of the cutter of a motion's tool.
+    pub fn cutter_index(&self, motion: &Motion) -> Option<usize> {
+        match &motion.tool {
+            Some(tool) => self.find_tool(tool),
+            None => self.tools.iter().position(|used| *used.tool == ActiveTool::default()),
+        }
+    }
+
+    /// The cutters.
+    pub fn cutters(&self) -> &[CutterModel] {
+        &self.cutters
+    }
+
+    /// The tool of a cutter.
+    pub fn tool_of_cutter(&self, cutter: usize) -> Option<&Arc<ActiveTool>> {
+        self.tools.get(cutter).map(|used| &used.tool)
+    }
+
+    /// What says that the teeth of tools are not known; one finding for each such tool.
+    pub fn find_missing_teeth(&self, program: &Program, setup: &Setup) -> Vec<Diagnostic> {
+        let without = self.tools.iter().zip(&self.cutters).filter(|(_, cutter)| cutter.teeth.is_none());
+        let gap = |(used, _): (&UsedTool, &CutterModel)| {
+            setup.report_missing_teeth(&used.tool, program.source(), statement_span(program, used.statement))
+        };
+        without.map(gap).collect()
+    }
+
+    /// The force models of all cutters for both senses of the spindle; `None` for a cutter without teeth.
+    pub fn build_load_models(&self, material: CuttingCoefficients) -> Vec<Option<[LoadModel; 2]>> {
+        let both = [SpindleDirection::Clockwise, SpindleDirection::CounterClockwise];
+        let models = |cutter: &CutterModel| {
+            let teeth = cutter.teeth.as_ref()?;
+            Some(both.map(|direction| LoadModel::new(&cutter.profile, teeth, material, direction)))
+        };
+        self.cutters.iter().map(models).collect()
+    }
+}
+
+/// Whether two tools are one: the same allocation, mostly, else the same in every field.
+fn is_same_tool(a: &Arc<ActiveTool>, b: &Arc<ActiveTool>) -> bool {
+    Arc::ptr_eq(a, b) || a == b
+}
+
+pub(super) fn statement_span(program: &Program, statement: usize) -> Span {
+    program.statement(statement).map(Statement::origin).unwrap_or_default()
+}

@@ -1,0 +1,149 @@
+//! How far a ball with the shank above it is from a mesh: an exact distance in space, triangle by triangle.
+//!
+//! The cutter is everything nearer than its radius to the upright ray from the ball's centre. So its distance from a triangle is that of
+//! a ray from a triangle, which is a matter of points, edges and the inside, and knows nothing of how cutters are lowered.
+
+use super::triangle_columns::TriangleColumns;
+use crate::sim::Mesh;
+use nalgebra::Vector3;
+
+type Triangle = [Vector3<f64>; 3];
+
+/// What a path shows. In mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PathClearance {
+    /// The nearest that the mesh comes, less the radius: negative where it is in the cutter.
+    pub low: f64,
+    /// The tip where that is.
+    pub low_at: [f64; 3],
+    /// The farthest that it is, less the radius.
+    pub high: f64,
+    /// The tip where that is.
+    pub high_at: [f64; 3],
+}
+
+/// A mesh in square columns, for a ball.
+#[derive(Debug, Clone)]
+pub struct BallClearanceField {
+    radius: f64,
+    columns: TriangleColumns,
+    triangles: Vec<(Triangle, Vector3<f64>, Vector3<f64>)>,
+}
+
+impl BallClearanceField {
+    /// Sorts a mesh's triangles for a ball of `radius` mm.
+    pub fn new(mesh: &Mesh, radius: f64) -> Self {
+        let bounded = |corners: [[f64; 3]; 3]| {
+            let [a, b, c] = corners.map(Vector3::from);
+            ([a, b, c], a.inf(&b).inf(&c), a.sup(&b).sup(&c))
+        };
+        Self {
+            radius,
+            columns: TriangleColumns::new(mesh, radius),
+            triangles: mesh.triangle_vertices().map(bounded).collect(),
+        }
+    }
+
+    /// Looks along a path of straight lines, every `step` mm and at its points. None for a path without points.
+    ///
+    /// The distance of a point of the mesh from a cutter that moves straight is a convex function of the way: between two places
+    /// looked at, a point gets no deeper into the cutter than what a ball passes on the way, `step^2 / (8 R)`.
+    pub fn measure_clearance(&self, path: &[[f64; 3]], step: f64) -> Option<PathClearance> {
+        let first = path.first().filter(|_| path.iter().flatten().all(|value| value.is_finite()))?;
+        let mut distance = self.clearance_at(*first, self.radius);
+        let mut found = PathClearance { low: distance, low_at: *first, high: distance, high_at: *first };
+        for pair in path.windows(2) {
+            let [from, to] = pair else { continue };
+            let [from, to] = [*from, *to].map(Vector3::from);
+            let length = (to - from).norm();
+            let count = (length / step).ceil().max(1.0);
+            let mut index = 1.0;
+            while index <= count {
+                let tip: [f64; 3] = from.lerp(&to, index / count).into();
+                // No farther than before, plus the way.
+                distance = self.clearance_at(tip, (distance + length / count + 1e-6).min(self.radius));
+                if distance < found.low {
+                    (found.low, found.low_at) = (distance, tip);
+                }
+                if distance > found.high {
+                    (found.high, found.high_at) = (distance, tip);
+                }
+                index += 1.0;
+            }
+        }
+        Some(found)
+    }
+
+    /// The mesh's distance from the ray above the ball's centre, less the radius; `most` where it is more.
+    fn clearance_at(&self, [x, y, z]: [f64; 3], most: f64) -> f64 {
+        let centre = Vector3::new(x, y, z + self.radius);
+        let reach = self.radius + most.max(0.0);
+        let mut least = reach * reach;
+        for column in self.columns.columns_within([x - reach, y - reach], [x + reach, y + reach]) {
+            for index in column {
+                if let Some((triangle, low, high)) = self.triangles.get(*index as usize)
+                    && squared_distance_to_box(&centre, low, high) < least
+                {
+                    least = least.min(squared_distance_to_triangle(&centre, triangle));
+                }
+            }
+        }
+        least.sqrt() - self.radius
+    }
+}
+
+/// Square of the distance of the ray up from a point from a box.
+fn squared_distance_to_box(at: &Vector3<f64>, low: &Vector3<f64>, high: &Vector3<f64>) -> f64 {
+    let beside = |value: f64, low: f64, high: f64| (low - value).max(value - high).max(0.0);
+    let (x, y) = (beside(at.x, low.x, high.x), beside(at.y, low.y, high.y));
+    let below = (at.z - high.z).max(0.0);
+    x * x + y * y + below * below
+}
+
+/// Square of the distance of the ray up from a point from a triangle.
+fn squared_distance_to_triangle(at: &Vector3<f64>, triangle: &Triangle) -> f64 {
+    let [a, b, c] = *triangle;
+    let normal = (b - a).cross(&(c - a));
+    let sides = [(a, b), (b, c), (c, a)];
+    let edges =
+        sides.iter().map(|(from, to)| squared_distance_to_edge(at, from, to)).fold(f64::INFINITY, f64::min);
+    // Inside, seen along the normal: the distance of the ray's start from the plane.
+    let over = sides.iter().all(|(from, to)| normal.dot(&(to - from).cross(&(at - from))) >= 0.0);
+    let square = normal.norm_squared();
+    let start = if over && square > 0.0 { (at - a).dot(&normal).powi(2) / square } else { f64::INFINITY };
+    // Inside, seen from above, and above the start: the ray goes through.
+    let turned = sides.map(|(from, to)| {
+        let (side, from) = (to - from, at - from);
+        side.x * from.y - side.y * from.x
+    });
+    let around = turned.iter().all(|turn| *turn >= 0.0) || turned.iter().all(|turn| *turn <= 0.0);
+    if around && normal.z != 0.0 && (a - at).dot(&normal) / normal.z >= 0.0 {
+        return 0.0;
+    }
+    edges.min(start)
+}
+
+/// Square of the distance of the ray up from a point from an edge: across where the ray is beside it, else from the start.
+fn squared_distance_to_edge(at: &Vector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>) -> f64 {
+    let side = to - from;
+    let nearest = |share: f64| from + side * share.clamp(0.0, 1.0);
+    let level = side.x * side.x + side.y * side.y;
+    // Where the edge is nearest to the endless upright line.
+    let beside =
+        if level > 0.0 { ((at.x - from.x) * side.x + (at.y - from.y) * side.y) / level } else { 0.0 };
+    let place = nearest(beside);
+    let highest = if level > 0.0 { place.z } else { from.z.max(to.z) };
+    if highest >= at.z {
+        return (place.x - at.x).powi(2) + (place.y - at.y).powi(2);
+    }
+    let square = side.norm_squared();
+    let share = if square > 0.0 { (at - from).dot(&side) / square } else { 0.0 };
+    let start = (nearest(share) - at).norm_squared();
+    // An edge that rises past the start is beside the ray from there on.
+    let rises = if side.z != 0.0 { (at.z - from.z) / side.z } else { f64::NAN };
+    if (0.0..=1.0).contains(&rises) {
+        let place = from + side * rises;
+        return start.min((place.x - at.x).powi(2) + (place.y - at.y).powi(2));
+    }
+    start
+}

@@ -1,0 +1,111 @@
+//! Arcs through runs of short chords.
+
+use super::chain_piece::{ArcPiece, Point};
+use super::chords::ChordVertex;
+use std::f64::consts::TAU;
+
+/// Arcs that bulge by less than so many tolerances stay chords: two chords would do.
+const WORTH: f64 = 4.0;
+
+/// Larger radii (mm) are written as chords: controls refuse or round them.
+const FLATTEST: f64 = 1e5;
+
+/// The longest arc from `anchor` (at or after place `at`) through the run's places within the tolerance, and the place that it
+/// reaches; `None` when it reaches no farther than a chord does (place `chord`) or is not worth it.
+///
+/// The reach is doubled and then halved, each time with the circle through both ends and the place in the middle; all
+/// places and the middles between them are looked at, so the whole costs O(n log n).
+pub(super) fn fit_longest_arc(
+    run: &[ChordVertex],
+    at: usize,
+    anchor: Point,
+    chord: usize,
+    tolerance: f64,
+) -> Option<(usize, ArcPiece)> {
+    let last = run.len().checked_sub(1)?;
+    let bound = run
+        .iter()
+        .enumerate()
+        .skip(at + 1)
+        .find(|(_, place)| place.is_corner())
+        .map_or(last, |(index, _)| index);
+    let fit = |end: usize| fit_arc(run, at, anchor, end, tolerance);
+    // A chord's reach holds no arc of worth; the first look is at twice as far.
+    let mut good: Option<(usize, ArcPiece)> = None;
+    let mut reach = (2 * (chord.max(at + 1) - at)).max(4);
+    let mut bad = bound + 1;
+    loop {
+        let end = (at + reach).min(bound);
+        match fit(end) {
+            Some(arc) => good = Some((end, arc)),
+            None => {
+                bad = end;
+                break;
+            }
+        }
+        if end == bound {
+            break;
+        }
+        reach *= 2;
+    }
+    let (mut low, arc) = good?;
+    let mut best = arc;
+    while bad > low + 1 {
+        let middle = low + (bad - low) / 2;
+        match fit(middle) {
+            Some(arc) => (low, best) = (middle, arc),
+            None => bad = middle,
+        }
+    }
+    (low > chord && best.sagitta_mm() >= WORTH * tolerance).then_some((low, best))
+}
+
+/// The arc from `anchor` to place `end`, when it stays within the tolerance of all between.
+fn fit_arc(run: &[ChordVertex], at: usize, anchor: Point, end: usize, tolerance: f64) -> Option<ArcPiece> {
+    let places = run.get(at + 1..=end)?;
+    let middle = places.get(places.len() / 2)?.point;
+    let stop = places.last()?.point;
+    let arc = arc_through_points(anchor, middle, stop)?;
+    let mut before = anchor;
+    let mut turned = 0.0;
+    let sense = arc.sweep.signum();
+    for place in places {
+        let half = before.lerp(place.point, 0.5);
+        for point in [half, place.point] {
+            if (arc.centre.distance(point) - arc.radius).abs() > tolerance * (1.0 + 1e-9) {
+                return None;
+            }
+        }
+        // The run must go round with the arc, never back, and not past its end.
+        let (a, b) = (vector_from_centre(&arc, before), vector_from_centre(&arc, place.point));
+        let step = (a.0 * b.1 - a.1 * b.0).atan2(a.0 * b.0 + a.1 * b.1) * sense;
+        if step * arc.radius < -tolerance {
+            return None;
+        }
+        turned += step;
+        before = place.point;
+    }
+    ((turned - arc.sweep.abs()).abs() < 1e-6).then_some(arc)
+}
+
+fn vector_from_centre(arc: &ArcPiece, point: Point) -> (f64, f64) {
+    (point.u - arc.centre.u, point.z - arc.centre.z)
+}
+
+/// The arc through three points in their order; `None` when they lie on a line or too flat a circle.
+fn arc_through_points(a: Point, b: Point, c: Point) -> Option<ArcPiece> {
+    let (bu, bz, cu, cz) = (b.u - a.u, b.z - a.z, c.u - a.u, c.z - a.z);
+    let double = 2.0 * (bu * cz - bz * cu);
+    let (b2, c2) = (bu * bu + bz * bz, cu * cu + cz * cz);
+    let centre = Point::new(a.u + (cz * b2 - bz * c2) / double, a.z + (bu * c2 - cu * b2) / double);
+    let radius = centre.distance(a);
+    if !(radius <= FLATTEST && radius > 0.0) {
+        return None;
+    }
+    let angle = |point: Point| (point.z - centre.z).atan2(point.u - centre.u);
+    let start = angle(a);
+    // Counter-clockwise when the middle lies to the right of the chord.
+    let left = (angle(c) - start).rem_euclid(TAU);
+    let sweep = if double > 0.0 { left } else { left - TAU };
+    Some(ArcPiece { centre, radius, start, sweep })
+}

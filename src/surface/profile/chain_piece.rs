@@ -1,0 +1,174 @@
+//! Points, lines and arcs in the (u, z) plane.
+
+/// A point of the plane, mm.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Point {
+    /// Along the pass.
+    pub u: f64,
+    /// Up the tool axis.
+    pub z: f64,
+}
+
+impl Point {
+    /// The point at (u, z).
+    pub const fn new(u: f64, z: f64) -> Self {
+        Self { u, z }
+    }
+
+    /// Distance to another point, mm.
+    pub fn distance(self, other: Self) -> f64 {
+        // Coordinates are no larger than ten kilometres: a square cannot overflow, and `hypot` is slow.
+        let (du, dz) = (self.u - other.u, self.z - other.z);
+        (du * du + dz * dz).sqrt()
+    }
+
+    /// The point at a share `t` of the way to `other`.
+    pub fn lerp(self, other: Self, t: f64) -> Self {
+        Self { u: self.u + (other.u - self.u) * t, z: self.z + (other.z - self.z) * t }
+    }
+}
+
+/// A straight piece.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinePiece {
+    /// Where it starts.
+    pub from: Point,
+    /// Where it ends.
+    pub to: Point,
+}
+
+/// A piece of a circle; angles in radians from +u towards +z.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ArcPiece {
+    /// Centre.
+    pub centre: Point,
+    /// Radius, mm.
+    pub radius: f64,
+    /// Angle of the start, seen from the centre.
+    pub start: f64,
+    /// Angle from start to end: positive from +u towards +z, negative the other way.
+    pub sweep: f64,
+}
+
+/// A line or an arc.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ChainPiece {
+    /// Straight.
+    Line(LinePiece),
+    /// Round.
+    Arc(ArcPiece),
+}
+
+impl ArcPiece {
+    /// The point at an angle.
+    pub fn point_at_angle(&self, angle: f64) -> Point {
+        let (sin, cos) = angle.sin_cos();
+        Point::new(self.centre.u + self.radius * cos, self.centre.z + self.radius * sin)
+    }
+
+    /// Height of the arc over its chord (its sagitta), mm; beyond half a turn, the distance of the farthest point.
+    pub fn sagitta_mm(&self) -> f64 {
+        self.radius * (1.0 - (self.sweep.abs() / 2.0).min(std::f64::consts::PI).cos())
+    }
+}
+
+impl ChainPiece {
+    /// A straight piece.
+    pub const fn line(from: Point, to: Point) -> Self {
+        Self::Line(LinePiece { from, to })
+    }
+
+    /// An arc.
+    pub const fn arc(centre: Point, radius: f64, start: f64, sweep: f64) -> Self {
+        Self::Arc(ArcPiece { centre, radius, start, sweep })
+    }
+
+    /// Where it starts.
+    pub fn start(&self) -> Point {
+        match self {
+            Self::Line(line) => line.from,
+            Self::Arc(arc) => arc.point_at_angle(arc.start),
+        }
+    }
+
+    /// Where it ends.
+    pub fn end(&self) -> Point {
+        match self {
+            Self::Line(line) => line.to,
+            Self::Arc(arc) => arc.point_at_angle(arc.start + arc.sweep),
+        }
+    }
+
+    /// The point at a share `t` (0..=1) of its length.
+    pub fn point_at(&self, t: f64) -> Point {
+        match self {
+            Self::Line(line) => line.from.lerp(line.to, t),
+            Self::Arc(arc) => arc.point_at_angle(arc.start + arc.sweep * t),
+        }
+    }
+
+    /// Its direction at a share `t` of its length, a unit vector; zero when it has no length.
+    pub fn direction_at(&self, t: f64) -> Point {
+        match self {
+            Self::Line(line) => {
+                let length = line.from.distance(line.to);
+                if length > 0.0 {
+                    Point::new((line.to.u - line.from.u) / length, (line.to.z - line.from.z) / length)
+                } else {
+                    Point::default()
+                }
+            }
+            Self::Arc(arc) => {
+                let (sin, cos) = (arc.start + arc.sweep * t).sin_cos();
+                let sense = if arc.sweep == 0.0 { 0.0 } else { arc.sweep.signum() };
+                Point::new(-sin * sense, cos * sense)
+            }
+        }
+    }
+
+    /// Its length, mm.
+    pub fn length_mm(&self) -> f64 {
+        match self {
+            Self::Line(line) => line.from.distance(line.to),
+            Self::Arc(arc) => arc.radius * arc.sweep.abs(),
+        }
+    }
+
+    /// The same piece from its end to its start.
+    pub fn reversed(&self) -> Self {
+        match self {
+            Self::Line(line) => Self::line(line.to, line.from),
+            Self::Arc(arc) => Self::Arc(ArcPiece { start: arc.start + arc.sweep, sweep: -arc.sweep, ..*arc }),
+        }
+    }
+
+    /// The same piece, moved.
+    pub fn shifted(&self, du: f64, dz: f64) -> Self {
+        let moved = |point: Point| Point::new(point.u + du, point.z + dz);
+        match self {
+            Self::Line(line) => Self::line(moved(line.from), moved(line.to)),
+            Self::Arc(arc) => Self::Arc(ArcPiece { centre: moved(arc.centre), ..*arc }),
+        }
+    }
+
+    /// The same piece, z turned over.
+    pub fn flipped(&self) -> Self {
+        let over = |point: Point| Point::new(point.u, -point.z);
+        match self {
+            Self::Line(line) => Self::line(over(line.from), over(line.to)),
+            Self::Arc(arc) => Self::arc(over(arc.centre), arc.radius, -arc.start, -arc.sweep),
+        }
+    }
+
+    /// The part of it from share `from` to share `to` of its length.
+    pub fn sub_piece(&self, from: f64, to: f64) -> Self {
+        match self {
+            Self::Line(_) => Self::line(self.point_at(from), self.point_at(to)),
+            Self::Arc(arc) => Self::Arc(ArcPiece {
+                start: arc.start + arc.sweep * from,
+                sweep: arc.sweep * (to - from),
+                ..*arc
+            }),
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! Arcs of ellipses.
+
+use super::chain_piece::Point;
+use super::parametric_curve::ParametricCurve;
+
+/// An arc of an ellipse. At parameter t: `centre + a cos t e1 + b sin t e2`, e1 turned by `tilt` from +u.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EllipseArc {
+    /// Centre, mm.
+    pub centre: Point,
+    /// Half the first axis, mm.
+    pub a: f64,
+    /// Half the second axis, mm.
+    pub b: f64,
+    /// Angle of the first axis from +u towards +z, radians.
+    pub tilt: f64,
+    /// Parameter of the start, radians.
+    pub start: f64,
+    /// Parameter from start to end, radians, with its sign.
+    pub sweep: f64,
+}
+
+impl ParametricCurve for EllipseArc {
+    fn point_at(&self, parameter: f64) -> Point {
+        let (sin, cos) = (self.start + self.sweep * parameter).sin_cos();
+        let (sin_tilt, cos_tilt) = self.tilt.sin_cos();
+        let (first, second) = (self.a * cos, self.b * sin);
+        Point::new(
+            self.centre.u + first * cos_tilt - second * sin_tilt,
+            self.centre.z + first * sin_tilt + second * cos_tilt,
+        )
+    }
+
+    fn knots(&self) -> Vec<f64> {
+        vec![0.0, 0.25, 0.5, 0.75, 1.0]
+    }
+}

@@ -1,0 +1,205 @@
+//! Stretches: graphs z(u) over an interval of u, of which envelopes are made.
+
+use super::chain_piece::{ArcPiece, ChainPiece, Point};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// What is narrower than this (mm) counts as upright: horizontal places differ by no more.
+pub(super) const UPRIGHT: f64 = 1e-9;
+
+/// The graph of a straight line or of half a circle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum HeightGraph {
+    /// Through two points, the first with the smaller u.
+    Line { left: Point, right: Point },
+    /// The upper or lower half of a circle.
+    Round { centre: Point, radius: f64, upper: bool },
+}
+
+/// Which part of a piece a stretch belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum PiecePart {
+    /// Its inside.
+    Body,
+    /// One of its ends (or any single point).
+    Vertex,
+}
+
+/// A graph between two of its points. Their heights are kept: where a circle is upright, u tells a height only to the root of a
+/// rounding.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct GraphSegment {
+    pub left: Point,
+    pub right: Point,
+    pub graph: HeightGraph,
+    /// Index of the piece of the chain that it comes from.
+    pub piece: usize,
+    pub part: PiecePart,
+}
+
+impl HeightGraph {
+    /// Height at u; beyond its ends a circle goes on at its middle height.
+    pub fn height_at(&self, u: f64) -> f64 {
+        match *self {
+            Self::Line { left, right } => left.z + (u - left.u) / (right.u - left.u) * (right.z - left.z),
+            Self::Round { centre, radius, upper } => {
+                let across = u - centre.u;
+                let height = ((radius - across) * (radius + across)).max(0.0).sqrt();
+                if upper { centre.z + height } else { centre.z - height }
+            }
+        }
+    }
+
+    /// Steepness at u; not finite where it is upright.
+    pub fn steepness_at(&self, u: f64) -> f64 {
+        match *self {
+            Self::Line { left, right } => ((right.z - left.z) / (right.u - left.u)).abs(),
+            Self::Round { centre, radius, .. } => {
+                let across = u - centre.u;
+                across.abs() / ((radius - across) * (radius + across)).max(0.0).sqrt()
+            }
+        }
+    }
+
+    /// Where two graphs may cross between `lo` and `hi`: ascending, at most two, possibly some where they do not.
+    pub fn find_crossings(&self, other: &Self, lo: f64, hi: f64) -> [Option<f64>; 2] {
+        let found = match (*self, *other) {
+            (Self::Line { .. }, Self::Line { .. }) => {
+                let (at_lo, at_hi) =
+                    (self.height_at(lo) - other.height_at(lo), self.height_at(hi) - other.height_at(hi));
+                [lo + (hi - lo) * (at_lo / (at_lo - at_hi)), f64::NAN]
+            }
+            (Self::Line { left, right }, Self::Round { centre, radius, .. })
+            | (Self::Round { centre, radius, .. }, Self::Line { left, right }) => {
+                intersect_line_circle(left, right, centre, radius)
+            }
+            (Self::Round { centre: a, radius: ra, .. }, Self::Round { centre: b, radius: rb, .. }) => {
+                intersect_circles(a, ra, b, rb)
+            }
+        };
+        // Not-a-number falls out here as well.
+        let inside = |u: f64| (lo < u && u < hi).then_some(u);
+        match found.map(inside) {
+            [Some(a), Some(b)] if b < a => [Some(b), Some(a)],
+            found => found,
+        }
+    }
+}
+
+fn intersect_line_circle(left: Point, right: Point, centre: Point, radius: f64) -> [f64; 2] {
+    let length = left.distance(right);
+    let (du, dz) = ((right.u - left.u) / length, (right.z - left.z) / length);
+    let along = (centre.u - left.u) * du + (centre.z - left.z) * dz;
+    let off = (centre.z - left.z) * du - (centre.u - left.u) * dz;
+    // A line that misses by rounding is a tangent: where it is nearest is the place to look at.
+    let half = ((radius - off) * (radius + off)).max(0.0).sqrt();
+    [left.u + (along - half) * du, left.u + (along + half) * du]
+}
+
+fn intersect_circles(a: Point, ra: f64, b: Point, rb: f64) -> [f64; 2] {
+    let (du, dz) = (b.u - a.u, b.z - a.z);
+    let apart = du.hypot(dz);
+    if apart == 0.0 {
+        return [f64::NAN; 2];
+    }
+    let (du, dz) = (du / apart, dz / apart);
+    let along = 0.5 * (apart + (ra - rb) * ((ra + rb) / apart));
+    let half = ((ra - along) * (ra + along)).max(0.0).sqrt();
+    [a.u + along * du - half * dz, a.u + along * du + half * dz]
+}
+
+impl GraphSegment {
+    /// Height at u.
+    pub fn height_at(&self, u: f64) -> f64 {
+        if u == self.left.u {
+            self.left.z
+        } else if u == self.right.u {
+            self.right.z
+        } else {
+            self.graph.height_at(u)
+        }
+    }
+
+    /// Its point at u.
+    pub fn point_at(&self, u: f64) -> Point {
+        Point::new(u, self.height_at(u))
+    }
+
+    /// The part of it from `lo` to `hi`, both inside.
+    pub fn sub_segment(&self, lo: f64, hi: f64) -> Self {
+        Self { left: self.point_at(lo), right: self.point_at(hi), ..*self }
+    }
+
+    /// The piece of a chain from `lo` to `hi`.
+    pub fn to_piece(&self) -> ChainPiece {
+        let (from, to) = (self.left, self.right);
+        match self.graph {
+            HeightGraph::Line { .. } => ChainPiece::line(from, to),
+            HeightGraph::Round { centre, radius, upper } => {
+                // An upper half goes from pi to 0, a lower one from -pi to 0; an end may lie a rounding beyond.
+                let angle = |point: Point| {
+                    let angle = (point.z - centre.z).atan2(point.u - centre.u);
+                    match upper {
+                        true if angle < -FRAC_PI_2 => angle + TAU,
+                        false if angle > FRAC_PI_2 => angle - TAU,
+                        _ => angle,
+                    }
+                };
+                let (start, end) = (angle(from), angle(to));
+                ChainPiece::arc(centre, radius, start, end - start)
+            }
+        }
+    }
+}
+
+/// Gives `take` the parts of a piece that are graphs, in the piece's order; an upright part gives its ends to `top`.
+pub(super) fn split_into_graphs(
+    index: usize,
+    piece: &ChainPiece,
+    mut take: impl FnMut(GraphSegment, bool),
+    mut top: impl FnMut(Point, usize),
+) {
+    let part = PiecePart::Body;
+    match piece {
+        ChainPiece::Line(line) => {
+            let forward = line.to.u >= line.from.u;
+            let (left, right) = if forward { (line.from, line.to) } else { (line.to, line.from) };
+            if right.u - left.u > UPRIGHT {
+                let graph = HeightGraph::Line { left, right };
+                take(GraphSegment { left, right, graph, piece: index, part }, forward);
+            } else {
+                top(left, index);
+                top(right, index);
+            }
+        }
+        ChainPiece::Arc(arc) => {
+            for (from, to) in split_at_vertical_tangents(arc) {
+                let (a, b) = (arc.point_at_angle(from), arc.point_at_angle(to));
+                let upper = (0.5 * (from + to)).sin() > 0.0;
+                let (left, right) = if a.u <= b.u { (a, b) } else { (b, a) };
+                if right.u - left.u > UPRIGHT {
+                    let graph = HeightGraph::Round { centre: arc.centre, radius: arc.radius, upper };
+                    take(GraphSegment { left, right, graph, piece: index, part }, a.u <= b.u);
+                } else {
+                    top(left, index);
+                    top(right, index);
+                }
+            }
+        }
+    }
+}
+
+/// The angles from..to of an arc's parts between its upright tangents.
+fn split_at_vertical_tangents(arc: &ArcPiece) -> impl Iterator<Item = (f64, f64)> {
+    let (start, end) = (arc.start, arc.start + arc.sweep);
+    let (low, high) = (start.min(end), start.max(end));
+    let first = (low / PI).floor() as i64 + 1;
+    // At most one turn: no more than three parts.
+    let mut cuts = vec![low];
+    cuts.extend((first..first + 3).map(|turn| turn as f64 * PI).filter(|cut| *cut < high));
+    cuts.push(high);
+    if end < start {
+        cuts.reverse();
+    }
+    let next: Vec<f64> = cuts.iter().skip(1).copied().collect();
+    cuts.into_iter().zip(next)
+}

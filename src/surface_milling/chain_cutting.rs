@@ -1,0 +1,77 @@
+//! Parts of a chain, cut where it passes upright lines and a level.
+
+use crate::surface::profile::{Chain, ChainPiece, Point};
+use std::f64::consts::{PI, TAU};
+
+/// Parts shorter than this are rounding, mm.
+const SHORTEST: f64 = 1e-9;
+
+/// The connected parts of a chain whose middles are wanted, when it is cut at every u of `upright` and at the height `level`.
+pub(super) fn cut_chain(
+    chain: &Chain,
+    upright: &[f64],
+    level: f64,
+    wanted: impl Fn(Point) -> bool,
+) -> Vec<Chain> {
+    let mut parts: Vec<Vec<ChainPiece>> = Vec::new();
+    let mut open = false;
+    for piece in chain.pieces() {
+        let mut shares = vec![0.0, 1.0];
+        for u in upright {
+            shares.extend(find_crossing_fractions(piece, |point| point.u, *u, 0.0));
+        }
+        shares.extend(find_crossing_fractions(piece, |point| point.z, level, PI / 2.0));
+        shares.sort_unstable_by(f64::total_cmp);
+        for pair in shares.windows(2) {
+            let [from, to] = *pair else { continue };
+            let length = piece.length_mm();
+            if (to - from) * length < SHORTEST && length >= SHORTEST {
+                continue;
+            }
+            if !wanted(piece.point_at(f64::midpoint(from, to))) {
+                open = false;
+                continue;
+            }
+            // A piece that is not cut stays as it is, to the last bit.
+            let part = if from == 0.0 && to == 1.0 { *piece } else { piece.sub_piece(from, to) };
+            match parts.last_mut().filter(|_| open) {
+                Some(last) => last.push(part),
+                None => parts.push(vec![part]),
+            }
+            open = true;
+        }
+    }
+    parts.into_iter().filter_map(|pieces| Chain::new(pieces).ok()).collect()
+}
+
+/// Shares of a piece's length at which a coordinate has a value; `turn` is the angle from the coordinate's direction to +u.
+fn find_crossing_fractions(
+    piece: &ChainPiece,
+    coordinate: impl Fn(Point) -> f64,
+    value: f64,
+    turn: f64,
+) -> Vec<f64> {
+    let inside = |share: &f64| *share > 0.0 && *share < 1.0;
+    match piece {
+        ChainPiece::Line(line) => {
+            let (from, to) = (coordinate(line.from), coordinate(line.to));
+            // Of a line along the value, no share is finite.
+            [(value - from) / (to - from)].into_iter().filter(inside).collect()
+        }
+        ChainPiece::Arc(arc) => {
+            let cosine = (value - coordinate(arc.centre)) / arc.radius;
+            if cosine.abs() > 1.0 {
+                return Vec::new();
+            }
+            let half = cosine.acos();
+            let angles =
+                [turn + half, turn - half].into_iter().flat_map(|angle| [angle - TAU, angle, angle + TAU]);
+            let share = |angle: f64| {
+                // Both counted from the start, within two turns of it.
+                let start = arc.start.rem_euclid(TAU);
+                (angle - start) / arc.sweep
+            };
+            angles.map(share).filter(inside).collect()
+        }
+    }
+}

@@ -1,0 +1,329 @@
+//! From a part to a program.
+
+use super::pass_linking::{PassLinking, link_tracks};
+use super::pass_track::{PassTrack, ProgramRounding};
+use super::plane_slices::{PassMaker, PlaneSlice};
+use super::section_profile::chain_bounds;
+use super::surface_program::{SurfaceProgram, draft_program};
+use super::surface_proof::{PassProver, ProvedPass, SurfaceProof};
+use super::{PassHeights, PassPattern, PassPlanes, SurfaceMillingOptions, SurfacePart, plane_offsets};
+use crate::diagnostic::{Diagnostic, codes};
+use crate::sim::Mesh;
+use crate::surface::drop_cutter::BallClearanceField;
+use crate::surface::drop_cutter::{DropCutter, DropCutterShape};
+use crate::surface::mesh_section::VerticalMeshSections;
+use crate::surface::profile::{Chain, find_unreachable_parts};
+use crate::write::new_program;
+use nalgebra::Point3;
+use rayon::prelude::*;
+
+/// Of the tolerance, this share is for the path's chords; the rest for curves in chords, and for what the proof cannot see.
+const PATH_SHARE: f64 = 0.8;
+const CURVE_SHARE: f64 = 0.03;
+const DENSE_SHARE: f64 = 0.01;
+const SHORT_SHARE: f64 = 0.1;
+
+/// The finest that curves are divided, mm.
+const FINEST: f64 = 1e-6;
+
+/// What passes are made over, ready to be used.
+enum PassGround<'a> {
+    Profile { dense: Chain, tips: Vec<Chain> },
+    Mesh { mesh: &'a Mesh, sections: VerticalMeshSections, cutter: DropCutter },
+}
+
+/// What to go over, its lowest and highest z, and from where to where it goes across the planes, where that is known.
+type PreparedGround<'a> = (PassGround<'a>, f64, f64, Option<(f64, f64)>);
+
+/// Makes the program over a part, proves it and reads it back.
+///
+/// # Errors
+/// A finding when there is nothing to go over, when numbers do not go together, or when the program is not what was meant.
+/// That the proof fails is none: [`SurfaceProof::is_within`] tells.
+pub fn make_surface_program(
+    part: &SurfacePart,
+    options: &SurfaceMillingOptions,
+) -> Result<SurfaceProgram, Box<Diagnostic>> {
+    let words = &options.words;
+    let print = ProgramRounding { dialect: words.dialect, units: words.units };
+    let ball = DropCutterShape::new(2.0 * options.radius, options.radius)
+        .map_err(|error| invalid_option(format!("a ball of radius {} mm: {error}", options.radius)))?;
+    let tolerance = PATH_SHARE * options.tolerance - print.last_decimal_mm();
+    // Not below FINEST, nor so little that rounding is the larger part.
+    if !(tolerance >= options.tolerance / 4.0 && tolerance >= 10.0 * FINEST) {
+        let message = format!(
+            "{} writes {} decimals, too few for a tolerance of {} mm",
+            words.dialect,
+            new_program::coordinate_decimals(words.dialect),
+            options.tolerance
+        );
+        return Err(Box::new(Diagnostic::new(codes::TOLERANCE_TOO_FINE, message)));
+    }
+    let arcs = options.arcs && new_program::can_write_arcs(words.dialect);
+    let mut making = PassMaker {
+        planes: options.planes,
+        radius: options.radius,
+        tolerance,
+        arcs,
+        floor: f64::NEG_INFINITY,
+    };
+    let (ground, low, high, own) = prepare_ground(part, options, &mut making, ball)?;
+    let range = options.range.or(own).ok_or_else(|| {
+        let message = "nothing says over which width the profile is swept".to_owned();
+        Diagnostic::new(codes::SURFACE_OPTION, message)
+            .with_help("Give --from and --to, or `width:` in the profile file.")
+    })?;
+    let places = plane_offsets(range.0, range.1, options.step).ok_or_else(|| {
+        invalid_option(format!(
+            "from {} to {} mm in steps of {} mm are too many planes",
+            range.0, range.1, options.step
+        ))
+    })?;
+    let slices: Vec<PlaneSlice> =
+        places.par_iter().map(|offset| slice_plane(&making, &ground, options, *offset)).collect();
+    let tracks = make_tracks(&slices, options, print);
+    let passes: usize = tracks.iter().map(Vec::len).sum();
+    if passes == 0 {
+        let message = format!("no plane from {} to {} mm has anything to go over", range.0, range.1);
+        return Err(Box::new(Diagnostic::new(codes::NOTHING_TO_SURFACE, message).with_help(format!(
+            "The part lies from z = {low} to {high} mm{}; the tip stays above z = {} mm.",
+            own.map_or(String::new(), |(from, to)| format!(" and from {from} to {to} mm across the planes")),
+            making.floor
+        ))));
+    }
+    let proof = prove_passes(&slices, &tracks, &ground, options, print);
+    // Up to a round number, as people write heights.
+    let clear = (high.max(making.floor) + options.clearance) / words.units.mm_per_unit();
+    let clear = new_program::round_coordinate((clear * 1e3 - 1e-6).ceil() / 1e3, words.dialect);
+    let between = PassLinking {
+        pattern: options.pattern,
+        clear,
+        approach: options.approach / words.units.mm_per_unit(),
+        feed: print.round_feed(options.feed),
+        plunge: print.round_feed(options.plunge),
+        air: options.air.map(|feed| print.round_feed(feed)),
+    };
+    let spacing = match places.as_slice() {
+        [first, second, ..] => (second - first).abs(),
+        _ => 0.0,
+    };
+    let near = (3.0 * spacing).max(2.0 * options.radius);
+    let beside = make_height_probe(part, options);
+    let top = |at: Point3<f64>| {
+        let mm = words.units.mm_per_unit();
+        let height = match &beside {
+            Some(wide) => wide.drop_at(at.x * mm, at.y * mm).map(|drop| drop.tip_z),
+            None => Some(high),
+        };
+        height.map_or(at.z, |height| height / mm)
+    };
+    let moves = link_tracks(
+        &tracks,
+        &between,
+        print,
+        |from, to| link_over_surface(&ground, &making, print, near, from, to),
+        top,
+    );
+    let draft = draft_program(options, print, moves);
+    let text = new_program::write_program(&draft, words.dialect).map_err(|error| {
+        let message = format!("the written program does not read back as it was meant: {error}");
+        Diagnostic::new(codes::NOT_READ_BACK, message)
+    })?;
+    let unreached = match &ground {
+        PassGround::Profile { dense, .. } => {
+            find_unreachable_parts(dense, options.radius, options.tolerance).unwrap_or_default()
+        }
+        PassGround::Mesh { .. } => Vec::new(),
+    };
+    Ok(SurfaceProgram {
+        draft,
+        text,
+        proof,
+        planes: tracks.iter().filter(|tracks| !tracks.is_empty()).count(),
+        empty: tracks.iter().filter(|tracks| tracks.is_empty()).count(),
+        passes,
+        spacing,
+        unreached,
+        figure: figure_of_middle_plane(&slices, &tracks, &ground, &making, print),
+    })
+}
+
+/// A flat cutter that tells the highest place of a mesh within the ball's radius and the approach.
+fn make_height_probe(part: &SurfacePart, options: &SurfaceMillingOptions) -> Option<DropCutter> {
+    let wide = DropCutterShape::flat(2.0 * (options.radius + options.approach)).ok()?;
+    match part {
+        SurfacePart::Mesh(mesh) => Some(DropCutter::new(mesh, wide)),
+        SurfacePart::Profile(_) => None,
+    }
+}
+
+fn invalid_option(message: String) -> Box<Diagnostic> {
+    Box::new(Diagnostic::new(codes::SURFACE_OPTION, message))
+}
+
+/// What to go over, its lowest and highest z, and from where to where it goes across the planes. Sets the floor.
+fn prepare_ground<'a>(
+    part: &'a SurfacePart,
+    options: &SurfaceMillingOptions,
+    making: &mut PassMaker,
+    ball: DropCutterShape,
+) -> Result<PreparedGround<'a>, Box<Diagnostic>> {
+    match part {
+        SurfacePart::Profile(profile) => {
+            let share = |share: f64| (share * options.tolerance).max(FINEST);
+            let chain =
+                profile.to_chain(share(CURVE_SHARE)).map_err(|error| invalid_option(error.to_string()))?;
+            let dense = profile
+                .to_dense_chain(share(DENSE_SHARE))
+                .map_err(|error| invalid_option(error.to_string()))?;
+            let (low, high) = chain_bounds(&dense);
+            making.floor = options.floor.unwrap_or(low.z);
+            let tips = making.tips_over_profile(&chain);
+            let own = profile.width.map(|width| (0.0, width));
+            Ok((PassGround::Profile { dense, tips }, low.z, high.z, own))
+        }
+        SurfacePart::Mesh(mesh) => {
+            let sections = VerticalMeshSections::new(mesh, options.planes.angle_radians());
+            let (low, high) = sections.offset_range();
+            let (one, other) = (options.planes.offset_to_left(low), options.planes.offset_to_left(high));
+            let ([.., bottom], [.., top]) = mesh.bounds();
+            making.floor = options.floor.unwrap_or(bottom);
+            let cutter = DropCutter::new(mesh, ball);
+            Ok((
+                PassGround::Mesh { mesh, sections, cutter },
+                bottom,
+                top,
+                Some((one.min(other), one.max(other))),
+            ))
+        }
+    }
+}
+
+fn slice_plane(
+    making: &PassMaker,
+    ground: &PassGround<'_>,
+    options: &SurfaceMillingOptions,
+    offset: f64,
+) -> PlaneSlice {
+    match (ground, options.against) {
+        (PassGround::Profile { dense, tips }, _) => {
+            PlaneSlice { offset, ground: Some(dense.clone()), tips: tips.clone() }
+        }
+        (PassGround::Mesh { sections, .. }, PassHeights::Profile) => making.slice_in_plane(sections, offset),
+        (PassGround::Mesh { sections, cutter, .. }, PassHeights::Mesh) => {
+            making.slice_over_mesh(sections, cutter, offset)
+        }
+    }
+}
+
+/// Tracks plane by plane, in the order and direction in which they are cut.
+fn make_tracks(
+    slices: &[PlaneSlice],
+    options: &SurfaceMillingOptions,
+    print: ProgramRounding,
+) -> Vec<Vec<PassTrack>> {
+    let mut back = false;
+    let mut all = Vec::with_capacity(slices.len());
+    for slice in slices {
+        let least = options.tolerance * SHORT_SHARE;
+        let track = |tip: &Chain| PassTrack::new(tip, &options.planes, slice.offset, least, print);
+        let mut tracks: Vec<PassTrack> = if back {
+            slice.tips.iter().rev().filter_map(|tip| track(&tip.reversed())).collect()
+        } else {
+            slice.tips.iter().filter_map(track).collect()
+        };
+        tracks.shrink_to_fit();
+        back = options.pattern == PassPattern::ZigZag && (back == tracks.is_empty());
+        all.push(tracks);
+    }
+    all
+}
+
+fn prove_passes(
+    slices: &[PlaneSlice],
+    tracks: &[Vec<PassTrack>],
+    ground: &PassGround<'_>,
+    options: &SurfaceMillingOptions,
+    print: ProgramRounding,
+) -> SurfaceProof {
+    let space = match ground {
+        PassGround::Mesh { mesh, .. } => Some(BallClearanceField::new(mesh, options.radius)),
+        PassGround::Profile { .. } => None,
+    };
+    let passes: Vec<ProvedPass<'_>> = slices
+        .iter()
+        .zip(tracks)
+        .flat_map(|(slice, tracks)| {
+            tracks.iter().map(|track| ProvedPass {
+                offset: slice.offset,
+                track,
+                ground: slice.ground.as_ref(),
+            })
+        })
+        .collect();
+    let look = PassProver {
+        planes: &options.planes,
+        radius: options.radius,
+        tolerance: options.tolerance,
+        print,
+        space: space.as_ref(),
+    };
+    look.prove_all(&passes)
+}
+
+/// From the end of a pass to the start of one in the next plane, over the surface; none where that is far or not known to be safe.
+fn link_over_surface(
+    ground: &PassGround<'_>,
+    making: &PassMaker,
+    print: ProgramRounding,
+    near: f64,
+    from: Point3<f64>,
+    to: Point3<f64>,
+) -> Option<Vec<Point3<f64>>> {
+    let (start, end) = (print.point_in_mm(from), print.point_in_mm(to));
+    let ends = [start, end].map(|[x, y, _]| [x, y]);
+    let [[x0, y0], [x1, y1]] = ends;
+    if (x1 - x0).hypot(y1 - y0) > near {
+        return None;
+    }
+    match ground {
+        PassGround::Profile { .. } => {
+            // The same place of a profile that is the same between the planes.
+            let [a, b] = ends.map(|end| making.planes.distance_along(end));
+            let same = (a - b).abs() + (start[2] - end[2]).abs() <= 4.0 * print.last_decimal_mm();
+            same.then(|| vec![to])
+        }
+        PassGround::Mesh { cutter, .. } => {
+            let runs = cutter.follow_line(&ends, making.tolerance);
+            let [run] = runs.as_slice() else { return None };
+            // From end to end, or there is a hole in between.
+            let whole = run
+                .first()
+                .zip(run.last())
+                .is_some_and(|([a, b, _], [c, d, _])| ends == [[*a, *b], [*c, *d]]);
+            let between = run.get(1..run.len().saturating_sub(1))?;
+            let lifted = |[x, y, z]: &[f64; 3]| print.round_point([*x, *y, z.max(making.floor)]);
+            whole.then(|| between.iter().map(lifted).chain([to]).collect())
+        }
+    }
+}
+
+/// The middle plane that has a pass.
+fn figure_of_middle_plane(
+    slices: &[PlaneSlice],
+    tracks: &[Vec<PassTrack>],
+    ground: &PassGround<'_>,
+    making: &PassMaker,
+    print: ProgramRounding,
+) -> Option<(f64, Chain, Vec<Chain>)> {
+    let with: Vec<(&PlaneSlice, &Vec<PassTrack>)> =
+        slices.iter().zip(tracks).filter(|(_, tracks)| !tracks.is_empty()).collect();
+    let (slice, tracks) = with.get(with.len() / 2)?;
+    let planes: &PassPlanes = &making.planes;
+    let line = match ground {
+        PassGround::Profile { dense, .. } => dense.clone(),
+        PassGround::Mesh { sections, .. } => making.slice_in_plane(sections, slice.offset).ground?,
+    };
+    let tips = tracks.iter().filter_map(|track| track.to_plane_chain(planes, print)).collect();
+    Some((slice.offset, line, tips))
+}

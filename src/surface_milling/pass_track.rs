@@ -1,0 +1,193 @@
+//! Passes in space, in the numbers that the program will have.
+
+use super::pass_planes::PassPlanes;
+use crate::program::{Dialect, LengthUnit};
+use crate::surface::profile::{Chain, ChainPiece, Point};
+use crate::write::new_program::{round_coordinate, round_feed};
+use nalgebra::{Point3, Vector3};
+
+/// Arcs are cut so that none sweeps more, radians: half a turn or more has no plane of its own.
+const MOST_SWEEP: f64 = 2.6;
+
+/// Arcs with ends nearer than so many last decimals are lines.
+const SHORT: f64 = 50.0;
+
+/// How numbers are written.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ProgramRounding {
+    pub dialect: Dialect,
+    pub units: LengthUnit,
+}
+
+/// A pass of the tip, in the unit of the program.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct PassTrack {
+    pub start: Point3<f64>,
+    pub steps: Vec<TrackStep>,
+}
+
+/// A line, or an arc about a centre and a unit axis (right-hand).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct TrackStep {
+    pub to: Point3<f64>,
+    pub arc: Option<(Point3<f64>, Vector3<f64>)>,
+}
+
+impl ProgramRounding {
+    /// A point in mm as the program will have it.
+    pub fn round_point(&self, [x, y, z]: [f64; 3]) -> Point3<f64> {
+        Point3::new(self.round_length(x), self.round_length(y), self.round_length(z))
+    }
+
+    /// A length in mm as the program will have it.
+    pub fn round_length(&self, mm: f64) -> f64 {
+        round_coordinate(mm / self.units.mm_per_unit(), self.dialect)
+    }
+
+    /// A feed in mm/min as the program will have it.
+    pub fn round_feed(&self, mm: f64) -> f64 {
+        round_feed(mm / self.units.mm_per_unit(), self.dialect)
+    }
+
+    /// The last decimal, mm.
+    pub fn last_decimal_mm(&self) -> f64 {
+        10f64.powi(-(crate::write::new_program::coordinate_decimals(self.dialect) as i32))
+            * self.units.mm_per_unit()
+    }
+
+    /// A point of the program in mm.
+    pub fn point_in_mm(&self, point: Point3<f64>) -> [f64; 3] {
+        (point * self.units.mm_per_unit()).into()
+    }
+}
+
+impl PassTrack {
+    /// A tip path in the plane at an offset. Lines no longer than `least` mm between other pieces are left out: a control would stop there.
+    /// None when nothing of the path is left in the program's decimals.
+    pub fn new(
+        tip: &Chain,
+        planes: &PassPlanes,
+        offset: f64,
+        least: f64,
+        print: ProgramRounding,
+    ) -> Option<Self> {
+        let space = |at: Point| print.round_point(planes.point_at(offset, at.u, at.z));
+        let [cos, sin] = planes.direction();
+        let mut track = Self { start: space(tip.start()), steps: Vec::new() };
+        let last = tip.pieces().len().saturating_sub(1);
+        for (index, piece) in tip.pieces().iter().enumerate() {
+            if matches!(piece, ChainPiece::Line(_))
+                && index != 0
+                && index != last
+                && piece.length_mm() <= least
+            {
+                continue;
+            }
+            let count = match piece {
+                ChainPiece::Line(_) => 1,
+                ChainPiece::Arc(arc) => (arc.sweep.abs() / MOST_SWEEP).ceil().max(1.0) as u32,
+            };
+            for part in 1..=count {
+                let to = space(piece.point_at(f64::from(part) / f64::from(count)));
+                let from = track.end_point();
+                if to == from {
+                    continue;
+                }
+                let long = (to - from).norm() * print.units.mm_per_unit() > SHORT * print.last_decimal_mm();
+                let arc = match piece {
+                    ChainPiece::Arc(arc) if long => {
+                        let [from, to] = [from, to].map(|point| point_in_plane(point, planes, print));
+                        let off = (from.distance(arc.centre) - to.distance(arc.centre)).abs();
+                        // As far from both ends as they are printed; rounding is none of its business.
+                        let near = if off <= 2.0 * print.last_decimal_mm() {
+                            arc.centre
+                        } else {
+                            nearest_equidistant_point(from, to, arc.centre)
+                        };
+                        let centre = space(near);
+                        // From +u towards +z.
+                        Some((centre, Vector3::new(sin, -cos, 0.0) * arc.sweep.signum()))
+                    }
+                    _ => None,
+                };
+                track.steps.push(TrackStep { to, arc });
+            }
+        }
+        (!track.steps.is_empty()).then_some(track)
+    }
+
+    /// Where it ends.
+    pub fn end_point(&self) -> Point3<f64> {
+        self.steps.last().map_or(self.start, |step| step.to)
+    }
+
+    /// The track as it lies in its plane, mm: what the program says, not what was meant.
+    pub fn to_plane_chain(&self, planes: &PassPlanes, print: ProgramRounding) -> Option<Chain> {
+        let flat = |point: Point3<f64>| point_in_plane(point, planes, print);
+        let up = |axis: &Vector3<f64>| {
+            let [cos, sin] = planes.direction();
+            axis.dot(&Vector3::new(sin, -cos, 0.0)) > 0.0
+        };
+        let mut from = flat(self.start);
+        let mut pieces = Vec::with_capacity(self.steps.len());
+        for step in &self.steps {
+            let to = flat(step.to);
+            pieces.push(match &step.arc {
+                Some((centre, axis)) => arc_between(from, to, flat(*centre), up(axis)),
+                None => ChainPiece::line(from, to),
+            });
+            from = to;
+        }
+        Chain::new(pieces).ok()
+    }
+
+    /// Its points in mm, arcs in chords no farther than `tolerance` from them.
+    pub fn sample_points(
+        &self,
+        planes: &PassPlanes,
+        print: ProgramRounding,
+        offset: f64,
+        tolerance: f64,
+    ) -> Vec<[f64; 3]> {
+        let mut points = vec![print.point_in_mm(self.start)];
+        let flat = self.to_plane_chain(planes, print);
+        let pieces = flat.iter().flat_map(|chain| chain.pieces());
+        for (step, piece) in self.steps.iter().zip(pieces) {
+            if let ChainPiece::Arc(arc) = piece {
+                let chord = 2.0 * (2.0 * arc.radius * tolerance).sqrt();
+                let count = (piece.length_mm() / chord).ceil().max(1.0) as u32;
+                points.extend((1..count).map(|part| {
+                    let at = piece.point_at(f64::from(part) / f64::from(count));
+                    planes.point_at(offset, at.u, at.z)
+                }));
+            }
+            points.push(print.point_in_mm(step.to));
+        }
+        points
+    }
+}
+
+/// A point of the program in the plane, mm.
+fn point_in_plane(point: Point3<f64>, planes: &PassPlanes, print: ProgramRounding) -> Point {
+    let [x, y, z] = print.point_in_mm(point);
+    Point::new(planes.distance_along([x, y]), z)
+}
+
+/// The point as far from both ends that is nearest to `centre`.
+fn nearest_equidistant_point(from: Point, to: Point, centre: Point) -> Point {
+    let length = from.distance(to);
+    let middle = from.lerp(to, 0.5);
+    let (nu, nz) = (-(to.z - from.z) / length, (to.u - from.u) / length);
+    let off = (centre.u - middle.u) * nu + (centre.z - middle.z) * nz;
+    Point::new(middle.u + nu * off, middle.z + nz * off)
+}
+
+/// The arc between two points about the point as far from both that is nearest to `centre`.
+fn arc_between(from: Point, to: Point, centre: Point, counter_clockwise: bool) -> ChainPiece {
+    let centre = nearest_equidistant_point(from, to, centre);
+    let angle = |point: Point| (point.z - centre.z).atan2(point.u - centre.u);
+    let (start, end) = (angle(from), angle(to));
+    let sweep = (end - start).rem_euclid(std::f64::consts::TAU);
+    let sweep = if counter_clockwise { sweep } else { sweep - std::f64::consts::TAU };
+    ChainPiece::arc(centre, centre.distance(from), start, sweep)
+}

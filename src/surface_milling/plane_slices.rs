@@ -1,0 +1,136 @@
+//! One plane after the other: what the ball follows there, and the path of its tip.
+
+use super::chain_cutting;
+use super::pass_planes::PassPlanes;
+use crate::surface::drop_cutter::DropCutter;
+use crate::surface::mesh_section::VerticalMeshSections;
+use crate::surface::profile::{Chain, ChordSide, Point, compensate_profile, fit_chords};
+
+/// A tip may be this much below the floor, mm: rounding.
+const LEVEL: f64 = 1e-7;
+
+/// What is needed to make paths in planes; mm.
+pub(super) struct PassMaker {
+    pub planes: PassPlanes,
+    pub radius: f64,
+    /// How far a path may be from the exact one.
+    pub tolerance: f64,
+    pub arcs: bool,
+    /// The tip never goes below it.
+    pub floor: f64,
+}
+
+/// The passes in one plane, from lower to higher u.
+#[derive(Debug, Clone)]
+pub(super) struct PlaneSlice {
+    /// Where the plane is, counted as the user does.
+    pub offset: f64,
+    /// What was followed in the plane; none when it was the mesh in space.
+    pub ground: Option<Chain>,
+    /// Paths of the tip.
+    pub tips: Vec<Chain>,
+}
+
+impl PassMaker {
+    /// Paths over one profile.
+    pub fn tips_over_profile(&self, profile: &Chain) -> Vec<Chain> {
+        let upward = if profile.start().u <= profile.end().u { profile.clone() } else { profile.reversed() };
+        let Ok(tip) = compensate_profile(&upward, self.radius) else { return Vec::new() };
+        self.simplify_tips(chain_cutting::cut_chain(&tip, &[], self.floor, |at| at.z >= self.floor - LEVEL))
+    }
+
+    /// The slice of a mesh by its line in the plane alone.
+    pub fn slice_in_plane(&self, sections: &VerticalMeshSections, offset: f64) -> PlaneSlice {
+        let stretches = self.section_chains(sections, offset);
+        let Some(ground) = bridge_holes(&stretches, self.radius) else {
+            return PlaneSlice { offset, ground: None, tips: Vec::new() };
+        };
+        let ranges = self.find_tip_ranges(&stretches);
+        let tips = compensate_profile(&ground, self.radius).map_or(Vec::new(), |tip| {
+            let ends: Vec<f64> = ranges.iter().flat_map(|(from, to)| [*from, *to]).collect();
+            // What lies between stretches, farther than the ball goes for each of them, is left.
+            let upright = if ranges.len() > 1 { ends.as_slice() } else { &[] };
+            let inside =
+                |u: f64| ranges.len() < 2 || ranges.iter().any(|(from, to)| (*from..=*to).contains(&u));
+            chain_cutting::cut_chain(&tip, upright, self.floor, |at| {
+                at.z >= self.floor - LEVEL && inside(at.u)
+            })
+        });
+        PlaneSlice { offset, ground: Some(ground), tips: self.simplify_tips(tips) }
+    }
+
+    /// The slice of a mesh with heights over the whole mesh.
+    pub fn slice_over_mesh(
+        &self,
+        sections: &VerticalMeshSections,
+        cutter: &DropCutter,
+        offset: f64,
+    ) -> PlaneSlice {
+        let mut tips = Vec::new();
+        // Paths over meshes keep to three quarters of what they are given. Fitting arcs needs most of it.
+        let share = if self.arcs { 0.25 } else { 1.0 };
+        for (from, to) in self.find_tip_ranges(&self.section_chains(sections, offset)) {
+            let ends = [from, to].map(|u| {
+                let [x, y, _] = self.planes.point_at(offset, u, 0.0);
+                [x, y]
+            });
+            for run in cutter.follow_line(&ends, self.tolerance * share * 1.25) {
+                let flat: Vec<Point> = run
+                    .iter()
+                    .map(|[x, y, z]| Point::new(self.planes.distance_along([*x, *y]), *z))
+                    .collect();
+                let Ok(tip) = Chain::from_points(&flat) else { continue };
+                tips.extend(chain_cutting::cut_chain(&tip, &[], self.floor, |at| at.z >= self.floor - LEVEL));
+            }
+        }
+        if self.arcs {
+            tips = tips
+                .iter()
+                .filter_map(|tip| fit_chords(tip, self.tolerance * (1.0 - share), true, ChordSide::Both).ok())
+                .collect();
+        }
+        PlaneSlice { offset, ground: None, tips }
+    }
+
+    fn simplify_tips(&self, tips: Vec<Chain>) -> Vec<Chain> {
+        tips.iter()
+            .filter_map(|tip| fit_chords(tip, self.tolerance, self.arcs, ChordSide::Both).ok())
+            .collect()
+    }
+
+    fn section_chains(&self, sections: &VerticalMeshSections, offset: f64) -> Vec<Chain> {
+        let polyline = |points: &Vec<[f64; 2]>| {
+            let points: Vec<Point> = points.iter().map(|[u, z]| Point::new(*u, *z)).collect();
+            Chain::from_points(&points).ok()
+        };
+        sections.section_at(self.planes.offset_to_left(offset)).iter().filter_map(polyline).collect()
+    }
+
+    /// From where to where the tip goes for each stretch, in u: where the ball stands on its free ends. Ranges that overlap are one.
+    fn find_tip_ranges(&self, stretches: &[Chain]) -> Vec<(f64, f64)> {
+        let mut ranges: Vec<(f64, f64)> = Vec::new();
+        for stretch in stretches {
+            let Ok(tip) = compensate_profile(stretch, self.radius) else { continue };
+            let (from, to) = (tip.start().u.min(tip.end().u), tip.start().u.max(tip.end().u));
+            match ranges.last_mut().filter(|last| from <= last.1) {
+                Some(last) => last.1 = last.1.max(to),
+                None => ranges.push((from, to)),
+            }
+        }
+        ranges
+    }
+}
+
+/// Stretches as one chain: over the holes between them it goes so low that no ball gets there.
+fn bridge_holes(stretches: &[Chain], radius: f64) -> Option<Chain> {
+    let lowest = stretches.iter().flat_map(Chain::vertices).map(|at| at.z).fold(f64::INFINITY, f64::min);
+    let deep = lowest - 3.0 * radius;
+    let mut points: Vec<Point> = Vec::new();
+    for stretch in stretches {
+        if let Some(last) = points.last().copied() {
+            points.extend([Point::new(last.u, deep), Point::new(stretch.start().u, deep)]);
+        }
+        points.extend(stretch.vertices());
+    }
+    Chain::from_points(&points).ok()
+}

@@ -1,0 +1,22 @@
+//! Profile files: YAML that describes a profile piece by piece, each piece from where the one before ends.
+
+mod curves;
+mod text;
+
+use super::SectionProfile;
+use crate::diagnostic::Diagnostic;
+use crate::source::Source;
+use std::sync::Arc;
+
+/// Reads a profile file.
+///
+/// # Errors
+/// Everything that is wrong with the file, each at its place.
+pub fn load_profile(source: &Arc<Source>) -> Result<SectionProfile, Vec<Diagnostic>> {
+    text::read_profile(source)
+}
+
+/// JSON schema of a profile file, for editors.
+pub fn profile_schema() -> serde_json::Value {
+    text::make_profile_schema()
+}

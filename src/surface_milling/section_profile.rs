@@ -1,0 +1,92 @@
+//! The profile that is swept: curves that hang together, as a file describes them.
+
+use crate::surface::profile::{
+    Chain, ChainError, ChainPiece, ChordError, EllipseArc, NurbsCurve, Point, to_arcs, to_chords,
+};
+
+/// A curve of a profile.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ProfileCurve {
+    /// A line or an arc.
+    Piece(ChainPiece),
+    /// An arc of an ellipse.
+    Ellipse(EllipseArc),
+    /// A NURBS curve.
+    Nurbs(NurbsCurve),
+}
+
+/// A profile in a vertical plane, mm.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SectionProfile {
+    /// Its curves; each starts where the one before ends.
+    pub curves: Vec<ProfileCurve>,
+    /// Over which width it is swept, where that is said.
+    pub width: Option<f64>,
+}
+
+/// Why curves make no chain.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum SectionProfileError {
+    /// Pieces that do not fit.
+    #[error(transparent)]
+    Chain(#[from] ChainError),
+    /// A tolerance that cannot be.
+    #[error(transparent)]
+    Chords(#[from] ChordError),
+}
+
+impl SectionProfile {
+    /// A profile of straight pieces and arcs only.
+    pub fn from_chain(chain: &Chain) -> Self {
+        Self { curves: chain.pieces().iter().copied().map(ProfileCurve::Piece).collect(), width: None }
+    }
+
+    /// The profile with ellipses and NURBS in arcs and chords no farther than `tolerance` (mm) from them.
+    ///
+    /// # Errors
+    /// When the pieces do not fit or the tolerance is too small.
+    pub fn to_chain(&self, tolerance: f64) -> Result<Chain, SectionProfileError> {
+        self.convert_curves(|curve| match curve {
+            ProfileCurve::Piece(piece) => Ok(vec![*piece]),
+            ProfileCurve::Ellipse(ellipse) => Ok(to_arcs(ellipse, tolerance)?.pieces().to_vec()),
+            ProfileCurve::Nurbs(nurbs) => Ok(to_arcs(nurbs, tolerance)?.pieces().to_vec()),
+        })
+    }
+
+    /// The profile to check against: the curves themselves in fine chords, by no arc fitted.
+    ///
+    /// # Errors
+    /// As [`SectionProfile::to_chain`].
+    pub fn to_dense_chain(&self, tolerance: f64) -> Result<Chain, SectionProfileError> {
+        self.convert_curves(|curve| match curve {
+            ProfileCurve::Piece(piece) => Ok(vec![*piece]),
+            ProfileCurve::Ellipse(ellipse) => Ok(to_chords(ellipse, tolerance)?.pieces().to_vec()),
+            ProfileCurve::Nurbs(nurbs) => Ok(to_chords(nurbs, tolerance)?.pieces().to_vec()),
+        })
+    }
+
+    fn convert_curves(
+        &self,
+        mut pieces: impl FnMut(&ProfileCurve) -> Result<Vec<ChainPiece>, SectionProfileError>,
+    ) -> Result<Chain, SectionProfileError> {
+        let mut all = Vec::new();
+        for curve in &self.curves {
+            all.extend(pieces(curve)?);
+        }
+        Ok(Chain::new(all)?)
+    }
+}
+
+/// Least and largest u and z of a chain, from its ends and enough places of its arcs.
+pub(super) fn chain_bounds(chain: &Chain) -> (Point, Point) {
+    let (mut low, mut high) = (chain.start(), chain.start());
+    for piece in chain.pieces() {
+        let places = if matches!(piece, ChainPiece::Arc(_)) { 256 } else { 1 };
+        for place in 0..=places {
+            let at = piece.point_at(f64::from(place) / f64::from(places));
+            low = Point::new(low.u.min(at.u), low.z.min(at.z));
+            high = Point::new(high.u.max(at.u), high.z.max(at.z));
+        }
+    }
+    (low, high)
+}

@@ -1,0 +1,150 @@
+//! What the step says.
+
+use super::leads::LeadConflict;
+use super::pass_profile::PassFault;
+use super::pass_writer::UnwritableMotion;
+use super::vertical_passes::NoPassReason;
+use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
+use crate::program::motion::Motion;
+use crate::program::{Program, Statement};
+use crate::transform::StepContext;
+
+/// A program and its motions.
+#[derive(Clone, Copy)]
+pub(super) struct MotionFindings<'a> {
+    pub program: &'a Program,
+    pub motions: &'a [Motion],
+}
+
+impl MotionFindings<'_> {
+    /// A finding at the statement that ends a motion, and at the step.
+    pub fn build_finding(
+        &self,
+        code: DiagnosticCode,
+        message: String,
+        motion: usize,
+        label: &str,
+        context: &StepContext<'_>,
+    ) -> Diagnostic {
+        let statement = self.motions.get(motion).map(Motion::last_statement);
+        let span = statement
+            .and_then(|index| self.program.statement(index))
+            .map(Statement::origin)
+            .unwrap_or_default();
+        let step = context.recipe.step_span(usize::from(context.step.0));
+        Diagnostic::new(code, message).with_label(self.program.source(), span, label).with_label(
+            &context.recipe.source,
+            step,
+            "by this step",
+        )
+    }
+
+    /// Why the step cannot go on, at a motion.
+    pub fn build_failure(
+        &self,
+        message: String,
+        motion: usize,
+        label: &str,
+        context: &StepContext<'_>,
+    ) -> Box<Diagnostic> {
+        Box::new(self.build_finding(codes::STEP_FAILED, message, motion, label, context))
+    }
+
+    pub fn describe_no_pass(&self, why: NoPassReason, context: &StepContext<'_>) -> Box<Diagnostic> {
+        match why {
+            NoPassReason::LeavesPlane(motion) => {
+                let help = "Name the finishing passes by `where`, or compensate `against: { mesh: ... }` or `normals`, which need no planes.";
+                let message =
+                    "the path is not made of passes in vertical planes: here it leaves the plane of its pass";
+                Box::new(
+                    self.build_finding(
+                        codes::STEP_FAILED,
+                        message.to_owned(),
+                        motion,
+                        "leaves the plane",
+                        context,
+                    )
+                    .with_help(help),
+                )
+            }
+            NoPassReason::TurnsBack(motion) => {
+                let help = "A pass goes one way. Put a link or a retract between two passes in one plane, or compensate `against: { mesh: ... }`.";
+                let message =
+                    "the path turns back in the plane of its pass: here it goes over what it has been over";
+                Box::new(
+                    self.build_finding(codes::STEP_FAILED, message.to_owned(), motion, "goes back", context)
+                        .with_help(help),
+                )
+            }
+            NoPassReason::AxisTurns(motion) => {
+                let help = "With a turning axis, compensate `against: normals`.";
+                let message = "the tool axis turns within a pass, so the pass has no plane along it";
+                Box::new(
+                    self.build_finding(
+                        codes::STEP_FAILED,
+                        message.to_owned(),
+                        motion,
+                        "turns the axis",
+                        context,
+                    )
+                    .with_help(help),
+                )
+            }
+        }
+    }
+
+    pub fn describe_lead_conflict(&self, why: LeadConflict, context: &StepContext<'_>) -> Box<Diagnostic> {
+        let (motion, message, help) = match why {
+            LeadConflict::Rapid(motion) => (
+                motion,
+                "a pass begins where this rapid ends, and the rapid would have to end elsewhere",
+                "Go down to the pass at feed, straight along the tool axis; or mark cuts and leads (PAINT/COLOR), so that a lead is not taken for a cut.",
+            ),
+            LeadConflict::Excluded(motion) => (
+                motion,
+                "a pass goes on from or into this cut, which `where` leaves out, so their common point cannot move",
+                "Select both, or neither.",
+            ),
+            LeadConflict::Fixed(motion) => (
+                motion,
+                "a pass begins here, at a place that its operation cannot move (another operation's last point, or FROM)",
+                "Let the operation go to the start of its pass by a motion of its own.",
+            ),
+        };
+        Box::new(
+            self.build_finding(codes::STEP_FAILED, message.to_owned(), motion, "here", context)
+                .with_help(help),
+        )
+    }
+
+    pub fn describe_pass_fault(
+        &self,
+        why: &PassFault,
+        motion: usize,
+        context: &StepContext<'_>,
+    ) -> Box<Diagnostic> {
+        match why {
+            PassFault::Pass(why) => self.describe_no_pass(*why, context),
+            PassFault::Geometry(why) => self.build_failure(
+                format!("this pass cannot be compensated: {why}"),
+                motion,
+                "the pass",
+                context,
+            ),
+        }
+    }
+
+    pub fn describe_unwritable_motion(
+        &self,
+        why: UnwritableMotion,
+        motion: usize,
+        context: &StepContext<'_>,
+    ) -> Box<Diagnostic> {
+        self.build_failure(
+            format!("this motion cannot be given another end: {why}"),
+            motion,
+            "would have to move",
+            context,
+        )
+    }
+}

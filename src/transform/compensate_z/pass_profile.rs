@@ -1,0 +1,201 @@
+//! A pass as a profile, and the path of the ball over it.
+
+use super::vertical_passes::{NoPassReason, VerticalPass};
+use crate::program::geometry::MotionPath;
+use crate::program::motion::Motion;
+use crate::surface::profile::ChordSide;
+use crate::surface::profile::{
+    ArcPiece, Chain, ChainPiece, NurbsCurve, Point, ProfileDeviation, ProfilePlane, UnreachablePart,
+    check_tip_path, compensate_profile, find_unreachable_parts, fit_chords, recover_profile, to_chords,
+};
+use std::fmt;
+
+/// Curves become chords within this share of the tolerance; the path made of them has the rest.
+const CURVES: f64 = 0.1;
+
+/// Chords keep to this share of the tolerance; printing and curves have the rest.
+const CHORDS: f64 = 0.8;
+
+/// Steep lines that lean by no more than this (mm) are upright.
+const PRINTED_WALL: f64 = 2e-3;
+
+/// What a pass is compensated by, mm.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CompensatingBall {
+    /// Its radius.
+    pub radius: f64,
+    /// Radius of the ball whose tip the path is; `None` for a path of contact points.
+    pub was: Option<f64>,
+    /// Whether the points of the path are that ball's centres.
+    pub was_centre: bool,
+    /// Whether the result is the path of its centre.
+    pub centre: bool,
+    /// Allowed gouge and gap.
+    pub tolerance: f64,
+    /// Whether arcs stay arcs.
+    pub arcs: bool,
+}
+
+/// A compensated pass.
+#[derive(Debug, Clone)]
+pub(super) struct CompensatedPass {
+    /// The part as the ball shall touch it.
+    pub contact: Chain,
+    /// Tip of the exact path, before chords were made of it.
+    pub exact: Chain,
+    /// The path as it is to be written.
+    pub path: Chain,
+    /// What the ball cannot touch.
+    pub unreachable: Vec<UnreachablePart>,
+}
+
+/// Why a pass cannot be compensated.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum PassFault {
+    Pass(NoPassReason),
+    Geometry(String),
+}
+
+impl fmt::Display for PassFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Pass(_) => f.write_str("it does not lie in a vertical plane"),
+            Self::Geometry(why) => f.write_str(why),
+        }
+    }
+}
+
+/// The motions of a pass as a chain of its plane, and for each piece the motion that it comes from.
+///
+/// # Errors
+/// [`PassFault`] at an arc that is no arc of the plane, and at a spline that cannot be read.
+pub(super) fn build_chain(
+    motions: &[Motion],
+    pass: &VerticalPass,
+    mm: f64,
+    tolerance: f64,
+) -> Result<(Chain, Vec<usize>), PassFault> {
+    let mut pieces: Vec<ChainPiece> = Vec::new();
+    let mut owners = Vec::new();
+    let mut reached: Option<Point> = None;
+    for index in pass.motions.clone() {
+        let Some(motion) = motions.get(index) else { continue };
+        let flat = |point: nalgebra::Point3<f64>| pass.plane.to_plane(point * mm);
+        // Each piece begins exactly where the one before ends: printing puts them up to a last digit apart.
+        let from = reached.unwrap_or_else(|| flat(motion.from.point));
+        let mut to = flat(motion.to.point);
+        match &motion.path {
+            MotionPath::Line | MotionPath::Start => {
+                // A wall that leans by printed digits alone is a wall; the other side of it is another pass.
+                if (to.u - from.u).abs() <= PRINTED_WALL && (to.z - from.z).abs() > 10.0 * PRINTED_WALL {
+                    to.u = from.u;
+                }
+                pieces.push(ChainPiece::line(from, to));
+            }
+            MotionPath::Arc(arc) => {
+                let round = project_arc(arc, &pass.plane, mm)
+                    .ok_or(PassFault::Pass(NoPassReason::LeavesPlane(index)))?;
+                pieces.push(ChainPiece::Arc(fit_arc_to_ends(&round, from, to)));
+            }
+            MotionPath::Spline(spline) => {
+                let mut scaled = spline.as_ref().clone();
+                scaled.controls.iter_mut().for_each(|point| *point *= mm);
+                let curve = NurbsCurve::from_spline(&scaled, &pass.plane)
+                    .map_err(|why| PassFault::Geometry(why.to_string()))?;
+                let made = to_chords(&curve, tolerance * CURVES)
+                    .map_err(|why| PassFault::Geometry(why.to_string()))?;
+                let start = made.start();
+                if start.distance(from) > 0.0 {
+                    pieces.push(ChainPiece::line(from, start));
+                }
+                pieces.extend_from_slice(made.pieces());
+                to = made.end();
+            }
+        }
+        owners.resize(pieces.len(), index);
+        reached = Some(to);
+    }
+    let chain = Chain::new(pieces).map_err(|why| PassFault::Geometry(why.to_string()))?;
+    Ok((chain, owners))
+}
+
+/// The arc of the nearest centre that goes exactly from one point to another; itself where they are one.
+fn fit_arc_to_ends(arc: &ArcPiece, from: Point, to: Point) -> ArcPiece {
+    let (du, dz) = (to.u - from.u, to.z - from.z);
+    let chord = du.hypot(dz);
+    if chord < 1e-3 {
+        return *arc;
+    }
+    let middle = from.lerp(to, 0.5);
+    let (nu, nz) = (-dz / chord, du / chord);
+    let aside = (arc.centre.u - middle.u) * nu + (arc.centre.z - middle.z) * nz;
+    let centre = Point::new(middle.u + nu * aside, middle.z + nz * aside);
+    let angle = |at: Point| (at.z - centre.z).atan2(at.u - centre.u);
+    let start = angle(from);
+    let turn = (angle(to) - start).rem_euclid(std::f64::consts::TAU);
+    let sweep = if arc.sweep > 0.0 { turn } else { turn - std::f64::consts::TAU };
+    ArcPiece { centre, radius: from.distance(centre), start, sweep }
+}
+
+/// An arc of space as one of the plane; `None` when its axis is not the plane's normal, or it climbs along it.
+fn project_arc(
+    arc: &crate::program::geometry::CircularArc,
+    plane: &ProfilePlane,
+    mm: f64,
+) -> Option<ArcPiece> {
+    let (start, centre) = (plane.to_plane(arc.start * mm), plane.to_plane(arc.center * mm));
+    let ahead = plane.to_plane((arc.start + arc.axis.cross(&(arc.start - arc.center))) * mm);
+    let (spoke, tangent) = ((start.u - centre.u, start.z - centre.z), (ahead.u - start.u, ahead.z - start.z));
+    let turn = spoke.0 * tangent.1 - spoke.1 * tangent.0;
+    let radius = start.distance(centre);
+    // In its own plane the tangent is square to the spoke and as long.
+    let lies = (turn.abs() - radius * radius).abs() <= 1e-4 * radius * radius;
+    (lies && arc.rise.abs() * mm <= 1e-3).then(|| ArcPiece {
+        centre,
+        radius,
+        start: spoke.1.atan2(spoke.0),
+        sweep: arc.sweep * turn.signum(),
+    })
+}
+
+/// Compensates a pass.
+///
+/// # Errors
+/// [`PassFault`].
+pub(super) fn compensate_pass(path: &Chain, ball: &CompensatingBall) -> Result<CompensatedPass, PassFault> {
+    let geometry = |why: String| PassFault::Geometry(why);
+    let contact = match ball.was {
+        None => path.clone(),
+        Some(was) => {
+            let tip = if ball.was_centre { path.centre_to_tip(was) } else { path.clone() };
+            recover_profile(&tip, was).map_err(|why| geometry(why.to_string()))?
+        }
+    };
+    let exact = compensate_profile(&contact, ball.radius).map_err(|why| geometry(why.to_string()))?;
+    let path = fit_chords(&exact, ball.tolerance * CHORDS, ball.arcs, ChordSide::Both)
+        .map_err(|why| geometry(why.to_string()))?;
+    let unreachable = find_unreachable_parts(&contact, ball.radius, ball.tolerance)
+        .map_err(|why| geometry(why.to_string()))?;
+    Ok(CompensatedPass { contact, exact, path, unreachable })
+}
+
+/// The tip's chain of a path that was written for a ball's tip or centre.
+pub(super) fn tip_chain(path: &Chain, ball: &CompensatingBall) -> Chain {
+    if ball.centre { path.centre_to_tip(ball.radius) } else { path.clone() }
+}
+
+/// Looks at a written path by other means, at places a fifth of the tolerance's chord apart.
+pub(super) fn measure_tip_chain(contact: &Chain, tip: &Chain, ball: &CompensatingBall) -> ProfileDeviation {
+    let step = (2.0 * ball.radius * ball.tolerance).sqrt() / 4.0;
+    check_tip_path(contact, tip, ball.radius, step)
+}
+
+/// The slope angle's sine of a profile beside a point, for what a ball's tip moves by there.
+pub(super) fn slope_sine(from: Point, at: Point, to: Point) -> f64 {
+    let angle = |a: Point, b: Point| {
+        let (du, dz) = (b.u - a.u, b.z - a.z);
+        let length = du.hypot(dz);
+        if length > 0.0 { dz * du.signum() / length } else { 0.0 }
+    };
+    0.5 * (angle(from, at) + angle(at, to))
+}

@@ -1,0 +1,270 @@
+//! Compensated passes, and what lies around them, in the CL text.
+
+use super::arc_template::{ArcTemplate, find_arc_template};
+use super::pass_profile::slope_sine;
+use super::vertical_passes::VerticalPass;
+use crate::diagnostic::Diagnostic;
+use crate::program::geometry::MotionPath;
+use crate::program::motion::Motion;
+use crate::program::{Program, Record, Statement};
+use crate::surface::profile::{Chain, ChainPiece, ProfilePlane};
+use crate::transform::statement_numbers::{
+    copy_statement, delete_keeping_remark, pair_with_indices, round_to_decimals,
+};
+use crate::write::{FileStyle, ProgramEditor};
+use nalgebra::Point3;
+use std::f64::consts::PI;
+use std::ops::Range;
+
+/// Why the statements of a path cannot be given other points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub(super) enum UnwritableMotion {
+    #[error("its point shares a statement with others, or is told by a record that says more than a point")]
+    NoGoto,
+    #[error("its arc or spline is told by records that cannot be moved")]
+    Arc,
+}
+
+/// Writes points for one program.
+pub(super) struct PassWriter<'a> {
+    pub(super) motions: &'a [Motion],
+    pub(super) mm: f64,
+    /// Decimals of the file's coordinates, four at least.
+    decimals: usize,
+    arc: Option<ArcTemplate>,
+}
+
+impl<'a> PassWriter<'a> {
+    pub fn new(program: &Program, motions: &'a [Motion], mm: f64) -> Self {
+        let decimals = FileStyle::from_program(program).length_decimals.max(4);
+        Self { motions, mm, decimals, arc: find_arc_template(program) }
+    }
+
+    /// Whether arcs can be said.
+    pub fn has_arcs(&self) -> bool {
+        self.arc.is_some()
+    }
+
+    /// Whether a motion's statements can be given other points.
+    ///
+    /// # Errors
+    /// [`UnwritableMotion`].
+    pub fn check_writable(&self, program: &Program, index: usize) -> Result<(), UnwritableMotion> {
+        let motion = self.motions.get(index).ok_or(UnwritableMotion::NoGoto)?;
+        let last = motion.last_statement();
+        let beside = [index.wrapping_sub(1), index + 1];
+        let shares =
+            |other: &usize| self.motions.get(*other).is_some_and(|other| other.last_statement() == last);
+        if beside.iter().any(shares) || motion.hole.is_some() {
+            return Err(UnwritableMotion::NoGoto);
+        }
+        let record = program.statement(last).map(Statement::record);
+        match (record, &motion.path) {
+            (Some(Record::Goto(_)), _) => Ok(()),
+            (Some(Record::Points(_)), _) if motion.normal.is_some() => Ok(()),
+            (Some(Record::DriveArc(_)), MotionPath::Arc(_)) => Ok(()),
+            (Some(Record::Control(_)), MotionPath::Spline(_)) => Ok(()),
+            (_, MotionPath::Arc(_) | MotionPath::Spline(_)) => Err(UnwritableMotion::Arc),
+            _ => Err(UnwritableMotion::NoGoto),
+        }
+    }
+
+    pub(super) fn point_numbers(&self, point: Point3<f64>) -> Vec<(usize, f64)> {
+        pair_with_indices(
+            0,
+            <[f64; 3]>::from((point / self.mm).coords.map(|value| round_to_decimals(value, self.decimals))),
+        )
+    }
+
+    /// Writes a compensated pass over the statements of the old one. What stands between them stays, and comes after the new points
+    /// whose contacts came before it.
+    ///
+    /// # Errors
+    /// When a statement does not read back; `Ok(Err)` when there is no GOTO to model new ones on.
+    pub fn write_pass(
+        &self,
+        editor: &mut ProgramEditor,
+        pass: &VerticalPass,
+        path: &Chain,
+        (radius, contact): (f64, bool),
+    ) -> Result<Result<(), UnwritableMotion>, Box<Diagnostic>> {
+        let Some(goto) = self.find_goto(editor.program(), &pass.motions) else {
+            return Ok(Err(UnwritableMotion::NoGoto));
+        };
+        let breaks = self.find_motion_breaks(pass, path, if contact { radius } else { 0.0 });
+        let forward = if path.end().u >= path.start().u { 1.0 } else { -1.0 };
+        let mut pieces = split_long_arcs(path).into_iter().peekable();
+        let mut reached = f64::NEG_INFINITY;
+        let count = pass.motions.len();
+        for (place, (index, until)) in pass.motions.clone().zip(breaks).enumerate() {
+            let Some(motion) = self.motions.get(index) else { continue };
+            let mut own: Vec<ChainPiece> = Vec::new();
+            while let Some(piece) = pieces.peek() {
+                reached = reached.max(piece.end().u * forward);
+                if reached > until + 1e-9 && place + 1 < count {
+                    break;
+                }
+                own.extend(pieces.next());
+            }
+            self.replace_motion(editor, motion, &own, &pass.plane, goto)?;
+        }
+        Ok(Ok(()))
+    }
+
+    /// Writes a pass as straight moves to points, a list for each of its motions; with an empty one the motion goes.
+    ///
+    /// # Errors
+    /// As [`PassWriter::write_pass`].
+    pub fn write_points(
+        &self,
+        editor: &mut ProgramEditor,
+        motions: Range<usize>,
+        points: Vec<Vec<Point3<f64>>>,
+    ) -> Result<Result<(), UnwritableMotion>, Box<Diagnostic>> {
+        let Some(goto) = self.find_goto(editor.program(), &motions) else {
+            return Ok(Err(UnwritableMotion::NoGoto));
+        };
+        for (index, own) in motions.zip(points) {
+            let Some(motion) = self.motions.get(index) else { continue };
+            let simple = is_line(editor.program(), motion);
+            let (put_in, kept) = match own.split_last() {
+                Some((last, rest)) if simple => (rest, Some(last)),
+                _ => (own.as_slice(), None),
+            };
+            for point in put_in {
+                let text = copy_statement(editor, goto, &self.point_numbers(*point));
+                editor.insert_before(motion.statements.start, &text)?;
+            }
+            self.keep_end(editor, motion, kept.copied())?;
+        }
+        Ok(Ok(()))
+    }
+
+    /// Gives a motion's last statement another end, or takes the motion out.
+    fn keep_end(
+        &self,
+        editor: &mut ProgramEditor,
+        motion: &Motion,
+        end: Option<Point3<f64>>,
+    ) -> Result<(), Box<Diagnostic>> {
+        match end {
+            Some(end) => editor.set_numbers(motion.last_statement(), &self.point_numbers(end)),
+            None => {
+                delete_announcements(editor, motion);
+                delete_keeping_remark(editor, motion.last_statement())
+            }
+        }
+    }
+
+    /// A GOTO of one point that new ones are modelled on: of the pass, else the nearest before or after it in its operation.
+    fn find_goto(&self, program: &Program, pass: &Range<usize>) -> Option<usize> {
+        let is_goto = |index: &usize| {
+            let found =
+                self.motions.get(*index).and_then(|motion| program.statement(motion.last_statement()));
+            found.is_some_and(|found| found.is_live() && matches!(found.record(), Record::Goto(_)))
+        };
+        let own = pass.clone().find(is_goto);
+        let before = || (0..pass.start).rev().find(is_goto);
+        let after = || (pass.end..self.motions.len()).find(is_goto);
+        let index = own.or_else(before).or_else(after)?;
+        self.motions.get(index).map(Motion::last_statement)
+    }
+
+    /// How far along the pass the tip has come (in the path's direction) when the contact reaches the end of each motion.
+    fn find_motion_breaks(&self, pass: &VerticalPass, path: &Chain, radius: f64) -> Vec<f64> {
+        let forward = if path.end().u >= path.start().u { 1.0 } else { -1.0 };
+        let flat = |point: Point3<f64>| pass.plane.to_plane(point * self.mm);
+        let all = self.motions.get(pass.motions.clone()).unwrap_or_default();
+        let mut reached = f64::NEG_INFINITY;
+        let mut breaks = Vec::with_capacity(all.len());
+        for (index, motion) in all.iter().enumerate() {
+            let (from, at) = (flat(motion.from.point), flat(motion.to.point));
+            let to = all.get(index + 1).map_or(at, |next| flat(next.to.point));
+            let lean = if to == at { slope_sine(from, at, at) * 2.0 } else { slope_sine(from, at, to) };
+            reached = reached.max((at.u - radius * lean) * forward);
+            breaks.push(reached);
+        }
+        breaks
+    }
+
+    /// Puts pieces in the place of a motion.
+    fn replace_motion(
+        &self,
+        editor: &mut ProgramEditor,
+        motion: &Motion,
+        pieces: &[ChainPiece],
+        plane: &ProfilePlane,
+        goto: usize,
+    ) -> Result<(), Box<Diagnostic>> {
+        let simple = is_line(editor.program(), motion);
+        let (put_in, kept) = match pieces.split_last() {
+            Some((ChainPiece::Line(line), rest)) if simple => (rest, Some(line.to)),
+            _ => (pieces, None),
+        };
+        for piece in put_in {
+            self.insert_piece(editor, piece, plane, goto, motion.statements.start)?;
+        }
+        self.keep_end(editor, motion, kept.map(|end| plane.to_space(end)))
+    }
+
+    fn insert_piece(
+        &self,
+        editor: &mut ProgramEditor,
+        piece: &ChainPiece,
+        plane: &ProfilePlane,
+        goto: usize,
+        before: usize,
+    ) -> Result<(), Box<Diagnostic>> {
+        if let (ChainPiece::Arc(arc), Some(template)) = (piece, &self.arc)
+            && !template.insert_arc(editor, arc, plane, self.mm, before)?
+        {
+            return Ok(());
+        }
+        let text = copy_statement(editor, goto, &self.point_numbers(plane.to_space(piece.end())));
+        editor.insert_before(before, &text)
+    }
+}
+
+/// Whether a motion is a line that one GOTO says.
+fn is_line(program: &Program, motion: &Motion) -> bool {
+    let record = program.statement(motion.last_statement()).map(Statement::record);
+    matches!(motion.path, MotionPath::Line) && matches!(record, Some(Record::Goto(_)))
+}
+
+/// The pieces, arcs of more than half a turn in two.
+pub(super) fn split_long_arcs(path: &Chain) -> Vec<ChainPiece> {
+    let halve = |piece: &ChainPiece| match piece {
+        ChainPiece::Arc(arc) if arc.sweep.abs() > PI => {
+            vec![piece.sub_piece(0.0, 0.5), piece.sub_piece(0.5, 1.0)]
+        }
+        _ => vec![*piece],
+    };
+    path.pieces().iter().flat_map(halve).collect()
+}
+
+/// Takes out what announces an arc or spline.
+pub(super) fn delete_announcements(editor: &mut ProgramEditor, motion: &Motion) {
+    for statement in motion.statements.clone().rev().skip(1) {
+        let found = editor.program().statement(statement);
+        if found.is_some_and(|found| {
+            found.is_live() && is_motion_record(found.record()) && *found.record() != Record::Rapid
+        }) {
+            editor.delete_statement(statement);
+        }
+    }
+}
+
+pub(super) fn is_motion_record(record: &Record) -> bool {
+    matches!(
+        record,
+        Record::Goto(_)
+            | Record::Circle(_)
+            | Record::MoveArc(_)
+            | Record::StartDirection(_)
+            | Record::DriveArc(_)
+            | Record::Nurbs
+            | Record::Knot(_)
+            | Record::Control(_)
+            | Record::Rapid
+    )
+}

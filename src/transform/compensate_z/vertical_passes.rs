@@ -1,0 +1,276 @@
+//! Passes in vertical planes: which motions they are, and what lies between them.
+
+use crate::program::MotionClass;
+use crate::program::geometry::MotionPath;
+use crate::program::motion::Motion;
+use crate::surface::profile::ProfilePlane;
+use nalgebra::{Point3, Vector3};
+use std::ops::Range;
+
+/// Points this near to a plane (mm) lie in it: a few of the last digits that files print.
+const IN_PLANE: f64 = 2e-3;
+
+/// Moves shorter than this across the axis (mm) go straight up or down.
+pub(super) const UPRIGHT: f64 = 1e-3;
+
+/// Directions within this angle (radians) are parallel.
+const PARALLEL: f64 = 0.02;
+
+/// A pass.
+#[derive(Debug, Clone)]
+pub(super) struct VerticalPass {
+    /// Its motions.
+    pub motions: Range<usize>,
+    /// Its plane; mm, u along the pass.
+    pub plane: ProfilePlane,
+}
+
+/// Why a path is not made of passes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum NoPassReason {
+    /// A motion leaves the plane of its pass.
+    LeavesPlane(usize),
+    /// A motion goes back over its pass.
+    TurnsBack(usize),
+    /// The tool axis turns in it.
+    AxisTurns(usize),
+}
+
+/// The passes among motions; `meant` says which motions cut. Everything else is left to links.
+///
+/// # Errors
+/// [`NoPassReason`] where cutting does not keep to vertical planes.
+pub(super) fn find_vertical_passes(
+    motions: &[Motion],
+    meant: &[bool],
+    mm: f64,
+) -> Result<Vec<VerticalPass>, NoPassReason> {
+    let mut found = Vec::new();
+    for run in find_cutting_runs(motions, meant, mm) {
+        found.extend(passes_of_run(motions, run, mm)?);
+    }
+    Ok(found)
+}
+
+/// Runs of motions that cut one after the other, without the straight way down to them and up from them where the file does not mark
+/// what motions are for.
+pub(super) fn find_cutting_runs(motions: &[Motion], meant: &[bool], mm: f64) -> Vec<Range<usize>> {
+    let mut found = Vec::new();
+    let mut index = 0;
+    let means = |index: usize| meant.get(index).copied().unwrap_or(false);
+    while index < motions.len() {
+        if !means(index) {
+            index += 1;
+            continue;
+        }
+        let operation = motions.get(index).map(|motion| motion.operation);
+        let mut end = index;
+        while means(end) && motions.get(end).map(|motion| motion.operation) == operation {
+            end += 1;
+        }
+        let run = trim_plunge_and_retract(motions, index..end, mm);
+        if !run.is_empty() {
+            found.push(run);
+        }
+        index = end;
+    }
+    found
+}
+
+/// A run without the straight way down to it and up from it, where the file does not mark them as cuts, or where it comes from a rapid
+/// or goes on as one.
+fn trim_plunge_and_retract(motions: &[Motion], mut run: Range<usize>, mm: f64) -> Range<usize> {
+    let rapid = |index: Option<usize>| {
+        index
+            .and_then(|index| motions.get(index))
+            .is_none_or(|motion| motion.rapid || matches!(motion.path, MotionPath::Start))
+    };
+    let upright = |index: usize, up: bool, beside_rapid: bool| {
+        motions.get(index).is_some_and(|motion| {
+            let way = (motion.to.point - motion.from.point) * mm;
+            let along = way.dot(&motion.to.axis);
+            (!motion.class_is_told || beside_rapid)
+                && matches!(motion.path, MotionPath::Line)
+                && (way - motion.to.axis * along).norm() <= UPRIGHT
+                && (if up { along >= 0.0 } else { along <= 0.0 })
+        })
+    };
+    while !run.is_empty() && upright(run.start, false, rapid(run.start.checked_sub(1))) {
+        run.start += 1;
+    }
+    while !run.is_empty() && upright(run.end - 1, true, rapid(Some(run.end))) {
+        run.end -= 1;
+    }
+    run
+}
+
+/// A stretch of a run in one vertical plane; no plane for an arc that lies across.
+struct PlanarRun {
+    motions: Range<usize>,
+    plane: Option<(ProfilePlane, Vector3<f64>)>,
+    length: f64,
+}
+
+fn passes_of_run(motions: &[Motion], run: Range<usize>, mm: f64) -> Result<Vec<VerticalPass>, NoPassReason> {
+    let first = motions.get(run.start);
+    let turns = |motion: &&Motion| {
+        first.is_some_and(|first| {
+            (motion.from.axis - first.from.axis).amax() > 1e-6
+                || (motion.to.axis - first.from.axis).amax() > 1e-6
+        })
+    };
+    let all = motions.get(run.clone()).unwrap_or_default();
+    if let Some(at) = all.iter().position(|motion| turns(&motion)) {
+        return Err(NoPassReason::AxisTurns(run.start + at));
+    }
+    let stretches = split_into_planar_runs(motions, run, mm);
+    let main = find_main_direction(&stretches);
+    let along =
+        |stretch: &PlanarRun| stretch.plane.is_some_and(|(_, direction)| is_parallel(direction, main));
+    let (passes, links): (Vec<&PlanarRun>, Vec<&PlanarRun>) =
+        stretches.iter().partition(|stretch| along(stretch));
+    let sum = |all: &[&PlanarRun]| all.iter().map(|stretch| stretch.length).sum::<f64>();
+    // Links are short beside passes; where they are not, the path has no passes.
+    if sum(&links) > 0.5 * sum(&passes)
+        && let Some(link) = links.first()
+    {
+        return Err(NoPassReason::LeavesPlane(link.motions.start));
+    }
+    let mut found = Vec::new();
+    for stretch in passes {
+        let Some((plane, _)) = stretch.plane else { continue };
+        let motions_of = trim_plunge_and_retract(motions, stretch.motions.clone(), mm);
+        if let Some(back) = find_turn_back(motions, &motions_of, &plane, mm) {
+            return Err(NoPassReason::TurnsBack(back));
+        }
+        if !motions_of.is_empty() {
+            found.push(VerticalPass { motions: motions_of, plane });
+        }
+    }
+    Ok(found)
+}
+
+/// Where a pass goes back over more than a quarter of its width; less is an overhang of its profile.
+fn find_turn_back(motions: &[Motion], range: &Range<usize>, plane: &ProfilePlane, mm: f64) -> Option<usize> {
+    let ends = |motion: &Motion| [motion.from, motion.to].map(|pose| plane.to_plane(pose.point * mm).u);
+    let all = motions.get(range.clone())?;
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    let (mut forward, mut back) = (0.0, 0.0);
+    for [from, to] in all.iter().map(ends) {
+        (low, high) = (low.min(from.min(to)), high.max(from.max(to)));
+        if to > from { forward += to - from } else { back += from - to }
+    }
+    if f64::min(forward, back) <= 0.25 * (high - low) {
+        return None;
+    }
+    let way = if all
+        .iter()
+        .map(ends)
+        .find(|[from, to]| (to - from).abs() > UPRIGHT)
+        .is_some_and(|[from, to]| to > from)
+    {
+        1.0
+    } else {
+        -1.0
+    };
+    let first = all.iter().map(ends).position(|[from, to]| (to - from) * way < -UPRIGHT)?;
+    Some(range.start + first)
+}
+
+/// The direction of the longest sum of parallel stretches.
+fn find_main_direction(stretches: &[PlanarRun]) -> Vector3<f64> {
+    let mut sums: Vec<(Vector3<f64>, f64)> = Vec::new();
+    for stretch in stretches {
+        let Some((_, direction)) = stretch.plane else { continue };
+        match sums.iter_mut().find(|(known, _)| is_parallel(*known, direction)) {
+            Some((_, sum)) => *sum += stretch.length,
+            None => sums.push((direction, stretch.length)),
+        }
+    }
+    // The first of equals, so that the same path always has the same passes.
+    let longest = sums.into_iter().reduce(|one, next| if next.1 > one.1 * (1.0 + 1e-9) { next } else { one });
+    longest.map_or_else(Vector3::zeros, |(direction, _)| direction)
+}
+
+fn is_parallel(one: Vector3<f64>, other: Vector3<f64>) -> bool {
+    one.cross(&other).norm() <= PARALLEL
+}
+
+fn split_into_planar_runs(motions: &[Motion], run: Range<usize>, mm: f64) -> Vec<PlanarRun> {
+    let mut found = Vec::new();
+    let mut start = run.start;
+    while start < run.end {
+        let (end, plane) = find_planar_run(motions, start, run.end, mm);
+        let part = motions.get(start..end).unwrap_or_default();
+        let length = part.iter().map(|motion| motion.length() * mm).sum();
+        found.push(PlanarRun { motions: start..end, plane, length });
+        start = end;
+    }
+    found
+}
+
+/// The longest stretch from `start` in one plane, and its plane; at least one motion.
+fn find_planar_run(
+    motions: &[Motion],
+    start: usize,
+    end: usize,
+    mm: f64,
+) -> (usize, Option<(ProfilePlane, Vector3<f64>)>) {
+    let Some(first) = motions.get(start) else { return (start + 1, None) };
+    let (origin, up) = (first.from.point * mm, first.from.axis);
+    let mut seen: Vec<Point3<f64>> = Vec::new();
+    let mut plane: Option<(ProfilePlane, Vector3<f64>)> = None;
+    let mut index = start;
+    while let Some(motion) = motions.get(index).filter(|_| index < end) {
+        let points: Vec<Point3<f64>> = motion
+            .path
+            .sample_points(motion.from.point, motion.to.point)
+            .iter()
+            .map(|point| point * mm)
+            .collect();
+        if !is_in_plane(&plane, &points) {
+            // A short beginning tells the direction badly, a farther point better.
+            let better = fit_plane(origin, up, &points);
+            let upright = plane.is_none() && better.is_none() && matches!(motion.path, MotionPath::Line);
+            let fits = is_in_plane(&better, &points) && is_in_plane(&better, &seen);
+            if !(upright || fits) {
+                break;
+            }
+            plane = better.or(plane);
+        }
+        seen.extend(points);
+        index += 1;
+    }
+    (index.max(start + 1), plane.filter(|_| index > start))
+}
+
+fn is_in_plane(plane: &Option<(ProfilePlane, Vector3<f64>)>, points: &[Point3<f64>]) -> bool {
+    let Some((plane, _)) = plane else { return false };
+    points.iter().all(|point| plane.signed_distance_mm(*point).abs() <= IN_PLANE)
+}
+
+/// The plane through a point along the axis and through the farthest of others; `None` where all are above each other.
+fn fit_plane(
+    origin: Point3<f64>,
+    up: Vector3<f64>,
+    points: &[Point3<f64>],
+) -> Option<(ProfilePlane, Vector3<f64>)> {
+    let across = |point: &Point3<f64>| {
+        let way = point - origin;
+        way - up * way.dot(&up)
+    };
+    let far =
+        points.iter().map(across).reduce(|one, next| if next.norm() > one.norm() { next } else { one })?;
+    if far.norm() <= UPRIGHT {
+        return None;
+    }
+    Some((ProfilePlane::new(origin, far, up)?, far.normalize()))
+}
+
+/// Whether a motion cuts, as far as its class tells: what the file marks as a cut, and everything at feed that it does not mark.
+pub(super) fn is_cutting(motion: &Motion) -> bool {
+    !motion.rapid
+        && motion.hole.is_none()
+        && !matches!(motion.path, MotionPath::Start)
+        && (!motion.class_is_told || motion.class == MotionClass::Cut)
+}

@@ -1,0 +1,171 @@
+//! The pass over the statements: each number by its role.
+
+use super::unit_conversion::UnitConversion;
+use super::unit_words;
+use crate::diagnostic::Diagnostic;
+use crate::parse;
+use crate::program::record::{SpindleUnit, ToolWord};
+use crate::program::{FeedUnit, LengthUnit, NumberRole, Record};
+use crate::transform::StepContext;
+use crate::transform::statement_numbers::{self, MatrixRowCounter, major_word, set_matrix_row};
+use crate::write::{self, ProgramEditor};
+
+/// Known words whose numbers are lengths only their post understands; a zero is the same in every unit.
+const LENGTHS_OF_POSTS: &[&str] = &[
+    "CLRSRF", "FACEMILL", "GOCLER", "LEADER", "MCHTOL", "PIVOTZ", "PLUNGE", "PSIS", "RETRCT", "SAFETY",
+    "SHIFT", "SMOOTH", "THREAD", "TRACUT", "TURRET", "WCORN",
+];
+
+/// Converts every statement.
+///
+/// # Errors
+/// When a statement does not read back.
+pub fn convert_statements(
+    editor: &mut ProgramEditor,
+    conversion: UnitConversion,
+    context: &mut StepContext<'_>,
+) -> Result<(), Box<Diagnostic>> {
+    let mut rows = MatrixRowCounter::default();
+    let mut multi_axis = false;
+    let mut unit_in_force = None;
+    let mut reported = Vec::new();
+    for index in 0..editor.program().statements().len() {
+        let Some(statement) = editor.program().statement(index).filter(|statement| statement.is_live())
+        else {
+            continue;
+        };
+        let record = statement.record();
+        let row = rows.observe_record(record);
+        match record {
+            Record::Goto(goto) => {
+                let point = goto.point.coords.map(|value| conversion.convert_length(value));
+                editor.set_numbers(index, &[(0, point.x), (1, point.y), (2, point.z)])?;
+                continue;
+            }
+            Record::Comment | Record::Blank | Record::Rapid | Record::Text | Record::Marked(_) => continue,
+            Record::Units(_) => {
+                unit_words::swap_units(editor, index, conversion.to)?;
+                continue;
+            }
+            Record::MatrixRow(numbers) => {
+                let [_, _, _, shift] = **numbers;
+                if row.is_some() {
+                    let shift = conversion.convert_length(shift);
+                    set_matrix_row(editor, index, &[(3, shift)])?;
+                }
+                continue;
+            }
+            Record::MultiAxis(on) => multi_axis = *on,
+            Record::Feed(feed) => unit_in_force = feed.unit.or(unit_in_force),
+            _ => {}
+        }
+        report_unconverted(editor, index, conversion, context, &mut reported);
+        let edits = compute_edits(editor, index, conversion, multi_axis, unit_in_force);
+        let Some(statement) = editor.program().statement(index) else { continue };
+        match statement.record() {
+            Record::Feed(_) | Record::Cycle(_) => unit_words::swap_feed_words(editor, index, conversion)?,
+            Record::Spindle(_) if !edits.is_empty() => {
+                unit_words::swap_speed_word(editor, index, conversion.to)?;
+            }
+            _ => {}
+        }
+        if !edits.is_empty() {
+            editor.set_numbers(index, &edits)?;
+        }
+    }
+    Ok(())
+}
+
+/// The new values of a statement's numbers.
+fn compute_edits(
+    editor: &ProgramEditor,
+    index: usize,
+    conversion: UnitConversion,
+    multi_axis: bool,
+    unit_in_force: Option<FeedUnit>,
+) -> Vec<(usize, f64)> {
+    let program = editor.program();
+    let Some(statement) = program.statement(index) else { return Vec::new() };
+    let (record, text) = (statement.record(), program.statement_text(statement));
+    let roles = statement_numbers::number_roles(record, text, multi_axis);
+    if roles.iter().all(|role| *role == NumberRole::Plain) {
+        return Vec::new();
+    }
+    let feeds = match record {
+        Record::Feed(_) | Record::Cycle(_) => write::statement_syntax(program, index)
+            .map(|syntax| unit_words::find_feeds(&syntax))
+            .unwrap_or_default(),
+        _ => Vec::new(),
+    };
+    let metric_speed =
+        matches!(record, Record::Spindle(spindle) if spindle.unit == SpindleUnit::SurfaceMetres);
+    let speed_changes = metric_speed == (conversion.from == LengthUnit::Mm);
+    let mut edits = Vec::new();
+    for (number, ((_, value), role)) in parse::statement_numbers(text).into_iter().zip(roles).enumerate() {
+        let new = match role {
+            NumberRole::Point(_) | NumberRole::Step(_) | NumberRole::FrameOrigin(_) | NumberRole::Length => {
+                conversion.convert_length(value)
+            }
+            NumberRole::Feed => {
+                let unit = feeds.get(number).and_then(|(_, unit)| *unit).or(unit_in_force);
+                if !conversion.convert_feed_unit(unit).1 {
+                    continue;
+                }
+                conversion.convert_length(value)
+            }
+            NumberRole::SurfaceSpeed if speed_changes => conversion.convert_surface_speed(value),
+            NumberRole::SurfaceSpeed
+            | NumberRole::Direction(_)
+            | NumberRole::ArcAxis(_)
+            | NumberRole::FrameAxis(..)
+            | NumberRole::Plain => {
+                continue;
+            }
+        };
+        edits.push((number, new));
+    }
+    edits
+}
+
+/// Reports what holds lengths in a form that is not understood, once for each word.
+fn report_unconverted(
+    editor: &ProgramEditor,
+    index: usize,
+    conversion: UnitConversion,
+    context: &mut StepContext<'_>,
+    reported: &mut Vec<String>,
+) {
+    let program = editor.program();
+    let Some(statement) = program.statement(index) else { return };
+    let text = program.statement_text(statement);
+    let message = match statement.record() {
+        Record::ToolCall(call) if !call.loads && parse::statement_numbers(text).len() > 2 => {
+            "this TOOLNO mixes lengths, angles, feeds and speeds in an order of its own: none of them is converted"
+        }
+        Record::ToolData(data) if data.word == ToolWord::TlDataOther => {
+            "the numbers of this kind of tool are not understood: none of them is converted"
+        }
+        Record::Spindle(spindle)
+            if spindle.unit == SpindleUnit::SurfaceFeet && conversion.from == LengthUnit::Mm =>
+        {
+            "SFM in a program in millimetres may mean feet or metres of surface per minute: it is left as it is"
+        }
+        Record::Known if major_word(text) == "FEDRAT" && !parse::statement_numbers(text).is_empty() => {
+            "the unit of this feed is not understood: it is not converted"
+        }
+        Record::Known
+            if LENGTHS_OF_POSTS.contains(&major_word(text).as_str())
+                && parse::statement_numbers(text).iter().any(|(at, value)| {
+                    *value != 0.0 && text.get(at.clone()).is_some_and(|it| it.contains(&b'.'))
+                }) =>
+        {
+            "the numbers of this word are its post's business and may be lengths: they are not converted"
+        }
+        _ => return,
+    };
+    let word = major_word(text);
+    if !reported.contains(&word) {
+        context.report_unchanged(message, program, index);
+        reported.push(word);
+    }
+}

@@ -1,0 +1,56 @@
+//! From one unit to another.
+
+use crate::program::{FeedUnit, LengthUnit};
+
+/// Metres in a foot.
+const METRES_PER_FOOT: f64 = 0.3048;
+
+/// A conversion between two units that differ.
+#[derive(Debug, Clone, Copy)]
+pub struct UnitConversion {
+    /// The old unit.
+    pub from: LengthUnit,
+    /// The new one.
+    pub to: LengthUnit,
+}
+
+impl UnitConversion {
+    /// A length, or a feed in units of the file, in the new unit. The division by 25.4 rounds once, as a multiplication by
+    /// 1/25.4 would not.
+    pub fn convert_length(self, value: f64) -> f64 {
+        value * self.from.mm_per_unit() / self.to.mm_per_unit()
+    }
+
+    /// Decimals that a number needs beyond its own: 0.01 mm is 0.0004 in, so two keep half of the last decimal.
+    pub fn extra_decimals(self) -> usize {
+        match self.to {
+            LengthUnit::Inch => 2,
+            LengthUnit::Mm => 0,
+        }
+    }
+
+    /// What becomes of a feed in a unit (`None`: in units of the file per minute): its new word where that changes, and whether
+    /// its value is converted.
+    pub fn convert_feed_unit(self, unit: Option<FeedUnit>) -> (Option<FeedUnit>, bool) {
+        let unit = unit.unwrap_or(FeedUnit::PerMinute);
+        if unit.length_unit(self.from) != Some(self.from) {
+            return (None, false);
+        }
+        let word = match (unit, self.to) {
+            (FeedUnit::MmPerMinute, LengthUnit::Inch) => Some(FeedUnit::InchPerMinute),
+            (FeedUnit::MmPerRevolution, LengthUnit::Inch) => Some(FeedUnit::InchPerRevolution),
+            (FeedUnit::InchPerMinute, LengthUnit::Mm) => Some(FeedUnit::MmPerMinute),
+            (FeedUnit::InchPerRevolution, LengthUnit::Mm) => Some(FeedUnit::MmPerRevolution),
+            _ => None,
+        };
+        (word, true)
+    }
+
+    /// A surface speed: m/min to ft/min, or back.
+    pub fn convert_surface_speed(self, value: f64) -> f64 {
+        match self.to {
+            LengthUnit::Inch => value / METRES_PER_FOOT,
+            LengthUnit::Mm => value * METRES_PER_FOOT,
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! Words that name units: of the file, of feeds, of surface speeds.
+
+use super::unit_conversion::UnitConversion;
+use crate::diagnostic::Diagnostic;
+use crate::program::{FeedUnit, FieldKind, LengthUnit, StatementField, StatementSyntax, fold_text};
+use crate::write::{self, ProgramEditor};
+use std::ops::Range;
+
+/// The numbers of a statement that are feeds, with the unit word that governs each: the one before it, else the only one of
+/// the record (CATIA writes it behind).
+pub fn find_feeds(syntax: &StatementSyntax<'_>) -> Vec<(usize, Option<FeedUnit>)> {
+    let units = find_feed_words(syntax);
+    let mut found = Vec::new();
+    for (index, (at, _)) in syntax.numbers().iter().enumerate() {
+        let before = units.iter().rev().find(|(place, _)| place.end <= at.start);
+        found.push((index, before.or_else(|| units.first()).map(|(_, unit)| *unit)));
+    }
+    found
+}
+
+/// Gives the unit words of feeds their new names.
+///
+/// # Errors
+/// When the new text does not read back.
+pub fn swap_feed_words(
+    editor: &mut ProgramEditor,
+    index: usize,
+    conversion: UnitConversion,
+) -> Result<(), Box<Diagnostic>> {
+    let Some(syntax) = write::statement_syntax(editor.program(), index) else { return Ok(()) };
+    let parts = find_feed_words(&syntax)
+        .into_iter()
+        .filter_map(|(at, unit)| conversion.convert_feed_unit(Some(unit)).0.map(|new| (at, new.word())))
+        .collect();
+    replace_words(editor, index, parts)
+}
+
+/// Gives the unit word of a surface speed its new name.
+///
+/// # Errors
+/// When the new text does not read back.
+pub fn swap_speed_word(
+    editor: &mut ProgramEditor,
+    index: usize,
+    to: LengthUnit,
+) -> Result<(), Box<Diagnostic>> {
+    let (old, new) = match to {
+        LengthUnit::Inch => ("SMM", "SFM"),
+        LengthUnit::Mm => ("SFM", "SMM"),
+    };
+    let Some(syntax) = write::statement_syntax(editor.program(), index) else { return Ok(()) };
+    let parts = split_words(&syntax).filter(|(_, word)| word == old).map(|(at, _)| (at, new)).collect();
+    replace_words(editor, index, parts)
+}
+
+/// Names the new unit in a UNITS record, whose word keeps its own spelling.
+///
+/// # Errors
+/// When the new text does not read back.
+pub fn swap_units(editor: &mut ProgramEditor, index: usize, to: LengthUnit) -> Result<(), Box<Diagnostic>> {
+    let Some(syntax) = write::statement_syntax(editor.program(), index) else { return Ok(()) };
+    let name = match to {
+        LengthUnit::Inch => "INCHES",
+        LengthUnit::Mm => "MM",
+    };
+    let parts = syntax.fields.first().map(|field| (field.at.clone(), name)).into_iter().collect();
+    replace_words(editor, index, parts)
+}
+
+fn find_feed_words(syntax: &StatementSyntax<'_>) -> Vec<(Range<usize>, FeedUnit)> {
+    split_words(syntax).filter_map(|(at, word)| FeedUnit::from_word(&word).map(|unit| (at, unit))).collect()
+}
+
+/// The words of all fields. A field may hold several where a comma is missing (CAMWorks).
+fn split_words<'s>(syntax: &'s StatementSyntax<'_>) -> impl Iterator<Item = (Range<usize>, String)> + 's {
+    let of_field = |field: &'s StatementField| {
+        let bytes = syntax.bytes_at(&field.at);
+        let start = field.at.start;
+        let mut at = 0;
+        bytes.split(|byte| matches!(byte, b' ' | b'\t')).map(move |word| {
+            let place = start + at..start + at + word.len();
+            at += word.len() + 1;
+            (place, fold_text(word))
+        })
+    };
+    syntax.fields.iter().filter(|field| field.kind == FieldKind::Text).flat_map(of_field)
+}
+
+fn replace_words(
+    editor: &mut ProgramEditor,
+    index: usize,
+    parts: Vec<(Range<usize>, &'static str)>,
+) -> Result<(), Box<Diagnostic>> {
+    let parts: Vec<_> = parts.into_iter().map(|(at, word)| (at, word.as_bytes())).collect();
+    if parts.is_empty() { Ok(()) } else { editor.replace_parts(index, &parts) }
+}

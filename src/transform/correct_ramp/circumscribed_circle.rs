@@ -1,0 +1,129 @@
+//! Longer legs on a circumscribed circle (Zhou 2020, "ramp length correction").
+
+use nalgebra::{Point2, Rotation2, Vector2};
+use std::f64::consts::{PI, TAU};
+
+/// The side of the chord P1-Pn on which the circle bulges.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BulgeSide {
+    /// Left of P1 -> Pn; around a closed ramp counter-clockwise.
+    Left,
+    /// Right of P1 -> Pn; around a closed ramp clockwise.
+    Right,
+}
+
+impl BulgeSide {
+    /// The other one.
+    #[must_use]
+    pub fn mirrored(self) -> Self {
+        match self {
+            Self::Left => Self::Right,
+            Self::Right => Self::Left,
+        }
+    }
+}
+
+/// Angle of the arc P1..Pn (radians, in `(0, 2 pi)`) on which `legs` equal chords have the length `leg`, over a chord `s`.
+///
+/// With e the signed distance of the centre, the arc is 180 deg + 2 atan(2e/s), and the paper's two cases are one equation:
+/// `leg = s sin(arc / 2 legs) / sin(arc / 2)`, which grows with the arc from `s / legs` to infinity. `None` when `leg` is not
+/// above `s / legs`: then the points lie on the chord.
+pub fn find_arc_angle(s: f64, leg: f64, legs: usize) -> Option<f64> {
+    let count = legs as f64;
+    if leg * count <= s * (1.0 + 1e-12) {
+        return None;
+    }
+    let too_short = |arc: f64| s * (arc / (2.0 * count)).sin() < leg * (arc / 2.0).sin();
+    let (mut low, mut high) = (0.0, TAU);
+    // Halving until the doubles between are used up: 60 times at most.
+    for _ in 0..64 {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            break;
+        }
+        if too_short(middle) { low = middle } else { high = middle }
+    }
+    Some(high)
+}
+
+/// P1..Pn with P2..Pn-1 on a circle through P1 and Pn, every leg as long as `leg` (mm).
+///
+/// `points` are P1..Pn across the axis, at least three: one leg cannot be lengthened. On the chord itself when `leg` is
+/// `s / legs` or less.
+pub fn place_on_circle(
+    points: &[Point2<f64>],
+    leg: f64,
+    side: BulgeSide,
+    closed: bool,
+) -> Option<Vec<Point2<f64>>> {
+    let (first, last) = (*points.first()?, *points.last()?);
+    let legs = points.len().checked_sub(1).filter(|legs| *legs > 1)?;
+    let chord = if closed { Vector2::zeros() } else { last - first };
+    let s = chord.norm();
+    let along = |share: f64| first + (last - first) * share;
+    let (sweep, centre) = if closed {
+        let radius = leg / (2.0 * (PI / legs as f64).sin());
+        let (towards, side) = find_centre_direction(points, side)?;
+        (if side == BulgeSide::Left { TAU } else { -TAU }, first + towards * radius)
+    } else {
+        let Some(arc) = find_arc_angle(s, leg, legs) else {
+            return Some((0..=legs).map(|index| along(index as f64 / legs as f64)).collect());
+        };
+        let radius = leg / (2.0 * (arc / (2.0 * legs as f64)).sin());
+        let left = Vector2::new(-chord.y, chord.x) / s;
+        let (bulge, sweep) = match side {
+            // Over the left side, the path turns right.
+            BulgeSide::Left => (left, -arc),
+            BulgeSide::Right => (-left, arc),
+        };
+        // e = -R cos(arc / 2): positive on the bulge's side for more than half a turn.
+        (sweep, along(0.5) - bulge * (radius * (arc / 2.0).cos()))
+    };
+    let spoke = first - centre;
+    let inner = (1..legs).map(|index| centre + Rotation2::new(sweep * index as f64 / legs as f64) * spoke);
+    Some(std::iter::once(first).chain(inner).chain([last]).collect())
+}
+
+/// The centre's direction from P1 of a closed ramp: towards the mean of P2..Pn-1 and in the ramp's own sense, or both mirrored.
+fn find_centre_direction(points: &[Point2<f64>], side: BulgeSide) -> Option<(Vector2<f64>, BulgeSide)> {
+    let first = *points.first()?;
+    let inner = points.get(1..points.len().checked_sub(1)?)?;
+    let mean = inner.iter().map(|point| point - first).sum::<Vector2<f64>>() / inner.len() as f64;
+    let towards = mean
+        .try_normalize(1e-9)
+        .or_else(|| inner.iter().find_map(|point| (point - first).try_normalize(1e-9)))?;
+    Some(if side == find_own_side(points, true) { (towards, side) } else { (-towards, side) })
+}
+
+/// The side of a ramp's own points P2..Pn-1; of a closed one its turning sense. Where they lie on both sides the sign of the area of
+/// P1..Pn decides, and collinear ones bulge to the left.
+pub fn find_own_side(points: &[Point2<f64>], closed: bool) -> BulgeSide {
+    let (Some(first), Some(last)) = (points.first(), points.last()) else { return BulgeSide::Left };
+    let chord = last - first;
+    if !closed {
+        let aside = |point: &Point2<f64>| chord.perp(&(point - first)) / chord.norm();
+        let inner = points.get(1..points.len().saturating_sub(1)).unwrap_or_default();
+        let (left, right) = (inner.iter().any(|p| aside(p) > 1e-6), inner.iter().any(|p| aside(p) < -1e-6));
+        match (left, right) {
+            (true, false) | (false, false) => return BulgeSide::Left,
+            (false, true) => return BulgeSide::Right,
+            (true, true) => {}
+        }
+    }
+    let area: f64 = points.windows(2).map(|pair| twice_area(first, pair)).sum();
+    // A way around counter-clockwise goes below its chord, and around a closed ramp to the left.
+    match (area > 0.0, closed) {
+        (true, false) => BulgeSide::Right,
+        (true, true) => BulgeSide::Left,
+        (false, false) => BulgeSide::Left,
+        (false, true) if area < 0.0 => BulgeSide::Right,
+        (false, true) => BulgeSide::Left,
+    }
+}
+
+fn twice_area(origin: &Point2<f64>, pair: &[Point2<f64>]) -> f64 {
+    match pair {
+        [a, b] => (a - origin).perp(&(b - origin)),
+        _ => 0.0,
+    }
+}

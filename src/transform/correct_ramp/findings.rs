@@ -1,0 +1,167 @@
+//! What the step says about ramps.
+
+use super::ramp_correction::{CorrectedRamp, LengtheningMethod};
+use super::ramp_search::FoundRamp;
+use super::report::RampReport;
+use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
+use crate::program::motion::{ActiveTool, Motion};
+use crate::program::{Program, Statement};
+use crate::source::Span;
+use crate::transform::StepContext;
+use std::fmt::Display;
+
+/// A ramp in its program.
+pub(super) struct RampFindings<'a> {
+    pub program: &'a Program,
+    pub motions: &'a [Motion],
+    pub found: &'a FoundRamp,
+}
+
+impl RampFindings<'_> {
+    fn statement_span(&self, motion: usize, end: bool) -> Span {
+        let statement = self
+            .motions
+            .get(motion)
+            .map(|motion| if end { motion.last_statement() } else { motion.statements.start });
+        statement.and_then(|index| self.program.statement(index)).map(Statement::origin).unwrap_or_default()
+    }
+
+    /// A finding at the ramp's first and last statement, and at the step.
+    fn build_finding(&self, code: DiagnosticCode, message: String, context: &StepContext<'_>) -> Diagnostic {
+        let range = &self.found.motions;
+        let last = range.end.saturating_sub(1);
+        let source = self.program.source();
+        let first = self.statement_span(range.start, false);
+        let end = self.statement_span(last, true);
+        let mut found = Diagnostic::new(code, message).with_label(source, first, "the ramp begins");
+        if end != first {
+            found = found.with_label(source, end, "and ends here");
+        }
+        found.with_label(
+            &context.recipe.source,
+            context.recipe.step_span(usize::from(context.step.0)),
+            "by this step",
+        )
+    }
+}
+
+/// `a zigzag of POCKET has a leg of 12.000 mm (at least 38.000) and descends at 9.2 degrees (at most 7.5)`.
+fn describe_violation(report: &RampReport) -> String {
+    let before = &report.before;
+    let what = match report.kind {
+        "along the shape" => "a ramp along the shape".to_owned(),
+        kind => format!("a {kind}"),
+    };
+    let of = if report.operation.is_empty() { String::new() } else { format!(" of {}", report.operation) };
+    let length = if report.kind == "helix" { "is" } else { "has a leg of" };
+    let wide = if report.kind == "helix" { " mm wide" } else { " mm" };
+    let mut faults = Vec::new();
+    if report.before.shortest_leg_mm < report.limit_leg_mm && report.kind != "plunge" {
+        faults.push(format!(
+            "{length} {:.3}{wide} (at least {:.3})",
+            before.shortest_leg_mm, report.limit_leg_mm
+        ));
+    }
+    if report.kind == "plunge" {
+        faults.push(format!("goes straight down by {:.3} mm", before.height_mm));
+    } else if before.steepest_degrees > report.limit_degrees {
+        faults.push(format!(
+            "descends at {:.2} degrees (at most {:.2})",
+            before.steepest_degrees, report.limit_degrees
+        ));
+    }
+    format!("{what}{of} {}", faults.join(" and "))
+}
+
+/// A ramp out of limits that is corrected, and how.
+pub(super) fn describe_corrected_ramp(
+    place: &RampFindings<'_>,
+    report: &RampReport,
+    done: &CorrectedRamp,
+    context: &StepContext<'_>,
+) -> Diagnostic {
+    let mut how = Vec::new();
+    match done.lengthened {
+        LengtheningMethod::No => {}
+        LengtheningMethod::Circle => how.push("its turning points lie on a circle through its ends".to_owned()),
+        LengtheningMethod::MirroredCircle => how.push(
+            "its turning points lie on a circle through its ends, on the other side, since the near one leaves the region"
+                .to_owned(),
+        ),
+        LengtheningMethod::WidenedHelix => how.push("the helix is wider".to_owned()),
+        LengtheningMethod::AlongChord => how.push("it goes to and fro along the line between its ends".to_owned()),
+        LengtheningMethod::AlongPass => how.push("it goes out along the first cutting pass and back".to_owned()),
+    }
+    if done.compression < 1.0 {
+        how.push(format!("it begins {:.3} mm above its end", done.ramp.height_mm()));
+    }
+    if done.passes > 1 {
+        how.push(match report.kind {
+            "helix"
+                if !matches!(
+                    done.lengthened,
+                    LengtheningMethod::AlongChord | LengtheningMethod::AlongPass
+                ) =>
+            {
+                format!("{} turns are put in", done.passes - 1)
+            }
+            _ => format!("it descends in {} passes", done.passes),
+        });
+    }
+    let help = format!("Corrected: {}.", how.join("; "));
+    place.build_finding(codes::RAMP_OUT_OF_LIMITS, describe_violation(report), context).with_help(help)
+}
+
+/// A ramp out of limits that is not corrected.
+pub(super) fn describe_impossible_ramp(
+    place: &RampFindings<'_>,
+    report: &RampReport,
+    why: &str,
+    keep: bool,
+    context: &StepContext<'_>,
+) -> Diagnostic {
+    let code = if keep { codes::RAMP_KEPT } else { codes::RAMP_IMPOSSIBLE };
+    place.build_finding(
+        code,
+        format!("{}, and cannot be corrected: {why}", describe_violation(report)),
+        context,
+    )
+}
+
+/// A tool that nothing says has inserts: an error when no ramp can be judged, else a note.
+pub(super) fn describe_missing_inserts(
+    program: &Program,
+    motions: &[Motion],
+    motion: usize,
+    tool: Option<&ActiveTool>,
+    error: bool,
+    context: &StepContext<'_>,
+) -> Box<Diagnostic> {
+    let called = tool.map_or_else(|| "the tool".to_owned(), ActiveTool::display_name);
+    let statement = motions.get(motion).map_or(0, Motion::last_statement);
+    if error {
+        let message = format!(
+            "neither the step nor `setup.tools` says which inserts {called} has, so no ramp can be judged"
+        );
+        let found = context.statement_failure(message, program, statement, "its first ramp");
+        let help = "Say `tool: { insert_height: ..., insert_radius: ... }` in the step, or `insert: { height: ..., radius: ... }` \
+                    for the tool under `setup.tools`.";
+        return Box::new(found.with_help(help));
+    }
+    let message = format!("the ramps of {called} are left as they are: nothing says that it has inserts");
+    let span = program.statement(statement).map(Statement::origin).unwrap_or_default();
+    Box::new(Diagnostic::new(codes::NO_INSERTS, message).with_label(program.source(), span, "its first ramp"))
+}
+
+/// A ramp that could not be written, or not proven.
+pub(super) fn describe_unproven_ramp(
+    program: &Program,
+    motions: &[Motion],
+    found: &FoundRamp,
+    why: impl Display,
+    context: &StepContext<'_>,
+) -> Box<Diagnostic> {
+    let statement = motions.get(found.motions.start).map_or(0, |motion| motion.statements.start);
+    let message = format!("this ramp cannot be corrected: {why}");
+    context.statement_failure(message, program, statement, "the ramp begins")
+}

@@ -1,0 +1,94 @@
+//! What an operation cuts at a ramp's level.
+
+use super::milled_area::MilledArea;
+use super::ramp_search::{FoundRamp, LEVEL, is_level, to_tool_frame_mm};
+use super::tool_region::ToolRegion;
+use crate::program::motion::Motion;
+use nalgebra::{Point2, Rotation3};
+use std::collections::HashMap;
+
+/// An operation and a tool axis, to six decimals.
+type LevelKey = (usize, [i64; 3]);
+
+/// The level motions of operations, found once for each operation and tool axis.
+pub(super) struct LevelMotions<'m> {
+    motions: &'m [Motion],
+    mm: f64,
+    known: HashMap<LevelKey, Vec<(f64, usize)>>,
+}
+
+impl<'m> LevelMotions<'m> {
+    pub fn new(motions: &'m [Motion], mm: f64) -> Self {
+        Self { motions, mm, known: HashMap::new() }
+    }
+
+    /// The hull of what a ramp's operation cuts at the level of its end, and of the ramp itself.
+    pub fn level_hull(&mut self, found: &FoundRamp) -> ToolRegion {
+        ToolRegion::from_hull(self.level_paths(found).into_iter().flatten())
+    }
+
+    /// Where a tool of a radius (mm) covers nothing but what the operation cuts at the level of the ramp's end, or the ramp itself; looked at
+    /// within `reach` (mm) of the ramp.
+    pub fn milled_region(&mut self, found: &FoundRamp, radius: f64, reach: f64) -> ToolRegion {
+        ToolRegion::Milled(MilledArea::new(
+            &self.level_paths(found),
+            radius,
+            &found.ramp.path_across(),
+            reach,
+        ))
+    }
+
+    /// The paths of what is cut at the level of a ramp's end, motions that go on from each other joined, and the ramp's own.
+    fn level_paths(&mut self, found: &FoundRamp) -> Vec<Vec<Point2<f64>>> {
+        let end = found.ramp.end_point().z;
+        let (motions, mm, frame) = (self.motions, self.mm, found.frame);
+        let heights = self.level_heights(found);
+        let start = heights.partition_point(|(z, _)| *z < end - LEVEL);
+        let level = heights.iter().skip(start).take_while(|(z, _)| *z <= end + LEVEL);
+        let mut level: Vec<usize> = level.map(|(_, index)| *index).collect();
+        level.sort_unstable();
+        let mut paths: Vec<Vec<Point2<f64>>> = Vec::new();
+        let mut last = None;
+        for index in level {
+            let Some(motion) = motions.get(index) else { continue };
+            let samples = motion.path.sample_points(motion.from.point, motion.to.point);
+            let points = samples.into_iter().map(|point| (frame * (point * mm)).xy());
+            match paths.last_mut().filter(|_| last.is_some_and(|last| last + 1 == index)) {
+                Some(path) => path.extend(points.skip(1)),
+                None => paths.push(points.collect()),
+            }
+            last = Some(index);
+        }
+        paths.push(found.ramp.path_across());
+        paths
+    }
+
+    /// Heights of the operation's level motions at feed, ascending, with their indices.
+    fn level_heights(&mut self, found: &FoundRamp) -> &[(f64, usize)] {
+        let axis = (found.frame.inverse() * nalgebra::Vector3::z()).map(|part| (part * 1e6).round() as i64);
+        let key = (found.operation, axis.into());
+        let (motions, mm, frame) = (self.motions, self.mm, &found.frame);
+        self.known.entry(key).or_insert_with(|| find_level_heights(motions, found.operation, frame, mm))
+    }
+}
+
+fn find_level_heights(
+    motions: &[Motion],
+    operation: usize,
+    frame: &Rotation3<f64>,
+    mm: f64,
+) -> Vec<(f64, usize)> {
+    let all = motions.iter().enumerate().filter(|(_, motion)| motion.operation == operation);
+    let upright = |motion: &Motion| (frame * motion.from.axis).xy().amax() <= 1e-6;
+    let level = all.filter(|(_, motion)| {
+        !motion.rapid
+            && motion.hole.is_none()
+            && upright(motion)
+            && motion.length() > 0.0
+            && is_level(motion, mm)
+    });
+    let mut found: Vec<(f64, usize)> =
+        level.map(|(index, motion)| (to_tool_frame_mm(motion.to, frame, mm).z, index)).collect();
+    found.sort_by(|one, other| one.0.total_cmp(&other.0));
+    found
+}

@@ -1,0 +1,119 @@
+//! What an indexable cutter allows (Zhou 2020, eqs. (1) and (2)).
+
+use super::ramp::Ramp;
+use super::ramp_kind::RampKind;
+use std::fmt;
+
+/// An indexable cutter. It does not cut within `diameter - 2 insert_radius` around its axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct IndexableCutter {
+    /// Diameter D, mm.
+    pub diameter: f64,
+    /// Radius r of the insert's bottom circle, mm.
+    pub insert_radius: f64,
+    /// Cutting height h_ic of the insert, mm.
+    pub insert_height: f64,
+}
+
+/// A cutter whose inserts reach to its centre, or beyond: it cuts everywhere, and the method has no limit for it.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error(
+    "a cutter of {diameter} mm with inserts of radius {insert_radius} mm cuts up to its centre: D - 2r is not above 0"
+)]
+pub struct CutsToCentre {
+    /// Its diameter, mm.
+    pub diameter: f64,
+    /// Radius of its inserts, mm.
+    pub insert_radius: f64,
+}
+
+/// Shortest leg and steepest angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RampLimits {
+    /// l_min: shortest leg across the axis, and smallest diameter of a helix; mm.
+    pub shortest_leg: f64,
+    /// tan a_lim: tangent of the steepest angle.
+    pub steepest: f64,
+}
+
+impl IndexableCutter {
+    /// The limits: l_min = D - 2r, a_lim = atan(h_ic / (D - 2r)).
+    ///
+    /// # Errors
+    /// [`CutsToCentre`] when D - 2r is not a positive number.
+    pub fn ramp_limits(&self) -> Result<RampLimits, CutsToCentre> {
+        let blind = self.diameter - 2.0 * self.insert_radius;
+        if blind.is_nan() || blind <= 1e-9 {
+            let Self { diameter, insert_radius, .. } = *self;
+            return Err(CutsToCentre { diameter, insert_radius });
+        }
+        Ok(RampLimits { shortest_leg: blind, steepest: self.insert_height / blind })
+    }
+}
+
+/// What a ramp measures.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct RampMeasurement {
+    /// How many legs descend.
+    pub legs: usize,
+    /// Its shortest leg, of a helix its diameter; mm.
+    pub shortest_leg_mm: f64,
+    /// Its steepest angle, degrees.
+    pub steepest_degrees: f64,
+    /// How far it descends, mm.
+    pub height_mm: f64,
+    /// Length of its path, mm.
+    pub length_mm: f64,
+}
+
+impl RampMeasurement {
+    /// Measures a ramp.
+    pub fn measure_ramp(ramp: &Ramp) -> Self {
+        let legs = ramp.descending_legs();
+        let (count, shortest) = match RampKind::classify_ramp(ramp) {
+            RampKind::Helix(helix) => (1, 2.0 * helix.radius),
+            _ => (legs.len(), legs.iter().map(|leg| leg.extent).fold(f64::INFINITY, f64::min)),
+        };
+        Self {
+            legs: count,
+            shortest_leg_mm: if shortest.is_finite() { shortest } else { 0.0 },
+            steepest_degrees: ramp.steepest_slope().atan().to_degrees(),
+            height_mm: ramp.height_mm(),
+            length_mm: ramp.length_mm(),
+        }
+    }
+}
+
+/// Whether a ramp keeps the limits. `rounding` (mm) is how far printed coordinates may be off: a leg may be that much shorter, a
+/// step that much deeper, since no file can say it better.
+pub fn is_within_limits(ramp: &Ramp, limits: &RampLimits, rounding: f64) -> bool {
+    is_long_enough(ramp, limits, rounding) && is_shallow_enough(ramp, limits, rounding)
+}
+
+/// Whether every leg is long enough.
+pub fn is_long_enough(ramp: &Ramp, limits: &RampLimits, rounding: f64) -> bool {
+    let least = limits.shortest_leg - rounding - 1e-9;
+    match RampKind::classify_ramp(ramp) {
+        RampKind::Helix(helix) => 2.0 * helix.radius >= least,
+        _ => ramp.descending_legs().iter().all(|leg| leg.extent >= least),
+    }
+}
+
+/// Whether no step is too steep.
+pub fn is_shallow_enough(ramp: &Ramp, limits: &RampLimits, rounding: f64) -> bool {
+    ramp.steps_with_starts().all(|(from, step)| {
+        let most = limits.steepest * step.length_across_mm(from);
+        from.z - step.to.z <= most * (1.0 + 1e-9) + rounding + 1e-9
+    })
+}
+
+impl fmt::Display for RampLimits {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "legs of at least {:.3} mm and at most {:.2} degrees",
+            self.shortest_leg,
+            self.steepest.atan().to_degrees()
+        )
+    }
+}

@@ -1,0 +1,149 @@
+//! Shallower ramps: equal-ratio compression, then more layers (Zhou 2020, "ramp angle correction").
+
+use super::ramp::{Ramp, RampArc, RampStep};
+use super::ramp_kind::{Helix, RampKind};
+use super::ramp_limits::{RampLimits, is_shallow_enough};
+use super::tool_region::ToolRegion;
+use nalgebra::{Point3, Rotation2};
+use std::f64::consts::TAU;
+
+/// More passes than this are no correction but another operation.
+pub const MOST_PASSES: usize = 1000;
+
+/// Rounding up takes this little for nothing, so that a ramp on the limit gets no pass too many.
+const SLACK: f64 = 1e-9;
+
+/// A ramp would need this many passes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TooManyPasses(pub f64);
+
+/// The ramp with its heights above the end multiplied by `ratio` (nu): `z' = z_n + nu (z - z_n)`.
+pub fn compress_heights(ramp: &Ramp, ratio: f64) -> Ramp {
+    let end = ramp.end_point().z;
+    let lower = |point: Point3<f64>| Point3::new(point.x, point.y, end + ratio * (point.z - end));
+    let steps = ramp.steps.iter().map(|step| RampStep { to: lower(step.to), ..*step }).collect();
+    Ramp { start: lower(ramp.start), steps }
+}
+
+/// How many passes keep the limit: `1 + w` around a closed ramp, `1 + 2 w` to and fro over an open one.
+///
+/// # Errors
+/// [`TooManyPasses`] above [`MOST_PASSES`], and for a ramp that goes straight down.
+pub fn count_passes(steepest: f64, limit: f64, closed: bool) -> Result<usize, TooManyPasses> {
+    let ratio = limit / steepest;
+    if ratio >= 1.0 - SLACK {
+        return Ok(1);
+    }
+    let step = if closed { ratio } else { 2.0 * ratio };
+    let more = ((1.0 - ratio) / step - SLACK).ceil();
+    let passes = 1.0 + if closed { more } else { 2.0 * more };
+    if passes <= MOST_PASSES as f64 { Ok(passes as usize) } else { Err(TooManyPasses(passes)) }
+}
+
+/// The ramp in passes (at least one) that share its height: around again where it is closed, forward, back and forward where it is
+/// open.
+pub fn repeat_in_passes(ramp: &Ramp, passes: usize) -> Ramp {
+    let passes = passes.max(1);
+    let (closed, height, top) = (ramp.is_closed(), ramp.height_mm(), ramp.start.z);
+    let fallen = |z: f64| if height > 0.0 { (top - z) / height } else { 0.0 };
+    let count = passes as f64;
+    let mut steps = Vec::with_capacity(ramp.steps.len() * passes);
+    for pass in 0..passes {
+        let at = |share: f64| top - height * (pass as f64 + share) / count;
+        if pass % 2 == 0 || closed {
+            steps.extend(ramp.steps.iter().map(|step| {
+                let to = Point3::new(step.to.x, step.to.y, at(fallen(step.to.z)));
+                RampStep { to, bend: step.bend }
+            }));
+        } else {
+            let back = ramp.steps_with_starts().map(|(from, step)| {
+                let to = Point3::new(from.x, from.y, at(1.0 - fallen(from.z)));
+                RampStep { to, bend: step.bend.map(|bend| RampArc { sweep: -bend.sweep, ..bend }) }
+            });
+            let mut back: Vec<RampStep> = back.collect();
+            back.reverse();
+            steps.extend(back);
+        }
+    }
+    // The sum of the passes is the whole, to the bit.
+    if let Some(last) = steps.last_mut() {
+        last.to = ramp.end_point();
+    }
+    Ramp { start: ramp.start, steps }
+}
+
+/// The ramp no steeper than the limit (`rounding` as in [`is_shallow_enough`]), by more passes or, of a helix, more turns; and how many
+/// passes it has. Where more turns leave the region, a helix too gets passes over its own path.
+///
+/// # Errors
+/// [`TooManyPasses`].
+pub fn add_passes_or_turns(
+    ramp: &Ramp,
+    limits: &RampLimits,
+    rounding: f64,
+    region: &ToolRegion,
+) -> Result<(Ramp, usize), TooManyPasses> {
+    let fits = |ramp: &Ramp| is_shallow_enough(ramp, limits, rounding);
+    if fits(ramp) {
+        return Ok((ramp.clone(), 1));
+    }
+    // Ends that are a little off their circle, or off one another, make some step shorter than in the first pass: then one more.
+    if let RampKind::Helix(helix) = RampKind::classify_ramp(ramp) {
+        let more = count_added_turns(ramp, &helix, limits)?;
+        let found = [more, more + 1].map(|more| (add_turns(ramp, &helix, more), 1 + more));
+        if let Some(found) =
+            found.into_iter().find(|(turned, _)| fits(turned) && region.contains_path(&turned.path_across()))
+        {
+            return Ok(found);
+        }
+    }
+    let closed = ramp.is_closed();
+    let least = count_passes(ramp.steepest_slope(), limits.steepest, closed)?;
+    let found = repeat_in_passes(ramp, least);
+    if fits(&found) {
+        return Ok((found, least));
+    }
+    let more = least + if closed { 1 } else { 2 };
+    Ok((repeat_in_passes(ramp, more), more))
+}
+
+/// How many whole turns more a helix needs.
+fn count_added_turns(ramp: &Ramp, helix: &Helix, limits: &RampLimits) -> Result<usize, TooManyPasses> {
+    // Chords are shorter than their arcs, hence steeper.
+    let half = helix.widest_step / 2.0;
+    let chords = if helix.arcs || half <= 0.0 { 1.0 } else { half.sin() / half };
+    let needed = ramp.height_mm() / (helix.radius * chords * limits.steepest);
+    let more = ((needed - helix.sweep.abs()) / TAU - SLACK).ceil().max(0.0);
+    let turns = helix.sweep.abs() / TAU + more;
+    if turns <= MOST_PASSES as f64 { Ok(more as usize) } else { Err(TooManyPasses(turns)) }
+}
+
+/// A helix with whole turns more: each is a layer of its own, and its ends stay where they are.
+fn add_turns(ramp: &Ramp, helix: &Helix, more: usize) -> Ramp {
+    let longer = Helix { sweep: helix.sweep + TAU * more as f64 * helix.sweep.signum(), ..*helix };
+    let descent = ramp.descending_steps();
+    let mut steps: Vec<RampStep> = ramp.steps.iter().take(descent.start).copied().collect();
+    steps.extend(build_helix_steps(
+        &longer,
+        ramp.point_before_step(descent.start),
+        ramp.point_before_step(descent.end),
+    ));
+    steps.extend(ramp.steps.iter().skip(descent.end));
+    Ramp { start: ramp.start, steps }
+}
+
+/// The steps of a helix from `start` down to `end`, none wider than its widest step; both lie on its circle.
+pub fn build_helix_steps(helix: &Helix, start: Point3<f64>, end: Point3<f64>) -> Vec<RampStep> {
+    let count = (helix.sweep.abs() / helix.widest_step - 1e-6).ceil().max(1.0) as usize;
+    let spoke = start.xy() - helix.centre;
+    let share = |index: usize| index as f64 / count as f64;
+    let point = |index: usize| {
+        if index == count {
+            return end;
+        }
+        let at = helix.centre + Rotation2::new(helix.sweep * share(index)) * spoke;
+        Point3::new(at.x, at.y, start.z + (end.z - start.z) * share(index))
+    };
+    let bend = helix.arcs.then_some(RampArc { centre: helix.centre, sweep: helix.sweep / count as f64 });
+    (1..=count).map(|index| RampStep { to: point(index), bend }).collect()
+}

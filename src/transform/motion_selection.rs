@@ -1,0 +1,61 @@
+//! `where:` applied to the motions of one program.
+
+use super::StepContext;
+use crate::diagnostic::codes;
+use crate::program::motion::Motion;
+use crate::program::{LengthUnit, Program, operation};
+use crate::recipe::{MotionFacts, MotionFilter};
+
+/// Decides motion by motion whether a step means it.
+#[derive(Debug)]
+pub struct MotionSelection<'w> {
+    wanted: &'w MotionFilter,
+    everything: bool,
+    operations: Vec<String>,
+    file: LengthUnit,
+    selected: usize,
+}
+
+impl<'w> MotionSelection<'w> {
+    /// The selection of a step in a program.
+    pub fn new(wanted: &'w MotionFilter, program: &Program, context: &StepContext<'_>) -> Self {
+        let everything = *wanted == MotionFilter::default();
+        let operations =
+            operation::find_operations(program).into_iter().map(|operation| operation.name).collect();
+        Self { wanted, everything, operations, file: context.file_length_unit(program), selected: 0 }
+    }
+
+    /// Whether the step has no `where` at all.
+    pub fn is_everything(&self) -> bool {
+        self.everything
+    }
+
+    /// Whether a motion is meant.
+    pub fn contains(&mut self, motion: &Motion, context: &StepContext<'_>) -> bool {
+        let selected = self.everything || self.wanted.matches_motion(&self.motion_facts(motion, context));
+        self.selected += usize::from(selected);
+        selected
+    }
+
+    /// A warning when nothing was meant.
+    pub fn report_if_empty(&self, context: &mut StepContext<'_>) {
+        if self.selected == 0 && !self.everything {
+            let message = "`where` selects no motion of this program";
+            let finding =
+                context.step_finding(codes::NOTHING_SELECTED, message, &["where"], "selects nothing");
+            context.findings.push(finding);
+        }
+    }
+
+    fn motion_facts<'a>(&'a self, motion: &'a Motion, context: &StepContext<'_>) -> MotionFacts<'a> {
+        let tool = motion.tool.as_deref();
+        let feed = if motion.rapid { None } else { context.feed_per_minute(motion, self.file) };
+        MotionFacts {
+            operation: self.operations.get(motion.operation).map(String::as_str),
+            tool_number: tool.and_then(|tool| tool.number),
+            tool_name: tool.and_then(|tool| tool.name.as_deref()),
+            motion: Some(motion.class),
+            feed,
+        }
+    }
+}

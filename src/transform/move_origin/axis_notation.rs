@@ -1,0 +1,134 @@
+//! Writing out a tool axis that the file leaves unsaid, in the way that its dialect states axes.
+
+use super::move_tracker::RequiredAxis;
+use crate::diagnostic::Diagnostic;
+use crate::parse;
+use crate::program::{Dialect, NumberRole, Record};
+use crate::write::ProgramEditor;
+use nalgebra::Vector3;
+
+/// How a dialect states tool axes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AxisNotation {
+    /// Six values where the axis changes; it stays for three-value GOTOs (NX).
+    Modal,
+    /// Six values in every GOTO whose axis is not z (Creo and ISO under MULTAX, SolidWorks without).
+    EveryLine,
+    /// A TLAXIS line, and six values under MULTAX (CATIA).
+    Word,
+    /// Six values in FROM only (Makino FF).
+    FromOnly,
+    /// Not at all: coordinates stand in the setup (CAMWorks).
+    Never,
+}
+
+impl AxisNotation {
+    /// The form of a dialect.
+    pub fn for_dialect(dialect: Dialect) -> Self {
+        match dialect {
+            Dialect::Nx => Self::Modal,
+            Dialect::Catia | Dialect::CatiaIcam => Self::Word,
+            Dialect::MakinoFf => Self::FromOnly,
+            Dialect::CamWorks => Self::Never,
+            Dialect::Creo | Dialect::CreoGpost | Dialect::SolidWorks | Dialect::Iso => Self::EveryLine,
+        }
+    }
+}
+
+/// What became of a wish for an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AxisWriteOutcome {
+    /// It is written.
+    Done,
+    /// It is written, and MULTAX was put in before it.
+    WithMultax,
+    /// The statement cannot hold an axis in this dialect.
+    Impossible,
+}
+
+/// Writes the axis of a motion out, after its own numbers have changed.
+///
+/// # Errors
+/// When the new text does not read back.
+pub fn write_axis(
+    editor: &mut ProgramEditor,
+    index: usize,
+    need: RequiredAxis,
+    multi_axis: bool,
+    six_values_seen: bool,
+) -> Result<AxisWriteOutcome, Box<Diagnostic>> {
+    let dialect = editor.program().dialect();
+    let form = AxisNotation::for_dialect(dialect);
+    let Some(record) = editor.program().statement(index).map(crate::program::Statement::record) else {
+        return Ok(AxisWriteOutcome::Impossible);
+    };
+    let holds_axis = matches!(record, Record::Goto(_) | Record::From(_) | Record::GoHome(Some(_)));
+    let is_from = matches!(record, Record::From(_));
+    match form {
+        AxisNotation::Word if !multi_axis => {
+            let line = format!("TLAXIS/{}", format_catia_axis(editor, need.axis));
+            editor.insert_before(need.first, line.as_bytes())?;
+            Ok(AxisWriteOutcome::Done)
+        }
+        AxisNotation::Never => Ok(AxisWriteOutcome::Impossible),
+        AxisNotation::FromOnly if !is_from => Ok(AxisWriteOutcome::Impossible),
+        _ if !holds_axis => Ok(AxisWriteOutcome::Impossible),
+        _ => {
+            let multax = match dialect {
+                Dialect::Creo | Dialect::CreoGpost => Some("MULTAX / ON"),
+                Dialect::Iso if !six_values_seen => Some("MULTAX/ON"),
+                _ => None,
+            };
+            let multax = multax.filter(|_| !multi_axis);
+            if let Some(line) = multax {
+                editor.insert_before(need.first, line.as_bytes())?;
+            }
+            append_axis(editor, index, need.axis)?;
+            Ok(if multax.is_some() { AxisWriteOutcome::WithMultax } else { AxisWriteOutcome::Done })
+        }
+    }
+}
+
+/// Makes six values of three.
+fn append_axis(editor: &mut ProgramEditor, index: usize, axis: Vector3<f64>) -> Result<(), Box<Diagnostic>> {
+    let Some(statement) = editor.program().statement(index) else { return Ok(()) };
+    let text = editor.program().statement_text(statement);
+    let numbers = parse::statement_numbers(text);
+    let [_, (second, _), (third, _)] = numbers.as_slice() else { return Ok(()) };
+    let end = third.end;
+    // What separates the last two numbers separates the new ones too.
+    let between = text.get(second.end..third.start).unwrap_or_default();
+    let plain = between.iter().all(|byte| matches!(byte, b' ' | b','));
+    let between = if plain { String::from_utf8_lossy(between).into_owned() } else { ",".to_owned() };
+    let line_end = editor.style().line_end;
+    let dialect = editor.program().dialect();
+    let tail = match dialect {
+        Dialect::Catia | Dialect::CatiaIcam => format!(",{}", format_catia_axis(editor, axis)),
+        // Creo never writes six values on one line.
+        Dialect::Creo => format!(",  ${line_end}{}", join_axis_numbers(editor, axis, ", ")),
+        Dialect::CreoGpost => format!(",${line_end}{}", join_axis_numbers(editor, axis, ", ")),
+        _ => format!("{between}{}", join_axis_numbers(editor, axis, &between)),
+    };
+    editor.replace_parts(index, &[(end..end, tail.as_bytes())])
+}
+
+/// CATIA's columns for axes: nine wide, six decimals.
+fn format_catia_axis(editor: &ProgramEditor, axis: Vector3<f64>) -> String {
+    format_axis_numbers(editor, axis).map(|number| format!("{number:>9}")).join(",")
+}
+
+fn join_axis_numbers(editor: &ProgramEditor, axis: Vector3<f64>, between: &str) -> String {
+    format_axis_numbers(editor, axis).join(between)
+}
+
+fn format_axis_numbers(editor: &ProgramEditor, axis: Vector3<f64>) -> [String; 3] {
+    let mut form = editor.style().new_format(NumberRole::Direction(0));
+    // A file that prints no axis shows no decimals for one; these are measured for its dialect.
+    form.decimals = match editor.program().dialect() {
+        Dialect::Catia | Dialect::CatiaIcam | Dialect::SolidWorks => 6,
+        Dialect::Nx | Dialect::MakinoFf => 7,
+        Dialect::Creo | Dialect::CreoGpost => 10,
+        Dialect::CamWorks | Dialect::Iso => form.decimals,
+    };
+    [axis.x, axis.y, axis.z].map(|part| form.format_number(part, 0.0))
+}

@@ -1,0 +1,67 @@
+//! Words of left and right: the sides of CUTCOM, and the sense of arcs that say it in words.
+
+use crate::diagnostic::Diagnostic;
+use crate::program::{FieldKind, StatementSyntax, fold_text};
+use crate::transform::Affine;
+use crate::write::{self, ProgramEditor};
+use nalgebra::Vector3;
+use std::ops::Range;
+
+const SIDES: &[[&str; 2]] = &[["LEFT", "RIGHT"]];
+const SENSES: &[[&str; 2]] = &[["CLOCKWISE", "COUNTERCLOCKWISE"], ["CLW", "CCLW"]];
+
+/// Swaps LEFT and RIGHT in a CUTCOM.
+///
+/// # Errors
+/// When the new text does not read back.
+pub fn swap_sides(editor: &mut ProgramEditor, index: usize) -> Result<(), Box<Diagnostic>> {
+    swap_words(editor, index, SIDES)
+}
+
+/// Swaps the words of an arc's sense.
+///
+/// # Errors
+/// When the new text does not read back.
+pub fn swap_senses(editor: &mut ProgramEditor, index: usize) -> Result<(), Box<Diagnostic>> {
+    swap_words(editor, index, SENSES)
+}
+
+/// The normal of the plane that a CUTCOM names; `None` when it names none.
+pub fn named_plane_normal(syntax: &StatementSyntax<'_>) -> Option<Vector3<f64>> {
+    (0..syntax.fields.len()).find_map(|field| match syntax.word_at(field)?.as_str() {
+        "XYPLAN" => Some(Vector3::z()),
+        "YZPLAN" => Some(Vector3::x()),
+        "ZXPLAN" => Some(Vector3::y()),
+        _ => None,
+    })
+}
+
+/// Whether a plane, seen from the side that its word means, stays where it is.
+pub fn keeps_plane(place: &Affine, normal: Vector3<f64>) -> bool {
+    place.keeps_direction(normal)
+}
+
+fn swap_words(
+    editor: &mut ProgramEditor,
+    index: usize,
+    pairs: &[[&'static str; 2]],
+) -> Result<(), Box<Diagnostic>> {
+    let Some(syntax) = write::statement_syntax(editor.program(), index) else { return Ok(()) };
+    let parts: Vec<(Range<usize>, Vec<u8>)> = syntax
+        .fields
+        .iter()
+        .filter(|field| field.kind == FieldKind::Text)
+        .filter_map(|field| {
+            let bytes = syntax.bytes_at(&field.at);
+            let word = fold_text(bytes);
+            let other = pairs
+                .iter()
+                .find_map(|[a, b]| if word == *a { Some(*b) } else { (word == *b).then_some(*a) })?;
+            let lower = bytes.iter().any(u8::is_ascii_lowercase);
+            let other = if lower { other.to_ascii_lowercase() } else { other.to_owned() };
+            Some((field.at.clone(), other.into_bytes()))
+        })
+        .collect();
+    let parts: Vec<_> = parts.iter().map(|(at, bytes)| (at.clone(), bytes.as_slice())).collect();
+    if parts.is_empty() { Ok(()) } else { editor.replace_parts(index, &parts) }
+}

@@ -1,0 +1,277 @@
+//! The modal state that a move has to follow: the tool axis before and after it, and which statements belong together.
+//!
+//! `old` is the axis that the file has in force; `new` is the one that the changed file would have if only numbers changed.
+//! Where a motion states no axis and the two do not map onto each other, the motion needs its axis written out.
+
+use super::axis_notation::AxisNotation;
+use crate::program::record::{CutterCompensation, FrameWord, has_contact_normal, has_tool_axes};
+use crate::program::{Dialect, Record};
+use crate::transform::Affine;
+use crate::transform::affine::is_same_vector;
+use nalgebra::Vector3;
+
+/// An axis that a motion has to state.
+#[derive(Debug, Clone, Copy)]
+pub struct RequiredAxis {
+    /// The axis.
+    pub axis: Vector3<f64>,
+    /// The first statement that belongs to the motion alone (its RAPID, CIRCLE, INDIRV).
+    pub first: usize,
+}
+
+/// Why a program cannot be moved.
+#[derive(Debug)]
+pub struct MoveRefusal {
+    /// The reason.
+    pub message: &'static str,
+    /// The statement that stands in the way.
+    pub statement: usize,
+    /// What is to be seen there.
+    pub label: &'static str,
+}
+
+/// The state while statements go by.
+#[derive(Debug)]
+pub struct MoveTracker<'p> {
+    place: &'p Affine,
+    dialect: Dialect,
+    form: AxisNotation,
+    old: Vector3<f64>,
+    new: Vector3<f64>,
+    /// Whether the axis in force was written out by this step.
+    written: bool,
+    multi_axis: bool,
+    first: Option<usize>,
+    /// A CIRCLE, INDIRV or NURBS that waits for its end, and whether it moved.
+    pending: Option<bool>,
+    /// Whether the tool's place moved.
+    last: Option<bool>,
+    compensation: Option<bool>,
+    setup_axis: Option<Vector3<f64>>,
+    setup: Option<Vector3<f64>>,
+    used_setup: Option<Option<Vector3<f64>>>,
+    axis_words_ignored: bool,
+    moved: usize,
+    turned_over: Option<usize>,
+    upright: bool,
+}
+
+impl<'p> MoveTracker<'p> {
+    /// The state before the first statement.
+    pub fn new(place: &'p Affine, dialect: Dialect) -> Self {
+        Self {
+            place,
+            dialect,
+            form: AxisNotation::for_dialect(dialect),
+            old: Vector3::z(),
+            new: Vector3::z(),
+            written: false,
+            multi_axis: false,
+            first: None,
+            pending: None,
+            last: None,
+            compensation: None,
+            setup_axis: None,
+            setup: None,
+            used_setup: None,
+            axis_words_ignored: false,
+            moved: 0,
+            turned_over: None,
+            upright: false,
+        }
+    }
+
+    /// Whether MULTAX is in force.
+    pub fn is_multi_axis(&self) -> bool {
+        self.multi_axis
+    }
+
+    /// Whether the axis in force stays as it is.
+    pub fn keeps_axis(&self) -> bool {
+        self.place.keeps_direction(self.old)
+    }
+
+    /// Takes notice of a MULTAX that the step puts in.
+    pub fn note_multax(&mut self) {
+        self.multi_axis = true;
+    }
+
+    /// Reads a statement before it changes; `moved` says whether it will. Gives the axis that has to be written out there.
+    pub fn observe_statement(
+        &mut self,
+        index: usize,
+        record: &Record,
+        text: &[u8],
+        moved: bool,
+    ) -> Result<Option<RequiredAxis>, MoveRefusal> {
+        match record {
+            Record::Goto(goto) => return self.observe_motion(index, moved, goto.axis, false),
+            Record::From(goto) => return self.observe_motion(index, moved, goto.axis, false),
+            Record::GoHome(Some(goto)) => return self.observe_motion(index, moved, goto.axis, false),
+            Record::Points(numbers) => {
+                let axis = if has_contact_normal(numbers) {
+                    numbers.get(3..6)
+                } else if self.multi_axis && has_tool_axes(numbers) {
+                    numbers.get(numbers.len() - 3..)
+                } else {
+                    None
+                };
+                return self.observe_motion(index, moved, axis.map(Vector3::from_column_slice), false);
+            }
+            Record::GoDelta(_) | Record::DriveArc(_) | Record::Control(_) => {
+                return self.observe_motion(index, moved, None, true);
+            }
+            Record::Rapid => {
+                self.first.get_or_insert(index);
+            }
+            Record::Circle(_) | Record::MoveArc(_) | Record::StartDirection(_) | Record::Nurbs => {
+                self.first.get_or_insert(index);
+                self.pending = Some(moved);
+            }
+            Record::GoHome(None) => (self.first, self.pending, self.last) = (None, None, None),
+            Record::ToolAxis(axis) if self.dialect.has_setup_axis() => self.setup = Some(**axis),
+            Record::ToolAxis(axis) => self.set_axis(**axis, moved),
+            Record::MultiAxis(on) => self.multi_axis = *on,
+            Record::OperationStart(_) if self.dialect == Dialect::Nx => {
+                (self.old, self.new, self.written) = (Vector3::z(), Vector3::z(), false);
+            }
+            Record::Frame(frame) if frame.word == FrameWord::Csys && self.dialect == Dialect::SolidWorks => {
+                if let [_, _, x, _, _, _, y, _, _, _, z, _] = frame.numbers.as_slice() {
+                    self.setup_axis = Some(Vector3::new(*x, *y, *z));
+                }
+            }
+            Record::CutterCompensation(CutterCompensation::Off) => self.compensation = None,
+            Record::CutterCompensation(_) => self.compensation = Some(moved),
+            Record::Known => self.axis_words_ignored |= hides_tool_axis(text),
+            _ => {}
+        }
+        Ok(None)
+    }
+
+    /// After the last statement: a mirror that turns the tool over for every motion is a mistake.
+    pub fn finish(&self) -> Result<(), MoveRefusal> {
+        match self.turned_over {
+            Some(statement) if !self.upright => Err(MoveRefusal {
+                message: "the mirror plane is normal to the tool axis: the tool would reach the part from its other end. \
+                          Mirror in a plane that holds the axis, or turn the part over as well (`rotate` by 180 degrees)",
+                statement,
+                label: "the tool axis is turned over",
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    fn set_axis(&mut self, axis: Vector3<f64>, moved: bool) {
+        self.old = axis;
+        self.new = if moved { self.place.transform_vector(axis) } else { axis };
+        self.written = false;
+    }
+
+    fn observe_motion(
+        &mut self,
+        index: usize,
+        moved: bool,
+        axis: Option<Vector3<f64>>,
+        relative: bool,
+    ) -> Result<Option<RequiredAxis>, MoveRefusal> {
+        let first = self.first.take().unwrap_or(index);
+        self.check_moves_together(index, moved, relative)?;
+        self.last = Some(moved);
+        if let Some(axis) = axis {
+            self.set_axis(axis, moved);
+        }
+        let wanted = if moved { self.place.transform_vector(self.old) } else { self.old };
+        if moved {
+            self.check_axis(index, wanted)?;
+        }
+        if axis.is_some() {
+            return Ok(None);
+        }
+        let every_line =
+            self.form == AxisNotation::EveryLine && self.written && !is_same_vector(wanted, Vector3::z());
+        if is_same_vector(wanted, self.new) && !every_line {
+            return Ok(None);
+        }
+        (self.new, self.written) = (wanted, true);
+        Ok(Some(RequiredAxis { axis: wanted, first }))
+    }
+
+    /// What starts where the motion before ended has to move with it.
+    fn check_moves_together(&mut self, index: usize, moved: bool, relative: bool) -> Result<(), MoveRefusal> {
+        let announced = self.pending.take();
+        let start = self.last.is_some_and(|last| last != moved);
+        if announced.is_some_and(|announced| announced != moved || start) || relative && start {
+            return Err(MoveRefusal {
+                message: "an arc, spline or step starts where an operation ends that does not move with it; select both",
+                statement: index,
+                label: "starts in the operation before",
+            });
+        }
+        if self.place.has_mirror() && self.compensation.is_some_and(|compensation| compensation != moved) {
+            return Err(MoveRefusal {
+                message: "cutter compensation goes on from an operation that is not mirrored with this one; select both",
+                statement: index,
+                label: "moves under compensation",
+            });
+        }
+        Ok(())
+    }
+
+    fn check_axis(&mut self, index: usize, wanted: Vector3<f64>) -> Result<(), MoveRefusal> {
+        self.moved += 1;
+        let refuse = |message, label| Err(MoveRefusal { message, statement: index, label });
+        if self.dialect.has_setup_axis() {
+            if self.used_setup.is_some_and(|used| used != self.setup) {
+                return refuse(
+                    "CAMWorks prints every setup in a frame of its own (TLAXIS, ROTABL): one transform would mean another \
+                     place in each. Select the operations of one setup with `where`",
+                    "in another setup than the motions before",
+                );
+            }
+            self.used_setup = Some(self.setup);
+            if !self.place.keeps_direction(Vector3::z()) {
+                return refuse(
+                    "CAMWorks prints every setup with the tool along z, and TLAXIS and ROTABL say how it stands: a turn that \
+                     tilts z cannot be put into the points",
+                    "the tool stands along z here",
+                );
+            }
+            return Ok(());
+        }
+        if !self.place.changes_directions() {
+            return Ok(());
+        }
+        if is_same_vector(wanted, self.old) {
+            self.upright = true;
+            return Ok(());
+        }
+        if self.axis_words_ignored {
+            return refuse(
+                "the transform turns the tool axis, but the file tells its post to ignore TLAXIS (`SYN/'TLAXIS',...`): the \
+                 axis in force is not the one it prints",
+                "has a tool axis that would turn",
+            );
+        }
+        if let Some(setup) = self.setup_axis
+            && (wanted - setup).norm() > 1e-4
+        {
+            return refuse(
+                "SolidWorks CAM prints the path in world coordinates and the plane of the setup in CSYS, whose third column is \
+                 the tool axis: a turn of the axis needs another setup. Turn about the tool axis, or turn the part in the CAM \
+                 system",
+                "has the tool axis of its CSYS",
+            );
+        }
+        if self.place.has_mirror() && is_same_vector(wanted, -self.old) {
+            self.turned_over.get_or_insert(index);
+        } else {
+            self.upright = true;
+        }
+        Ok(())
+    }
+}
+
+/// CATIA with an ICAM table: `SYN/'TLAXIS','$$*TLAXIS'` makes comments of all TLAXIS records.
+fn hides_tool_axis(text: &[u8]) -> bool {
+    text.trim_ascii_start().starts_with(b"SYN") && memchr::memmem::find(text, b"TLAXIS").is_some()
+}

@@ -1,0 +1,173 @@
+//! The program as blocks with loads, from a simulation of it.
+
+use super::block_feeds::{FeedBlock, FeedLimit, LimitedPiece};
+use super::load_limits::{LoadLimits, SpindleRotation};
+use super::short_pieces;
+use crate::diagnostic::{Diagnostic, codes};
+use crate::program::geometry::MotionPath;
+use crate::program::motion::Motion;
+use crate::program::record::SpindleDirection;
+use crate::program::{Program, Record, Statement};
+use crate::simulation_run::{
+    EngagedMotion, EngagementModel, EngagementRunResult, Machining, RunWatcher, SimulationRunOptions,
+    StockResolution,
+};
+use crate::transform::statement_numbers::major_word;
+
+/// The path as blocks, and what the targets are there.
+#[derive(Debug, Default)]
+pub(super) struct MeasuredBlocks {
+    /// Feed motions in order.
+    pub blocks: Vec<FeedBlock>,
+    /// For each block, what it is beside its loads.
+    pub marks: Vec<BlockMeasurement>,
+    /// Cuts whose feed or speed is not known, and what stands in the way of simulating.
+    pub errors: Vec<Diagnostic>,
+}
+
+/// A block among the motions.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct BlockMeasurement {
+    /// Number of the motion.
+    pub motion: usize,
+    /// Its last statement.
+    pub statement: usize,
+    /// Its operation.
+    pub operation: usize,
+    /// Whether it cuts.
+    pub cuts: bool,
+    /// For every limit, how much of it the block has at its programmed feed: the estimate and its bound.
+    pub measured: Vec<[f64; 2]>,
+}
+
+/// Simulates a program and gathers its blocks. `touches` says which motions may get another feed. `None` when `watch` stopped it.
+pub(super) fn measure_blocks(
+    machining: &Machining<'_>,
+    (options, source): (&SimulationRunOptions, EngagementModel),
+    limits: &LoadLimits,
+    watch: &dyn RunWatcher,
+    mut touches: impl FnMut(&Motion) -> bool,
+) -> Result<Option<(MeasuredBlocks, EngagementRunResult)>, Box<Diagnostic>> {
+    let mut gathered = MeasuredBlocks::default();
+    let mut before = PreviousMotion::default();
+    let ran = machining.find_engagements(options, source, watch, &mut |cut| {
+        let touched = touches(cut.motion);
+        gathered.add_motion(machining, limits, cut, touched, &mut before);
+    })?;
+    Ok(ran.map(|ran| {
+        let reach = match ran.grain {
+            StockResolution::Cell(cell) => AROUND * cell,
+            StockResolution::Layer(_) => SHORT,
+        };
+        short_pieces::lower_short_pieces(&mut gathered.blocks, reach);
+        (gathered, ran)
+    }))
+}
+
+/// Cells of path before and after a piece in which other pieces tell of its load: a piece shorter than that may pass between two
+/// columns.
+const AROUND: f64 = 1.5;
+
+/// The same for layers, mm: what a shorter piece removes may be as thin as what chords leave.
+const SHORT: f64 = 0.1;
+
+/// The motion before, as far as it decides whether a chain of blocks breaks.
+#[derive(Debug, Default)]
+struct PreviousMotion {
+    end: usize,
+    tool: Option<usize>,
+    moves_at_feed: bool,
+}
+
+impl MeasuredBlocks {
+    fn add_motion(
+        &mut self,
+        machining: &Machining<'_>,
+        limits: &LoadLimits,
+        cut: &EngagedMotion<'_>,
+        touched: bool,
+        before: &mut PreviousMotion,
+    ) {
+        let motion = cut.motion;
+        let program = machining.program();
+        let at_feed = !motion.rapid && !matches!(motion.path, MotionPath::Start);
+        let goes_on = before.moves_at_feed
+            && at_feed
+            && before.tool == cut.cutter
+            && !has_machine_stop(program, before.end..motion.statements.end);
+        *before = PreviousMotion { end: motion.statements.end, tool: cut.cutter, moves_at_feed: at_feed };
+        if !at_feed {
+            return;
+        }
+        let unit = machining.length_unit();
+        let length = motion.length() * unit.mm_per_unit();
+        let rpm = motion.spindle_rpm();
+        let feed = motion.feed.and_then(|feed| feed.mm_per_minute(unit, rpm, Some(motion.length())));
+        let feed = feed.filter(|feed| *feed > 0.0);
+        let cutter = cut.cutter.and_then(|index| Some((machining.tooling().cutters().get(index)?, index)));
+        let cuts = cut.pieces.iter().any(|(_, found)| limits.is_cutting(found));
+        let spindle = motion.spindle.as_deref();
+        let turning = rpm.filter(|rpm| *rpm > 0.0).map(|rpm| SpindleRotation {
+            rpm,
+            direction: spindle.and_then(|spindle| spindle.direction).unwrap_or(SpindleDirection::Clockwise),
+        });
+        if cuts && touched && (feed.is_none() || turning.is_none()) {
+            self.errors.push(describe_unknown_feed(program, motion, feed.is_none()));
+        }
+        let mut pieces = Vec::with_capacity(cut.pieces.len());
+        let mut measured: Vec<[f64; 2]> = vec![[0.0; 2]; limits.criterion_limits().len()];
+        if let (Some((cutter, index)), Some(turning)) = (cutter, turning) {
+            for (step, found) in cut.pieces {
+                let mut load = limits.find_feed_limit(found, cutter, index, turning);
+                if load == FeedLimit::Limit(f64::INFINITY) && !cuts {
+                    // A sliver that may be there, that no limit knows how to judge, and nothing else to go by.
+                    load = feed.map_or(FeedLimit::Air, FeedLimit::Limit);
+                }
+                pieces.push(LimitedPiece { length: (step.to - step.from) * length, load });
+                let Some(feed) = feed.filter(|_| limits.is_cutting(found)) else { continue };
+                for (measured, (criterion, _)) in measured.iter_mut().zip(limits.criterion_limits()) {
+                    let [estimate, bound] =
+                        limits.measure_criterion(*criterion, found, (cutter, index), feed, turning);
+                    *measured = [measured[0].max(estimate), measured[1].max(bound)];
+                }
+            }
+        }
+        let whole = motion.hole.is_some() || matches!(motion.path, MotionPath::Spline(_));
+        self.blocks.push(FeedBlock {
+            length,
+            programmed: feed.unwrap_or(0.0),
+            touched: touched && feed.is_some() && motion.feed_from.is_some() && motion.hole.is_none(),
+            splittable: !whole,
+            breaks_chain: !goes_on,
+            pieces,
+        });
+        self.marks.push(BlockMeasurement {
+            motion: cut.number,
+            statement: motion.last_statement(),
+            operation: motion.operation,
+            cuts,
+            measured,
+        });
+    }
+}
+
+/// Whether the machine stands still between two motions: STOP, OPSTOP, DELAY.
+fn has_machine_stop(program: &Program, statements: std::ops::Range<usize>) -> bool {
+    let waits = |statement: &Statement| {
+        matches!(statement.record(), Record::Known | Record::Other)
+            && matches!(major_word(program.statement_text(statement)).as_str(), "STOP" | "OPSTOP" | "DELAY")
+    };
+    statements
+        .filter_map(|index| program.statement(index))
+        .any(|statement| statement.is_live() && waits(statement))
+}
+
+fn describe_unknown_feed(program: &Program, motion: &Motion, feed: bool) -> Diagnostic {
+    let message = if feed {
+        "this motion cuts, and its feed cannot be known"
+    } else {
+        "this motion cuts, and the spindle speed in rev/min is not known"
+    };
+    let span = program.statement(motion.last_statement()).map(Statement::origin).unwrap_or_default();
+    Diagnostic::new(codes::FEED_UNKNOWN, message).with_label(program.source(), span, "cuts here")
+}

@@ -1,0 +1,154 @@
+//! From what a piece of path engages to the largest feed that keeps every limit there, and to the loads at a feed.
+
+use super::block_feeds::FeedLimit;
+use super::parameters::LoadCriterion;
+use crate::program::record::SpindleDirection;
+use crate::sim::{CutterModel, CuttingCoefficients, CuttingLoads, Engagement, LoadModel};
+use crate::simulation_run::{StockResolution, Tooling};
+
+/// Removed volume below this share of a cell's cube is rounding, not material.
+const SPECK: f64 = 1e-3;
+
+/// Limits, and what is needed to see whether they hold.
+#[derive(Debug)]
+pub(super) struct LoadLimits {
+    limits: Vec<(LoadCriterion, f64)>,
+    models: Vec<Option<[LoadModel; 2]>>,
+    grain: StockResolution,
+}
+
+/// The spindle while a piece is cut.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SpindleRotation {
+    /// rev/min, above 0.
+    pub rpm: f64,
+    pub direction: SpindleDirection,
+}
+
+impl LoadLimits {
+    /// `limits` in millimetres; `material` where a criterion needs it.
+    pub fn new(
+        limits: Vec<(LoadCriterion, f64)>,
+        tooling: &Tooling,
+        material: Option<CuttingCoefficients>,
+        grain: StockResolution,
+    ) -> Self {
+        let models = material.map(|material| tooling.build_load_models(material)).unwrap_or_default();
+        Self { limits, models, grain }
+    }
+
+    /// The limits.
+    pub fn criterion_limits(&self) -> &[(LoadCriterion, f64)] {
+        &self.limits
+    }
+
+    /// Whether a piece cuts more than rounding leaves.
+    pub fn is_cutting(&self, found: &Engagement) -> bool {
+        let speck = match self.grain {
+            StockResolution::Cell(cell) => SPECK * cell.powi(3),
+            // Films are none of a chip's pieces.
+            StockResolution::Layer(_) => 0.0,
+        };
+        found.removed_mm3 > speck
+    }
+
+    /// The load of a piece that a cutter engages.
+    pub fn find_feed_limit(
+        &self,
+        found: &Engagement,
+        cutter: &CutterModel,
+        index: usize,
+        turning: SpindleRotation,
+    ) -> FeedLimit {
+        if !self.is_cutting(found) && found.graze <= 0.0 {
+            return FeedLimit::Air;
+        }
+        let feed = |(criterion, limit): &(LoadCriterion, f64)| match criterion {
+            LoadCriterion::ChipThickness => {
+                let teeth = cutter.teeth.as_ref();
+                teeth.map_or(f64::INFINITY, |teeth| found.feed_for_chip_mm_min(teeth, turning.rpm, *limit))
+            }
+            LoadCriterion::RemovalRate => self.bound_engagement(found).feed_for_removal_rate_mm_min(*limit),
+            LoadCriterion::Force | LoadCriterion::Torque | LoadCriterion::Power => {
+                let Some(model) = self.load_model(index, turning) else { return f64::INFINITY };
+                model.feed_for_load_mm_min(
+                    &self.bound_engagement(found),
+                    turning.rpm,
+                    limit_one_load(*criterion, *limit),
+                )
+            }
+        };
+        FeedLimit::Limit(self.limits.iter().map(feed).fold(f64::INFINITY, f64::min))
+    }
+
+    /// How much of a criterion a piece has at a feed: the best estimate, and not below what the grid may hide.
+    pub fn measure_criterion(
+        &self,
+        criterion: LoadCriterion,
+        found: &Engagement,
+        (cutter, index): (&CutterModel, usize),
+        feed: f64,
+        turning: SpindleRotation,
+    ) -> [f64; 2] {
+        match criterion {
+            LoadCriterion::ChipThickness => cutter.teeth.as_ref().map_or([0.0; 2], |teeth| {
+                [
+                    found.chip_thickness_mm(teeth, feed, turning.rpm),
+                    found.chip_thickness_bound_mm(teeth, feed, turning.rpm),
+                ]
+            }),
+            LoadCriterion::RemovalRate => {
+                [found, &self.bound_engagement(found)].map(|found| found.removal_rate_mm3_min(feed))
+            }
+            LoadCriterion::Force | LoadCriterion::Torque | LoadCriterion::Power => {
+                let Some(model) = self.load_model(index, turning) else { return [0.0; 2] };
+                [found, &self.bound_engagement(found)]
+                    .map(|found| pick_load(criterion, model.cutting_loads(found, feed, turning.rpm)))
+            }
+        }
+    }
+
+    fn load_model(&self, index: usize, turning: SpindleRotation) -> Option<&LoadModel> {
+        let [clockwise, counter] = self.models.get(index)?.as_ref()?;
+        Some(if turning.direction == SpindleDirection::Clockwise { clockwise } else { counter })
+    }
+
+    /// The engagement with everything that the grid may have missed: shares at their bounds, and half a cell of ground more on
+    /// either side, or half a layer more above and below.
+    fn bound_engagement(&self, found: &Engagement) -> Engagement {
+        let mut bounded = found.clone();
+        bounded.bins.iter_mut().for_each(|bin| bin.share = bin.share_bound);
+        let more = |extent: f64, grain: f64| if extent > 0.0 { grain / extent.max(grain) } else { 0.0 };
+        match self.grain {
+            StockResolution::Cell(cell) => bounded.removed_mm3 *= 1.0 + more(found.radial_depth_mm(), cell),
+            StockResolution::Layer(layer) => {
+                bounded.removed_mm3 *= 1.0 + more(found.axial_depth_mm(), layer);
+                // A tooth bears the same wherever on the flank it is engaged.
+                let engaged = bounded.bins.iter_mut().filter(|bin| bin.is_engaged() && bin.radial > 0.0);
+                engaged.for_each(|bin| bin.high += layer as f32);
+            }
+        }
+        bounded
+    }
+}
+
+/// Loads of which only one has a limit.
+fn limit_one_load(criterion: LoadCriterion, limit: f64) -> CuttingLoads {
+    let mut loads =
+        CuttingLoads { force_n: f64::INFINITY, torque_nm: f64::INFINITY, power_kw: f64::INFINITY };
+    match criterion {
+        LoadCriterion::Force => loads.force_n = limit,
+        LoadCriterion::Torque => loads.torque_nm = limit,
+        LoadCriterion::Power => loads.power_kw = limit,
+        LoadCriterion::ChipThickness | LoadCriterion::RemovalRate => {}
+    }
+    loads
+}
+
+fn pick_load(criterion: LoadCriterion, loads: CuttingLoads) -> f64 {
+    match criterion {
+        LoadCriterion::Force => loads.force_n,
+        LoadCriterion::Torque => loads.torque_nm,
+        _ => loads.power_kw,
+    }
+}

@@ -1,0 +1,163 @@
+//! Where a block is split: its pieces merged from the bottom up, the pair that costs least time first.
+
+use super::block_feeds::{FeedBlock, FeedRules};
+use super::classed_pieces::ClassedPiece;
+use super::feed_segments::{FeedBounds, WindowContent};
+use std::ops::Range;
+
+/// What lengths may differ by, as a share, and be equal.
+const NOISE: f64 = 1e-9;
+
+/// A run of atoms that has one feed.
+#[derive(Debug, Clone)]
+struct CandidateSegment {
+    atoms: Range<usize>,
+    length: f64,
+    content: WindowContent,
+    /// Time at its own feed.
+    time: f64,
+    /// Time of its atoms, each at its own feed: what splitting could reach.
+    least_time: f64,
+}
+
+/// The parts of a block as ranges of atoms, in order.
+///
+/// Neighbours are merged while that loses no more than `min_change` of the time that their pieces need one by one. What is too
+/// short then grows into the neighbour where that costs less; what is too many is merged on at the least cost.
+pub(super) fn merge_into_segments(
+    block: &FeedBlock,
+    bounds: &FeedBounds,
+    atoms: &[ClassedPiece],
+    range: Range<usize>,
+    rules: &FeedRules,
+) -> Vec<Range<usize>> {
+    let rule = rules.split.filter(|rule| rule.applies_to(block));
+    let Some(rule) = rule else { return vec![range] };
+    let path = SegmentMerger { atoms, bounds, programmed: block.programmed };
+    let mut segments: Vec<CandidateSegment> = Vec::new();
+    for index in range {
+        let one = path.build_segment(index..index + 1);
+        match segments.last_mut() {
+            Some(last) if has_same_limits(last.content, one.content) => {
+                *last = path.join_segments(last, &one)
+            }
+            _ => segments.push(one),
+        }
+    }
+    // Air without a feed of its own keeps the programmed one, which may be the slower: it is not joined to gain time.
+    let apart = |a: &CandidateSegment, b: &CandidateSegment| {
+        rules.air_feed.is_none() && a.content.cutting != b.content.cutting
+    };
+    let cheap = |a: &CandidateSegment, b: &CandidateSegment| {
+        let joined = path.join_segments(a, b);
+        !apart(a, b) && joined.time <= (1.0 + rules.min_change) * joined.least_time * (1.0 + NOISE)
+    };
+    while let Some(at) = path.find_cheapest_pair(&segments, cheap) {
+        path.merge_pair(&mut segments, at);
+    }
+    let enough = rule.shortest * (1.0 - NOISE);
+    while let Some(at) = find_too_short(&segments, enough) {
+        path.grow_segment(&mut segments, at, enough);
+    }
+    while segments.len() > rule.at_most.max(1) {
+        match path.find_cheapest_pair(&segments, |_, _| true) {
+            Some(at) => path.merge_pair(&mut segments, at),
+            None => break,
+        }
+    }
+    segments.into_iter().map(|segment| segment.atoms).collect()
+}
+
+fn has_same_limits(a: WindowContent, b: WindowContent) -> bool {
+    (a.lowest, a.air, a.cutting) == (b.lowest, b.air, b.cutting)
+}
+
+/// The shortest of all segments that are too short, unless it is the only one.
+fn find_too_short(segments: &[CandidateSegment], enough: f64) -> Option<usize> {
+    let short = segments.iter().enumerate().filter(|(_, segment)| segment.length < enough);
+    let found = short.min_by(|(_, a), (_, b)| a.length.total_cmp(&b.length));
+    found.map(|(at, _)| at).filter(|_| segments.len() > 1)
+}
+
+/// The atoms of a block, and what feed they get.
+struct SegmentMerger<'a> {
+    atoms: &'a [ClassedPiece],
+    bounds: &'a FeedBounds,
+    programmed: f64,
+}
+
+impl SegmentMerger<'_> {
+    fn time_min(&self, content: WindowContent, length: f64) -> f64 {
+        length / self.bounds.window_feed_mm_min(content).unwrap_or(self.programmed)
+    }
+
+    fn build_segment(&self, range: Range<usize>) -> CandidateSegment {
+        let (mut content, mut length, mut least_time) = (WindowContent::NOTHING, 0.0, 0.0);
+        for atom in self.atoms.get(range.clone()).unwrap_or_default() {
+            let own = WindowContent::from_piece(atom, self.atoms);
+            content = content.combined_with(own);
+            length += atom.length;
+            least_time += self.time_min(own, atom.length);
+        }
+        CandidateSegment { atoms: range, length, content, time: self.time_min(content, length), least_time }
+    }
+
+    fn join_segments(&self, a: &CandidateSegment, b: &CandidateSegment) -> CandidateSegment {
+        let (content, length) = (a.content.combined_with(b.content), a.length + b.length);
+        let least_time = a.least_time + b.least_time;
+        CandidateSegment {
+            atoms: a.atoms.start..b.atoms.end,
+            length,
+            content,
+            time: self.time_min(content, length),
+            least_time,
+        }
+    }
+
+    /// What it costs in time to have other segments instead of two.
+    fn added_time_min(&self, before: [&CandidateSegment; 2], after: &[CandidateSegment]) -> f64 {
+        let sum: f64 = after.iter().map(|segment| segment.time).sum();
+        before.into_iter().fold(sum, |sum, segment| sum - segment.time)
+    }
+
+    /// The pair (index of its first) that costs least among those that `may` be merged; of equal ones the first.
+    fn find_cheapest_pair(
+        &self,
+        segments: &[CandidateSegment],
+        may: impl Fn(&CandidateSegment, &CandidateSegment) -> bool,
+    ) -> Option<usize> {
+        let mut best: Option<(usize, f64)> = None;
+        for (at, pair) in segments.windows(2).enumerate() {
+            let [a, b] = pair else { continue };
+            let cost = self.added_time_min([a, b], &[self.join_segments(a, b)]);
+            if best.is_none_or(|(_, least)| cost < least) && may(a, b) {
+                best = Some((at, cost));
+            }
+        }
+        best.map(|(at, _)| at)
+    }
+
+    fn merge_pair(&self, segments: &mut Vec<CandidateSegment>, at: usize) {
+        if let (Some(a), Some(b)) = (segments.get(at), segments.get(at + 1)) {
+            let joined = self.join_segments(a, b);
+            segments.splice(at..at + 2, [joined]);
+        }
+    }
+
+    /// Gives a too short segment an atom of a neighbour, or all of a neighbour that would itself be too short without it.
+    fn grow_segment(&self, segments: &mut Vec<CandidateSegment>, at: usize, enough: f64) {
+        let options = [at.checked_sub(1), Some(at)].into_iter().flatten();
+        let options = options.filter_map(|first| {
+            let (a, b) = (segments.get(first)?, segments.get(first + 1)?);
+            let border = if first == at { b.atoms.start + 1 } else { a.atoms.end - 1 };
+            let (left, right) =
+                (self.build_segment(a.atoms.start..border), self.build_segment(border..b.atoms.end));
+            let giver = if first == at { &right } else { &left };
+            let new = if giver.length < enough { vec![self.join_segments(a, b)] } else { vec![left, right] };
+            Some((self.added_time_min([a, b], &new), first, new))
+        });
+        if let Some((_, first, new)) = options.min_by(|(a, ..), (b, ..)| a.total_cmp(b)) {
+            segments.splice(first..first + 2, new);
+        }
+    }
+}

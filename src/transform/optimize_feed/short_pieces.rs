@@ -1,0 +1,64 @@
+//! Loads of pieces so short that a column of the grid may lie before or behind them and none in them.
+
+use super::block_feeds::{FeedBlock, FeedLimit};
+
+/// Gives every piece shorter than `reach` (mm) the lowest limit of all pieces no further than `reach` before or behind it in its chain
+/// of blocks. Longer pieces hold columns of their own.
+pub(super) fn lower_short_pieces(blocks: &mut [FeedBlock], reach: f64) {
+    let mut places: Vec<PlacedPiece> = Vec::new();
+    let (mut at, mut chain) = (0.0, 0);
+    for (index, block) in blocks.iter().enumerate() {
+        chain += usize::from(block.breaks_chain);
+        for (number, piece) in block.pieces.iter().enumerate() {
+            let limit = match piece.load {
+                FeedLimit::Air => f64::INFINITY,
+                FeedLimit::Limit(limit) => limit,
+            };
+            let end = at + piece.length;
+            places.push(PlacedPiece {
+                block: index,
+                piece: number,
+                chain,
+                from: at,
+                to: end,
+                limit,
+                air: piece.load == FeedLimit::Air,
+            });
+            at = end;
+        }
+    }
+    let mut first = 0;
+    for place in &places {
+        while places
+            .get(first)
+            .is_some_and(|other| other.chain != place.chain || other.to < place.from - reach)
+        {
+            first += 1;
+        }
+        if place.to - place.from >= reach {
+            continue;
+        }
+        let near = places.get(first..).unwrap_or_default().iter();
+        let near = near.take_while(|other| other.chain == place.chain && other.from <= place.to + reach);
+        let (mut limit, mut air) = (f64::INFINITY, true);
+        for other in near {
+            limit = limit.min(other.limit);
+            air &= other.air;
+        }
+        let piece = blocks.get_mut(place.block).and_then(|block| block.pieces.get_mut(place.piece));
+        if let Some(piece) = piece.filter(|_| !air) {
+            piece.load = FeedLimit::Limit(limit);
+        }
+    }
+}
+
+/// A piece on the path.
+struct PlacedPiece {
+    block: usize,
+    piece: usize,
+    chain: usize,
+    from: f64,
+    to: f64,
+    limit: f64,
+    air: bool,
+}

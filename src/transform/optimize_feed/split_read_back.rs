@@ -1,0 +1,113 @@
+//! Whether a program with split motions still says the same path.
+
+use super::split_statements::SplitMotion;
+use crate::program::Program;
+use crate::program::geometry::{CircularArc, MotionPath, SAME_POINT};
+use crate::program::motion::Motion;
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+/// New coordinates have four decimals at least; half of the last one, with what arithmetic adds.
+const ROUNDING: f64 = 5e-5 * (1.0 + 1e-6);
+
+/// New unit vectors have five decimals at least.
+const AXIS_ROUNDING: f64 = 5e-6 * (1.0 + 1e-6);
+
+/// A program's motions, and the statements that have problems, once for each.
+pub(super) struct ReadMotions {
+    pub(super) motions: Vec<Motion>,
+    problems: Vec<usize>,
+}
+
+impl ReadMotions {
+    pub(super) fn from_program(program: &Program) -> Self {
+        let mut all = program.motions();
+        let motions = all.by_ref().collect();
+        let mut problems: Vec<usize> = all.take_problems().iter().map(|problem| problem.statement).collect();
+        problems.sort_unstable();
+        Self { motions, problems }
+    }
+
+    fn count_problems(&self, motions: &[Motion]) -> usize {
+        let before = |end: usize| self.problems.partition_point(|problem| *problem < end);
+        motions.iter().map(|motion| before(motion.statements.end) - before(motion.statements.start)).sum()
+    }
+}
+
+/// The split motions (their old indices) that are to blame for a difference.
+pub(super) fn find_faulty_splits(
+    before: &ReadMotions,
+    after: &ReadMotions,
+    cuts: &[SplitMotion],
+    parts: &[Range<usize>],
+) -> BTreeSet<usize> {
+    let everything = || cuts.iter().map(|cut| cut.motion).collect();
+    if parts.last().map_or(0, |range| range.end) != after.motions.len() {
+        return everything();
+    }
+    let mut cuts_left = cuts.iter().peekable();
+    let mut last_cut = None;
+    let mut found = BTreeSet::new();
+    for (index, (old, range)) in before.motions.iter().zip(parts).enumerate() {
+        let new = after.motions.get(range.clone()).unwrap_or_default();
+        let cut = cuts_left.next_if(|cut| cut.motion == index);
+        last_cut = cut.map(|cut| cut.motion).or(last_cut);
+        let worse = after.count_problems(new) > before.count_problems(std::slice::from_ref(old));
+        let same = match (cut, new) {
+            (Some(cut), parts) => is_split_as_planned(old, parts, cut),
+            (None, [new]) => has_same_attributes(old, new) && old.to == new.to && old.path == new.path,
+            _ => false,
+        };
+        if !same || worse {
+            match last_cut {
+                Some(cut) => found.insert(cut),
+                None => return everything(),
+            };
+        }
+    }
+    found
+}
+
+/// Everything about a motion that its parts share with it.
+fn has_same_attributes(old: &Motion, new: &Motion) -> bool {
+    old.feed == new.feed
+        && old.rapid == new.rapid
+        && (old.class, old.class_is_told) == (new.class, new.class_is_told)
+        && old.operation == new.operation
+        && old.tool == new.tool
+        && old.spindle == new.spindle
+        && old.hole.is_some() == new.hole.is_some()
+}
+
+fn is_split_as_planned(old: &Motion, parts: &[Motion], cut: &SplitMotion) -> bool {
+    let ends = cut.poses.iter().copied().chain([old.to]);
+    let poses = parts.iter().zip(ends).all(|(part, end)| {
+        (part.to.point - end.point).amax() <= ROUNDING && (part.to.axis - end.axis).amax() <= AXIS_ROUNDING
+    });
+    let from_end_to_end = parts.first().is_some_and(|first| first.from == old.from)
+        && parts.last().is_some_and(|last| last.to == old.to)
+        && parts.windows(2).all(|pair| matches!(pair, [a, b] if a.to == b.from));
+    let alike = parts
+        .iter()
+        .all(|part| has_same_attributes(old, part) && (part.to.point - part.from.point).norm() > SAME_POINT);
+    let path = match &old.path {
+        MotionPath::Line => parts.iter().all(|part| part.path == MotionPath::Line),
+        MotionPath::Arc(arc) => are_arc_parts(arc, parts, cut),
+        MotionPath::Spline(_) | MotionPath::Start => false,
+    };
+    poses && from_end_to_end && alike && path
+}
+
+/// Arcs about the same centre and axis, each with its share of the sweep. Rounded ends turn a spoke by their rounding over the
+/// radius, and a plane that is read from them (CATIA) by that over the sine of the sweep.
+fn are_arc_parts(whole: &CircularArc, parts: &[Motion], cut: &SplitMotion) -> bool {
+    let turned = 4.0 * ROUNDING / whole.radius.max(SAME_POINT);
+    parts.iter().zip(cut.part_fractions()).all(|(part, (start, end))| {
+        let MotionPath::Arc(arc) = &part.path else { return false };
+        let sweep = whole.sweep * (end - start);
+        let tilt = turned / sweep.sin().abs().max(0.01) + 1e-5;
+        arc.center == whole.center
+            && (arc.axis.into_inner() - whole.axis.into_inner()).norm() <= tilt
+            && (arc.sweep - sweep).abs() <= turned + 1e-6
+    })
+}

@@ -1,0 +1,174 @@
+//! The statements of a motion's parts, in the form of the statements that make the whole.
+
+use crate::diagnostic::Diagnostic;
+use crate::parse;
+use crate::program::geometry::{MotionPath, Pose};
+use crate::program::motion::Motion;
+use crate::program::{FieldKind, Program};
+use crate::transform::statement_numbers::{copy_statement, pair_with_indices, strip_remark};
+use crate::write::ProgramEditor;
+use nalgebra::Vector3;
+use std::f64::consts::PI;
+use std::ops::Range;
+
+/// Sweeps closer to half a turn than this (radians) are half a turn, which needs no INTOF.
+const HALF_TURN: f64 = 1e-4;
+
+/// How a motion that can be split is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum SplitForm {
+    /// A GOTO.
+    Line,
+    /// CIRCLE (its statement) and GOTO.
+    Circle(usize),
+    /// MOVARC (its statement) and GOTO.
+    MoveArc(usize),
+    /// CATIA's INDIRV (its statement) and TLON.
+    Drive(usize),
+}
+
+/// A motion with the places where it is split: shares of its length, and the poses there.
+#[derive(Debug, Clone)]
+pub(super) struct SplitMotion {
+    pub(super) motion: usize,
+    pub(super) written: SplitForm,
+    pub(super) shares: Vec<f64>,
+    pub(super) poses: Vec<Pose>,
+}
+
+impl SplitMotion {
+    /// Start and end of each part as shares, in order.
+    pub(super) fn part_fractions(&self) -> impl Iterator<Item = (f64, f64)> {
+        let starts = std::iter::once(0.0).chain(self.shares.iter().copied());
+        starts.zip(self.shares.iter().copied().chain([1.0]))
+    }
+}
+
+/// Writes the parts: new statements before the one that ends the motion, which stays as it is where it can.
+pub(super) fn write_split_motion(
+    editor: &mut ProgramEditor,
+    motion: &Motion,
+    cut: &SplitMotion,
+) -> Result<(), Box<Diagnostic>> {
+    match cut.written {
+        SplitForm::Line => {
+            for pose in &cut.poses {
+                let goto = render_goto(editor, motion, pose);
+                editor.insert_before(motion.last_statement(), &goto)?;
+            }
+            Ok(())
+        }
+        SplitForm::Circle(circle) => {
+            let again = text_without_remark(editor.program(), circle);
+            for pose in &cut.poses {
+                let goto = render_goto(editor, motion, pose);
+                editor.insert_before(motion.last_statement(), &goto)?;
+                editor.insert_before(motion.last_statement(), &again)?;
+            }
+            Ok(())
+        }
+        SplitForm::MoveArc(record) => write_move_arcs(editor, motion, cut, record),
+        SplitForm::Drive(direction) => write_drive_arcs(editor, motion, cut, direction),
+    }
+}
+
+fn render_goto(editor: &ProgramEditor, motion: &Motion, pose: &Pose) -> Vec<u8> {
+    let [x, y, z]: [f64; 3] = pose.point.coords.into();
+    let [i, j, k]: [f64; 3] = pose.axis.into();
+    // A GOTO of three values has no numbers 3 to 5.
+    copy_with_numbers(editor, motion.last_statement(), 0, &[x, y, z, i, j, k])
+}
+
+/// MOVARC says its own angle, so the whole one's is cut down to its first part's.
+fn write_move_arcs(
+    editor: &mut ProgramEditor,
+    motion: &Motion,
+    cut: &SplitMotion,
+    statement: usize,
+) -> Result<(), Box<Diagnostic>> {
+    let angle = find_move_arc_angle(editor.program(), statement);
+    let degrees = |(start, end): (f64, f64)| angle.map(|(number, whole)| (number, whole * (end - start)));
+    for (pose, part) in cut.poses.iter().zip(cut.part_fractions().skip(1)) {
+        let goto = render_goto(editor, motion, pose);
+        let again = match degrees(part) {
+            Some((number, degrees)) => copy_with_numbers(editor, statement, number, &[degrees]),
+            None => text_without_remark(editor.program(), statement),
+        };
+        editor.insert_before(motion.last_statement(), &goto)?;
+        editor.insert_before(motion.last_statement(), &again)?;
+    }
+    match cut.part_fractions().next().and_then(degrees) {
+        Some(first) => editor.set_numbers(statement, &[first]),
+        None => Ok(()),
+    }
+}
+
+/// The angle of a MOVARC: the index of its number, and its value in degrees.
+fn find_move_arc_angle(program: &Program, statement: usize) -> Option<(usize, f64)> {
+    let found = program.statement(statement)?;
+    let syntax = parse::syntax(program.statement_text(found));
+    let word = (0..syntax.fields.len()).find(|field| syntax.word_at(*field).as_deref() == Some("ANGLE"))?;
+    let place = &syntax.fields.get(word + 1)?.at;
+    let (number, (_, degrees)) = syntax.numbers().into_iter().enumerate().find(|(_, (at, _))| at == place)?;
+    Some((number, degrees))
+}
+
+/// Each part has its own start tangent (INDIRV) and end (in TLON); `2,INTOF` stays only where a part has more than half a turn.
+fn write_drive_arcs(
+    editor: &mut ProgramEditor,
+    motion: &Motion,
+    cut: &SplitMotion,
+    direction: usize,
+) -> Result<(), Box<Diagnostic>> {
+    let MotionPath::Arc(arc) = &motion.path else { return Ok(()) };
+    let last = motion.last_statement();
+    let short = |(start, end): (f64, f64)| (end - start) * arc.sweep <= PI + HALF_TURN;
+    let numbers = editor
+        .program()
+        .statement(last)
+        .map_or(0, |found| parse::statement_numbers(editor.program().statement_text(found)).len());
+    for ((pose, share), part) in cut.poses.iter().zip(&cut.shares).zip(cut.part_fractions()) {
+        let [x, y, z]: [f64; 3] = pose.point.coords.into();
+        let mut drive = copy_with_numbers(editor, last, numbers.saturating_sub(3), &[x, y, z]);
+        if let Some(intof) = find_intof_range(&drive).filter(|_| short(part)) {
+            drive.drain(intof);
+        }
+        let tangent: [f64; 3] = start_tangent(arc, *share).into();
+        let indirv = copy_with_numbers(editor, direction, 0, &tangent);
+        editor.insert_before(last, &drive)?;
+        editor.insert_before(last, &indirv)?;
+    }
+    let whole = editor
+        .program()
+        .statement(last)
+        .and_then(|found| find_intof_range(editor.program().statement_text(found)));
+    match whole.filter(|_| cut.part_fractions().last().is_some_and(short)) {
+        Some(intof) => editor.replace_parts(last, &[(intof, b"")]),
+        None => Ok(()),
+    }
+}
+
+fn start_tangent(arc: &crate::program::geometry::CircularArc, share: f64) -> Vector3<f64> {
+    // A tangent of 1e-17 in x would be printed as zero, but with a sign.
+    arc.tangent_at(share).map(|part| if part.abs() < 1e-9 { 0.0 } else { part })
+}
+
+/// Where `2,INTOF,` and what follows it up to the LINE stand.
+fn find_intof_range(text: &[u8]) -> Option<Range<usize>> {
+    let syntax = parse::syntax(text);
+    let word = (0..syntax.fields.len()).find(|field| syntax.word_at(*field).as_deref() == Some("INTOF"))?;
+    let count = syntax.fields.get(word.checked_sub(1)?)?;
+    let line = syntax.fields.get(word + 1)?;
+    let fits = matches!((&count.kind, &line.kind), (FieldKind::Number(_), FieldKind::Group(_)));
+    fits.then_some(count.at.start..line.at.start)
+}
+
+/// A statement's text with numbers from `first` on given new values.
+fn copy_with_numbers(editor: &ProgramEditor, statement: usize, first: usize, values: &[f64]) -> Vec<u8> {
+    copy_statement(editor, statement, &pair_with_indices(first, values.iter().copied()))
+}
+
+/// A statement's text without a comment at its end.
+fn text_without_remark(program: &Program, statement: usize) -> Vec<u8> {
+    program.statement(statement).map(|found| strip_remark(program.statement_text(found))).unwrap_or_default()
+}

@@ -1,0 +1,241 @@
+//! Carrying out what the rules say, statement by statement, through the gate.
+
+use super::charset::Charset;
+use super::expression::EvaluationError;
+use super::reshape::reshape_statement;
+use super::rule_matching::{ActiveRule, RuleMatch};
+use super::rule_subject::RuleSubject;
+use super::spacing_style::{SpacingStyle, is_same_statement};
+use super::template::{StatementTemplate, TemplateInputs};
+use crate::diagnostic::{Diagnostic, codes};
+use crate::program::{Program, ProvenanceComment, Record, Statement, StatementChange};
+use crate::transform::StepContext;
+use crate::write::ProgramEditor;
+
+/// The hits of a step, and all that is needed to act on them.
+pub(super) struct RewriteRun<'w> {
+    rules: &'w [ActiveRule<'w>],
+    hits: &'w [RuleMatch],
+    charset: Charset,
+    context: &'w StepContext<'w>,
+}
+
+/// What is to be put beside one statement.
+struct PendingInsertion {
+    hit: RuleMatch,
+    before: Vec<Vec<u8>>,
+    after: Vec<Vec<u8>>,
+}
+
+impl<'w> RewriteRun<'w> {
+    pub fn new(
+        rules: &'w [ActiveRule<'w>],
+        hits: &'w [RuleMatch],
+        charset: Charset,
+        context: &'w StepContext<'_>,
+    ) -> Self {
+        Self { rules, hits, charset, context }
+    }
+
+    /// The program with all of it done.
+    ///
+    /// # Errors
+    /// When an expression has no value, or what a rule writes is no statement.
+    pub fn rewrite_program(&self, program: Program) -> Result<Program, Box<Diagnostic>> {
+        let mut editor = ProgramEditor::new(program, self.context.step);
+        let mut look = SpacingStyle::from_program(editor.program(), editor.style().line_end);
+        let mut insertions = Vec::new();
+        for &hit in self.hits {
+            insertions.extend(self.apply_rule(hit, &mut editor, &mut look)?);
+        }
+        // Only now is it known what stands beside each statement after this step.
+        for insertion in insertions {
+            self.insert_missing(insertion, &mut editor)?;
+        }
+        editor.finish()
+    }
+
+    /// Replaces or deletes, and gives what is to be inserted.
+    fn apply_rule(
+        &self,
+        hit: RuleMatch,
+        editor: &mut ProgramEditor,
+        look: &mut SpacingStyle,
+    ) -> Result<Option<PendingInsertion>, Box<Diagnostic>> {
+        let program = editor.program();
+        let (Some(active), Some(statement)) = (self.rules.get(hit.rule), program.statement(hit.statement))
+        else {
+            return Ok(None);
+        };
+        let rule = active.rule;
+        let text = program.statement_text(statement);
+        let subject = RuleSubject::from_text(text);
+        let Some(bindings) = active.bind_arguments(&subject) else { return Ok(None) };
+        let (style, charset) = (editor.style(), self.charset);
+        let filling =
+            TemplateInputs { bindings: &bindings, text, record: statement.record(), style, charset };
+        let filled = |template: &StatementTemplate, key: &str| {
+            template.fill(&filling).map_err(|trouble| rule_failure(&trouble, hit, key, program, self.context))
+        };
+        let mut all = |templates: &[StatementTemplate], key: &str| -> Result<Vec<Vec<u8>>, Box<Diagnostic>> {
+            templates
+                .iter()
+                .map(|template| Ok(look.apply_spacing(&filled(template, key)?, program)))
+                .collect()
+        };
+        let before = all(&rule.insert_before, "insert_before")?;
+        let after = all(&rule.insert_after, "insert_after")?;
+        let new = rule.replace.as_ref().map(|template| filled(template, "replace")).transpose()?;
+        if let Some(new) = new {
+            let text = reshape_statement(program, statement, &new, style, look);
+            editor
+                .set_text(hit.statement, &text)
+                .map_err(|error| self.label_rule(*error, hit, &["replace"]))?;
+        }
+        if rule.delete {
+            editor.delete_statement(hit.statement);
+        }
+        Ok(Some(PendingInsertion { hit, before, after }))
+    }
+
+    /// Inserts what does not stand there yet.
+    fn insert_missing(
+        &self,
+        insertion: PendingInsertion,
+        editor: &mut ProgramEditor,
+    ) -> Result<(), Box<Diagnostic>> {
+        let PendingInsertion { hit, before, after } = insertion;
+        if !is_already_inserted(&before, editor.program(), hit.statement, true) {
+            self.insert_texts(&before, hit.statement, hit, "insert_before", editor)?;
+        }
+        let inserts = !is_already_inserted(&after, editor.program(), hit.statement, false);
+        if inserts {
+            self.insert_texts(&after, hit.statement + 1, hit, "insert_after", editor)?;
+        }
+        self.check_point_lines(hit, editor.program(), inserts)
+    }
+
+    fn insert_texts(
+        &self,
+        texts: &[Vec<u8>],
+        before: usize,
+        hit: RuleMatch,
+        key: &str,
+        editor: &mut ProgramEditor,
+    ) -> Result<(), Box<Diagnostic>> {
+        for (number, text) in texts.iter().enumerate() {
+            if let Err(mut error) = editor.insert_before(before, text) {
+                // The editor knows what it was to insert before, not for which statement.
+                error.labels.clear();
+                let program = editor.program();
+                let span = program.statement(hit.statement).map(Statement::origin).unwrap_or_default();
+                let error = error.with_label(program.source(), span, "beside this statement");
+                return Err(self.label_rule(error, hit, &[key, &number.to_string()]));
+            }
+        }
+        Ok(())
+    }
+
+    /// Lines of bare numbers go on with the GOTO before them and mean nothing without it.
+    fn check_point_lines(
+        &self,
+        hit: RuleMatch,
+        program: &Program,
+        inserts: bool,
+    ) -> Result<(), Box<Diagnostic>> {
+        let is_points = |record: &Record| matches!(record, Record::Goto(_) | Record::Points(_));
+        let kept = program.statement(hit.statement).filter(|kept| kept.is_live());
+        if !inserts && kept.is_some_and(|kept| is_points(kept.record())) {
+            return Ok(());
+        }
+        let mut behind = program.statements().iter().enumerate().skip(hit.statement + 1);
+        let Some((index, next)) = behind.find(|(_, next)| next.is_live()) else { return Ok(()) };
+        let first = program.statement_text(next).trim_ascii_start().first();
+        let is_bare = first.is_some_and(|byte| byte.is_ascii_digit() || b"+-.".contains(byte));
+        if !is_points(next.record()) || !is_bare {
+            return Ok(());
+        }
+        let message = "the rule would part a GOTO from the lines of numbers that go on with it";
+        let error =
+            self.context.statement_failure(message, program, index, "these numbers would stand alone");
+        Err(self.label_rule(*error, hit, &[]))
+    }
+
+    fn label_rule(&self, error: Diagnostic, hit: RuleMatch, keys: &[&str]) -> Box<Diagnostic> {
+        label_rule(error, hit, keys, "by this rule", self.context)
+    }
+}
+
+/// Whether what is to be inserted before or behind a statement already stands there, or is the statement itself.
+fn is_already_inserted(wanted: &[Vec<u8>], program: &Program, statement: usize, before: bool) -> bool {
+    let with_own = wanted.iter().any(|text| ProvenanceComment::from_text(text).is_some());
+    let wanted: Vec<RuleSubject<'_>> = wanted.iter().map(|text| RuleSubject::from_text(text)).collect();
+    if wanted.is_empty() {
+        return true;
+    }
+    let own = program
+        .statement(statement)
+        .filter(|own| own.is_live())
+        .map(|own| RuleSubject::from_text(program.statement_text(own)));
+    if own.is_some_and(|own| wanted.iter().any(|wanted| is_same_statement(wanted, &own))) {
+        return true;
+    }
+    let mut found = find_neighbours(program, statement, before, wanted.len(), with_own);
+    if before {
+        found.reverse();
+    }
+    wanted.len() == found.len()
+        && wanted.iter().zip(&found).all(|(wanted, found)| is_same_statement(wanted, found))
+}
+
+/// Up to `count` statements before or behind one, the nearest first. Comments of clsmith's own runs are passed over: they stand
+/// between a statement and what an earlier run put beside it. `with_own` is for rules that write such a comment themselves.
+fn find_neighbours(
+    program: &Program,
+    statement: usize,
+    before: bool,
+    count: usize,
+    with_own: bool,
+) -> Vec<RuleSubject<'_>> {
+    let (head, tail) = program.statements().split_at_checked(statement).unwrap_or_default();
+    let subject = |statement: &Statement| RuleSubject::from_text(program.statement_text(statement));
+    let is_own = |other: &Statement| ProvenanceComment::from_text(program.statement_text(other)).is_some();
+    let counts = |other: &&Statement| other.is_live() && (with_own || !is_own(other));
+    match before {
+        true => head.iter().rev().filter(counts).take(count).map(subject).collect(),
+        false => tail.iter().skip(1).filter(counts).take(count).map(subject).collect(),
+    }
+}
+
+fn label_rule(
+    error: Diagnostic,
+    hit: RuleMatch,
+    keys: &[&str],
+    label: &str,
+    context: &StepContext<'_>,
+) -> Box<Diagnostic> {
+    let rule = hit.rule.to_string();
+    let path = [&["rules", rule.as_str()], keys].concat();
+    let place = context.recipe.step_value_span(usize::from(context.step.0), &path);
+    Box::new(error.with_label(&context.recipe.source, place, label))
+}
+
+/// Why a rule cannot be applied to a statement: at the text of the rule, and at the argument.
+pub(super) fn rule_failure(
+    trouble: &EvaluationError,
+    hit: RuleMatch,
+    key: &str,
+    program: &Program,
+    context: &StepContext<'_>,
+) -> Box<Diagnostic> {
+    let mut span = program.statement(hit.statement).map(Statement::origin).unwrap_or_default();
+    let untouched = program
+        .statement(hit.statement)
+        .is_some_and(|statement| statement.change() == StatementChange::Untouched);
+    if let (Some(at), true) = (&trouble.at, untouched) {
+        span = span.sub_span(at.start, at.end);
+    }
+    let message = format!("rule {} of this `rewrite` cannot be applied: {}", hit.rule + 1, trouble.message);
+    let error = Diagnostic::new(codes::STEP_FAILED, message).with_label(program.source(), span, "on this");
+    label_rule(error, hit, &[key], "asked for here", context)
+}

@@ -1,0 +1,100 @@
+//! Which rule takes which statement, before anything is changed.
+
+use super::Rewrite;
+use super::bindings::Bindings;
+use super::charset::Charset;
+use super::expression::EvaluationError;
+use super::pattern::StatementPattern;
+use super::rule::RewriteRule;
+use super::rule_subject::RuleSubject;
+use crate::program::{Program, Record};
+
+/// A rule as it is looked for in one file.
+pub(super) struct ActiveRule<'r> {
+    /// Its number in the recipe.
+    pub index: usize,
+    /// The rule.
+    pub rule: &'r RewriteRule,
+    pattern: Option<StatementPattern>,
+    fitted: bool,
+}
+
+/// A statement and the rule that takes it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct RuleMatch {
+    /// The statement.
+    pub statement: usize,
+    /// The rule's number in the recipe.
+    pub rule: usize,
+}
+
+/// An `if` that has no value for a statement.
+pub(super) struct RuleFailure {
+    /// The statement and the rule.
+    pub hit: RuleMatch,
+    /// What is wrong.
+    pub trouble: EvaluationError,
+}
+
+impl<'r> ActiveRule<'r> {
+    /// The rules of a step for a file.
+    pub fn activate_rules(step: &'r Rewrite, charset: Charset) -> Vec<Self> {
+        let rules = step.rules.iter().enumerate();
+        rules
+            .map(|(index, rule)| {
+                let pattern = rule.r#match.for_charset(charset);
+                Self { index, rule, pattern, fitted: false }
+            })
+            .collect()
+    }
+
+    /// Whether a statement fitted the pattern, whatever `if` said.
+    pub fn has_matched(&self) -> bool {
+        self.fitted
+    }
+
+    /// What the pattern binds in a statement.
+    pub fn bind_arguments<'s>(&'s self, subject: &RuleSubject<'s>) -> Option<Bindings<'s>> {
+        self.pattern.as_ref()?.matches(subject)
+    }
+
+    fn accepts_subject(&mut self, subject: &RuleSubject<'_>) -> Result<bool, EvaluationError> {
+        let Some(bindings) = self.pattern.as_ref().and_then(|pattern| pattern.matches(subject)) else {
+            return Ok(false);
+        };
+        self.fitted = true;
+        self.rule.r#if.as_ref().map_or(Ok(true), |condition| condition.0.evaluate_truth(&bindings))
+    }
+}
+
+/// The statements that rules take, in order; each by the first rule that fits.
+pub(super) fn find_rule_matches(
+    step: &Rewrite,
+    rules: &mut [ActiveRule<'_>],
+    program: &Program,
+) -> Result<Vec<RuleMatch>, RuleFailure> {
+    let mut region = step.r#where.start_cursor(program);
+    let mut hits = Vec::new();
+    for (index, statement) in program.live_statements() {
+        if matches!(statement.record(), Record::Blank | Record::ByteOrderMark) {
+            continue;
+        }
+        let text = program.statement_text(statement);
+        let may_match =
+            |rule: &ActiveRule<'_>| rule.pattern.as_ref().is_some_and(|pattern| pattern.may_match(text));
+        // Most statements of a large file end here, before the grammar or the region costs anything.
+        let Some(first) = rules.iter().position(may_match) else { continue };
+        if !region.contains(index) {
+            continue;
+        }
+        let subject = RuleSubject::from_text(text);
+        for rule in rules.iter_mut().skip(first) {
+            let hit = RuleMatch { statement: index, rule: rule.index };
+            if rule.accepts_subject(&subject).map_err(|trouble| RuleFailure { hit, trouble })? {
+                hits.push(hit);
+                break;
+            }
+        }
+    }
+    Ok(hits)
+}

@@ -1,0 +1,122 @@
+//! A statement as rules see it: its class, word and arguments, whatever its spelling.
+
+use crate::parse;
+use crate::program::{FieldKind, StatementField, StatementKind};
+use std::ops::Range;
+
+/// Length of the word of a plain GOTO line, which starts with it.
+const GOTO: usize = 4;
+
+/// What kinds of statement a rule tells apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum SubjectClass {
+    /// A word with arguments or text.
+    Words,
+    /// The same behind `$$->` or `REMARK ->`.
+    Structured,
+    /// `$$`, with the text behind it as its one argument.
+    Comment,
+    /// What no rule matches: blank lines, bare numbers, what cannot be read.
+    Other,
+}
+
+/// A statement taken apart.
+#[derive(Debug, Clone)]
+pub(super) struct RuleSubject<'t> {
+    /// Its text, line end included.
+    pub text: &'t [u8],
+    /// Its class.
+    pub class: SubjectClass,
+    /// Place of its word.
+    pub word: Range<usize>,
+    /// Its arguments, without the empty one behind a last comma (CLT) or a bare slash (`RAPID/`).
+    pub fields: Vec<StatementField>,
+    /// Place of a trailing comment.
+    pub remark: Option<Range<usize>>,
+    open: bool,
+}
+
+impl<'t> RuleSubject<'t> {
+    /// Takes a statement's text apart. Text behind the first statement is not looked at; see [`RuleSubject::is_whole`].
+    pub fn from_text(text: &'t [u8]) -> Self {
+        if let Some(numbers) = parse::plain_goto_numbers(text) {
+            let number = |(at, value)| StatementField { at, kind: FieldKind::Number(value) };
+            let fields = numbers.into_iter().map(number).collect();
+            return Self {
+                text,
+                class: SubjectClass::Words,
+                word: 0..GOTO,
+                fields,
+                remark: None,
+                open: false,
+            };
+        }
+        let syntax = parse::syntax(text);
+        let open = syntax.open;
+        let class = match syntax.form {
+            StatementKind::Words | StatementKind::FreeText | StatementKind::OperationStart => {
+                SubjectClass::Words
+            }
+            StatementKind::Structured => SubjectClass::Structured,
+            StatementKind::Comment | StatementKind::FrameMark | StatementKind::MatrixRow => {
+                SubjectClass::Comment
+            }
+            StatementKind::Blank
+            | StatementKind::Numbers
+            | StatementKind::Definition
+            | StatementKind::Refused => SubjectClass::Other,
+        };
+        let mut subject = Self {
+            text: syntax.text,
+            class,
+            word: syntax.word,
+            fields: syntax.fields,
+            remark: syntax.remark,
+            open,
+        };
+        match syntax.form {
+            StatementKind::OperationStart => subject.expose_tool_word(),
+            _ if class == SubjectClass::Comment => {
+                subject.fields = comment_text(syntax.text).into_iter().collect()
+            }
+            _ => {}
+        }
+        if matches!(class, SubjectClass::Words | SubjectClass::Structured)
+            && subject.fields.last().is_some_and(|field| field.kind == FieldKind::Empty)
+        {
+            subject.fields.pop();
+        }
+        subject
+    }
+
+    /// Whether a text is this one statement and nothing more.
+    pub fn is_whole(&self, text: &[u8]) -> bool {
+        self.text.len() == text.len() && !self.open
+    }
+
+    /// The bytes at a place.
+    pub fn bytes_at(&self, at: &Range<usize>) -> &'t [u8] {
+        self.text.get(at.clone()).unwrap_or_default()
+    }
+
+    /// The grammar swallows the `TOOL` of `TOOL PATH/name,TOOL,tool`; to a rule it is an argument as any other.
+    fn expose_tool_word(&mut self) {
+        let [name, tool] = self.fields.as_slice() else { return };
+        let between = name.at.end..tool.at.start;
+        let letter = |byte: &u8| byte.is_ascii_alphabetic();
+        let bytes = self.bytes_at(&between);
+        if let (Some(first), Some(last)) = (bytes.iter().position(letter), bytes.iter().rposition(letter)) {
+            let at = between.start + first..between.start + last + 1;
+            self.fields.insert(1, StatementField { at, kind: FieldKind::Text });
+        }
+    }
+}
+
+/// The text of a comment, `$$` and blanks left out; `None` when it is empty.
+fn comment_text(text: &[u8]) -> Option<StatementField> {
+    let start = text.iter().position(|&byte| byte == b'$')? + 2;
+    let rest = text.get(start..)?;
+    let is_ink = |byte: &u8| !matches!(byte, b' ' | b'\t' | 0x0C | b'\r' | b'\n');
+    let at = start + rest.iter().position(is_ink)?..start + rest.iter().rposition(is_ink)? + 1;
+    Some(StatementField { at, kind: FieldKind::Text })
+}

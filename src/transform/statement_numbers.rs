@@ -1,0 +1,164 @@
+//! The numbers of a statement with what they are, for transforms that change geometry.
+//!
+//! Roles come from the records ([`crate::program::NumberRole`]). Two of them hang on what stands before the statement: whether a
+//! long GOTO holds axes (MULTAX), and which row of a CATIA matrix a comment is.
+
+use crate::diagnostic::Diagnostic;
+use crate::number::{self, NumberFormat};
+use crate::parse;
+use crate::program::record::{has_contact_normal, has_tool_axes};
+use crate::program::{FieldKind, NumberRole, Record};
+use crate::write::{ProgramEditor, copy_with_numbers};
+use nalgebra::Vector3;
+
+/// A matrix in the comments of a CATIA file prints unit vectors with 5 decimals; turned ones need as many as an NX frame.
+const MATRIX_TOLERANCE: f64 = 5e-8;
+
+/// The roles of a statement's numbers. A GOTO of several points holds axes only under MULTAX, as motions read it.
+pub fn number_roles(record: &Record, text: &[u8], multi_axis: bool) -> Vec<NumberRole> {
+    match record {
+        Record::Points(numbers) if !has_contact_normal(numbers) && has_tool_axes(numbers) && !multi_axis => {
+            (0..numbers.len()).map(|index| NumberRole::Point((index % 3) as u8)).collect()
+        }
+        _ => parse::number_roles(record, text),
+    }
+}
+
+/// Gives every point and vector among the numbers a new value: `change` gets the role of its first component, and gives
+/// `None` for what stays. The result is what [`ProgramEditor::set_numbers`] takes.
+pub fn map_triples(
+    values: &[f64],
+    roles: &[NumberRole],
+    change: impl Fn(NumberRole, Vector3<f64>) -> Option<Vector3<f64>>,
+) -> Vec<(usize, f64)> {
+    let mut edits = Vec::with_capacity(values.len());
+    for (index, role) in roles.iter().enumerate() {
+        if !matches!(
+            role,
+            NumberRole::Point(0) | NumberRole::Step(0) | NumberRole::Direction(0) | NumberRole::ArcAxis(0)
+        ) {
+            continue;
+        }
+        let Some([x, y, z]) = values.get(index..index + 3) else { continue };
+        if let Some(new) = change(*role, Vector3::new(*x, *y, *z)) {
+            edits.extend([(index, new.x), (index + 1, new.y), (index + 2, new.z)]);
+        }
+    }
+    edits
+}
+
+/// Counts the rows of CATIA's matrix: three after each `$$*CATIA0`, with nothing but comments between.
+#[derive(Debug, Default)]
+pub struct MatrixRowCounter {
+    open: bool,
+    next: u8,
+}
+
+impl MatrixRowCounter {
+    /// Takes notice of a record; the number of the row (0 to 2) when it is one.
+    pub fn observe_record(&mut self, record: &Record) -> Option<u8> {
+        match record {
+            Record::FrameMark => *self = Self { open: true, next: 0 },
+            Record::MatrixRow(_) if self.open => {
+                let row = self.next;
+                self.next += 1;
+                self.open = self.next < 3;
+                return Some(row);
+            }
+            Record::Comment | Record::MatrixRow(_) => {}
+            _ => self.open = false,
+        }
+        None
+    }
+}
+
+/// Gives numbers of a matrix row in a comment new values, in their columns: only blanks separate them, so at least one
+/// stays.
+///
+/// # Errors
+/// When the row does not read back.
+pub fn set_matrix_row(
+    editor: &mut ProgramEditor,
+    index: usize,
+    edits: &[(usize, f64)],
+) -> Result<(), Box<Diagnostic>> {
+    let Some(statement) = editor.program().statement(index) else { return Ok(()) };
+    let text = editor.program().statement_text(statement).to_vec();
+    let numbers = parse::statement_numbers(&text);
+    let mut parts: Vec<(std::ops::Range<usize>, String)> = Vec::new();
+    for (place, (at, old)) in numbers.iter().enumerate() {
+        let before = text.get(..at.start).unwrap_or_default();
+        let start = before.trim_ascii_end().len();
+        let Some((_, wanted)) = edits.iter().find(|(edited, _)| *edited == place) else { continue };
+        if (wanted - old).abs() <= 1e-13 * old.abs().max(1.0) {
+            continue;
+        }
+        let own = number::count_decimals(text.get(at.clone()).unwrap_or_default());
+        let tolerance = if place < 3 { MATRIX_TOLERANCE } else { 5e-5 };
+        let form = NumberFormat {
+            decimals: own + if place < 3 { 0 } else { editor.style().finer },
+            tolerance,
+            zeros: Default::default(),
+            point: true,
+        };
+        let printed = form.format_number(*wanted, wanted - old);
+        let width = at.end - start;
+        parts.push((start..at.end, format!(" {printed:>0$}", width.saturating_sub(1))));
+    }
+    let parts: Vec<_> = parts.iter().map(|(at, text)| (at.clone(), text.as_bytes())).collect();
+    if parts.is_empty() { Ok(()) } else { editor.replace_parts(index, &parts) }
+}
+
+/// The major word of a statement in upper case, without asking the grammar: for lists of words.
+pub fn major_word(text: &[u8]) -> String {
+    let text = text.trim_ascii_start();
+    let end = text.iter().position(|byte| matches!(byte, b'/' | b'$' | b'\r' | b'\n')).unwrap_or(text.len());
+    crate::program::fold_text(text.get(..end).unwrap_or_default().trim_ascii_end())
+}
+
+/// A statement's text without remark and line end.
+pub fn strip_remark(text: &[u8]) -> Vec<u8> {
+    let syntax = parse::syntax(text);
+    let end = match (&syntax.remark, syntax.fields.last()) {
+        (None, _) => syntax.text.len(),
+        (Some(_), Some(field)) if field.kind != FieldKind::Empty => field.at.end,
+        (Some(remark), _) => remark.start,
+    };
+    syntax.text.get(..end).unwrap_or_default().to_vec()
+}
+
+/// Takes a statement out; a remark at its end stays, as a comment of its own.
+///
+/// # Errors
+/// When the comment does not read back.
+pub fn delete_keeping_remark(editor: &mut ProgramEditor, statement: usize) -> Result<(), Box<Diagnostic>> {
+    let program = editor.program();
+    let Some(found) = program.statement(statement) else { return Ok(()) };
+    let text = program.statement_text(found);
+    let remark = parse::syntax(text).remark.and_then(|remark| text.get(remark.start..));
+    match remark.map(<[u8]>::to_vec) {
+        Some(remark) => editor.set_text(statement, &remark),
+        None => {
+            editor.delete_statement(statement);
+            Ok(())
+        }
+    }
+}
+
+/// A coordinate as a file prints it: more decimals than it has elsewhere tell a machine nothing.
+pub fn round_to_decimals(value: f64, decimals: usize) -> f64 {
+    let power = 10f64.powi(decimals as i32);
+    (value * power).round() / power
+}
+
+/// Pairs of numbers' indices from `first` on and their new values.
+pub fn pair_with_indices(first: usize, values: impl IntoIterator<Item = f64>) -> Vec<(usize, f64)> {
+    values.into_iter().enumerate().map(|(index, value)| (first + index, value)).collect()
+}
+
+/// A statement's text with other numbers and without its remark, for a new statement in its form.
+pub fn copy_statement(editor: &ProgramEditor, statement: usize, numbers: &[(usize, f64)]) -> Vec<u8> {
+    let program = editor.program();
+    let Some(found) = program.statement(statement) else { return Vec::new() };
+    copy_with_numbers(&strip_remark(program.statement_text(found)), found.record(), numbers, editor.style())
+}

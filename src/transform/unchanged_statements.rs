@@ -1,0 +1,56 @@
+//! Statements that a geometric step cannot change because nothing says what their numbers are.
+
+use super::StepContext;
+use super::statement_numbers::major_word;
+use crate::parse;
+use crate::program::{FieldKind, Program, Record};
+
+/// Reports unknown words with numbers that may be places or lengths, one finding for each word, and statements that could not
+/// be read, one finding for all of them. `meant` says which statements the step changes; `verb` what it does to them.
+pub fn report_unchanged_statements(
+    program: &Program,
+    meant: impl Fn(usize) -> bool,
+    verb: &str,
+    context: &mut StepContext<'_>,
+) {
+    let mut words: Vec<String> = Vec::new();
+    let mut unreadable = Vec::new();
+    for (index, statement) in program.live_statements() {
+        match statement.record() {
+            Record::Unparsed | Record::Definition if meant(index) => unreadable.push(index),
+            Record::Other if meant(index) => {
+                let text = program.statement_text(statement);
+                let word = major_word(text);
+                if may_hold_lengths(text) && !words.contains(&word) {
+                    context.report_unchanged(
+                        format!(
+                            "`{word}` is no word clsmith knows: if its numbers are places or lengths, they are not {verb}"
+                        ),
+                        program,
+                        index,
+                    );
+                    words.push(word);
+                }
+            }
+            _ => {}
+        }
+    }
+    if let Some(first) = unreadable.first() {
+        let count = unreadable.len();
+        let message = match count {
+            1 => format!("a statement that cannot be read is not {verb}"),
+            _ => format!("{count} statements that cannot be read are not {verb}"),
+        };
+        context.report_unchanged(message, program, *first);
+    }
+}
+
+/// Whether numbers of an unknown statement look like lengths: one has a decimal point, or three stand together. Tool numbers,
+/// registers and counts have none of it.
+fn may_hold_lengths(text: &[u8]) -> bool {
+    let syntax = parse::syntax(text);
+    let numbers = syntax.numbers();
+    numbers.len() >= 3
+        || syntax.fields.iter().any(|field| matches!(field.kind, FieldKind::Group(_)))
+        || numbers.iter().any(|(at, value)| *value != 0.0 && syntax.bytes_at(at).contains(&b'.'))
+}

@@ -1,0 +1,104 @@
+//! What a run did, as JSON: for other programs, and for undo.
+
+use super::{BlockChecksums, UndoPatch};
+use crate::fingerprint::{Digest, RecipeFingerprint, VERSION};
+use crate::program::Program;
+use crate::recipe::Provenance;
+use crate::report::changes::RecipeChanges;
+use serde::{Deserialize, Serialize};
+use std::io::{self, Write};
+
+/// What the report calls itself.
+pub const FORMAT: &str = "clsmith run";
+
+/// Version of the structure. It changes when a reader would have to; new keys may come without.
+pub const FORMAT_VERSION: u32 = 1;
+
+/// The report of a run on one file.
+#[derive(Debug, Serialize)]
+pub struct RunReport<'r> {
+    /// [`FORMAT`].
+    pub format: &'static str,
+    /// [`FORMAT_VERSION`].
+    pub version: u32,
+    /// The version of clsmith.
+    pub clsmith: &'static str,
+    /// The file as it came.
+    pub input: FileIdentity,
+    /// The file as it was written.
+    pub output: CorrectedFile,
+    /// The recipe and all files that it depends on.
+    pub recipe: &'r RecipeFingerprint,
+    /// What the output says about the run.
+    pub provenance: Provenance,
+    /// What each step changed, lengths and times.
+    pub changes: &'r RecipeChanges,
+    /// The way back.
+    pub undo: UndoPatch,
+}
+
+/// A file: its name as the run knew it, its size and its digest.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FileIdentity {
+    /// The path as it was opened.
+    pub file: String,
+    /// Bytes.
+    pub bytes: usize,
+    /// Digest.
+    pub sha256: Digest,
+}
+
+/// The corrected file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct CorrectedFile {
+    /// Where it was written; `None` where it was not (`--dry-run`), or on standard output.
+    pub file: Option<String>,
+    /// Bytes.
+    pub bytes: usize,
+    /// Digest.
+    pub sha256: Digest,
+    /// Checksums of each 1024 bytes.
+    pub crc32: BlockChecksums,
+}
+
+impl<'r> RunReport<'r> {
+    /// The report of what steps made of a program, written to `file`.
+    pub fn from_program(
+        program: &Program,
+        file: Option<String>,
+        recipe: &'r RecipeFingerprint,
+        provenance: Provenance,
+        changes: &'r RecipeChanges,
+    ) -> Self {
+        let source = program.source();
+        Self {
+            format: FORMAT,
+            version: FORMAT_VERSION,
+            clsmith: VERSION,
+            input: FileIdentity {
+                file: source.name().to_owned(),
+                bytes: source.bytes().len(),
+                sha256: Digest::from_bytes(source.bytes()),
+            },
+            output: CorrectedFile {
+                file,
+                bytes: program.byte_chunks().map(<[u8]>::len).sum(),
+                sha256: Digest::from_chunks(program.byte_chunks()),
+                crc32: BlockChecksums::from_chunks(program.byte_chunks()),
+            },
+            recipe,
+            provenance,
+            changes,
+            undo: UndoPatch::from_program(program),
+        }
+    }
+
+    /// Writes it as one line of JSON.
+    ///
+    /// # Errors
+    /// What the writer says.
+    pub fn write_json(&self, out: &mut dyn Write) -> io::Result<()> {
+        serde_json::to_writer(&mut *out, self)?;
+        out.write_all(b"\n")
+    }
+}

@@ -1,0 +1,179 @@
+//! Reading a report, and giving the original back.
+
+use super::UndoPatch;
+use super::run_report::{CorrectedFile, FORMAT, FORMAT_VERSION, FileIdentity};
+use crate::diagnostic::{Diagnostic, codes};
+use crate::fingerprint::Digest;
+use crate::source::{Source, Span};
+use serde::Deserialize;
+use serde_json::Value;
+use std::sync::Arc;
+
+/// What undo has to know of a run.
+#[derive(Debug, Clone, Deserialize)]
+pub struct UndoData {
+    /// The file as it came.
+    pub input: FileIdentity,
+    /// The file as it was written.
+    pub output: CorrectedFile,
+    /// The way back.
+    pub undo: UndoPatch,
+}
+
+/// An original.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RestoredOriginal {
+    /// Its bytes.
+    pub bytes: Vec<u8>,
+    /// Its digest, which is the one in the report.
+    pub sha256: Digest,
+    /// How many places differ.
+    pub places: usize,
+}
+
+/// What every version of the report has, and what tells the other files of clsmith; `version` is text in some of them.
+#[derive(Deserialize)]
+struct RunReportHead {
+    format: Option<Value>,
+    version: Option<Value>,
+    clsmith_batch: Option<Value>,
+    command: Option<Value>,
+}
+
+impl UndoData {
+    /// Reads the report of a run.
+    ///
+    /// # Errors
+    /// [`codes::NO_RUN_REPORT`] for anything else, [`codes::NEWER_RUN_REPORT`] for one of a clsmith to come.
+    pub fn read_report(report: &Arc<Source>) -> Result<Self, Box<Diagnostic>> {
+        let bytes = report.bytes();
+        // Only the first value: results of batches and logs have one on each line.
+        let head = RunReportHead::deserialize(&mut serde_json::Deserializer::from_slice(bytes))
+            .map_err(|error| report_unreadable(report, &error))?;
+        if head.format.as_ref().and_then(Value::as_str) != Some(FORMAT) {
+            let message = if head.clsmith_batch.is_some() {
+                "these are the results of a batch, which are no run report; undo reads what `apply --json` writes"
+            } else if head.command.is_some() {
+                "this is a log, which is no run report; undo reads what `apply --json` writes"
+            } else {
+                "this is JSON, but not the report of a run of `clsmith apply`"
+            };
+            return Err(report_no_run_report(report, 0, message));
+        }
+        match head.version {
+            Some(version) if version.as_u64() == Some(u64::from(FORMAT_VERSION)) => {}
+            Some(newer) => {
+                let message =
+                    format!("the report has version {newer}; this clsmith reads version {FORMAT_VERSION}");
+                let found = Diagnostic::new(codes::NEWER_RUN_REPORT, message);
+                return Err(Box::new(found.with_label(report, Span::new(0, 0), "")));
+            }
+            None => return Err(report_no_run_report(report, 0, "the report does not say its version")),
+        }
+        serde_json::from_slice(bytes).map_err(|error| report_unreadable(report, &error))
+    }
+
+    /// The original of a corrected file.
+    ///
+    /// # Errors
+    /// [`codes::OTHER_FILE`] when it is not, byte for byte, the file that the run wrote, from the place where it differs;
+    /// [`codes::BAD_UNDO`] when what comes out is not the original.
+    pub fn restore_original(
+        &self,
+        corrected: &Arc<Source>,
+        report: &Arc<Source>,
+    ) -> Result<RestoredOriginal, Box<Diagnostic>> {
+        let found = Digest::from_bytes(corrected.bytes());
+        if found != self.output.sha256 {
+            return Err(self.explain_other_file(corrected, found));
+        }
+        let bytes = self.undo.restore_bytes(corrected.bytes());
+        let bytes =
+            bytes.filter(|bytes| Digest::from_bytes(bytes) == self.input.sha256).ok_or_else(|| {
+                let message = "what the report has of the original does not give the file that it names";
+                let found = Diagnostic::new(codes::BAD_UNDO, message);
+                Box::new(found.with_label(report, Span::new(0, 0), "changed since the run wrote it"))
+            })?;
+        Ok(RestoredOriginal { bytes, sha256: self.input.sha256, places: self.undo.0.len() })
+    }
+
+    /// Why a file is not the one that the run wrote.
+    fn explain_other_file(&self, file: &Arc<Source>, digest: Digest) -> Box<Diagnostic> {
+        if digest == self.input.sha256 {
+            let message = "this is the original already, as it was before the run";
+            let help = "There is nothing to undo; was the corrected file meant?";
+            return Box::new(Diagnostic::new(codes::OTHER_FILE, message).with_help(help));
+        }
+        if let Some(ends) = self.detect_line_ends(file.bytes()) {
+            let message =
+                format!("only the line ends differ from the file that the run wrote: here they are {ends}");
+            let help = "An editor, a version control system or a transfer in text mode has changed them; take the file that clsmith wrote.";
+            return Box::new(Diagnostic::new(codes::OTHER_FILE, message).with_help(help));
+        }
+        let at = self.output.crc32.find_first_difference(file.bytes());
+        let line = |byte: usize| file.line_column(Span::new(byte, byte).start).0;
+        let (bytes, wrote) = (file.bytes().len(), self.output.bytes);
+        let (message, label) = if at.start == bytes && bytes < wrote {
+            (format!("the file ends after {bytes} bytes; the run wrote {wrote}"), "here it ends")
+        } else {
+            let (from, to) = (line(at.start), line(at.end.saturating_sub(1).max(at.start)));
+            let size = if bytes == wrote {
+                String::new()
+            } else {
+                format!(", and it has {bytes} bytes, not {wrote}")
+            };
+            (
+                format!(
+                    "the file is not the one that the run wrote: it differs between line {from} and {to}{size}"
+                ),
+                "from about here",
+            )
+        };
+        let line_end = file.line_span(line(at.start)).map_or(at.start, |line| line.end as usize);
+        let span = Span::new(at.start, line_end.max(at.start));
+        Box::new(Diagnostic::new(codes::OTHER_FILE, message).with_label(file, span, label))
+    }
+
+    /// What the line ends are, where nothing else differs.
+    fn detect_line_ends(&self, bytes: &[u8]) -> Option<&'static str> {
+        let mut lf = Vec::with_capacity(bytes.len());
+        let mut before = 0;
+        for &byte in bytes {
+            if byte == b'\n' && before == b'\r' {
+                lf.pop();
+            }
+            lf.push(byte);
+            before = byte;
+        }
+        let crlf: Vec<u8> = lf
+            .iter()
+            .flat_map(|byte| if *byte == b'\n' { &b"\r\n"[..] } else { std::slice::from_ref(byte) })
+            .copied()
+            .collect();
+        let ours = |bytes: &[u8]| Digest::from_bytes(bytes) == self.output.sha256;
+        if ours(&crlf) {
+            return Some("LF");
+        }
+        ours(&lf).then_some("CRLF")
+    }
+}
+
+fn report_unreadable(report: &Arc<Source>, error: &serde_json::Error) -> Box<Diagnostic> {
+    let head = report.bytes().trim_ascii_start();
+    if head.first() == Some(&b'<') {
+        let message = "this is a page for people; undo reads what `apply --json` writes";
+        return report_no_run_report(report, 0, message);
+    }
+    let line = report.line_span(error.line().max(1)).unwrap_or_default();
+    let at = (line.start as usize + error.column().saturating_sub(1)).min(report.bytes().len());
+    let message = match error.classify() {
+        serde_json::error::Category::Eof => "the report ends in the middle: it was cut off".to_owned(),
+        serde_json::error::Category::Data => format!("the report of a run lacks what undo needs: {error}"),
+        _ => format!("this is no JSON: {error}"),
+    };
+    report_no_run_report(report, at, message)
+}
+
+fn report_no_run_report(report: &Arc<Source>, at: usize, message: impl Into<String>) -> Box<Diagnostic> {
+    Box::new(Diagnostic::new(codes::NO_RUN_REPORT, message).with_label(report, Span::new(at, at), ""))
+}

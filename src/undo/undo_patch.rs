@@ -1,0 +1,95 @@
+//! The way back as places in the corrected file, each with the bytes that were there.
+
+use crate::program::{Program, StatementChange};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use serde::de::{self, Deserialize, Deserializer};
+use serde::ser::SerializeStruct;
+use serde::{Serialize, Serializer};
+
+/// A place in the corrected file and what the original has instead.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct UndoEdit {
+    /// First byte in the corrected file, from 0.
+    pub at: usize,
+    /// Bytes of the corrected file that go.
+    pub length: usize,
+    /// Bytes of the original that come. In JSON `was`, or `was_base64` where they are no UTF-8.
+    pub was: Vec<u8>,
+}
+
+/// All places that differ, from the first to the last; what touches is one place.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, serde::Deserialize)]
+#[serde(transparent)]
+pub struct UndoPatch(pub Vec<UndoEdit>);
+
+impl UndoPatch {
+    /// The way back from a program as it stands to the file it was read from.
+    pub fn from_program(program: &Program) -> Self {
+        let mut places = Vec::new();
+        let mut open: Option<UndoEdit> = None;
+        let mut at = 0;
+        for statement in program.statements() {
+            let length = if statement.is_live() { program.statement_text(statement).len() } else { 0 };
+            if statement.change() == StatementChange::Untouched {
+                places.extend(open.take());
+            } else {
+                let place = open.get_or_insert_with(|| UndoEdit { at, length: 0, was: Vec::new() });
+                place.length += length;
+                place.was.extend_from_slice(program.source().slice(statement.origin()));
+            }
+            at += length;
+        }
+        places.extend(open);
+        // One step put it in, another took it out.
+        places.retain(|place| place.length > 0 || !place.was.is_empty());
+        Self(places)
+    }
+
+    /// The original; `None` when the places do not lie in the file one after the other.
+    pub fn restore_bytes(&self, corrected: &[u8]) -> Option<Vec<u8>> {
+        let mut out = Vec::with_capacity(corrected.len());
+        let mut copied = 0;
+        for place in &self.0 {
+            out.extend_from_slice(corrected.get(copied..place.at)?);
+            out.extend_from_slice(&place.was);
+            copied = place.at.checked_add(place.length)?;
+        }
+        out.extend_from_slice(corrected.get(copied..)?);
+        Some(out)
+    }
+}
+
+impl Serialize for UndoEdit {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut out = serializer.serialize_struct("Place", 3)?;
+        out.serialize_field("at", &self.at)?;
+        out.serialize_field("length", &self.length)?;
+        match std::str::from_utf8(&self.was) {
+            Ok(text) => out.serialize_field("was", text)?,
+            Err(_) => out.serialize_field("was_base64", &STANDARD.encode(&self.was))?,
+        }
+        out.end()
+    }
+}
+
+/// A place as it stands in JSON.
+#[derive(serde::Deserialize)]
+struct UndoEditText {
+    at: usize,
+    length: usize,
+    was: Option<String>,
+    was_base64: Option<String>,
+}
+
+impl<'de> Deserialize<'de> for UndoEdit {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let UndoEditText { at, length, was, was_base64 } = UndoEditText::deserialize(deserializer)?;
+        let was = match (was, was_base64) {
+            (Some(text), None) => text.into_bytes(),
+            (None, Some(text)) => STANDARD.decode(text).map_err(de::Error::custom)?,
+            _ => return Err(de::Error::custom("a place has either `was` or `was_base64`")),
+        };
+        Ok(Self { at, length, was })
+    }
+}

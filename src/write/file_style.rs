@@ -1,0 +1,185 @@
+//! How a file writes its numbers and lines, measured on the file itself.
+
+use crate::number::{self, NumberFormat, ZeroStyle};
+use crate::parse;
+use crate::program::{NumberRole, Program, Record, StatementChange};
+
+/// How many statements of a kind are looked at; files are uniform.
+const SAMPLE: usize = 200;
+
+/// The style of a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FileStyle {
+    /// Zero style.
+    pub zeros: ZeroStyle,
+    /// Most decimals seen in coordinates and lengths.
+    pub length_decimals: usize,
+    /// Most decimals seen in unit vectors.
+    pub direction_decimals: usize,
+    /// Most decimals seen in feeds.
+    pub feed_decimals: usize,
+    /// Numbers stand right-aligned in columns.
+    pub columns: bool,
+    /// `\n`, `\r\n` or a lone `\r`: what most of the sampled lines end in.
+    pub line_end: &'static str,
+    /// Decimals that changed lengths and feeds get beyond their own; 0 unless a step converts to a larger unit.
+    pub finer: usize,
+}
+
+/// No number gets more decimals than this by [`FileStyle::finer`]: a hundred-millionth of an inch is below any file's own.
+const FINEST: usize = 8;
+
+impl FileStyle {
+    /// Measures a program. Defaults, where nothing is there to measure: 4, 7 and 4 decimals as NX has them.
+    pub fn from_program(program: &Program) -> Self {
+        let mut seen = StyleSample::from_program(program, |change| change == StatementChange::Untouched);
+        if seen.points == 0 {
+            // A step before may have changed every one of them; its numbers still show the style.
+            seen =
+                StyleSample::from_program(program, |change| !matches!(change, StatementChange::Deleted(_)));
+        }
+        if seen.lines == 0 {
+            // No point and no feed: what its first line ends in.
+            let bytes = program.source().bytes();
+            let end: &[u8] = match memchr::memchr2(b'\n', b'\r', bytes).and_then(|end| bytes.get(end..)) {
+                Some([b'\r', b'\n', ..]) => b"\r\n",
+                Some([b'\r', ..]) => b"\r",
+                _ => b"\n",
+            };
+            seen.count_line_end(end);
+        }
+        let solidworks = program.dialect() == crate::program::Dialect::SolidWorks;
+        Self {
+            zeros: if solidworks || seen.cut_zeros > seen.padded { ZeroStyle::Cut } else { ZeroStyle::Kept },
+            length_decimals: seen.lengths.unwrap_or(4),
+            direction_decimals: seen.directions.unwrap_or(7).max(6),
+            feed_decimals: seen.feed.unwrap_or(4),
+            columns: program.dialect().has_columns(),
+            line_end: match seen.lines {
+                lines if seen.crlf * 2 > lines => "\r\n",
+                lines if seen.cr * 2 > lines => "\r",
+                _ => "\n",
+            },
+            finer: 0,
+        }
+    }
+
+    /// Decimals that the file has for a role.
+    pub fn role_decimals(&self, role: NumberRole) -> usize {
+        match role {
+            NumberRole::Direction(_) | NumberRole::ArcAxis(_) | NumberRole::FrameAxis(..) => {
+                self.direction_decimals
+            }
+            NumberRole::Feed | NumberRole::SurfaceSpeed => self.feed_decimals,
+            NumberRole::Point(_) | NumberRole::Step(_) | NumberRole::FrameOrigin(_) | NumberRole::Length => {
+                self.length_decimals
+            }
+            NumberRole::Plain => 0,
+        }
+    }
+
+    /// The form of a changed number: its own decimals at least, or the file's where the file cuts zeros.
+    pub fn changed_format(&self, role: NumberRole, original: &[u8]) -> NumberFormat {
+        let own = number::count_decimals(original);
+        let decimals = match self.zeros {
+            ZeroStyle::Kept => own,
+            ZeroStyle::Cut => own.max(self.role_decimals(role)),
+        };
+        let finer = match role {
+            NumberRole::Direction(_)
+            | NumberRole::ArcAxis(_)
+            | NumberRole::FrameAxis(..)
+            | NumberRole::Plain => 0,
+            _ => self.finer,
+        };
+        let decimals = decimals.max((decimals + finer).min(FINEST));
+        let tolerance = role_tolerance(role) * 0.1f64.powi(finer as i32);
+        let point = original.contains(&b'.') || !matches!(role, NumberRole::Plain | NumberRole::SurfaceSpeed);
+        NumberFormat { decimals, tolerance, zeros: self.zeros, point }
+    }
+
+    /// The form of a new number.
+    pub fn new_format(&self, role: NumberRole) -> NumberFormat {
+        let point = role != NumberRole::Plain;
+        NumberFormat {
+            decimals: self.role_decimals(role),
+            tolerance: role_tolerance(role),
+            zeros: self.zeros,
+            point,
+        }
+    }
+}
+
+/// Half of the coarsest last decimal that measured dialects print: 4 for lengths and feeds, 6 for unit vectors. The axes of a
+/// frame carry whole parts: 7 decimals, as NX prints them, keep a metre within the fourth decimal.
+fn role_tolerance(role: NumberRole) -> f64 {
+    match role {
+        NumberRole::FrameAxis(..) => 5e-8,
+        NumberRole::Direction(_) | NumberRole::ArcAxis(_) => 5e-7,
+        _ => 5e-5,
+    }
+}
+
+#[derive(Default)]
+struct StyleSample {
+    points: usize,
+    feeds: usize,
+    axes: usize,
+    lines: usize,
+    crlf: usize,
+    cr: usize,
+    lengths: Option<usize>,
+    directions: Option<usize>,
+    feed: Option<usize>,
+    /// Numbers that only a writer without padding writes, and those that only one with padding does.
+    cut_zeros: usize,
+    padded: usize,
+}
+
+impl StyleSample {
+    fn from_program(program: &Program, counts: impl Fn(StatementChange) -> bool) -> Self {
+        let mut seen = Self::default();
+        for statement in program.statements().iter().filter(|statement| counts(statement.change())) {
+            let kind = match statement.record() {
+                Record::Goto(_) | Record::Circle(_) | Record::DriveArc(_) => &mut seen.points,
+                Record::Feed(_) => &mut seen.feeds,
+                Record::ToolAxis(_) => &mut seen.axes,
+                _ => continue,
+            };
+            *kind += 1;
+            if *kind <= SAMPLE {
+                seen.measure_statement(statement.record(), program.statement_text(statement));
+            } else if seen.points > 50 * SAMPLE {
+                break;
+            }
+        }
+        seen
+    }
+
+    /// Counts what a line ends in.
+    fn count_line_end(&mut self, text: &[u8]) {
+        self.lines += 1;
+        self.crlf += usize::from(text.ends_with(b"\r\n"));
+        self.cr += usize::from(text.ends_with(b"\r"));
+    }
+
+    fn measure_statement(&mut self, record: &Record, text: &[u8]) {
+        self.count_line_end(text);
+        for ((at, _), role) in
+            parse::statement_numbers(text).into_iter().zip(parse::number_roles(record, text))
+        {
+            let number = text.get(at).unwrap_or_default();
+            let decimals = number::count_decimals(number);
+            let most = match role {
+                NumberRole::Point(_) => &mut self.lengths,
+                NumberRole::Direction(_) | NumberRole::ArcAxis(_) => &mut self.directions,
+                NumberRole::Feed => &mut self.feed,
+                _ => continue,
+            };
+            *most = Some(most.map_or(decimals, |most| most.max(decimals)));
+            let cut = number.ends_with(b".") || number.starts_with(b".") || number.starts_with(b"-.");
+            self.cut_zeros += usize::from(cut);
+            self.padded += usize::from(decimals > 0 && number.ends_with(b"0"));
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! Reading a written program back: it must say what was meant, and nothing else.
+
+use super::{DraftMove, DraftMoveKind, ProgramDraft};
+use crate::parse::parse;
+use crate::program::geometry::MotionPath;
+use crate::program::motion::Motion;
+use crate::program::{Dialect, Program};
+use crate::source::Source;
+
+/// Coordinates are printed exactly as they were rounded; this much only for doubles, in any unit.
+const SAME: f64 = 1e-9;
+
+/// What the radius of an arc may change by between its ends because of rounded coordinates, in last decimals.
+const ARC_SLACK: f64 = 4.0;
+
+/// A program that does not read back as it was meant.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("motion {motion}: {reason}")]
+pub struct ReadBackError {
+    /// Which motion, from 1; 0 for the program as a whole.
+    pub motion: usize,
+    /// What is different.
+    pub reason: String,
+}
+
+/// Whether a text says what a draft means.
+pub(super) fn check_read_back(
+    text: &[u8],
+    draft: &ProgramDraft,
+    dialect: Dialect,
+) -> Result<(), ReadBackError> {
+    let whole = |reason: String| ReadBackError { motion: 0, reason };
+    // A line end in a name would be a statement of its own, a comma a field, and from a dollar sign on all is comment.
+    let breaks = |c: char| !(c.is_ascii_graphic() || c == ' ') || matches!(c, ',' | '$');
+    if let Some(name) =
+        [&draft.name, &draft.operation, &draft.tool.name].into_iter().find(|name| name.contains(breaks))
+    {
+        return Err(whole(format!("`{}` is no name that a program can hold", name.escape_debug())));
+    }
+    let source =
+        Source::new("the written program", text.to_vec()).map_err(|error| whole(error.to_string()))?;
+    // Nothing is told about the dialect: the text must show it.
+    let parsed = parse(&source, None);
+    if let Some(found) = parsed.diagnostics.first() {
+        return Err(whole(format!("{}: {}", found.code, found.message)));
+    }
+    let program: Program = parsed.program;
+    if program.dialect() != dialect {
+        return Err(whole(format!("it reads as {}", program.dialect())));
+    }
+    let mut motions = program.motions();
+    let mut count = 0;
+    for (index, meant) in draft.moves.iter().enumerate() {
+        let Some(motion) = motions.next() else { break };
+        let slack = ARC_SLACK * 10f64.powi(-(super::coordinate_decimals(dialect) as i32));
+        check_motion(meant, &motion, slack).map_err(|reason| ReadBackError { motion: index + 1, reason })?;
+        count += 1;
+    }
+    if count != draft.moves.len() || motions.next().is_some() {
+        return Err(whole(format!("{} motions were meant, others were read", draft.moves.len())));
+    }
+    match motions.take_problems().first() {
+        Some(problem) => Err(whole(format!("{:?}", problem.kind))),
+        None => Ok(()),
+    }
+}
+
+fn check_motion(meant: &DraftMove, motion: &Motion, slack: f64) -> Result<(), String> {
+    let off = (motion.to.point - meant.to).norm();
+    if off.is_nan() || off > SAME * (1.0 + meant.to.coords.norm()) {
+        return Err(format!("it ends {off} from where it should"));
+    }
+    if motion.rapid != (meant.way == DraftMoveKind::Rapid) {
+        return Err("rapid or feed, the other was meant".to_owned());
+    }
+    let feed = motion.feed.map(|feed| feed.value);
+    if let Some(meant) = meant.way.feed()
+        && !feed.is_some_and(|feed| (feed - meant).abs() <= SAME * (1.0 + meant))
+    {
+        return Err(format!("feed {feed:?}, {meant} was meant"));
+    }
+    match (&meant.way, &motion.path) {
+        (DraftMoveKind::Arc { centre, axis, .. }, MotionPath::Arc(arc)) => {
+            let turned = arc.axis.dot(axis);
+            let off = (arc.center - centre).norm();
+            // An axis of seven decimals, in the plane of points of four.
+            if off > SAME * (1.0 + centre.coords.norm()) || turned < 0.99 || arc.sweep > 3.2 {
+                return Err(format!("the arc turns otherwise: {arc:?}"));
+            }
+            let end = arc.end_deviation(motion.to.point);
+            if end > slack { Err(format!("the arc ends {end} off its circle")) } else { Ok(()) }
+        }
+        (DraftMoveKind::Rapid | DraftMoveKind::Line { .. }, MotionPath::Line | MotionPath::Start) => Ok(()),
+        (_, path) => Err(format!("another kind of path: {path:?}")),
+    }
+}

@@ -1,0 +1,113 @@
+//! Patching numbers in a statement's text, each in its own style.
+
+use super::file_style::FileStyle;
+use crate::parse;
+use crate::program::{NumberRole, Record};
+
+/// A change below this share of the value is the noise of arithmetic, not an edit.
+const NOISE: f64 = 1e-13;
+
+/// A feed is printed to a thousandth of itself at least.
+pub const FEED_SHARE: f64 = 1e-3;
+
+/// Fewest decimals of a unit vector in a new statement: CATIA prints its start tangents with five.
+const DIRECTION_DECIMALS: usize = 5;
+
+/// Fewest decimals of other numbers in a new statement.
+const LENGTH_DECIMALS: usize = 4;
+
+/// The text with new values for some of its numbers; `None` when nothing changes.
+///
+/// `edits` are pairs of a number's index (in the order the numbers stand) and its new value. Numbers keep their decimals, or
+/// get more when fewer would lose the edit; in column dialects they keep their column. Everything else stays as it is.
+/// A value that is no number is left out; [`super::ProgramEditor`] refuses it.
+pub fn patch_numbers(
+    text: &[u8],
+    record: &Record,
+    edits: &[(usize, f64)],
+    style: &FileStyle,
+) -> Option<Vec<u8>> {
+    let out = reprint_numbers(text, record, edits, style, |role, original, old, wanted| {
+        let mut form = style.changed_format(role, original);
+        if role == NumberRole::Feed {
+            // Feeds span four powers of ten (0.002 inch/rev, 9000 mm/min): what counts is the proportion.
+            form.tolerance = form.tolerance.min(wanted.abs() * FEED_SHARE);
+        }
+        form.format_number(wanted, wanted - old)
+    })?;
+    (out != text).then_some(out)
+}
+
+/// A statement's text with other values for some of its numbers, for a new statement in the form of an old one.
+///
+/// The numbers are rounded to the decimals of the old ones, or of the file where that has more, but to no fewer than four (unit
+/// vectors: five): half of the last one is all they are off.
+pub fn copy_with_numbers(
+    text: &[u8],
+    record: &Record,
+    values: &[(usize, f64)],
+    style: &FileStyle,
+) -> Vec<u8> {
+    let out = reprint_numbers(text, record, values, style, |role, original, _, wanted| {
+        let (least, of_file) = match role {
+            NumberRole::Direction(_) | NumberRole::ArcAxis(_) | NumberRole::FrameAxis(..) => {
+                (DIRECTION_DECIMALS, 0)
+            }
+            _ => (LENGTH_DECIMALS, style.role_decimals(role)),
+        };
+        let mut form = style.changed_format(role, original);
+        form.decimals = form.decimals.max(of_file).max(least);
+        form.tolerance = f64::INFINITY;
+        form.format_number(wanted, 0.0)
+    });
+    out.unwrap_or_else(|| text.to_vec())
+}
+
+/// The text with the numbers of `edits` printed anew, those left out that do not change; `None` when none does.
+fn reprint_numbers(
+    text: &[u8],
+    record: &Record,
+    edits: &[(usize, f64)],
+    style: &FileStyle,
+    print: impl Fn(NumberRole, &[u8], f64, f64) -> String,
+) -> Option<Vec<u8>> {
+    let places = parse::statement_numbers(text);
+    let roles = parse::number_roles(record, text);
+    let mut out = Vec::with_capacity(text.len() + 16);
+    let mut copied = 0;
+    for (index, (at, old)) in places.iter().enumerate() {
+        let Some(&(_, wanted)) = edits.iter().find(|(edited, _)| *edited == index) else { continue };
+        if !wanted.is_finite() || (wanted - old).abs() <= NOISE * old.abs().max(1.0) {
+            continue;
+        }
+        let role = roles.get(index).copied().unwrap_or(NumberRole::Plain);
+        let original = text.get(at.clone()).unwrap_or_default();
+        let printed = print(role, original, *old, wanted);
+        let before = text.get(copied..at.start).unwrap_or_default();
+        if style.columns {
+            push_in_column(&mut out, before, at.len(), &printed);
+        } else {
+            out.extend_from_slice(before);
+            out.extend_from_slice(printed.as_bytes());
+        }
+        copied = at.end;
+    }
+    if copied == 0 {
+        return None;
+    }
+    out.extend_from_slice(text.get(copied..).unwrap_or_default());
+    Some(out)
+}
+
+/// Ends the number where the old one ended, taking blanks from before it, or adding some.
+fn push_in_column(out: &mut Vec<u8>, before: &[u8], old_length: usize, printed: &str) {
+    let blanks = before.iter().rev().take_while(|&&byte| byte == b' ').count();
+    let kept = before.get(..before.len() - blanks).unwrap_or_default();
+    let width = blanks + old_length;
+    // Where no comma but blanks part a number from what stands before it, one of them stays.
+    let least =
+        usize::from(blanks > 0 && !matches!(kept.last(), None | Some(b',' | b'/' | b'(' | b'\n' | b'\r')));
+    out.extend_from_slice(kept);
+    out.extend(std::iter::repeat_n(b' ', width.saturating_sub(printed.len()).max(least)));
+    out.extend_from_slice(printed.as_bytes());
+}

@@ -1,0 +1,61 @@
+//! Whether two paths lead to one file.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Whether writing to one path would change what the other reads.
+///
+/// Paths are compared after following every link; on Unix two hard links to one file are recognized too. A file that does
+/// not exist yet is known by its folder and name, so two outputs of one name are found before either is written.
+pub fn is_same_file(a: &Path, b: &Path) -> bool {
+    match (real_path(a), real_path(b)) {
+        (Some(real_a), Some(real_b)) if real_a == real_b => true,
+        _ => has_same_inode(a, b),
+    }
+}
+
+/// Many files at once, for [`is_same_file`] with any of them.
+#[derive(Debug, Clone, Default)]
+pub struct FileSet {
+    paths: BTreeSet<PathBuf>,
+    inodes: BTreeSet<(u64, u64)>,
+}
+
+impl FileSet {
+    /// Adds a file, whether it exists yet or not.
+    pub fn insert(&mut self, path: &Path) {
+        self.paths.extend(real_path(path));
+        self.inodes.extend(file_inode(path));
+    }
+
+    /// Whether writing to a path would change one of them.
+    pub fn contains(&self, path: &Path) -> bool {
+        real_path(path).is_some_and(|path| self.paths.contains(&path))
+            || file_inode(path).is_some_and(|inode| self.inodes.contains(&inode))
+    }
+}
+
+fn real_path(path: &Path) -> Option<PathBuf> {
+    if let Ok(path) = fs::canonicalize(path) {
+        return Some(path);
+    }
+    let path = super::atomic_write::follow_links(path).ok()?;
+    let folder = fs::canonicalize(super::atomic_write::parent_folder(&path)).ok()?;
+    Some(folder.join(path.file_name()?))
+}
+
+fn has_same_inode(a: &Path, b: &Path) -> bool {
+    file_inode(a).is_some_and(|a| file_inode(b) == Some(a))
+}
+
+#[cfg(unix)]
+fn file_inode(path: &Path) -> Option<(u64, u64)> {
+    use std::os::unix::fs::MetadataExt;
+    fs::metadata(path).ok().map(|there| (there.dev(), there.ino()))
+}
+
+#[cfg(not(unix))]
+fn inode(_: &Path) -> Option<(u64, u64)> {
+    None
+}
