@@ -1,4 +1,9 @@
-//! One file through one recipe: read, correct, read back, compare. What `apply`, hooks and batches share.
+//! One program through one recipe: read it, correct it, read the result back and compare. `apply`, hooks,
+//! watches and batches share it.
+//!
+//! The corrected program is read back as a whole before anything is written. Record by record it must be what
+//! the steps made of it. Then [`check`] looks at it, and each finding that the same statement
+//! of the original did not have counts as a finding of this run.
 
 use crate::check;
 use crate::diagnostic::{Diagnostic, codes};

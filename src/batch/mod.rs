@@ -1,9 +1,24 @@
-//! Many files through recipes: what to do, in which order, within which memory, and how to go on after a power cut.
+//! Many files through recipes: what to do, in which order, within which memory, and how to go on after a
+//! power cut.
 //!
-//! [`jobs_file`] says what is wanted, [`BatchPlan`] which file becomes which output (and refuses before anything runs), [`Shard`]
-//! which part of it this machine does, [`OutputFolder`] that nobody else writes there, [`BatchJournal`] what is done already, and
-//! [`BatchRun`] does the rest. Every file leaves a [`BatchRecord`]; [`batch_results`] writes them, [`merge`] puts those of shards
-//! together. Records say nothing of time, threads or order, so two runs of one batch can be compared byte for byte.
+//! [`jobs_file`] says what is wanted. [`BatchPlan`] settles which file becomes which output, and refuses
+//! before anything runs: no two outputs meet, and no output is an input. Only the content of a file can make
+//! that file fail, and then it fails alone. [`Shard`] says which part this machine does, [`OutputFolder`]
+//! makes sure that nobody else writes there, [`BatchJournal`] knows what is done, and [`BatchRun`] does the
+//! rest.
+//!
+//! Every file leaves a [`BatchRecord`]; [`batch_results`] writes the records, and [`merge`] puts those of
+//! several shards together. Records say nothing about time, threads or order, so two runs of one batch can be
+//! compared byte for byte.
+//!
+//! The journal promises nothing that is not on the disk: a line follows its output, and a resumed run
+//! believes it only after the digests of input, recipe with its files, options, version and output agree. So
+//! the journal needs no sync, may be torn anywhere, and journals of other shards count as well.
+//!
+//! Files run inside one pool of threads, which their steps use too, so the number of threads is that of the
+//! whole batch. Files that wait for memory wait outside the pool. A shard takes every nth file of the sorted
+//! list, not a hash: shards are even to one file, and they are the same wherever the files are the same,
+//! which the batch's id in the results proves.
 
 mod batch_plan;
 mod batch_record;

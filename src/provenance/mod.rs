@@ -1,11 +1,22 @@
-//! What a corrected file says about its run, in comments of its own form: a header, and a line before each changed record.
+//! Comments in the corrected program that tell what was done: a header, and a line before each changed
+//! record.
 //!
-//! [`add_comments`] comes after the last step and puts comments in through the same gate as steps, signed with a step of its own
-//! ([`Recipe::provenance_step`]), so reports, diffs and the read-back count them like any other change. A program that no step
-//! changed stays as it is: so a second run that finds nothing to do writes the same bytes. One that does change something puts
-//! its lines below those of the runs before it, which stay: header by header and record by record they are the file's history,
-//! and each run can be undone in turn. A record's lines stand directly before it, or before the group that no reader must
-//! find parted (`place`).
+//! [`add_comments`] runs after the last step. It puts comments in through the same gate as the steps and
+//! signs them with a step of their own ([`Recipe::provenance_step`]), so reports, diffs and the read-back
+//! count them like any other change.
+//!
+//! A program that no step changed gets no comment, so a second run that finds nothing to do writes the same
+//! bytes. A run that changes something puts its lines below those of earlier runs. Earlier lines stay, and
+//! nobody reads numbers from them: together they are the file's history, and each run can be undone in turn.
+//!
+//! A record's lines stand directly before it, or before the group that a reader takes in one piece
+//! (`comment_places`): what announces a motion and the motion itself, CATIA's matrix and AUTOPS, Makino's
+//! labels, points that continue a GOTO. The lines of a record in the head of an NX operation stand behind
+//! that head, beside NX's own comment, and name the record. Records that one step put in or took out in a row
+//! share one line.
+//!
+//! A line has at most 72 columns of ASCII without `$`, in every dialect: the narrowest reader takes that in
+//! every code page. G-POST gets `REMARK`, all others `$$`; INSERT and PPRINT might reach the NC program.
 
 mod change_comments;
 mod change_wording;

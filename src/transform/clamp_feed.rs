@@ -1,4 +1,6 @@
-//! `clamp_feed`: programmed feeds within limits.
+//! `clamp_feed`: keeps programmed feeds within limits.
+//!
+//! A limit holds as printed: the new feed is rounded to the allowed side of the limit.
 
 use super::feed_plan::{FeedPlan, decimals_of_feed, printed_decimals};
 use super::{MotionSelection, StepContext, Transform};

@@ -1,4 +1,9 @@
-//! `clsmith hook`: between the CAM system's export and the post.
+//! `clsmith hook`: stands between the CAM system's export and the post.
+//!
+//! The post gets a copy of the corrected program under the export's name, in a private folder. So the export
+//! stays as it was, what is posted is what was hashed, and names that posts derive from their input are
+//! right. Files that the post leaves in that folder are put beside the export once the post has ended by
+//! itself.
 
 mod exit_codes;
 mod hook_run;

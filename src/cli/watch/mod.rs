@@ -1,7 +1,12 @@
 //! `clsmith watch`: corrects exports that land in a folder.
 //!
-//! It polls. Notifications are not sent for what other computers do on a network share, which is where exports land, and are
-//! lost when their queue is full; a look every few seconds at a folder with a few hundred files costs nothing.
+//! It polls. Nobody notifies a computer of what other computers write on a network share, which is where
+//! exports land, and notifications are lost when their queue is full. Reading a folder with a few hundred
+//! files every few seconds costs nothing.
+//!
+//! A file is taken once its size and time rest and it reads the same twice. What was done is remembered by
+//! content. The output is written first and the line in the state after it, so a kill between the two makes
+//! the next run write the same bytes again, or see that they stand.
 
 mod delivery;
 mod folder_scan;

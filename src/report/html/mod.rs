@@ -1,9 +1,19 @@
-//! A comparison as one HTML page that needs nothing else: no network, no other file.
+//! A comparison as one HTML page that needs no network and no other file.
 //!
-//! Tables, findings and texts stand in the page as they are; charts, the path in 3D and the listing are drawn by the scripts in `page/`
-//! from arrays that travel as compressed base64 (`encode`). Charts are uPlot's, the 3D is three.js's; both are part of the page, with
-//! their licences (`vendor/`). Everything that comes from a file is escaped, and the page's own policy lets no other script run than the
-//! page's, which it knows by their hashes. The same comparison makes the same bytes.
+//! Tables, findings and texts stand in the page as they are. Charts, the path in 3D and the listing are drawn
+//! by the scripts in `page/` from arrays (`encode`): little-endian numbers whose bytes of equal significance
+//! stand together, deflated, in base64. A motion costs some 28 bytes of page with its line, before and after.
+//! Charts are drawn by uPlot and the 3D by three.js; both are part of the page, with their licences
+//! (`vendor/`).
+//!
+//! Everything that comes from a file is escaped. The page's own policy (CSP) lets only scripts run whose
+//! hashes it names, so text that got through the escaping would still do nothing. The same comparison makes
+//! the same bytes.
+//!
+//! Motions before and after are paired by their statements: a point that a step put in belongs to the next
+//! motion of the file. The page times its frames. A path that takes long is drawn with every nth point first
+//! and whole once the view rests, if that takes less than 1.5 s; else the page says that it is coarse. Clicks
+//! always look at all motions.
 
 mod array_encoding;
 mod listing;

@@ -1,8 +1,14 @@
-//! `compensate_z`: the tip of a ball-nose cutter from the points that it shall touch (Dragoi 2009).
+//! `compensate_z`: moves the tip of a ball-nose cutter to where the ball touches the programmed points
+//! (Dragoi 2009).
 //!
-//! [`vertical_passes`](self) are found in the motions; a pass becomes a profile and the envelope of the ball over it (`profile`), or the
-//! cutter is lowered onto a model along it (`model`), or every point moves by its own normal ([`contact_normals`]). `leads` moves what lies
-//! around passes, `write` writes it all, and the step measures what was written by other means.
+//! [`vertical_passes`](self) finds the passes in the motions. A pass becomes a profile, and the tip follows
+//! the envelope of the ball over it (`pass_profile`); or the cutter is lowered onto a model along the pass;
+//! or every point moves by its own normal ([`contact_normals`]). `leads` moves what lies around passes,
+//! `pass_writer` writes it all, and the step measures what was written by other means.
+//!
+//! Around a pass nothing is guessed. Leads at feed move with their end, what stands straight above it stays
+//! above it, and no rapid ends lower than it did. Other operations, and cuts that `where` leaves out, stay.
+//! Where that cannot be, the step refuses and says where.
 
 mod arc_template;
 mod by_mesh;
