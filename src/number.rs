@@ -99,13 +99,19 @@ pub struct NumberFormat {
 /// `f64` text never needs more decimals than this to differ from its neighbours at machine sizes.
 const MOST_DECIMALS: usize = 15;
 
+/// A changed number keeps at most this many decimals of its old text: what stands behind them is far below a number's own
+/// precision, and Rust's formatter panics where more than 65,535 are asked for.
+const MOST_KEPT_DECIMALS: usize = 40;
+
 impl NumberFormat {
-    /// Prints `wanted`, reading back what it printed: decimals are added until the value is within the tolerance and within
-    /// a tenth of `edit` (how far the number moved; 0 for a new number), so that no edit is rounded away.
+    /// Prints `wanted` and reads back what it printed: decimals are added until the value is within the tolerance and within
+    /// a tenth of `edit` (how far the number moved; 0 for a new number), so that no edit is rounded away. A number whose old
+    /// text had more than 40 decimals gets 40.
     pub fn format_number(&self, wanted: f64, edit: f64) -> String {
         let allowed = if edit == 0.0 { self.tolerance } else { self.tolerance.min(edit.abs() * 0.1) };
         let mut text = String::new();
-        for decimals in self.decimals..=MOST_DECIMALS.max(self.decimals) {
+        let least = self.decimals.min(MOST_KEPT_DECIMALS);
+        for decimals in least..=MOST_DECIMALS.max(least) {
             text = format!("{wanted:.decimals$}");
             let error =
                 parse_number(text.as_bytes()).map_or(f64::INFINITY, |printed| (printed - wanted).abs());

@@ -4,9 +4,13 @@ use super::interrupt::{Interrupt, InterruptibleWriter};
 use std::fs::{self, File, Metadata};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
 
 const CHUNK: usize = 256 * 1024;
 const SUFFIX: &str = ".tmp";
+
+/// A temporary file that nobody wrote to for so long, and that nobody has locked, was left over by a killed process.
+const LEFTOVER_AGE: Duration = Duration::from_secs(60);
 
 /// Writes a file so that every reader sees either all of the old one or all of the new one.
 ///
@@ -58,6 +62,21 @@ impl TemporaryFiles {
         name.starts_with(self.prefix.as_bytes()) && name.ends_with(SUFFIX.as_bytes())
     }
 
+    /// Removes what killed processes left behind in a folder, and gives the number of files removed.
+    ///
+    /// A process holds a lock on the temporary file that it writes, and loses it when it ends, however it ends. A file without
+    /// a lock that nobody wrote to for a minute is therefore left over; younger ones may not be locked yet. What cannot be
+    /// read, locked or removed stays.
+    pub fn remove_leftovers(&self, folder: &Path) -> usize {
+        let Some(oldest) = SystemTime::now().checked_sub(LEFTOVER_AGE) else { return 0 };
+        let Ok(entries) = fs::read_dir(folder) else { return 0 };
+        entries
+            .flatten()
+            .filter(|entry| self.is_leftover(&entry.file_name()) && is_abandoned(&entry.path(), oldest))
+            .filter(|entry| fs::remove_file(entry.path()).is_ok())
+            .count()
+    }
+
     /// As [`write_atomically_unless`].
     ///
     /// # Errors
@@ -97,7 +116,7 @@ pub fn write_new_atomically(
         return Err(io::Error::from(io::ErrorKind::AlreadyExists));
     }
     let folder = parent_folder(path);
-    let temporary = create_temporary(folder, &TemporaryFiles::default().prefix)?;
+    let temporary = create_temporary(folder, &TemporaryFiles::default().prefix, None)?;
     fill_file(temporary.as_file(), &Interrupt::new(), write)?;
     temporary.as_file().sync_all()?;
     temporary.persist_noclobber(path).map_err(|failed| failed.error)?;
@@ -114,8 +133,10 @@ fn replace_file(
 ) -> io::Result<()> {
     // The same folder, because a rename is only atomic within one file system.
     let folder = parent_folder(target);
-    let temporary = create_temporary(folder, &temporaries.prefix)?;
+    // Nobody who may not read the old file may read the new one, not even while it is being written.
+    let temporary = create_temporary(folder, &temporaries.prefix, old.map(Metadata::permissions))?;
     fill_file(temporary.as_file(), interrupt, write)?;
+    // The umask may have taken away what the old file allows.
     if let Some(old) = old {
         temporary.as_file().set_permissions(old.permissions())?;
     }
@@ -136,7 +157,12 @@ fn fill_file(
     out.flush()
 }
 
-fn create_temporary(folder: &Path, prefix: &str) -> io::Result<tempfile::NamedTempFile> {
+/// Creates a temporary file that its process holds a lock on, with the permissions of the file that it replaces.
+fn create_temporary(
+    folder: &Path,
+    prefix: &str,
+    permissions: Option<fs::Permissions>,
+) -> io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     // A fixed prefix: the target's own name in front could pass the length a file name may have.
     builder.prefix(prefix).suffix(SUFFIX);
@@ -145,9 +171,22 @@ fn create_temporary(folder: &Path, prefix: &str) -> io::Result<tempfile::NamedTe
         use std::os::unix::fs::PermissionsExt;
         // What any new file asks for; the user's umask takes away what they do not want to share. The default of
         // tempfile, 0600, would hide the output from the colleague at the machine.
-        builder.permissions(fs::Permissions::from_mode(0o666));
+        builder.permissions(permissions.unwrap_or_else(|| fs::Permissions::from_mode(0o666)));
     }
-    builder.tempfile_in(folder)
+    #[cfg(not(unix))]
+    let _ = permissions;
+    let temporary = builder.tempfile_in(folder)?;
+    // A file system without locks still writes; then only no other run will clear the file away.
+    let _ = temporary.as_file().try_lock();
+    Ok(temporary)
+}
+
+/// Whether a temporary file is one whose process was killed: nobody holds its lock, and it is no newer than `oldest`.
+fn is_abandoned(path: &Path, oldest: SystemTime) -> bool {
+    let rests = fs::symlink_metadata(path)
+        .and_then(|there| if there.is_file() { there.modified() } else { Ok(SystemTime::now()) })
+        .is_ok_and(|modified| modified < oldest);
+    rests && File::open(path).is_ok_and(|file| file.try_lock().is_ok())
 }
 
 /// Follows symbolic links at the end of a path, also to a file that does not exist yet.

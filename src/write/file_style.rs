@@ -2,7 +2,7 @@
 
 use crate::number::{self, NumberFormat, ZeroStyle};
 use crate::parse;
-use crate::program::{NumberRole, Program, Record, StatementChange};
+use crate::program::{NumberRole, Program, Record};
 
 /// How many statements of a kind are looked at; files are uniform.
 const SAMPLE: usize = 200;
@@ -30,14 +30,10 @@ pub struct FileStyle {
 const FINEST: usize = 8;
 
 impl FileStyle {
-    /// Measures a program. Defaults, where nothing is there to measure: 4, 7 and 4 decimals as NX has them.
+    /// Measures a program as it stands, what earlier steps changed included: so two steps of one recipe write the same bytes
+    /// as two runs with one step each. Where nothing is there to measure it is 4, 7 and 4 decimals, as NX has them.
     pub fn from_program(program: &Program) -> Self {
-        let mut seen = StyleSample::from_program(program, |change| change == StatementChange::Untouched);
-        if seen.points == 0 {
-            // A step before may have changed every one of them; its numbers still show the style.
-            seen =
-                StyleSample::from_program(program, |change| !matches!(change, StatementChange::Deleted(_)));
-        }
+        let mut seen = StyleSample::from_program(program);
         if seen.lines == 0 {
             // No point and no feed: what its first line ends in.
             let bytes = program.source().bytes();
@@ -137,9 +133,9 @@ struct StyleSample {
 }
 
 impl StyleSample {
-    fn from_program(program: &Program, counts: impl Fn(StatementChange) -> bool) -> Self {
+    fn from_program(program: &Program) -> Self {
         let mut seen = Self::default();
-        for statement in program.statements().iter().filter(|statement| counts(statement.change())) {
+        for (_, statement) in program.live_statements() {
             let kind = match statement.record() {
                 Record::Goto(_) | Record::Circle(_) | Record::DriveArc(_) => &mut seen.points,
                 Record::Feed(_) => &mut seen.feeds,

@@ -129,3 +129,10 @@ proptest! {
         prop_assert_eq!(number::count_decimals(any.as_bytes()), decimals);
     }
 }
+
+#[test]
+fn a_number_with_very_many_decimals_is_printed_with_forty() {
+    let form = NumberFormat { decimals: 70_000, tolerance: 5e-5, zeros: ZeroStyle::Kept, point: true };
+    let text = form.format_number(12.5, 0.25);
+    assert_eq!(text, format!("12.5{}", "0".repeat(39)));
+}

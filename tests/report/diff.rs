@@ -151,3 +151,11 @@ fn the_order_of_two_programs_does_not_change_what_is_counted() {
     assert_eq!(there.counts.changed, back.counts.changed);
     assert_eq!(there.counts.changed[&RecordKind::Spindle], 1);
 }
+
+#[test]
+fn a_file_with_numbers_at_the_end_of_their_range_does_not_differ_from_itself() {
+    let text =
+        "GOTO/1E308,0,0\nGOTO/-1E308,1E308,0\nGOTO/0,0,1E308\nCIRCLE/1E308,0,0,0,0,1,1E308\nGOTO/5,0,0\n";
+    let found = diff(text, text);
+    assert!(found.identical && found.same_meaning && found.geometry.same, "{found:?}");
+}

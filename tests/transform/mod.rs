@@ -1,6 +1,7 @@
 //! Transforms, through one door: a recipe's steps applied to a text.
 
 mod compensate_z;
+mod composed;
 mod convert_units;
 mod correct_ramp;
 mod feed;

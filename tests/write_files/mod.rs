@@ -136,3 +136,36 @@ fn a_write_protected_file_is_left_alone() {
     assert_eq!(write(&path, "new").unwrap_err().kind(), io::ErrorKind::PermissionDenied);
     assert_eq!(fs::read(&path).unwrap(), b"released");
 }
+
+#[test]
+fn left_overs_of_killed_runs_go_and_files_being_written_stay() {
+    use clsmith::write::TemporaryFiles;
+    use std::time::{Duration, SystemTime};
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let hour_ago = SystemTime::now() - Duration::from_secs(3600);
+    for name in [".clsmith-killed.tmp", ".clsmith-held.tmp", ".clsmith-young.tmp", "part.cls", ".other.tmp"] {
+        let file = fs::File::create(path(name)).unwrap();
+        if name != ".clsmith-young.tmp" {
+            file.set_modified(hour_ago).unwrap();
+        }
+    }
+    // As the process that writes it holds it.
+    let held = fs::File::open(path(".clsmith-held.tmp")).unwrap();
+    held.lock().unwrap();
+    assert_eq!(TemporaryFiles::default().remove_leftovers(folder.path()), 1);
+    assert_eq!(names(folder.path()), [".clsmith-held.tmp", ".clsmith-young.tmp", ".other.tmp", "part.cls"]);
+}
+
+#[test]
+fn a_file_being_written_is_locked() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("part.cls");
+    write_atomically(&path, |out| {
+        out.write_all(b"new")?;
+        let temporary = folder.path().join(&names(folder.path())[0]);
+        assert!(fs::File::open(temporary)?.try_lock().is_err());
+        Ok(())
+    })
+    .unwrap();
+}

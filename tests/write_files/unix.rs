@@ -86,3 +86,20 @@ fn a_pipe_is_written_not_replaced() {
         assert_eq!(text, "text");
     }
 }
+
+#[test]
+fn a_secret_file_is_secret_from_the_first_byte() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("part.cls");
+    fs::write(&path, "old").unwrap();
+    fs::set_permissions(&path, Permissions::from_mode(0o600)).unwrap();
+    clsmith::write::write_atomically(&path, |out| {
+        out.write_all(b"new")?;
+        let modes: Vec<u32> =
+            names(folder.path()).iter().map(|name| mode(&folder.path().join(name))).collect();
+        assert_eq!(modes, [0o600, 0o600]);
+        Ok(())
+    })
+    .unwrap();
+    assert_eq!((fs::read(&path).unwrap(), mode(&path)), (b"new".to_vec(), 0o600));
+}

@@ -82,7 +82,7 @@ fn find_common_advance(a: &ComparedMove, b: &ComparedMove) -> Option<CommonAdvan
     if ends {
         let same = a.shape == b.shape
             && is_same_point(&a.middle, &b.middle)
-            && (a.length - b.length).abs() <= SAME_POINT * 10.0 + a.length * 1e-5;
+            && (a.length == b.length || (a.length - b.length).abs() <= SAME_POINT * 10.0 + a.length * 1e-5);
         return same.then_some(CommonAdvance { a: None, b: None });
     }
     if !lines {
@@ -96,8 +96,8 @@ fn find_common_advance(a: &ComparedMove, b: &ComparedMove) -> Option<CommonAdvan
 }
 
 fn is_same_point(a: &Point3<f64>, b: &Point3<f64>) -> bool {
-    // Each coordinate was rounded for itself.
-    a.iter().zip(b.iter()).all(|(a, b)| (a - b).abs() <= SAME_POINT * (1.0 + 1e-6))
+    // Each coordinate was rounded for itself. Beyond the range of numbers a difference is none, so equal ones are asked first.
+    a.iter().zip(b.iter()).all(|(a, b)| a == b || (a - b).abs() <= SAME_POINT * (1.0 + 1e-6))
 }
 
 fn is_same_axis(a: &Vector3<f64>, b: &Vector3<f64>) -> bool {
