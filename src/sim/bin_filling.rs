@@ -1,18 +1,21 @@
-//! Bins between columns: directions in which the cutter is engaged although no column lies there.
+//! This module fills the bins between columns: directions in which the cutter is engaged although no column
+//! lies there.
 //!
-//! Seen from the axis, columns one cell apart to the side are more than a bin apart where the flank turns away from the feed.
-//! Forces need every direction, so an empty bin takes over from its engaged neighbours where no column could have told.
+//! Two columns that are one cell apart to the side are more than one bin apart, seen from the axis, where the
+//! flank turns away from the feed. Forces need every direction. So an empty bin takes over the values of its
+//! engaged neighbours where no column could have been in between.
 
 use super::engagement::{BINS, Engagement, EngagementBin};
 use std::f64::consts::{PI, TAU};
 
 impl Engagement {
-    /// Fills bins of the front half that lie within a cell to the side of an engaged one. `radius` is the cutter's where it is
-    /// engaged widest, `cell` the distance of columns, mm.
+    /// Fills the bins of the front half that lie within a cell to the side of an engaged bin. `radius` is the
+    /// cutter's radius where it is engaged widest, and `cell` is the distance of the columns, both in mm.
     pub(super) fn fill_empty_bins(&mut self, radius: f64, cell: f64) {
         if self.bins.len() != BINS || radius <= 0.0 {
             return;
         }
+        // The lateral position of the boundary between two bins: sin(angle) times the radius.
         let edge = |border: usize| (border as f64 * TAU / BINS as f64 - PI).sin() * radius;
         let (front, end) = (BINS / 4, 3 * BINS / 4);
         let engaged: Vec<Option<EngagementBin>> =
@@ -22,6 +25,7 @@ impl Engagement {
             if bin.is_engaged() {
                 continue;
             }
+            // A gap counts when it is not wider than a cell, measured across the path.
             let right =
                 (front..index).rev().find_map(bin_at).filter(|(at, _)| edge(index) - edge(at + 1) <= cell);
             let left =

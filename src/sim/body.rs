@@ -1,43 +1,46 @@
-//! The bodies that stock is made of, in closed form where they have one.
+//! This module holds the bodies that stock is made of, in closed form where they have one.
 
 use super::{Dexels, Mesh, StockError};
 use nalgebra::Vector3;
 use std::sync::Arc;
 
-/// Largest coordinate or length of a body, mm: far beyond any workpiece, and far from what `f32` heights cannot hold.
+/// The largest coordinate or length of a body in mm. It is far beyond any workpiece, and far below what `f32`
+/// heights can hold.
 pub(super) const FARTHEST: f64 = 1e9;
 
-/// One body; mm in the workpiece frame.
+/// One body of the stock; lengths are in mm in the workpiece frame.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SolidBody {
     /// A box along the axes.
     Block {
-        /// Lower corner.
+        /// The corner with the lowest coordinates.
         from: [f64; 3],
-        /// Upper corner.
+        /// The corner with the highest coordinates.
         to: [f64; 3],
     },
-    /// A bar along any line.
+    /// A round bar in any direction.
     Cylinder {
-        /// Its diameter.
+        /// The diameter.
         diameter: f64,
-        /// Centre of one end.
+        /// The centre of one end.
         from: [f64; 3],
-        /// Centre of the other end.
+        /// The centre of the other end.
         to: [f64; 3],
     },
-    /// Any closed surface: a casting, a forging.
+    /// Any closed surface, such as a casting or a forging.
     Mesh(Arc<Mesh>),
-    /// What an earlier program left.
+    /// The stock that an earlier program left.
     Remains(Arc<Dexels>),
 }
 
-/// A box along the axes: lower and upper corner.
+/// A box along the axes: its lower and its upper corner.
 pub(super) type AxisBox = ([f64; 3], [f64; 3]);
 
 impl SolidBody {
+    /// Checks that the body's numbers are finite and that it has volume.
+    ///
     /// # Errors
-    /// When a number is not finite or the body has no volume.
+    /// Returns an error if a number is not finite or the body has no volume.
     pub(super) fn check_volume(&self) -> Result<(), StockError> {
         match self {
             Self::Block { from, to } if from.iter().zip(to).all(|(from, to)| to - from > 0.0) => {
@@ -53,7 +56,7 @@ impl SolidBody {
         }
     }
 
-    /// The box around the body grown by an allowance; `None` for remains without material.
+    /// Returns the box around the body grown by an allowance in mm, or `None` for remains without material.
     pub(super) fn grown_bounds(&self, allowance: f64) -> Option<AxisBox> {
         let (from, to) = match self {
             Self::Block { from, to } => (*from, *to),
@@ -62,6 +65,7 @@ impl SolidBody {
             Self::Cylinder { .. } => {
                 let bar = self.grown_cylinder(allowance)?;
                 let other = bar.from + bar.axis * bar.length;
+                // A disc across the unit vector a reaches R sqrt(1 - a_i^2) along axis i.
                 let across = bar.axis.map(|part| bar.radius * (1.0 - part * part).max(0.0).sqrt());
                 return Some((
                     (bar.from.inf(&other) - across).into(),
@@ -72,8 +76,9 @@ impl SolidBody {
         Some((from.map(|at| at - allowance), to.map(|at| at + allowance)))
     }
 
-    /// Lower and upper end of the body, grown by an allowance, over a point; `None` beside it, and for bodies without closed form.
-    /// A block has its lower sides and not its upper ones.
+    /// Returns the lower and upper z of the body, grown by an allowance in mm, over a point. Returns `None`
+    /// beside the body and for bodies without a closed form. A block includes its lower sides and excludes
+    /// its upper ones, so that columns on a boundary are not counted twice.
     pub(super) fn vertical_extent_at(&self, [x, y]: [f64; 2], allowance: f64) -> Option<[f64; 2]> {
         match self {
             Self::Block { .. } => {
@@ -85,7 +90,7 @@ impl SolidBody {
         }
     }
 
-    /// A cylinder grown by an allowance: in radius, and at both ends.
+    /// Returns a cylinder grown by an allowance in mm in radius and at both ends, or `None` for other bodies.
     pub(super) fn grown_cylinder(&self, allowance: f64) -> Option<FiniteCylinder> {
         let Self::Cylinder { diameter, from, to } = self else { return None };
         let (from, to) = (Vector3::from(*from), Vector3::from(*to));
@@ -96,11 +101,12 @@ impl SolidBody {
     }
 }
 
+/// Checks that all numbers are finite and not beyond [`FARTHEST`].
 fn check_finite<'a>(mut values: impl Iterator<Item = &'a f64>) -> Result<(), StockError> {
     if values.all(|value| value.abs() <= FARTHEST) { Ok(()) } else { Err(StockError::NotFinite) }
 }
 
-/// The box around the material of remains: the grid's in x and y, exact in z.
+/// Returns the box around the material of remains: the grid's in x and y, exact in z.
 fn remains_bounds(dexels: &Dexels) -> Option<AxisBox> {
     let layout = dexels.grid();
     let (low, high) = dexels
@@ -117,7 +123,7 @@ fn remains_bounds(dexels: &Dexels) -> Option<AxisBox> {
     (low < high).then_some(([x0, y0, z0], [x1, y1, z1]))
 }
 
-/// A cylinder: from a point along a unit vector.
+/// A cylinder: a point at the centre of one end, a unit vector along the axis, a length and a radius, in mm.
 pub(super) struct FiniteCylinder {
     from: Vector3<f64>,
     axis: Vector3<f64>,
@@ -125,11 +131,13 @@ pub(super) struct FiniteCylinder {
     radius: f64,
 }
 
-/// Squared sine of the tilt from which on a bar stands upright: far below what moves a wall by the resolution of heights.
+/// The squared sine of the tilt below which a bar counts as vertical. It is far below what would move a wall
+/// by the resolution of heights.
 const UPRIGHT: f64 = 1e-24;
 
 impl FiniteCylinder {
-    /// Where the line along z over a point is inside: both in the endless cylinder (a quadratic) and between the ends (linear).
+    /// Returns the z range in which the vertical line over a point is inside. The line must be both in the
+    /// endless cylinder (a quadratic condition) and between the planes of the ends (a linear condition).
     pub(super) fn vertical_extent_at(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
         let across = Vector3::new(x - self.from.x, y - self.from.y, 0.0);
         // With t the height over `from`, the point is `along + t slope` along the axis.
@@ -149,6 +157,7 @@ impl FiniteCylinder {
         } else if outside > 0.0 {
             return None;
         }
+        // The ends: 0 <= along + t slope <= length.
         if slope == 0.0 {
             (0.0..=self.length).contains(&along).then_some(())?;
         } else {

@@ -1,9 +1,10 @@
-//! Intervals of one column: put together, and told apart.
+//! This module merges the intervals of one column and finds where two columns differ.
 
 use super::DexelSpan;
 use super::dexel::THINNEST;
 
-/// Makes any intervals those of a column: from above to below, overlaps and gaps up to [`THINNEST`] closed, slivers dropped.
+/// Makes valid column intervals of any intervals: sorts them from above to below, closes overlaps and gaps up
+/// to [`THINNEST`], and drops intervals that are not thicker than that.
 pub(super) fn join_spans(intervals: &mut Vec<DexelSpan>) {
     intervals.sort_unstable_by(|[_, a], [_, b]| b.total_cmp(a));
     intervals.dedup_by(|[low, top], [low_above, _]| {
@@ -16,7 +17,8 @@ pub(super) fn join_spans(intervals: &mut Vec<DexelSpan>) {
     intervals.retain(|[low, top]| top - low > THINNEST);
 }
 
-/// Where two columns differ, from above to below; `found` is told whether it is the first that has material there.
+/// Finds where two columns differ, from above to below. The second argument of `found` is true where only
+/// column `a` has material.
 pub(super) fn find_span_differences(
     a: &[DexelSpan],
     b: &[DexelSpan],
@@ -31,6 +33,7 @@ pub(super) fn find_span_differences(
     let mut all = ends(a, true);
     all.append(&mut ends(b, false));
     all.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    // Walk down through all ends of both columns; each end switches whether its column has material.
     let (mut in_a, mut in_b, mut above) = (false, false, f32::INFINITY);
     for (height, first) in all {
         if in_a != in_b && above > height {

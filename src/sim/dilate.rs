@@ -1,22 +1,25 @@
-//! Columns grown by a ball: an allowance on a body that has no closed form.
+//! This module grows columns by a ball. It applies an allowance to a body that has no closed form.
 
 use super::dexel::BAND_ROWS;
 use super::{DexelSpan, Dexels, dexel_spans};
 use rayon::prelude::*;
 
-/// Every interval grown by `sqrt(radius^2 - d^2)` mm at both ends over the columns at a lateral distance d up to the radius. On the
-/// same grid, so what grows past its border is lost. Exact for lines of material through the centres: a wall moves by
-/// whole cells, and its rounded edge begins at the last centre, up to half a cell inside the wall.
+/// Grows every interval: over a column at lateral distance d, both ends move outwards by `sqrt(radius^2 -
+/// d^2)` mm. The grid stays the same, so material that grows past its boundary is lost. The result is exact
+/// for lines of material through the centres: a wall moves by whole cells, and its rounded edge begins at the
+/// last centre, up to half a cell inside the wall.
 pub(super) fn dilate_by_ball(dexels: &Dexels, radius: f64) -> Dexels {
     let layout = *dexels.grid();
-    // From the middle outwards: the column itself covers most of what its neighbours add.
+    // The offsets are sorted from the middle outwards, since the column itself covers most of what its
+    // neighbours add.
     let reach = (radius / layout.cell).ceil().min(layout.columns.max(layout.rows) as f64) as i64;
     let mut steps: Vec<(i64, i64, i64, f32)> = Vec::new();
     for up in -reach..=reach {
         for right in -reach..=reach {
             let squared = right * right + up * up;
             let rest = radius * radius - squared as f64 * layout.cell * layout.cell;
-            // A radius of whole cells reaches its last column, whatever its square is rounded to.
+            // A radius of a whole number of cells reaches its last column, even if its square is rounded
+            // down.
             if rest >= -1e-9 * radius * radius {
                 steps.push((squared, up, right, rest.max(0.0).sqrt() as f32));
             }
@@ -49,7 +52,7 @@ pub(super) fn dilate_by_ball(dexels: &Dexels, radius: f64) -> Dexels {
     grown
 }
 
-/// Adds an interval to some that do not overlap, in no order.
+/// Merges an interval into a list of intervals that do not overlap and have no order.
 fn merge_span(intervals: &mut Vec<DexelSpan>, [mut low, mut top]: DexelSpan) {
     if intervals.iter().any(|[a, b]| *a <= low && top <= *b) {
         return;

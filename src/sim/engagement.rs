@@ -1,32 +1,42 @@
-//! What a piece of the path engages: where on the cutter material was removed, and how the surface advances there.
+//! This module holds the engagement of a piece of the path: where on the cutter material was removed, and how
+//! the surface advances there.
 //!
-//! It does not depend on feed, spindle or teeth; chip thickness, removal rate and forces are computed from it for any of
-//! them.
+//! An engagement does not depend on feed, spindle or teeth. For each direction around the cutter it holds the
+//! advance ratio, which is the speed of the surface along its normal divided by the feed, and the thickness
+//! of the material. Chips, forces and the feeds that keep them within limits follow in closed form, so a
+//! program is simulated once and not once for every feed.
+//!
+//! The uncertainty of the grid is on the safe side. The boundary of material is known to half a cell; the
+//! estimate `share` allows for that half cell, and the bound `share_bound` allows for a whole one. A sliver
+//! beside the flank that no column hits may be there wherever material is within a cell of the flank; `graze`
+//! holds its advance ratio. Feeds are made from the bounds, and reports show the estimates and the
+//! differences.
 
 use super::PathPiece;
 use super::sweep::reference_length_mm;
 use std::f64::consts::{PI, TAU};
 
-/// Angular bins around the cutter; 3 degrees each.
+/// The number of angular bins around the cutter; each is 3 degrees wide.
 pub const BINS: usize = 120;
 
-/// What one angular bin of the cutter engaged.
+/// The engagement of one angular bin of the cutter.
 ///
-/// Contacts lie on the cutter's meridian; `low..=high` is the hull of the engaged lengths along it, measured from the tip
-/// ([`super::Meridian::point_at_arc_length`]).
+/// Contacts are on the cutter's meridian. `low..=high` covers all engaged lengths along it, measured from the
+/// tip ([`super::Meridian::point_at_arc_length`]).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EngagementBin {
-    /// Lowest engaged length along the meridian, mm.
+    /// The lowest engaged length along the meridian, mm.
     pub low: f32,
-    /// Highest engaged length along the meridian, mm.
+    /// The highest engaged length along the meridian, mm.
     pub high: f32,
-    /// Largest `v.n / |v|` of the contacts: the share of the feed with which the surface advances along its normal.
+    /// The largest advance ratio `v.n / |v|` of the contacts: the surface's speed along its normal, divided
+    /// by the feed.
     pub share: f32,
-    /// As `share`, with everything that the grid may have missed: never below the true share.
+    /// An upper bound of the true advance ratio, with everything that the grid may have missed.
     pub share_bound: f32,
-    /// Radial part of the normal (1 on the flank, 0 on the bottom) where `share` is.
+    /// The radial part of the normal (1 on the flank, 0 on the bottom) at the contact of `share`.
     pub radial: f32,
-    /// Largest thickness of the removed material along the normal, mm; a chip is never thicker.
+    /// The largest thickness of the removed material along the normal, mm. A chip is never thicker.
     pub thickness: f32,
 }
 
@@ -41,7 +51,7 @@ impl EngagementBin {
         thickness: 0.0,
     };
 
-    /// Adds what another piece, or another part of the ground, engaged in the same direction.
+    /// Merges the engagement of another piece, or of another column, in the same direction.
     pub fn merge_bin(&mut self, other: &Self) {
         self.low = self.low.min(other.low);
         self.high = self.high.max(other.high);
@@ -53,47 +63,55 @@ impl EngagementBin {
         }
     }
 
-    /// Whether anything was engaged.
+    /// Returns whether anything was engaged.
     pub fn is_engaged(&self) -> bool {
         self.low <= self.high
     }
 }
 
-/// What a piece of the path engaged.
+/// The engagement of a piece of the path.
 ///
-/// Angles are about the tool axis from the feed's direction in the plane across the axis (0 is ahead, positive to the left
-/// seen from the holder down on the work, so counter-clockwise); bin `i` covers `-180 + 3 i ..= -180 + 3 (i + 1)` degrees. A motion
-/// straight along the axis has no such direction; its angles count from the frame's x axis, or y where the axis is along x.
+/// Angles are around the tool axis, from the feed's direction in the plane across the axis: 0 is straight
+/// ahead, and angles are positive to the left as seen from the holder down to the work, that is
+/// counter-clockwise. Bin `i` covers `-180 + 3 i ..= -180 + 3 (i + 1)` degrees. A motion straight along the
+/// axis has no such direction; its angles count from the frame's x axis, or from y if the tool axis is along
+/// x.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Engagement {
-    /// Volume removed in mm3.
+    /// The removed volume, mm3.
     pub removed_mm3: f64,
-    /// Part of the direction of travel across the tool axis, 0..=1.
+    /// The component of the unit direction of travel across the tool axis, from 0 to 1.
     pub across: f64,
-    /// Part of the direction of travel along the tool axis, -1 (plunge) ..= 1.
+    /// The component of the unit direction of travel along the tool axis, from -1 (plunge) to 1.
     pub along: f64,
-    /// Length of the tip's path in mm; where the tip stands still and the axis turns, of the path of the flutes' outermost
-    /// point, and shares are then of that point's speed and angles from where the axis tips to.
+    /// The length of the tip's path, mm. If the tip stands still and the axis turns, it is the length of the
+    /// path of the flutes' outermost point; advance ratios then refer to that point's speed, and angles to
+    /// the direction into which the axis tilts.
     pub length_mm: f64,
-    /// Length of the shortest piece that this was put together from, mm. A tooth that goes further in a revolution meets
-    /// material that earlier pieces have thinned, so that [`EngagementBin::thickness`] tells nothing.
+    /// The length of the shortest piece that was added to this engagement, mm. A tooth that advances further
+    /// in a revolution meets material that earlier pieces have thinned, so [`EngagementBin::thickness`] is
+    /// not valid for it.
     pub shortest_mm: f64,
-    /// Lateral extent of the removed ground, mm to the left (positive) of the path: least and greatest.
+    /// The lateral extent of the removed material in mm, positive to the left of the path: the least and the
+    /// greatest value.
     pub lateral: [f64; 2],
-    /// Height on the cutter at which material was removed, mm above the tip along the axis: least and greatest.
+    /// The heights on the cutter at which material was removed, mm above the tip along the axis: the least
+    /// and the greatest.
     pub height: [f64; 2],
-    /// The bins; empty when nothing was removed. Of a simulation without detail they hold the contacts with the largest shares, for
-    /// chip thickness; forces need a simulation with detail, which fills every direction.
+    /// The bins; empty if nothing was removed. A simulation without detail only keeps the contacts with the
+    /// largest advance ratios, which is enough for chip thickness; forces need a simulation with detail,
+    /// which fills every direction.
     pub bins: Vec<EngagementBin>,
-    /// Largest share that a sliver thinner than a cell, which the grid cannot see, may have had beside the removed ground: where
-    /// the flank passes by material closer than a cell. 0 where it does not.
+    /// The largest advance ratio that a sliver may have that is thinner than a cell, so that the grid cannot
+    /// see it. It is not 0 where the flank passes material at less than a cell.
     pub graze: f64,
-    /// Largest depth to which a collar (index into the cutter's list) stood in material; `None` when free.
+    /// The deepest collision of a shank or holder: its index in the cutter's list, and its depth in mm.
+    /// `None` if there is none.
     pub contact: Option<(usize, f64)>,
 }
 
 impl Engagement {
-    /// Nothing engaged.
+    /// Makes an engagement in which nothing is engaged.
     pub fn empty_along(across: f64, along: f64, length_mm: f64) -> Self {
         Self {
             removed_mm3: 0.0,
@@ -109,7 +127,8 @@ impl Engagement {
         }
     }
 
-    /// Nothing engaged on a piece of path, by a cutter of a radius and a length of flutes (mm).
+    /// Makes an engagement in which nothing is engaged, for a piece of path and a cutter with a radius and a
+    /// flute length (mm).
     pub fn empty_for_piece(piece: &PathPiece, size: [f64; 2]) -> Self {
         let travel = piece.to.point - piece.from.point;
         let length = travel.norm();
@@ -117,7 +136,7 @@ impl Engagement {
         Self::empty_along((1.0 - along * along).max(0.0).sqrt(), along, reference_length_mm(piece, size))
     }
 
-    /// Adds what is engaged at an angle, radians from the feed's direction, left positive.
+    /// Adds a contact at an angle in radians from the feed's direction, positive to the left.
     pub fn add_contact(&mut self, angle: f64, contact: &EngagementBin) {
         if self.bins.is_empty() {
             self.bins = vec![EngagementBin::EMPTY; BINS];
@@ -127,8 +146,9 @@ impl Engagement {
         }
     }
 
-    /// Adds what a following piece of the same motion engaged.
+    /// Adds the engagement of a following piece of the same motion.
     pub fn append_piece(&mut self, other: &Self) {
+        // The directions of travel are averaged, weighted by length.
         let whole = self.length_mm + other.length_mm;
         if whole > 0.0 {
             let share = other.length_mm / whole;
@@ -155,30 +175,30 @@ impl Engagement {
         }
     }
 
-    /// The bins that are engaged.
+    /// Returns the bins that are engaged.
     pub fn engaged_bins(&self) -> impl Iterator<Item = &EngagementBin> {
         self.bins.iter().filter(|bin| bin.is_engaged())
     }
 
-    /// Whether material was removed.
+    /// Returns whether material was removed.
     pub fn has_removed_material(&self) -> bool {
         self.removed_mm3 > 0.0
     }
 
-    /// Largest share `v.n / |v|` over all contacts, v in the denominator being the tip's velocity: above 1 where a turning axis
-    /// moves the surface faster than the tip.
+    /// Returns the largest advance ratio `v.n / |v|` over all contacts, where the v in the denominator is the
+    /// tip's velocity. It is above 1 where a turning axis moves the surface faster than the tip.
     pub fn max_advance_ratio(&self) -> f64 {
         self.bins.iter().map(|bin| f64::from(bin.share)).fold(0.0, f64::max)
     }
 }
 
-/// The bin of an angle in radians.
+/// Returns the bin of an angle in radians.
 pub(super) fn bin_index_at(angle: f64) -> usize {
     let turn = (angle + PI) / TAU * BINS as f64;
     (turn.max(0.0) as usize).min(BINS - 1)
 }
 
-/// The smallest interval that holds both.
+/// Returns the smallest interval that contains both.
 pub(super) fn interval_hull<T: PartialOrd + Copy>([a, b]: [T; 2], [c, d]: [T; 2]) -> [T; 2] {
     [if c < a { c } else { a }, if d > b { d } else { b }]
 }

@@ -1,7 +1,9 @@
-//! The exact tooth mode: each edge's path against what the edges before it left. Slow; the reference for the fast model.
+//! This module measures exact chips: it compares the path of each cutting edge with the surface that the
+//! edges before it left. It is slow and is the reference for the fast model.
 //!
-//! No grid and no approximation of the trochoid: whether a tooth swept a point is asked at the moment when it pointed at it
-//! (M. E. Martellotti, An analysis of the milling process, Trans. ASME 63 (1941), 677-700, for the true tooth path).
+//! It uses no grid and does not approximate the trochoid: whether a tooth swept a point is decided at the
+//! moment when the tooth pointed at it. For the true tooth path see M. E. Martellotti, An analysis of the
+//! milling process, Trans. ASME 63 (1941), 677-700.
 
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::TAU;
@@ -10,37 +12,40 @@ use super::edge_elements::lag_rad_per_mm;
 use super::{Meridian, Teeth};
 use crate::program::record::SpindleDirection;
 
-/// A straight motion of a turning cutter whose axis stands along z; lengths in mm in any frame with such a z.
+/// A straight motion of a turning cutter whose axis is along z. Lengths are in mm, in any frame with such a z
+/// axis.
 ///
-/// At its start the first tooth's tip points along x, and the cutter has already turned there: what its envelope holds is gone.
+/// At the start of the motion the tip of the first tooth points along x. The cutter has already turned there,
+/// so the material inside its envelope is gone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ToothMotion {
-    /// Tip at the start.
+    /// The tip at the start.
     pub from: Point3<f64>,
-    /// Tip at the end.
+    /// The tip at the end.
     pub to: Point3<f64>,
-    /// Feed in mm/min, above 0.
+    /// The feed in mm/min, above 0.
     pub feed_mm_min: f64,
-    /// Spindle speed in rev/min, above 0.
+    /// The spindle speed in rev/min, above 0.
     pub rpm: f64,
-    /// Sense of rotation seen from above.
+    /// The direction of rotation, seen from above.
     pub spindle: SpindleDirection,
 }
 
-/// How closely teeth are looked at.
+/// The resolution at which the teeth are sampled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ToothSampling {
-    /// Looks per revolution.
+    /// The number of samples per revolution.
     pub looks: u32,
-    /// Points on each edge, from the tip to `height`, both ends included; a single one is at `height`.
+    /// The number of points on each edge, from the tip to `height` with both ends included. A single point is
+    /// at `height`.
     pub points: u32,
-    /// Height above the tip up to which the edges are looked at, mm.
+    /// The height above the tip up to which the edges are sampled, mm.
     pub height: f64,
-    /// Tolerance of a chip's ends along its normal, mm.
+    /// The tolerance of a chip's ends along its normal, mm.
     pub tolerance: f64,
 }
 
-/// What the teeth cut.
+/// The measured chips.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExactChipThickness {
     /// The thickest chip, mm.
@@ -49,25 +54,30 @@ pub struct ExactChipThickness {
     pub by_edge: Vec<f64>,
 }
 
-/// Pieces into which the search along a normal is cut; material and gaps thinner than one may be missed.
+/// The number of pieces into which the search along a normal is divided. Material and gaps that are thinner
+/// than one piece may be missed.
 const PIECES: u32 = 24;
 
-/// Most rounds until a tooth's passage is found; each gains a factor of 2 pi r / feed per revolution, so a few do.
+/// The most iterations until a tooth's passage is found. Each iteration reduces the error by a factor of 2 pi
+/// r / feed per revolution, so a few are enough.
 const ROUNDS: usize = 60;
 
-/// A passage is found when a round moves it by less, in revolutions: a millionth of a micron of travel for any feed.
+/// A passage is found when an iteration moves it by less than this, in revolutions. That is a millionth of a
+/// micron of travel at any feed.
 const SETTLED: f64 = 1e-9;
 
-/// Cuts with every tooth along a motion, and measures the chips.
+/// Moves every tooth along a motion and measures the chips.
 ///
-/// At each look and each point of an edge the chip is the length of material along the inward normal that is in the stock
-/// (`material`, before the motion) and that no pass before swept; N + 2 passes back are asked, one more than a full turn. The path
-/// before the motion, up to a couple of revolutions, is not steady: there only the envelope at the start is known.
+/// The chip of a point of an edge is the length of material along the inward normal that is in the stock
+/// (`material`, before the motion) and that no earlier pass swept. The N + 2 passes before are tested, which
+/// is more than a full turn of N teeth. The first revolutions of the motion are not steady: for them only the
+/// envelope at the start is known.
 ///
-/// Tolerance: `tolerance` for each chip; a maximum between looks or points is missed by their distance. Not looked at are points
-/// nearer to the axis than a third of the feed per revolution (there a tooth's passage is not a moment), and in a slanted motion
-/// points within a revolution's travel of a sharp edge of the profile (there the inward normal runs along the chip of the
-/// other side). A chip is sought over 1.2 times the turn's advance and the runout.
+/// Each chip has the error `tolerance`, and a maximum between samples is missed by their distance. Two kinds
+/// of points are not sampled. Points nearer to the axis than a third of the feed per revolution are left out,
+/// because a tooth does not pass there at one moment. In a sloped motion, points within a revolution's travel
+/// of a sharp edge of the meridian are left out, because the inward normal there runs along the chip of the
+/// other side. A chip is searched over 1.2 times the turn's advance and the runout.
 pub fn measure_exact_chips(
     profile: &Meridian,
     teeth: &Teeth,
@@ -84,7 +94,7 @@ pub fn measure_exact_chips(
         let time = look as f64 / looks;
         for (edge, largest) in by_edge.iter_mut().enumerate() {
             for point in 0..points {
-                // Exactly at an end rounding would decide what is material.
+                // Exactly at an end of the edge, rounding would decide what is material.
                 let part = if points > 1 { f64::from(point) / f64::from(points - 1) } else { 1.0 };
                 let length = end * part.clamp(1e-6, 1.0 - 1e-6);
                 *largest =
@@ -95,7 +105,7 @@ pub fn measure_exact_chips(
     ExactChipThickness { largest: by_edge.iter().copied().fold(0.0, f64::max), by_edge }
 }
 
-/// A motion in revolutions.
+/// A motion with the revolution as the unit of time.
 struct TrochoidMotion<'a> {
     profile: &'a Meridian,
     teeth: &'a Teeth,
@@ -103,10 +113,10 @@ struct TrochoidMotion<'a> {
     lag: f64,
     left: f64,
     from: Point3<f64>,
-    /// Travel per revolution.
+    /// The tip's travel per revolution, mm.
     advance: Vector3<f64>,
     turns: f64,
-    /// Largest offset of a tooth, and how much further in the lowest is.
+    /// The largest radial offset of a tooth, and the difference to the smallest one, mm.
     highest: f64,
     spread: f64,
 }
@@ -132,7 +142,7 @@ impl<'a> TrochoidMotion<'a> {
         }
     }
 
-    /// Chip of an edge's point at a time (revolutions), mm.
+    /// Returns the chip of a point of an edge at a time in revolutions, mm.
     fn chip_thickness_mm(
         &self,
         edge: usize,
@@ -146,6 +156,7 @@ impl<'a> TrochoidMotion<'a> {
             return 0.0;
         };
         let at = self.profile.point_at_arc_length(length);
+        // The point's angle: it trails the first tooth, turns once a revolution, and lags by the helix.
         let (sin, cos) = (self.left * (trail - TAU * time + self.lag * at.z)).sin_cos();
         let (sin_psi, cos_psi) = at.psi.sin_cos();
         let normal = Vector3::new(sin_psi * cos, sin_psi * sin, -cos_psi);
@@ -156,6 +167,8 @@ impl<'a> TrochoidMotion<'a> {
         if self.is_at_sharp_edge(length) {
             return 0.0;
         }
+        // The chip cannot be much longer than the turn's advance along the normal plus the runout; the search
+        // must also stay away from the axis.
         let mut reach = 1.2 * (advance.max(0.0) + self.spread * sin_psi) + 0.02 * travel;
         if sin_psi > 0.0 {
             reach = reach.min((r - travel / 3.0) / sin_psi);
@@ -167,6 +180,7 @@ impl<'a> TrochoidMotion<'a> {
             let place = point - normal * depth;
             material(place) && !self.is_cleared_at_start(place) && !self.is_swept_before(edge, time, place)
         };
+        // Add up the pieces with material; where it begins or ends within a piece, bisect.
         let piece = reach / f64::from(PIECES);
         let mut sum = 0.0;
         let mut before = left_over(0.0);
@@ -184,7 +198,8 @@ impl<'a> TrochoidMotion<'a> {
         sum
     }
 
-    /// Whether a point of the meridian is within a turn's travel of where bottom and flank meet without a rounding to speak of.
+    /// Returns whether a point of the meridian is within one revolution's travel of a sharp edge between
+    /// bottom and flank. A corner radius below that travel counts as sharp.
     fn is_at_sharp_edge(&self, length: f64) -> bool {
         if self.profile.corner_radius_mm() >= self.advance.norm() {
             return false;
@@ -198,15 +213,16 @@ impl<'a> TrochoidMotion<'a> {
         }
     }
 
-    /// Whether the cutter's envelope at the start holds a point.
+    /// Returns whether a point is inside the cutter's envelope at the start.
     fn is_cleared_at_start(&self, place: Point3<f64>) -> bool {
         self.is_in_cutter(place - self.from, self.highest)
     }
 
-    /// Whether any tooth that passed before `edge` at `time` swept a point near it.
+    /// Returns whether any tooth that passed before `edge` at `time` swept a point.
     fn is_swept_before(&self, edge: usize, time: f64, place: Point3<f64>) -> bool {
         let count = self.teeth.count();
         let mut ago = 0.0;
+        // Go backwards from tooth to tooth; each passed about a pitch angle earlier.
         let mut tooth = edge;
         for _ in 0..count + 2 {
             ago += self.teeth.pitch_angles_rad().get(tooth).copied().unwrap_or(TAU) / TAU;
@@ -220,8 +236,9 @@ impl<'a> TrochoidMotion<'a> {
         false
     }
 
-    /// When (in revolutions, near a guess) a tooth's edge pointed at a place: the fixed point of the angle's equation
-    /// `trail - 2 pi t + lag z(t) = angle(t)`, where angle and height are the place's, seen from the tip at t.
+    /// Finds the time in revolutions, near a guess, at which a tooth's edge pointed at a point. It is the
+    /// fixed point of the equation `trail - 2 pi t + lag z(t) = angle(t)`, where the angle and the height are
+    /// those of the point seen from the tip at t.
     fn find_passage_time(&self, tooth: usize, guess: f64, place: Point3<f64>) -> Option<f64> {
         let trail = self.trail.get(tooth)?;
         let mut time = guess;
@@ -229,6 +246,7 @@ impl<'a> TrochoidMotion<'a> {
             let seen = place - self.tip_at(time);
             let angle = self.left * seen.y.atan2(seen.x);
             let turned = (trail + self.lag * seen.z - angle) / TAU;
+            // Angles repeat every turn, so the solution next to the guess is taken.
             let next = turned + (guess - turned).round();
             if (next - time).abs() < SETTLED {
                 return Some(next);
@@ -238,19 +256,20 @@ impl<'a> TrochoidMotion<'a> {
         None
     }
 
-    /// Tip at a time in revolutions.
+    /// Returns the tip at a time in revolutions.
     fn tip_at(&self, time: f64) -> Point3<f64> {
         self.from + self.advance * time
     }
 
-    /// Whether the profile, widened by an offset, holds a point seen from its tip.
+    /// Returns whether the cutter, with its radius increased by an offset, contains a point given from its
+    /// tip.
     fn is_in_cutter(&self, seen: Vector3<f64>, offset: f64) -> bool {
         (0.0..=self.profile.height_mm()).contains(&seen.z)
             && seen.x.hypot(seen.y) <= self.profile.radius_at_height_mm(seen.z) + offset
     }
 }
 
-/// Where what holds at `inside` and not at `outside` ends, by bisection to a tolerance.
+/// Finds by bisection where a property that holds at `inside` and not at `outside` ends.
 fn bisect_end(mut inside: f64, mut outside: f64, tolerance: f64, holds: &impl Fn(f64) -> bool) -> f64 {
     while (outside - inside).abs() > tolerance.max(1e-12) {
         let middle = (inside + outside) / 2.0;

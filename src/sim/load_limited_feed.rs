@@ -1,30 +1,31 @@
-//! The feed at which loads reach their limits.
+//! This module finds the feed at which loads reach their limits.
 
 use super::Engagement;
 use super::cutting_force::{CuttingLoads, LoadModel};
 
-/// Relative width of the last bracket.
+/// The relative width at which the bracket is narrow enough.
 const TOLERANCE: f64 = 1e-6;
 
-/// A feed (mm/min) at which only edge forces act.
+/// A feed (mm/min) that is so small that only edge forces act.
 const NO_FEED: f64 = 1e-6;
 
-/// A feed (mm/min) at which every chip is as thick as its material.
+/// A feed (mm/min) that is so large that every chip is as thick as its material.
 const ANY_FEED: f64 = 1e12;
 
-/// Advance per revolution (mm) of the first trial.
+/// The advance per revolution (mm) of the first trial.
 const TRIAL: f64 = 0.1;
 
-/// Most evaluations; bisection alone needs some 80 from [`NO_FEED`] to [`ANY_FEED`].
+/// The most evaluations. Bisection alone needs about 80 from [`NO_FEED`] to [`ANY_FEED`].
 const MOST: usize = 200;
 
 impl LoadModel {
-    /// The feed in mm/min at which the first load reaches its limit, at a spindle speed in rev/min; a limit that is infinite does
-    /// not hold. Infinite where no limit can be reached, as in air and where the material is thin; 0 where the edge forces
-    /// alone exceed a limit.
+    /// Returns the feed in mm/min at which the first load reaches its limit, at a spindle speed in rev/min.
+    /// An infinite limit has no effect. The result is infinite if no limit can be reached, as in air and
+    /// where the material is thin; it is 0 if the edge forces alone exceed a limit.
     ///
-    /// Loads grow with the feed, and are convex in it as long as no chip is as thick as its material; solved by secants within a
-    /// bracket to 1e-6 of the feed. The loads at the feed returned, as [`LoadModel::cutting_loads`] computes them, exceed no limit.
+    /// Loads grow with the feed, and are convex in it as long as no chip is as thick as its material. The
+    /// equation is solved by secants within a bracket, to 1e-6 of the feed. The loads at the returned feed,
+    /// as [`LoadModel::cutting_loads`] computes them, exceed no limit.
     pub fn feed_for_load_mm_min(&self, engagement: &Engagement, rpm: f64, limits: CuttingLoads) -> f64 {
         let contact = self.prepare_engagement(engagement);
         let part = |feed: f64| {
@@ -42,7 +43,8 @@ impl LoadModel {
         if high.1 <= 1.0 || high.1.is_nan() {
             return f64::INFINITY;
         }
-        // Loads that are affine in the feed are met by the first secant, and the bracket closes a hair beside it.
+        // Where a load is linear in the feed, the first secant already hits it. The next trials are a little
+        // beside the secant, so that the bracket closes around it.
         let hair = TOLERANCE / 4.0;
         let mut beside = (TRIAL * rpm, part(TRIAL * rpm));
         for count in 0..MOST {
@@ -54,10 +56,12 @@ impl LoadModel {
             if high.0 <= low.0 * (1.0 + TOLERANCE) {
                 break;
             }
-            // While no feed but the last resort is known to be too much, the line through the two known ends leads on.
+            // As long as the upper end of the bracket is only the last resort, the secant goes through the
+            // two known lower points.
             let far = if high.0 < ANY_FEED { high } else { low };
             let base = if far.0 > low.0 { low } else { start };
             let secant = base.0 + (1.0 - base.1) * (far.0 - base.0) / (far.1 - base.1);
+            // Every third trial bisects the bracket on a logarithmic scale, so that it always shrinks.
             let feed = match count % 3 {
                 0 => secant * (1.0 - hair),
                 1 => secant * (1.0 + hair),

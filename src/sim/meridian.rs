@@ -1,32 +1,35 @@
-//! The meridian of a cutter: bottom, corner, flank.
+//! This module holds the meridian of a cutter: the line from the tip over the bottom and the corner radius up
+//! the flank.
 //!
-//! Reduced to three pieces that meet tangentially or in an edge: a straight bottom (a disc, or a drill's cone), an arc (corner
-//! radius or ball) and a straight flank (a cylinder, or a cone that widens upwards). The normal's angle never falls on the
-//! way up, so the solid is convex: what the closed-form sweeps need.
+//! The meridian has three parts that meet tangentially or in a sharp edge: a straight bottom (a disc, or the
+//! cone of a drill), an arc (a corner radius or a ball) and a straight flank (a cylinder, or a cone that
+//! widens upwards). The angle of the normal never falls on the way up, so the solid is convex, which the
+//! closed forms of the sweeps need.
 
 use std::f64::consts::FRAC_PI_2;
 
-/// Lengths closer than this (mm) are equal: far below any tool's tolerance, far above rounding.
+/// Lengths that differ by less than this (mm) count as equal. It is far below any tool's tolerance and far
+/// above rounding.
 const SAME: f64 = 1e-6;
 
-/// A cutter's meridian, tip at the origin, r across and z up the axis, mm.
+/// The meridian of a cutter in mm, with the tip at the origin, r across the axis and z up the axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Meridian {
-    /// Where the bottom ends: its radius; its height is `bottom_radius * tan(bottom_angle)`.
+    /// The radius at which the bottom ends. Its height there is `bottom_radius * tan(bottom_angle)`.
     bottom_radius: f64,
-    /// Angle of the bottom against the plane, radians.
+    /// The angle between the bottom and the plane across the axis, radians.
     bottom_angle: f64,
-    /// Radius of the corner's arc; 0 for an edge.
+    /// The radius of the corner's arc; 0 for a sharp edge.
     corner_radius: f64,
-    /// Centre of the arc: r and z.
+    /// The centre of the arc: r and z.
     corner_center: [f64; 2],
-    /// Angle of the flank against the axis, radians.
+    /// The angle between the flank and the axis, radians.
     taper: f64,
-    /// Where the flank begins: r and z.
+    /// The point at which the flank begins: r and z.
     flank_start: [f64; 2],
-    /// Height of the cutting part above the tip.
+    /// The height of the cutting part above the tip.
     height: f64,
-    /// Tangents of `bottom_angle_rad` and `taper`, which sweeps ask for at every column.
+    /// The tangents of `bottom_angle` and `taper`, which the sweeps need at every column.
     bottom_tan: f64,
     taper_tan: f64,
 }
@@ -34,15 +37,15 @@ pub struct Meridian {
 /// A point of the meridian.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeridianPoint {
-    /// Distance from the axis, mm.
+    /// The distance from the axis, mm.
     pub r: f64,
-    /// Height above the tip, mm.
+    /// The height above the tip, mm.
     pub z: f64,
-    /// Angle of the outward normal from straight down, radians: 0 on a flat bottom, pi/2 on a cylinder.
+    /// The angle of the outward normal from straight down, radians: 0 on a flat bottom, pi/2 on a cylinder.
     pub psi: f64,
 }
 
-/// Why numbers make no profile that can be simulated.
+/// The reason why numbers do not describe a meridian that can be simulated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum MeridianError {
     /// The diameter is not positive.
@@ -51,23 +54,24 @@ pub enum MeridianError {
     /// The corner radius does not fit into the diameter.
     #[error("the corner radius is larger than half the diameter")]
     Corner,
-    /// Taper or tip angle out of range.
+    /// The taper or the tip's angle is out of range.
     #[error("the taper must be from 0 to below 90 degrees, and the tip's angle as well")]
     Angle,
-    /// The flutes end below the corner.
+    /// The flutes end below the upper end of the corner radius.
     #[error("the flutes are shorter than the corner is high")]
     Height,
 }
 
 impl Meridian {
-    /// The profile of a milling cutter or drill.
+    /// Makes the meridian of a milling cutter or drill.
     ///
-    /// `diameter` is measured where the lines of bottom and flank meet (APT's `d`); `taper` is the flank's angle against the axis,
-    /// `tip` the bottom's angle against the plane (31 degrees for a drill of 118), both in radians, `flute_length` the height of
-    /// the cutting part. A corner radius of half the diameter makes a ball, whatever the taper.
+    /// `diameter` is measured where the lines of bottom and flank meet (APT's `d`). `taper` is the angle
+    /// between flank and axis and `tip` the angle between bottom and plane (31 degrees for a drill of 118
+    /// degrees), both in radians. `flute_length` is the height of the cutting part. A corner radius of half
+    /// the diameter makes a ball, whatever the taper.
     ///
     /// # Errors
-    /// [`MeridianError`] when the numbers do not fit together.
+    /// Returns a [`MeridianError`] if the numbers do not fit together.
     pub fn new(
         diameter: f64,
         corner_radius: f64,
@@ -89,7 +93,9 @@ impl Meridian {
         let (tan_tip, cos_tip) = (tip.tan(), tip.cos());
         let (sin_taper, cos_taper) = taper.sin_cos();
         let ball = (radius - rc).abs() <= SAME && tip == 0.0;
-        // The arc's centre is a corner radius away from both lines.
+        // The centre (e, f) of the arc is one corner radius away from both lines: from the bottom, f cos(tip)
+        // - e sin(tip) = rc; from the flank through (radius, radius tan(tip)), the same distance inwards.
+        // This is solved for e.
         let e = if ball {
             0.0
         } else {
@@ -100,6 +106,7 @@ impl Meridian {
             return Err(MeridianError::Corner);
         }
         let e = e.max(0.0);
+        // The tangent points: from the centre by rc along the normal of the bottom and of the flank.
         let f = e * tan_tip + rc / cos_tip;
         let bottom_radius = (e + rc * tip.sin()).max(0.0);
         let flank_start = [e + rc * cos_taper, f - rc * sin_taper];
@@ -119,48 +126,48 @@ impl Meridian {
         })
     }
 
-    /// Largest radius of the cutting part.
+    /// Returns the largest radius of the cutting part, mm.
     pub fn radius_mm(&self) -> f64 {
         self.flank_start[0] + (self.height - self.flank_start[1]) * self.taper_tan
     }
 
-    /// Height of the cutting part above the tip.
+    /// Returns the height of the cutting part above the tip, mm.
     pub fn height_mm(&self) -> f64 {
         self.height
     }
 
-    /// Radius at which the bottom ends and the corner begins.
+    /// Returns the radius at which the bottom ends and the corner's arc begins, mm.
     pub fn bottom_radius_mm(&self) -> f64 {
         self.bottom_radius
     }
 
-    /// Angle of the bottom against the plane, radians.
+    /// Returns the angle between the bottom and the plane across the axis, radians.
     pub fn bottom_angle_rad(&self) -> f64 {
         self.bottom_angle
     }
 
-    /// Radius of the corner's arc; 0 for an edge.
+    /// Returns the radius of the corner's arc, mm; 0 for a sharp edge.
     pub fn corner_radius_mm(&self) -> f64 {
         self.corner_radius
     }
 
-    /// Centre of the corner's arc: r and z.
+    /// Returns the centre of the corner's arc: r and z, mm.
     pub fn corner_center(&self) -> [f64; 2] {
         self.corner_center
     }
 
-    /// Angle of the flank against the axis, radians.
+    /// Returns the angle between the flank and the axis, radians.
     pub fn taper_rad(&self) -> f64 {
         self.taper
     }
 
-    /// Where the flank begins: r and z.
+    /// Returns the point at which the flank begins: r and z, mm.
     pub fn flank_start(&self) -> [f64; 2] {
         self.flank_start
     }
 
-    /// Height of the surface at a distance from the axis, for `r` up to [`Meridian::radius_mm`]; a cylinder's flank counts from its
-    /// lower end.
+    /// Returns the height of the surface at a distance from the axis, for `r` up to [`Meridian::radius_mm`].
+    /// On a cylinder this is the lower end of the flank.
     pub fn height_at_radius_mm(&self, r: f64) -> f64 {
         if r <= self.bottom_radius {
             return r * self.bottom_tan;
@@ -176,7 +183,8 @@ impl Meridian {
         (self.flank_start[1] + (r - self.flank_start[0]) / self.taper_tan).min(self.height)
     }
 
-    /// Radius at a height above the tip; of a flat bottom the outer edge.
+    /// Returns the radius at a height above the tip. At the height of a flat bottom this is the bottom's
+    /// outer edge.
     pub fn radius_at_height_mm(&self, z: f64) -> f64 {
         if z >= self.flank_start[1] {
             return self.flank_start[0] + (z.min(self.height) - self.flank_start[1]) * self.taper_tan;
@@ -189,7 +197,8 @@ impl Meridian {
         self.corner_center[0] + (self.corner_radius * self.corner_radius - down * down).max(0.0).sqrt()
     }
 
-    /// Angle of the normal from straight down at a height above the tip, radians; at a flat bottom's edge the corner's.
+    /// Returns the angle of the normal from straight down at a height above the tip, radians. At the edge of
+    /// a flat bottom this is the normal of the corner's arc.
     pub fn normal_angle_at_height_rad(&self, z: f64) -> f64 {
         if z >= self.flank_start[1] {
             return FRAC_PI_2 - self.taper;
@@ -200,8 +209,8 @@ impl Meridian {
         ((self.corner_center[1] - z) / self.corner_radius).clamp(-1.0, 1.0).acos()
     }
 
-    /// Sine and cosine of the normal's angle from straight down, at a distance from the axis (a cylinder's flank counts only beyond
-    /// its own radius).
+    /// Returns the sine and cosine of the normal's angle from straight down at a distance from the axis. A
+    /// cylinder's flank only counts beyond its own radius.
     pub fn normal_at_radius(&self, r: f64) -> [f64; 2] {
         if r < self.bottom_radius || (self.corner_radius <= 0.0 && r <= self.flank_start[0]) {
             let (sin, cos) = self.bottom_angle.sin_cos();
@@ -215,7 +224,8 @@ impl Meridian {
         [cos, sin]
     }
 
-    /// Sine and cosine of the normal's angle from straight down, at a height above the tip; of a flat end's edge, the flank's.
+    /// Returns the sine and cosine of the normal's angle from straight down at a height above the tip. At a
+    /// sharp edge of a flat end this is the normal of the flank.
     pub fn normal_at_height(&self, z: f64) -> [f64; 2] {
         if z >= self.flank_start[1] {
             let (sin, cos) = self.taper.sin_cos();
@@ -229,7 +239,8 @@ impl Meridian {
         [(1.0 - cos * cos).sqrt(), cos]
     }
 
-    /// Length along the meridian from the tip to the place of a normal, given its height and radius.
+    /// Returns the length along the meridian from the tip to a contact, given by its radius, its height and
+    /// the sine of its normal's angle.
     pub(super) fn arc_length_of_contact_mm(&self, r: f64, z: f64, sin: f64) -> f64 {
         if r < self.bottom_radius && z < self.flank_start[1] {
             return r / self.bottom_angle.cos();
@@ -237,27 +248,29 @@ impl Meridian {
         if z >= self.flank_start[1] {
             return self.flank_start_arc_length_mm() + (z - self.flank_start[1]) / self.taper.cos();
         }
+        // On the arc, the length is the corner radius times the turn of the normal.
         self.bottom_arc_length_mm()
             + self.corner_radius * (f64::from((sin as f32).min(1.0).asin()) - self.bottom_angle).max(0.0)
     }
 
-    /// Length of the whole meridian from the tip.
+    /// Returns the length of the whole meridian, mm.
     pub fn arc_length_mm(&self) -> f64 {
         self.flank_start_arc_length_mm() + (self.height - self.flank_start[1]) / self.taper.cos()
     }
 
-    /// Length along the meridian from the tip to where the corner begins.
+    /// Returns the length along the meridian from the tip to where the corner's arc begins, mm.
     pub fn bottom_arc_length_mm(&self) -> f64 {
         self.bottom_radius / self.bottom_angle.cos()
     }
 
-    /// Length along the meridian from the tip to where the flank begins.
+    /// Returns the length along the meridian from the tip to where the flank begins, mm.
     pub fn flank_start_arc_length_mm(&self) -> f64 {
         let turn = FRAC_PI_2 - self.taper - self.bottom_angle;
         self.bottom_arc_length_mm() + self.corner_radius * turn
     }
 
-    /// Length along the meridian from the tip to a height above it; of a flat bottom, to its outer edge.
+    /// Returns the length along the meridian from the tip to a height above it, mm. At the height of a flat
+    /// bottom this is the length to the bottom's outer edge.
     pub fn arc_length_at_height_mm(&self, z: f64) -> f64 {
         if z >= self.flank_start[1] {
             return self.flank_start_arc_length_mm()
@@ -271,7 +284,7 @@ impl Meridian {
             + self.corner_radius * (self.normal_angle_at_height_rad(z) - self.bottom_angle).max(0.0)
     }
 
-    /// The point at a length along the meridian from the tip.
+    /// Returns the point at a length along the meridian from the tip.
     pub fn point_at_arc_length(&self, length: f64) -> MeridianPoint {
         let bottom = self.bottom_arc_length_mm();
         if length < bottom {
@@ -280,6 +293,8 @@ impl Meridian {
         }
         let flank = self.flank_start_arc_length_mm();
         if length < flank {
+            // On the arc the normal turns by length / corner radius, and the point is centre + rc (sin psi,
+            // -cos psi).
             let psi = self.bottom_angle + (length - bottom) / self.corner_radius;
             let [e, f] = self.corner_center;
             return MeridianPoint {

@@ -1,8 +1,9 @@
-//! Simulation: stock as dexels, cutters as convex profiles, sweeps that remove material, and what each piece of the path
-//! engages.
+//! This module simulates milling: it holds the stock as dexels, the cutters as convex solids of revolution,
+//! the sweeps that remove material, and what each piece of the path engages.
 //!
-//! Everything here is in millimetres, radians and the workpiece frame, in which dexels stand along z. The simulation never
-//! sees text; [`crate::setup`] makes cutters and stock, [`crate::transform`] and [`crate::report`] ask it.
+//! All lengths are in mm, all angles in radians, and all points in the workpiece frame, in which the dexels
+//! stand along z. The simulation never sees text: [`crate::setup`] makes cutters and stock, and
+//! [`crate::transform`] and [`crate::report`] read the results.
 
 mod bin_filling;
 mod body;

@@ -1,4 +1,7 @@
-//! Motions as straight pieces in the workpiece frame, in millimetres.
+//! This module converts motions to straight pieces in the workpiece frame, in mm.
+//!
+//! The workpiece frame is the frame of the program's first motion. The stock stands in it, its dexels stand
+//! along its z axis, and motions in another MSYS or CSYS are converted to it.
 
 use super::{PathPiece, ToolPose};
 use crate::program::geometry::{CircularArc, MotionPath, Spline};
@@ -8,35 +11,35 @@ use nalgebra::{Point3, Vector3};
 /// A piece of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionPiece {
-    /// Where the cutter goes.
+    /// The path of the cutter on the piece.
     pub piece: PathPiece,
-    /// Share of the motion's length at which the piece begins.
+    /// The position at which the piece begins, as a fraction of the motion's length.
     pub from: f64,
-    /// Share at which it ends.
+    /// The position at which it ends, as a fraction of the motion's length.
     pub to: f64,
 }
 
-/// Turns motions into pieces.
+/// Converts motions to pieces.
 ///
-/// The workpiece frame is the frame of the program's first motion; motions in another frame (NX's MSYS, a CSYS) are expressed in
-/// it. Arcs and splines become chords no further from the curve than `sagitta`.
+/// Motions in another frame than that of the program's first motion (NX's MSYS, a CSYS) are converted to it.
+/// Arcs and splines become chords that are at most `sagitta` from the curve.
 #[derive(Debug, Clone)]
 pub struct PathLinearizer {
     unit: f64,
     home: Option<Option<CoordinateFrame>>,
-    /// Largest distance of a chord from its curve, mm.
+    /// The largest distance of a chord from its curve, mm.
     pub sagitta: f64,
-    /// Longest piece, mm.
+    /// The length of the longest piece, mm.
     pub longest: f64,
 }
 
 impl PathLinearizer {
-    /// For a file whose lengths are `unit` millimetres.
+    /// Makes a converter for a file whose lengths are in units of `unit` mm.
     pub fn new(unit: f64, sagitta: f64, longest: f64) -> Self {
         Self { unit, home: None, sagitta, longest }
     }
 
-    /// A pose of a motion in the workpiece frame.
+    /// Converts a pose of a motion to the workpiece frame, in mm.
     fn to_workpiece_frame(&self, frame: Option<&CoordinateFrame>, pose: ToolPose) -> ToolPose {
         let home = self.home.as_ref().and_then(Option::as_ref);
         let same = match (frame, home) {
@@ -49,12 +52,12 @@ impl PathLinearizer {
         ToolPose { point: pose.point * self.unit, axis }
     }
 
-    /// Lets the frame of a motion be the workpiece's, if it is the first.
+    /// Takes the frame of a motion as the workpiece frame if it is the first motion.
     pub fn adopt_workpiece_frame(&mut self, motion: &Motion) {
         self.home.get_or_insert_with(|| motion.frame.as_deref().cloned());
     }
 
-    /// Adds the pieces of a motion; none for one that stays where it is.
+    /// Adds the pieces of a motion. A motion that stays at its place has none.
     pub fn append_pieces(&mut self, motion: &Motion, cutter: usize, out: &mut Vec<MotionPiece>) {
         self.adopt_workpiece_frame(motion);
         let shares = match &motion.path {
@@ -72,6 +75,7 @@ impl PathLinearizer {
         };
         let turn = motion.from.axis.angle(&motion.to.axis);
         let place = |share: f64| {
+            // The ends are taken from the motion itself, so that neighbouring motions meet without rounding.
             let point = match share {
                 0.0 => motion.from.point,
                 1.0 => motion.to.point,
@@ -84,6 +88,8 @@ impl PathLinearizer {
         for share in shares {
             let next = place(share);
             if let Some(last) = places.last().copied() {
+                // A chord that is longer than the longest piece is divided evenly; its axis turns at a
+                // constant rate.
                 let parts = ((next.point - last.point).norm() / self.longest).ceil().clamp(1.0, 1e6);
                 let turn = last.axis.angle(&next.axis);
                 for part in 1..parts as usize {
@@ -103,6 +109,7 @@ impl PathLinearizer {
         let mut at = 0.0;
         for (index, (pair, length)) in places.windows(2).zip(lengths).enumerate() {
             let [from, to] = pair else { continue };
+            // Positions follow the length; a motion that only turns the axis is divided by count.
             let end = if whole > 0.0 { at + length / whole } else { (index + 1) as f64 / count };
             let end = if index + 2 == places.len() { 1.0 } else { end };
             out.push(MotionPiece { piece: PathPiece { from: *from, to: *to, cutter }, from: at, to: end });
@@ -110,15 +117,18 @@ impl PathLinearizer {
         }
     }
 
+    /// Returns the number of chords that keep the sagitta.
     fn count_chords(&self, arc: &CircularArc) -> usize {
         let radius = arc.radius * self.unit;
+        // A chord over the angle a is R (1 - cos(a / 2)) from its arc; this is solved for a.
         let step = 2.0 * (1.0 - (self.sagitta / radius).min(1.0)).acos();
-        // A helix's chords are no further from it than those of its circle.
+        // The chords of a helix are no further from it than the chords of its circle.
         (arc.sweep / step.max(1e-4)).ceil().clamp(1.0, 1e6) as usize
     }
 
-    /// Shares of a spline's parameter range between which chords are close enough, by halving.
+    /// Returns the parameters of a spline between which chords are close enough, found by bisection.
     fn subdivide_spline(&self, spline: &Spline) -> Vec<f64> {
+        // There are as many equal parts to begin with as knot spans, so that no bend is missed.
         let spans = spline.controls.len().saturating_sub(3).max(1);
         let mut shares = vec![0.0];
         for span in 0..spans {
@@ -128,6 +138,7 @@ impl PathLinearizer {
         shares
     }
 
+    /// Bisects a part of a spline until three points within are at most the sagitta from the chord.
     fn bisect_spline(&self, spline: &Spline, from: f64, to: f64, depth: u32, shares: &mut Vec<f64>) {
         let [a, b] = [spline.point_at(from), spline.point_at(to)];
         let off = |share: f64| {
@@ -146,11 +157,12 @@ impl PathLinearizer {
     }
 }
 
+/// Returns the fractions from 0 to 1 in `count` equal steps.
 fn even_fractions(count: usize) -> Vec<f64> {
     (0..=count).map(|index| index as f64 / count as f64).collect()
 }
 
-/// Slerp between two unit axes that are `turn` apart.
+/// Interpolates between two unit axes that are `turn` radians apart, along the great circle (slerp).
 fn slerp_axis(from: &Vector3<f64>, to: &Vector3<f64>, turn: f64, share: f64) -> Vector3<f64> {
     if share <= 0.0 || turn == 0.0 {
         return *from;
@@ -164,6 +176,7 @@ fn slerp_axis(from: &Vector3<f64>, to: &Vector3<f64>, turn: f64, share: f64) -> 
     (from * ((1.0 - share) * turn).sin() + to * (share * turn).sin()) / turn.sin()
 }
 
+/// Converts a pose from a frame to the frame that the file's numbers are given in without one.
 fn pose_from_frame(frame: Option<&CoordinateFrame>, pose: ToolPose) -> ToolPose {
     frame.map_or(pose, |frame| ToolPose {
         point: (frame.origin + frame.axes * pose.point.coords).into(),
@@ -171,6 +184,7 @@ fn pose_from_frame(frame: Option<&CoordinateFrame>, pose: ToolPose) -> ToolPose 
     })
 }
 
+/// Converts a pose to a frame. A frame whose axes cannot be inverted leaves it unchanged.
 fn pose_in_frame(frame: Option<&CoordinateFrame>, pose: ToolPose) -> ToolPose {
     let seen = frame.and_then(|frame| {
         let inverse = frame.axes.try_inverse()?;

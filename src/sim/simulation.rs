@@ -1,7 +1,8 @@
-//! Running pieces of a path over the stock.
+//! This module moves cutters along pieces of path through the stock.
 //!
-//! Columns do not know of each other, so bands of rows are worked on in parallel, each by all pieces of a batch in order; what
-//! the bands found is put together in the order of the bands. So the result is the same whatever the number of threads.
+//! Columns do not depend on each other. So bands of 32 rows ([`super::dexel::BAND_ROWS`]) are processed in
+//! parallel, each by all pieces of a batch in their order, and the results of the bands are added up in the
+//! order of the bands. The result is therefore the same for any number of threads.
 
 use super::CutterModel;
 use super::dexel::Dexels;
@@ -10,21 +11,22 @@ use super::sweep::{BandEngagement, PieceSweep, StraightSweep, SweepContext, Tilt
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-/// A place of the cutter: its tip, and its axis as a unit vector from the tip into the holder.
+/// A pose of the cutter: its tip, and its axis as a unit vector from the tip into the holder.
 pub type ToolPose = crate::program::geometry::Pose;
 
-/// A straight piece of the path; between its ends the tip goes straight and the axis turns evenly.
+/// A straight piece of the path. Between its ends the tip moves on a straight line, and the axis turns at a
+/// constant rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathPiece {
-    /// Where it begins.
+    /// The pose at the start.
     pub from: ToolPose,
-    /// Where it ends.
+    /// The pose at the end.
     pub to: ToolPose,
-    /// Index of the cutter.
+    /// The cutter's index in the list that is given to [`Simulation::sweep_pieces`].
     pub cutter: usize,
 }
 
-/// The stock under the cutter.
+/// The stock, and the state that carries over from one piece of path to the next.
 #[derive(Debug)]
 pub struct Simulation {
     stock: Dexels,
@@ -34,23 +36,25 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Begins with a stock. `detail` fills the engagement finely enough for forces, which takes several times as long.
+    /// Starts a simulation with this stock. `detail` fills the engagement finely enough for forces, which
+    /// takes several times as long.
     pub fn new(stock: Dexels, detail: bool) -> Self {
         let highest = stock.highest_z_mm().unwrap_or(f64::NEG_INFINITY);
         Self { stock, highest, last: None, detail }
     }
 
-    /// What is left.
+    /// Returns the stock that is left.
     pub fn stock(&self) -> &Dexels {
         &self.stock
     }
 
-    /// What is left, for keeps.
+    /// Ends the simulation and returns the stock that is left.
     pub fn into_stock(self) -> Dexels {
         self.stock
     }
 
-    /// Moves cutters along pieces; one engagement for each. Pieces of an unknown cutter engage nothing.
+    /// Moves cutters along pieces of path, removes what they sweep, and returns one engagement for each
+    /// piece. A piece whose cutter is not in the list engages nothing.
     pub fn sweep_pieces(&mut self, pieces: &[PathPiece], cutters: &[CutterModel]) -> Vec<Engagement> {
         let sweeps: Vec<Option<PieceSweep>> = pieces
             .iter()
@@ -60,6 +64,7 @@ impl Simulation {
                 self.prepare_sweep(piece, cutters, !goes_on)
             })
             .collect();
+        // The pieces of one band run in program order, since each meets what the pieces before it left.
         let found: Vec<Vec<(usize, BandEngagement)>> = self
             .stock
             .bands_mut()
@@ -89,6 +94,7 @@ impl Simulation {
                 partial.add_to_engagement(engagement, cell * cell, cell / 2.0);
             }
         }
+        // Forces need every direction, but columns leave gaps between directions; see `bin_filling`.
         if self.detail {
             for (engagement, piece) in
                 engagements.iter_mut().zip(pieces).filter(|(found, _)| found.has_removed_material())
@@ -101,6 +107,7 @@ impl Simulation {
         engagements
     }
 
+    /// Prepares the sweep of one piece. `ends` says that the next piece does not continue it.
     fn prepare_sweep(
         &mut self,
         piece: &PathPiece,
@@ -112,6 +119,7 @@ impl Simulation {
         self.last = Some((piece.to, piece.cutter));
         let around = SweepContext { continues, ends, highest: self.highest, detail: self.detail };
         let layout = self.stock.grid();
+        // Only a vertical axis has the closed form; see `sweep`.
         if !is_vertical(&piece.from.axis) || !is_vertical(&piece.to.axis) {
             return Some(PieceSweep::Tilted(Box::new(TiltedSweep::new(piece, cutter, layout, around))));
         }
@@ -120,18 +128,21 @@ impl Simulation {
     }
 }
 
-/// Whether an axis is along z, to less than any machine can hold: 0.00001 mm at 100 mm.
+/// Returns whether an axis is along z. The tolerance moves a point 100 mm up the axis by 0.00001 mm, which is
+/// less than any machine can hold.
 fn is_vertical(axis: &Vector3<f64>) -> bool {
     axis.z > 0.0 && axis.x.hypot(axis.y) <= 1e-7
 }
 
+/// Returns the engagement of a piece that meets no material.
 fn empty_engagement(piece: &PathPiece, cutters: &[CutterModel]) -> Engagement {
     let size =
         cutters.get(piece.cutter).map_or([0.0; 2], |cutter| [cutter.radius_mm(), cutter.flute_length_mm()]);
     Engagement::empty_for_piece(piece, size)
 }
 
-/// Whether a piece is followed by one of the same cutter that turns by less than 30 degrees.
+/// Returns whether the next piece has the same cutter, starts where this one ends, and turns off by less than
+/// 30 degrees (the cosine 0.866).
 fn is_continued_by(piece: &PathPiece, next: &PathPiece) -> bool {
     let (this, that) = (piece.to.point - piece.from.point, next.to.point - next.from.point);
     let ahead = this.dot(&that) > 0.866 * this.norm() * that.norm();

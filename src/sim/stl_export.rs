@@ -1,19 +1,22 @@
-//! Remaining stock as a surface: the columns' own faces, so the volume is theirs.
+//! This module writes remaining stock as a surface. The surface consists of the columns' own faces, so it has
+//! the columns' volume.
 //!
-//! Blocky but exact: a top and a bottom face for every interval, walls where neighbours differ. Faces that continue along a row
-//! are one. Long faces meet several short ones along their edges, which are all parallel to an axis; [`super::Mesh`] reads that.
+//! The surface is blocky but exact: every interval has a top and a bottom face, and there is a wall wherever
+//! two neighbours differ. Faces that continue along a row are merged. So long faces meet several short ones
+//! along their edges, which are all parallel to an axis; [`super::Mesh`] accepts that.
 
 use super::{DexelSpan, Dexels, dexel_spans};
 use rayon::prelude::*;
 use std::io::{self, Write};
 use stl_io::{Normal, Triangle, Vertex};
 
-/// Writes remaining stock as a binary STL in mm.
+/// Writes remaining stock as a binary STL file in mm.
 ///
-/// Coordinates are rounded to `f32` as STL asks. Row by row, so it takes no memory for the surface.
+/// Coordinates are rounded to `f32`, as STL requires. The faces are made row by row, so the surface needs no
+/// memory.
 ///
 /// # Errors
-/// What `out` returns, or that there are more triangles than an STL file counts (2^32).
+/// Returns the errors of `out`, and an error if there are more triangles than an STL file can count (2^32).
 pub fn write_stl(dexels: &Dexels, out: &mut dyn Write) -> io::Result<()> {
     let rows = dexels.grid().rows;
     let count: usize = (0..=rows).into_par_iter().map(|row| find_row_faces(dexels, row).len() * 2).sum();
@@ -24,7 +27,7 @@ pub fn write_stl(dexels: &Dexels, out: &mut dyn Write) -> io::Result<()> {
     stl_io::write_stl(&mut out, StockTriangles { dexels, row: 0, ready: Vec::new().into_iter(), left: count })
 }
 
-/// The triangles, a row at a time.
+/// An iterator over the triangles, which makes the faces of one row at a time.
 struct StockTriangles<'a> {
     dexels: &'a Dexels,
     row: usize,
@@ -52,16 +55,17 @@ impl Iterator for StockTriangles<'_> {
 
 impl ExactSizeIterator for StockTriangles<'_> {}
 
-/// What a face is and, where it continues along x, must have in common with the next one.
+/// A face that may continue along x. Two faces in neighbouring columns are merged if these values are equal.
 #[derive(Clone, Copy, PartialEq)]
 enum FaceStrip {
-    /// Upper or lower end of intervals.
+    /// The upper or the lower end of an interval.
     Cap { height: f32, up: bool },
-    /// A wall along x on the row's lower border; `up`: it faces to larger y.
+    /// A wall along x at the row's lower boundary; `up` says that it faces to larger y.
     Wall { low: f32, top: f32, up: bool },
 }
 
-/// A rectangle: two opposite corners; `axis` is what it stands across, `up` that it faces the larger values there.
+/// A rectangle, given by two opposite corners. `axis` is the axis across which it stands, and `up` says that
+/// it faces to larger values on that axis.
 struct DexelFace {
     from: [f32; 3],
     to: [f32; 3],
@@ -69,6 +73,7 @@ struct DexelFace {
     up: bool,
 }
 
+/// The axis that a face's normal is parallel to.
 #[derive(Clone, Copy)]
 enum FaceNormalAxis {
     X,
@@ -77,6 +82,7 @@ enum FaceNormalAxis {
 }
 
 impl DexelFace {
+    /// Splits the rectangle into two triangles with an outward normal.
     fn split_triangles(&self) -> [Triangle; 2] {
         let ([x, y, z], [u, v, w]) = (self.from, self.to);
         // Counter-clockwise seen from the larger values.
@@ -94,7 +100,8 @@ impl DexelFace {
     }
 }
 
-/// The faces of a row: caps, walls to the row before and walls within it. The row after the last one has walls only.
+/// Finds the faces of a row: its caps, the walls to the row before, and the walls between its columns. The
+/// row after the last one only has walls to the row before.
 fn find_row_faces(dexels: &Dexels, row: usize) -> Vec<DexelFace> {
     let layout = dexels.grid();
     let border = |axis_origin: f64, index: usize| (axis_origin + (index as f64 - 0.5) * layout.cell) as f32;
@@ -112,6 +119,8 @@ fn find_row_faces(dexels: &Dexels, row: usize) -> Vec<DexelFace> {
             let (from, to) = ([x(column), south, z(low)], [x(column), north, z(top)]);
             found.push(DexelFace { from, to, axis: FaceNormalAxis::X, up });
         });
+        // Each column adds its caps and its walls to the row before; a strip that does not continue becomes
+        // one face.
         let strips = list_column_strips(&own, row.checked_sub(1).map(|row| dexels.column_spans(column, row)));
         running.retain(|(strip, first)| {
             let goes_on = strips.contains(strip);
@@ -142,6 +151,8 @@ fn find_row_faces(dexels: &Dexels, row: usize) -> Vec<DexelFace> {
     found
 }
 
+/// Lists the strips of one column: the ends of its intervals, and its walls to the same column in the row
+/// before.
 fn list_column_strips(own: &[DexelSpan], before: Option<Vec<DexelSpan>>) -> Vec<FaceStrip> {
     let caps = |[low, top]: &DexelSpan| {
         [FaceStrip::Cap { height: *top, up: true }, FaceStrip::Cap { height: *low, up: false }]

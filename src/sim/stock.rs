@@ -1,11 +1,11 @@
-//! Stock: what lies on the machine before the program begins.
+//! This module holds the stock: the material that is on the machine before the program begins.
 
 use super::body::{AxisBox, FARTHEST};
 use super::{DexelGrid, DexelSpan, Dexels, SolidBody, dexel_spans, dilate};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// The union of some bodies, all grown by an allowance.
+/// The union of some bodies, all grown by the same allowance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stock {
     bodies: Vec<SolidBody>,
@@ -13,48 +13,50 @@ pub struct Stock {
     bounds: AxisBox,
 }
 
-/// Why there is no stock to simulate.
+/// The reason why there is no stock to simulate.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum StockError {
-    /// No body.
+    /// The list of bodies is empty.
     #[error("the stock has no body")]
     NoBody,
-    /// Remains from which everything was cut, or bodies far thinner than a cell.
+    /// The stock has no material: everything was cut from the remains, or the bodies are far thinner than a
+    /// cell.
     #[error("there is no material in the stock")]
     Empty,
-    /// A number that is not finite, or larger than any workpiece.
+    /// A number is not finite, or larger than any workpiece.
     #[error("a number is not finite, or larger than {FARTHEST:e} mm")]
     NotFinite,
-    /// A block whose corners are not in order.
+    /// The lower corner of a block is not below its upper corner.
     #[error("the block's lower corner must be below its upper one in x, y and z")]
     Block,
-    /// A cylinder without volume.
+    /// A cylinder has no volume.
     #[error("the cylinder needs a positive diameter and two different ends")]
     Cylinder,
-    /// A negative allowance.
+    /// The allowance is negative.
     #[error("the allowance must not be negative")]
     Allowance,
-    /// A cell that is no length.
+    /// The cell is not a positive length.
     #[error("the cell must be a positive length")]
     Cell,
-    /// A finer grid than there is memory for.
+    /// The grid would have more columns than there is memory for.
     #[error("a cell of {cell} mm makes {columns} columns, more than the {most} that are allowed")]
     TooMany {
-        /// The cell asked for, mm.
+        /// The cell that was asked for, mm.
         cell: f64,
-        /// Columns that it makes.
+        /// The number of columns that it makes.
         columns: usize,
-        /// Columns allowed.
+        /// The number of columns that are allowed.
         most: usize,
     },
 }
 
 impl Stock {
-    /// Stock of some bodies, each grown by `allowance` mm: a block by its sides, a cylinder by its radius and ends (both keep
-    /// their edges), a mesh and remains by a ball.
+    /// Makes stock of some bodies, each grown by `allowance` mm. A block grows at its sides and a cylinder in
+    /// radius and at both ends (both keep their sharp edges); a mesh and remains grow by a ball.
     ///
     /// # Errors
-    /// Without a body or material, and for numbers that are not finite, out of order or without volume.
+    /// Returns an error if there is no body or no material, or if numbers are not finite, out of order or
+    /// without volume.
     pub fn new(bodies: Vec<SolidBody>, allowance: f64) -> Result<Self, StockError> {
         if allowance.is_nan() || allowance > FARTHEST {
             return Err(StockError::NotFinite);
@@ -71,22 +73,24 @@ impl Stock {
         Ok(Self { bodies, allowance, bounds })
     }
 
-    /// The bodies.
+    /// Returns the bodies.
     pub fn bodies(&self) -> &[SolidBody] {
         &self.bodies
     }
 
-    /// By how much all bodies are grown, mm.
+    /// Returns the allowance by which all bodies are grown, mm.
     pub fn allowance_mm(&self) -> f64 {
         self.allowance
     }
 
-    /// Lower and upper corner of the box around all of it, mm; of remains, the box of their grid in x and y.
+    /// Returns the lower and upper corner of the box around the stock, mm. For remains this is the box of
+    /// their grid in x and y.
     pub fn bounds(&self) -> ([f64; 3], [f64; 3]) {
         self.bounds
     }
 
-    /// How many columns a cell (mm) makes; [`usize::MAX`] for more than can be counted or a cell that is no length.
+    /// Returns the number of columns for a cell in mm, or [`usize::MAX`] if there are more than can be
+    /// counted or the cell is not a positive length.
     pub fn count_columns(&self, cell: f64) -> usize {
         if !(cell > 0.0 && cell.is_finite()) {
             return usize::MAX;
@@ -95,14 +99,15 @@ impl Stock {
         layout.columns.saturating_mul(layout.rows)
     }
 
-    /// The stock as columns `cell` mm apart, at most `most` of them.
+    /// Converts the stock to columns that are `cell` mm apart, at most `most` of them.
     ///
-    /// Cell borders lie on the lower corner of the box, so a block whose sides are multiples of the cell is exact. Else bodies are
-    /// sampled at the centres of cells in x and y and exact in z (to the resolution of `f32`). Remains alone keep their grid when
-    /// it has the same cell; otherwise each column takes the nearest of theirs.
+    /// The first cell begins at the lower corner of the box, so a block whose sides are multiples of the cell
+    /// is exact. Other bodies are sampled at the centres of cells in x and y and exact in z (to the
+    /// resolution of `f32`). If the stock is one set of remains with the same cell, the remains' own grid is
+    /// kept; otherwise each column takes the nearest column of the remains.
     ///
     /// # Errors
-    /// When the cell is no length or makes too many columns, or none.
+    /// Returns an error if the cell is not a positive length or makes no columns or too many.
     pub fn to_dexels(&self, cell: f64, most: usize) -> Result<Dexels, StockError> {
         if !(cell > 0.0 && cell.is_finite()) {
             return Err(StockError::Cell);
@@ -117,6 +122,7 @@ impl Stock {
         let layout = self.grid_for_cell(cell);
         let given: Vec<Dexels> =
             self.bodies.iter().filter_map(|body| self.sample_body(body, layout)).collect();
+        // A single sampled body is the result; otherwise the union is made column by column.
         let given = match <[Dexels; 1]>::try_from(given) {
             Ok([only]) if self.bodies.len() == 1 => return Ok(only),
             Ok([only]) => vec![only],
@@ -130,6 +136,7 @@ impl Stock {
                 let center =
                     layout.column_center(index % band.columns, band.first_row + index / band.columns);
                 let closed =
+                    // Blocks and cylinders have a closed form over each column.
                     self.bodies.iter().filter_map(|body| body.vertical_extent_at(center, self.allowance));
                 intervals.extend(closed.map(|ends| ends.map(|z| (z - layout.base) as f32)));
                 for band in given.iter().filter_map(|dexels| dexels.bands().get(number)) {
@@ -144,7 +151,8 @@ impl Stock {
         Ok(dexels)
     }
 
-    /// A body without closed form on a grid, grown.
+    /// Samples a body that has no closed form on a grid and grows it; returns `None` for blocks and
+    /// cylinders.
     fn sample_body(&self, body: &SolidBody, layout: DexelGrid) -> Option<Dexels> {
         let sampled = match body {
             SolidBody::Block { .. } | SolidBody::Cylinder { .. } => return None,
@@ -155,6 +163,8 @@ impl Stock {
         Some(if self.allowance > 0.0 { dilate::dilate_by_ball(&sampled, self.allowance) } else { sampled })
     }
 
+    /// Returns the grid for a cell: the remains' own grid, widened by the allowance, if it has this cell;
+    /// else a grid over the box.
     fn grid_for_cell(&self, cell: f64) -> DexelGrid {
         match self.only_remains() {
             Some(remains) if (remains.grid().cell - cell).abs() <= cell * 1e-9 => {
@@ -173,6 +183,7 @@ impl Stock {
         }
     }
 
+    /// Returns the remains if they are the only body.
     fn only_remains(&self) -> Option<&Arc<Dexels>> {
         match self.bodies.as_slice() {
             [SolidBody::Remains(remains)] => Some(remains),
@@ -181,11 +192,13 @@ impl Stock {
     }
 }
 
+/// Returns the box around two boxes.
 fn union_boxes(([a, b, c], [d, e, f]): AxisBox, ([g, h, i], [j, k, l]): AxisBox) -> AxisBox {
     ([a.min(g), b.min(h), c.min(i)], [d.max(j), e.max(k), f.max(l)])
 }
 
-/// Columns of another grid: each the one whose centre is nearest, of two as near the one with the larger index.
+/// Resamples columns on another grid. Each new column takes the old column whose centre is nearest; of two
+/// equally near ones it takes the one with the larger index.
 fn resample_nearest(from: &Dexels, layout: DexelGrid) -> Dexels {
     let mut dexels = Dexels::with_empty_columns(layout);
     let old = *from.grid();

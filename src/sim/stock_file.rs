@@ -1,6 +1,7 @@
-//! The `.clstock` file: what a program left, kept for the next one.
+//! This module reads and writes `.clstock` files, which keep the stock that a program left for the next
+//! program.
 //!
-//! All numbers are little-endian. A head of 56 bytes, the columns, a checksum:
+//! All numbers are little-endian. The file has a head of 56 bytes, the columns, and a checksum:
 //!
 //! | bytes | what |
 //! |---|---|
@@ -10,10 +11,12 @@
 //! | 8 | distance between columns, mm (`f64`, as the next three) |
 //! | 8, 8, 8 | x and y of the first column's centre, the height that intervals count from; mm |
 //! | 4, 4 | columns in x, columns in y |
-//! | per column | row by row: how many intervals (`u32`), then each from above to below: lower end, upper end (`f32`, mm above the base) |
+//! | per column | row by row: number of intervals (`u32`), then each from above to below (two `f32`) |
 //! | 4 | CRC-32 (IEEE) of everything before |
 //!
-//! A column takes at least 4 bytes, so no file can ask for more than two times its own length in memory, intervals aside.
+//! The two `f32` of an interval are its lower and its upper end, in mm above the base.
+//! A column takes at least 4 bytes. So no file can ask for more memory than twice its own length, apart from
+//! the intervals.
 
 use super::{DexelGrid, DexelSpan, Dexels};
 use std::io::{self, Write};
@@ -22,40 +25,40 @@ const MAGIC: [u8; 8] = *b"\x89CLSTK\r\n";
 const VERSION: u32 = 1;
 const CHECKSUM: usize = 4;
 
-/// Why bytes are no remaining stock. `at` is the offset in the file.
+/// The reason why bytes are not a `.clstock` file. `at` is the offset in the file.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum StockFileError {
-    /// Not written by us, or sent as text on the way.
+    /// The file was not written by this program, or was changed when it was sent as text.
     #[error("this is no .clstock file")]
     Foreign,
-    /// Written by a later program.
+    /// The file was written by a later version of this program.
     #[error("version {version} of the format is not known here (byte {at})")]
     Version {
-        /// The version it says.
+        /// The version that the file states.
         version: u32,
-        /// Where.
+        /// The offset of the version in bytes.
         at: usize,
     },
-    /// It ends too early.
+    /// The file ends too early.
     #[error("the file ends at byte {at}, but {needed} more bytes are needed at least")]
     Truncated {
-        /// Its length.
+        /// The length of the file in bytes.
         at: usize,
-        /// What is missing, at least.
+        /// The least number of bytes that are missing.
         needed: u64,
     },
-    /// A number that this format does not allow.
+    /// The file has a number that this format does not allow.
     #[error("the file is damaged at byte {at}: {reason}")]
     Damaged {
-        /// Where.
+        /// The offset of the number in bytes.
         at: usize,
-        /// What is wrong there.
+        /// A description of what is wrong.
         reason: &'static str,
     },
-    /// Something in it has changed since it was written.
+    /// The checksum does not fit, so something in the file has changed since it was written.
     #[error("the file is damaged: its checksum at byte {at} does not fit")]
     Checksum {
-        /// Where.
+        /// The offset of the checksum in bytes.
         at: usize,
     },
 }
@@ -63,7 +66,7 @@ pub enum StockFileError {
 /// Writes remaining stock as a `.clstock` file.
 ///
 /// # Errors
-/// What `out` returns, or that there are more columns in a row than the format counts (2^32).
+/// Returns the errors of `out`, and an error if a row has more columns than the format can count (2^32).
 pub fn write_clstock(dexels: &Dexels, out: &mut dyn Write) -> io::Result<()> {
     let layout = dexels.grid();
     let count = |count: usize| u32::try_from(count).map_err(io::Error::other);
@@ -86,7 +89,7 @@ pub fn write_clstock(dexels: &Dexels, out: &mut dyn Write) -> io::Result<()> {
         out.write_all(&buffer)?;
         buffer.clear();
     }
-    // Still the head, where there is no band.
+    // Without bands, the buffer still holds the head.
     sum.update(&buffer);
     out.write_all(&buffer)?;
     out.write_all(&sum.finalize().to_le_bytes())
@@ -95,10 +98,12 @@ pub fn write_clstock(dexels: &Dexels, out: &mut dyn Write) -> io::Result<()> {
 /// Reads a `.clstock` file.
 ///
 /// # Errors
-/// For anything that [`write_clstock()`] does not write, with the place; nothing is allocated that the file's length does not bear out.
+/// Returns an error, with its place, for anything that [`write_clstock()`] does not write. Memory is only
+/// allocated for columns that the file's length can hold.
 pub fn read_clstock(bytes: &[u8]) -> Result<Dexels, StockFileError> {
     let mut reader = StockFileReader { bytes, at: 0 };
     if !bytes.starts_with(&MAGIC) {
+        // A prefix of the magic bytes is our own file cut short; anything else is foreign.
         let start = MAGIC.starts_with(bytes);
         let needed = (MAGIC.len() - bytes.len().min(MAGIC.len())) as u64;
         return Err(if start {
@@ -139,12 +144,14 @@ pub fn read_clstock(bytes: &[u8]) -> Result<Dexels, StockFileError> {
     }
 }
 
+/// The bytes of a file, and the offset up to which they are read.
 struct StockFileReader<'a> {
     bytes: &'a [u8],
     at: usize,
 }
 
 impl StockFileReader<'_> {
+    /// Takes the next N bytes.
     fn take_bytes<const N: usize>(&mut self) -> Result<[u8; N], StockFileError> {
         let rest = self.bytes.get(self.at..).unwrap_or_default();
         let taken = rest.first_chunk::<N>().copied();
@@ -154,7 +161,7 @@ impl StockFileReader<'_> {
         Ok(taken)
     }
 
-    /// That so many bytes follow, the checksum included.
+    /// Checks that at least this many bytes and the checksum follow.
     fn expect_bytes(&self, count: u64) -> Result<(), StockFileError> {
         let rest = self.bytes.len().saturating_sub(self.at) as u64;
         let needed = count.saturating_add(CHECKSUM as u64).saturating_sub(rest);
@@ -168,7 +175,7 @@ impl StockFileReader<'_> {
     fn read_length_mm(&mut self) -> Result<f64, StockFileError> {
         let at = self.at;
         let value = self.take_bytes().map(f64::from_le_bytes)?;
-        // Beyond this, centres of columns would not be told apart.
+        // Farther out than this, the centres of neighbouring columns would have the same coordinates.
         if value.abs() <= 1e9 {
             Ok(value)
         } else {
@@ -176,6 +183,7 @@ impl StockFileReader<'_> {
         }
     }
 
+    /// Reads the grid and checks that the file is long enough for its columns.
     fn read_grid(&mut self) -> Result<DexelGrid, StockFileError> {
         let at = self.at;
         let cell = self.read_length_mm()?;
@@ -193,6 +201,7 @@ impl StockFileReader<'_> {
         Ok(DexelGrid { origin, base, cell, columns: columns as usize, rows: rows as usize })
     }
 
+    /// Reads the intervals of one column, which must go from above to below without touching.
     fn read_column(&mut self, intervals: &mut Vec<DexelSpan>) -> Result<(), StockFileError> {
         intervals.clear();
         let count = self.read_u32()?;

@@ -1,32 +1,32 @@
-//! What is left against what shall be left.
+//! This module compares the remaining stock with the target part.
 //!
-//! Measured along the columns: on a slope the vertical measure is larger than the distance between the surfaces, and a steep wall
-//! that is a little off appears as few columns of its full height.
+//! Differences are measured along the columns. On a slope this vertical measure is larger than the distance
+//! between the surfaces, and a steep wall that is slightly off shows as a few columns over its full height.
 
 use super::{DexelSpan, Dexels, dexel_spans, dilate};
 use rayon::prelude::*;
 
-/// Rounding of heights, mm.
+/// The rounding of heights, mm.
 const ROUNDING: f32 = 1e-4;
 
-/// How remaining stock and a target part differ.
+/// The difference between remaining stock and a target part.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TargetDeviation {
-    /// Material of the target that is gone, mm3.
+    /// The volume of the target's material that is missing, mm3.
     pub gouge_mm3: f64,
-    /// The thickest piece of it along a column: mm, and its lower end (x, y, z).
+    /// The thickest missing piece along a column: its thickness in mm, and its lower end (x, y, z).
     pub deepest_gouge: Option<(f64, [f64; 3])>,
-    /// Columns with such a piece.
+    /// The number of columns with a missing piece.
     pub columns_gouged: usize,
-    /// Material that is left and not in the target, mm3.
+    /// The volume of the remaining material that does not belong to the target, mm3.
     pub excess_mm3: f64,
-    /// The thickest piece of it along a column: mm, and its upper end (x, y, z).
+    /// The thickest piece of it along a column: its thickness in mm, and its upper end (x, y, z).
     pub highest_excess: Option<(f64, [f64; 3])>,
-    /// Columns with such a piece.
+    /// The number of columns with such a piece.
     pub columns_in_excess: usize,
 }
 
-/// Why two solids cannot be compared.
+/// The reason why two solids cannot be compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum GridMismatch {
     /// Their columns do not stand in the same places.
@@ -35,10 +35,11 @@ pub enum GridMismatch {
 }
 
 impl TargetDeviation {
-    /// Compares what is left with a target on the same grid. Pieces up to `tolerance` mm thick along a column do not count.
+    /// Compares remaining stock with a target on the same grid. Pieces that are at most `tolerance` mm thick
+    /// along a column do not count.
     ///
     /// # Errors
-    /// When the grids differ.
+    /// Returns an error if the grids differ.
     pub fn measure_by_thickness(
         remains: &Dexels,
         target: &Dexels,
@@ -48,8 +49,8 @@ impl TargetDeviation {
         Self::sum_pieces(remains, target, thick)
     }
 
-    /// Adds up the pieces that count; `counts` is told the band, the index of the column in it, the piece, and whether it is of what
-    /// is left.
+    /// Adds up the pieces that count. `counts` gets the band, the column's index in it, the piece, and
+    /// whether the piece belongs to the remaining stock; it returns whether the piece counts.
     fn sum_pieces(
         remains: &Dexels,
         target: &Dexels,
@@ -77,6 +78,8 @@ impl TargetDeviation {
                         return;
                     }
                     let thickness = f64::from(top) - f64::from(low);
+                    // Excess is reported at its upper end, a gouge at its lower end: both are on the machined
+                    // surface.
                     let end = layout.base + f64::from(if is_left { top } else { low });
                     let piece = Some((thickness, [x, y, end]));
                     if is_left {
@@ -94,17 +97,19 @@ impl TargetDeviation {
             }
             all
         });
-        // Collected first: the sum must not depend on the number of threads.
+        // The bands are collected before they are added, so that the sum does not depend on the number of
+        // threads.
         let of_band: Vec<Self> = of_band.collect();
         Ok(of_band.into_iter().fold(Self::default(), Self::combine_with))
     }
 
-    /// As [`TargetDeviation::measure_by_thickness`], but a piece counts when some of it is further than `tolerance` mm from the other solid in every
-    /// direction: a wall that is a little off is no difference of its whole height. Directions across z count in whole cells, so
-    /// that a tolerance below a cell holds along z only.
+    /// Compares as [`TargetDeviation::measure_by_thickness`] does, but a piece only counts if some of it is
+    /// further than `tolerance` mm from the other solid in every direction. So a wall that is slightly off
+    /// does not count over its whole height. Lateral distances count in whole cells, so a tolerance below a
+    /// cell only has an effect along z.
     ///
     /// # Errors
-    /// When the grids differ.
+    /// Returns an error if the grids differ.
     pub fn measure_by_distance(
         remains: &Dexels,
         target: &Dexels,
@@ -112,6 +117,7 @@ impl TargetDeviation {
     ) -> Result<Self, GridMismatch> {
         let [near_remains, near_target] =
             [remains, target].map(|solid| dilate::dilate_by_ball(solid, tolerance));
+        // A piece within the other solid grown by the tolerance is nowhere further away than that.
         Self::sum_pieces(remains, target, |band, index, [low, top], is_left| {
             let near = if is_left { &near_target } else { &near_remains };
             let covers = |[from, to]: DexelSpan| from <= low + ROUNDING && top <= to + ROUNDING;
@@ -119,6 +125,7 @@ impl TargetDeviation {
         })
     }
 
+    /// Adds the differences of two bands.
     fn combine_with(self, other: Self) -> Self {
         Self {
             gouge_mm3: self.gouge_mm3 + other.gouge_mm3,
@@ -131,10 +138,10 @@ impl TargetDeviation {
     }
 }
 
-/// A thickness and where.
+/// A piece's thickness in mm and its end point.
 type ThickestPiece = Option<(f64, [f64; 3])>;
 
-/// The thicker piece; of equal ones the first.
+/// Returns the thicker piece, or the first if both are equally thick.
 fn thicker_piece(a: ThickestPiece, b: ThickestPiece) -> ThickestPiece {
     match (a, b) {
         (Some((first, _)), Some((second, _))) if second > first => b,

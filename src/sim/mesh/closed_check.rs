@@ -1,11 +1,14 @@
-//! Whether a surface is closed: every piece of an edge is passed as often one way as the other.
+//! This module checks whether a surface is closed: its triangles must pass each piece of an edge equally
+//! often in both directions.
 //!
-//! This lets bodies touch along an edge (four triangles), and along lines parallel to an axis it lets one long edge meet several
-//! short ones, as blocky surfaces have them (our own remaining stock): the scan counts both right.
+//! This rule lets bodies touch along an edge, where four triangles meet. Along a line parallel to an axis it
+//! also lets one long edge meet several short ones, as blocky surfaces have them (the STL files of remaining
+//! stock, [`crate::sim::stl_export`]). The conversion to columns counts both cases correctly.
 
 use super::{Mesh, MeshError};
 
-/// What is wrong with edges of a surface.
+/// The faults of a surface's edges: how many edges are open or have turned neighbours, and the middle of the
+/// first one.
 #[derive(Default)]
 struct EdgeFaults {
     open: usize,
@@ -15,7 +18,9 @@ struct EdgeFaults {
 }
 
 impl EdgeFaults {
-    /// An edge with more passes one way than the other; an odd rest has a side without triangle.
+    /// Counts an edge that is passed more often in one direction than in the other; `rest` is the difference.
+    /// An odd difference means that one side has no triangle, an even one that neighbours face opposite
+    /// sides.
     fn count_edge(&mut self, rest: i64, a: [f64; 3], b: [f64; 3]) {
         let [[x, y, z], [u, v, w]] = [a, b];
         let middle = [f64::midpoint(x, u), f64::midpoint(y, v), f64::midpoint(z, w)];
@@ -28,11 +33,13 @@ impl EdgeFaults {
     }
 }
 
-/// A line parallel to an axis: the axis, and the bits of the two coordinates that stay.
+/// A line parallel to an axis: the axis' index, and the bits of the two coordinates that stay constant on it.
 type AxisLine = (u8, [u64; 2]);
 
+/// Checks that a surface is closed and consistently oriented.
+///
 /// # Errors
-/// [`MeshError::Open`] or [`MeshError::Turned`], with the first place in the order of vertices.
+/// Returns [`MeshError::Open`] or [`MeshError::Turned`] with the first place in the order of the vertices.
 pub(super) fn check_closed(mesh: &Mesh) -> Result<(), MeshError> {
     let mut passes: Vec<([u32; 2], bool)> = Vec::with_capacity(mesh.triangles.len() * 3);
     for [a, b, c] in mesh.triangles.iter().copied() {
@@ -40,6 +47,7 @@ pub(super) fn check_closed(mesh: &Mesh) -> Result<(), MeshError> {
             passes.push(([from.min(to), from.max(to)], from < to));
         }
     }
+    // After sorting, all passes of one edge stand together, so one scan adds their directions.
     passes.sort_unstable();
     let mut found = EdgeFaults::default();
     let mut on_lines: Vec<(AxisLine, f64, i64)> = Vec::new();
@@ -52,6 +60,8 @@ pub(super) fn check_closed(mesh: &Mesh) -> Result<(), MeshError> {
             None => found.count_edge(rest, a, b),
         }
     }
+    // On a line parallel to an axis, edges of different lengths may cancel. So their ends are sorted along
+    // the line, and the sum of passes must be zero between any two neighbouring ends.
     on_lines.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
     for line in on_lines.chunk_by(|a, b| a.0 == b.0) {
         let mut rest = 0;
@@ -70,7 +80,8 @@ pub(super) fn check_closed(mesh: &Mesh) -> Result<(), MeshError> {
     }
 }
 
-/// The line parallel to an axis that two points are on, and where.
+/// Returns the line parallel to an axis on which two points lie, and the points' coordinates along it; `None`
+/// if there is no such line.
 fn find_axis_line([x, y, z]: [f64; 3], [u, v, w]: [f64; 3]) -> Option<(AxisLine, [f64; 2])> {
     match [x == u, y == v, z == w] {
         [false, true, true] => Some(((0, [y.to_bits(), z.to_bits()]), [x, u])),
@@ -80,6 +91,7 @@ fn find_axis_line([x, y, z]: [f64; 3], [u, v, w]: [f64; 3]) -> Option<(AxisLine,
     }
 }
 
+/// Returns the point at a coordinate along a line parallel to an axis.
 fn point_on_axis_line((axis, rest): AxisLine, at: f64) -> [f64; 3] {
     let [a, b] = rest.map(f64::from_bits);
     match axis {

@@ -1,21 +1,25 @@
-//! A mesh as columns.
+//! This module converts a mesh to columns.
 //!
-//! Every row of column centres cuts a triangle in a segment between two of its edges. Where an edge meets the row is computed
-//! from the edge alone, so both of its triangles get the same point to the last bit, and segments take their lower end and
-//! leave their upper one: the segments of a closed surface follow each other without gap or overlap, and a column through an
-//! edge or a vertex counts each crossing once. This is the same as moving all columns by an infinitesimal step.
+//! Every row of column centres cuts a triangle in a segment between two of the triangle's edges. The point
+//! where an edge meets the row is computed from the edge alone, so both triangles of the edge get the same
+//! point to the last bit. A segment includes its lower end and excludes its upper one. So the segments of a
+//! closed surface follow each other without gap or overlap, and a column through an edge or a vertex counts
+//! each crossing once. The result is the same as if all columns were moved by an infinitesimal step.
 
 use super::Mesh;
 use crate::sim::dexel::BAND_ROWS;
 use crate::sim::{DexelBand, DexelGrid, DexelSpan, Dexels, dexel_spans};
 use rayon::prelude::*;
 
-/// Where a column goes through the surface: its index in the band, the height above the base, +1 where the surface faces up.
+/// A crossing of a column and the surface: the column's index in the band, the height above the base in mm,
+/// and +1 where the surface faces up or -1 where it faces down.
 type SurfaceCrossing = (u32, f32, i32);
 
 impl Mesh {
-    /// The solid as columns: each as the line through its centre meets the mesh, so exact in z (to the resolution of `f32`) and
-    /// sampled in x and y. What stands beside the grid is left out. Takes time for the triangles, and for each the columns below.
+    /// Converts the solid to columns. Each column is the line through its centre as it meets the mesh, so the
+    /// result is exact in z (to the resolution of `f32`) and sampled in x and y. Parts of the solid beside
+    /// the grid are left out. The time grows with the number of triangles and with the number of columns
+    /// below each.
     pub fn to_dexels(&self, layout: DexelGrid) -> Dexels {
         let mut dexels = Dexels::with_empty_columns(layout);
         if layout.columns == 0 {
@@ -43,7 +47,8 @@ impl Mesh {
     }
 }
 
-/// Indices that centres within some values can have, a step more on both sides: the exact test follows.
+/// Returns the range of indices whose centres can lie within some values, one index wider on both sides
+/// because the exact test follows.
 fn index_range(values: [f64; 3], origin: f64, cell: f64, count: usize) -> Option<(usize, usize)> {
     let low = values.into_iter().fold(f64::INFINITY, f64::min);
     let high = values.into_iter().fold(f64::NEG_INFINITY, f64::max);
@@ -53,6 +58,7 @@ fn index_range(values: [f64; 3], origin: f64, cell: f64, count: usize) -> Option
     (last >= 0.0 && first <= end as f64).then(|| (first.max(0.0) as usize, (last as usize).min(end)))
 }
 
+/// Adds the crossings of one triangle with all columns of a band.
 fn collect_crossings(
     corners: [[f64; 3]; 3],
     layout: &DexelGrid,
@@ -68,6 +74,7 @@ fn collect_crossings(
     for row in first.max(band.first_row)..=last.min(band.first_row + band.row_count() - 1) {
         let [_, y] = layout.column_center(0, row);
         let (mut up, mut down) = (None, None);
+        // Of three edges, a row crosses none or two: one upwards in y and one downwards.
         for [from, to] in [[a, b], [b, c], [c, a]] {
             if from[1] <= y && y < to[1] {
                 up = Some(intersect_row(from, to, y));
@@ -85,6 +92,7 @@ fn collect_crossings(
         for column in first..=last {
             let [x, _] = layout.column_center(column, row);
             if x0 <= x && x < x1 {
+                // Linear interpolation within the triangle's plane, along the row.
                 let z = z0 + (z1 - z0) * ((x - x0) / (x1 - x0));
                 let index = (row - band.first_row) * band.columns + column;
                 crossings.push((index as u32, (z - layout.base) as f32, sense));
@@ -93,17 +101,20 @@ fn collect_crossings(
     }
 }
 
-/// Where an edge, given from its lower end in y to its upper one, meets a row: x and z.
+/// Returns x and z of the point where an edge meets a row. The edge is given from its lower end in y to its
+/// upper one, so that both of its triangles compute the same point.
 fn intersect_row([x0, y0, z0]: [f64; 3], [x1, y1, z1]: [f64; 3], y: f64) -> [f64; 2] {
     let share = (y - y0) / (y1 - y0);
     [x0 + (x1 - x0) * share, z0 + (z1 - z0) * share]
 }
 
+/// Fills the columns of a band with the intervals between their crossings.
 fn fill_band(band: &mut DexelBand, mut crossings: Vec<SurfaceCrossing>) {
     crossings.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)).then(b.2.cmp(&a.2)));
     let mut intervals: Vec<DexelSpan> = Vec::new();
     for column in crossings.chunk_by(|a, b| a.0 == b.0) {
         intervals.clear();
+        // Going down, the winding number counts the surfaces above; there is material where it is not zero.
         let mut winding = 0;
         for pair in column.windows(2) {
             let [(_, top, sense), (_, low, _)] = pair else { continue };

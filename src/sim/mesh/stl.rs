@@ -1,19 +1,21 @@
-//! STL files, binary and text.
+//! This module reads STL files, binary and text.
 
 use super::{Mesh, MeshError};
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::io::{self, Cursor};
 
-/// Bytes before the first triangle of a binary file, and of every triangle.
+/// The bytes before the first triangle of a binary file, and the bytes of one triangle.
 const HEAD: usize = 84;
 const TRIANGLE: u64 = 50;
 
 impl Mesh {
-    /// Reads an STL file; its numbers are taken as mm, its normals are not looked at, equal corners are one vertex.
+    /// Reads an STL file. Its numbers count as mm, its normals are ignored, and vertices with equal
+    /// coordinates become one.
     ///
     /// # Errors
-    /// When it is no STL, has no triangle or a number that is not finite, or is not closed ([`Mesh::new`]).
+    /// Returns an error if the bytes are not STL, have no triangle or a number that is not finite, or do not
+    /// form a closed surface (see [`Mesh::new`]).
     pub fn from_stl(bytes: &[u8]) -> Result<Self, MeshError> {
         let bytes = normalize_stl(bytes)?;
         let unreadable = |error: io::Error| MeshError::Stl { reason: error.to_string() };
@@ -39,13 +41,15 @@ impl Mesh {
     }
 }
 
-/// The file as the reader tells binary and text apart: by a first line that begins with `solid` and a blank. Many programs
-/// write such a head into binary files as well, and some write text without a name or with several solids.
+/// Returns the file in a form that the reader recognizes correctly. The reader tells text from binary by a
+/// first line that begins with `solid` and a blank, but many programs write such a head into binary files as
+/// well, and some write text without a name or with several solids.
 fn normalize_stl(bytes: &[u8]) -> Result<Cow<'_, [u8]>, MeshError> {
     let count = bytes.get(HEAD - 4..HEAD).and_then(|count| count.try_into().ok()).map(u32::from_le_bytes);
     let found = bytes.len() as u64;
     let expected = count.map(|count| HEAD as u64 + TRIANGLE * u64::from(count));
     let text = has_first_word(bytes, b"solid");
+    // The length decides: a file that is exactly as long as its own number of triangles asks for is binary.
     if expected == Some(found) {
         if !text {
             return Ok(Cow::Borrowed(bytes));
@@ -61,7 +65,7 @@ fn normalize_stl(bytes: &[u8]) -> Result<Cow<'_, [u8]>, MeshError> {
     }
 }
 
-/// All solids of a text as one, in lower case.
+/// Joins all solids of a text into one, in lower case.
 fn merge_solids(bytes: &[u8]) -> Result<Vec<u8>, MeshError> {
     let mut all = b"solid part\n".to_vec();
     let mut within = false;
@@ -84,7 +88,7 @@ fn merge_solids(bytes: &[u8]) -> Result<Vec<u8>, MeshError> {
     Ok(all)
 }
 
-/// Whether a line's first word begins so.
+/// Returns whether a line's first word begins with `word`, in upper or lower case.
 fn has_first_word(line: &[u8], word: &[u8]) -> bool {
     line.trim_ascii_start().get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word))
 }

@@ -1,4 +1,4 @@
-//! What one band of columns contributes to the engagement of one piece.
+//! This module collects the contribution of one band of columns to the engagement of one piece.
 
 use crate::sim::Engagement;
 use crate::sim::engagement::{BINS, EngagementBin, bin_index_at, interval_hull};
@@ -6,23 +6,23 @@ use crate::sim::engagement::{BINS, EngagementBin, bin_index_at, interval_hull};
 /// A contact of the cutter with removed material.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::sim) struct BinContact {
-    /// Angle about the axis from the feed's direction, radians, left positive.
+    /// The angle around the axis from the feed's direction, radians, positive to the left.
     pub angle: f32,
-    /// Length along the meridian from the tip, mm.
+    /// The length along the meridian from the tip, mm.
     pub length: f32,
-    /// `v.n / |v|`: best estimate, and not below what the grid may hide.
+    /// The advance ratio `v.n / |v|`: the best estimate, and an upper bound with all that the grid may hide.
     pub share: f32,
     pub share_bound: f32,
-    /// Radial part of the normal.
+    /// The radial part of the normal.
     pub radial: f32,
-    /// Thickness of the removed material along the normal, mm.
+    /// The thickness of the removed material along the normal, mm.
     pub thickness: f32,
 }
 
-/// Sums and extremes over the columns of a band.
+/// The sums and extremes over the columns of a band.
 #[derive(Debug, Clone)]
 pub(in crate::sim) struct BandEngagement {
-    /// Sum of removed heights, mm.
+    /// The sum of the removed heights, mm.
     pub removed: f64,
     pub lateral: [f32; 2],
     pub height: [f32; 2],
@@ -33,13 +33,14 @@ pub(in crate::sim) struct BandEngagement {
     next_known: usize,
 }
 
-/// Contacts that are kept to be compared with.
+/// The number of contacts that are kept for comparison.
 const KNOWN: usize = 4;
 
-/// Contacts no further apart to the side than this (mm) are put together.
+/// Contacts whose lateral positions differ by at most this (mm) are merged.
 const ASIDE: f64 = 0.06;
 
-/// Where a column's contacts lie across the path: from its least to its greatest rise, at a distance to the side, mm.
+/// The position of a column's contacts across the path: the least and the greatest height measured square to
+/// the path, and the lateral distance from the path, mm.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::sim) struct CrossPathPosition {
     pub least: f64,
@@ -47,11 +48,11 @@ pub(in crate::sim) struct CrossPathPosition {
     pub side: f64,
 }
 
-/// A contact that was looked at.
+/// A contact that was examined and is kept for comparison.
 #[derive(Debug, Clone, Copy)]
 struct RememberedContact {
     place: CrossPathPosition,
-    /// Thickness along the normal over depth along the column.
+    /// The ratio of the thickness along the normal to the depth along the column.
     steepness: f64,
     bin: usize,
 }
@@ -78,7 +79,8 @@ impl BandEngagement {
         }
     }
 
-    /// Whether a contact is dominated by one that is known; the thickness of its material then counts where that one is.
+    /// Returns whether a known contact dominates a column's contacts, that is, has at least their advance
+    /// ratio. The thickness of the column's material then counts in the bin of that known contact.
     #[inline]
     pub fn is_dominated(&mut self, place: &CrossPathPosition, climbs: bool, depth: f64) -> bool {
         let dominates = |known: &&RememberedContact| {
@@ -94,8 +96,8 @@ impl BandEngagement {
         true
     }
 
-    /// Keeps a contact to be compared with: put together with one whose range of rise it continues, in place of one that it
-    /// dominates, or of the oldest.
+    /// Keeps a contact for comparison. It is merged with one whose heights it continues; otherwise it
+    /// replaces one that it dominates, or the oldest.
     pub fn remember_contact(&mut self, place: CrossPathPosition, climbs: bool, steepness: f64, angle: f32) {
         let touches = |known: &&mut RememberedContact| {
             climbs || (known.place.least <= place.greatest && known.place.greatest >= place.least)
@@ -120,23 +122,25 @@ impl BandEngagement {
         self.next_known = (index + 1) % KNOWN;
     }
 
-    /// Adds to the sums only.
+    /// Adds to the volume and the lateral extent only.
     #[inline]
     pub fn add_volume(&mut self, removed: f32, left: f32) {
         self.removed += f64::from(removed);
         self.lateral = interval_hull(self.lateral, [left, left]);
     }
 
-    /// Whether there is anything to tell.
+    /// Returns whether nothing was found.
     pub fn is_empty(&self) -> bool {
         self.removed <= 0.0 && self.graze <= 0.0 && self.contact.is_none()
     }
 
+    /// Adds a column's removed height, lateral position and range of heights on the cutter.
     pub fn add_column(&mut self, removed: f32, left: f32, height: [f32; 2]) {
         self.add_volume(removed, left);
         self.height = interval_hull(self.height, height);
     }
 
+    /// Adds a contact to its bin.
     pub fn add_contact(&mut self, contact: &BinContact) {
         let bins = self.bins.get_or_insert_with(|| Box::new([EngagementBin::EMPTY; BINS]));
         let Some(bin) = bins.get_mut(bin_index_at(f64::from(contact.angle))) else { return };
@@ -150,13 +154,15 @@ impl BandEngagement {
         });
     }
 
+    /// Records that a shank or holder is `depth` mm deep in material; the deepest one is kept.
     pub fn record_collision(&mut self, collar: usize, depth: f64) {
         if self.contact.is_none_or(|(_, known)| depth > known) {
             self.contact = Some((collar, depth));
         }
     }
 
-    /// Adds itself to an engagement. `area` is that of a column, mm2; `half` half a cell.
+    /// Adds everything to an engagement. `area` is the area of a column in mm2, and `half` is half a cell in
+    /// mm.
     pub fn add_to_engagement(&self, engagement: &mut Engagement, area: f64, half: f64) {
         engagement.removed_mm3 += self.removed * area;
         if self.removed > 0.0 {

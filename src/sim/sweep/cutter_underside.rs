@@ -1,11 +1,14 @@
-//! The heights of a sweep over a row of columns: the inner loop of the simulation.
+//! This module computes the heights of a sweep over a row of columns. This is the inner loop of the
+//! simulation.
 //!
-//! One loop for each family of cutters, each without branches so that the compiler turns it into vector instructions.
+//! There is one loop for each family of cutters. None has branches, so that the compiler can turn it into
+//! vector instructions.
 
 use super::silhouette::Silhouette;
 use crate::sim::Meridian;
 
-/// A row of columns as seen from the start of a piece, mm: x of the first column, y of the row, distance of columns.
+/// A row of columns in coordinates from the start of a piece, mm: the x of the first column, the y of the
+/// row, and the distance of the columns.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SweepRow {
     pub x: f32,
@@ -13,8 +16,8 @@ pub(super) struct SweepRow {
     pub cell: f32,
 }
 
-/// A straight piece: its direction across (unit), horizontal length, rise over horizontal distance, height of the tip at its
-/// start.
+/// A straight piece: its horizontal unit direction, its horizontal length, its rise per horizontal distance,
+/// and the height of the tip at its start.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SweepPath {
     pub ux: f32,
@@ -24,23 +27,24 @@ pub(super) struct SweepPath {
     pub start: f32,
 }
 
-/// The underside of a cutter, by what its sweep asks of it.
+/// The underside of a cutter, by what its sweep needs.
 #[derive(Debug, Clone)]
 pub(super) enum CutterUnderside {
-    /// A flat end with an edge: where the contact lies ahead, as a share of the half chord (-1, 0 or 1).
+    /// A flat end with a sharp edge. `side` is the distance of the contact ahead of the axis, divided by the
+    /// half chord (-1, 0 or 1).
     Flat { radius2: f32, side: f32 },
-    /// A ball: the same share is the sine of the slope.
+    /// A ball. `side` is the same ratio, which here is the sine of the slope.
     Ball { radius: f32, radius2: f32, side: f32 },
     /// A bull-nose cutter on a level path.
     LevelBull { center: f32, corner: f32, corner2: f32, radius2: f32 },
-    /// A bull-nose cutter on a slope.
+    /// A bull-nose cutter on a sloped path.
     Bull { center: f32, corner: f32, corner2: f32, radius2: f32, silhouette: Box<Silhouette> },
-    /// Anything else: cones below or beside.
+    /// Any other cutter, with a cone at the bottom or at the flank.
     Any { profile: Meridian, radius2: f32, silhouette: Box<Silhouette> },
 }
 
 impl CutterUnderside {
-    /// The surface of a profile for paths of a slope.
+    /// Makes the underside of a cutter for paths with one slope.
     pub fn new(profile: &Meridian, slope: f64) -> Self {
         let radius2 = (profile.radius_mm() * profile.radius_mm()) as f32;
         let (corner, [center, _]) = (profile.corner_radius_mm(), profile.corner_center());
@@ -53,6 +57,8 @@ impl CutterUnderside {
                 let side = if slope == 0.0 { 0.0 } else { slope.signum() as f32 };
                 Self::Flat { radius2, side }
             }
+            // The contact's normal must have the path's slope, so on a ball it is R sin(slope angle) ahead of
+            // the centre.
             () if plain && center == 0.0 => {
                 Self::Ball { radius: corner, radius2, side: (slope / slope.hypot(1.0)) as f32 }
             }
@@ -62,13 +68,14 @@ impl CutterUnderside {
         }
     }
 
-    /// A flat disc, for paths of a slope.
+    /// Makes the underside of a flat disc for paths with one slope.
     pub fn flat_disc(radius: f64, slope: f64) -> Self {
         let side = if slope == 0.0 { 0.0 } else { slope.signum() as f32 };
         Self::Flat { radius2: (radius * radius) as f32, side }
     }
 
-    /// How far ahead of the axis the lowest contact over a column lies, at lateral distance `q` from the path.
+    /// Returns how far ahead of the axis the lowest contact over a column is, at lateral distance `q` from
+    /// the path, mm.
     pub fn contact_ahead_mm(&self, q: f32) -> f32 {
         match self {
             Self::Flat { radius2, side } | Self::Ball { radius2, side, .. } => {
@@ -79,7 +86,8 @@ impl CutterUnderside {
         }
     }
 
-    /// Lowest height of the sweep over each column of a row; infinite where it does not pass.
+    /// Computes the lowest height of the sweep over each column of a row; infinite where the sweep does not
+    /// pass.
     pub fn sweep_heights(&self, out: &mut [f32], row: SweepRow, path: SweepPath) {
         match self {
             Self::Flat { radius2, side } => {
@@ -91,6 +99,8 @@ impl CutterUnderside {
                 }
             }
             Self::Ball { radius, radius2, side } => {
+                // On a ball all contacts of one slope lie on a great circle, seen from above an ellipse with
+                // the ratio `side`.
                 let (radius, r2, side) = (*radius, *radius2, *side);
                 let height = |rho2: f32| radius - (r2 - rho2).max(0.0).sqrt();
                 if side == 0.0 {
@@ -116,6 +126,7 @@ impl CutterUnderside {
     }
 }
 
+/// Returns the height of a bull-nose cutter's underside, as a function of the squared distance from the axis.
 fn torus_height(center: f32, corner: f32, corner2: f32) -> impl Fn(f32) -> f32 {
     move |rho2| {
         let across = (rho2.sqrt() - center).max(0.0);
@@ -123,7 +134,8 @@ fn torus_height(center: f32, corner: f32, corner2: f32) -> impl Fn(f32) -> f32 {
     }
 }
 
-/// The closed form: `ahead` gives the contact's place ahead of the axis from q squared, `height` the profile from rho squared.
+/// Applies the closed form to a row. `ahead` gives the contact's distance ahead of the axis from q squared,
+/// and `height` gives the height of the underside from rho squared.
 #[inline(always)]
 fn sweep_row_heights(
     out: &mut [f32],
@@ -140,6 +152,8 @@ fn sweep_row_heights(
         let along = x * path.ux + row.y * path.uy;
         let left = row.y * path.ux - x * path.uy;
         let q2 = left * left;
+        // The tip's position at the contact, limited to the piece: beyond its ends the cutter at the end is
+        // the lowest.
         let at = (along - ahead(q2)).max(0.0).min(path.length);
         let offset = along - at;
         let rho2 = offset * offset + q2;

@@ -1,9 +1,15 @@
-//! Sweeps: the volume that a cutter passes through on one piece of its path, column by column.
+//! This module computes sweeps: the volume that a cutter passes through on one piece of its path, column by
+//! column.
 //!
-//! Three-axis sweeps are closed forms ([`straight`]): for a convex profile g that moves in a straight line, the lowest point
-//! over a column is at the one contact where the profile's slope along the path equals the path's slope, and that place
-//! depends only on the column's distance from the path ([`silhouette`]). Where the axis is not along z, each column asks for the
-//! extremes of the solid's interval over time ([`tilted`]).
+//! Three-axis sweeps have a closed form ([`straight`]). A convex cutter that moves in a straight line has its
+//! lowest point over a column at the one contact where the cutter's own slope along the path equals the
+//! path's slope. How far ahead of the axis that contact is depends only on the column's lateral distance from
+//! the path. So one short table ([`silhouette`]) serves a whole piece, and a column costs a square root. Arcs
+//! are chords within 0.002 mm and within a fiftieth of a cell. Where a piece continues the one before, the
+//! ground that was cleared there is not examined again.
+//!
+//! Where the axis is not along z, each column needs the extremes over time of the interval in which its line
+//! is inside the cutter ([`tilted`]).
 
 mod band_engagement;
 mod cutter_underside;
@@ -20,17 +26,17 @@ pub(super) use tilted::{TiltedSweep, reference_length_mm};
 use crate::sim::DexelBand;
 use std::ops::Range;
 
-/// A piece of the path made ready for any band of columns.
+/// A piece of the path that is prepared for any band of columns.
 #[derive(Debug, Clone)]
 pub(super) enum PieceSweep {
-    /// Three-axis: the tool axis along z all the way.
+    /// A three-axis piece, with the tool axis along z all the time.
     Straight(Box<StraightSweep>),
-    /// The tool axis in any direction, turning or not.
+    /// A piece with the tool axis in any other direction, fixed or turning.
     Tilted(Box<TiltedSweep>),
 }
 
 impl PieceSweep {
-    /// Rows that it can change.
+    /// Returns the rows that the piece can change.
     pub fn row_range(&self) -> Range<usize> {
         match self {
             Self::Straight(sweep) => sweep.row_range(),
@@ -38,7 +44,7 @@ impl PieceSweep {
         }
     }
 
-    /// Removes what it passes through from a band.
+    /// Removes what the piece sweeps from a band, and returns the band's contribution to the engagement.
     pub fn sweep_band(&self, band: &mut DexelBand, scratch: &mut Vec<f32>) -> BandEngagement {
         match self {
             Self::Straight(sweep) => sweep.sweep_band(band, scratch),

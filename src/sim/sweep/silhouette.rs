@@ -1,33 +1,35 @@
-//! Where a moving cutter touches the surface that it leaves.
+//! This module computes where a moving cutter touches the surface that it leaves.
 //!
-//! A convex profile of revolution moves with slope m = dz/ds. Over a column at lateral distance q from the path, the lowest
-//! place of the sweep is where the profile's own slope along the path equals m: `tan(psi) cos(theta) = m`, with psi the angle of
-//! the normal from straight down and theta the angle about the axis from ahead. Walking up the meridian gives this curve as
-//! `(q, w)`, w = rho cos(theta) being how far ahead of the axis the contact lies; q never falls on the way. It does not depend on where
-//! along the path the column is: so one short table serves a whole straight piece.
+//! A convex solid of revolution moves with the slope m = dz/ds. Over a column at lateral distance q from the
+//! path, the lowest point of the sweep is where the solid's own slope along the path equals m: `tan(psi)
+//! cos(theta) = m`. Here psi is the angle of the normal from straight down, and theta is the angle around the
+//! axis from straight ahead. Going up the meridian gives this curve as points `(q, w)`, where w = rho
+//! cos(theta) is the distance of the contact ahead of the axis; q never falls on the way. The curve does not
+//! depend on the column's position along the path, so one short table serves a whole straight piece.
 
 use crate::sim::Meridian;
 use std::f64::consts::FRAC_PI_2;
 
-/// Entries of the table for a corner radius between disc and cylinder, whose curve is smooth.
+/// The number of entries for a cutter with a corner radius but without cones, whose curve is smooth.
 const SMOOTH: usize = 64;
-/// Entries for a profile with cones, whose curve has corners.
+/// The number of entries for a cutter with cones, whose curve has kinks.
 const CORNERED: usize = 512;
-/// Steps on the corner's arc and on an edge's circle.
+/// The number of steps on the corner's arc and on the circle of a sharp edge.
 const STEPS: usize = 24;
 
-/// w as a function of q, for one slope.
+/// The distance w of the contact ahead of the axis as a function of the lateral distance q, for one slope.
 #[derive(Debug, Clone)]
 pub struct Silhouette {
-    /// w at `q = radius (1 - x^2)` for evenly spaced x from 0 to 1: dense where w changes fastest.
+    /// The values of w at `q = radius (1 - x^2)` for evenly spaced x from 0 to 1. They are dense near the
+    /// rim, where w changes fastest.
     table: Vec<f32>,
-    /// Entries less one.
+    /// The number of entries minus one.
     steps: f32,
     inverse_radius: f32,
 }
 
 impl Silhouette {
-    /// The curve of a profile that moves with a slope (rise over horizontal distance).
+    /// Computes the curve of a cutter that moves with a slope (rise per horizontal distance).
     pub fn new(profile: &Meridian, slope: f64) -> Self {
         let radius = profile.radius_mm();
         let cones = profile.taper_rad() > 0.0 || profile.bottom_angle_rad() > 0.0;
@@ -38,7 +40,7 @@ impl Silhouette {
             return Self { table, steps, inverse_radius: (1.0 / radius) as f32 };
         }
         let points = sample_silhouette(profile, slope.abs());
-        // The table runs from the rim inwards, so q falls.
+        // The table runs from the rim inwards, so q decreases.
         let mut upper = points.len().saturating_sub(1);
         for (index, entry) in table.iter_mut().enumerate() {
             let x = index as f64 / f64::from(steps);
@@ -54,7 +56,8 @@ impl Silhouette {
         Self { table, steps, inverse_radius: (1.0 / radius) as f32 }
     }
 
-    /// How far ahead of the axis the contact lies over a column at lateral distance `q` (below the radius).
+    /// Returns how far ahead of the axis the contact is over a column at lateral distance `q` (below the
+    /// radius), mm.
     #[inline]
     pub fn contact_ahead_mm(&self, q: f32) -> f32 {
         let x = (1.0 - q * self.inverse_radius).max(0.0).sqrt() * self.steps;
@@ -67,16 +70,18 @@ impl Silhouette {
     }
 }
 
-/// The curve by walking up the meridian; q ascending.
+/// Samples the curve by going up the meridian; q ascends.
 fn sample_silhouette(profile: &Meridian, slope: f64) -> Vec<(f64, f64)> {
     let mut points = Vec::with_capacity(3 * STEPS + 8);
     let mut add = |rho: f64, psi: f64| {
+        // From tan(psi) cos(theta) = m: cos(theta) = m / tan(psi), and (q, w) = rho (sin(theta), cos(theta)).
         let cos = if psi >= FRAC_PI_2 - 1e-12 { 0.0 } else { (slope / psi.tan()).min(1.0) };
         points.push((rho * (1.0 - cos * cos).max(0.0).sqrt(), rho * cos));
     };
     let steep = slope.atan();
     let bottom = profile.bottom_angle_rad();
     let flank = FRAC_PI_2 - profile.taper_rad();
+    // On a cone below, psi is constant; only a path that is less steep than the cone has contacts there.
     if bottom > 0.0 && steep < bottom {
         add(0.0, bottom);
         add(profile.bottom_radius_mm(), bottom);
@@ -86,7 +91,8 @@ fn sample_silhouette(profile: &Meridian, slope: f64) -> Vec<(f64, f64)> {
     if steep < flank {
         let from = steep.max(bottom);
         for step in 0..=STEPS {
-            // Even steps in theta rather than in psi follow an edge's circle well, so blend: psi = atan(slope / cos(theta)).
+            // Even steps in theta follow the circle of a sharp edge better than even steps in psi. So both
+            // are used: psi = atan(m / cos(theta)) fills in where theta jumps.
             let share = step as f64 / STEPS as f64;
             let even = from + (flank - from) * share;
             add(arc(even.min(flank)), even);
@@ -104,7 +110,7 @@ fn sample_silhouette(profile: &Meridian, slope: f64) -> Vec<(f64, f64)> {
         }
         add(profile.radius_mm(), flank);
     }
-    // Around the rim, where the flank ends.
+    // The rest of the curve goes around the rim, where the flank ends.
     let from = steep.max(flank);
     for step in 0..=STEPS {
         let theta_from = (slope / from.tan()).min(1.0).acos();

@@ -1,4 +1,4 @@
-//! Straight pieces of a three-axis path.
+//! This module sweeps straight pieces of a three-axis path.
 
 use super::band_engagement::BandEngagement;
 use super::cutter_underside::{CutterUnderside, SweepPath, SweepRow};
@@ -7,42 +7,45 @@ use super::straight_footprint::StraightFootprint;
 use crate::sim::dexel::{DexelBand, DexelGrid, THINNEST};
 use crate::sim::{CutterModel, NonCuttingCylinder};
 
-/// Columns that are looked at together.
+/// The number of columns that are tested together.
 const STEP: usize = 16;
 
-/// A straight piece, made ready for any band of columns.
+/// A straight piece that is prepared for any band of columns.
 #[derive(Debug, Clone)]
 pub(in crate::sim) struct StraightSweep {
-    /// x and y of the tip at the start.
+    /// The x and y of the tip at the start.
     from: [f64; 2],
     path: SweepPath,
     surface: CutterUnderside,
     motion: StraightContactFinder,
     extent: StraightFootprint,
-    /// Height of the flutes' upper end above the grid's base at the start; infinite where nothing stands above it.
+    /// The height of the flutes' upper end above the grid's base at the start; infinite if no material
+    /// reaches above it.
     flutes_end: f32,
     collars: Vec<(usize, NonCuttingCylinder, CutterUnderside)>,
     layout: DexelGrid,
     ends: bool,
-    /// Radius of the cutter where the flank leaves the stock: of a tapered one less than the whole.
+    /// The radius of the cutter where the flank leaves the stock. On a tapered cutter it is less than the
+    /// largest radius.
     widest: f64,
 }
 
-/// What is known about a piece before its columns are looked at.
+/// The facts about a piece that are known before its columns are examined.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::sim) struct SweepContext {
-    /// Whether the piece before it ended here with the same cutter, and removed what it found.
+    /// Whether the piece before ended at this start with the same cutter and removed the material there.
     pub continues: bool,
-    /// Highest material there ever was.
+    /// The z of the highest material there ever was, mm.
     pub highest: f64,
-    /// Whether the next piece does not go on in about the same direction, so that what lies ahead stays unseen.
+    /// Whether the next piece does not continue in about the same direction, so that no sweep will examine
+    /// what is ahead of the end.
     pub ends: bool,
-    /// Whether forces are asked for.
+    /// Whether the engagement must be fine enough for forces.
     pub detail: bool,
 }
 
 impl StraightSweep {
-    /// A piece from tip to tip, the axis along z.
+    /// Prepares a piece from tip to tip, with the axis along z.
     pub fn new(
         from: [f64; 3],
         to: [f64; 3],
@@ -53,7 +56,7 @@ impl StraightSweep {
         let [dx, dy, dz] = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
         let horizontal = dx.hypot(dy);
         let length = horizontal.hypot(dz);
-        // Steeper than this, the lateral offset over the grid's depth is below a cell's share, and the piece is taken as a plunge.
+        // On a steeper path the whole lateral offset is below 1e-6 mm, so the piece counts as a plunge.
         let vertical = horizontal < 1e-6;
         let profile = &cutter.profile;
         let slope = if vertical { 0.0 } else { dz / horizontal };
@@ -64,20 +67,27 @@ impl StraightSweep {
         let descends = dz < 0.0;
         let lowest_tip = from[2].min(to[2]);
         let reaches = |height: f64| around.highest > lowest_tip + height;
-        // What the piece before left above its flutes is still there.
+        // Ground counts as cleared only if the flutes were higher than all material: what was above them is
+        // still there.
         let continues = around.continues && !reaches(cutter.flute_length_mm());
         let (cleared_before, cleared_disc) = match continues {
+            // These values say which ground the piece before has cleared, so that columns there can be
+            // skipped.
             false => (f64::NEG_INFINITY, 0.0),
             true if vertical && dz >= 0.0 => (f64::INFINITY, 0.0),
             true if vertical => (f64::NEG_INFINITY, 0.0),
             true if descends => {
-                // Behind the contact that leaves the surface, the start's own surface is the lower one.
+                // On a descent, ground behind the start's lowest contact was cleared by the cutter at the
+                // start. That contact is where the normal's angle is the path's: center + corner radius *
+                // sin(slope angle).
                 let sin = -slope / slope.hypot(1.0);
                 let plain = profile.taper_rad() == 0.0 && profile.bottom_angle_rad() == 0.0;
                 let reach = profile.corner_center()[0] + profile.corner_radius_mm() * sin;
                 (-(if plain { reach } else { radius }) - margin, 0.0)
             }
             true => {
+                // Level or rising, the piece before cleared everything behind the start, and all ground under
+                // a flat bottom.
                 let disc = if profile.bottom_angle_rad() == 0.0 { profile.bottom_radius_mm() } else { 0.0 };
                 (-margin, (disc - margin).max(0.0))
             }
@@ -133,7 +143,7 @@ impl StraightSweep {
         }
     }
 
-    /// Rows that the piece can change, as a range.
+    /// Returns the range of rows that the piece can change.
     pub fn row_range(&self) -> std::ops::Range<usize> {
         let [low, high] = self.extent.y_range();
         let reach = self
@@ -147,11 +157,12 @@ impl StraightSweep {
         first..end.min(self.layout.rows)
     }
 
-    /// Columns of a stretch of x seen from the start.
+    /// Returns the columns of a range of x that counts from the start.
     fn column_range(&self, [from, to]: [f64; 2]) -> std::ops::Range<usize> {
         let DexelGrid { origin: [x0, _], cell, columns, .. } = self.layout;
         let column = |x: f64| (self.from[0] + x - x0) / cell;
-        // Casts round towards zero and saturate, and are instructions where `ceil` and `floor` are calls.
+        // Casts round towards zero and saturate. They are single instructions, whereas `ceil` and `floor` are
+        // calls.
         let up = |at: f64| {
             let whole = at.max(0.0) as usize;
             whole.saturating_add(usize::from(at > whole as f64))
@@ -166,7 +177,7 @@ impl StraightSweep {
         let mut partial = BandEngagement::new();
         let rows = self.row_range();
         let (first, end) = (rows.start.max(band.first_row), rows.end.min(band.first_row + band.row_count()));
-        // From the middle outwards, so that the contacts that dominate others come first.
+        // The rows go from the middle outwards, so that contacts that dominate others come first.
         let middle = (((self.from[1] - self.layout.origin[1]) / self.layout.cell).max(0.0) as usize)
             .clamp(first, end.max(first));
         for row in (middle..end).chain((first..middle).rev()) {
@@ -186,6 +197,7 @@ impl StraightSweep {
         partial
     }
 
+    /// Cuts a range of columns of one row.
     fn cut_row(
         &self,
         band: &mut DexelBand,
@@ -205,11 +217,13 @@ impl StraightSweep {
         self.surface.sweep_heights(scratch, seen, self.path);
         let range = offset + columns.start..offset + columns.end;
         let [ux, uy] = [f64::from(self.path.ux), f64::from(self.path.uy)];
+        // Coordinates along the path and to its left, for the column `hit` of the range.
         let place = |hit: usize| {
             let x = x + hit as f64 * self.layout.cell;
             (x * ux + y * uy, y * ux - x * uy)
         };
-        // Usually a cut lowers the top of a column's only interval; what it does to others is for later.
+        // A usual cut lowers the top of a column's only interval. All other columns are processed after this
+        // loop.
         let mut others = Vec::new();
         let simple = band.has_only_single_spans() && !self.flutes_end.is_finite();
         let (tops, lows) = band.tops_and_lows_mut(range.clone());
@@ -245,17 +259,20 @@ impl StraightSweep {
         }
     }
 
-    /// Upper end of the flutes' sweep over a column.
+    /// Returns the upper end of the flutes' sweep over a column, above the grid's base.
     fn flute_top_over(&self, along: f64, left: f64) -> f32 {
         let radius = self.extent.radius;
+        // The upper plane is a disc; on a slope its highest place over the column is at one of the two
+        // passages of its rim.
         let half = (radius * radius - left * left).max(0.0).sqrt();
         let slope = self.path.slope;
         let at = |at: f64| slope * at.clamp(0.0, self.extent.length) as f32;
         self.flutes_end + at(along - half).max(at(along + half))
     }
 
-    /// Material closer to the flank than a cell: beside the path, or ahead of its end. A sliver of it may be in the cutter's way
-    /// unseen. Material counts from the height at which the cutter is a cell thinner than it is at its widest.
+    /// Finds material that is closer to the flank than a cell, beside the path or ahead of its end. A sliver
+    /// of it may be in the cutter's path without any column showing it. Material counts from the height at
+    /// which the cutter is thinner by a cell than at its widest.
     fn add_hidden_slivers(&self, band: &DexelBand, row: usize, y: f64, partial: &mut BandEngagement) {
         let (radius, cell) = (self.widest, self.layout.cell);
         let slope = f64::from(self.path.slope);
@@ -266,6 +283,8 @@ impl StraightSweep {
         let tops = |columns: std::ops::Range<usize>| {
             band.top.get(offset + columns.start..offset + columns.end).unwrap_or_default()
         };
+        // A sliver at lateral distance q touches the flank at sin(theta) = q / R, where the advance ratio is
+        // across cos(theta). It may be a cell nearer to the middle than the column.
         let share = |side: f64| {
             let side = ((side - cell).max(0.0) / radius).min(1.0);
             (self.motion.across * (1.0 - side * side).sqrt()) as f32
@@ -295,7 +314,8 @@ impl StraightSweep {
         }
     }
 
-    /// How deep a collar stands in material in a row: its lower end is a disc that moves with the tip.
+    /// Measures how deep a shank or holder is in material in one row. Its lower end is a disc that moves with
+    /// the tip.
     fn check_collision(
         &self,
         band: &DexelBand,
@@ -325,6 +345,7 @@ impl StraightSweep {
             let tops = band.top.get(offset + columns.start..offset + columns.end).unwrap_or_default();
             let depth = tops.iter().zip(scratch.iter()).map(|(top, height)| top - height);
             let depth = f64::from(depth.fold(f32::NEG_INFINITY, f32::max));
+            // Less depth than this may be the grid's own error.
             if depth > self.layout.cell.min(0.05) {
                 partial.record_collision(*index, depth);
             }

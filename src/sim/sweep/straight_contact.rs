@@ -1,37 +1,38 @@
-//! Contacts: where on the cutter a point of a column was reached first, and how fast the surface advances there.
+//! This module finds contacts: the point of the cutter that reached a point of a column first, and how fast
+//! the surface advances there.
 
 use super::band_engagement::{BandEngagement, BinContact, CrossPathPosition};
 use super::cutter_underside::CutterUnderside;
 use crate::sim::Meridian;
 
-/// Thinner material (mm) is what rounding left of the piece before: no chip to speak of.
+/// Material thinner than this (mm) is the rounding that the piece before left, not a chip.
 const FILM: f64 = 2e-4;
 
-/// Samples of a column's height when forces are asked for.
+/// The number of samples over a column's height if forces are needed.
 const SAMPLES: usize = 4;
 
-/// A straight piece as its contacts see it. Heights count from the grid's base.
+/// The data of a straight piece from which contacts are found. Heights count from the grid's base.
 #[derive(Debug, Clone)]
 pub(super) struct StraightContactFinder {
     pub profile: Meridian,
-    /// Direction of travel: part across the axis, and along it (up is positive).
+    /// The components of the unit direction of travel across the axis, and along it (positive upwards).
     pub across: f64,
     pub along: f64,
-    /// Height of the tip at the start; of a piece straight along the axis, at its lower end.
+    /// The height of the tip at the start; for a piece straight along the axis, at its lower end.
     pub start: f64,
-    /// Height of the tip at the start, always.
+    /// The height of the tip at the start, also for a piece along the axis.
     pub first: f64,
-    /// Length across.
+    /// The length of the piece across the axis, mm.
     pub length: f64,
-    /// Distance of columns.
+    /// The distance of columns, mm.
     pub cell: f64,
     /// Whether the bins must be filled finely enough for forces.
     pub detail: bool,
-    /// Whether the ground at the start has not been cleared by a piece before.
+    /// Whether no piece before has cleared the ground at the start.
     pub fresh: bool,
 }
 
-/// A column from which `low..top` was removed: its place along the path and to the left of it.
+/// A column from which `low..top` was removed, with its position along the path and to the left of it, mm.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RemovedColumn {
     pub along: f64,
@@ -40,16 +41,16 @@ pub(super) struct RemovedColumn {
     pub top: f64,
 }
 
-/// A point of the cutter in contact.
+/// A point of the cutter that is in contact.
 #[derive(Debug, Clone, Copy)]
 struct StraightContact {
-    /// Ahead of the axis.
+    /// The distance ahead of the axis, mm.
     ahead: f64,
-    /// From the axis.
+    /// The distance from the axis, mm.
     rho: f64,
-    /// Above the tip.
+    /// The height above the tip, mm.
     height: f64,
-    /// Sine and cosine of the normal's angle from straight down.
+    /// The sine and cosine of the normal's angle from straight down.
     sin: f64,
     cos: f64,
 }
@@ -57,10 +58,11 @@ struct StraightContact {
 impl StraightContactFinder {
     /// Adds a column's contacts.
     ///
-    /// The sweep looks the same all along the path, so the share of a contact depends only on its place across the path: on
-    /// `rise`, its height measured square to the path, and on its distance to the side. It grows inwards, and upwards unless the
-    /// path descends. Without detail, columns that another one dominates (further in and higher; on a descent, over a
-    /// wider range of rise) are not looked at more closely.
+    /// The sweep is the same all along the path, so the advance ratio of a contact depends only on its
+    /// position across the path: on `rise`, its height measured square to the path, and on its lateral
+    /// distance. The ratio grows inwards, and it grows upwards unless the path descends. A column is
+    /// dominated by another one that is further in and higher, or on a descent further in with a wider range
+    /// of rise. Without detail, dominated columns are not examined more closely.
     #[inline]
     pub fn add_column_contacts(
         &self,
@@ -80,17 +82,20 @@ impl StraightContactFinder {
         }
     }
 
-    /// Whether a column's material is in the cutter before it moves: how it was reached is not known.
+    /// Returns whether a column's material is in the cutter before it moves. How the cutter reached it is
+    /// then not known.
     fn is_inside_at_start(&self, column: &RemovedColumn) -> bool {
         let rho = hypot_fast(column.along, column.left);
         rho < self.profile.radius_mm() && column.top > self.start_height_mm(rho) + 1e-3
     }
 
+    /// Returns the height of the cutter's surface at the start, at a distance from the axis.
     fn start_height_mm(&self, rho: f64) -> f64 {
         self.first + self.profile.height_at_radius_mm(rho)
     }
 
-    /// A contact of which nothing is known but that it is: it has the largest share there can be.
+    /// Makes a contact for material that was reached in an unknown way. It gets the largest advance ratio
+    /// there can be.
     fn unknown_contact(&self, column: &RemovedColumn) -> BinContact {
         let rho = hypot_fast(column.along, column.left);
         BinContact {
@@ -104,7 +109,7 @@ impl StraightContactFinder {
         }
     }
 
-    /// Looks at a column closely.
+    /// Examines a column and adds its contacts to the bins.
     #[inline(never)]
     fn examine_column(
         &self,
@@ -117,18 +122,22 @@ impl StraightContactFinder {
         let depth = top - low;
         let bottom = self.last_contact(along, left, surface);
         let upper = self.first_contact(along, left, top, bottom);
+        // From a surface whose normal has the angle psi from the vertical up to a level surface at `depth`
+        // above it, the thickness along the normal is depth / cos(psi).
         let steepness = if upper.cos > 1e-3 { 1.0 / upper.cos } else { f64::INFINITY };
         let thickness = depth * steepness;
         let heights = [bottom.height.min(upper.height), upper.height.max(bottom.height)];
         partial.add_column(depth as f32, left as f32, heights.map(|height| height as f32));
         let angle = atan2_fast(left as f32, upper.ahead as f32);
-        // What was in the cutter from the start tells nothing about what it meets on its way.
+        // Material that was in the cutter from the start tells nothing about the material on its path.
         if along - upper.ahead > 1e-6 {
             partial.remember_contact(place, self.along >= 0.0, steepness, angle);
         }
         let mut give = |touch: &StraightContact, cap: f64| {
             partial.add_contact(&self.bin_contact(touch, left, thickness, cap))
         };
+        // On a descent the largest ratio may be between the two contacts, where the normal points along the
+        // path.
         let mut cap = 0.0;
         if self.along < 0.0 {
             cap = self.max_ratio_between(&bottom, &upper);
@@ -143,7 +152,8 @@ impl StraightContactFinder {
         }
     }
 
-    /// Where a column's contacts lie across the path. Straight down, the share only depends on the distance from the axis.
+    /// Returns the position of a column's contacts across the path. On a path straight down, the advance
+    /// ratio only depends on the distance from the axis.
     #[inline]
     fn cross_path_position(&self, column: &RemovedColumn) -> CrossPathPosition {
         let RemovedColumn { along, left, low, top } = *column;
@@ -151,18 +161,22 @@ impl StraightContactFinder {
             let rho = hypot_fast(along, left);
             return CrossPathPosition { least: rho, greatest: -rho, side: 0.0 };
         }
+        // The height square to the path: z times the cosine of the slope minus the distance times its sine.
         let rise = |z: f64| (z - self.start) * self.across - along * self.along;
         CrossPathPosition { least: rise(low), greatest: rise(top), side: left.abs() }
     }
 
-    /// A contact as the bins take it. `cap` is a share that is reached between this touch and another.
+    /// Converts a contact for the bins. `cap` is an advance ratio that is reached between this contact and
+    /// another one.
     fn bin_contact(&self, touch: &StraightContact, left: f64, thickness: f64, cap: f64) -> BinContact {
-        // The border of the ground lies half a cell further in than the last column on average, and at most a whole one.
+        // The boundary of the material is half a cell further in than the last column on average, and at most
+        // a whole cell.
         let share = |shift: f64| {
             let q = (left.abs() - shift).max(0.0);
             let ahead = (touch.rho * touch.rho - q * q).max(0.0).sqrt();
             let ahead = if touch.ahead < 0.0 { -ahead } else { ahead };
             let turned = if touch.rho > 0.0 { ahead / touch.rho } else { 1.0 };
+            // The advance ratio v.n / |v| with n = (sin psi cos theta, sin psi sin theta, -cos psi).
             (self.across * turned * touch.sin - self.along * touch.cos).max(cap).clamp(0.0, 1.0) as f32
         };
         let angle = atan2_fast(left as f32, touch.ahead as f32);
@@ -172,27 +186,30 @@ impl StraightContactFinder {
             share: share(self.cell / 2.0),
             share_bound: share(self.cell),
             radial: touch.sin as f32,
-            // Between two columns material may be thicker by what the surface rises over half a cell.
+            // Between two columns, material may be thicker by the rise of the surface over half a cell.
             thickness: (thickness + self.cell / 2.0 * touch.sin) as f32,
         }
     }
 
-    /// The largest share between two touches of one column on a descent: there the corner's normal may point straight ahead
-    /// along the path.
+    /// Returns the largest advance ratio between two contacts of one column on a descent, where the corner's
+    /// normal may point straight along the path. Returns 0 if it does not.
     fn max_ratio_between(&self, bottom: &StraightContact, upper: &StraightContact) -> f64 {
         if self.profile.corner_radius_mm() <= 0.0 || upper.rho <= 0.0 {
             return 0.0;
         }
+        // Over the angle psi of the normal the ratio is forward sin psi + down cos psi. Its maximum, at tan
+        // psi = forward / down, is the root of the sum of squares.
         let forward = self.across * upper.ahead / upper.rho;
         let down = -self.along;
-        // Angles from straight down, compared by their tangents; the bottom's is negative where the contact lies behind the axis.
+        // Angles from straight down are compared by their tangents. The lower contact's angle is negative if
+        // the contact is behind the axis.
         let behind = if bottom.ahead < 0.0 { -bottom.sin } else { bottom.sin };
         let after_bottom = forward * bottom.cos >= down * behind;
         let before_upper = forward * upper.cos <= down * upper.sin;
         if after_bottom && before_upper { (forward * forward + down * down).sqrt() } else { 0.0 }
     }
 
-    /// The contact that leaves the surface over a column.
+    /// Returns the contact that leaves the final surface over a column.
     fn last_contact(&self, along: f64, left: f64, surface: &CutterUnderside) -> StraightContact {
         let at = if self.across > 0.0 {
             (along - f64::from(surface.contact_ahead_mm(left.abs() as f32))).clamp(0.0, self.length)
@@ -205,7 +222,8 @@ impl StraightContactFinder {
         StraightContact { ahead, rho, height: self.profile.height_at_radius_mm(rho), sin, cos }
     }
 
-    /// The contact with which the cutter first reaches a point of a column at height `z`; `lowest` is its last.
+    /// Returns the contact with which the cutter first reaches the point of a column at height `z`. `lowest`
+    /// is the column's last contact.
     fn first_contact(&self, along: f64, left: f64, z: f64, lowest: StraightContact) -> StraightContact {
         if self.across <= 1e-9 {
             return lowest;
@@ -219,10 +237,11 @@ impl StraightContactFinder {
             StraightContact { ahead, rho: hypot_fast(ahead, left), height, sin, cos }
         };
         if self.profile.taper_rad() <= 0.0 {
-            // The cylinder comes first wherever the point is above the corner when it arrives.
+            // The cylinder comes first wherever the point is above the corner radius when the cylinder
+            // arrives.
             let at = along - (flank_radius * flank_radius - left * left).max(0.0).sqrt();
             let height = z - tip(at);
-            // Heights are f32: what is a hair below the flank's lower end is at it.
+            // Heights are `f32`, so a point slightly below the flank's lower end counts as at it.
             if at >= -1e-4 && height >= flank_height - 1e-4 {
                 return on(at, height.max(flank_height));
             }
@@ -237,6 +256,7 @@ impl StraightContactFinder {
                 return on(at, z - tip(at));
             }
         }
+        // On a level path a point keeps its height on the cutter, so the circle of that height arrives first.
         if slope == 0.0 {
             let height = z - self.start;
             let radius = self.profile.radius_at_height_mm(height);
@@ -246,15 +266,18 @@ impl StraightContactFinder {
         on(at, (z - tip(at)).max(0.0))
     }
 
-    /// Distance across at which a ball reaches a point, given relative to its centre at the start.
+    /// Returns the distance across at which a ball first reaches a point, which is given relative to the
+    /// ball's centre at the start.
     fn ball_contact_distance_mm(&self, along: f64, left: f64, up: f64, radius: f64) -> f64 {
+        // The smaller root s of |p - s u|^2 = R^2: s = p.u - sqrt((p.u)^2 - |p|^2 + R^2).
         let travelled = along * self.across + up * self.along;
         let apart2 = along * along + left * left + up * up - radius * radius;
         (travelled - (travelled * travelled - apart2).max(0.0).sqrt()) * self.across
     }
 
-    /// First distance across at which the point is inside: the height of the point over the profile is concave along the path,
-    /// so its first zero lies between the cutter's arrival and the lowest contact; found by false position (Illinois).
+    /// Returns the first distance across at which a point is inside the cutter. The height of the point over
+    /// the cutter's surface is concave along the path, so its first zero is between the cutter's arrival and
+    /// the lowest contact. It is found by the method of false position (Illinois variant).
     fn first_contact_distance_mm(&self, along: f64, left: f64, z: f64, slope: f64, until: f64) -> f64 {
         let radius = self.profile.radius_mm();
         let over = |at: f64| {
@@ -285,12 +308,14 @@ impl StraightContactFinder {
     }
 }
 
-/// Length of a vector; plain, for nothing here is near the ends of `f64`'s range.
+/// Returns the length of a vector without the care of `hypot`, since no value here is near the ends of the
+/// range of `f64`.
 fn hypot_fast(a: f64, b: f64) -> f64 {
     (a * a + b * b).sqrt()
 }
 
-/// `atan2` to 2e-4 radians, a seventieth of the bins that it is for, in a few instructions (odd polynomial of degree 7).
+/// Computes `atan2` to 2e-4 radians with an odd polynomial of degree 7. That is a 250th of a bin, and takes
+/// only a few instructions.
 fn atan2_fast(y: f32, x: f32) -> f32 {
     use std::f32::consts::{FRAC_PI_2, PI};
     let (small, large) = (x.abs().min(y.abs()), x.abs().max(y.abs()));

@@ -1,28 +1,29 @@
-//! Which columns of a row a straight piece can change.
+//! This module finds the columns of a row that a straight piece can change.
 
-/// The ground that a disc of some radius covers on a straight piece, seen from the start of the piece.
+/// The ground that a disc covers on a straight piece, in coordinates from the start of the piece, mm.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct StraightFootprint {
-    /// Unit direction across, zero for a piece straight along the axis.
+    /// The horizontal unit direction; zero for a piece straight along the axis.
     pub direction: [f64; 2],
-    /// Horizontal length.
+    /// The horizontal length.
     pub length: f64,
-    /// Radius of the disc.
+    /// The radius of the disc.
     pub radius: f64,
-    /// Ground before this distance along the path was cleared by the piece before; negative infinity if it was not.
+    /// The distance along the path before which the piece before has cleared the ground; negative infinity if
+    /// it has not.
     pub cleared_before: f64,
-    /// Radius of the disc at the start that was cleared already, 0 for none.
+    /// The radius of the disc around the start that is already cleared; 0 if there is none.
     pub cleared_disc: f64,
 }
 
 impl StraightFootprint {
-    /// Least and greatest y.
+    /// Returns the least and the greatest y.
     pub fn y_range(&self) -> [f64; 2] {
         let end = self.direction[1] * self.length;
         [end.min(0.0) - self.radius, end.max(0.0) + self.radius]
     }
 
-    /// At most two stretches of x in a row at `y`; an empty one has its ends in the wrong order.
+    /// Returns at most two ranges of x in the row at `y`. An empty range has its ends in the wrong order.
     pub fn x_ranges(&self, y: f64) -> [[f64; 2]; 2] {
         let none = [f64::INFINITY, f64::NEG_INFINITY];
         let Some(mut whole) = self.covered_x_range(y) else { return [none; 2] };
@@ -37,8 +38,9 @@ impl StraightFootprint {
         [whole, none]
     }
 
-    /// The stretch of a row that the disc covers on its way: the start's and end's chords, and where the row crosses the borders
-    /// between them.
+    /// Returns the range of x that the disc covers on its path in the row at `y`. Its ends are ends of the
+    /// chords at the start and the end of the piece, or points where the row crosses the two lines between
+    /// them.
     fn covered_x_range(&self, y: f64) -> Option<[f64; 2]> {
         let [ux, uy] = self.direction;
         let mut found = [f64::INFINITY, f64::NEG_INFINITY];
@@ -52,6 +54,7 @@ impl StraightFootprint {
         }
         if uy != 0.0 {
             for side in [-self.radius, self.radius] {
+                // The side lines are at lateral distance +-R from the path: y ux - x uy = side, solved for x.
                 let x = (ux * y - side) / uy;
                 if (0.0..=self.length).contains(&(x * ux + y * uy)) {
                     add(x, x);
@@ -61,7 +64,8 @@ impl StraightFootprint {
         (found[0] <= found[1]).then_some(found)
     }
 
-    /// The stretches of a row in the ring around the end of the path that lies ahead of it, `width` wide.
+    /// Returns the ranges of x in a ring around the end of the path, `width` wide, of which only the part
+    /// ahead of the end counts.
     pub fn x_ranges_ahead(&self, y: f64, width: f64) -> [[f64; 2]; 2] {
         let [ux, uy] = self.direction;
         let (x, dy) = (ux * self.length, y - uy * self.length);
@@ -74,7 +78,8 @@ impl StraightFootprint {
         [ahead([x - outer, x - inner]), ahead([x + inner, x + outer])]
     }
 
-    /// The stretch of a row beside the path, between two lateral distances on one side and the ends of the path.
+    /// Returns the range of x beside the path, between two lateral distances and between the ends of the
+    /// path.
     pub fn x_range_beside(&self, y: f64, lateral: [f64; 2]) -> [f64; 2] {
         let [ux, uy] = self.direction;
         let all = [f64::NEG_INFINITY, f64::INFINITY];
@@ -85,7 +90,7 @@ impl StraightFootprint {
     }
 }
 
-/// The part of a stretch where `slope * x >= least`.
+/// Returns the part of a range where `slope * x >= least`.
 fn clip_to_half_plane([from, to]: [f64; 2], slope: f64, least: f64) -> [f64; 2] {
     if slope > 1e-12 {
         [from.max(least / slope), to]

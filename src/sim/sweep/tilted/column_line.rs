@@ -1,20 +1,20 @@
-//! A column's line in the frame of a tilted cutter.
+//! This module describes the line of a column in the frame of a tilted cutter.
 
-/// A vertical line seen from a pose of the cutter; `s` counts upwards from the tip's height.
+/// A vertical line relative to a pose of the cutter; `s` counts upwards from the tip's height, mm.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ColumnLine {
-    /// Height along the axis at s = 0.
+    /// The height along the axis at s = 0.
     pub height: f64,
-    /// Its growth: z part of the axis.
+    /// The growth of that height with s, which is the z component of the axis.
     pub rise: f64,
-    /// Square of the distance from the axis at s = 0.
+    /// The square of the distance from the axis at s = 0.
     pub across2: f64,
-    /// Square of the axis' horizontal part.
+    /// The square of the axis' horizontal component.
     pub lean2: f64,
 }
 
 impl ColumnLine {
-    /// A line at a horizontal offset from the tip of a cutter with a unit axis.
+    /// Makes the line at a horizontal offset from the tip of a cutter with a unit axis.
     #[inline]
     pub fn new([x, y]: [f64; 2], axis: [f64; 3]) -> Self {
         let [ax, ay, az] = axis;
@@ -22,19 +22,21 @@ impl ColumnLine {
         Self { height, rise: az, across2: x * x + y * y - height * height, lean2: ax * ax + ay * ay }
     }
 
-    /// Height along the axis.
+    /// Returns the height along the axis at `s`.
     #[inline]
     pub fn axial_height_at(&self, s: f64) -> f64 {
         self.height + self.rise * s
     }
 
-    /// Square of the distance from the axis.
+    /// Returns the square of the distance from the axis at `s`.
     #[inline]
     pub fn squared_radius_at(&self, s: f64) -> f64 {
+        // |p|^2 - (p.a)^2 with p = (x, y, s), as a polynomial in s.
         (self.across2 + s * (self.lean2 * s - 2.0 * self.height * self.rise)).max(0.0)
     }
 
-    /// The part between two heights along the axis.
+    /// Returns the range of `s` between two heights along the axis, or `None` for a line across the axis
+    /// outside of them.
     #[inline]
     pub fn clip_to_heights(&self, low: f64, high: f64) -> Option<[f64; 2]> {
         if self.rise.abs() < 1e-9 {

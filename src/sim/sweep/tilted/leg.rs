@@ -1,58 +1,61 @@
-//! A leg: a stretch of a piece on which the axis turns so little that the sweep's surface over a column has one valley.
+//! This module divides a piece into legs: parts on which the axis turns so little that the sweep's surface
+//! over a column has only one minimum in time.
 
 use super::column_line::ColumnLine;
 use super::revolved_solid::RevolvedSolid;
 use nalgebra::Vector3;
 
-/// A place of the cutter, heights from the grid's base.
+/// A pose of the cutter; heights count from the grid's base.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct GridPose {
     pub tip: Vector3<f64>,
     pub axis: Vector3<f64>,
 }
 
-/// Which end of the solid's interval in a column.
+/// The end of the interval in which a column is inside the cutter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum SolidSpanEnd {
     Lower,
     Upper,
 }
 
-/// The solid over a column at one time. For the upper side heights are turned round, so that low is always far.
+/// The cutter over a column at one time. For the upper end the sign of the value is reversed, so that a lower
+/// value always means that more is cut.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SolidColumnSample {
     pub value: f64,
-    /// Change of the value over the leg.
+    /// The change of the value per leg.
     pub slope: f64,
-    /// Height of the other end.
+    /// The height of the other end.
     pub other: f64,
 }
 
-/// A stretch of a piece; its own time runs from 0 to 1.
+/// A part of a piece; its own time runs from 0 to 1.
 #[derive(Debug, Clone)]
 pub(super) struct SweepLeg {
     pub from: GridPose,
     pub to: GridPose,
-    /// The tip's way, and the turn as a vector.
+    /// The tip's displacement, and the turn of the axis as a rotation vector.
     pub travel: Vector3<f64>,
     pub spin: Vector3<f64>,
-    /// Angle of the turn, and the direction into which the axis leaves.
+    /// The angle of the turn in radians, and the direction in which the axis starts to move.
     pub angle: f64,
     toward: Vector3<f64>,
 }
 
-/// The whole piece's motion.
+/// The motion of the whole piece.
 #[derive(Debug, Clone)]
 pub(super) struct TurningMotion {
     from: GridPose,
     travel: Vector3<f64>,
     toward: Vector3<f64>,
-    /// Angle between the two axes.
+    /// The angle between the two axes, radians.
     pub angle: f64,
 }
 
 impl TurningMotion {
-    /// Tip straight, axis along the great circle; opposite axes turn through some direction across.
+    /// Makes the motion on which the tip moves straight and the axis along the great circle. Between opposite
+    /// axes the great circle is not unique, and any of them is taken.
     pub fn new(from: GridPose, to: GridPose) -> Self {
         let cross = from.axis.cross(&to.axis);
         let cos = from.axis.dot(&to.axis);
@@ -66,10 +69,11 @@ impl TurningMotion {
         Self { from, travel: to.tip - from.tip, toward, angle }
     }
 
-    /// The motion in equal legs.
+    /// Divides the motion in equal legs.
     pub fn split_legs(&self, count: usize) -> Vec<SweepLeg> {
         let part = 1.0 / count as f64;
         let at = |share: f64| {
+            // Slerp, written with the direction of the turn: a(t) = a cos(t angle) + d sin(t angle).
             let (sin, cos) = (self.angle * share).sin_cos();
             let axis = self.from.axis * cos + self.toward * sin;
             (
@@ -82,6 +86,7 @@ impl TurningMotion {
                 let (from, toward) = at(index as f64 * part);
                 let (to, _) = at((index + 1) as f64 * part);
                 let angle = self.angle * part;
+                // The rotation vector is the axis cross the direction in which it moves, times the angle.
                 let spin = from.axis.cross(&toward) * angle;
                 SweepLeg { from, to, travel: self.travel * part, spin, angle, toward }
             })
@@ -89,7 +94,8 @@ impl TurningMotion {
     }
 }
 
-/// Sine and cosine; of the small angles of most legs by their series, to 1e-12.
+/// Returns the sine and cosine of an angle. Most legs turn by a small angle, for which series are exact to
+/// 1e-12.
 #[inline]
 fn small_sin_cos(angle: f64) -> (f64, f64) {
     if angle > 0.05 {
@@ -100,14 +106,14 @@ fn small_sin_cos(angle: f64) -> (f64, f64) {
     (sin, 1.0 - square / 2.0 * (1.0 - square / 12.0 * (1.0 - square / 30.0)))
 }
 
-/// A unit vector across an axis: along x as far as it can be, else along y.
+/// Returns a unit vector across an axis, as near to x as possible, or near to y for an axis along x.
 pub(super) fn unit_vector_across(axis: &Vector3<f64>) -> Vector3<f64> {
     let along = if axis.x.abs() < 1.0 - 1e-6 { Vector3::x() } else { Vector3::y() };
     (along - axis * along.dot(axis)).normalize()
 }
 
 impl SweepLeg {
-    /// The pose at a time.
+    /// Returns the pose at a time of the leg.
     #[inline]
     pub fn pose_at(&self, at: f64) -> GridPose {
         if at <= 0.0 {
@@ -124,13 +130,13 @@ impl SweepLeg {
         GridPose { tip, axis: self.from.axis * cos + self.toward * sin }
     }
 
-    /// Velocity of a point of the cutter, given from the tip.
+    /// Returns the velocity (displacement per leg) of a point of the cutter, which is given from the tip.
     #[inline]
     pub fn velocity_of(&self, from_tip: &Vector3<f64>) -> Vector3<f64> {
         if self.angle == 0.0 { self.travel } else { self.travel + self.spin.cross(from_tip) }
     }
 
-    /// The solid over a column at a time.
+    /// Returns the cutter over a column at a time of the leg, or `None` if it is not over the column.
     #[inline]
     pub fn sample_column(
         &self,
@@ -145,15 +151,18 @@ impl SweepLeg {
         let (s, sign) = if side == SolidSpanEnd::Lower { (low, 1.0) } else { (high, -1.0) };
         let here = Vector3::new(x, y, s);
         let (normal, _) = normal_and_distance(solid, &here, &axis);
-        // The lower surface looks down, the upper up; where they meet the surface is vertical.
+        // The normal points down on the lower surface and up on the upper one; where the two meet the surface
+        // is vertical.
         let up = (-sign * normal.z).max(1e-9) * -sign;
+        // The surface point over the column moves along z at v.n / n_z.
         let slope = sign * self.velocity_of(&here).dot(&normal) / up;
         let [value, other] = if side == SolidSpanEnd::Lower { [low, high] } else { [high, low] };
         Some(SolidColumnSample { value: sign * (tip.z + value), slope, other: tip.z + other })
     }
 }
 
-/// The outward unit normal of the face next to a point given from the tip, and how far outside the point is.
+/// Returns the outward unit normal of the nearest face to a point given from the tip, and the distance of the
+/// point outside of it.
 #[inline]
 pub(super) fn normal_and_distance(
     solid: &RevolvedSolid,

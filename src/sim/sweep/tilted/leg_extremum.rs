@@ -1,53 +1,56 @@
-//! The lowest (or highest) place of a leg's sweep over a column.
+//! This module finds the lowest (or highest) point of a leg's sweep over a column.
 //!
-//! Over one column let f(t) be the height of the solid's lower surface at time t. While the axis stands still, f is convex,
-//! because the solid is: tangents bound it from below, and the place where two of them meet is both the next guess and
-//! a bound for what can still be gained. Where the cutter is not over the column at all, the time of passing is needed first:
-//! [`PassingTime`] has it in closed form.
+//! Let f(t) be the height of the cutter's lower surface over one column at time t. While the axis does not
+//! turn, f is convex, because the cutter is. So tangents bound f from below, and the point where two of them
+//! meet is both the next guess and a bound for what can still be gained. If the cutter is over the column
+//! neither at the start nor at the end, the time of its passage is needed first; [`PassingTime`] has it in
+//! closed form.
 
 use super::leg::{SolidColumnSample, SolidSpanEnd, SweepLeg};
 use super::revolved_solid::RevolvedSolid;
 use nalgebra::Vector3;
 
-/// What is asked of a column.
+/// The question about a column.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LegExtremumQuery {
     pub side: SolidSpanEnd,
-    /// A value this low is as good as any.
+    /// The search may stop at a value this low.
     pub enough: f64,
-    /// Values from this on change nothing.
+    /// Values from this one upwards change nothing.
     pub useless: f64,
-    /// The value may be too high by this.
+    /// The result may be too high by this much.
     pub tolerance: f64,
 }
 
-/// What was found: the least value, and the furthest that the other end was seen.
+/// The answer: the least value, and the furthest height of the other end in any sample.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LegExtremum {
     pub value: f64,
     pub other: f64,
 }
 
-/// When the cutter passes a column most squarely. Seen from above, the solid is a stack of ellipses; the one that reaches
-/// furthest over the column's line of travel is known from the lateral distance, and the middle of its chord along the travel
-/// is inside whenever the column is passed at all. Exact while the axis stands still; else of the middle of the leg.
+/// The time at which the cutter passes over a column most centrally. Seen from above, the cutter is a stack
+/// of ellipses. The lateral distance of the column selects the ellipse that reaches furthest over the
+/// column's line of travel, and the middle of that ellipse's chord along the travel is inside whenever the
+/// column is passed at all. This is exact while the axis does not turn; otherwise it holds for the middle of
+/// the leg.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PassingTime {
     tip: [f64; 2],
     direction: [f64; 2],
-    /// Parts of the axis to the left of the travel and along it.
+    /// The components of the axis to the left of the travel and along it.
     left: f64,
     ahead: f64,
-    /// Heights of the ellipses that reach furthest to the right and to the left, in ascending order.
+    /// The heights of the ellipses that reach furthest to the right and to the left, in ascending order.
     heights: [f64; 2],
-    /// Shift of a chord's middle along the travel with its lateral distance.
+    /// The shift of a chord's middle along the travel per lateral distance.
     skew: f64,
-    /// Speed along the travel at the tip, and its growth with height.
+    /// The speed along the travel at the tip, and its growth with height.
     speed: [f64; 2],
 }
 
 impl PassingTime {
-    /// Of a leg; `None` where the solid does not move sideways.
+    /// Prepares the time for a leg; returns `None` if the cutter does not move sideways.
     pub fn new(leg: &SweepLeg, solid: &RevolvedSolid) -> Option<Self> {
         let middle = leg.pose_at(0.5);
         let axis = middle.axis;
@@ -60,6 +63,7 @@ impl PassingTime {
         let [ux, uy] = direction;
         let (left, ahead) = (axis.y * ux - axis.x * uy, axis.x * ux + axis.y * uy);
         let width2 = (1.0 - left * left).max(0.0);
+        // The direction to the left has the component `left` along the axis and sqrt(1 - left^2) across it.
         let [_, one] = solid.furthest_meridian_point(width2.sqrt(), left);
         let [_, two] = solid.furthest_meridian_point(width2.sqrt(), -left);
         let along = |v: &Vector3<f64>| v.x * ux + v.y * uy;
@@ -74,12 +78,14 @@ impl PassingTime {
         })
     }
 
-    /// The time for a column.
+    /// Returns the time for a column, from 0 to 1.
     fn time_over(&self, [x, y]: [f64; 2]) -> f64 {
         let [ux, uy] = self.direction;
         let (x, y) = (x - self.tip[0], y - self.tip[1]);
         let (along, aside) = (x * ux + y * uy, y * ux - x * uy);
         let [low, high] = self.heights;
+        // The centres of the ellipses are on the projected axis; take the one at the column's lateral
+        // distance, if it exists.
         let crossing = if self.left.abs() > 1e-12 { aside / self.left } else { low };
         let height = crossing.max(low).min(high);
         let rest = along - height * self.ahead - self.skew * (aside - height * self.left);
@@ -88,15 +94,15 @@ impl PassingTime {
     }
 }
 
-/// One end of the stretch of time that is still searched.
+/// One end of the time interval that is still searched.
 #[derive(Debug, Clone, Copy)]
 struct TimeBracketEnd {
     at: f64,
-    /// `None` where the cutter is not over the column.
+    /// The sample, or `None` if the cutter is not over the column then.
     sample: Option<SolidColumnSample>,
 }
 
-/// The least value over a column on a leg; `None` if the leg changes nothing there.
+/// Returns the least value over a column on a leg, or `None` if the leg changes nothing there.
 pub(super) fn find_leg_extremum(
     leg: &SweepLeg,
     solid: &RevolvedSolid,
@@ -123,7 +129,8 @@ pub(super) fn find_leg_extremum(
     let first = sample(0.0);
     let rises = |end: &TimeBracketEnd| end.sample.is_some_and(|sample| sample.slope >= 0.0);
     let falls = |end: &TimeBracketEnd| end.sample.is_some_and(|sample| sample.slope <= 0.0);
-    // What lies behind a cutter that goes on, or far ahead of it: the usual case, and done with one sample and its tangent.
+    // The usual case is a column behind a cutter that moves away, or far ahead of it. It is decided by one
+    // sample and its tangent.
     if first.sample.is_some_and(|sample| sample.value + sample.slope.min(0.0) >= ask.useless) {
         return None;
     }
@@ -131,6 +138,7 @@ pub(super) fn find_leg_extremum(
     let last = sample(1.0);
     let mut found = note(&last);
     let done = |found: LegExtremum| (found.value < ask.useless).then_some(found);
+    // A convex function that rises at the start or falls at the end has its minimum there.
     if rises(&first) || falls(&last) || found.value <= ask.enough {
         return done(found);
     }
@@ -140,11 +148,14 @@ pub(super) fn find_leg_extremum(
         let width = high.at - low.at;
         let at = match (&low.sample, &high.sample) {
             (Some(left), Some(right)) => {
+                // The tangents at both ends meet at `step`, and their height there bounds the minimum from
+                // below.
                 let step = (right.value - left.value - right.slope * width) / (left.slope - right.slope);
                 let bound = left.value + left.slope * step;
                 if bound >= ask.useless || found.value - bound <= ask.tolerance {
                     break;
                 }
+                // Every third round bisects, so that a slow side cannot stall the search.
                 let step = if round % 3 == 2 { width / 2.0 } else { step };
                 low.at + step.clamp(0.1 * width, 0.9 * width)
             }
@@ -159,6 +170,7 @@ pub(super) fn find_leg_extremum(
         if found.value <= ask.enough {
             break;
         }
+        // A sample without the cutter over the column lies on the side that has no sample either.
         match &here.sample {
             Some(sample) if sample.slope < 0.0 => low = here,
             Some(_) => high = here,

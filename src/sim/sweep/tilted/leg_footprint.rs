@@ -1,11 +1,12 @@
-//! The ground under a leg: which columns of a row it can change.
+//! This module finds the ground under a leg: the columns of a row that it can change.
 
 use super::leg::SweepLeg;
 use crate::sim::dexel::DexelGrid;
 use nalgebra::Vector3;
 use std::ops::Range;
 
-/// The hull of four discs of one radius, seen from above: the ends of the axis at the start and end of a leg.
+/// The convex hull, seen from above, of four discs of one radius around the lower and upper end of the axis
+/// at the start and at the end of a leg.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LegFootprint {
     centers: [[f64; 2]; 4],
@@ -13,8 +14,9 @@ pub(super) struct LegFootprint {
 }
 
 impl LegFootprint {
-    /// The ground of everything within a radius of the axis between two heights. While the axis turns, a point leaves the
-    /// straight line between its two ends by at most `distance angle^2 / 8`.
+    /// Makes the ground of everything within a radius of the axis between two heights. While the axis turns,
+    /// a point leaves the straight line between its two ends by at most `distance angle^2 / 8`, so the radius
+    /// is increased by that.
     pub fn new(leg: &SweepLeg, radius: f64, heights: [f64; 2]) -> Self {
         let [low, high] = heights;
         let at = |tip: &Vector3<f64>, axis: &Vector3<f64>, height: f64| {
@@ -30,14 +32,14 @@ impl LegFootprint {
         Self { centers, radius: radius + high.hypot(radius) * leg.angle * leg.angle / 8.0 }
     }
 
-    /// Rows of a grid.
+    /// Returns the rows of a grid that the ground touches.
     pub fn row_range(&self, layout: &DexelGrid) -> Range<usize> {
         let low = self.centers.iter().fold(f64::INFINITY, |least, [_, y]| least.min(*y)) - self.radius;
         let high = self.centers.iter().fold(f64::NEG_INFINITY, |most, [_, y]| most.max(*y)) + self.radius;
         center_index_range([low, high], layout.origin[1], layout.cell, layout.rows)
     }
 
-    /// Columns of a row of a grid.
+    /// Returns the columns of a row of a grid that the ground touches.
     pub fn column_range(&self, row: usize, layout: &DexelGrid) -> Range<usize> {
         let y = layout.column_center(0, row)[1];
         match self.x_range_at(y) {
@@ -46,7 +48,8 @@ impl LegFootprint {
         }
     }
 
-    /// Least and greatest x at y: chords of the discs, and crossings with the lines that touch two of them.
+    /// Returns the least and the greatest x at y. They are ends of chords of the discs, or points on the
+    /// lines that touch two discs.
     fn x_range_at(&self, y: f64) -> Option<[f64; 2]> {
         let radius = self.radius;
         let mut found = [f64::INFINITY, f64::NEG_INFINITY];
@@ -62,6 +65,7 @@ impl LegFootprint {
                 if dy.abs() <= 1e-9 * (1.0 + length) {
                     continue;
                 }
+                // A common tangent of two equal discs is their centre line moved by R to one side.
                 for side in [radius, -radius] {
                     let share = (y - cy - side * dx / length) / dy;
                     if (0.0..=1.0).contains(&share) {
@@ -75,7 +79,7 @@ impl LegFootprint {
     }
 }
 
-/// Columns or rows whose centres lie between two numbers.
+/// Returns the columns or rows whose centres are between two coordinates.
 fn center_index_range([low, high]: [f64; 2], origin: f64, cell: f64, count: usize) -> Range<usize> {
     let first = ((low - origin) / cell).ceil().clamp(0.0, count as f64) as usize;
     let end = (((high - origin) / cell).floor() + 1.0).clamp(0.0, count as f64) as usize;

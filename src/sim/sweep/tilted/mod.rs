@@ -1,19 +1,22 @@
-//! Pieces on which the tool axis is not along z: fixed and tilted (3+2), or turning on the way.
+//! This module sweeps pieces on which the tool axis is not along z: fixed and tilted (3+2), or turning.
 //!
-//! The piece is cut into legs on which the axis turns little ([`leg`]); over a column the sweep of a leg goes from the lowest
-//! place of the solid's lower surface to the highest of its upper one, each found as the least value of a convex
-//! function of time ([`leg_extremum`]), and what overlaps of the legs is put together.
+//! The piece is divided into legs on which the axis turns little ([`leg`]). Over a column, the sweep of a leg
+//! goes from the lowest point of the cutter's lower surface to the highest point of its upper one. Each of
+//! the two is the minimum of a convex function of time ([`leg_extremum`]). The intervals of all legs are then
+//! merged.
 //!
-//! **Error bound.** While the axis stands still, the only error is the search's: a tolerance `e = min(0.02 cell, 0.002 mm)`, of
-//! which it takes a quarter, measured along z. A turning axis adds concave parts to the surface over a column: for a rigid motion
-//! `f'' |n_z| = u.H u - n.(2 w x u + w x (w x r))`, with u the velocity of the column's point against the cutter, w the turn, H the
-//! surface's curvature (not negative, the solid being convex) and r the distance from the tip. So a leg of way l, angle a
-//! and reach r hides at most `a l + 1.5 r a^2` along the normal, half as much for the steps of a ball's sphere; legs are
-//! made so many that this is below e/2. So material is left that is thinner than e along the normal, and none is removed that
-//! the cutter did not reach, but for the rounding of heights.
+//! **Error bound.** While the axis does not turn, the only error is that of the search. Its tolerance along z
+//! is a quarter of `e = min(0.02 cell, 0.002 mm)`. A turning axis adds concave parts to the surface over a
+//! column. For a rigid motion `f'' |n_z| = u.H u - n.(2 w x u + w x (w x r))`, where u is the velocity of the
+//! column's point relative to the cutter, w the turn, H the surface's curvature (not negative, since the
+//! cutter is convex) and r the vector from the tip. So a leg of length l, angle a and reach r hides at most
+//! `a l + 1.5 r a^2` along the normal. On a ball-end mill only the travel along the axis counts as l. There
+//! are so many legs that this is below e/2. So the material that is wrongly left is thinner than e along the
+//! normal, and apart from the rounding of heights nothing is removed that the cutter did not reach.
 //!
-//! **Shares** relate to the tip's speed, as feeds do, so they exceed 1 where a turn moves the surface faster than the tip. Where the tip
-//! stands still ([`reference_length_mm`]) they relate to the fastest point of the flutes.
+//! **Advance ratios** refer to the tip's speed, as feeds do, so they exceed 1 where a turn moves the surface
+//! faster than the tip. If the tip stands still, they refer to the fastest point of the flutes
+//! ([`reference_length_mm`]).
 
 mod column_line;
 mod leg;
@@ -37,13 +40,14 @@ use revolved_solid::RevolvedSolid;
 use std::ops::Range;
 use tilted_contact::TiltedContactFinder;
 
-/// Tips closer together than this (mm) stand still: below the resolution of any file.
+/// Tips that are closer together than this (mm) count as standing still. It is below the resolution of any
+/// file.
 const STILL: f64 = 1e-7;
 
-/// Most legs of a piece.
+/// The most legs of a piece.
 const MOST: f64 = 4096.0;
 
-/// A leg with what every column asks of it.
+/// A leg with the values that every column needs.
 #[derive(Debug, Clone)]
 struct PreparedLeg {
     passing: Option<PassingTime>,
@@ -51,7 +55,7 @@ struct PreparedLeg {
     lowest: f64,
 }
 
-/// A piece with a tilted axis, made ready for any band of columns.
+/// A piece with a tilted axis that is prepared for any band of columns.
 #[derive(Debug, Clone)]
 pub(in crate::sim) struct TiltedSweep {
     legs: Vec<(SweepLeg, RevolvedSolid)>,
@@ -64,8 +68,8 @@ pub(in crate::sim) struct TiltedSweep {
     layout: DexelGrid,
 }
 
-/// Length of the way that shares relate to: the tip's, or, where it stands still, that of the outermost point of flutes of a radius and
-/// a length.
+/// Returns the length of path that advance ratios refer to, mm: the tip's path or, if the tip stands still,
+/// the path of the outermost point of flutes with a radius and a length.
 pub(in crate::sim) fn reference_length_mm(piece: &PathPiece, [radius, flutes]: [f64; 2]) -> f64 {
     let travel = (piece.to.point - piece.from.point).norm();
     if travel > STILL {
@@ -76,7 +80,7 @@ pub(in crate::sim) fn reference_length_mm(piece: &PathPiece, [radius, flutes]: [
 }
 
 impl TiltedSweep {
-    /// A piece between two poses.
+    /// Prepares a piece between two poses.
     pub fn new(piece: &PathPiece, cutter: &CutterModel, layout: &DexelGrid, around: SweepContext) -> Self {
         let base = Vector3::new(0.0, 0.0, layout.base);
         let [from, to] = [piece.from, piece.to].map(|place| GridPose {
@@ -91,12 +95,15 @@ impl TiltedSweep {
             &cutter.profile,
             reachable_height_mm(&from, &to, cutter.radius_mm(), highest),
         );
+        // A sphere looks the same after a turn, so on a ball only the travel along the axis adds to what is
+        // hidden.
         let way = if solid.is_ball() {
             travel.dot(&from.axis).abs().max(travel.dot(&to.axis).abs())
         } else {
             travel.norm()
         };
         let far = solid.top_mm().hypot(solid.radius_mm());
+        // The hidden thickness falls with the square of the number of legs.
         let hidden = turn.angle * way + 1.5 * far * turn.angle * turn.angle;
         let count = (hidden / (0.5 * tolerance)).sqrt().ceil().clamp(1.0, MOST);
         let legs = turn.split_legs(count as usize);
@@ -126,7 +133,7 @@ impl TiltedSweep {
             rows.end = rows.end.max((more.end + margin).min(layout.rows));
         };
         if cuts {
-            // Beside the flank one row more is looked at.
+            // Slivers beside the flank may be one row further out.
             parts.iter().for_each(|part| widen(&part.ground, 2));
         }
         guards.iter().for_each(|guard| legs.iter().for_each(|leg| widen(&guard.leg_footprint(leg), 0)));
@@ -160,7 +167,7 @@ impl TiltedSweep {
         }
     }
 
-    /// Rows that the piece can change.
+    /// Returns the rows that the piece can change.
     pub fn row_range(&self) -> Range<usize> {
         self.rows.clone()
     }
@@ -231,7 +238,7 @@ impl TiltedSweep {
             band.cut_column(index, *from as f32, *to as f32, |low, top| {
                 let taken = [f64::from(low), f64::from(top)];
                 if taken[1] - taken[0] < self.tolerance / 4.0 {
-                    // A film that rounding left is no contact.
+                    // A film that rounding left is not a contact.
                     partial.removed += taken[1] - taken[0];
                 } else {
                     self.touches.add_column_contacts(place, taken, &self.legs, partial);
@@ -240,7 +247,7 @@ impl TiltedSweep {
         }
     }
 
-    /// What a leg takes out of a column whose material is between two heights.
+    /// Returns the interval that a leg removes from a column whose material is between two heights.
     fn leg_span(
         &self,
         leg: &SweepLeg,
@@ -258,6 +265,7 @@ impl TiltedSweep {
             tolerance,
         };
         let found = find_leg_extremum(leg, solid, passing, place, lower)?;
+        // The usual cut is open upwards, so the search for the upper surface can be skipped.
         if found.other >= top {
             return Some([found.value, f64::INFINITY]);
         }
@@ -272,17 +280,18 @@ impl TiltedSweep {
     }
 }
 
-/// Height above the tip up to which the cutter can meet material below a height.
+/// Returns the height above the tip up to which the cutter can meet material that ends at the height
+/// `highest`.
 fn reachable_height_mm(from: &GridPose, to: &GridPose, radius: f64, highest: f64) -> f64 {
     let rise = from.axis.z.min(to.axis.z);
-    // Between two axes that look up, all look up as steeply.
+    // Between two axes that point upwards, every axis points upwards at least as steeply as one of them.
     if rise < 0.05 {
         return f64::INFINITY;
     }
     ((highest - from.tip.z.min(to.tip.z) + radius) / rise).max(0.0)
 }
 
-/// Adds an interval to some that do not touch.
+/// Merges an interval into a list of intervals that do not touch.
 fn merge_span(spans: &mut Vec<[f64; 2]>, [mut low, mut high]: [f64; 2]) {
     spans.retain(|[from, to]| {
         let apart = *to < low || *from > high;

@@ -1,4 +1,5 @@
-//! What a tilted piece passes closely: material beside the flank, and collars in material.
+//! This module examines what a tilted piece passes closely: material beside the flank, and shanks and holders
+//! in material.
 
 use super::leg::{SolidSpanEnd, SweepLeg, unit_vector_across};
 use super::leg_extremum::{LegExtremumQuery, PassingTime, find_leg_extremum};
@@ -7,23 +8,24 @@ use super::revolved_solid::RevolvedSolid;
 use crate::sim::dexel::{DexelBand, DexelGrid};
 use nalgebra::Vector3;
 
-/// Where the flank is widest across the path: a line of points on each side that moves with the cutter.
+/// The two lines on the flank where it is widest across the path, one on each side. They move with the
+/// cutter.
 #[derive(Debug, Clone)]
 pub(super) struct FlankSilhouette {
-    /// Radius where the flank begins, and its growth with height.
+    /// The radius where the flank begins, and its growth with height.
     pub radius: f64,
     pub slope: f64,
-    /// Heights above the tip.
+    /// The lowest and the highest height above the tip, mm.
     pub heights: [f64; 2],
-    /// Part of the travel across the axis.
+    /// The component of the travel across the axis.
     pub across: f64,
     pub direction: Option<Vector3<f64>>,
 }
 
 impl FlankSilhouette {
-    /// Share of a sliver that the grid may hide beside the flank, if there is material in any column one cell further out
-    /// than the flank passes, at a height where the flank passes it; else 0. Slivers above or below, where columns know
-    /// exact heights, are not hidden.
+    /// Returns the advance ratio of a sliver that the grid may hide beside the flank. It is not 0 if a column
+    /// one cell further out than the flank has material at a height where the flank passes. Slivers above or
+    /// below are not hidden, since columns have exact heights.
     pub fn hidden_sliver_ratio(
         &self,
         leg: &SweepLeg,
@@ -46,6 +48,7 @@ impl FlankSilhouette {
         if level < 1e-6 || from >= to {
             return 0.0;
         }
+        // A sliver begins at most a cell inside the flank, where cos(theta) = sqrt(1 - (inner / R)^2).
         let inner = (self.radius - cell * level).max(0.0) / self.radius;
         let share = self.across * (1.0 - inner * inner).max(0.0).sqrt();
         if share <= known {
@@ -53,6 +56,7 @@ impl FlankSilhouette {
         }
         let lean = axis.x.hypot(axis.y);
         let length = leg.travel.norm() + leg.spin.norm() * to;
+        // Steps along the leg and along the lines are at most a cell, so that no column is left out.
         let steps = (length / cell).ceil().max(1.0) as usize;
         let stack = ((to - from) * lean / cell).ceil().max(1.0) as usize;
         for step in 0..=steps {
@@ -78,7 +82,7 @@ impl FlankSilhouette {
     }
 }
 
-/// Whether the column next to a place holds material between two heights.
+/// Returns whether the column nearest to a point has material between two heights.
 fn has_material_between(
     band: &DexelBand,
     layout: &DexelGrid,
@@ -93,12 +97,12 @@ fn has_material_between(
         return false;
     }
     let index = (row as usize - band.first_row) * band.columns + column as usize;
-    // Ground that the cutter itself left touches it; a thousandth is no sliver.
+    // The ground that the cutter itself left touches it, so a thousandth of a mm does not count.
     let (low, high) = ((low + 1e-3) as f32, (high - 1e-3) as f32);
     band.column_spans(index).any(|[from, to]| from < high && to > low)
 }
 
-/// A collar of a piece.
+/// A shank or holder of a piece, with its index in the cutter's list.
 #[derive(Debug, Clone)]
 pub(super) struct NonCuttingSolid {
     pub index: usize,
@@ -106,12 +110,13 @@ pub(super) struct NonCuttingSolid {
 }
 
 impl NonCuttingSolid {
-    /// Ground under a leg.
+    /// Returns the ground under a leg.
     pub fn leg_footprint(&self, leg: &SweepLeg) -> LegFootprint {
         LegFootprint::new(leg, self.solid.radius_mm(), [self.solid.floor_mm(), self.solid.top_mm()])
     }
 
-    /// Greatest depth in a row to which the collar is below the top of material, where the topmost interval meets it.
+    /// Returns the greatest depth in a row by which the solid is below the top of material that it meets, mm;
+    /// 0 if it meets none.
     pub fn collision_depth_mm(
         &self,
         leg: &SweepLeg,
@@ -127,7 +132,7 @@ impl NonCuttingSolid {
         for column in self.leg_footprint(leg).column_range(row, layout) {
             let Some(top) = band.top.get(offset + column).filter(|top| **top > lowest) else { continue };
             for [from, to] in band.column_spans(offset + column) {
-                // Only what is deeper than known matters.
+                // Only a greater depth than the known one matters.
                 let useless = f64::from(to) - deepest.max(tolerance);
                 let ask = LegExtremumQuery {
                     side: SolidSpanEnd::Lower,
@@ -148,7 +153,7 @@ impl NonCuttingSolid {
     }
 }
 
-/// Lowest height that a solid reaches on a leg, not above the true one.
+/// Returns a lower bound of the heights that a solid reaches on a leg.
 pub(super) fn lowest_height_on_leg(leg: &SweepLeg, solid: &RevolvedSolid) -> f64 {
     let at = |tip: &Vector3<f64>, axis: &Vector3<f64>| {
         let [down, _] = solid.furthest_meridian_point(axis.x.hypot(axis.y), -axis.z);

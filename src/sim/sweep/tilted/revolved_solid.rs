@@ -1,21 +1,22 @@
-//! The cutting solid and where a vertical line meets it.
+//! This module holds the cutter as a solid and intersects it with vertical lines.
 //!
-//! A convex solid of revolution, taken as the union of three convex parts that it contains: the cone below, the corner (all
-//! points within the corner radius of a disc; a sphere for a ball) and the flank. So a line meets the solid in the hull of
-//! what it meets of the parts. Cones, cylinders, plates and spheres are quadratics; only the corner's torus is iterated.
+//! The solid is a convex solid of revolution. It is the union of three convex parts: the cone of the bottom,
+//! the corner (all points within the corner radius of a disc; a sphere for a ball) and the flank. So a line
+//! meets the solid in the interval that spans its intersections with the parts. Cones, cylinders, planes and
+//! spheres lead to quadratic equations; only the corner's torus needs iteration.
 
 use super::column_line::ColumnLine;
 use crate::sim::{Meridian, NonCuttingCylinder};
 
-/// Normal distance (mm) to which the corner's torus is found.
+/// The distance along the normal (mm) to which the corner's torus is found.
 const CLOSE: f64 = 1e-7;
 
-/// A piece of a cone or cylinder around the axis.
+/// A part of a cone or cylinder around the axis.
 #[derive(Debug, Clone, Copy)]
 struct Frustum {
     from: f64,
     to: f64,
-    /// Radius at `from`, and its growth.
+    /// The radius at `from`, and its growth with height.
     radius: f64,
     slope: f64,
 }
@@ -26,7 +27,8 @@ impl Frustum {
         let [first, last] = line.clip_to_heights(self.from, self.to)?;
         let k = self.slope;
         let radius = self.radius + k * (line.height - self.from);
-        // rho^2 - r^2 = a s^2 + 2 b s + c, and the solid is where it is negative between the plates.
+        // With r the radius of the cone, rho^2 - r^2 = a s^2 + 2 b s + c; the inside is where it is negative
+        // between the planes.
         let a = line.lean2 - k * k * line.rise * line.rise;
         let b = -line.rise * (line.height + k * radius);
         let c = line.across2 - radius * radius;
@@ -39,6 +41,7 @@ impl Frustum {
         if apart < 0.0 {
             return None;
         }
+        // This form of the roots does not subtract nearly equal numbers.
         let q = -(b + apart.sqrt().copysign(b));
         let (one, two) = (q / a, c / q);
         match (out_first, out_last) {
@@ -46,14 +49,14 @@ impl Frustum {
                 let (low, high) = (one.min(two), one.max(two));
                 (a > 0.0 && low >= first && high <= last).then_some([low, high])
             }
-            // Exactly one root is between; rounding may have put it a little beside.
+            // Exactly one root is between the planes; rounding may have put it slightly outside.
             (false, _) => Some([first, root_between(one, two, first, last)]),
             (true, false) => Some([root_between(one, two, first, last), last]),
         }
     }
 }
 
-/// The one of two roots that lies between two numbers.
+/// Returns the one of two roots that is between two numbers.
 #[inline]
 fn root_between(one: f64, two: f64, low: f64, high: f64) -> f64 {
     let root = if (low..=high).contains(&one) { one } else { two };
@@ -66,7 +69,7 @@ struct RoundedCorner {
     disc: f64,
     height: f64,
     radius: f64,
-    /// Whether the solid ends below the corner's own upper end.
+    /// Whether the solid ends below the upper end of the corner.
     cropped: bool,
 }
 
@@ -84,6 +87,7 @@ impl RoundedCorner {
 
     #[inline]
     fn intersect_sphere(&self, line: &ColumnLine) -> Option<[f64; 2]> {
+        // |p - c|^2 = R^2 with c at `height` on the axis, solved for s.
         let middle = self.height * line.rise;
         let below = self.height - line.height;
         let half2 = middle * middle + self.radius * self.radius - line.across2 - below * below;
@@ -97,8 +101,8 @@ impl RoundedCorner {
         Some([self.approach_surface(line, low, 1.0)?, self.approach_surface(line, high, -1.0)?])
     }
 
-    /// Goes along the line from a place outside until the distance from the disc is the radius. The distance is convex along a
-    /// line, so Newton's steps never overshoot.
+    /// Moves along the line from a point outside until the distance from the disc is the radius. The distance
+    /// is convex along a line, so Newton's steps never overshoot.
     fn approach_surface(&self, line: &ColumnLine, from: f64, way: f64) -> Option<f64> {
         let mut s = from;
         for _ in 0..40 {
@@ -109,6 +113,7 @@ impl RoundedCorner {
             if distance - self.radius <= CLOSE {
                 return Some(s);
             }
+            // The derivative of the distance along the line, from those of rho and of the height.
             let growth = if out > 0.0 { (line.lean2 * s - line.height * line.rise) / rho } else { 0.0 };
             let slope = way * (up * line.rise + out * growth) / distance;
             if slope >= -1e-9 {
@@ -120,7 +125,8 @@ impl RoundedCorner {
     }
 }
 
-/// How far a point is outside the solid, and the unit normal of the nearest face: its part away from the axis and along it.
+/// The distance of a point outside the solid, and the components of the nearest face's unit normal away from
+/// the axis and along it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SurfaceDistance {
     pub gap: f64,
@@ -128,22 +134,24 @@ pub(super) struct SurfaceDistance {
     pub axial: f64,
 }
 
-/// A convex solid of revolution, its tip at the origin.
+/// A convex solid of revolution with its tip at the origin.
 #[derive(Debug, Clone)]
 pub(super) struct RevolvedSolid {
     cone: Option<Frustum>,
     corner: Option<RoundedCorner>,
     flank: Frustum,
     floor: f64,
-    /// Sine and cosine of the bottom's angle against the plane and of the flank's against the axis.
+    /// The sine and cosine of the bottom's angle against the plane, and of the flank's angle against the
+    /// axis.
     bottom: [f64; 2],
     taper: [f64; 2],
-    /// Corners of the meridian: distance from the axis and height.
+    /// The vertices of the meridian: distance from the axis and height.
     points: [[f64; 2]; 4],
 }
 
 impl RevolvedSolid {
-    /// The cutting part of a cutter up to a height above the tip (at least to where its flank begins).
+    /// Makes the cutting part of a cutter up to a height above the tip, or at least to slightly above the
+    /// start of its flank.
     pub fn from_meridian(profile: &Meridian, limit: f64) -> Self {
         let [radius, start] = profile.flank_start();
         let top = profile.height_mm().min(limit.max(start + 1e-3));
@@ -164,7 +172,7 @@ impl RevolvedSolid {
         }
     }
 
-    /// A collar.
+    /// Makes the solid of a shank or holder.
     pub fn from_non_cutting(collar: &NonCuttingCylinder) -> Self {
         let NonCuttingCylinder { radius, from, to, .. } = *collar;
         Self {
@@ -178,27 +186,27 @@ impl RevolvedSolid {
         }
     }
 
-    /// Upper end above the tip.
+    /// Returns the height of the upper end above the tip, mm.
     pub fn top_mm(&self) -> f64 {
         self.flank.to
     }
 
-    /// Lower end above the tip.
+    /// Returns the height of the lower end above the tip, mm.
     pub fn floor_mm(&self) -> f64 {
         self.floor
     }
 
-    /// Whether the sphere of a ball and a cylinder are all there is.
+    /// Returns whether the solid is a ball-end mill: only a sphere and a cylinder.
     pub fn is_ball(&self) -> bool {
         self.cone.is_none() && self.flank.slope == 0.0 && self.corner.is_some_and(|corner| corner.disc <= 0.0)
     }
 
-    /// Largest distance from the axis.
+    /// Returns the largest distance from the axis, mm.
     pub fn radius_mm(&self) -> f64 {
         self.points.iter().fold(0.0, |most, [r, _]| most.max(*r))
     }
 
-    /// Where a vertical line goes in and out, from the tip's height upwards.
+    /// Returns where a vertical line enters and leaves, counted upwards from the tip's height.
     #[inline]
     pub fn intersect_line(&self, line: &ColumnLine) -> Option<[f64; 2]> {
         let mut found = self.flank.intersect_line(line);
@@ -211,8 +219,9 @@ impl RevolvedSolid {
         found
     }
 
-    /// How far outside a point is (negative inside), at a distance from the axis and a height. Convex; along an edge that
-    /// nothing rounds it is the larger of the distances from the two faces.
+    /// Returns the distance of a point outside the solid (negative inside); the point is given by its
+    /// distance from the axis and its height. The distance is convex. At a sharp edge it is the larger of the
+    /// distances from the two faces.
     #[inline]
     pub fn surface_distance(&self, rho: f64, z: f64) -> SurfaceDistance {
         let ([sin_bottom, cos_bottom], [sin, cos]) = (self.bottom, self.taper);
@@ -224,6 +233,7 @@ impl RevolvedSolid {
         } else {
             SurfaceDistance { gap: below, radial: sin_bottom, axial: -cos_bottom }
         };
+        // In the wedge between the normals of bottom and flank, the corner's arc is the nearest face.
         if let Some(corner) = &self.corner {
             let (out, up) = (rho - corner.disc, z - corner.height);
             if out * cos_bottom + up * sin_bottom > 0.0 && out * sin + up * cos < 0.0 {
@@ -238,8 +248,8 @@ impl RevolvedSolid {
         if lid > found.gap { SurfaceDistance { gap: lid, radial: 0.0, axial: 1.0 } } else { found }
     }
 
-    /// The point of the meridian that is furthest in a direction (part across the axis, part along it, together of length 1): how
-    /// far, and its height.
+    /// Returns how far the meridian reaches in a direction, and the height of that point. The direction is
+    /// given by its components across the axis and along it, together of length 1.
     pub fn furthest_meridian_point(&self, across: f64, along: f64) -> [f64; 2] {
         let mut best = [f64::NEG_INFINITY, 0.0];
         let mut add = |value: f64, height: f64| {

@@ -1,4 +1,5 @@
-//! Contacts of a tilted cutter: where on it a point of a column was reached first, and how fast the surface advances there.
+//! This module finds the contacts of a tilted cutter: the point of the cutter that reached a point of a
+//! column first, and how fast the surface advances there.
 
 use super::leg::{SweepLeg, normal_and_distance, unit_vector_across};
 use super::revolved_solid::RevolvedSolid;
@@ -6,40 +7,41 @@ use crate::sim::Meridian;
 use crate::sim::sweep::band_engagement::{BandEngagement, BinContact};
 use nalgebra::Vector3;
 
-/// Samples of a column's height when forces are asked for.
+/// The number of samples over a column's height if forces are needed.
 const SAMPLES: usize = 4;
 
 /// A point counts as reached when the cutter is this close, mm.
 const REACHED: f64 = 1e-5;
 
-/// A piece as its contacts see it.
+/// The data of a piece from which contacts are found.
 #[derive(Debug, Clone)]
 pub(super) struct TiltedContactFinder {
     pub profile: Meridian,
-    /// Way in the time of one leg that shares relate to.
+    /// The length of path during one leg that advance ratios refer to, mm.
     pub pace: f64,
-    /// Direction of the tip's way; `None` where the tip stands still.
+    /// The unit direction of the tip's path; `None` if the tip stands still.
     pub direction: Option<Vector3<f64>>,
     pub cell: f64,
     pub detail: bool,
-    /// Whether the piece before ended here, so that nothing can be in the cutter at the start.
+    /// Whether the piece before ended here, so that no material can be in the cutter at the start.
     pub continues: bool,
 }
 
-/// A contact in the cutter's frame at the time it happened.
+/// A contact in the cutter's frame at the time of contact.
 #[derive(Debug, Clone, Copy)]
 struct TiltedContact {
-    /// Ahead and to the left of the axis, from it, and up the axis.
+    /// The position ahead of the axis and to its left, the distance from it, and the height above the tip,
+    /// mm.
     ahead: f64,
     left: f64,
     rho: f64,
     height: f64,
-    /// The normal's part away from the axis and along it.
+    /// The normal's components away from the axis and along it.
     radial: f64,
     axial: f64,
-    /// Directions ahead, left and up the axis.
+    /// The unit vectors straight ahead, to the left, and up the axis.
     frame: [Vector3<f64>; 3],
-    /// The tip's way and the turn of the leg.
+    /// The tip's displacement and the rotation vector of the leg.
     travel: Vector3<f64>,
     spin: Vector3<f64>,
 }
@@ -58,20 +60,22 @@ impl TiltedContactFinder {
         let cap = self.max_ratio_between(&bottom, &upper);
         let still = |touch: &TiltedContact| self.advance_ratio(touch, touch.ahead, touch.left) <= 0.0;
         if self.continues && cap <= 0.0 && still(&bottom) && still(&upper) {
-            // Nothing advances into it: a film within the tolerance that the piece before left.
+            // Nothing advances into this material: it is a film within the tolerance that the piece before
+            // left.
             partial.removed += top - low;
             return;
         }
         let vertical =
             |touch: &TiltedContact| touch.outward_normal(touch.ahead, touch.left, touch.rho).z.abs();
-        // The normal's part up may vanish at one end; a chip is never thicker than at either.
+        // The normal's component along z may vanish at one end; a chip is never thicker than at the other
+        // one.
         let steep = vertical(&bottom).min(vertical(&upper));
         let thickness = if steep > 1e-3 { (top - low) / steep } else { f64::INFINITY };
         let heights = [bottom.height.min(upper.height), bottom.height.max(upper.height)];
         partial.add_column((top - low) as f32, upper.left as f32, heights.map(|height| height as f32));
         partial.add_column(0.0, bottom.left as f32, heights.map(|height| height as f32));
         if !self.continues && is_inside_at_start(Vector3::new(x, y, top), legs) {
-            // How it was reached is not known: it has the largest share there can be.
+            // How the material was reached is not known, so it gets the largest advance ratio there can be.
             let known = self.bin_contact(&upper, f64::INFINITY, 1.0);
             partial.add_contact(&BinContact { share_bound: 1.0, ..known });
             return;
@@ -90,8 +94,8 @@ impl TiltedContactFinder {
         }
     }
 
-    /// The contact with which the cutter first reaches a point. The distance from a convex solid that moves is convex in time, so
-    /// Newton's steps from before do not overshoot.
+    /// Returns the contact with which the cutter first reaches a point. The distance from a moving convex
+    /// solid is convex in time, so Newton's steps from an earlier time do not overshoot.
     fn first_contact(
         &self,
         point: Vector3<f64>,
@@ -122,6 +126,7 @@ impl TiltedContactFinder {
         Some(self.contact_at(leg, solid, point, at))
     }
 
+    /// Returns the contact of a point with the cutter at a time of a leg.
     fn contact_at(
         &self,
         leg: &SweepLeg,
@@ -156,9 +161,11 @@ impl TiltedContactFinder {
         }
     }
 
-    /// A contact as the bins take it. `cap` is a share that is reached between this touch and another.
+    /// Converts a contact for the bins. `cap` is an advance ratio that is reached between this contact and
+    /// another one.
     fn bin_contact(&self, touch: &TiltedContact, thickness: f64, cap: f64) -> BinContact {
-        // The border of the ground lies half a cell further in than the last column on average, and at most a whole one.
+        // The boundary of the material is half a cell further in than the last column on average, and at most
+        // a whole cell.
         let share = |shift: f64| self.shifted_advance_ratio(touch, shift).max(cap) as f32;
         BinContact {
             angle: (touch.left as f32).atan2(touch.ahead as f32),
@@ -170,15 +177,17 @@ impl TiltedContactFinder {
         }
     }
 
-    /// Share of a touch moved around the axis towards the middle of the path by a lateral distance.
+    /// Returns the advance ratio of a contact that is moved around the axis towards the middle of the path by
+    /// a lateral distance.
     fn shifted_advance_ratio(&self, touch: &TiltedContact, shift: f64) -> f64 {
         let left = (touch.left.abs() - shift).max(0.0).copysign(touch.left);
         let ahead = (touch.rho * touch.rho - left * left).max(0.0).sqrt().copysign(touch.ahead);
         self.advance_ratio(touch, ahead, left)
     }
 
-    /// Share of a touch moved by a cell, and up the meridian as far as a cell reaches along the tilted axis: there the border
-    /// between two columns is a border in height.
+    /// Returns the advance ratio of a contact that is moved by a cell around the axis, and up the meridian as
+    /// far as a cell reaches along the tilted axis. On a tilted cutter the boundary between two columns is
+    /// also a boundary in height.
     fn raised_advance_ratio(&self, touch: &TiltedContact) -> f64 {
         let [_, start] = self.profile.flank_start();
         let axis = &touch.frame[2];
@@ -198,13 +207,14 @@ impl TiltedContactFinder {
         )
     }
 
-    /// `v.n` over the pace.
+    /// Returns the advance ratio: the surface's speed along its normal `v.n`, divided by the reference speed.
     fn advance_ratio(&self, touch: &TiltedContact, ahead: f64, left: f64) -> f64 {
         let normal = touch.outward_normal(ahead, left, touch.rho);
         touch.surface_velocity(ahead, left).dot(&normal).max(0.0) / self.pace
     }
 
-    /// The largest share between two touches of one column: there the corner's normal may point straight along the velocity.
+    /// Returns the largest advance ratio between two contacts of one column, where the corner's normal may
+    /// point straight along the velocity. Returns 0 if it does not.
     fn max_ratio_between(&self, bottom: &TiltedContact, upper: &TiltedContact) -> f64 {
         if self.profile.corner_radius_mm() <= 0.0
             || upper.rho <= 1e-9
@@ -215,9 +225,11 @@ impl TiltedContactFinder {
         }
         let velocity = upper.surface_velocity(upper.ahead, upper.left);
         let [ahead, left, axis] = &upper.frame;
+        // Over the angle psi of the normal from straight down the ratio is forward sin psi + down cos psi, as
+        // for straight pieces.
         let outward = (ahead * upper.ahead + left * upper.left) / upper.rho;
         let (forward, down) = (velocity.dot(&outward), -velocity.dot(axis));
-        // Angles from straight down; the bottom's is negative on the other side of the axis.
+        // The lower contact's angle is negative if it is on the other side of the axis.
         let best = forward.atan2(down);
         let opposite = upper.ahead * bottom.ahead + upper.left * bottom.left < 0.0;
         let from = bottom.radial.atan2(-bottom.axial) * if opposite { -1.0 } else { 1.0 };
@@ -231,19 +243,21 @@ impl TiltedContactFinder {
 }
 
 impl TiltedContact {
+    /// Returns the outward unit normal at a position around the axis.
     fn outward_normal(&self, ahead: f64, left: f64, rho: f64) -> Vector3<f64> {
         let [forward, leftward, axis] = &self.frame;
         let outward = if rho > 1e-9 { (forward * ahead + leftward * left) / rho } else { *forward };
         outward * self.radial + axis * self.axial
     }
 
+    /// Returns the velocity of the surface point: the tip's plus the turn's.
     fn surface_velocity(&self, ahead: f64, left: f64) -> Vector3<f64> {
         let [forward, leftward, axis] = &self.frame;
         self.travel + self.spin.cross(&(forward * ahead + leftward * left + axis * self.height))
     }
 }
 
-/// Whether a point is in the cutter before it moves.
+/// Returns whether a point is in the cutter before it moves.
 fn is_inside_at_start(point: Vector3<f64>, legs: &[(SweepLeg, RevolvedSolid)]) -> bool {
     legs.first().is_some_and(|(leg, solid)| {
         let pose = leg.pose_at(0.0);
