@@ -28,3 +28,7 @@ pub mod transform;
 pub mod undo;
 pub mod write;
 mod yaml;
+
+#[cfg(test)]
+#[path = "../tests/support/property.rs"]
+mod property;

@@ -173,6 +173,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::property::property(256))]
+
         #[test]
         fn results_hold_what_numbers_of_the_operands_make(
             (a, b) in (interval(3.0), interval(3.0)),

@@ -191,7 +191,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, ..ProptestConfig::default() })]
+        #![proptest_config(crate::property::property(4000))]
 
         #[test]
         fn shortcut_agrees_with_the_grammar(text in near_goto()) {
@@ -237,7 +237,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+        #![proptest_config(crate::property::property(2000))]
 
         #[test]
         fn own_comments_are_comments_to_the_grammar(text in "\\$\\$ ?clsmith ?[ -~]{0,140}[$]?(\r\n|\n|\r|)(GOTO/1,2,3\n)?") {

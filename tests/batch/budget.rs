@@ -84,7 +84,7 @@ fn a_closed_queue_gives_nothing() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(30))]
+    #![proptest_config(crate::support::property(30))]
     #[test]
     fn everything_runs_once_and_within_the_budget(
         needs in proptest::collection::vec(1u64..150, 0..40),

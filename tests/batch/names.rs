@@ -37,6 +37,8 @@ fn shards_are_read() {
 }
 
 proptest! {
+    #![proptest_config(crate::support::property(256))]
+
     #[cfg(unix)]
     #[test]
     fn every_name_comes_back(bytes in proptest::collection::vec(1u8.., 1..20)) {

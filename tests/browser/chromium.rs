@@ -27,7 +27,7 @@ pub struct Browser {
 
 /// Where Chromium is; `None` where it is not installed.
 pub fn find() -> Option<PathBuf> {
-    crate::support::installed(&NAMES)
+    crate::support::require_program(&NAMES)
 }
 
 impl Browser {

@@ -151,6 +151,8 @@ prop_compose! {
 }
 
 proptest! {
+    #![proptest_config(crate::support::property(256))]
+
     #[test]
     fn inside_and_outside_are_all(
         area in prop::collection::vec(star(), 1..6),

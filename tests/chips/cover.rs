@@ -181,7 +181,7 @@ fn the_outlines_are_the_sections() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(16))]
+    #![proptest_config(crate::support::property(16))]
 
     #[test]
     fn random_steps_agree_with_slices(

@@ -29,6 +29,8 @@ fn edge(family: &SectionFamily, theta: f64, t: f64) -> f64 {
 }
 
 proptest! {
+    #![proptest_config(crate::support::property(256))]
+
     #[test]
     fn f_is_the_determinant_and_its_zeros_are_the_branches(
         tilts in prop::array::uniform2(0.0..70.0f64),

@@ -133,7 +133,7 @@ fn by_dexels(stock: &Stock, pieces: &[PathPiece], cell: f64) -> Vec<Engagement> 
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(16))]
+    #![proptest_config(crate::support::property(16))]
 
     #[test]
     fn dexels_and_layers_agree_on_the_shares_of_random_steps(

@@ -80,6 +80,8 @@ fn a_workpiece_is_as_large_as_its_layers() {
 }
 
 proptest! {
+    #![proptest_config(crate::support::property(256))]
+
     #[test]
     fn solids_are_closed_and_hold_the_volume(
         layers in prop::collection::vec(prop::collection::vec(star(), 1..6), 1..4),

@@ -314,6 +314,8 @@ fn the_same_again_takes_nothing() {
 }
 
 proptest! {
+    #![proptest_config(crate::support::property(256))]
+
     #[test]
     fn nothing_is_lost_and_nothing_comes_back(
         start in prop::collection::vec(star(), 1..4),

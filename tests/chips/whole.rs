@@ -210,7 +210,7 @@ fn by_dexels(stock: &Stock, pieces: &[PathPiece], cell: f64) -> Vec<f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(12))]
+    #![proptest_config(crate::support::property(12))]
 
     #[test]
     fn dexels_and_layers_agree_on_random_steps(

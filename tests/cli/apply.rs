@@ -23,7 +23,8 @@ fn the_first_example_is_corrected() {
 
 #[test]
 fn an_empty_recipe_gives_every_byte_back() {
-    for path in support::corpus() {
+    let Some(corpus) = support::require_corpus() else { return };
+    for path in corpus {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("empty.yaml"), EMPTY).unwrap();
         clsmith(folder.path())

@@ -1,7 +1,7 @@
 //! `clsmith hook`, with the post of `examples/hooks` and with posts that misbehave.
 
 use super::{clsmith, example, names};
-use crate::support::installed;
+use crate::support::require_program;
 use assert_cmd::Command;
 use clsmith::fingerprint::Digest;
 use serde_json::Value;
@@ -62,7 +62,7 @@ fn script(folder: &Path, text: &str) -> PathBuf {
 
 #[test]
 fn the_post_gets_the_corrected_program_and_the_log_proves_it() {
-    let Some(python) = installed(&PYTHON) else { return };
+    let Some(python) = require_program(&PYTHON) else { return };
     let folder = example("pocket");
     let before = fs::read(folder.path().join("part.cls")).unwrap();
     let done = hook(folder.path())
@@ -98,7 +98,7 @@ fn the_post_gets_the_corrected_program_and_the_log_proves_it() {
 
 #[test]
 fn what_the_post_leaves_beside_its_program_comes_beside_the_export() {
-    let Some(python) = installed(&PYTHON) else { return };
+    let Some(python) = require_program(&PYTHON) else { return };
     let folder = example("pocket");
     fs::create_dir(folder.path().join("exports")).unwrap();
     fs::rename(folder.path().join("part.cls"), folder.path().join("exports/part.cls")).unwrap();
@@ -174,7 +174,7 @@ fn nobody_else_can_read_the_copy() {
 
 #[test]
 fn the_exit_code_of_the_post_is_the_hooks() {
-    let Some(python) = installed(&PYTHON) else { return };
+    let Some(python) = require_program(&PYTHON) else { return };
     let folder = example("pocket");
     let part = fs::read_to_string(folder.path().join("part.cls")).unwrap();
     fs::write(folder.path().join("part.cls"), part + "THREAD/OFF\nFINI\n").unwrap();

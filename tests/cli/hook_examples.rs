@@ -2,7 +2,7 @@
 
 use super::hook::{PYTHON, log, post};
 use super::{clsmith, example, names};
-use crate::support::installed;
+use crate::support::require_program;
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -42,7 +42,7 @@ proc MOM_end_of_program {} {
 
 /// Runs the Tcl snippet as the last line of a handler; `None` where there is no tclsh.
 fn nx(folder: &Path, hook: &[&str], post: &str, before: &str) -> Option<Output> {
-    let tclsh = installed(&["tclsh"])?;
+    let tclsh = require_program(&["tclsh"])?;
     let clsmith = env!("CARGO_BIN_EXE_clsmith");
     let hook: Vec<String> = hook.iter().map(|word| format!("{{{word}}}")).collect();
     let script = format!(
@@ -62,7 +62,7 @@ fn nx(folder: &Path, hook: &[&str], post: &str, before: &str) -> Option<Output> 
 #[test]
 fn nx_posts_the_corrected_program_at_the_end_of_its_output() {
     let folder = example("pocket");
-    let Some(python) = installed(&PYTHON) else { return };
+    let Some(python) = require_program(&PYTHON) else { return };
     let post = format!("[list {{{}}} {{{}}} --beside \\{{\\}}]", python.display(), post().display());
     let Some(output) = nx(folder.path(), &["--recipe", "recipe.yaml"], &post, "") else { return };
     let said = text(&output.stdout);
@@ -119,7 +119,7 @@ fn script(folder: &Path, script: &str, program: &str) -> Output {
 #[cfg(unix)]
 #[test]
 fn the_scripts_for_catia_and_creo_post_beside_the_export() {
-    if installed(&PYTHON).is_none() {
+    if require_program(&PYTHON).is_none() {
         return;
     }
     for (hook, name, nc) in [
@@ -144,7 +144,7 @@ fn the_scripts_for_catia_and_creo_post_beside_the_export() {
 
 #[test]
 fn the_shipped_selection_chooses() {
-    let Some(python) = installed(&PYTHON) else { return };
+    let Some(python) = require_program(&PYTHON) else { return };
     let folder = example("pocket");
     let mut command = clsmith(folder.path());
     command.args(["hook", "--select"]).arg(hooks().join("recipes.yaml")).arg("--log").arg("log.jsonl");

@@ -162,7 +162,7 @@ fn stock_and_tools_that_cannot_be_are_errors_with_their_codes() {
 
 /// A real program over a block around its points, up to some line.
 fn real(end: &str, tool: &str, units: LengthUnit, lines: usize) {
-    let Some(path) = support::corpus_file(end) else { return };
+    let Some(path) = support::require_corpus_file(end) else { return };
     let parsed = clsmith::parse::parse(&support::source(&path), None);
     let unit = units.mm_per_unit();
     let line = |statement: usize| {

@@ -1,22 +1,24 @@
-//! What was measured over real files must come out of the motions again. Without the files nothing is tested.
+//! What was measured over real files must come out of the motions again.
 
-use crate::support::{corpus, corpus_file, motions, source};
+use crate::support::{motions, require_corpus, require_corpus_file, source};
 use clsmith::parse::parse;
 use clsmith::program::geometry::MotionPath;
 use clsmith::program::motion::Motion;
 use clsmith::program::{Dialect, Program, Record};
+use std::path::{Path, PathBuf};
 
-fn read(path: &std::path::Path) -> Program {
+fn read(path: &Path) -> Program {
     parse(&source(path), None).program
 }
 
 /// Arcs of files of a dialect: (arcs, tangent entries, entries that agree with the resolved sense).
 fn arcs_of(
+    corpus: &[PathBuf],
     dialect: Dialect,
     check: impl Fn(&Program, &Motion, &clsmith::program::geometry::CircularArc),
 ) -> (usize, usize, usize) {
     let (mut count, mut tangent, mut agree) = (0, 0, 0);
-    for program in corpus().iter().map(|path| read(path)).filter(|program| program.dialect() == dialect) {
+    for program in corpus.iter().map(|path| read(path)).filter(|program| program.dialect() == dialect) {
         let (found, _) = motions(&program);
         for pair in found.windows(2) {
             let MotionPath::Arc(arc) = &pair[1].path else { continue };
@@ -37,7 +39,8 @@ fn arcs_of(
 
 #[test]
 fn nx_arcs_lie_on_their_circles_and_continue_the_motion_before() {
-    let (count, tangent, agree) = arcs_of(Dialect::Nx, |program, motion, arc| {
+    let Some(corpus) = require_corpus() else { return };
+    let (count, tangent, agree) = arcs_of(&corpus, Dialect::Nx, |program, motion, arc| {
         let printed =
             motion.statements.clone().find_map(|index| match program.statements()[index].record() {
                 Record::Circle(circle) => circle.radius,
@@ -47,35 +50,33 @@ fn nx_arcs_lie_on_their_circles_and_continue_the_motion_before() {
         assert!(arc.end_deviation(motion.to.point) <= 2e-4, "{arc:?}");
         assert!((arc.point_at(1.0) - motion.to.point).norm() <= 4e-4);
     });
-    if corpus_file("cutcom.clsf").is_some() {
-        assert!(count > 300 && tangent > 250, "{count} arcs, {tangent} with a tangent entry");
-        assert_eq!(agree, tangent);
-    }
+    assert!(count > 300 && tangent > 250, "{count} arcs, {tangent} with a tangent entry");
+    assert_eq!(agree, tangent);
 }
 
 #[test]
 fn makino_arcs_are_left_hand_too() {
-    let (_, tangent, agree) = arcs_of(Dialect::MakinoFf, |_, motion, arc| {
+    let Some(corpus) = require_corpus() else { return };
+    let (_, tangent, agree) = arcs_of(&corpus, Dialect::MakinoFf, |_, motion, arc| {
         assert!(arc.end_deviation(motion.to.point) <= 1e-6, "{arc:?}");
     });
     assert_eq!(agree, tangent);
-    assert!(tangent > 2 || corpus_file("Plane_1.cldata").is_none(), "{tangent}");
+    assert!(tangent > 2, "{tangent}");
 }
 
 #[test]
 fn solidworks_arcs_are_right_hand_but_for_the_cusps_of_rest_pockets() {
-    let (count, tangent, agree) = arcs_of(Dialect::SolidWorks, |_, motion, arc| {
+    let Some(corpus) = require_corpus() else { return };
+    let (count, tangent, agree) = arcs_of(&corpus, Dialect::SolidWorks, |_, motion, arc| {
         assert!(arc.end_deviation(motion.to.point) <= 2e-5, "{arc:?}");
     });
-    if corpus_file("boss.apt").is_some() {
-        assert!(count > 500 && tangent > 300, "{count} {tangent}");
-        assert!(agree * 100 >= tangent * 95, "{agree} of {tangent}");
-    }
+    assert!(count > 500 && tangent > 300, "{count} {tangent}");
+    assert!(agree * 100 >= tangent * 95, "{agree} of {tangent}");
 }
 
 #[test]
 fn catia_arcs_end_where_their_line_ends_and_pass_half_if_and_only_if_intof() {
-    let Some(path) = corpus_file("Hole-Flanging.aptsource") else { return };
+    let Some(path) = require_corpus_file("Hole-Flanging.aptsource") else { return };
     let program = read(&path);
     let (found, problems) = motions(&program);
     assert!(problems.is_empty(), "{:?}", problems.first());
@@ -98,7 +99,7 @@ fn catia_arcs_end_where_their_line_ends_and_pass_half_if_and_only_if_intof() {
 
 #[test]
 fn creo_five_axis_has_a_unit_axis_on_each_of_its_35418_points() {
-    let Some(path) = corpus_file("finition2.ncl") else { return };
+    let Some(path) = require_corpus_file("finition2.ncl") else { return };
     let program = read(&path);
     let mut count = 0;
     for motion in program.motions() {
@@ -115,7 +116,7 @@ fn creo_five_axis_has_a_unit_axis_on_each_of_its_35418_points() {
 
 #[test]
 fn coremill_has_356_rapids_and_one_feed() {
-    let Some(path) = corpus_file("coremill.cls") else { return };
+    let Some(path) = require_corpus_file("coremill.cls") else { return };
     let program = read(&path);
     let (found, _) = motions(&program);
     assert_eq!(found.iter().filter(|motion| motion.rapid).count(), 356);
@@ -127,7 +128,7 @@ fn coremill_has_356_rapids_and_one_feed() {
 
 #[test]
 fn all_splines_of_nx_fit_and_lead_to_the_next_motion() {
-    let Some(path) = corpus_file("nurbs.clsf") else { return };
+    let Some(path) = require_corpus_file("nurbs.clsf") else { return };
     let (found, problems) = motions(&read(&path));
     assert!(problems.is_empty());
     let mut count = 0;
@@ -150,7 +151,7 @@ fn all_splines_of_nx_fit_and_lead_to_the_next_motion() {
 #[test]
 fn helices_of_nx_come_down_by_what_was_measured() {
     for (file, rise) in [("2_KONTUR_VNUT_40_N2.cls", 5.0), ("10_KONTUR_125_N2_162.cls", 3.0)] {
-        let Some(path) = corpus_file(file) else { continue };
+        let Some(path) = require_corpus_file(file) else { return };
         let (found, _) = motions(&read(&path));
         let helices: Vec<_> = found
             .iter()

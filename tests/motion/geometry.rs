@@ -102,7 +102,7 @@ fn samples_reach_both_ends_in_steps_of_fifteen_degrees() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 500, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::support::property(500))]
 
     #[test]
     fn any_arc_starts_ends_and_moves_as_it_says(

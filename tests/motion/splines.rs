@@ -107,7 +107,7 @@ fn a_broken_spline_still_moves_the_tool_to_its_end() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::support::property(300))]
 
     #[test]
     fn weights_are_positive_and_add_up_to_one(mut knots in prop::collection::vec(0.0f64..1.0, 0..8), t in 0.0f64..=1.0) {

@@ -6,7 +6,8 @@ use clsmith::parse::parse;
 
 #[test]
 fn real_files_are_read_without_an_error_and_written_back_byte_for_byte() {
-    for path in support::corpus() {
+    let Some(corpus) = support::require_corpus() else { return };
+    for path in corpus {
         let source = support::source(&path);
         let parsed = parse(&source, None);
         let mut end = 0;
@@ -31,11 +32,28 @@ fn real_files_are_read_without_an_error_and_written_back_byte_for_byte() {
 
 #[test]
 fn part_programs_are_refused_with_one_diagnostic() {
-    for path in support::corpus_all().iter().filter(|path| path.to_string_lossy().contains("apt360")) {
+    let Some(corpus) = support::require_corpus_with_part_programs() else { return };
+    for path in corpus.iter().filter(|path| path.to_string_lossy().contains("apt360")) {
         let source = support::source(path);
         let parsed = parse(&source, None);
         let found: Vec<_> = parsed.diagnostics.iter().map(|found| found.code).collect();
         assert_eq!(found, [codes::APT_PART_PROGRAM], "{}", path.display());
         assert_eq!(parsed.program.to_bytes(), source.bytes());
     }
+}
+
+#[test]
+fn cases_of_oddities_are_written_back_byte_for_byte() {
+    let Some(folder) = support::require_shared_folder("cases") else { return };
+    let mut programs = 0;
+    for path in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+        // Recipes, setups and the page that tells about them lie beside the programs.
+        if path.extension().is_none_or(|end| end == "yaml" || end == "md" || end == "py") || path.is_dir() {
+            continue;
+        }
+        let source = support::source(&path);
+        assert_eq!(parse(&source, None).program.to_bytes(), source.bytes(), "{}", path.display());
+        programs += 1;
+    }
+    assert!(programs > 40, "{programs}");
 }

@@ -68,7 +68,7 @@ fn decimal_text() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::support::property(2000))]
 
     #[test]
     fn a_plain_decimal_is_what_the_standard_library_reads(text in decimal_text(), tail in "[ ,$eE\r\n.+-]?") {

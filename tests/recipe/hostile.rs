@@ -115,7 +115,7 @@ const PIECES: &[&str] = &[
 ];
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::support::property(2000))]
 
     #[test]
     fn any_bytes_are_read_or_refused_with_places_in_the_file(bytes in proptest::collection::vec(any::<u8>(), 0..200)) {

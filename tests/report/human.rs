@@ -114,6 +114,8 @@ fn a_long_message_is_wrapped() {
 }
 
 proptest::proptest! {
+    #![proptest_config(crate::support::property(256))]
+
     #[test]
     fn no_bytes_and_no_place_make_it_panic(
         bytes: Vec<u8>,

@@ -130,6 +130,8 @@ fn line_end() -> impl Strategy<Value = &'static str> {
 }
 
 proptest! {
+    #![proptest_config(crate::support::property(256))]
+
     #[test]
     fn a_patch_gives_the_program(
         lines in proptest::collection::vec((statement(), line_end()), 0..40),

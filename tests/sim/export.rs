@@ -50,6 +50,8 @@ fn nothing_left_is_an_empty_file() {
 }
 
 proptest! {
+    #![proptest_config(crate::support::property(256))]
+
     #[test]
     fn the_surface_is_closed_and_holds_the_volume(dexels in columns()) {
         let bytes = surface(&dexels);

@@ -230,6 +230,8 @@ fn flat(points: &[[f64; 3]]) -> bool {
 }
 
 proptest! {
+    #![proptest_config(crate::support::property(256))]
+
     #[test]
     fn a_convex_body_is_its_half_spaces(points in proptest::collection::vec([-5.0..5.0f32, -5.0..5.0f32, -5.0..5.0f32], 4..9)) {
         let points: Vec<[f64; 3]> = points.iter().map(|point| point.map(f64::from)).collect();

@@ -90,6 +90,8 @@ fn every_cut_and_every_flipped_bit_is_noticed() {
 }
 
 proptest! {
+    #![proptest_config(crate::support::property(256))]
+
     #[test]
     fn written_and_read_it_is_the_same(dexels in columns()) {
         prop_assert_eq!(stock_file::read_clstock(&bytes(&dexels)), Ok(dexels));

@@ -157,6 +157,8 @@ fn body() -> impl Strategy<Value = SolidBody> {
 }
 
 proptest! {
+    #![proptest_config(crate::support::property(256))]
+
     #[test]
     fn the_union_is_what_is_in_any_body(bodies in proptest::collection::vec(body(), 1..5)) {
         let dexels = dexels(bodies.clone(), 0.0, 0.5);

@@ -107,7 +107,7 @@ fn highest(solid: &Triangles, x: f64, y: f64) -> Option<f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
+    #![proptest_config(crate::support::property(300))]
 
     #[test]
     fn tetrahedra_through_each_other(

@@ -32,7 +32,8 @@ fn fixtures_come_back_with_and_without_comments() {
 
 #[test]
 fn real_files_come_back() {
-    for path in support::corpus() {
+    let Some(corpus) = support::require_corpus() else { return };
+    for path in corpus {
         let source = support::source(&path);
         // Half the feeds, with comments.
         comes_back(&with_comments("  - scale_feed: { factor: 0.5 }"), &source);
@@ -117,7 +118,7 @@ fn recipe() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(192))]
+    #![proptest_config(crate::support::property(192))]
 
     #[test]
     fn any_program_comes_back_from_any_recipe(bytes in program(), recipe in recipe()) {

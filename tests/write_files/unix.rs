@@ -78,13 +78,12 @@ fn a_device_is_written_not_replaced() {
 fn a_pipe_is_written_not_replaced() {
     let (mut reader, writer) = std::io::pipe().unwrap();
     let path = format!("/dev/fd/{}", std::os::fd::AsRawFd::as_raw_fd(&writer));
-    if Path::new(&path).exists() {
-        write(Path::new(&path), "text").unwrap();
-        drop(writer);
-        let mut text = String::new();
-        reader.read_to_string(&mut text).unwrap();
-        assert_eq!(text, "text");
-    }
+    let Some(path) = crate::support::require_path(&path) else { return };
+    write(&path, "text").unwrap();
+    drop(writer);
+    let mut text = String::new();
+    reader.read_to_string(&mut text).unwrap();
+    assert_eq!(text, "text");
 }
 
 #[test]

@@ -130,7 +130,7 @@ impl GraphSegment {
     }
 
     /// The piece of a chain from `lo` to `hi`.
-    pub fn to_piece(&self) -> ChainPiece {
+    pub fn to_piece(self) -> ChainPiece {
         let (from, to) = (self.left, self.right);
         match self.graph {
             HeightGraph::Line { .. } => ChainPiece::line(from, to),

@@ -81,6 +81,8 @@ fn cases() -> impl Strategy<Value = (Teeth, f64, f64)> {
 }
 
 proptest! {
+    #![proptest_config(crate::support::property(256))]
+
     #[test]
     fn agrees_with_the_surface_that_the_teeth_leave((teeth, advance, radial) in cases()) {
         // Independent: one place of the surface in one dimension, tooth after tooth for six turns.

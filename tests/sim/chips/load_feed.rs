@@ -45,7 +45,7 @@ fn limits_that_hold_nothing_or_everything() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(crate::support::property(40))]
     #[test]
     fn the_limit_is_reached_and_not_passed(
         corner in 0.0..5.0,

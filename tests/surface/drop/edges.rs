@@ -59,7 +59,7 @@ fn level_and_sloped_edges() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(100))]
+    #![proptest_config(crate::support::property(100))]
 
     /// Against the solid's distance, which knows no contacts: neither gouge nor gap.
     #[test]

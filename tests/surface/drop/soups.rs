@@ -34,7 +34,7 @@ fn place() -> impl Strategy<Value = [f64; 2]> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(150))]
+    #![proptest_config(crate::support::property(150))]
 
     #[test]
     fn heights_are_those_of_a_search(solid in soup(), cutter in cutter(), place in place()) {
@@ -66,7 +66,7 @@ proptest! {
 
 proptest! {
     // Looking at whole paths takes a while.
-    #![proptest_config(ProptestConfig::with_cases(15))]
+    #![proptest_config(crate::support::property(15))]
 
     #[test]
     fn paths_keep_their_tolerance(solid in soup(), cutter in cutter(), from in place(), to in place()) {

@@ -59,7 +59,7 @@ fn steps(most: usize) -> impl Strategy<Value = Vec<Step>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
+    #![proptest_config(crate::support::property(200))]
 
     #[test]
     fn the_ball_touches_everywhere_and_gouges_nowhere(

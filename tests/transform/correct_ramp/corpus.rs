@@ -1,4 +1,4 @@
-//! Real files, where the corpus is beside the project.
+//! Real files, which the corpus has.
 
 use super::correct_program;
 use crate::support;
@@ -18,7 +18,7 @@ fn drilling_lathe_and_wire_files_have_no_ramp() {
         "Guincho_Lbar.apt",
         "nurbs.clsf",
     ] {
-        let Some(path) = support::corpus_file(name) else { continue };
+        let Some(path) = support::require_corpus_file(name) else { return };
         let program = clsmith::parse::parse(&support::source(&path), None).program;
         let done = correct_program(TOOL, "", program).unwrap();
         assert!(done.ramps.is_empty(), "{name}: {:?}", done.ramps.first());
@@ -27,7 +27,8 @@ fn drilling_lathe_and_wire_files_have_no_ramp() {
 
 #[test]
 fn every_file_runs_twice_to_the_same_bytes() {
-    for path in support::corpus() {
+    let Some(corpus) = support::require_corpus() else { return };
+    for path in corpus {
         // 35,000 points of five-axis finishing have no ramp, and take a while.
         if path.ends_with("finition2.ncl") {
             continue;

@@ -54,7 +54,8 @@ fn moves() -> Vec<(&'static str, Place)> {
 
 #[test]
 fn every_file_moves_rigidly_or_is_refused_for_a_reason() {
-    for path in support::corpus() {
+    let Some(corpus) = support::require_corpus() else { return };
+    for path in corpus {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         let before = read(&path);
         let large = before.statements().len() > 20_000;
@@ -84,7 +85,7 @@ fn every_file_moves_rigidly_or_is_refused_for_a_reason() {
 
 #[test]
 fn the_golden_pair_moves_by_its_offset_to_the_tenth_decimal() {
-    let Some(path) = support::corpus_file("finition2.ncl") else { return };
+    let Some(path) = support::require_corpus_file("finition2.ncl") else { return };
     let before = read(&path);
     let after = run_on("{ translate: [-106.609375, -121.28125, -100.59375] }", before.clone()).unwrap();
     let after = reread(&after);

@@ -125,7 +125,7 @@ fn a_second_step_still_knows_the_style_of_the_file() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(crate::support::property(40))]
 
     #[test]
     fn any_rigid_transform_moves_nx_catia_and_iso(

@@ -83,7 +83,7 @@ fn changed(block: &FeedBlock, feed: f64) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
+    #![proptest_config(crate::support::property(400))]
 
     #[test]
     fn limits_hold_and_untouched_blocks_stay(blocks in blocks(), rules in rules()) {

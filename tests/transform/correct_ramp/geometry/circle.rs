@@ -124,7 +124,7 @@ fn a_ramp_that_almost_closes_almost_goes_around() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(128))]
+    #![proptest_config(crate::support::property(128))]
 
     #[test]
     fn every_leg_is_one_chord_of_one_circle_on_the_side_asked_for(

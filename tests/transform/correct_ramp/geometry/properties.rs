@@ -150,7 +150,7 @@ fn bulge(ramp: &Ramp) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(256))]
+    #![proptest_config(crate::support::property(256))]
 
     #[test]
     fn corrected_ramps_keep_the_limits_in_their_place(

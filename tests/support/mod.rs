@@ -1,48 +1,23 @@
-//! What the areas share: the corpus, where it is present, and snapshots.
+//! What the areas share: what tests need beside the project, properties, programs from text, snapshots.
+
+mod property;
+mod requirement;
+
+pub use property::property;
+#[cfg(unix)]
+pub use requirement::require_path;
+pub use requirement::{
+    require_corpus, require_corpus_file, require_corpus_with_part_programs, require_program,
+    require_shared_folder,
+};
 
 use clsmith::program::geometry::{CircularArc, MotionPath as ClPath};
 use clsmith::program::motion::{ActiveTool, Motion, MotionProblemKind};
 use clsmith::program::{Dialect, Program};
 use clsmith::source::Source;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Child, ExitStatus};
 use std::time::Duration;
-
-/// Files of the corpus beside the project, APT part programs left out; empty where the corpus is absent.
-pub fn corpus() -> Vec<PathBuf> {
-    let mut files = corpus_all();
-    files.retain(|path| !path.to_string_lossy().contains("apt360"));
-    files
-}
-
-/// All files of the corpus.
-pub fn corpus_all() -> Vec<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/corpus");
-    let mut files = Vec::new();
-    for folder in std::fs::read_dir(root).into_iter().flatten().flatten() {
-        files.extend(
-            std::fs::read_dir(folder.path()).into_iter().flatten().flatten().map(|entry| entry.path()),
-        );
-    }
-    files.sort();
-    files
-}
-
-/// Another program that a test runs, by any of its names; `None`, and said, where it is not installed. `CI=true` wants it.
-pub fn installed(names: &[&str]) -> Option<PathBuf> {
-    let folders = std::env::var_os("PATH").unwrap_or_default();
-    let found = std::env::split_paths(&folders)
-        .flat_map(|folder| names.iter().map(move |name| folder.join(name)))
-        .find(|path| path.is_file());
-    let wanted = std::env::var("CI").is_ok_and(|ci| ci == "true" || ci == "1");
-    assert!(found.is_some() || !wanted, "CI=true, and {} is not installed", names[0]);
-    if found.is_none() {
-        // Past the harness, which keeps what tests print to itself.
-        let _ = writeln!(std::io::stderr(), "skipped: {} is not installed, and a test needs it", names[0]);
-    }
-    found
-}
 
 /// Waits for a process; how it ended, and the peak of its memory in bytes as Linux keeps it, 0 elsewhere.
 pub fn wait_with_peak(mut child: Child) -> (ExitStatus, u64) {
@@ -60,11 +35,6 @@ pub fn wait_with_peak(mut child: Child) -> (ExitStatus, u64) {
         }
         std::thread::sleep(Duration::from_millis(5));
     }
-}
-
-/// A file of the corpus by the end of its path.
-pub fn corpus_file(end: &str) -> Option<PathBuf> {
-    corpus_all().into_iter().find(|path| path.to_string_lossy().ends_with(end))
 }
 
 /// A source read from a file.
