@@ -1,4 +1,4 @@
-//! What pieces of path remove.
+//! This module computes the chip that each piece of path removes from the layers.
 
 mod engaged_arcs;
 
@@ -14,46 +14,50 @@ use rayon::prelude::*;
 /// The chip of a piece of path on one layer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LayerChip {
-    /// Number of the layer, from below.
+    /// The number of the layer, counted from below.
     pub layer: usize,
-    /// Height of the layer's middle, mm.
+    /// The height of the layer's middle, mm.
     pub z: f64,
-    /// Thickness of the layer, mm.
+    /// The thickness of the layer, mm.
     pub thickness: f64,
-    /// Area of the chip, mm2.
+    /// The area of the chip, mm2.
     pub area_mm2: f64,
-    /// Material that stood inside the cutter before the piece began, mm2; it is gone afterwards and no part of the chip.
+    /// The area of material that was inside the cutter before the piece began, mm2. It is removed but does
+    /// not belong to the chip.
     pub inside_mm2: f64,
-    /// Its pieces.
+    /// The pieces of the chip.
     pub pieces: Vec<Polygon>,
-    /// Where the last edge borders on the chip: angles in degrees of a tooth about the tool axis, from the direction in which the
-    /// section's centre moves (from x where it stands), counter-clockwise seen from above; each `[in, out]` with `in < out` and
-    /// `-180 <= in < 180`, in order.
+    /// The arcs on which the last edge touches the chip. An arc has the angles `[in, out]` of a tooth around
+    /// the tool axis in degrees, with `in < out` and `-180 <= in < 180`. They count counter-clockwise seen
+    /// from above, from the direction in which the section's centre moves, or from x if it does not move. The
+    /// arcs are sorted.
     pub arcs_deg: Vec<[f64; 2]>,
-    /// How far the engaged edge advances along the normal of the cutter's surface in space at most, in mm for the whole piece at the speed that
-    /// it has at the end: the largest thickness of the chip were the piece one tooth's advance. On the flutes and, where the layer
-    /// meets it, on the bottom disc.
+    /// The largest advance of the engaged edge along the normal of the cutter's surface in space, in mm for
+    /// the whole piece at the speed at its end. It is the thickness of the chip if the piece is the advance
+    /// of one tooth. It covers the flutes and, if the layer meets it, the bottom disc.
     pub advance_mm: f64,
 }
 
 /// The chip of a piece of path.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Chip {
-    /// Its layers from below, those with a chip or with material inside the cutter only.
+    /// The layers from below that have a chip or material inside the cutter.
     pub layers: Vec<LayerChip>,
 }
 
 impl Chip {
-    /// Volume, mm3: areas times thicknesses.
+    /// Returns the volume, mm3: the sum of area times thickness.
     pub fn volume_mm3(&self) -> f64 {
         self.layers.iter().map(|layer| layer.area_mm2 * layer.thickness).sum()
     }
 }
 
-/// Takes pieces of path out of the workpiece one after another: a chip for each, or why it was left out and nothing removed.
-/// `PathPiece::cutter` counts `mills`. Sections are polygons with chords within `tolerance` (mm).
+/// Removes pieces of path from the workpiece one after another. Returns a chip for each piece, or the reason
+/// why the piece was left out and removed nothing. `PathPiece::cutter` is an index in `mills`. Sections are
+/// polygons whose chords are within `tolerance` (mm).
 ///
-/// Layers do not know of each other and are worked on in parallel; the result is the same for any number of threads.
+/// Layers do not depend on each other and are processed in parallel; the result is the same for any number of
+/// threads.
 pub fn cut_chips(
     stack: &mut LayerStack,
     mills: &[FlatMill],
@@ -87,10 +91,10 @@ pub fn cut_chips(
     chips
 }
 
-/// Widest ring along a section, mm, that counts as what chords leave.
+/// The greatest width, in mm, of a ring along a section that counts as the error of chords.
 const COARSEST: f64 = 0.005;
 
-/// Takes one step out of a layer; `None` when nothing is removed.
+/// Removes one step from a layer. Returns `None` if nothing is removed.
 fn cut_layer_chip(layer: &mut Layer, step: &MillStep, rim: &RimDirections) -> Option<LayerChip> {
     let z = layer.middle_z_mm();
     let [low, high] = step.height_range_mm();
@@ -104,7 +108,7 @@ fn cut_layer_chip(layer: &mut Layer, step: &MillStep, rim: &RimDirections) -> Op
         return None;
     }
     let removed = layer.remove_swept_area(&cover);
-    // Where chords of two steps' sections meet, less than their tolerance is left.
+    // Where chords of two steps' sections meet, a ring that is thinner than the tolerance may be left.
     let rounding = rim.tolerance_mm().min(COARSEST) * std::f64::consts::TAU * step.mill().radius;
     let inside_mm2 = if removed.inside_mm2 > rounding { removed.inside_mm2 } else { 0.0 };
     if removed.area_mm2 <= 0.0 && inside_mm2 <= 0.0 {

@@ -1,39 +1,42 @@
-//! Interval arithmetic with outward rounding: a result holds every value that the operands allow.
+//! This module does interval arithmetic with outward rounding: a result contains every value that the
+//! operands allow.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// How far the sine and cosine of the standard library are from the true ones at most: some roundings at 1.
+/// The largest error of the standard library's sine and cosine: some roundings at 1.
 const TRIG_ERROR: f64 = 4.0 * f64::EPSILON;
 
-/// All numbers from `lo` to `hi`.
+/// The interval of all numbers from `lo` to `hi`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IntervalF64 {
-    /// Least.
+    /// The least number.
     pub lo: f64,
-    /// Largest.
+    /// The largest number.
     pub hi: f64,
 }
 
 impl IntervalF64 {
-    /// A number alone.
+    /// Makes the interval of a single number.
     pub fn from_point(x: f64) -> Self {
         Self { lo: x, hi: x }
     }
 
-    /// What was rounded to these two numbers. An operation errs by half a unit in the last place, and the epsilon of a number is at least
-    /// one; that is quicker than the next number.
+    /// Makes the interval around results that were rounded to these two numbers. An operation has an error of
+    /// half a unit in the last place, and a number times epsilon is at least one such unit. This is quicker
+    /// than computing the next number.
     fn rounded_outward(lo: f64, hi: f64) -> Self {
         let slack = |x: f64| x.abs() * f64::EPSILON + f64::MIN_POSITIVE;
         Self { lo: lo - slack(lo), hi: hi + slack(hi) }
     }
 
-    /// The number in the middle.
+    /// Returns the middle.
     pub fn middle(self) -> f64 {
         self.lo + (self.hi - self.lo) / 2.0
     }
 
-    /// Sign of every number in it: 1, -1, or `None` where they differ or one is zero.
+    /// Returns the sign of every number in the interval, 1 or -1. Returns `None` if the signs differ or a
+    /// number is zero.
     pub fn sign(self) -> Option<i8> {
         match (self.lo > 0.0, self.hi < 0.0) {
             (true, _) => Some(1),
@@ -42,18 +45,18 @@ impl IntervalF64 {
         }
     }
 
-    /// Largest absolute value.
+    /// Returns the largest absolute value.
     pub fn magnitude(self) -> f64 {
         self.hi.abs().max(self.lo.abs())
     }
 
-    /// What both hold; `self` if rounding left nothing.
+    /// Returns the intersection of both intervals, or `self` if rounding left it empty.
     pub fn intersect_or_self(self, other: Self) -> Self {
         let both = Self { lo: self.lo.max(other.lo), hi: self.hi.min(other.hi) };
         if both.lo <= both.hi { both } else { self }
     }
 
-    /// One by it. All numbers when it holds zero.
+    /// Returns the reciprocal. It is the interval of all numbers if this one contains zero.
     pub fn recip(self) -> Self {
         match self.sign() {
             Some(_) => Self::rounded_outward(1.0 / self.hi, 1.0 / self.lo),
@@ -61,13 +64,13 @@ impl IntervalF64 {
         }
     }
 
-    /// Sine and cosine of every angle in it, radians.
+    /// Returns the sine and cosine of all angles in the interval, in radians.
     pub fn sin_cos(self) -> (Self, Self) {
         let [single, _] = self.sin_cos_with_doubles();
         single
     }
 
-    /// Sine and cosine of every angle in it, and of their doubles.
+    /// Returns the sine and cosine of all angles in the interval, and of twice those angles.
     pub fn sin_cos_with_doubles(self) -> [(Self, Self); 2] {
         let ends = EndValues([self.lo.sin_cos(), self.hi.sin_cos()]);
         let slack = 2.0 * TRIG_ERROR * (1.0 + self.magnitude());
@@ -80,7 +83,7 @@ impl IntervalF64 {
     }
 }
 
-/// Something at the least and at the largest angle.
+/// The values of a function at the least and at the largest angle of an interval.
 #[derive(Clone, Copy)]
 struct EndValues<T>([T; 2]);
 
@@ -91,13 +94,14 @@ impl<T> EndValues<T> {
 }
 
 impl EndValues<f64> {
-    /// The range of a cosine over angles, counted from its highest place `crest`, radians; `slack` bounds the rounding of the values at both
-    /// ends and of the angles.
+    /// Returns the range of a cosine over the angles of an interval. `crest` is the angle of a maximum of the
+    /// cosine, in radians, and `slack` bounds the rounding of the values at both ends and of the angles.
     fn cosine_range(self, angles: IntervalF64, crest: f64, slack: f64) -> IntervalF64 {
         let Self([a, b]) = self;
         let turn = 2.0 * PI;
-        // The first crest, and the first trough, from the least angle on, in turns; one that is so near to an end that rounding hides
-        // it may count, for the value there is one to the last bit.
+        // The distances, in turns, from the least angle to the first maximum and to the first minimum. One
+        // that is so close to an end that rounding hides it may count, because the value there is 1 to the
+        // last bit.
         let near = 16.0 * slack;
         let from = (angles.lo - near - crest) / turn;
         let wide = (angles.hi - angles.lo + 2.0 * near) / turn;
@@ -109,17 +113,19 @@ impl EndValues<f64> {
     }
 }
 
-/// The smaller of two numbers; one instruction, where `f64::min` takes care of what is no number as well.
+/// Returns the smaller of two numbers. This is one instruction, whereas `f64::min` also handles values that
+/// are not numbers.
 fn smaller_of(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
-/// The larger of two numbers, likewise.
+/// Returns the larger of two numbers, likewise in one instruction.
 fn larger_of(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
-/// The least whole number that is not less; quicker than `ceil`, which is a call on many processors. For numbers of a few thousand.
+/// Returns the least whole number that is not less than `x`, for absolute values up to a few thousand. It is
+/// quicker than `ceil`, which is a function call on many processors.
 fn ceil_to_whole(x: f64) -> f64 {
     let cut = x as i32 as f64;
     if cut < x { cut + 1.0 } else { cut }
@@ -200,7 +206,8 @@ mod tests {
                 let values = (0..=LOOKS).map(|look| function(times * at(look).min(angles.hi)));
                 let (low, high) = values.fold((2.0f64, -2.0f64), |(low, high), v| (low.min(v), high.max(v)));
                 prop_assert!(found.lo <= low && high <= found.hi, "{found:?} {low} {high}");
-                // Between two looks a curve bends away by the square of their distance, times an eighth of its bend.
+                // Between two samples a curve deviates by the square of their distance, times an eighth of
+                // its second derivative.
                 let missed = (times * (angles.hi - angles.lo) / LOOKS as f64).powi(2) + 1e-13;
                 prop_assert!(low - found.lo <= missed && found.hi - high <= missed, "{found:?} {low} {high}");
             }

@@ -1,17 +1,18 @@
-//! Functions of time with their first two derivatives, over numbers or over intervals of time.
+//! This module computes functions of time together with their first two derivatives, for numbers or for
+//! intervals of time.
 
 use super::interval::IntervalF64;
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// What a function of time is computed in: numbers, or intervals that hold all its values.
+/// The arithmetic of a function of time: numbers, or intervals that contain all values.
 pub trait Scalar:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
-    /// A number.
+    /// Converts a number.
     fn from_f64(x: f64) -> Self;
-    /// One by it.
+    /// Returns the reciprocal.
     fn recip(self) -> Self;
-    /// Sine and cosine, radians.
+    /// Returns the sine and cosine of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
 }
 
@@ -39,32 +40,33 @@ impl Scalar for IntervalF64 {
     }
 }
 
-/// A value with its first and second derivative by time.
+/// A value with its first and second derivative with respect to time.
 #[derive(Debug, Clone, Copy)]
 pub struct Jet<S> {
-    /// Value.
+    /// The value.
     pub v: S,
-    /// First derivative.
+    /// The first derivative.
     pub d: S,
-    /// Second derivative.
+    /// The second derivative.
     pub dd: S,
 }
 
 impl<S: Scalar> Jet<S> {
-    /// A constant.
+    /// Makes a constant, whose derivatives are zero.
     pub fn constant(x: f64) -> Self {
         Self { v: S::from_f64(x), d: S::from_f64(0.0), dd: S::from_f64(0.0) }
     }
 
-    /// One by it.
+    /// Returns the reciprocal.
     pub fn recip(self) -> Self {
         let r = self.v.recip();
         let rr = r * r;
         let d = -(self.d * rr);
+        // (1/v)' = -v' / v^2 and (1/v)'' = (2 v'^2 / v - v'') / v^2.
         Self { v: r, d, dd: (S::from_f64(2.0) * self.d * self.d * r - self.dd) * rr }
     }
 
-    /// Times a number.
+    /// Returns the value multiplied by a number.
     pub fn scaled_by(self, factor: f64) -> Self {
         let factor = S::from_f64(factor);
         Self { v: self.v * factor, d: self.d * factor, dd: self.dd * factor }
@@ -88,6 +90,7 @@ impl<S: Scalar> Sub for Jet<S> {
 impl<S: Scalar> Mul for Jet<S> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
+        // Leibniz: (u v)'' = u'' v + 2 u' v' + u v''.
         let twice = self.d * other.d;
         Self {
             v: self.v * other.v,

@@ -1,81 +1,88 @@
-//! A flat end mill between two places, and its section with a layer.
+//! This module describes a flat end mill that moves between two poses, and its section with a layer.
 //!
-//! The mill is the cylinder `0 <= (p - tip).a <= flutes`, `|p - tip|^2 - ((p - tip).a)^2 <= R^2`. With a layer z = const it has an ellipse
-//! in common, with semi-axes R across the tilt and R / |a_z| along it, cut off by the straight lines in which the planes of the bottom disc
-//! and of the upper end of the flutes cross the layer (science.md, section 4).
+//! The mill is the cylinder `0 <= (p - tip).a <= flutes`, `|p - tip|^2 - ((p - tip).a)^2 <= R^2`. It meets a
+//! layer z = const in an ellipse with the semi-axes R across the tilt and R / |a_z| along it. The ellipse is
+//! cut off by the straight lines in which the planes of the bottom disc and of the upper end of the flutes
+//! cross the layer (science.md, section 4).
+//!
+//! The layered model covers flat end mills whose axis is not nearly parallel to the layers. A piece of path
+//! with any other mill or axis is left out and not approximated: its material stays, and a finding says so.
 
 use crate::sim::{PathPiece, ToolPose};
 use nalgebra::Vector3;
 
-/// A flat end mill. Lengths in mm.
+/// A flat end mill; lengths are in mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlatMill {
-    /// Radius.
+    /// The radius.
     pub radius: f64,
-    /// Length of the flutes above the tip; infinite where it does not matter.
+    /// The length of the flutes above the tip. It is infinite if it does not matter.
     pub flutes: f64,
 }
 
-/// Why a piece of path cannot be modelled.
+/// The reason why a piece of path cannot be modelled.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum MillStepError {
-    /// No radius or no flutes, or numbers that are not finite.
+    /// The mill has no radius or no flutes, or its numbers are not finite.
     #[error("the tool has no diameter or no flutes")]
     NoCutter,
-    /// Both places are the same.
+    /// Both poses are the same.
     #[error("the piece has no length and the axis does not turn")]
     Still,
-    /// The axis is, or becomes on the way, too nearly parallel to the layers.
+    /// The axis is nearly parallel to the layers somewhere on the piece.
     #[error(
         "the axis is {tilt_deg:.1} degrees from upright; beyond {most:.0} degrees a layer's section is no ellipse of use",
         most = MOST_TILT_DEG
     )]
     Tilt {
-        /// Larger angle between axis and the vertical at the two places, degrees.
+        /// The larger of the angles between axis and vertical at the two poses, degrees.
         tilt_deg: f64,
     },
-    /// One place has the tool upright and the other upside down.
+    /// The tool points upwards at one pose and downwards at the other.
     #[error("the axis turns through the plane of the layers")]
     Overturns,
-    /// A place that is no place.
+    /// A coordinate is not finite or too large.
     #[error("a coordinate is not finite, or farther than 100 m away")]
     NotFinite,
 }
 
-/// Largest angle between axis and the vertical, degrees: a section is then nearly six times as long as the cutter is wide. Two axes
-/// within it have all axes between them within it as well, since a cap smaller than a hemisphere holds its great circles.
+/// The largest angle between axis and vertical, degrees. A section is then nearly six times as long as the
+/// cutter is wide. If two axes are within this angle, all axes between them are too, since a cap smaller than
+/// a hemisphere contains the great circles between its points.
 pub const MOST_TILT_DEG: f64 = 80.0;
 
-/// Farthest coordinate, mm.
+/// The largest coordinate, mm.
 const FARTHEST: f64 = 1e5;
 
-/// Two places closer than this (mm), with axes closer than this (radians), are one.
+/// Two poses whose tips are closer than this (mm) and whose axes are closer than this (radians) are the same.
 const STILL: f64 = 1e-12;
 
-/// A mill on its way from one place to another: the tip goes straight, the axis turns evenly in the plane of both axes. A tool that
-/// hangs upside down is mirrored at z = 0, together with its layers; sections stay what they are.
+/// A mill that moves from one pose to another: the tip moves straight, and the axis turns evenly in the plane
+/// of both axes. A tool that hangs upside down is mirrored at z = 0 together with its layers, which does not
+/// change the sections.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MillStep {
     pub(super) mill: FlatMill,
-    /// Tip at the beginning, and its way, mm.
+    /// The tip at the start and its displacement, mm.
     pub(super) tip: Vector3<f64>,
     pub(super) way: Vector3<f64>,
-    /// `axis(t) = from cos(turn t) + across sin(turn t)`.
+    /// The vectors of the turning axis: `axis(t) = from cos(turn t) + across sin(turn t)`.
     pub(super) from: Vector3<f64>,
     pub(super) across: Vector3<f64>,
-    /// Radians.
+    /// The angle of the turn, radians.
     pub(super) turn: f64,
-    /// Tip (mm) and axis at the end as they were given: to the bit what a step that goes on from there begins with.
+    /// The tip (mm) and axis at the end as they were given. They are equal to the bit to those with which a
+    /// following step begins.
     pub(super) end: [Vector3<f64>; 2],
-    /// -1 for a mirrored step.
+    /// The factor of z: -1 for a mirrored step, else 1.
     pub(super) up: f64,
 }
 
 impl MillStep {
-    /// A mill along a piece of path.
+    /// Makes the step of a mill along a piece of path.
     ///
     /// # Errors
-    /// See [`MillStepError`].
+    /// Returns a [`MillStepError`] if the mill or the poses cannot be modelled.
     pub fn new(mill: FlatMill, piece: &PathPiece) -> Result<Self, MillStepError> {
         if !(mill.radius > 0.0 && mill.radius < FARTHEST && mill.flutes > 0.0) {
             return Err(MillStepError::NoCutter);
@@ -101,33 +108,36 @@ impl MillStep {
         if way.norm() < STILL && turn < STILL {
             return Err(MillStepError::Still);
         }
-        // Within rounding of no turn at all: the same axis, so that a section keeps its shape to the last bit.
+        // A turn that is only rounding becomes zero, so that a section keeps its shape to the last bit.
         let turn = if turn < 1e-10 { 0.0 } else { turn };
+        // Gram-Schmidt: the part of the last axis across the first one gives the direction of the turn.
         let across = (to - from * from.dot(&to)).try_normalize(0.0).filter(|_| turn > 0.0);
         let tip = upright(piece.from.point.coords);
         let end = [upright(piece.to.point.coords), to];
         Ok(Self { mill, tip, way, from, across: across.unwrap_or_default(), turn, end, up })
     }
 
-    /// The mill.
+    /// Returns the mill.
     pub fn mill(&self) -> FlatMill {
         self.mill
     }
 
-    /// Length of the tip's way, mm.
+    /// Returns the length of the tip's path, mm.
     pub fn length_mm(&self) -> f64 {
         self.way.norm()
     }
 
-    /// Least and greatest height that the cutter may reach, mm; no layer outside is touched.
+    /// Returns the least and the greatest height that the cutter may reach, mm. Layers outside are not
+    /// touched.
     pub fn height_range_mm(&self) -> [f64; 2] {
         let (a, b) = (self.tip.z, self.tip.z + self.way.z);
-        // The bottom disc hangs down by no more than R sin(tilt), the upper end rises likewise.
+        // The bottom disc hangs below the tip by at most R sin(tilt), and the upper end rises likewise.
         let [low, high] = [a.min(b) - self.mill.radius, a.max(b) + self.mill.radius + self.mill.flutes];
         if self.up < 0.0 { [-high, -low] } else { [low, high] }
     }
 
-    /// A bound on how fast any point of the section at height z moves, mm for the whole step.
+    /// Returns an upper bound of the displacement of any point of the section at height z, mm for the whole
+    /// step.
     pub(super) fn max_displacement_mm(&self, z: f64) -> f64 {
         let lever = (self.up * z - self.tip.z).abs().max((self.up * z - self.tip.z - self.way.z).abs());
         self.way.norm() + self.turn * (self.mill.radius + lever)

@@ -1,12 +1,15 @@
-//! The exact undeformed chips of a flat end mill between two places of the cutter, layer by layer, in three and five axes.
+//! This module computes the exact undeformed chips of a flat end mill between two poses, layer by layer, in
+//! three and five axes.
 //!
-//! The workpiece is a stack of layers z = const. Between two places the tip goes straight and the axis turns evenly; on a layer
-//! the cutter is a family of [`mill_step`]s, and what the family covers is bounded by its first and last edge and its envelope, which
-//! the boundary construction [`boundary_diagram`] finds ("An accurate and efficient approach to geometric modeling of undeformed chips in
-//! five-axis CNC milling", Computer-Aided Design 88, 2017). [`swept_area`] turns the diagram into areas, [`stack`] keeps the
-//! workpiece, [`chip`] is what one piece of path removes, and [`measure_engagement()`] what feeds are made from.
+//! The workpiece is a stack of layers z = const. Between two poses the tip moves straight and the axis turns
+//! evenly. On a layer, the cutter has a family of sections ([`section_family`]). The area that the family
+//! covers is bounded by its first and last edge and by its envelope, which the boundary construction diagram
+//! finds ([`boundary_diagram`]; "An accurate and efficient approach to geometric modeling of undeformed chips
+//! in five-axis CNC milling", Computer-Aided Design 88, 2017). [`swept_area`] turns the diagram into areas,
+//! [`stack`] holds the workpiece, [`chip`] computes what one piece of path removes, and
+//! [`measure_engagement()`] gives the engagement that feeds are made from.
 //!
-//! Everything is in millimetres, radians and the workpiece frame.
+//! Lengths are in mm, angles in radians, and points in the workpiece frame.
 
 pub mod area;
 pub mod boundary_diagram;

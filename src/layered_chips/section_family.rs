@@ -1,12 +1,17 @@
-//! The family of sections along a step, on one layer: `P(theta, t) = c(t) + M(t) (cos theta, sin theta)`.
+//! This module describes the family of sections of a step on one layer: `P(theta, t) = c(t) + M(t) (cos
+//! theta, sin theta)`.
 //!
-//! With b the part of the axis in the layer, `M = R (I + b b^T / (a_z (1 + a_z)))`: symmetric, R across the tilt and R / a_z along it,
-//! and smooth through an upright axis. So theta is the angle of a tooth about the tool axis, carried over by the shortest turn from z to
-//! the axis. What happens on the ellipse is, at each time, a trigonometric polynomial in theta:
+//! With b the part of the axis in the layer, `M = R (I + b b^T / (a_z (1 + a_z)))`. M is symmetric, has the
+//! factor R across the tilt and R / a_z along it, and is smooth at a vertical axis. So theta is the angle of
+//! a tooth around the tool axis, carried over by the shortest rotation from z to the axis. The functions on
+//! the ellipse are, at each time, trigonometric polynomials in theta:
 //!
-//! - [`DiagramCurve::Edge`]: `f = det[dP/dtheta, dP/dt]`; negative where the edge advances, zero on the envelope;
-//! - [`DiagramCurve::Bottom`], [`DiagramCurve::Top`]: height above the bottom disc and below the upper end of the flutes, by R / a_z; positive inside;
-//! - [`DiagramCurve::Face`]: speed of the bottom disc's plane through that point along its normal; positive where the disc advances.
+//! - [`DiagramCurve::Edge`] is `f = det[dP/dtheta, dP/dt]`; it is negative where the edge advances, and zero
+//!   on the envelope.
+//! - [`DiagramCurve::Bottom`] and [`DiagramCurve::Top`] are the height above the bottom disc and below the
+//!   upper end of the flutes, divided by R / a_z; they are positive inside.
+//! - [`DiagramCurve::Face`] is the speed of the bottom disc's plane at that point along its normal; it is
+//!   positive where the disc advances.
 
 use super::interval::IntervalF64;
 use super::jet::{Jet, Scalar};
@@ -19,26 +24,26 @@ use super::trig_polynomial::{AngleSinCos, TrigPolynomial};
 pub enum DiagramCurve {
     /// The determinant whose zeros are the envelope.
     Edge,
-    /// Above the bottom disc.
+    /// The height above the bottom disc.
     Bottom,
-    /// Below the upper end of the flutes.
+    /// The height below the upper end of the flutes.
     Top,
-    /// How the bottom disc's plane moves.
+    /// The speed of the bottom disc's plane along its normal.
     Face,
 }
 
 impl DiagramCurve {
-    /// All of them.
+    /// All curves, in the order in which other lists have them.
     pub const ALL: [Self; 4] = [Self::Edge, Self::Bottom, Self::Top, Self::Face];
 }
 
-/// A step seen on one layer.
+/// A step on one layer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionFamily {
     step: MillStep,
-    /// Height of the layer, mm, mirrored with the step.
+    /// The height of the layer, mm, mirrored if the step is.
     z: f64,
-    /// Bound on the speed of the section, mm for the whole step.
+    /// An upper bound of the section's displacement, mm for the whole step.
     pace: f64,
 }
 
@@ -47,49 +52,51 @@ pub struct SectionFamily {
 struct FamilyState<S> {
     tip: [Jet<S>; 3],
     axis: [Jet<S>; 3],
-    /// Centre of the ellipse.
+    /// The centre of the ellipse.
     centre: [Jet<S>; 2],
-    /// xx, xy and yy of M / R.
+    /// The entries xx, xy and yy of M / R.
     shape: [Jet<S>; 3],
 }
 
 impl SectionFamily {
-    /// A step on the layer at height z, mm.
+    /// Makes the family of a step on the layer at height z, mm.
     pub fn new(step: &MillStep, z: f64) -> Self {
         Self { step: *step, z: z * step.up, pace: step.max_displacement_mm(z) }
     }
 
-    /// The step.
+    /// Returns the step.
     pub fn step(&self) -> &MillStep {
         &self.step
     }
 
-    /// Values of `f` that are as good as zero: the section moves by less than a billionth of the step.
+    /// Returns the absolute value of `f` below which it counts as zero: the section then moves by less than a
+    /// billionth of the step.
     pub(super) fn zero_threshold(&self) -> f64 {
         1e-9 * self.step.mill.radius * self.pace
     }
 
-    /// Whether the tip stays where it is, as far as angles of a millionth can tell.
+    /// Returns whether the tip does not move, up to a millionth of the displacement of the rim.
     pub(super) fn pivots_about_tip(&self) -> bool {
         self.step.way.norm() <= 1e-6 * self.step.mill.radius * self.step.turn
     }
 
-    /// Whether a curve means anything for this mill.
+    /// Returns whether a curve exists for this mill.
     pub(super) fn has_curve(&self, curve: DiagramCurve) -> bool {
         curve != DiagramCurve::Top || self.has_top()
     }
 
-    /// Whether the upper end of the flutes may reach the layer.
+    /// Returns whether the flutes have an upper end that may reach the layer.
     pub(super) fn has_top(&self) -> bool {
         self.step.mill.flutes.is_finite()
     }
 
+    /// Returns the family at a time, or over an interval of times.
     fn state_over<S: Scalar>(&self, t: S) -> FamilyState<S> {
         let (tip, axis) = self.tool_pose_at(t);
         self.section_state(tip, axis)
     }
 
-    /// The family at a number's time; at the end with the place to the bit.
+    /// Returns the family at a time given as a number. At the end it uses the given pose to the bit.
     fn exact_state_at(&self, t: f64) -> FamilyState<f64> {
         let (mut tip, mut axis) = self.tool_pose_at(t);
         if t == 1.0 {
@@ -100,7 +107,7 @@ impl SectionFamily {
         self.section_state(tip, axis)
     }
 
-    /// Tip and axis.
+    /// Returns the tip and the axis with their derivatives.
     fn tool_pose_at<S: Scalar>(&self, t: S) -> ([Jet<S>; 3], [Jet<S>; 3]) {
         let step = &self.step;
         let zero = S::from_f64(0.0);
@@ -112,6 +119,7 @@ impl SectionFamily {
         let tip = [line(step.tip.x, step.way.x), line(step.tip.y, step.way.y), line(step.tip.z, step.way.z)];
         let (sin, cos) = (S::from_f64(step.turn) * t).sin_cos();
         let turn = S::from_f64(step.turn);
+        // a(t) = from cos + across sin, so a' = turn (across cos - from sin) and a'' = -turn^2 a.
         let turned = |from: f64, across: f64| {
             if step.turn == 0.0 {
                 return Jet::constant(from);
@@ -128,9 +136,11 @@ impl SectionFamily {
         (tip, axis)
     }
 
+    /// Returns the section of a pose: the centre and the matrix of the ellipse.
     fn section_state<S: Scalar>(&self, tip: [Jet<S>; 3], axis: [Jet<S>; 3]) -> FamilyState<S> {
         let [bx, by, az] = axis;
         let up = az.recip();
+        // The axis line meets the layer at the length (z - tip_z) / a_z above the tip.
         let height = (Jet::constant(self.z) - tip[2]) * up;
         let centre = [tip[0] + height * bx, tip[1] + height * by];
         let one = Jet::constant(1.0);
@@ -139,7 +149,7 @@ impl SectionFamily {
         FamilyState { tip, axis, centre, shape }
     }
 
-    /// The ellipse at a time.
+    /// Returns the ellipse at a time.
     pub fn ellipse_at(&self, t: f64) -> LayerEllipse {
         let FamilyState { axis, centre: [x, y], shape, .. } = self.exact_state_at(t);
         let radius = self.step.mill.radius;
@@ -151,7 +161,7 @@ impl SectionFamily {
         }
     }
 
-    /// The coefficients of a curve with their derivatives by time.
+    /// Returns the coefficients of a curve and their derivatives with respect to time.
     fn expand_curve<S: Scalar>(&self, curve: DiagramCurve, at: &FamilyState<S>) -> ([S; 5], [S; 5]) {
         let radius = self.step.mill.radius;
         let split = |k: [(S, S); 5]| (k.map(|(v, _)| v), k.map(|(_, d)| d));
@@ -163,14 +173,15 @@ impl SectionFamily {
                 let [xx, xy, yy] = at.shape;
                 let half = S::from_f64(0.5 * radius * radius);
                 let line = S::from_f64(radius);
-                // The velocity of the shape, with its own derivative.
+                // The derivative of the shape, together with its own derivative.
                 let rate = |m: Jet<S>| (m.d, m.dd);
                 let of = |m: Jet<S>| (m.v, m.d);
                 let mul = |(a, da): (S, S), (b, db): (S, S)| (a * b, da * b + a * db);
                 let add = |(a, da): (S, S), (b, db): (S, S)| (a + b, da + db);
                 let sub = |(a, da): (S, S), (b, db): (S, S)| (a - b, da - db);
                 let scaled = |by: S, (a, da): (S, S)| (by * a, by * da);
-                // f = det[M w, c' + M' v] with v = (cos, sin), w = (-sin, cos).
+                // f = det[M w, c' + M' v] with v = (cos, sin) and w = (-sin, cos), sorted by 1, cos, sin, cos
+                // 2x and sin 2x.
                 let cos = sub(mul(of(xy), rate(y)), mul(of(yy), rate(x)));
                 let sin = sub(mul(of(xy), rate(x)), mul(of(xx), rate(y)));
                 let cos_cos = sub(mul(of(xy), rate(xy)), mul(of(yy), rate(xx)));
@@ -196,7 +207,8 @@ impl SectionFamily {
                 split([pair(below), minus(at.axis[0]), minus(at.axis[1]), none, none])
             }
             DiagramCurve::Face => {
-                // -tip'.a + (M v).b', since what the centre's lever adds cancels for a unit axis.
+                // The speed is -tip'.a + (M v).b', because the contribution of the centre's distance from the
+                // tip cancels for a unit axis.
                 let [xx, xy, yy] = at.shape;
                 let [bx, by, _] = at.axis;
                 let line = S::from_f64(radius);
@@ -215,17 +227,17 @@ impl SectionFamily {
         }
     }
 
-    /// Coefficients of a curve at a time: `k0 + k1 cos x + k2 sin x + k3 cos 2x + k4 sin 2x`.
+    /// Returns the coefficients of a curve at a time: `k0 + k1 cos x + k2 sin x + k3 cos 2x + k4 sin 2x`.
     pub fn curve_coefficients(&self, curve: DiagramCurve, t: f64) -> [f64; 5] {
         self.curve_at(curve, t).0
     }
 
-    /// A curve at a time.
+    /// Returns a curve at a time.
     pub(super) fn curve_at(&self, curve: DiagramCurve, t: f64) -> TrigPolynomial<f64> {
         TrigPolynomial(self.expand_curve(curve, &self.exact_state_at(t)).0)
     }
 
-    /// The family over all times of an interval.
+    /// Returns the family over all times of an interval.
     pub(super) fn window_over(&self, t: IntervalF64) -> FamilyWindow<'_> {
         let middle = IntervalF64::from_point(t.middle());
         FamilyWindow {
@@ -236,7 +248,8 @@ impl SectionFamily {
         }
     }
 
-    /// How fast the edge advances along the normal of the cutter's surface in space, mm for the whole step.
+    /// Returns the advance of the edge along the normal of the cutter's surface in space, mm for the whole
+    /// step.
     pub(super) fn edge_advance_mm(
         &self,
         ellipse: &LayerEllipse,
@@ -246,7 +259,7 @@ impl SectionFamily {
         let angle = AngleSinCos::from_radians(theta);
         let direction = [angle.cos, angle.sin];
         let [bx, by, _] = ellipse.axis;
-        // The radial normal's part along z is that of the tilt.
+        // The surface's normal leans out of the layer; `level` is the cosine of that lean.
         let lean = bx * angle.cos + by * angle.sin;
         let level = (1.0 - lean * lean).max(0.0).sqrt();
         -edge.value_at(&angle) / ellipse.tangent_length_mm(direction) * level
@@ -262,24 +275,25 @@ pub(super) struct FamilyWindow<'f> {
 }
 
 impl FamilyWindow<'_> {
-    /// Half the length of the interval.
+    /// Returns half the length of the interval.
     pub fn half_length(&self) -> f64 {
         self.offset.magnitude()
     }
 
-    /// A curve at the time in the middle.
+    /// Returns a curve at the time in the middle of the interval.
     pub fn curve_at_middle(&self, curve: DiagramCurve) -> TrigPolynomial<IntervalF64> {
         TrigPolynomial(self.family.expand_curve(curve, &self.middle).0)
     }
 
-    /// A curve at all these times: enclosures of its coefficients, and of their derivatives by time.
+    /// Encloses a curve over all times of the interval: returns enclosures of its coefficients and of their
+    /// derivatives with respect to time.
     pub fn enclose_curve(
         &self,
         curve: DiagramCurve,
     ) -> (TrigPolynomial<IntervalF64>, TrigPolynomial<IntervalF64>) {
         let (mut all, rate) = self.family.expand_curve(curve, &self.whole);
         let (middle, _) = self.family.expand_curve(curve, &self.middle);
-        // The mean value theorem's enclosure is narrower for short times.
+        // For short intervals the enclosure of the mean value theorem, k(m) + k' (t - m), is narrower.
         for ((all, middle), rate) in all.iter_mut().zip(middle).zip(rate) {
             *all = all.intersect_or_self(middle + rate * self.offset);
         }

@@ -1,4 +1,4 @@
-//! The workpiece as a stack of layers.
+//! This module holds the workpiece as a stack of layers.
 
 mod layer;
 mod level_mesh_sections;
@@ -13,31 +13,31 @@ use level_mesh_sections::LevelMeshSections;
 use primitive_sections::SectionedCylinder;
 use rayon::prelude::*;
 
-/// Layers at most: a bound on memory.
+/// The most layers, which bounds the memory.
 pub const MOST_LAYERS: usize = 100_000;
 
-/// Why there is no stack of a stock.
+/// The reason why a stock has no stack of layers.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum LayerStackError {
-    /// A layer without thickness, or thicker than the stock.
+    /// The layers have no thickness, or are thicker than the stock is high.
     #[error("a layer must have a thickness, and not more than the stock is high: {height} mm")]
     Thickness {
-        /// Height of the stock, mm.
+        /// The height of the stock, mm.
         height: f64,
     },
-    /// Thinner layers than there is memory for.
+    /// The layers are so thin that there are too many of them.
     #[error("they would be {layers}, more than the {MOST_LAYERS} that are allowed")]
     TooMany {
-        /// Layers that it makes.
+        /// The number of layers.
         layers: f64,
     },
-    /// A stock too large for steps that are fine enough.
+    /// The stock is too large for a grid that is fine enough.
     #[error("the stock is {size} mm wide; areas are cut exactly up to 130 m only")]
     TooLarge {
-        /// Its larger side in x and y, mm.
+        /// The larger side of the stock in x and y, mm.
         size: f64,
     },
-    /// A mesh that should be grown.
+    /// The stock is a mesh with an allowance, and a mesh cannot be grown here.
     #[error(
         "the stock is an STL with an allowance of {allowance} mm; a mesh cannot be grown for layers, so give an STL with the allowance in it"
     )]
@@ -45,7 +45,7 @@ pub enum LayerStackError {
         /// The allowance, mm.
         allowance: f64,
     },
-    /// What an earlier program left.
+    /// The stock is what an earlier program left.
     #[error("the stock is a .clstock of columns, which has no exact layers; give a block, cylinder or STL")]
     Remains,
 }
@@ -59,20 +59,22 @@ pub struct LayerStack {
 }
 
 impl LayerStack {
-    /// A stock in layers of a thickness, mm, the lowest on its lower side and the highest as thin as is left. Each has the section of
-    /// the stock in its middle; curves are chords within 0.0005 mm.
+    /// Makes the stack of a stock in layers of a thickness, mm. The lowest layer is on the lower side of the
+    /// stock, and the highest one is thinner if the thickness does not divide the height. Each layer has the
+    /// stock's section at the layer's middle; curves become chords within 0.0005 mm.
     ///
     /// # Errors
-    /// When the thickness is none or makes too many layers, the stock is larger than sections can be exact, or made of something that has no
-    /// exact sections: a mesh with an allowance, or remains.
+    /// Returns an error if the thickness is not positive or makes too many layers, if the stock is too large
+    /// for exact sections, or if it has no exact sections: a mesh with an allowance, or remains.
     pub fn new(stock: &Stock, thickness: f64) -> Result<Self, LayerStackError> {
         Self::with_max_vertices(stock, thickness, layer::MOST_CORNERS)
     }
 
-    /// The same, with areas in pieces of at most so many corners. Nothing but the time it takes depends on them, as far as roundings go.
+    /// Makes the same stack with areas in pieces of at most `corners` vertices. Apart from rounding, the
+    /// result does not depend on that number, only the time.
     ///
     /// # Errors
-    /// See [`LayerStack::new`].
+    /// Returns the errors of [`LayerStack::new`].
     pub fn with_max_vertices(stock: &Stock, thickness: f64, corners: usize) -> Result<Self, LayerStackError> {
         let bounds = stock.bounds();
         let ([x0, y0, z0], [x1, y1, z1]) = bounds;
@@ -80,7 +82,7 @@ impl LayerStack {
         if !(thickness > 0.0 && thickness <= height * (1.0 + 1e-9)) {
             return Err(LayerStackError::Thickness { height });
         }
-        // A rounding more than a whole number of layers is no layer.
+        // A rest of the height that is only rounding gets no layer.
         let count = (height / thickness - 1e-9).ceil().max(1.0);
         if count > MOST_LAYERS as f64 {
             return Err(LayerStackError::TooMany { layers: count });
@@ -103,33 +105,33 @@ impl LayerStack {
         Ok(Self { bounds, grid, layers: layers.collect() })
     }
 
-    /// Lower and upper corner of the box around the stock, mm.
+    /// Returns the lowest and highest corner of the box around the stock, mm.
     pub fn bounds(&self) -> ([f64; 3], [f64; 3]) {
         self.bounds
     }
 
-    /// The grid on which areas are cut.
+    /// Returns the grid on which areas are cut.
     pub fn grid(&self) -> &AreaGrid {
         &self.grid
     }
 
-    /// The layers, from below.
+    /// Returns the layers, from below.
     pub fn layers(&self) -> &[Layer] {
         &self.layers
     }
 
-    /// The layers, from below; none depends on another one.
+    /// Returns the layers for changing, from below. No layer depends on another one.
     pub fn layers_mut(&mut self) -> &mut [Layer] {
         &mut self.layers
     }
 
-    /// What is left, mm3: areas times thicknesses.
+    /// Returns the volume that is left, mm3: the sum of area times thickness.
     pub fn volume_mm3(&self) -> f64 {
         self.layers.iter().map(|layer| layer.area_mm2() * layer.thickness_mm()).sum()
     }
 }
 
-/// A body that has level sections.
+/// A body that has exact level sections.
 enum SectionedBody {
     Block([f64; 3], [f64; 3]),
     Cylinder(SectionedCylinder),
@@ -151,14 +153,16 @@ impl SectionedBody {
         }
     }
 
-    /// The section in the plane with a number, whose borders wind around it once.
+    /// Returns the body's section in the plane with this number and height; its boundaries wind around it
+    /// once.
     fn section_at(&self, number: usize, height: f64, grid: &AreaGrid) -> GridArea {
         match self {
             Self::Block(from, to) => {
                 GridArea::new(grid, [primitive_sections::section_block(*from, *to, height).as_slice()])
             }
             Self::Cylinder(cylinder) => GridArea::new(grid, [cylinder.section_at(height).as_slice()]),
-            // Several shells, of which some may be turned inside out: joined before other bodies come.
+            // A mesh may have several shells, some of them turned inside out, so they are united before other
+            // bodies are added.
             Self::Mesh(slices) => {
                 let borders = slices.section_at(number, height);
                 Clipper::default().unite_boundaries(&GridArea::new(grid, borders.iter().map(Vec::as_slice)))

@@ -1,7 +1,7 @@
-//! Chips and workpieces as solids: every piece of a layer a prism.
+//! This module writes chips and workpieces as solids: every piece of a layer becomes a prism.
 //!
-//! Layers lie on each other with their whole faces, so the solid's surface is closed prism by prism. Walls stand on those edges of a face's
-//! triangles that only one of them has, so no rounding can open a seam.
+//! Layers touch each other with whole faces, so the surface is closed prism by prism. Walls stand on the
+//! edges that only one triangle of a face has, so rounding cannot open a seam.
 
 use super::chip::Chip;
 use super::{LayerStack, Polygon};
@@ -9,13 +9,14 @@ use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 use std::io::{self, Write};
 use stl_io::{Normal, Triangle, Vertex};
 
-/// Corners in x, y, z, mm, counter-clockwise seen from outside.
+/// The vertices of a triangle in x, y, z, mm, counter-clockwise seen from outside.
 type TriangleVertices = [[f64; 3]; 3];
 
-/// Writes a chip as a binary STL in mm.
+/// Writes a chip as a binary STL file in mm.
 ///
 /// # Errors
-/// What `out` returns, that a border of a piece crosses another one, or that there are more triangles than an STL file counts.
+/// Returns the errors of `out`, and an error if the boundary of a piece crosses another one or there are more
+/// triangles than an STL file can count.
 pub fn write_chip_stl(chip: &Chip, out: &mut dyn Write) -> io::Result<()> {
     let mut all = Vec::new();
     for layer in &chip.layers {
@@ -24,10 +25,10 @@ pub fn write_chip_stl(chip: &Chip, out: &mut dyn Write) -> io::Result<()> {
     write_triangles(all, out)
 }
 
-/// Writes what is left of a workpiece as a binary STL in mm.
+/// Writes the rest of a workpiece as a binary STL file in mm.
 ///
 /// # Errors
-/// See [`write_chip_stl`].
+/// Returns the errors of [`write_chip_stl`].
 pub fn write_stack_stl(stack: &LayerStack, out: &mut dyn Write) -> io::Result<()> {
     let mut all = Vec::new();
     for layer in stack.layers() {
@@ -46,7 +47,8 @@ fn write_triangles(all: Vec<TriangleVertices>, out: &mut dyn Write) -> io::Resul
     stl_io::write_stl(&mut out, triangles.iter())
 }
 
-/// A triangle in the numbers of STL; none when two of its corners become one, for then its neighbours meet.
+/// Converts a triangle to the numbers of STL. A triangle of which two vertices become equal is left out,
+/// because its neighbours then meet.
 fn stl_triangle(corners: TriangleVertices) -> Option<Triangle> {
     let [a, b, c] = corners.map(|corner| corner.map(|at| at as f32 + 0.0));
     if a == b || b == c || c == a {
@@ -59,7 +61,7 @@ fn stl_triangle(corners: TriangleVertices) -> Option<Triangle> {
     Some(Triangle { normal, vertices: [a, b, c].map(Vertex::new) })
 }
 
-/// Adds the prisms on some polygons.
+/// Adds the prisms over some polygons.
 fn add_prisms(
     pieces: &[Polygon],
     bottom: f64,
@@ -82,13 +84,14 @@ fn add_prisms(
     Ok(())
 }
 
-/// A polygon in triangles, counter-clockwise, and the edges around it with the polygon to their left.
+/// A polygon as triangles, counter-clockwise, and the edges around it with the polygon to their left.
 #[derive(Default)]
 struct TriangulatedPolygon {
     triangles: Vec<[[f64; 2]; 3]>,
     edges: Vec<[[f64; 2]; 2]>,
 }
 
+/// Triangulates a polygon; fails if its boundaries cross.
 fn triangulate_polygon(polygon: &Polygon) -> io::Result<TriangulatedPolygon> {
     let (mut places, mut borders) = (Vec::new(), Vec::new());
     for border in std::iter::once(&polygon.outer).chain(&polygon.holes) {
@@ -105,7 +108,7 @@ fn triangulate_polygon(polygon: &Polygon) -> io::Result<TriangulatedPolygon> {
     if crossing {
         return Err(io::Error::other("a border of a piece crosses another one"));
     }
-    // From outside inwards: every border leads in or out.
+    // Go from the outside inwards: every boundary edge that is crossed changes between outside and inside.
     let mut inside: Vec<Option<bool>> = vec![None; net.num_all_faces()];
     let mut open: Vec<_> = net.convex_hull().map(|edge| (edge.rev(), edge.is_constraint_edge())).collect();
     let mut found = TriangulatedPolygon::default();

@@ -1,27 +1,28 @@
-//! Trigonometric polynomials of second degree, `k0 + k1 cos + k2 sin + k3 cos 2x + k4 sin 2x`: what everything on an ellipse is.
+//! This module holds trigonometric polynomials of second degree, `k0 + k1 cos x + k2 sin x + k3 cos 2x + k4
+//! sin 2x`. All functions on a section's ellipse have this form.
 
 use super::interval::IntervalF64;
 use super::jet::Scalar;
 
-/// The coefficients.
+/// The polynomial, given by its coefficients k0 to k4.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrigPolynomial<S>(pub [S; 5]);
 
-/// Cosine and sine of an angle and of its double.
+/// The cosine and sine of an angle and of twice that angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AngleSinCos<S> {
-    /// Cosine.
+    /// The cosine.
     pub cos: S,
-    /// Sine.
+    /// The sine.
     pub sin: S,
-    /// Cosine of the double.
+    /// The cosine of twice the angle.
     pub cos2: S,
-    /// Sine of the double.
+    /// The sine of twice the angle.
     pub sin2: S,
 }
 
 impl AngleSinCos<f64> {
-    /// Of an angle in radians.
+    /// Computes them for an angle in radians.
     pub fn from_radians(x: f64) -> Self {
         let (sin, cos) = x.sin_cos();
         Self { cos, sin, cos2: cos * cos - sin * sin, sin2: 2.0 * sin * cos }
@@ -29,7 +30,7 @@ impl AngleSinCos<f64> {
 }
 
 impl AngleSinCos<IntervalF64> {
-    /// Of all angles of an interval, radians.
+    /// Encloses them for all angles of an interval, in radians.
     pub fn from_interval(x: IntervalF64) -> Self {
         let [(sin, cos), (sin2, cos2)] = x.sin_cos_with_doubles();
         Self { cos, sin, cos2, sin2 }
@@ -37,19 +38,19 @@ impl AngleSinCos<IntervalF64> {
 }
 
 impl<S: Scalar> TrigPolynomial<S> {
-    /// The value.
+    /// Returns the value at an angle.
     pub fn value_at(&self, x: &AngleSinCos<S>) -> S {
         let [k0, k1, k2, k3, k4] = self.0;
         k0 + k1 * x.cos + k2 * x.sin + k3 * x.cos2 + k4 * x.sin2
     }
 
-    /// The derivative by the angle.
+    /// Returns the derivative with respect to the angle.
     pub fn derivative_at(&self, x: &AngleSinCos<S>) -> S {
         let [_, k1, k2, k3, k4] = self.0;
         k2 * x.cos - k1 * x.sin + S::from_f64(2.0) * (k4 * x.cos2 - k3 * x.sin2)
     }
 
-    /// The second derivative by the angle.
+    /// Returns the second derivative with respect to the angle.
     pub fn second_derivative_at(&self, x: &AngleSinCos<S>) -> S {
         let [_, k1, k2, k3, k4] = self.0;
         -(k1 * x.cos + k2 * x.sin + S::from_f64(4.0) * (k3 * x.cos2 + k4 * x.sin2))
@@ -57,15 +58,16 @@ impl<S: Scalar> TrigPolynomial<S> {
 }
 
 impl TrigPolynomial<IntervalF64> {
-    /// A bound on its absolute value.
+    /// Returns an upper bound of the absolute value.
     pub fn max_magnitude(&self) -> f64 {
         self.0.iter().map(|k| k.magnitude()).sum()
     }
 }
 
 impl TrigPolynomial<f64> {
-    /// The angle in `[lo, hi]` at which it is zero, given that it rises (or falls) there; an end where it has the same sign all over.
-    /// To some last bits, but for a double root: Newton's steps, and halves where those leave the bracket.
+    /// Returns the angle in `[lo, hi]` at which the polynomial is zero, given that it rises (or falls) there;
+    /// if it has the same sign everywhere, an end of the interval. The result is exact to the last bits
+    /// except at a double root. It uses Newton's steps, and bisection where those leave the bracket.
     pub fn find_root(&self, lo: f64, hi: f64, rising: bool) -> f64 {
         let sign = if rising { 1.0 } else { -1.0 };
         let at = |x: f64| {
@@ -83,7 +85,7 @@ impl TrigPolynomial<f64> {
             }
             let next = x - value / slope;
             let next = if next > lo && next < hi { next } else { 0.5 * (lo + hi) };
-            // Newton's next step would be the square of this one.
+            // The error after the next Newton step would be about the square of this one.
             if (next - x).abs() <= 1e-9 || hi - lo <= 1e-15 {
                 return next;
             }

@@ -1,4 +1,5 @@
-//! Polygon booleans: those of [`i_overlay`], with the room they need kept from one to the next.
+//! This module cuts and joins areas with the polygon booleans of [`i_overlay`]. It keeps the memory that they
+//! need from one call to the next.
 
 use super::grid_area::{is_thick, twice_area};
 use super::{AreaGrid, GridArea, Polygon};
@@ -11,19 +12,22 @@ use i_overlay::i_float::int::point::IntPoint;
 /// Cuts and joins areas.
 #[derive(Default)]
 pub struct Clipper {
-    // Made when first asked for: it is large, and most layers of a workpiece are never cut.
+    // The buffers are made at the first call, because they are large and most layers of a workpiece are never
+    // cut.
     room: Option<Box<ClipperBuffers>>,
 }
 
+/// The memory that the polygon booleans reuse.
 struct ClipperBuffers {
     overlay: Overlay,
     buffer: BooleanExtractionBuffer,
 }
 
 impl Clipper {
-    /// Cuts an area, whose borders wind around it once, along another one, which is everything that borders wind around: what is inside
-    /// and what is outside, both without slivers as thin as rounding. Returns whether anything is inside; when not, both results are empty
-    /// and the area is as it was.
+    /// Cuts an area along another one and writes the part inside and the part outside. The boundaries of
+    /// `area` must wind around it once; `along` is everything that its boundaries wind around. Slivers that
+    /// are as thin as rounding are left out of both results. Returns whether anything is inside; if not, both
+    /// results are empty and the area stays as it is.
     pub fn split_area(
         &mut self,
         area: &GridArea,
@@ -48,7 +52,7 @@ impl Clipper {
         true
     }
 
-    /// Everything that borders wind around, with borders that wind around it once.
+    /// Returns everything that the boundaries wind around, with boundaries that wind around it once.
     pub fn unite_boundaries(&mut self, area: &GridArea) -> GridArea {
         let mut joined = GridArea::default();
         let ClipperBuffers { overlay, buffer } = self.buffers_mut();
@@ -61,7 +65,8 @@ impl Clipper {
         joined
     }
 
-    /// The connected pieces of everything that borders wind around, and their area in mm2; without slivers as thin as rounding.
+    /// Returns the connected pieces of everything that the boundaries wind around, and their area in mm2.
+    /// Slivers that are as thin as rounding are left out.
     pub fn extract_polygons(&mut self, area: &GridArea, grid: &AreaGrid) -> (Vec<Polygon>, f64) {
         let ClipperBuffers { overlay, buffer } = self.buffers_mut();
         overlay.clear();
@@ -74,7 +79,7 @@ impl Clipper {
             |contour: Vec<IntPoint>| contour.into_iter().map(|point| grid.point_in_mm(point)).collect();
         let mut twice = 0;
         let pieces = shapes.into_iter().filter_map(|mut shape| {
-            // Without its outer border, a piece is none.
+            // A piece whose outer boundary is a sliver is left out with its holes.
             shape.first().filter(|outer| is_thick(outer))?;
             shape.retain(|contour| is_thick(contour));
             twice += shape.iter().map(|contour| twice_area(contour)).sum::<i128>();
@@ -85,15 +90,15 @@ impl Clipper {
         (pieces, twice as f64 / 2.0 * grid.step_mm() * grid.step_mm())
     }
 
-    /// The connected pieces of an area whose borders wind around it once, and their area in mm2; `parted`: pieces may have parts of
-    /// borders in common.
+    /// Returns the connected pieces of an area whose boundaries wind around it once, and their area in mm2.
+    /// `parted` says that several boundaries may have parts in common.
     pub(crate) fn extract_connected_pieces(
         &mut self,
         area: &GridArea,
         parted: bool,
         grid: &AreaGrid,
     ) -> (Vec<Polygon>, f64) {
-        // Without holes and seams, every border is a piece.
+        // Without holes and common parts, every boundary is a piece, and no boolean is needed.
         if parted || area.contours().any(|contour| twice_area(contour) < 0) {
             return self.extract_polygons(area, grid);
         }
@@ -112,7 +117,7 @@ impl Clipper {
 }
 
 impl Clone for Clipper {
-    /// Nothing is kept in the room between two calls, so another one will do.
+    /// Makes an empty clipper, since the buffers hold nothing between two calls.
     fn clone(&self) -> Self {
         Self::default()
     }

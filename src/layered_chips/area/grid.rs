@@ -1,18 +1,18 @@
-//! The grid of integers on which areas are cut.
+//! This module holds the integer grid on which areas are cut.
 
 use i_overlay::i_float::int::point::IntPoint;
 
-/// Finest step as a power of two, mm: 2^-20, about 1e-6. Powers of two lose nothing when multiplied, so that borders on round
-/// fractions of a millimetre are exact.
+/// The finest step as a power of two, in mm: 2^-20, about 1e-6. Multiplying by a power of two is exact, so
+/// boundaries at binary fractions of a millimetre are exact.
 const FINEST: i32 = -20;
 
-/// Coarsest step as a power of two, mm: 2^-13, about 1e-4; it reaches 65 m to each side.
+/// The coarsest step as a power of two, in mm: 2^-13, about 1e-4. It reaches 65 m to each side of a box.
 const COARSEST: i32 = -13;
 
-/// Largest coordinate in steps. Twice as much would overflow the cross products of [`i_overlay`].
+/// The largest coordinate in steps. Twice as much would overflow the cross products of [`i_overlay`].
 const FARTHEST: f64 = ((1 << 30) - 1) as f64;
 
-/// Places in a layer as whole numbers of steps from an origin.
+/// A grid that gives points in a layer as whole numbers of steps from an origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AreaGrid {
     origin: [f64; 2],
@@ -20,8 +20,9 @@ pub struct AreaGrid {
 }
 
 impl AreaGrid {
-    /// A grid around a box (lower and upper corner, mm) that reaches as far again on every side; its steps are 2^-20 mm for boxes
-    /// up to a metre, and double with every doubling beyond. `None` for boxes of more than 130 m, or that are none.
+    /// Makes a grid around a box (corners with the lowest and highest coordinates, mm) that reaches half the
+    /// box's larger side beyond it. Its steps are 2^-20 mm for boxes up to a metre, and double with every
+    /// doubling of the size. Returns `None` for boxes of more than 130 m and for boxes that are not finite.
     pub fn around_box(low: [f64; 2], high: [f64; 2]) -> Option<Self> {
         let ([x0, y0], [x1, y1]) = (low, high);
         let half = ((x1 - x0).max(y1 - y0) / 2.0).max(0.0);
@@ -31,32 +32,33 @@ impl AreaGrid {
         origin.iter().all(|at| at.is_finite()).then_some(Self { origin, step })
     }
 
-    /// Length of a step, mm.
+    /// Returns the length of a step, mm.
     pub fn step_mm(&self) -> f64 {
         self.step
     }
 
-    /// The place of a point of the grid, mm.
+    /// Returns the coordinates of a point of the grid, mm.
     pub(super) fn point_in_mm(&self, point: IntPoint) -> [f64; 2] {
         let [x0, y0] = self.origin;
         [x0 + f64::from(point.x) * self.step, y0 + f64::from(point.y) * self.step]
     }
 
-    /// Adds the points of the grid next to the corners of a border, each once. What lies beyond the grid is cut off. A border with a
-    /// number that is not finite has none.
+    /// Adds the grid points nearest to the vertices of a boundary, each once. Parts beyond the grid are cut
+    /// off. A boundary with a number that is not finite gets no points.
     pub(super) fn add_grid_points(&self, border: &[[f64; 2]], points: &mut Vec<IntPoint>) {
         let [x0, y0] = self.origin;
         let start = points.len();
         let on_grid = |[x, y]: &[f64; 2]| [(x - x0) / self.step, (y - y0) / self.step];
         let mut add = |[x, y]: [f64; 2]| {
-            // To the nearest step; quicker than `round`, which is a call on many processors.
+            // This rounds to the nearest step and is quicker than `round`, which is a function call on many
+            // processors.
             let point = [x, y].map(|at| (at + 0.5f64.copysign(at)) as i32).into();
             if points.get(start..).and_then(<[_]>::last) != Some(&point) {
                 points.push(point);
             }
         };
         let largest = border.iter().flat_map(on_grid).fold(0.0, |most: f64, at| {
-            // `max` would pass over what is no number.
+            // `max` would ignore a value that is not a number.
             if at.is_nan() { f64::INFINITY } else { most.max(at.abs()) }
         });
         if largest <= FARTHEST {
@@ -75,9 +77,10 @@ impl AreaGrid {
     }
 }
 
-/// A border without what lies beyond one side of the grid (Sutherland and Hodgman); it may run back and forth along the side.
+/// Returns a boundary without the part beyond one side of the grid (Sutherland and Hodgman's algorithm). The
+/// result may run back and forth along that side.
 fn clip_at_grid_side(border: &[[f64; 2]], axis: usize, sign: f64) -> Vec<[f64; 2]> {
-    // How far beyond the side.
+    // The distance beyond the side, in steps.
     let beyond = |&[x, y]: &[f64; 2]| sign * (if axis == 0 { x } else { y }) - FARTHEST;
     let mut kept = Vec::with_capacity(border.len());
     let ends = border.iter().skip(1).chain(border.first());

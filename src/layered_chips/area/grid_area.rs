@@ -1,17 +1,18 @@
-//! Areas as borders on the grid.
+//! This module holds areas as boundaries on the integer grid.
 
 use super::AreaGrid;
 use i_overlay::i_float::int::point::IntPoint;
 use i_overlay::i_shape::flat::buffer::FlatContoursBuffer;
 
-/// An area on the grid: borders that wind around it. In what a [`super::Clipper`] returns they wind around every place of it once:
-/// outer borders counter-clockwise, holes clockwise, in no order.
+/// An area on the grid: boundaries that wind around it. In the results of a [`super::Clipper`] they wind
+/// around every point of it once; outer boundaries go counter-clockwise and holes clockwise, and they have no
+/// order.
 #[derive(Debug, Clone, Default)]
 pub struct GridArea {
     pub(super) borders: FlatContoursBuffer,
 }
 
-/// A box on the grid, its sides included.
+/// A box on the grid, with its sides included.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct GridBox {
     pub(crate) low: [i32; 2],
@@ -19,14 +20,14 @@ pub struct GridBox {
 }
 
 impl GridBox {
-    /// Whether it has a point in common with another one.
+    /// Returns whether the box has a point in common with another one.
     pub(crate) fn intersects(&self, other: &Self) -> bool {
         let ([x0, y0], [x1, y1]) = (self.low, self.high);
         let ([u0, v0], [u1, v1]) = (other.low, other.high);
         x0 <= u1 && u0 <= x1 && y0 <= v1 && v0 <= y1
     }
 
-    /// On which outer sides of it a point is, a bit for each.
+    /// Returns the outer sides of the box on which a point is, with one bit for each side.
     fn outer_sides(&self, point: IntPoint) -> u8 {
         let ([x0, y0], [x1, y1]) = (self.low, self.high);
         u8::from(point.x < x0)
@@ -37,44 +38,45 @@ impl GridBox {
 }
 
 impl PartialEq for GridArea {
-    /// Whether both have the same borders, corner by corner.
+    /// Returns whether both areas have the same boundaries, vertex by vertex.
     fn eq(&self, other: &Self) -> bool {
         self.borders.ranges == other.borders.ranges && self.borders.points == other.borders.points
     }
 }
 
 impl GridArea {
-    /// The area that borders (x, y in mm) wind around at all, still as they are.
+    /// Makes the area that boundaries (x, y in mm) wind around at all. The boundaries are stored as they are.
     pub fn new<'a>(grid: &AreaGrid, borders: impl IntoIterator<Item = &'a [[f64; 2]]>) -> Self {
         let mut region = Self::default();
         borders.into_iter().for_each(|border| region.add_boundary(grid, border));
         region
     }
 
-    /// Adds a border, in mm.
+    /// Adds a boundary with points in mm.
     pub fn add_boundary(&mut self, grid: &AreaGrid, border: &[[f64; 2]]) {
         let start = self.borders.points.len();
         grid.add_grid_points(border, &mut self.borders.points);
         self.close_boundary(start);
     }
 
-    /// Whether it has no border.
+    /// Returns whether the area has no boundary.
     pub fn is_empty(&self) -> bool {
         self.borders.ranges.is_empty()
     }
 
-    /// How many corners its borders have.
+    /// Returns the number of vertices of all boundaries.
     pub fn vertex_count(&self) -> usize {
         self.borders.points.len()
     }
 
-    /// Sum of what its borders enclose, mm2: the area when they wind around it once.
+    /// Returns the sum of the areas that the boundaries enclose, mm2. This is the area if the boundaries wind
+    /// around it once.
     pub fn area_mm2(&self, grid: &AreaGrid) -> f64 {
         let twice: i128 = self.contours().map(twice_area).sum();
         twice as f64 / 2.0 * grid.step_mm() * grid.step_mm()
     }
 
-    /// The box around it.
+    /// Returns the box around the area, or `None` if it is empty.
     pub fn bounding_box(&self) -> Option<GridBox> {
         let first = self.borders.points.first()?;
         let start = GridBox { low: [first.x, first.y], high: [first.x, first.y] };
@@ -95,7 +97,7 @@ impl GridArea {
         other.contours().for_each(|contour| self.borders.add_contour(contour));
     }
 
-    /// The area between two lines parallel to an axis.
+    /// Makes the area of a box.
     pub(crate) fn from_box(window: &GridBox) -> Self {
         let ([x0, y0], [x1, y1]) = (window.low, window.high);
         let mut region = Self::default();
@@ -104,8 +106,9 @@ impl GridArea {
         region
     }
 
-    /// Adds borders that wind around every place of a window as those of another region do, with fewer corners: what runs on one outer
-    /// side of the window runs straight. No place of a border within the window moves.
+    /// Adds boundaries that wind around every point of a window as the boundaries of another area do, but
+    /// with fewer vertices: a part that runs along one outer side of the window becomes straight. Within the
+    /// window no boundary point moves.
     pub(crate) fn add_simplified_within(&mut self, window: &GridBox, other: &Self) {
         for contour in other.contours() {
             let start = self.borders.points.len();
@@ -115,7 +118,8 @@ impl GridArea {
             self.borders.points.push(first);
             for &point in rest.iter().chain([&first]) {
                 let sides = window.outer_sides(point);
-                // `since`: the sides on which all is that lies between the last corner kept and `last`.
+                // `since` holds the sides on which everything between the last kept vertex and `last` is. If
+                // it becomes empty, a straight line might pass through the window, so `last` is kept.
                 if since & sides == 0 {
                     if self.borders.points.get(start..).and_then(<[_]>::last) != Some(&last) {
                         self.borders.points.push(last);
@@ -126,6 +130,7 @@ impl GridArea {
                 all &= sides;
                 last = point;
             }
+            // A boundary that is on one outer side as a whole does not wind around any point of the window.
             if all != 0 {
                 self.borders.points.truncate(start);
             }
@@ -133,13 +138,13 @@ impl GridArea {
         }
     }
 
-    /// Leaves out borders that enclose nothing thicker than rounding.
+    /// Removes boundaries that enclose nothing thicker than rounding.
     pub(super) fn drop_slivers(&mut self) {
         let FlatContoursBuffer { points, ranges } = &mut self.borders;
         ranges.retain(|range| points.get(range.clone()).is_some_and(is_thick));
     }
 
-    /// Makes the points from `start` on a border, unless it encloses nothing.
+    /// Makes a boundary of the points from `start` on, unless they enclose nothing.
     fn close_boundary(&mut self, start: usize) {
         let end = self.borders.points.len();
         if end >= start + 3 {
@@ -150,19 +155,22 @@ impl GridArea {
     }
 }
 
-/// Thickness up to which a border is a sliver: corners are rounded to half a step, and crossings a step or two more.
+/// The thickness in steps up to which a boundary counts as a sliver. Vertices are rounded to half a step, and
+/// intersections to a step or two more.
 const THINNEST: i128 = 2;
 
-/// Whether a border encloses something thicker than rounding.
+/// Returns whether a boundary encloses something thicker than rounding: whether its area is more than that
+/// thickness times half its length.
 pub(super) fn is_thick(contour: &[IntPoint]) -> bool {
     twice_area(contour).abs() > THINNEST * axis_parallel_length(contour)
 }
 
+/// Returns the edges of a closed boundary as pairs of vertices.
 fn vertex_pairs(contour: &[IntPoint]) -> impl Iterator<Item = (&IntPoint, &IntPoint)> {
     contour.iter().zip(contour.iter().skip(1).chain(contour.first()))
 }
 
-/// Twice the area, square steps; positive counter-clockwise.
+/// Returns twice the area in square steps; positive if counter-clockwise.
 pub(super) fn twice_area(contour: &[IntPoint]) -> i128 {
     let cross = |(a, b): (&IntPoint, &IntPoint)| {
         i128::from(i64::from(a.x) * i64::from(b.y) - i64::from(b.x) * i64::from(a.y))
@@ -170,7 +178,7 @@ pub(super) fn twice_area(contour: &[IntPoint]) -> i128 {
     vertex_pairs(contour).map(cross).sum()
 }
 
-/// Length of a border along the axes, steps.
+/// Returns the length of a boundary in steps, measured along the axes.
 fn axis_parallel_length(contour: &[IntPoint]) -> i128 {
     let way = |(a, b): (&IntPoint, &IntPoint)| i64::from(a.x.abs_diff(b.x)) + i64::from(a.y.abs_diff(b.y));
     i128::from(vertex_pairs(contour).map(way).sum::<i64>())

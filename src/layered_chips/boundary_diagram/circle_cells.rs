@@ -1,33 +1,36 @@
-//! What is certain about a curve on cells of the circle during an interval of time.
+//! This module divides the circle of angles into cells and records for each cell what is certain about a
+//! curve during an interval of time.
 
 use crate::layered_chips::interval::IntervalF64;
 use crate::layered_chips::trig_polynomial::{AngleSinCos, TrigPolynomial};
 use std::f64::consts::TAU;
 
-/// Cells that the circle begins with.
+/// The number of cells at the beginning.
 const CELLS: usize = 16;
 
-/// Where they begin, radians: away from the angles at which roots of tidy motions lie.
+/// The angle at which the first cell begins, radians. It avoids the angles at which the roots of simple
+/// motions are.
 const BEGIN: f64 = 0.1234;
 
-/// Cells at most; a curve that needs more is left uncertain for shorter times to decide.
+/// The most cells. A curve that needs more stays uncertain, and shorter intervals of time have to decide.
 const MOST: usize = 160;
 
-/// What is known of a curve on a cell, at every angle and time in it.
+/// The knowledge about a curve on a cell, valid for every angle and time in it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum CellKnowledge {
-    /// It is positive.
+    /// The curve is positive.
     Positive,
-    /// It is negative.
+    /// The curve is negative.
     Negative,
-    /// It rises with the angle.
+    /// The curve rises with the angle.
     Rises,
-    /// It falls with the angle.
+    /// The curve falls with the angle.
     Falls,
-    /// Nothing yet.
+    /// Nothing is known yet.
     Nothing,
 }
 
+/// A cell of the circle: its angles, their sines and cosines, and the knowledge about the curve on it.
 #[derive(Debug, Clone, Copy)]
 struct AngleCell {
     x: IntervalF64,
@@ -42,40 +45,43 @@ impl AngleCell {
     }
 }
 
-/// A root: in the angles `lo..=hi`, at each time of the interval, the curve is zero exactly once.
+/// A bracket around a root: between the angles `lo` and `hi`, the curve is zero exactly once at each time of
+/// the interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RootBracket {
-    /// Before it, radians; the curve has one sign there all the time.
+    /// An angle before the root, radians. The curve has one sign there all the time.
     pub lo: f64,
-    /// Behind it; the curve has the other sign there all the time. May be beyond a full turn.
+    /// An angle behind the root, radians. The curve has the other sign there all the time. It may exceed a
+    /// full turn.
     pub hi: f64,
-    /// Whether the curve rises with the angle.
+    /// Whether the curve rises with the angle at the root.
     pub rising: bool,
 }
 
-/// A curve's roots during an interval of time.
+/// The roots of a curve during an interval of time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurveRoots {
-    /// In the order of their angles.
+    /// The brackets of the roots in the order of their angles.
     pub brackets: Vec<RootBracket>,
-    /// Where there is none, whether the curve is positive everywhere.
+    /// Whether the curve is positive everywhere, if it has no root.
     pub positive: bool,
 }
 
-/// The circle in cells, for one curve.
+/// The cells of the circle for one curve.
 #[derive(Debug, Clone)]
 pub struct CircleCells(Vec<AngleCell>);
 
 impl CircleCells {
-    /// Nothing is known yet.
+    /// Makes the first cells, on which nothing is known yet.
     pub fn new() -> Self {
         let border = |index: usize| BEGIN + TAU * index as f64 / CELLS as f64;
         Self((0..CELLS).map(|index| AngleCell::new(border(index), border(index + 1))).collect())
     }
 
-    /// Looks at the cells of which nothing is known and halves them down to `finest` radians.
+    /// Examines the cells on which nothing is known, and bisects them down to `finest` radians.
     ///
-    /// What was certain for a longer time stays so; of cells whose slope is known, the sign may become so.
+    /// Knowledge from a longer interval of time stays valid for a shorter one within it. On cells of which
+    /// the slope is known, the sign may become known too.
     pub fn classify_cells(&mut self, curve: &TrigPolynomial<IntervalF64>, finest: f64) {
         let mut done: Vec<AngleCell> = Vec::with_capacity(self.0.len() + 8);
         let mut waiting: Vec<AngleCell> = std::mem::take(&mut self.0);
@@ -92,7 +98,8 @@ impl CircleCells {
                 continue;
             }
             match done.last_mut() {
-                // Of what has one sign nothing more will be asked.
+                // Neighbouring cells with the same sign are merged, because nothing more will be asked about
+                // them.
                 Some(last) if cell.known.certain_sign().is_some() && last.known == cell.known => {
                     last.x.hi = cell.x.hi
                 }
@@ -102,8 +109,9 @@ impl CircleCells {
         self.0 = done;
     }
 
-    /// The roots, when everything is certain.
+    /// Returns the roots if everything is certain, else `None`.
     pub fn isolate_roots(&self, curve: &TrigPolynomial<IntervalF64>) -> Option<CurveRoots> {
+        // The scan begins at a cell with a known sign and goes once around the circle.
         let first = self.0.iter().position(|cell| cell.known.certain_sign().is_some())?;
         let (before, behind) = self.0.split_at_checked(first)?;
         let turned = before.iter().map(|cell| (cell, TAU));
@@ -123,7 +131,8 @@ impl CircleCells {
             match &mut found.run {
                 Some(run) if run.rising == rising => run.hi = hi,
                 run => {
-                    // The slope changes its sign at this very angle: the curve's sign there decides about the run before.
+                    // The slope changes its sign at this angle, so the curve's sign here decides whether the
+                    // run before contains a root.
                     if run.is_some() {
                         let border = AngleSinCos::from_interval(IntervalF64::from_point(lo));
                         found.record_sign(curve.value_at(&border).sign()? > 0)?;
@@ -136,24 +145,26 @@ impl CircleCells {
         Some(CurveRoots { brackets: found.brackets, positive })
     }
 
-    /// The least box around the cells of which nothing is known; `None` if there is none.
+    /// Returns the smallest interval of angles around the cells on which nothing is known, or `None` if there
+    /// are none.
     pub fn unknown_angles(&self) -> Option<IntervalF64> {
         let unknown = self.0.iter().filter(|cell| cell.known == CellKnowledge::Nothing).map(|cell| cell.x);
         unknown.reduce(|a, b| IntervalF64 { lo: a.lo.min(b.lo), hi: a.hi.max(b.hi) })
     }
 }
 
-/// What a walk around the circle has found.
+/// The state of a scan around the circle.
 struct RootScan {
-    /// Sign of the curve at the last place where it is known.
+    /// The sign of the curve at the last angle where it is known.
     positive: bool,
-    /// Cells since then, in which the curve only rises or only falls.
+    /// The cells since then, in which the curve only rises or only falls.
     run: Option<RootBracket>,
     brackets: Vec<RootBracket>,
 }
 
 impl RootScan {
-    /// The sign is known here; `None` when that cannot be.
+    /// Records that the sign is known at this angle. A change of sign closes a run in a bracket; `None` means
+    /// that no root can explain the change.
     fn record_sign(&mut self, positive: bool) -> Option<()> {
         let run = self.run.take();
         if positive != self.positive {
@@ -165,11 +176,12 @@ impl RootScan {
 }
 
 impl CellKnowledge {
-    /// What was known before, where there is nothing new.
+    /// Returns this knowledge, or the earlier one if nothing new is known.
     fn or_previous(self, before: Self) -> Self {
         if self == Self::Nothing { before } else { self }
     }
 
+    /// Returns whether the curve is certainly positive (`true`) or negative (`false`).
     fn certain_sign(self) -> Option<bool> {
         match self {
             Self::Positive => Some(true),
@@ -179,6 +191,7 @@ impl CellKnowledge {
     }
 }
 
+/// Finds what is certain about a curve on a cell, from enclosures of its value and its slope.
 fn classify_cell(curve: &TrigPolynomial<IntervalF64>, cell: &AngleCell) -> CellKnowledge {
     let told = |value: IntervalF64, slope: IntervalF64| match (value.sign(), slope.sign()) {
         (Some(1), _) => CellKnowledge::Positive,
@@ -191,7 +204,8 @@ fn classify_cell(curve: &TrigPolynomial<IntervalF64>, cell: &AngleCell) -> CellK
     if quick.certain_sign().is_some() {
         return quick;
     }
-    // Taylor's formula about the middle, whose error goes with the square of the cell: near a fold value and slope are both small.
+    // Near a fold both value and slope are small. Taylor's formula about the middle, f(m) + f'(m) d + f'' d^2
+    // / 2, has an error that falls with the square of the cell's width.
     let middle = IntervalF64::from_point(cell.x.middle());
     let (centre, offset) = (AngleSinCos::from_interval(middle), cell.x - middle);
     let bend = curve.second_derivative_at(&cell.angle);

@@ -1,7 +1,9 @@
-//! The boundary construction diagram: theta across, time up, and in it the curves that bound what the cutter covers on a layer.
+//! This module makes the boundary construction diagram. With theta across and time upwards, it contains the
+//! curves that bound the area that the cutter covers on a layer.
 //!
-//! The curves are f = 0 (the envelope's branches) and, where the layer meets an end of the flutes, the places where the ellipse is cut
-//! off. Their topology is proved by interval arithmetic: see [`time_slabs`].
+//! The curves are f = 0, whose parts are the branches of the envelope, and the angles at which an end of the
+//! flutes cuts off the ellipse, if the layer meets one. The topology of the curves is proved by interval
+//! arithmetic and not sampled: see [`time_slabs`].
 
 mod circle_cells;
 mod moving_roots;
@@ -22,41 +24,42 @@ pub struct BoundaryDiagram {
     resolved: bool,
 }
 
-/// How a branch begins or ends.
+/// The kind of a branch's beginning or end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BranchEnd {
-    /// On the first edge, t = 0, or the last, t = 1.
+    /// It is at the first time, t = 0, or at the last, t = 1.
     Edge,
-    /// In a fold, together with another branch.
+    /// It is in a fold, where two branches begin or end together.
     Fold,
-    /// Where branches cross, split or meet, or where the section stops moving: not told apart at the resolution of time.
+    /// It is where branches cross, split or meet, or where the section stops moving; the resolution of time
+    /// does not separate these cases.
     Open,
 }
 
 /// A branch of the envelope: theta as a function of time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EnvelopeBranch {
-    /// Theta in radians (not brought back to one turn) and time, in time's order.
+    /// Points of theta in radians (which may exceed one turn) and time, in the order of time.
     pub points: Vec<[f64; 2]>,
-    /// How it begins.
+    /// The kind of its beginning.
     pub begins: BranchEnd,
-    /// How it ends.
+    /// The kind of its end.
     pub ends: BranchEnd,
 }
 
-/// What the edge does at a place of the diagram.
+/// The state of the section's edge at a point of the diagram.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EdgeState {
-    /// It advances into fresh material.
+    /// The edge advances into fresh material.
     Advancing,
-    /// It retreats, or stands still.
+    /// The edge retreats or does not move.
     Retreating,
-    /// No edge: below the bottom disc or above the flutes.
+    /// There is no edge: the point is below the bottom disc or above the flutes.
     Outside,
 }
 
 impl BoundaryDiagram {
-    /// The diagram of a family.
+    /// Makes the diagram of a family of sections.
     pub fn new(family: &SectionFamily) -> Self {
         let slabs = time_slabs::cut_into_slabs(family);
         let resolved = !slabs.given_up;
@@ -64,27 +67,29 @@ impl BoundaryDiagram {
         Self { family: *family, stretches, events, resolved }
     }
 
-    /// Whether all of it was told apart. Curves that run along each other for a while, though not to the bit, may not be.
+    /// Returns whether the whole diagram is resolved. It may not be if curves run along each other for some
+    /// time without being equal to the bit.
     pub fn is_resolved(&self) -> bool {
         self.resolved
     }
 
-    /// The family that it is of.
+    /// Returns the family of sections that the diagram belongs to.
     pub fn family(&self) -> &SectionFamily {
         &self.family
     }
 
-    /// Stretches of time from event to event; from 0 to 1 when everything was told apart.
+    /// Returns the segments of time between events. They cover the times from 0 to 1 if the diagram is
+    /// resolved.
     pub fn time_segments(&self) -> &[TimeSegment] {
         &self.stretches
     }
 
-    /// Where the topology changes, in time's order.
+    /// Returns the events, at which the topology changes, in the order of time.
     pub fn events(&self) -> &[TopologyEvent] {
         &self.events
     }
 
-    /// What the edge does at an angle (radians) and a time.
+    /// Returns the state of the edge at an angle (radians) and a time.
     pub fn edge_state_at(&self, theta: f64, t: f64) -> EdgeState {
         let angle = AngleSinCos::from_radians(theta);
         let value = |curve| self.family.curve_at(curve, t).value_at(&angle);
@@ -98,8 +103,9 @@ impl BoundaryDiagram {
         }
     }
 
-    /// The branches of the envelope, also where they are cut off, with `steps` pieces for each stretch of time. A branch that goes
-    /// on through an event that concerns another one is one branch.
+    /// Returns the branches of the envelope, including parts that an end of the flutes cuts off, with `steps`
+    /// pieces for each segment of time. A branch that continues through an event of another branch stays one
+    /// branch.
     pub fn trace_branches(&self, steps: usize) -> Vec<EnvelopeBranch> {
         let mut done: Vec<EnvelopeBranch> = Vec::new();
         let mut growing: Vec<EnvelopeBranch> = Vec::new();
@@ -107,6 +113,7 @@ impl BoundaryDiagram {
             let edges = stretch.tracks.iter().filter(|track| track.curve == DiagramCurve::Edge);
             let mut next: Vec<Vec<[f64; 2]>> =
                 edges.map(|track| self.sample_track(stretch, track, steps)).collect();
+            // At a fold two branches appear or disappear; all others continue at the angle where they were.
             let event = self.events.iter().find(|event| event.t == stretch.t[0]);
             let (ending, beginning) = find_fold_branches(event, &growing, &next);
             let mut going: Vec<EnvelopeBranch> = Vec::new();
@@ -143,11 +150,12 @@ impl BoundaryDiagram {
         done
     }
 
-    /// Points of a track, denser towards both ends, where folds have their bend.
+    /// Samples a track. The points are denser towards both ends, where folds are curved most.
     fn sample_track(&self, stretch: &TimeSegment, track: &RootTrack, steps: usize) -> Vec<[f64; 2]> {
         let [from, to] = stretch.t;
         let steps = steps.max(1);
         let at = |index: usize| {
+            // Chebyshev points: the cosine makes the steps shrink quadratically towards the ends.
             let share = 0.5 - 0.5 * (std::f64::consts::PI * index as f64 / steps as f64).cos();
             let t = from + (to - from) * share;
             [stretch.track_angle_at(&self.family, track, t), t]
@@ -156,14 +164,16 @@ impl BoundaryDiagram {
     }
 }
 
-/// A branch that goes on behind an event is this near to where it was, radians.
+/// A branch continues behind an event if its angle changes by less than this, in radians.
 const NEAR: f64 = 1e-2;
 
+/// Returns the last angle of a branch.
 fn last_angle(branch: &EnvelopeBranch) -> f64 {
     branch.points.last().map_or(0.0, |[theta, _]| *theta)
 }
 
-/// Which branches end in a fold, and which tracks begin in one: two each, nearest to the fold's box.
+/// Finds the branches that end in a fold and the tracks that begin in one. They are the two that are nearest
+/// to the fold's box.
 fn find_fold_branches(
     event: Option<&TopologyEvent>,
     growing: &[EnvelopeBranch],
@@ -195,7 +205,7 @@ fn find_fold_branches(
     }
 }
 
-/// Takes out what stands at some places, in order.
+/// Removes the items at some indices, which must ascend.
 fn remove_at_indices<T>(from: &mut Vec<T>, places: &[usize]) -> Vec<T> {
     places.iter().rev().map(|place| from.remove(*place)).collect()
 }

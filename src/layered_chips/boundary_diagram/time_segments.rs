@@ -1,37 +1,41 @@
-//! Stretches of time from one event to the next, with the curves' roots as functions of time.
+//! This module joins slabs to segments of time between events, in which the roots of the curves are functions
+//! of time.
 
 use super::circle_cells::RootBracket;
 use super::time_slabs::{DiagramSlab, DiagramSlabs, TopologyEvent};
 use crate::layered_chips::section_family::{DiagramCurve, SectionFamily};
 use std::f64::consts::TAU;
 
-/// Two roots closer than this (radians) at a border of slabs are one. Only at a fold two different ones come nearer.
+/// Two roots that are closer than this (radians) at the boundary of two slabs are the same. Different roots
+/// only come closer to each other at a fold.
 const SAME: f64 = 1e-6;
 
-/// A root through a stretch.
+/// A root through a whole segment of time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RootTrack {
-    /// Which curve's.
+    /// The curve that the root belongs to.
     pub curve: DiagramCurve,
-    /// Whether the curve rises with the angle.
+    /// Whether the curve rises with the angle at the root.
     pub rising: bool,
-    /// One for each slab.
+    /// The brackets of the root, one for each slab.
     brackets: Vec<RootBracket>,
 }
 
-/// From one event to the next: within it, roots neither come nor go, and do not cross.
+/// A segment of time from one event to the next. Within it roots neither appear nor disappear, and do not
+/// cross.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TimeSegment {
-    /// Beginning and end.
+    /// The beginning and the end.
     pub t: [f64; 2],
-    /// Ends of its slabs, one for each.
+    /// The end of each of its slabs.
     ends: Vec<f64>,
-    /// The roots of edge, bottom and top.
+    /// The roots of the edge, bottom and top curves.
     pub tracks: Vec<RootTrack>,
 }
 
 impl TimeSegment {
-    /// The angle of a track at a time, radians: never left of its bracket at the beginning by more than a turn.
+    /// Returns the angle of a track at a time, radians. It is on the same turn of the circle as the track's
+    /// bracket.
     pub fn track_angle_at(&self, family: &SectionFamily, track: &RootTrack, t: f64) -> f64 {
         let slab = self.ends.partition_point(|end| *end < t).min(track.brackets.len().saturating_sub(1));
         let Some(bracket) = track.brackets.get(slab) else { return 0.0 };
@@ -53,7 +57,7 @@ impl TimeSegment {
         Self { t: slab.t, ends: vec![slab.t[1]], tracks }
     }
 
-    /// Goes on with the next slab, unless the roots differ there.
+    /// Extends the segment by the next slab; returns that slab unchanged if its roots differ.
     fn try_extend(&mut self, family: &SectionFamily, next: Self) -> Result<(), Self> {
         if self.tracks.len() != next.tracks.len() {
             return Err(next);
@@ -61,7 +65,8 @@ impl TimeSegment {
         let t = self.t[1];
         let here: Vec<f64> = self.tracks.iter().map(|track| self.track_angle_at(family, track, t)).collect();
         let there: Vec<f64> = next.tracks.iter().map(|track| next.track_angle_at(family, track, t)).collect();
-        // Which track goes on in which: the nearest root of the same curve and sense, each once.
+        // Each track continues in the nearest root of the same curve and direction, and each root is used
+        // once.
         let mut left: Vec<usize> = (0..there.len()).collect();
         let mut order = Vec::with_capacity(here.len());
         for (track, angle) in self.tracks.iter().zip(&here) {
@@ -79,7 +84,7 @@ impl TimeSegment {
         for ((track, index), angle) in self.tracks.iter_mut().zip(order).zip(here) {
             let Some(other) = next.tracks.get(index) else { continue };
             for bracket in &other.brackets {
-                // On the same turn of the circle.
+                // Move the bracket to the same turn of the circle as the track.
                 let turns = ((angle - 0.5 * (bracket.lo + bracket.hi)) / TAU).round() * TAU;
                 track.brackets.push(RootBracket {
                     lo: bracket.lo + turns,
@@ -94,15 +99,17 @@ impl TimeSegment {
     }
 }
 
-/// Distance of two angles on the circle, radians.
+/// Returns the distance of two angles on the circle, radians.
 pub fn angular_distance(a: f64, b: f64) -> f64 {
     let d = (a - b).rem_euclid(TAU);
     d.min(TAU - d)
 }
 
-/// Puts slabs together; each event between stretches shrinks to its middle, and stretches reach up to it.
+/// Joins slabs to segments. Each event between two segments shrinks to its middle, and the segments are
+/// extended up to it.
 ///
-/// Gives the stretches and the events at their borders: where several are next to each other, the first that tells most.
+/// Returns the segments and the events at their boundaries. Of several events next to each other one is kept:
+/// an open one before a fold, and a fold before one elsewhere.
 pub fn join_slabs(family: &SectionFamily, slabs: DiagramSlabs) -> (Vec<TimeSegment>, Vec<TopologyEvent>) {
     let mut stretches: Vec<TimeSegment> = Vec::new();
     let mut events: Vec<TopologyEvent> = Vec::new();
@@ -130,6 +137,7 @@ pub fn join_slabs(family: &SectionFamily, slabs: DiagramSlabs) -> (Vec<TimeSegme
     (stretches, events)
 }
 
+/// Starts a new segment after the events that were met.
 fn begin_segment(
     stretches: &mut Vec<TimeSegment>,
     mut next: TimeSegment,
@@ -150,6 +158,7 @@ fn begin_segment(
     stretches.push(next);
 }
 
+/// Returns the event with the highest rank: open, then fold, then elsewhere.
 fn strongest_event(met: &[TopologyEvent]) -> Option<TopologyEvent> {
     use super::time_slabs::EventProof;
     let rank = |event: &&TopologyEvent| match event.proof {

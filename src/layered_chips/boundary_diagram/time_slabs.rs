@@ -1,9 +1,14 @@
-//! Intervals of time in which nothing changes in the diagram's topology, and the events between them.
+//! This module divides the time of a step into slabs, in which the diagram's topology does not change, and
+//! events between them.
 //!
-//! Over an interval of time every curve is enclosed by interval arithmetic. When each cell of the circle has a curve of one sign, or one
-//! that only rises or falls, its roots are known to be functions of time, one in each bracket; when the brackets of different curves are
-//! apart, so is the order of the roots. Otherwise the interval is halved, down to an eight-millionth of the step, where something
-//! happens: a fold (a branch of the envelope begins or ends), a split, a branch that runs into the bottom disc's chord.
+//! The topology is proved. Over an interval of time every curve is enclosed by interval arithmetic. If each
+//! cell of the circle has a curve of one sign, or a curve that only rises or only falls, then its roots are
+//! functions of time, one in each bracket between two certain signs. If the brackets of different curves are
+//! apart, the order of the roots is also certain. Otherwise the interval is bisected, down to an
+//! eight-millionth of the step. An interval that short is an event: a fold (a branch of the envelope begins
+//! or ends, shown by the signs of f_t and f_xx), a split, or a branch that meets the chord of the bottom
+//! disc. Curves that run along each other have too many events; the covered area is then made of slices of
+//! time, and never of a guess.
 
 use super::circle_cells::{CircleCells, CurveRoots, RootBracket};
 use super::moving_roots;
@@ -12,67 +17,71 @@ use crate::layered_chips::section_family::{DiagramCurve, FamilyWindow, SectionFa
 use crate::layered_chips::swept_area::GRAZES;
 use crate::layered_chips::trig_polynomial::{AngleSinCos, TrigPolynomial};
 
-/// Shortest interval of time that is halved: an eight-millionth of the step.
+/// The shortest interval of time that is bisected: an eight-millionth of the step.
 const SHORTEST: f64 = 1.0 / (1 << 23) as f64;
 
-/// Narrowest cells for an interval of the whole step, radians; those of shorter ones go with the root of time, as folds do.
+/// The narrowest cells for an interval of the whole step, radians. For shorter intervals they shrink with the
+/// root of the time, as folds do.
 const FINEST: f64 = 0.1;
 
-/// Events at most; a diagram with more has curves that coincide.
+/// The most events. A diagram with more has curves that coincide.
 const MOST_EVENTS: usize = 512;
 
-/// Slabs at most, likewise.
+/// The most slabs, for the same reason.
 const MOST_SLABS: usize = 4096;
 
 /// An interval of time in which the roots of all curves are functions of time that do not cross.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DiagramSlab {
-    /// Beginning and end.
+    /// The beginning and the end.
     pub t: [f64; 2],
-    /// The roots by curve, in the order of [`DiagramCurve::ALL`]; those of the face only where there is a chord.
+    /// The roots of each curve, in the order of [`DiagramCurve::ALL`]. Those of the face are only found where
+    /// there is a chord.
     pub roots: [CurveRoots; 4],
 }
 
-/// What happens to the envelope at an event, so far as it was proved.
+/// What is proved about the envelope at an event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum EventProof {
-    /// In the box of angles, the envelope is one arc with one lowest (or highest) time: two branches begin (`true`) or end there.
+    /// In the box of angles, the envelope is one arc with one lowest or highest time, where two branches
+    /// begin or end.
     Fold {
-        /// Least and largest angle, radians.
+        /// The least and the largest angle, radians.
         angles: [f64; 2],
-        /// Whether they begin.
+        /// Whether the branches begin there; otherwise they end.
         begins: bool,
     },
-    /// Not told apart at this resolution: branches may cross, split or meet in the box.
+    /// The event is not resolved: branches may cross, split or meet in the box of angles.
     Open {
-        /// Least and largest angle, radians.
+        /// The least and the largest angle, radians.
         angles: [f64; 2],
     },
-    /// Nothing happens to the envelope itself; it meets a chord, or a chord comes or goes.
+    /// Nothing happens to the envelope itself: it meets a chord, or a chord appears or disappears.
     Elsewhere,
 }
 
 /// A time at which the topology changes, known to an eight-millionth of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TopologyEvent {
-    /// When.
+    /// The time of the event.
     pub t: f64,
-    /// What happens to the envelope.
+    /// What is proved about the envelope.
     pub proof: EventProof,
 }
 
-/// The step in slabs, with the events between them; events next to each other in time are one.
+/// The slabs of a step and the events between them. Events next to each other in time are one event.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct DiagramSlabs {
-    /// In time's order.
+    /// The slabs in the order of time.
     pub slabs: Vec<DiagramSlab>,
-    /// In time's order.
+    /// The events in the order of time.
     pub events: Vec<TopologyEvent>,
-    /// Whether there were so many of either that the rest was left out: curves that run along each other.
+    /// Whether there were so many slabs or events that the rest was left out, because curves run along each
+    /// other.
     pub given_up: bool,
 }
 
-/// Cuts the whole step into slabs.
+/// Divides the whole step into slabs.
 pub fn cut_into_slabs(family: &SectionFamily) -> DiagramSlabs {
     let mut found = DiagramSlabs::default();
     let circle = CircleCells::new();
@@ -81,10 +90,11 @@ pub fn cut_into_slabs(family: &SectionFamily) -> DiagramSlabs {
     found
 }
 
-/// The circle in cells, for every curve.
+/// The cells of the circle for every curve.
 #[derive(Clone)]
 struct CurveCells([CircleCells; 4]);
 
+/// Adds the slabs and events of an interval of time; bisects the interval until its topology is certain.
 fn bisect_time(family: &SectionFamily, t: IntervalF64, mut circles: CurveCells, found: &mut DiagramSlabs) {
     if found.events.len() >= MOST_EVENTS || found.slabs.len() >= MOST_SLABS {
         found.given_up = true;
@@ -107,7 +117,7 @@ fn bisect_time(family: &SectionFamily, t: IntervalF64, mut circles: CurveCells, 
     bisect_time(family, IntervalF64 { lo: middle, hi: t.hi }, circles, found);
 }
 
-/// The roots of all curves, if they are certain and apart.
+/// Returns the roots of all curves if they are certain and apart, else `None`.
 fn isolate_all_roots(
     family: &SectionFamily,
     window: &FamilyWindow<'_>,
@@ -116,6 +126,7 @@ fn isolate_all_roots(
 ) -> Option<[CurveRoots; 4]> {
     let [edge_cells, bottom_cells, top_cells, face_cells] = &mut circles.0;
     let (edge, _) = window.enclose_curve(DiagramCurve::Edge);
+    // A section that does not move has no envelope; its f is noise around zero.
     let edge_roots = if edge.max_magnitude() <= family.zero_threshold() {
         CurveRoots { brackets: Vec::new(), positive: true }
     } else {
@@ -129,14 +140,16 @@ fn isolate_all_roots(
         let (curve, _) = window.enclose_curve(DiagramCurve::Top);
         top_roots = isolate_flute_end_roots(top_cells, &curve, finest)?;
     }
+    // Without chords the curves of face and chords need not be compared.
     if bottom_roots.brackets.is_empty() && top_roots.brackets.is_empty() {
         return Some([edge_roots, bottom_roots, top_roots, nothing]);
     }
     let (face, _) = window.enclose_curve(DiagramCurve::Face);
-    // A disc that slides in its own plane neither advances nor retreats anywhere.
+    // A disc that moves in its own plane neither advances nor retreats.
     let slides = face.max_magnitude() <= family.zero_threshold() / family.step().mill().radius;
     let face_roots = if slides { nothing } else { isolate_curve_roots(face_cells, &face, finest)? };
-    // Turning about the tip, f is zero all along the bottom disc's rim: the order of two curves that are one does not matter.
+    // If the mill turns about its tip, f is zero all along the rim of the bottom disc. The order of two equal
+    // curves does not matter.
     let pivots = family.pivots_about_tip();
     let others = [(&edge_roots, DiagramCurve::Edge, pivots), (&face_roots, DiagramCurve::Face, false)];
     for (other, curve, same) in others {
@@ -149,19 +162,21 @@ fn isolate_all_roots(
     Some([edge_roots, bottom_roots, top_roots, face_roots])
 }
 
-/// The roots of an end of the flutes.
+/// Returns the roots of the curve of an end of the flutes, or `None` if they are not certain.
 fn isolate_flute_end_roots(
     cells: &mut CircleCells,
     curve: &TrigPolynomial<IntervalF64>,
     finest: f64,
 ) -> Option<CurveRoots> {
-    // An upright end in the layer's height cuts everything off, however rounding has it.
+    // If a vertical mill ends at the layer's own height, everything counts as cut off, whatever the rounding
+    // says.
     if curve.max_magnitude() <= GRAZES {
         return Some(CurveRoots { brackets: Vec::new(), positive: false });
     }
     isolate_curve_roots(cells, curve, finest)
 }
 
+/// Returns the roots of a curve, or `None` if they are not certain.
 fn isolate_curve_roots(
     cells: &mut CircleCells,
     curve: &TrigPolynomial<IntervalF64>,
@@ -169,7 +184,7 @@ fn isolate_curve_roots(
 ) -> Option<CurveRoots> {
     let TrigPolynomial([constant, others @ ..]) = curve;
     let swing: f64 = others.iter().map(|k| k.magnitude()).sum();
-    // Most layers are nowhere near the ends of the flutes.
+    // The constant outweighs the rest: most layers are far from the ends of the flutes.
     if constant.lo > swing || constant.hi < -swing {
         return Some(CurveRoots { brackets: Vec::new(), positive: constant.lo > 0.0 });
     }
@@ -177,7 +192,7 @@ fn isolate_curve_roots(
     cells.isolate_roots(curve)
 }
 
-/// Whether no root of one curve meets one of the other.
+/// Returns whether no root of one curve meets a root of the other.
 fn has_no_common_root(
     a: &CurveRoots,
     a_curve: DiagramCurve,
@@ -195,17 +210,19 @@ fn has_no_common_root(
     true
 }
 
+/// Returns whether two brackets overlap on the circle.
 fn can_brackets_meet(a: &RootBracket, b: &RootBracket) -> bool {
     let turn = std::f64::consts::TAU;
     [-turn, 0.0, turn].into_iter().any(|shift| a.lo <= b.hi + shift && b.lo + shift <= a.hi)
 }
 
-/// What can be said of the envelope in the box of which nothing is known.
+/// Returns what is proved about the envelope in the box of angles on which nothing is known.
 fn prove_event(window: &FamilyWindow<'_>, cells: &CircleCells) -> EventProof {
     let Some(x) = cells.unknown_angles() else { return EventProof::Elsewhere };
     let (edge, rate) = window.enclose_curve(DiagramCurve::Edge);
     let angle = AngleSinCos::from_interval(x);
-    // Where f_t and f_xx keep their signs the zero set is t(x) with t'' = -f_xx / f_t wherever t' = 0: at most one extremum.
+    // Where f_t and f_xx keep their signs, the zero set is a function t(x) with t'' = -f_xx / f_t wherever t'
+    // = 0, so it has at most one extremum.
     match (rate.value_at(&angle).sign(), edge.second_derivative_at(&angle).sign()) {
         (Some(later), Some(bend)) => EventProof::Fold { angles: [x.lo, x.hi], begins: later != bend },
         _ => EventProof::Open { angles: [x.lo, x.hi] },

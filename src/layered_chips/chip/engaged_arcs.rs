@@ -1,4 +1,4 @@
-//! Where the last edge is engaged, and how fast it advances there.
+//! This module finds where the last edge is engaged, and how fast it advances there.
 
 use crate::layered_chips::Polygon;
 use crate::layered_chips::boundary_diagram::BoundaryDiagram;
@@ -8,14 +8,15 @@ use crate::layered_chips::swept_area::RimDirections;
 use crate::layered_chips::trig_polynomial::{AngleSinCos, TrigPolynomial};
 use std::f64::consts::TAU;
 
-/// Angles closer than this are one, radians.
+/// Angles that are closer than this (radians) are equal.
 const SAME: f64 = 1e-4;
 
-/// The arcs of the last edge that border on the chip, in degrees, and how far the engaged edge advances at most; see
-/// [`super::LayerChip`].
+/// Returns the arcs of the last edge that touch the chip, in degrees, and the largest advance of the engaged
+/// edge; see [`super::LayerChip`].
 ///
-/// A piece of the chip's border lies on the last edge when both its ends do, within twice the rim's tolerance, and it goes the same way
-/// round; a chip thinner than that on its other side has that side go the other way round.
+/// An edge of the chip's boundary is on the last edge of the cutter if both its ends are, within twice the
+/// rim's tolerance, and if it goes in the same direction around the centre. In a chip that is thinner than
+/// that tolerance, the opposite side goes in the other direction, so it does not count.
 pub(super) fn find_engaged_arcs(
     diagram: &BoundaryDiagram,
     rim: &RimDirections,
@@ -23,7 +24,8 @@ pub(super) fn find_engaged_arcs(
 ) -> (Vec<[f64; 2]>, f64) {
     let family = diagram.family();
     let ellipse = family.ellipse_at(1.0);
-    // An edge that the layer no longer meets at the end has no place on it.
+    // If the layer no longer meets the mill at this angle at the end of the step, no point of the last edge
+    // is there.
     let ends = [DiagramCurve::Bottom, DiagramCurve::Top]
         .map(|curve| family.has_curve(curve).then(|| family.curve_at(curve, 1.0)));
     let there = |theta: f64| {
@@ -44,7 +46,8 @@ pub(super) fn find_engaged_arcs(
                 let width = (to - from).rem_euclid(TAU);
                 let middle = from + 0.5 * width;
                 let between = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
-                // A wall between two places of the ellipse is no part of it.
+                // A straight side between two points of the ellipse, such as the chord of the bottom disc, is
+                // not part of the ellipse.
                 let along = angle_on_ellipse(&ellipse, between, near).is_some();
                 if width < 0.5 * TAU
                     && along
@@ -70,14 +73,14 @@ pub(super) fn find_engaged_arcs(
     (arcs, advance)
 }
 
-/// The angle of a place on the ellipse, radians; `None` off it.
+/// Returns the angle of a point on the ellipse, radians, or `None` if the point is not on it.
 fn angle_on_ellipse(ellipse: &LayerEllipse, place: [f64; 2], near: f64) -> Option<f64> {
     let [x, y] = ellipse.direction_to(place);
     let off = (x.hypot(y) - 1.0).abs() * ellipse.short_semi_axis_mm();
     (off <= near).then(|| y.atan2(x))
 }
 
-/// The angle in whose direction the ellipse's centre moves, radians.
+/// Returns the angle of the direction in which the ellipse's centre moves, radians.
 fn travel_angle(ellipse: &LayerEllipse) -> f64 {
     let ([cx, cy], [vx, vy]) = (ellipse.centre, ellipse.velocity);
     if vx.hypot(vy) < 1e-9 {
@@ -87,7 +90,7 @@ fn travel_angle(ellipse: &LayerEllipse) -> f64 {
     y.atan2(x)
 }
 
-/// Arcs put together where they meet; a full turn is one arc.
+/// Joins arcs where they meet; a full turn becomes one arc.
 fn join_arcs(mut arcs: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     arcs.sort_by(|[a, _], [b, _]| a.total_cmp(b));
     let mut whole: Vec<[f64; 2]> = Vec::new();
@@ -97,7 +100,7 @@ fn join_arcs(mut arcs: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
             _ => whole.push([from, to]),
         }
     }
-    // The last one may reach the first around the circle.
+    // The last arc may continue in the first one across the full turn.
     if let (Some([first, first_end]), Some([last, end])) = (whole.first().copied(), whole.last().copied())
         && end + SAME >= first + TAU
     {
@@ -112,18 +115,20 @@ fn join_arcs(mut arcs: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     whole
 }
 
+/// Converts an arc from radians to degrees, with its beginning from -180 to below 180.
 fn arc_in_degrees(from: f64, width: f64) -> [f64; 2] {
     let from = (from.to_degrees() + 180.0).rem_euclid(360.0) - 180.0;
     [from, from + width.to_degrees()]
 }
 
-/// The bottom disc where it cuts the layer at the end of the step.
+/// The chord in which the bottom disc cuts the layer at the end of the step.
 struct BottomDiscChord {
-    /// In directions of the ellipse, a place is above the disc by `normal . v + offset`.
+    /// The direction of the disc's line: a point with the direction `v` of the ellipse is above the disc by
+    /// `normal . v + offset`.
     normal: [f64; 2],
     offset: f64,
     ellipse: LayerEllipse,
-    /// The function [`DiagramCurve::BottomDiscChord`].
+    /// The function [`DiagramCurve::Face`].
     speed: TrigPolynomial<f64>,
 }
 
@@ -143,7 +148,7 @@ impl BottomDiscChord {
         })
     }
 
-    /// How fast a piece of border advances that lies on the disc's chord; 0 for any other.
+    /// Returns the advance of a boundary edge that is on the disc's chord, mm; 0 for any other edge.
     fn chord_advance_mm(&self, a: [f64; 2], b: [f64; 2], near: f64) -> f64 {
         let on = |place: [f64; 2]| {
             let [x, y] = self.ellipse.direction_to(place);
@@ -152,7 +157,7 @@ impl BottomDiscChord {
             (off <= near && x.hypot(y) <= 1.0 + near).then_some([x, y])
         };
         let (Some([ax, ay]), Some([bx, by])) = (on(a), on(b)) else { return 0.0 };
-        // Linear in the direction, so on the chord as well as on the circle.
+        // The speed is linear in the direction, so the same formula holds on the chord and on the circle.
         let TrigPolynomial([k0, k1, k2, ..]) = self.speed;
         let speed = |x: f64, y: f64| k0 + k1 * x + k2 * y;
         speed(ax, ay).max(speed(bx, by)).max(0.0)

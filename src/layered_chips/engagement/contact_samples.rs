@@ -1,45 +1,47 @@
-//! Samples of a piece of a chip: its border closely, its middle coarsely.
+//! This module samples a piece of a chip: its boundary closely, its interior coarsely.
 
 use super::moving_cylinder::{CylinderContact, CylinderFace, MovingCylinder};
 use crate::layered_chips::Polygon;
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 
-/// Distance of samples on a border as a share of the radius: 0.4 of a bin.
+/// The distance of samples on a boundary as a fraction of the radius. It is 0.4 of a bin.
 const SPACING: f64 = 0.02;
 
-/// Most samples of one straight edge.
+/// The most samples of one straight edge.
 const MOST: f64 = 512.0;
 
-/// Samples of the middle in each direction.
+/// The number of samples of the interior in each direction.
 const INSIDE: usize = 8;
 
-/// Neighbours on a border further apart than this (radians) are not joined: the contact jumped.
+/// Neighbouring samples on a boundary whose angles differ by more than this (radians) are not joined, because
+/// the contact jumped.
 const JUMP: f64 = 0.5;
 
-/// Parts of the normal in the layer below which a width in the layer says nothing of a thickness.
+/// The least component of the normal in the layer. Below it, a width in the layer says nothing about the
+/// thickness along the normal.
 const LEVEL: f64 = 0.05;
 
-/// A layer: the height of its middle, and its thickness, mm.
+/// A layer: the height of its middle and its thickness, mm.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LayerSlab {
     pub z: f64,
     pub thickness: f64,
 }
 
-/// A contact as a bin takes it.
+/// A contact as a bin needs it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ContactSample {
     pub flank: bool,
     pub angle: f64,
-    /// Lengths along the meridian, mm.
+    /// The lowest and highest engaged length along the meridian, mm.
     pub along: [f64; 2],
     pub share: f64,
     pub bound: f64,
     pub thickness: f64,
 }
 
-/// The samples of a piece; none of a film that chords left.
+/// Returns the samples of a piece of a chip. A film that chords left gets none.
 pub(super) fn sample_polygon(
     motion: &MovingCylinder,
     slab: &LayerSlab,
@@ -62,15 +64,17 @@ pub(super) fn sample_polygon(
         return found;
     }
     let spacing = sample_interior(motion, slab, &borders, &mut found);
-    // Between the samples of the middle, what the bottom engages reaches further in.
+    // Between two samples of the interior, the engagement of the bottom may reach further inwards, by up to
+    // their distance.
     let innermost = |sample: &ContactSample| if sample.flank { f64::INFINITY } else { sample.along[0] };
     let innermost = found.iter().map(innermost).fold(f64::INFINITY, f64::min) - spacing;
     found.iter_mut().filter(|sample| !sample.flank).for_each(|sample| sample.along[0] = innermost.max(0.0));
     found
 }
 
-/// Samples of a border, joined where neighbours are more than a bin apart. What is as thin as chords may leave is passed over, unless
-/// a neighbour is not: at a chip's corner it has no thickness either.
+/// Samples a boundary and adds samples between neighbours that are more than a bin apart. A sample where the
+/// material is as thin as the error of chords is skipped, unless a neighbour is thicker: at a vertex of a
+/// chip the thickness is zero as well.
 fn sample_boundary(
     motion: &MovingCylinder,
     slab: &LayerSlab,
@@ -110,7 +114,7 @@ fn sample_boundary(
     }
 }
 
-/// Adds samples of the middle; returns their distance, mm.
+/// Adds samples of the interior; returns their distance, mm.
 fn sample_interior(
     motion: &MovingCylinder,
     slab: &LayerSlab,
@@ -127,7 +131,7 @@ fn sample_interior(
     let step = [(x1 - x0) / INSIDE as f64, (y1 - y0) / INSIDE as f64];
     for (column, row) in (0..INSIDE).flat_map(|column| (0..INSIDE).map(move |row| (column, row))) {
         let place = [x0 + step[0] * (column as f64 + 0.5), y0 + step[1] * (row as f64 + 0.5)];
-        // A place is inside when a line to one side of it crosses the borders an odd number of times.
+        // A point is inside if a ray from it crosses the boundaries an odd number of times.
         let crossings = borders.iter().flat_map(|border| find_boundary_crossings(border, place, [1.0, 0.0]));
         if crossings.filter(|at| *at > 0.0).count() % 2 == 0 {
             continue;
@@ -143,6 +147,8 @@ fn sample_interior(
     step[0].max(step[1])
 }
 
+/// Converts a contact to a sample, with a bound for what is between the samples and within the layer's
+/// thickness.
 fn sample_contact(
     motion: &MovingCylinder,
     slab: &LayerSlab,
@@ -151,6 +157,7 @@ fn sample_contact(
     thickness: f64,
 ) -> ContactSample {
     let upright = contact.upright.max(1e-3);
+    // The layer's half thickness, measured along the tilted axis.
     let half = slab.thickness / 2.0 / upright;
     let lean = (1.0 - upright * upright).max(0.0).sqrt();
     let flank = contact.face == CylinderFace::Flank;
@@ -164,7 +171,8 @@ fn sample_contact(
     };
     let turned = motion.turn_per_mm() * (half + radius * apart);
     let bound = if flank && contact.most > 0.0 {
-        // Moved about the axis to the next sample, and to the side by what chords and the lean of half a layer may hide.
+        // The bound is the ratio at an angle nearer to straight ahead: by the distance to the next sample,
+        // and to the side by what chords and the lean of half a layer may hide.
         let angle = (contact.share / contact.most).clamp(-1.0, 1.0).acos();
         let aside = (motion.chord_error_mm() + half * lean) / radius;
         let side = ((angle - apart).max(0.0).sin() - aside).max(0.0);
@@ -182,7 +190,8 @@ fn sample_contact(
     }
 }
 
-/// Thickness along the normal of the material that holds a place, mm; infinite where its width in the layer does not tell.
+/// Returns the thickness along the normal of the material around a point, mm; infinite if the width in the
+/// layer does not determine it.
 fn material_thickness_mm(borders: &[&Vec<[f64; 2]>], place: [f64; 2], contact: &CylinderContact) -> f64 {
     let level = contact.normal.x.hypot(contact.normal.y);
     if level < LEVEL {
@@ -193,13 +202,14 @@ fn material_thickness_mm(borders: &[&Vec<[f64; 2]>], place: [f64; 2], contact: &
         borders.iter().flat_map(|border| find_boundary_crossings(border, place, way)).collect();
     let side = |sign: f64| {
         let beyond = || all.iter().map(|at| at * sign).filter(|at| *at > 1e-6);
-        // From the middle of the first stretch on, an odd number of crossings is left where that is inside.
+        // Beyond the point, an odd number of crossings is left if the point is inside.
         if beyond().count() % 2 == 1 { beyond().fold(f64::INFINITY, f64::min) } else { 0.0 }
     };
+    // The width in the layer times the cosine of the normal's lean is the thickness along the normal.
     (side(1.0) + side(-1.0)) * level
 }
 
-/// Where a line through a place crosses a border, mm along it.
+/// Returns where a line through a point crosses a boundary, in mm along the line.
 fn find_boundary_crossings(
     border: &[[f64; 2]],
     [x, y]: [f64; 2],
@@ -215,11 +225,12 @@ fn find_boundary_crossings(
     })
 }
 
+/// Returns the edges of a closed boundary.
 fn boundary_edges(border: &[[f64; 2]]) -> impl Iterator<Item = (&[f64; 2], &[f64; 2])> {
     border.iter().zip(border.iter().cycle().skip(1))
 }
 
-/// The corners of a border with places between them no further apart than a distance.
+/// Returns the vertices of a boundary, with points added so that no two are further apart than a distance.
 fn subdivide_boundary(border: &[[f64; 2]], apart: f64) -> Vec<[f64; 2]> {
     let mut places = Vec::with_capacity(2 * border.len());
     for ([ax, ay], [bx, by]) in boundary_edges(border) {
@@ -230,7 +241,7 @@ fn subdivide_boundary(border: &[[f64; 2]], apart: f64) -> Vec<[f64; 2]> {
     places
 }
 
-/// An angle from -pi to pi.
+/// Brings an angle to the range from -pi to pi.
 fn normalize_angle(angle: f64) -> f64 {
     (angle + PI).rem_euclid(TAU) - PI
 }

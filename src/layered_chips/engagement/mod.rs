@@ -1,13 +1,15 @@
-//! A chip as the engagement that feeds are made from.
+//! This module converts a chip to the engagement that feeds are made from.
 //!
-//! Every place of a chip was reached by the cutter's surface at one time and in one direction about the axis. At each time the directions
-//! engaged form arcs whose ends lie on the chip's border, so the border is sampled, and the middle besides: for each sample the moment at
-//! which the moving cylinder reaches it is solved for, and there the share of the feed with which the surface advances is exact.
+//! Every point of a chip was reached by the cutter's surface at one time and in one direction around the
+//! axis. At each time the engaged directions form arcs whose ends are on the chip's boundary. So the boundary
+//! is sampled, and the interior in addition. For each sample the time at which the moving cylinder reaches it
+//! is solved for, and at that time the advance ratio of the surface is exact.
 //!
-//! **Bounds.** [`EngagementBin::share_bound`] holds what lies between samples, what chords may hide (twice the tolerance), and what lies between the
-//! middle of a layer and its upper and lower side as the axis leans and turns. What it does not hold: material that reaches no layer's
-//! middle, so lower than a layer, and stock whose own walls lean within a layer. Material thinner than twice the tolerance is what
-//! chords of an earlier pass left, and no contact.
+//! **Bounds.** [`EngagementBin::share_bound`] includes what is between samples, what chords may hide (twice
+//! the tolerance), and what is between the middle of a layer and its upper and lower side if the axis is
+//! tilted or turns. It does not include material that reaches the middle of no layer, so is lower than a
+//! layer, or stock whose own walls lean within a layer. Material that is thinner than twice the tolerance was
+//! left by chords of an earlier pass and is not a contact.
 
 mod contact_samples;
 mod moving_cylinder;
@@ -18,10 +20,11 @@ use crate::sim::{Engagement, EngagementBin, PathPiece};
 use contact_samples::{ContactSample, LayerSlab};
 use moving_cylinder::MovingCylinder;
 
-/// The engagement of a piece of path with this chip, which was cut with a mill and chords within `tolerance` (mm).
+/// Returns the engagement of a piece of path with its chip, which was cut with this mill and with chords
+/// within `tolerance` (mm).
 ///
-/// Lengths along the meridian are radii on the bottom and the radius plus the height above the tip on the flank. Collars are
-/// not looked at.
+/// Lengths along the meridian are radii on the bottom, and the radius plus the height above the tip on the
+/// flank. Shanks and holders are not examined.
 pub fn measure_engagement(chip: &Chip, mill: &FlatMill, piece: &PathPiece, tolerance: f64) -> Engagement {
     let mut found = Engagement::empty_for_piece(piece, [mill.radius, mill.flutes]);
     if chip.layers.is_empty() {
@@ -31,7 +34,7 @@ pub fn measure_engagement(chip: &Chip, mill: &FlatMill, piece: &PathPiece, toler
     for layer in &chip.layers {
         let slab = LayerSlab { z: layer.z, thickness: layer.thickness };
         if layer.inside_mm2 > 0.0 {
-            // How it was reached is not known: it has the largest share there can be.
+            // How this material was reached is not known, so it gets the largest advance ratio there can be.
             found.removed_mm3 += layer.inside_mm2 * layer.thickness;
             let span = motion.meridian_range_at_start(&slab);
             add_bin(
@@ -54,11 +57,12 @@ pub fn measure_engagement(chip: &Chip, mill: &FlatMill, piece: &PathPiece, toler
     found
 }
 
-/// The largest share of the way of a piece with which the cutter's surface advances into the chip on one layer, anywhere on the piece;
-/// `None` where no sample of the chip is reached by what advances (a film that chords left).
+/// Returns the largest advance ratio of the cutter's surface into the chip on one layer, anywhere on the
+/// piece. Returns `None` if no sample of the chip is reached by an advancing surface, as in a film that
+/// chords left.
 ///
-/// The thickest chip of a tooth follows: this share of the feed of a tooth. Between samples, a fiftieth of the radius apart, it may be
-/// larger by the square of that.
+/// The thickest chip of a tooth is this ratio times the feed per tooth. Samples are a fiftieth of the radius
+/// apart, and between them the ratio may be larger by the square of that.
 pub fn largest_feed_fraction(
     layer: &LayerChip,
     mill: &FlatMill,
@@ -73,6 +77,7 @@ pub fn largest_feed_fraction(
     samples.map(|sample| sample.share).reduce(f64::max)
 }
 
+/// Adds a sample to the engagement.
 fn add_sample(found: &mut Engagement, motion: &MovingCylinder, sample: &ContactSample) {
     let bin = EngagementBin {
         share: sample.share as f32,

@@ -1,18 +1,19 @@
-//! A moving cylinder and the moment at which it reaches a place.
+//! This module moves a cylinder along a piece of path and finds the time at which it reaches a point.
 
 use super::contact_samples::LayerSlab;
 use crate::layered_chips::mill_step::FlatMill;
 use crate::sim::PathPiece;
 use nalgebra::Vector3;
 
-/// Tips closer together than this (mm) stand still, as for the simulation.
+/// Tips that are closer together than this (mm) count as standing still, as in the simulation.
 const STILL: f64 = 1e-7;
 
-/// Times at which a place is looked for at least and at most, and how far (as a share of the radius) the surface may go between two.
+/// The least and the most times at which a point is tested, and the distance that the surface may move
+/// between two of them, as a fraction of the radius.
 const LOOKS: [f64; 2] = [6.0, 256.0];
 const BETWEEN: f64 = 0.1;
 
-/// Steps of the search between two looks: false position needs some 5.
+/// The most steps of the search between two tested times. False position needs about 5.
 const STEPS: usize = 30;
 
 /// A mill along a piece of path, in the workpiece frame.
@@ -25,16 +26,16 @@ pub(super) struct MovingCylinder {
     from: Vector3<f64>,
     across: Vector3<f64>,
     turn: f64,
-    /// The turn as a vector, radians.
+    /// The turn of the axis as a rotation vector, radians.
     spin: Vector3<f64>,
-    /// Way that shares relate to, mm.
+    /// The length of path that advance ratios refer to, mm.
     pace: f64,
-    /// A place counts as reached when the surface is this close, mm.
+    /// A point counts as reached if the surface is this close, mm.
     near: f64,
     looks: usize,
 }
 
-/// Which surface reaches a place.
+/// The surface of the cylinder that reaches a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum CylinderFace {
     Flank,
@@ -42,21 +43,21 @@ pub(super) enum CylinderFace {
     Top,
 }
 
-/// A place when it is reached.
+/// The contact at the time when a point is reached.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CylinderContact {
     pub face: CylinderFace,
-    /// About the axis from the feed's direction, radians, left positive.
+    /// The angle around the axis from the feed's direction, radians, positive to the left.
     pub angle: f64,
-    /// From the axis, and up it from the tip, mm.
+    /// The distance from the axis, and the height above the tip along it, mm.
     pub rho: f64,
     pub height: f64,
-    /// The surface's normal, outwards.
+    /// The outward unit normal of the surface.
     pub normal: Vector3<f64>,
-    /// Share of the feed with which the surface advances, and the largest that it has in any direction at this height.
+    /// The advance ratio of the surface, and the largest one in any direction at this height.
     pub share: f64,
     pub most: f64,
-    /// Cosine of the axis' angle to z, not negative.
+    /// The cosine of the angle between the axis and z, not negative.
     pub upright: f64,
 }
 
@@ -89,22 +90,24 @@ impl MovingCylinder {
         self.radius
     }
 
-    /// What chords may hide, mm.
+    /// Returns the distance that chords may hide, mm.
     pub fn chord_error_mm(&self) -> f64 {
         self.near
     }
 
-    /// The turn as a share of the pace: by how much a share changes over a millimetre of lever.
+    /// Returns by how much an advance ratio changes per mm of distance from the tip, because the axis turns.
     pub fn turn_per_mm(&self) -> f64 {
         self.turn / self.pace
     }
 
+    /// Returns the axis at a time of the piece, from 0 to 1.
     fn tool_axis_at(&self, t: f64) -> Vector3<f64> {
         let (sin, cos) = (self.turn * t).sin_cos();
         self.from * cos + self.across * sin
     }
 
-    /// Distance of a place from the axis, and its height above the tip, at a time.
+    /// Returns the vector from the axis to a point at a time, its length, and the height of the point above
+    /// the tip.
     fn cylinder_coordinates(&self, place: &Vector3<f64>, t: f64) -> (Vector3<f64>, f64, f64) {
         let axis = self.tool_axis_at(t);
         let here = place - self.tip - self.way * t;
@@ -113,7 +116,7 @@ impl MovingCylinder {
         (aside, aside.norm(), height)
     }
 
-    /// How far a place is outside at a time, and of which surface.
+    /// Returns the distance of a point outside the cylinder at a time, and the surface from which it counts.
     fn gap_at(&self, place: &Vector3<f64>, t: f64) -> (f64, CylinderFace) {
         let (_, rho, height) = self.cylinder_coordinates(place, t);
         let gaps = [
@@ -126,7 +129,7 @@ impl MovingCylinder {
         })
     }
 
-    /// How a place is reached first; `None` where nothing that advances reaches it.
+    /// Returns the first contact with a point, or `None` if no advancing surface reaches it.
     pub fn find_first_contact(&self, place: &Vector3<f64>) -> Option<CylinderContact> {
         let out = |t: f64| {
             let (gap, face) = self.gap_at(place, t);
@@ -155,6 +158,7 @@ impl MovingCylinder {
         None
     }
 
+    /// Returns the contact of a point with a surface at a time.
     fn contact_at(&self, place: &Vector3<f64>, t: f64, face: CylinderFace) -> CylinderContact {
         let axis = self.tool_axis_at(t);
         let (aside, rho, height) = self.cylinder_coordinates(place, t);
@@ -164,6 +168,7 @@ impl MovingCylinder {
             CylinderFace::Bottom => -axis,
             CylinderFace::Top => axis,
         };
+        // The surface point moves with the tip and turns about it.
         let velocity = self.way + self.spin.cross(&(aside + axis * height));
         let level = velocity - axis * velocity.dot(&axis);
         let ahead = self.feed_direction_at(&axis);
@@ -180,14 +185,14 @@ impl MovingCylinder {
         }
     }
 
-    /// The direction from which angles count, as the simulation has it.
+    /// Returns the direction from which angles count, as in the simulation.
     fn feed_direction_at(&self, axis: &Vector3<f64>) -> Vector3<f64> {
         let direction = if self.way.norm() > STILL { self.way.normalize() } else { self.spin.cross(axis) };
         let aside = direction - axis * direction.dot(axis);
         if aside.norm() > 1e-6 * direction.norm() { aside.normalize() } else { any_perpendicular(axis) }
     }
 
-    /// Lengths along the meridian between which a slab meets the cutter's axis at the start.
+    /// Returns the lengths along the meridian between which a layer meets the cutter's axis at the start.
     pub fn meridian_range_at_start(&self, slab: &LayerSlab) -> [f64; 2] {
         let upright = self.from.z.abs().max(1e-3);
         let height = (slab.z - self.tip.z).abs() / upright;
@@ -196,7 +201,8 @@ impl MovingCylinder {
     }
 }
 
-/// Where a function falls through zero between two times, by false position (Illinois); with the face outside of it.
+/// Finds by false position (Illinois variant) where a function falls through zero between two times. Also
+/// returns the surface just before that time.
 fn find_zero_crossing(
     out: impl Fn(f64) -> (f64, CylinderFace),
     (mut low, mut above, mut face): (f64, f64, CylinderFace),
@@ -219,6 +225,7 @@ fn find_zero_crossing(
     (high, face)
 }
 
+/// Returns a unit vector across an axis, as near to x as possible, or near to y for an axis along x.
 fn any_perpendicular(axis: &Vector3<f64>) -> Vector3<f64> {
     let along = if axis.x.abs() < 1.0 - 1e-6 { Vector3::x() } else { Vector3::y() };
     (along - axis * along.dot(axis)).normalize()

@@ -1,17 +1,18 @@
-//! A layer of the workpiece.
+//! This module holds one layer of the workpiece.
 
 use super::tiles::{LayerTile, TileBuffers};
 use crate::layered_chips::Polygon;
 use crate::layered_chips::area::{AreaGrid, GridArea};
 use crate::layered_chips::swept_area::{LayerSweptArea, SectionSeam};
 
-/// Corners from which on a piece of a layer is halved: large enough that the edge of one cut fits in a piece.
+/// The number of vertices above which a piece of a layer is divided. It is large enough that the edge of one
+/// cut fits in a piece.
 pub(super) const MOST_CORNERS: usize = 128;
 
-/// Borders that are cut along at once.
+/// The most boundaries that are united at once.
 const GROUP: usize = 12;
 
-/// What is left of the workpiece between two heights.
+/// The part of the workpiece between two heights.
 #[derive(Debug, Clone)]
 pub struct Layer {
     number: usize,
@@ -20,24 +21,26 @@ pub struct Layer {
     grid: AreaGrid,
     most_corners: usize,
     material: LayerTile,
-    /// The cutter's section at the end of the last cut, and its seam: nothing is left inside.
+    /// The cutter's section at the end of the last cut, inside which nothing is left, and the seam of that
+    /// section.
     cleared: Vec<[f64; 2]>,
     seam: Option<SectionSeam>,
     room: TileBuffers,
 }
 
-/// What was taken out of a layer.
+/// The material that was removed from a layer.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LayerRemoval {
-    /// The chip's pieces.
+    /// The pieces of the chip.
     pub pieces: Vec<Polygon>,
-    /// Their area, mm2.
+    /// The area of the chip, mm2.
     pub area_mm2: f64,
-    /// Area of the material that stood inside the cutter at its first place, mm2.
+    /// The area of the material that was inside the cutter at its first pose, mm2.
     pub inside_mm2: f64,
 }
 
 impl Layer {
+    /// Makes a layer with the material of an area.
     pub(super) fn new(
         number: usize,
         [bottom, thickness]: [f64; 2],
@@ -51,31 +54,33 @@ impl Layer {
         Self { number, bottom, thickness, grid, most_corners: most, material, cleared, seam, room }
     }
 
-    /// Its number, from below.
+    /// Returns the number of the layer, counted from below.
     pub fn number(&self) -> usize {
         self.number
     }
 
-    /// Height of its lower side, mm.
+    /// Returns the height of its lower side, mm.
     pub fn bottom_mm(&self) -> f64 {
         self.bottom
     }
 
-    /// Height of its middle, mm: there the cutter's sections belong.
+    /// Returns the height of its middle, mm, at which the cutter's sections are taken.
     pub fn middle_z_mm(&self) -> f64 {
         self.bottom + self.thickness / 2.0
     }
 
-    /// Its thickness, mm.
+    /// Returns its thickness, mm.
     pub fn thickness_mm(&self) -> f64 {
         self.thickness
     }
 
-    /// Takes out the material that a cutter meets between two places.
+    /// Removes the material that a cutter meets between two poses.
     ///
-    /// First everything inside its first place goes, which is no part of the chip; nothing is there when the last cut ended in the same
-    /// section, but for the caps, thinner than what chords leave, which the chip gets. The chip is what is left of the material inside the advancing borders. Areas are exact for corners rounded to the
-    /// [`AreaGrid`], and what is as thin as a step or two is left out.
+    /// First everything inside the first section is removed, which does not belong to the chip. If the last
+    /// cut ended in the same section, nothing is there except the caps, which are thinner than the error of
+    /// chords; these are added to the chip. The chip is the rest of the material inside the advancing
+    /// boundaries. Areas are exact for vertices rounded to the [`AreaGrid`]; what is as thin as a step or two
+    /// is left out.
     pub fn remove_swept_area(&mut self, cover: &LayerSweptArea) -> LayerRemoval {
         let mut removed = LayerRemoval::default();
         let [seam, next] = cover.seams.map_or([None; 2], |seams| seams.map(Some));
@@ -98,7 +103,8 @@ impl Layer {
         removed
     }
 
-    /// What many borders wind around, by groups: borders that run along each other cost by the square of their number.
+    /// Unites many boundaries in groups, because the cost of boundaries that run along each other grows with
+    /// the square of their number.
     fn unite_in_groups(&mut self, borders: &[Vec<[f64; 2]>]) -> GridArea {
         if borders.len() <= GROUP {
             return GridArea::new(&self.grid, borders.iter().map(Vec::as_slice));
@@ -109,7 +115,8 @@ impl Layer {
         self.room.clipper.unite_boundaries(&all)
     }
 
-    /// Takes out everything that borders wind around; from how many tiles.
+    /// Removes everything that the boundaries wind around. Returns the removed area and the number of tiles
+    /// it was in.
     fn take_out_area(&mut self, cut: &GridArea) -> (GridArea, usize) {
         let mut taken = GridArea::default();
         let Some(window) = cut.bounding_box() else { return (taken, 0) };
@@ -117,12 +124,12 @@ impl Layer {
         (taken, count)
     }
 
-    /// What is left, mm2.
+    /// Returns the area that is left, mm2.
     pub fn area_mm2(&self) -> f64 {
         self.remaining_area().area_mm2(&self.grid)
     }
 
-    /// What is left, as connected polygons.
+    /// Returns the material that is left as connected polygons.
     pub fn remaining_polygons(&self) -> Vec<Polygon> {
         TileBuffers::default().clipper.extract_polygons(&self.remaining_area(), &self.grid).0
     }

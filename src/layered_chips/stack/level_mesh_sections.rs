@@ -1,24 +1,25 @@
-//! Level sections of a mesh.
+//! This module cuts a mesh by level planes.
 //!
-//! Corners in a plane count as above it, as if the plane were lower by less than any number. So a plane never meets a corner, and where it
-//! meets an edge is computed from the edge alone, from its lower end to its upper one: the sections of neighbouring triangles meet to the
-//! last bit, and their pieces make closed borders.
+//! Vertices in a plane count as above it, as if the plane were lower by an infinitesimal amount. So a plane
+//! never meets a vertex. The point where it meets an edge is computed from the edge alone, from its lower end
+//! to its upper one. So the sections of neighbouring triangles meet to the last bit, and their segments form
+//! closed boundaries.
 
 use crate::sim::Mesh;
 
-/// A directed piece of a section with the material to its left.
+/// A directed segment of a section, with the material to its left.
 type DirectedSegment = [[f64; 2]; 2];
 
-/// A mesh sorted for the level planes at some heights.
+/// A mesh whose triangles are sorted by the level planes that they may meet.
 pub(super) struct LevelMeshSections {
     corners: Vec<[[f64; 3]; 3]>,
-    /// For each plane the triangles that may meet it.
+    /// The triangles that may meet each plane.
     met: Vec<Vec<u32>>,
 }
 
 impl LevelMeshSections {
-    /// Sorts the triangles of a mesh for planes at ascending heights: takes time and memory for the triangles, and for each the planes
-    /// that it meets.
+    /// Sorts the triangles of a mesh for planes at ascending heights. Time and memory grow with the number of
+    /// triangles and the planes that each one meets.
     pub(super) fn new(mesh: &Mesh, heights: &[f64]) -> Self {
         let corners: Vec<[[f64; 3]; 3]> = mesh.triangle_vertices().collect();
         let mut met = vec![Vec::new(); heights.len()];
@@ -32,7 +33,8 @@ impl LevelMeshSections {
         Self { corners, met }
     }
 
-    /// The closed borders in the plane with a number: material winds around counter-clockwise.
+    /// Returns the closed boundaries in the plane with this number; they go counter-clockwise around
+    /// material.
     pub(super) fn section_at(&self, number: usize, height: f64) -> Vec<Vec<[f64; 2]>> {
         let met = self.met.get(number).into_iter().flatten();
         let triangles = met.filter_map(|index| self.corners.get(*index as usize));
@@ -40,7 +42,7 @@ impl LevelMeshSections {
     }
 }
 
-/// The piece in which a plane meets a triangle.
+/// Returns the segment in which a plane meets a triangle.
 fn cut_triangle(corners: &[[f64; 3]; 3], height: f64) -> Option<DirectedSegment> {
     let [a, b, c] = *corners;
     let (mut up, mut down) = (None, None);
@@ -51,24 +53,28 @@ fn cut_triangle(corners: &[[f64; 3]; 3], height: f64) -> Option<DirectedSegment>
             _ => {}
         }
     }
-    // Seen from outside, the part above the plane is passed from the edge that goes up to the one that goes down: with the inside behind
-    // the triangle, material is to the left of the way back.
+    // Seen from outside, the triangle's part above the plane begins at the edge that goes up and ends at the
+    // edge that goes down. The inside is behind the triangle, so the material is to the left of the segment
+    // in the opposite direction.
     Some([down?, up?]).filter(|[from, to]| from != to)
 }
 
-/// Where an edge, given from its lower end to its upper one, meets a plane; no minus zero, so that equal places are equal bit by bit.
+/// Returns where an edge, given from its lower end to its upper one, meets a plane. Minus zero becomes zero,
+/// so that equal points are equal bit by bit.
 fn intersect_edge([x0, y0, z0]: [f64; 3], [x1, y1, z1]: [f64; 3], height: f64) -> [f64; 2] {
     let share = (height - z0) / (z1 - z0);
     [x0 + (x1 - x0) * share, y0 + (y1 - y0) * share].map(|at| at + 0.0)
 }
 
-/// Pieces as closed borders. At every place as many pieces begin as end, so each way leads back to where it began.
+/// Chains segments to closed boundaries. At every point equally many segments begin and end, so each chain
+/// leads back to its beginning.
 fn chain_boundaries(mut pieces: Vec<DirectedSegment>) -> Vec<Vec<[f64; 2]>> {
     let order =
         |a: &[f64; 2], b: &[f64; 2]| a.iter().zip(b).map(|(a, b)| a.total_cmp(b)).find(|order| order.is_ne());
     let order = |a: &[f64; 2], b: &[f64; 2]| order(a, b).unwrap_or(std::cmp::Ordering::Equal);
     pieces.sort_unstable_by(|a, b| order(&a[0], &b[0]).then(order(&a[1], &b[1])));
-    // The first piece not yet used of those that begin at the same place.
+    // For each first segment at a point: the index from which on an unused segment with the same beginning
+    // may be found.
     let mut next: Vec<usize> = (0..pieces.len()).collect();
     let mut used = vec![false; pieces.len()];
     let mut found = Vec::new();
@@ -82,7 +88,7 @@ fn chain_boundaries(mut pieces: Vec<DirectedSegment>) -> Vec<Vec<[f64; 2]>> {
                 *used = true;
             }
             let first = pieces.partition_point(|[other, _]| order(other, to).is_lt());
-            // All before the counter are used.
+            // All segments before `free` are used.
             let free = next.get(first).copied().unwrap_or(first);
             let more = pieces.iter().enumerate().skip(free).take_while(|(_, [other, _])| other == to);
             at = more.map(|(index, _)| index).find(|index| used.get(*index) == Some(&false));

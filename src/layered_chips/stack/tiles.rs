@@ -1,19 +1,20 @@
-//! The area of a layer in pieces of bounded size, so that a cut costs what it touches and not what the workpiece is made of.
+//! This module holds the area of a layer in pieces (tiles) of at most 128 vertices, so that the cost of a cut
+//! depends on what it touches and not on the whole workpiece.
 
 use crate::layered_chips::area::{Clipper, GridArea, GridBox};
 
-/// A piece of a layer: its area, or two pieces beside each other. Borders between pieces are whole steps, so that what is cut from both
-/// fits together.
+/// A tile of a layer: its area, or two tiles beside each other. Boundaries between tiles are whole steps of
+/// the grid, so that what is cut from both fits together.
 #[derive(Debug, Clone)]
 pub(super) enum LayerTile {
     Area { area: GridArea, window: Option<GridBox> },
     Halves(Box<[LayerTile; 2]>),
 }
 
-/// Shortest side of the box around an area that is still halved, steps.
+/// The shortest side, in steps, of the box around an area that is still divided.
 const SMALLEST: i64 = 1 << 14;
 
-/// What cutting needs room for.
+/// The memory that cutting reuses.
 #[derive(Debug, Clone, Default)]
 pub(super) struct TileBuffers {
     pub(super) clipper: Clipper,
@@ -23,7 +24,7 @@ pub(super) struct TileBuffers {
 }
 
 impl LayerTile {
-    /// An area, halved until no piece has more than so many corners.
+    /// Makes a tile of an area and divides it until no tile has more than `most` vertices.
     pub(super) fn new(area: GridArea, most: usize, room: &mut TileBuffers) -> Self {
         let window = area.bounding_box();
         let mut tile = Self::Area { area, window };
@@ -31,8 +32,8 @@ impl LayerTile {
         tile
     }
 
-    /// Takes out everything that borders wind around, and adds it to `taken`, for each piece on its own. Returns from how many pieces
-    /// something was taken.
+    /// Removes everything that the boundaries of `cut` wind around and adds it to `taken`, for each tile
+    /// separately. Returns the number of tiles from which something was removed.
     pub(super) fn take_out_area(
         &mut self,
         cut: &GridArea,
@@ -45,6 +46,7 @@ impl LayerTile {
             Self::Area { window: Some(window), .. } if !window.intersects(around) => 0,
             Self::Area { window: None, .. } => 0,
             Self::Area { area, window: Some(window) } => {
+                // Far from the tile, the boundaries need no detail, and most of them vanish.
                 room.along.clear();
                 room.along.add_simplified_within(window, cut);
                 if room.along.is_empty() {
@@ -65,6 +67,7 @@ impl LayerTile {
                 halves.iter_mut().map(|half| half.take_out_area(cut, around, most, room, taken)).sum()
             }
         };
+        // Two empty tiles become one again.
         if let Self::Halves(halves) = self
             && halves.iter().all(|half| matches!(half, Self::Area { window: None, .. }))
         {
@@ -73,7 +76,7 @@ impl LayerTile {
         count
     }
 
-    /// Halves an area with too many corners across the longer side of the box around it.
+    /// Divides an area with too many vertices across the longer side of the box around it.
     fn bisect_area(&mut self, most: usize, room: &mut TileBuffers) {
         let Self::Area { area, window: Some(window) } = self else { return };
         let GridBox { low: [x0, y0], high: [x1, y1] } = *window;
@@ -81,7 +84,7 @@ impl LayerTile {
         if area.vertex_count() <= most || wide.max(high) < SMALLEST {
             return;
         }
-        // A little more on the outer sides, so that only the border between the halves is cut along.
+        // The box is slightly larger on its outer sides, so that only the line between the two halves is cut.
         let corner = if wide >= high { [x0.midpoint(x1), y1 + 1] } else { [x1 + 1, y0.midpoint(y1)] };
         let half = GridArea::from_box(&GridBox { low: [x0 - 1, y0 - 1], high: corner });
         let (mut one, mut other) = (GridArea::default(), GridArea::default());
@@ -90,7 +93,7 @@ impl LayerTile {
         }
     }
 
-    /// Adds the area of all pieces.
+    /// Adds the areas of all tiles.
     pub(super) fn append_area_to(&self, all: &mut GridArea) {
         match self {
             Self::Area { area, .. } => all.append(area),

@@ -1,7 +1,9 @@
-//! The advancing regions of a diagram, band by band: between two branches on the ellipse, and on the chords.
+//! This module traces the advancing regions of a diagram in bands: on the ellipse between two branches, and
+//! on the chords.
 //!
-//! A point of a chord between its ends A and B (in the outline's sense) moves along the normal with a speed that is linear along the chord,
-//! so what of it advances begins or ends at a point in the same closed form: the envelope of the chord's line.
+//! A point of a chord between its ends A and B (in the direction of the outline) moves along the normal with
+//! a speed that is linear along the chord. So the advancing part of a chord begins or ends at a point with a
+//! closed form, which is on the envelope of the chord's line.
 
 use super::rim_directions::RimDirections;
 use crate::layered_chips::boundary_diagram::time_segments::{RootTrack, TimeSegment};
@@ -9,22 +11,23 @@ use crate::layered_chips::section_family::{DiagramCurve, SectionFamily};
 use crate::layered_chips::trig_polynomial::AngleSinCos;
 use std::f64::consts::TAU;
 
-/// Halvings of a side at most.
+/// The most bisections of a side.
 const DEEPEST: usize = 12;
 
-/// Sides begin with this many pieces for each radian that the axis turns, and one more.
+/// The number of pieces with which a side begins, per radian that the axis turns, besides one.
 const PIECES: f64 = 16.0;
 
-/// One end of a band.
+/// One side of a band.
 #[derive(Clone, Copy)]
 enum BandSide<'s> {
-    /// A root: a branch of the envelope, or an end of a chord.
+    /// The side is a root: a branch of the envelope, or an end of a chord.
     Root(&'s TrackRoot<'s>),
-    /// Where the speed of the chord between two roots changes its sign.
+    /// The side is the point between two roots where the chord's speed changes its sign.
     Still(&'s TrackRoot<'s>, &'s TrackRoot<'s>),
 }
 
-/// A track with its angles at the stretch's beginning, middle and end, which are asked for most.
+/// A track with its angles at the beginning, middle and end of the segment of time, which are needed most
+/// often.
 pub(super) struct TrackRoot<'s> {
     track: &'s RootTrack,
     t: [f64; 3],
@@ -32,7 +35,7 @@ pub(super) struct TrackRoot<'s> {
 }
 
 impl<'s> TrackRoot<'s> {
-    /// The roots of a stretch.
+    /// Returns the roots of a segment of time.
     pub fn roots_of_segment(family: &SectionFamily, stretch: &'s TimeSegment) -> Vec<Self> {
         let [from, to] = stretch.t;
         let t = [from, 0.5 * (from + to), to];
@@ -40,12 +43,12 @@ impl<'s> TrackRoot<'s> {
         stretch.tracks.iter().map(root).collect()
     }
 
-    /// Whose root it is.
+    /// Returns the curve that the root belongs to.
     pub fn curve(&self) -> DiagramCurve {
         self.track.curve
     }
 
-    /// Its angles at the beginning and the end, radians.
+    /// Returns the angles at the beginning and the end, radians.
     pub fn end_angles(&self) -> [f64; 2] {
         let [first, _, last] = self.angles;
         [first, last]
@@ -57,15 +60,16 @@ impl<'s> TrackRoot<'s> {
     }
 }
 
-/// An advancing part of the outline, all through a stretch.
+/// A part of the outline that advances during a whole segment of time.
 struct AdvancingBand<'s> {
     left: BandSide<'s>,
     right: BandSide<'s>,
-    /// Whether it is a chord; else it is an arc of the ellipse.
+    /// Whether the part is a chord; otherwise it is an arc of the ellipse.
     straight: bool,
 }
 
-/// Adds the borders of what advances in a stretch. `nodes` are the corners that the edges at its beginning and end need.
+/// Adds the boundaries of the areas that are entered in a segment of time. `nodes` are the angles at which
+/// the edges at its beginning and its end need vertices.
 pub(super) fn add_advancing_boundaries(
     family: &SectionFamily,
     rim: &RimDirections,
@@ -78,6 +82,7 @@ pub(super) fn add_advancing_boundaries(
     let mut roots: Vec<(f64, &TrackRoot<'_>)> =
         roots.iter().map(|root| (root.middle_angle().rem_euclid(TAU), root)).collect();
     roots.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    // Without roots the whole edge either advances or not.
     let walk = BandTracer { family, rim, stretch, nodes };
     if roots.is_empty() {
         if walk.is_advancing(0.0, middle) {
@@ -95,6 +100,8 @@ pub(super) fn add_advancing_boundaries(
             out.push(walk.trace_boundary(&band));
         }
     }
+    // The chords: where both ends advance the whole chord does, and where one does the point without speed is
+    // the other side.
     for (curve, sign) in [(DiagramCurve::Bottom, 1.0), (DiagramCurve::Top, -1.0)] {
         let of = |rising: bool| {
             roots.iter().find(|(_, root)| root.curve() == curve && root.track.rising == rising)
@@ -113,6 +120,7 @@ pub(super) fn add_advancing_boundaries(
     }
 }
 
+/// The data that tracing bands of one segment of time needs.
 struct BandTracer<'s> {
     family: &'s SectionFamily,
     rim: &'s RimDirections,
@@ -121,6 +129,7 @@ struct BandTracer<'s> {
 }
 
 impl BandTracer<'_> {
+    /// Returns whether the edge exists and advances at an angle and a time.
     fn is_advancing(&self, theta: f64, t: f64) -> bool {
         let angle = AngleSinCos::from_radians(theta);
         let value = |curve| self.family.curve_at(curve, t).value_at(&angle);
@@ -129,7 +138,7 @@ impl BandTracer<'_> {
             && (!self.family.has_top() || value(DiagramCurve::Top) > 0.0)
     }
 
-    /// All of the edge advances: what is between the last outline and the first.
+    /// Adds the ring between the last and the first outline, if the whole edge advances.
     fn add_ring(&self, out: &mut Vec<Vec<[f64; 2]>>) {
         let [from, to] = self.stretch.t;
         let [first, last] = self.nodes;
@@ -139,8 +148,9 @@ impl BandTracer<'_> {
         out.push(inner);
     }
 
-    /// The border of a band's image, so that it winds positively: the edge at the end, back along the right side, the edge at the beginning
-    /// backwards, and along the left side.
+    /// Returns the boundary of a band's image, in the direction in which it winds positively: along the edge
+    /// at the end, back along the right side, backwards along the edge at the beginning, and along the left
+    /// side.
     fn trace_boundary(&self, band: &AdvancingBand<'_>) -> Vec<[f64; 2]> {
         let [from, to] = self.stretch.t;
         let [first, last] = self.nodes;
@@ -156,13 +166,14 @@ impl BandTracer<'_> {
         border
     }
 
-    /// The band's part of the outline at a time, with both ends.
+    /// Returns the band's part of the outline at a time, with both ends.
     fn trace_edge(&self, band: &AdvancingBand<'_>, t: f64, nodes: &[f64]) -> Vec<[f64; 2]> {
         match (band.straight, band.left, band.right) {
             (false, BandSide::Root(left), BandSide::Root(right)) => {
                 let (from, to) = (self.root_angle_at(left, t), self.root_angle_at(right, t));
                 let width = (to - from).rem_euclid(TAU);
-                // Two roots that have met enclose nothing or everything; rounding must not decide which.
+                // Two roots that have met enclose nothing or the whole circle. Rounding must not decide
+                // which, so the middle of the segment does.
                 let usual = (right.middle_angle() - left.middle_angle()).rem_euclid(TAU);
                 let width = match width {
                     width if width > TAU - 1e-3 && usual < 0.5 * TAU => 0.0,
@@ -175,7 +186,7 @@ impl BandTracer<'_> {
         }
     }
 
-    /// The ellipse from one angle to another, with both ends (a full turn has its end left out).
+    /// Returns the ellipse from one angle to another with both ends; a full turn has no end.
     fn trace_ellipse_arc(&self, t: f64, [from, to]: [f64; 2], nodes: &[f64]) -> Vec<[f64; 2]> {
         let ellipse = self.family.ellipse_at(t);
         let direction = |angle: f64| {
@@ -206,6 +217,7 @@ impl BandTracer<'_> {
         known.unwrap_or_else(|| self.stretch.track_angle_at(self.family, root.track, t))
     }
 
+    /// Returns the point of a side at a time.
     fn side_point_at(&self, side: &BandSide<'_>, t: f64) -> [f64; 2] {
         let ellipse = self.family.ellipse_at(t);
         let angle = |root: &TrackRoot<'_>| AngleSinCos::from_radians(self.root_angle_at(root, t));
@@ -215,6 +227,7 @@ impl BandTracer<'_> {
                 ellipse.point_towards([cos, sin])
             }
             BandSide::Still(a, b) => {
+                // The speed is linear along the chord, so its zero is found by linear interpolation.
                 let face = self.family.curve_at(DiagramCurve::Face, t);
                 let (a, b) = (angle(a), angle(b));
                 let (at_a, at_b) = (face.value_at(&a), face.value_at(&b));
@@ -227,7 +240,8 @@ impl BandTracer<'_> {
         }
     }
 
-    /// Points of a side between the ends of the stretch, both left out, from the beginning on: as many as keep chords within the tolerance.
+    /// Adds the points of a side between the ends of the segment, without both ends, from its beginning on.
+    /// There are as many as keep the chords within the tolerance.
     fn trace_side(&self, side: &BandSide<'_>, out: &mut Vec<[f64; 2]>) {
         let [from, to] = self.stretch.t;
         let pieces = 1 + (self.family.step().turn * (to - from) * PIECES) as usize;
@@ -259,7 +273,7 @@ impl BandTracer<'_> {
             distance_to_line_mm(point, begin.1, end.1) <= 0.5 * self.rim.tolerance_mm()
         };
         let middle = at(0.5);
-        // Off the middle as well: a curve may cross its chord there.
+        // A curve may cross its chord at the middle, so another point is tested too.
         if depth == 0 || (close(middle) && close(at(0.31))) {
             return;
         }
@@ -269,7 +283,7 @@ impl BandTracer<'_> {
     }
 }
 
-/// Distance of a point from a piece of line, mm.
+/// Returns the distance of a point from a line segment, mm.
 fn distance_to_line_mm([x, y]: [f64; 2], [ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {
     let (dx, dy) = (bx - ax, by - ay);
     let square = dx * dx + dy * dy;

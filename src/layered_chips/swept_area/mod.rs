@@ -1,9 +1,11 @@
-//! The area that the cutter covers on a layer between two places.
+//! This module computes the area that the cutter covers on a layer between two poses.
 //!
-//! Whatever is covered but not at the beginning was entered at some time through the section's edge where that advances. So the covered
-//! area is the first section together with the images of the diagram's advancing regions. Each region (`bands`) maps to the plane
-//! without folding, f having one sign in it: its border's image winds around a point as often as the edge enters it, and the union is
-//! what any of the borders winds around.
+//! A point that is covered, but not at the beginning, was entered at some time through the section's edge
+//! where the edge advances. So the covered area is the first section together with the images of the
+//! diagram's advancing regions. In each region (`advancing_bands`) f has one sign, so the region maps to the
+//! plane without folding, and the image of its boundary winds around a point as often as the edge enters it.
+//! The covered area is everything that any of these boundaries winds around: one union by the nonzero rule,
+//! wherever the envelope crosses itself.
 
 mod advancing_bands;
 mod rim_directions;
@@ -22,27 +24,31 @@ use super::trig_polynomial::TrigPolynomial;
 use advancing_bands::TrackRoot;
 use section_outline::{FluteEndCuts, trace_outline, trace_outline_with_caps};
 
-/// Slices for a diagram that is not resolved: a turn of a radian with a lever of 50 mm is missed by 0.4 micrometres.
+/// The number of slices for a diagram that is not resolved. A turn of one radian at a distance of 50 mm is
+/// then missed by 0.4 micrometres.
 const SLICES: usize = 128;
 
-/// What a cutter covers on one layer between two places. Closed borders of x, y in mm; none repeats its first point.
+/// The area that a cutter covers on one layer between two poses. Boundaries are closed, have points x, y in
+/// mm, and do not repeat their first point.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LayerSweptArea {
-    /// The section at the first place: convex, counter-clockwise; empty where the cutter does not reach the layer.
+    /// The section at the first pose. It is convex and counter-clockwise, and empty if the cutter does not
+    /// reach the layer.
     pub first: Vec<[f64; 2]>,
-    /// The section at the last place, likewise.
+    /// The section at the last pose, likewise.
     pub last: Vec<[f64; 2]>,
-    /// Borders of everything that the edge enters on its way; an area is covered where they wind around it at all (their
-    /// winding numbers are nowhere negative). Parts of `first` may be covered again.
+    /// The boundaries of everything that the edge enters. An area is covered if they wind around it at all
+    /// (their winding numbers are nowhere negative). Parts of `first` may be covered again.
     pub advancing: Vec<Vec<[f64; 2]>>,
-    /// How both sections came about; `None` where that is not known.
+    /// The data that determine the two sections; `None` if they are not known.
     pub seams: Option<[SectionSeam; 2]>,
-    /// What the ends of the envelope's branches, which are corners of `first`, add to it: parts of it along its border.
+    /// The parts that the ends of the envelope's branches, which are vertices of `first`, add along its
+    /// boundary.
     pub caps: Vec<Vec<[f64; 2]>>,
 }
 
-/// All that a section depends on but for the ends of the envelope's branches. A step that goes on from another one begins with the seam
-/// that the other one ended with, to the bit.
+/// All data that a section depends on, except for the ends of the envelope's branches. A step that continues
+/// another one begins with the seam with which that one ended, to the bit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionSeam {
     ellipse: LayerEllipse,
@@ -52,8 +58,9 @@ pub struct SectionSeam {
 }
 
 impl LayerSweptArea {
-    /// What the family of a diagram covers. Points lie on the true borders; chords between them are within the rim's tolerance. From
-    /// slices where the diagram is not resolved: see [`LayerSweptArea::from_slices`].
+    /// Computes the area that the family of a diagram covers. Points are on the true boundaries; chords
+    /// between them are within the rim's tolerance. If the diagram is not resolved, slices are used: see
+    /// [`LayerSweptArea::from_slices`].
     pub fn new(diagram: &BoundaryDiagram, rim: &RimDirections) -> Self {
         let family = diagram.family();
         if !diagram.is_resolved() {
@@ -82,8 +89,8 @@ impl LayerSweptArea {
             let bottom = branch_node_angles(before.map(|(_, roots)| roots), Some(here));
             let top = branch_node_angles(Some(here), roots.get(index + 1));
             if let Some((before, _)) = before {
-                // The section itself closes whatever the resolution of the event leaves open, and is what appears at once when an upright
-                // cutter's bottom reaches the layer.
+                // The section itself closes the gap that the resolution of the event leaves. It also is what
+                // appears at once if the bottom of a vertical cutter reaches the layer.
                 let (old, new) =
                     (FluteEndCuts::over_segment(family, before), FluteEndCuts::over_segment(family, stretch));
                 cover.add_boundary(trace_outline(family, rim, stretch.t[0], new, &bottom));
@@ -104,13 +111,14 @@ impl LayerSweptArea {
         cover
     }
 
-    /// The same without a diagram: hulls of the sections at the ends of equal slices of time. Exact where the axis stands; else a slice
-    /// misses by the square of what the axis turns in it, times an eighth of the lever.
+    /// Computes the same area without a diagram, from convex hulls of the sections at the ends of equal
+    /// slices of time. This is exact while the axis does not turn. Otherwise a slice is off by the square of
+    /// its turn times an eighth of the distance from the tip.
     pub fn from_slices(family: &SectionFamily, rim: &RimDirections, slices: usize) -> Self {
         time_slices::sweep_by_slices(family, rim, slices)
     }
 
-    /// The sections at `count + 1` evenly spaced times, for a union by brute force.
+    /// Returns the sections at `count + 1` evenly spaced times, for a union by brute force.
     pub fn sections_at_slices(
         family: &SectionFamily,
         rim: &RimDirections,
@@ -125,13 +133,14 @@ impl LayerSweptArea {
         }
     }
 
-    /// Whether nothing is entered.
+    /// Returns whether nothing is entered.
     pub fn is_empty(&self) -> bool {
         self.advancing.is_empty()
     }
 }
 
 impl SectionSeam {
+    /// Makes the seam of a section. The velocity does not matter for the section, so it is set to zero.
     fn at_time(family: &SectionFamily, rim: &RimDirections, t: f64, cuts: FluteEndCuts) -> Self {
         let ellipse = LayerEllipse { velocity: [0.0; 2], ..family.ellipse_at(t) };
         let ends = [DiagramCurve::Bottom, DiagramCurve::Top]
@@ -140,8 +149,8 @@ impl SectionSeam {
     }
 }
 
-/// Angles of the envelope's branches where one stretch ends and another begins: corners of borders on both sides, which must be corners of
-/// both.
+/// Returns the angles of the envelope's branches where one segment of time ends and another begins. The
+/// boundaries on both sides have vertices there, so each must have the vertices of both.
 fn branch_node_angles(before: Option<&Vec<TrackRoot<'_>>>, behind: Option<&Vec<TrackRoot<'_>>>) -> Vec<f64> {
     let edges = |roots: Option<&Vec<TrackRoot<'_>>>, end: fn([f64; 2]) -> f64| -> Vec<f64> {
         let roots = roots.into_iter().flatten().filter(|root| root.curve() == DiagramCurve::Edge);

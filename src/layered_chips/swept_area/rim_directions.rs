@@ -1,29 +1,32 @@
-//! Directions around the cutter at which its edge has corners when drawn as a polygon.
+//! This module holds the directions around the cutter at which its edge has vertices when it becomes a
+//! polygon.
 
 use crate::layered_chips::mill_step::MillStep;
 use std::f64::consts::TAU;
 
-/// Directions, evenly around the tool axis. The same for every layer of a step and, mostly, for steps that follow each other, so that
-/// the last edge of one is the first of the next to the bit.
+/// Directions that are evenly spaced around the tool axis. They are the same for every layer of a step and
+/// mostly for steps that follow each other. So the last edge of one step is the first edge of the next, to
+/// the bit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RimDirections {
     tolerance: f64,
     directions: Vec<[f64; 2]>,
 }
 
-/// Fewest directions.
+/// The fewest directions.
 const FEWEST: usize = 16;
 
-/// Most directions, for tolerances far below what a machine can do.
+/// The most directions, for tolerances far below what a machine can do.
 const MOST: usize = 1 << 14;
 
 impl RimDirections {
-    /// As many directions as keep chords within a tolerance (mm) of every section of a step.
+    /// Makes as many directions as keep chords within a tolerance (mm) for every section of a step.
     pub fn new(step: &MillStep, tolerance: f64) -> Self {
-        // The lower of the two axes has the longest ellipse; between them the axis stays within their cap.
+        // The lower of the two axes has the longest ellipse; all axes between them are within their cap.
         let end = step.from * step.turn.cos() + step.across * step.turn.sin();
         let longest = step.mill.radius / step.from.z.min(end.z).max(0.1);
-        // A chord of angle d on an ellipse is off by at most a (1 - cos(d / 2)).
+        // A chord of angle d on an ellipse with the long semi-axis a is off by at most a (1 - cos(d / 2)),
+        // about a d^2 / 8.
         let angle = (8.0 * tolerance / longest).sqrt().clamp(1e-9, 1.0);
         let count = ((TAU / angle / 8.0).ceil() as usize * 8).clamp(FEWEST, MOST);
         let direction = |index: usize| {
@@ -33,17 +36,18 @@ impl RimDirections {
         Self { tolerance, directions: (0..count).map(direction).collect() }
     }
 
-    /// Largest distance of a chord from what it stands for, mm.
+    /// Returns the largest distance of a chord from its curve, mm.
     pub fn tolerance_mm(&self) -> f64 {
         self.tolerance
     }
 
-    /// How many directions.
+    /// Returns the number of directions.
     pub fn direction_count(&self) -> usize {
         self.directions.len()
     }
 
-    /// The directions strictly between two angles (radians, the second the larger) with their angles, in order.
+    /// Returns the directions strictly between two angles (radians, the second one larger) with their angles,
+    /// in order.
     pub(super) fn directions_between(&self, from: f64, to: f64) -> impl Iterator<Item = (f64, [f64; 2])> {
         let step = TAU / self.directions.len() as f64;
         let first = (from / step).floor() as i64 + 1;

@@ -1,4 +1,5 @@
-//! The outline of one section: the ellipse with what the ends of the flutes cut off.
+//! This module traces the outline of one section: the ellipse without the parts that the ends of the flutes
+//! cut off.
 
 use super::rim_directions::RimDirections;
 use crate::layered_chips::boundary_diagram::time_segments::TimeSegment;
@@ -6,29 +7,30 @@ use crate::layered_chips::section_family::{DiagramCurve, SectionFamily};
 use crate::layered_chips::trig_polynomial::TrigPolynomial;
 use std::f64::consts::TAU;
 
-/// Heights (as a share of the radius) at which an upright end of the flutes lies in the layer: the layer is then beyond it.
+/// The height, as a fraction of the radius, below which the end of a vertical mill counts as being at the
+/// layer's height. The layer is then outside of it.
 pub(in crate::layered_chips) const GRAZES: f64 = 1e-9;
 
-/// How an end of the flutes stands to the ellipse.
+/// The relation of an end of the flutes to the ellipse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FluteEndCut {
-    /// It cuts nothing off.
+    /// The end cuts nothing off.
     Free,
-    /// It cuts everything off.
+    /// The end cuts everything off.
     All,
-    /// A chord is the border.
+    /// A chord is part of the boundary.
     Chord,
 }
 
-/// What both ends do: bottom, top.
+/// The relation of both ends: bottom, then top.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct FluteEndCuts([FluteEndCut; 2]);
 
 impl FluteEndCuts {
-    /// As a section alone shows them.
+    /// The relation as a section alone determines it, without the proof of a diagram.
     pub const SEEN: Self = Self([FluteEndCut::Chord, FluteEndCut::Chord]);
 
-    /// As they are all through a stretch.
+    /// Returns the relation that holds during a whole segment of time.
     pub fn over_segment(family: &SectionFamily, stretch: &TimeSegment) -> Self {
         Self([DiagramCurve::Bottom, DiagramCurve::Top].map(|curve| {
             if curve == DiagramCurve::Top && !family.has_top() {
@@ -38,25 +40,28 @@ impl FluteEndCuts {
                 return FluteEndCut::Chord;
             }
             let TrigPolynomial([constant, ..]) = family.curve_at(curve, 0.5 * (stretch.t[0] + stretch.t[1]));
-            // Without a root the constant decides.
+            // Without a root, the sign of the constant decides.
             if constant > GRAZES { FluteEndCut::Free } else { FluteEndCut::All }
         }))
     }
 }
 
-/// The angles from which to which a curve `k0 + k1 cos + k2 sin` is negative; `Err` tells whether all are (`true`) or none.
+/// Returns the angles between which a curve `k0 + k1 cos + k2 sin` is negative. If there is no sign change,
+/// `Err` says whether all angles are negative (`true`) or none.
 fn negative_angle_range(curve: &TrigPolynomial<f64>) -> Result<[f64; 2], bool> {
     let TrigPolynomial([k0, k1, k2, ..]) = *curve;
     let swing = k1.hypot(k2);
     if k0.abs() >= swing {
         return Err(k0 <= GRAZES);
     }
+    // The curve is k0 + swing cos(theta - phi), and is negative around the angle opposite to phi.
     let middle = k2.atan2(k1) + 0.5 * TAU;
     let half = (k0 / swing).acos();
     Ok([middle - half, middle + half])
 }
 
-/// The section at a time, counter-clockwise; empty where there is none. `nodes` are further angles at which it has corners.
+/// Returns the section at a time, counter-clockwise, or an empty list if there is none. `nodes` are further
+/// angles at which it has vertices.
 pub(super) fn trace_outline(
     family: &SectionFamily,
     rim: &RimDirections,
@@ -71,7 +76,8 @@ pub(super) fn trace_outline(
         .collect()
 }
 
-/// The section at a time, and what `nodes` add to the one without: a piece between the corners before and behind.
+/// Returns the section at a time, and the caps that `nodes` add to the section without them. A cap is between
+/// the vertices before and behind its nodes.
 pub(super) fn trace_outline_with_caps(
     family: &SectionFamily,
     rim: &RimDirections,
@@ -95,7 +101,7 @@ pub(super) fn trace_outline_with_caps(
     (corners.iter().map(|corner| ellipse.point_towards(corner.direction)).collect(), caps)
 }
 
-/// A corner of a section.
+/// A vertex of a section.
 struct OutlineVertex {
     angle: f64,
     direction: [f64; 2],
@@ -109,6 +115,7 @@ impl OutlineVertex {
     }
 }
 
+/// Finds the vertices of a section, sorted by angle: the rim's directions, the nodes, and the ends of chords.
 fn find_outline_vertices(
     family: &SectionFamily,
     rim: &RimDirections,
@@ -138,7 +145,7 @@ fn find_outline_vertices(
     corners.extend(around.chain(nodes.iter().map(|angle| OutlineVertex::at_angle(*angle, true))));
     corners.retain(|corner| kept(corner.angle));
     for angle in removed.iter().flatten() {
-        // An end of one chord that the other has cut off is no corner.
+        // An end of one chord that the other chord has cut off is not a vertex.
         let others = removed.iter().filter(|ends| !ends.contains(angle));
         let inside = others.clone().any(|[from, to]| (angle - from).rem_euclid(TAU) <= to - from);
         if !inside {

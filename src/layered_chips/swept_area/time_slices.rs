@@ -1,11 +1,12 @@
-//! The covered area from slices of time, for diagrams that are not resolved, and as a check of those that are.
+//! This module computes the covered area from slices of time, for diagrams that are not resolved and as a
+//! check of those that are.
 
 use super::section_outline::{FluteEndCuts, trace_outline};
 use super::{LayerSweptArea, RimDirections};
 use crate::layered_chips::section_family::SectionFamily;
 use geo::{ConvexHull, MultiPoint};
 
-/// The sections at the ends of slices.
+/// Returns the sections at the ends of the slices.
 pub(super) fn trace_slice_sections(
     family: &SectionFamily,
     rim: &RimDirections,
@@ -17,7 +18,7 @@ pub(super) fn trace_slice_sections(
     (0..=slices).map(section).collect()
 }
 
-/// Hulls of the sections at both ends of each slice.
+/// Computes the area as the convex hulls of the sections at both ends of each slice.
 pub(super) fn sweep_by_slices(family: &SectionFamily, rim: &RimDirections, slices: usize) -> LayerSweptArea {
     let mut sections = trace_slice_sections(family, rim, slices).into_iter();
     let first = sections.next().unwrap_or_default();
@@ -26,7 +27,7 @@ pub(super) fn sweep_by_slices(family: &SectionFamily, rim: &RimDirections, slice
     for next in sections {
         let points: Vec<geo::Point> =
             last.iter().chain(&next).map(|place| geo::Point::from(*place)).collect();
-        // A section that comes or goes within the slice is taken to be there all through it.
+        // A section that appears or disappears within the slice counts as present during the whole slice.
         let hull = MultiPoint(points).convex_hull();
         let mut border: Vec<[f64; 2]> =
             hull.exterior().points().map(|point| [point.x(), point.y()]).collect();
