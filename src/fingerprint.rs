@@ -5,7 +5,7 @@
 use crate::diagnostic::{Diagnostic, codes};
 use crate::setup::Setup;
 use crate::source::Source;
-use crate::transform::{Recipe, Step};
+use crate::transform::Recipe;
 use serde::de::{self, Deserialize, Deserializer};
 use serde::{Serialize, Serializer};
 use sha2::{Digest as _, Sha256};
@@ -176,7 +176,7 @@ impl RecipeFingerprint {
 /// Files that are no text: models of steps, and the stock.
 fn list_binary_files(recipe: &Recipe, setup: &Setup) -> Vec<PathBuf> {
     let recipe_file = Path::new(recipe.source.name());
-    let models =
-        recipe.steps.iter().filter_map(Step::input_file).map(|file| file.resolve_beside(recipe_file));
+    let read = recipe.steps.iter().flat_map(|step| step.transform().reads());
+    let models = read.map(|file| file.resolve_beside(recipe_file));
     models.chain(setup.stock_files().map(Path::to_path_buf)).collect()
 }

@@ -16,7 +16,7 @@ use crate::report::finding_policy::FindingPolicy;
 use crate::setup::Setup;
 use crate::simulation_run::RunWatcher;
 use crate::source::{Source, SourceTooLarge};
-use crate::transform::{self, Recipe, StepReport};
+use crate::transform::{self, Recipe, TransformReport};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -43,8 +43,8 @@ pub struct JobOutcome {
     pub program: Option<Program>,
     /// What was found, as the policy leaves it.
     pub findings: Vec<Diagnostic>,
-    /// What steps have to say about themselves.
-    pub reports: Vec<StepReport>,
+    /// What steps tell about themselves.
+    pub reports: Vec<Box<dyn TransformReport>>,
 }
 
 impl CorrectionJob<'_> {

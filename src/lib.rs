@@ -13,6 +13,7 @@ pub mod layered_chips;
 pub mod number;
 pub mod parameters;
 pub mod parse;
+pub mod presentation;
 pub mod program;
 pub mod provenance;
 pub mod recipe;

@@ -9,6 +9,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("number", &[]),
     ("diagnostic", &["source"]),
     ("program", &["source", "number", "diagnostic"]),
+    ("presentation", &["source", "program"]),
     ("parse", &["source", "number", "diagnostic", "program"]),
     ("write", &["source", "number", "diagnostic", "program", "parse"]),
     ("parameters", &["source", "diagnostic", "program"]),
@@ -42,6 +43,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
             "recipe",
             "simulation_run",
             "check",
+            "presentation",
         ],
     ),
     (
@@ -62,6 +64,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
             "recipe",
             "simulation_run",
             "check",
+            "presentation",
             "transform",
         ],
     ),

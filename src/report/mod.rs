@@ -7,8 +7,6 @@
 
 pub mod changes;
 pub mod comparison;
-mod compensate_z_report;
-mod correct_ramp_report;
 pub mod diff;
 pub mod explain;
 pub mod finding_policy;
@@ -22,10 +20,10 @@ mod rounding;
 pub mod simulation;
 pub mod stats;
 pub mod step_descriptions;
-pub mod step_report;
 pub mod surface_milling;
-pub(crate) mod text_format;
 pub mod unified_diff;
+
+pub(crate) use crate::presentation::text_format;
 
 use crate::program::motion::ActiveTool;
 use crate::program::{Program, Statement, StatementChange};

@@ -2,6 +2,8 @@
 //!
 //! Sizes are fixed and no fonts are measured, so the same paths make the same bytes.
 
+pub use crate::presentation::path_panel::{PanelPath, PanelPathStyle, PathPanel};
+
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use std::fmt::Display;
@@ -16,53 +18,12 @@ const LABELS: (u32, u32) = (100, 61);
 /// Height of a panel's title.
 const TITLE: u32 = 30;
 
-/// One drawing.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PathPanel {
-    /// What stands above it.
-    pub title: String,
-    /// What goes to the right.
-    pub right: &'static str,
-    /// What goes up.
-    pub up: &'static str,
-    /// Whether both directions have one scale.
-    pub one_scale: bool,
-    /// The paths; later ones are drawn over earlier ones.
-    pub paths: Vec<PanelPath>,
-}
-
-/// A path in a panel.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PanelPath {
-    /// Its name in the legend; none when empty.
-    pub name: String,
-    /// How it looks.
-    pub look: PanelPathStyle,
-    /// Its points.
-    pub points: Vec<(f64, f64)>,
-}
-
-/// How a path looks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PanelPathStyle {
-    /// As it was: grey.
-    Before,
-    /// As it is: blue, its points marked.
-    After,
-    /// What it is compared with: black and thin.
-    Reference,
-    /// A wrong way: red.
-    Wrong,
-}
-
-impl PanelPathStyle {
-    fn shape_style(self) -> ShapeStyle {
-        match self {
-            Self::Before => RGBColor(160, 160, 160).stroke_width(2),
-            Self::After => RGBColor(0, 90, 181).stroke_width(2),
-            Self::Reference => RGBColor(40, 40, 40).stroke_width(1),
-            Self::Wrong => RGBColor(200, 50, 40).stroke_width(2),
-        }
+fn shape_style(look: PanelPathStyle) -> ShapeStyle {
+    match look {
+        PanelPathStyle::Before => RGBColor(160, 160, 160).stroke_width(2),
+        PanelPathStyle::After => RGBColor(0, 90, 181).stroke_width(2),
+        PanelPathStyle::Reference => RGBColor(40, 40, 40).stroke_width(1),
+        PanelPathStyle::Wrong => RGBColor(200, 50, 40).stroke_width(2),
     }
 }
 
@@ -108,7 +69,7 @@ fn draw_path_panel(area: &DrawingArea<SVGBackend<'_>, Shift>, panel: &PathPanel)
         .draw()
         .map_err(drawing_error)?;
     for path in &panel.paths {
-        let style = path.look.shape_style();
+        let style = shape_style(path.look);
         let line = LineSeries::new(path.points.iter().copied(), style);
         let drawn = chart.draw_series(line).map_err(drawing_error)?;
         if !path.name.is_empty() {

@@ -32,8 +32,12 @@ pub struct ClampFeed {
 }
 
 impl Transform for ClampFeed {
+    fn measures(&self) -> bool {
+        true
+    }
+
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>> {
-        let units = context.recipe.units.mm_per_unit();
+        let units = context.units.mm_per_unit();
         let machine = context.setup.machine.max_feed.map(|feed| feed.get() / units);
         let min = self.min.map_or(0.0, Positive::get);
         let max = self.max.map(Positive::get).or(machine).unwrap_or(f64::INFINITY);

@@ -1,39 +1,27 @@
 //! Transforms: what recipe steps do to a program.
 //!
-//! A transform is one file, one line in the list below, and one fixture folder. It takes the program by value, so a step
+//! A transform is one file, one line in the list below, and one test file. It takes the program by value, so a step
 //! that fails leaves nothing half-edited to write.
 
 mod affine;
-mod clamp_feed;
-pub mod compensate_z;
-mod convert_units;
-pub mod correct_ramp;
 pub mod feed_plan;
 mod motion_selection;
-mod move_origin;
-pub mod optimize_feed;
 mod recipe_run;
-mod rewrite;
-mod scale_feed;
 mod stale_records;
 mod statement_numbers;
 mod step_context;
+pub mod step_report;
 mod unchanged_statements;
 
 pub use affine::Affine;
-pub use clamp_feed::ClampFeed;
-pub use compensate_z::CompensateZ;
-pub use convert_units::ConvertUnits;
-pub use correct_ramp::CorrectRamp;
 pub use motion_selection::MotionSelection;
-pub use move_origin::MoveOrigin;
-pub use optimize_feed::OptimizeFeed;
-pub use recipe_run::{RecipeOutcome, run_recipe, run_recipe_watched};
-pub use rewrite::{Rewrite, RewriteRegionSpec, RewriteRule};
-pub use scale_feed::ScaleFeed;
+pub use recipe_run::{RecipeOutcome, run_recipe, run_recipe_watched, run_steps};
+pub use rewrite::{RewriteRegionSpec, RewriteRule};
 pub use step_context::StepContext;
+pub use step_report::TransformReport;
 
 use crate::diagnostic::Diagnostic;
+use crate::parameters::FilePath;
 use crate::program::{Program, StepId};
 use crate::recipe::Provenance;
 use schemars::JsonSchema;
@@ -63,36 +51,52 @@ fn step_id(index: usize) -> StepId {
     StepId(u16::try_from(index).unwrap_or(u16::MAX))
 }
 
-/// What a step does.
+/// What a step does. A struct of parameters implements it.
 pub trait Transform {
     /// Changes the program.
     ///
     /// # Errors
     /// A diagnostic with its places in the recipe and in the CL file. The program is gone with it.
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>>;
+
+    /// Whether lengths or feeds among its parameters are in the recipe's unit, so that it matters which one that is.
+    fn measures(&self) -> bool {
+        false
+    }
+
+    /// The files that it reads beside the program.
+    fn reads(&self) -> Vec<&FilePath> {
+        Vec::new()
+    }
 }
 
-/// Writes the list of transforms as the step enum of recipes and a table of names.
+/// Writes the list of transforms as modules, as the step enum of recipes and as a table of names. The module's name is the
+/// step's name in recipes.
 macro_rules! transforms {
-    ($($name:literal => $step:ident,)*) => {
+    ($($access:vis mod $name:ident => $step:ident,)*) => {
+        $(
+            $access mod $name;
+            pub use $name::$step;
+        )*
+
         /// A step of a recipe: its name and its parameters.
         #[derive(Debug, Clone, Deserialize, JsonSchema)]
         #[serde(rename_all = "snake_case")]
         pub enum Step {
             $(
-                #[doc = concat!("`", $name, "`.")]
+                #[doc = concat!("`", stringify!($name), "`.")]
                 $step($step),
             )*
         }
 
         /// Names of all transforms, in the order of the list.
-        pub const NAMES: &[&str] = &[$($name),*];
+        pub const NAMES: &[&str] = &[$(stringify!($name)),*];
 
         impl Step {
             /// The step's name in a recipe.
             pub fn name(&self) -> &'static str {
                 match self {
-                    $(Self::$step(_) => $name,)*
+                    $(Self::$step(_) => stringify!($name),)*
                 }
             }
 
@@ -107,42 +111,21 @@ macro_rules! transforms {
         /// The JSON schema of a transform's parameters; its descriptions are the doc comments.
         pub fn schema_of(name: &str) -> Option<schemars::Schema> {
             match name {
-                $($name => Some(schemars::schema_for!($step)),)*
+                $(stringify!($name) => Some(schemars::schema_for!($step)),)*
                 _ => None,
             }
         }
     };
 }
 
+// The one list: module and type of each transform. CONTRIBUTING.md tells what else a new one needs.
 transforms! {
-    "scale_feed" => ScaleFeed,
-    "clamp_feed" => ClampFeed,
-    "rewrite" => Rewrite,
-    "move_origin" => MoveOrigin,
-    "convert_units" => ConvertUnits,
-    "correct_ramp" => CorrectRamp,
-    "compensate_z" => CompensateZ,
-    "optimize_feed" => OptimizeFeed,
-}
-
-impl Step {
-    /// A file that the step reads beside the program.
-    pub fn input_file(&self) -> Option<&crate::parameters::FilePath> {
-        match self {
-            Self::CompensateZ(step) => step.mesh_path(),
-            _ => None,
-        }
-    }
-}
-
-/// What a step has to say about itself beyond findings.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum StepReport {
-    /// Of `compensate_z`.
-    CompensateZ(compensate_z::CompensateZReport),
-    /// Of `correct_ramp`.
-    CorrectRamp(correct_ramp::CorrectRampReport),
-    /// Of `optimize_feed`.
-    OptimizeFeed(optimize_feed::OptimizeFeedReport),
+    mod scale_feed => ScaleFeed,
+    mod clamp_feed => ClampFeed,
+    mod rewrite => Rewrite,
+    mod move_origin => MoveOrigin,
+    mod convert_units => ConvertUnits,
+    pub mod correct_ramp => CorrectRamp,
+    pub mod compensate_z => CompensateZ,
+    pub mod optimize_feed => OptimizeFeed,
 }

@@ -1,6 +1,6 @@
-//! Running a recipe on a program.
+//! Running the steps of a recipe, or transforms that were built in Rust, on a program.
 
-use super::{Recipe, Step, StepContext, StepReport, step_id};
+use super::{Recipe, Step, StepContext, Transform, TransformReport, step_id};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::{LengthUnit, Program};
 use crate::recipe::{Provenance, YamlPathSegment};
@@ -14,8 +14,8 @@ pub struct RecipeOutcome {
     pub program: Program,
     /// Findings of the steps that are no reason to stop.
     pub findings: Vec<Diagnostic>,
-    /// What steps have to say about themselves, in the order of the steps.
-    pub reports: Vec<StepReport>,
+    /// What steps tell about themselves, in the order of the steps.
+    pub reports: Vec<Box<dyn TransformReport>>,
 }
 
 /// Applies the steps in order.
@@ -40,42 +40,73 @@ pub fn run_recipe_watched(
     mut program: Program,
     watch: &dyn RunWatcher,
 ) -> Result<RecipeOutcome, Vec<Diagnostic>> {
-    let mut findings: Vec<Diagnostic> = find_unsaid_units(recipe, &program).into_iter().collect();
-    let mut reports = Vec::new();
     if recipe.provenance == Provenance::Comments {
         program.keep_history();
     }
-    for (index, step) in recipe.steps.iter().enumerate() {
-        let id = step_id(index);
+    let steps: Vec<&dyn Transform> = recipe.steps.iter().map(Step::transform).collect();
+    let run = StepSequence { steps: &steps, units: recipe.units, setup, recipe: Some(recipe), watch };
+    let findings = find_unsaid_units(recipe, &program).into_iter().collect();
+    run.apply_steps(program, findings)
+}
+
+/// Applies transforms that were built in Rust, in order. `units` is the unit of lengths among their parameters.
+///
+/// Findings about a parameter have no place then, for there is no recipe that they could point into.
+///
+/// # Errors
+/// As [`run_recipe`].
+pub fn run_steps(
+    steps: &[&dyn Transform],
+    units: LengthUnit,
+    setup: &Setup,
+    program: Program,
+) -> Result<RecipeOutcome, Vec<Diagnostic>> {
+    let run = StepSequence { steps, units, setup, recipe: None, watch: &SilentWatcher };
+    run.apply_steps(program, Vec::new())
+}
+
+/// Steps to be applied one after the other, and what stands around them.
+struct StepSequence<'r> {
+    steps: &'r [&'r dyn Transform],
+    units: LengthUnit,
+    setup: &'r Setup,
+    recipe: Option<&'r Recipe>,
+    watch: &'r dyn RunWatcher,
+}
+
+impl StepSequence<'_> {
+    fn apply_steps(
+        &self,
+        mut program: Program,
+        findings: Vec<Diagnostic>,
+    ) -> Result<RecipeOutcome, Vec<Diagnostic>> {
         let mut context = StepContext {
-            step: id,
-            recipe,
-            setup,
-            watch,
-            findings: std::mem::take(&mut findings),
-            reports: std::mem::take(&mut reports),
+            step: step_id(0),
+            units: self.units,
+            setup: self.setup,
+            watch: self.watch,
+            findings,
+            reports: Vec::new(),
+            recipe: self.recipe,
         };
-        match step.transform().apply(program, &mut context) {
-            Ok(changed) => program = changed,
-            Err(stopped) => {
-                context.findings.push(*stopped);
-                return Err(context.findings);
+        for (index, step) in self.steps.iter().enumerate() {
+            context.step = step_id(index);
+            match step.apply(program, &mut context) {
+                Ok(changed) => program = changed,
+                Err(stopped) => {
+                    context.findings.push(*stopped);
+                    return Err(context.findings);
+                }
             }
         }
-        (findings, reports) = (context.findings, context.reports);
+        Ok(RecipeOutcome { program, findings: context.findings, reports: context.reports })
     }
-    Ok(RecipeOutcome { program, findings, reports })
 }
 
 /// A recipe that says no unit, has lengths or feeds, and meets a program in inches.
 fn find_unsaid_units(recipe: &Recipe, program: &Program) -> Option<Diagnostic> {
     let said = recipe.value_span(&[YamlPathSegment::Key("units")]).is_some();
-    let measures = |step: &Step| match step {
-        Step::ClampFeed(_) | Step::OptimizeFeed(_) | Step::CorrectRamp(_) | Step::CompensateZ(_) => true,
-        Step::MoveOrigin(step) => step.has_lengths(),
-        _ => false,
-    };
-    let index = recipe.steps.iter().position(measures)?;
+    let index = recipe.steps.iter().position(|step| step.transform().measures())?;
     let inches =
         || program.stated_length_unit().or_else(|| program.feed_length_unit()) == Some(LengthUnit::Inch);
     if said || recipe.units == LengthUnit::Inch || !inches() {

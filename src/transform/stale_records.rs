@@ -99,10 +99,9 @@ fn report_stale_records(
 
 fn stale_finding(program: &Program, index: usize, message: &str, context: &StepContext<'_>) -> Diagnostic {
     let span = program.statement(index).map(crate::program::Statement::origin).unwrap_or_default();
-    let step = context.recipe.step_span(usize::from(context.step.0));
-    Diagnostic::new(codes::STALE_RECORD, message)
-        .with_label(program.source(), span, "left as it is")
-        .with_label(&context.recipe.source, step, "by this step")
+    let finding =
+        Diagnostic::new(codes::STALE_RECORD, message).with_label(program.source(), span, "left as it is");
+    context.label_step(finding, "by this step")
 }
 
 fn has_number(text: &[u8]) -> bool {

@@ -1,26 +1,31 @@
-//! What a step knows besides the program: the recipe around it, the setup, and where to put findings.
+//! What a step knows besides the program: the unit of its parameters, the setup, its place in a recipe, and where to put
+//! findings.
 
-use super::{Recipe, StepReport};
+use super::{Recipe, TransformReport};
 use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
+use crate::parameters::FilePath;
 use crate::program::motion::Motion;
 use crate::program::{LengthUnit, Program, StepId};
 use crate::setup::Setup;
 use crate::simulation_run::RunWatcher;
+use std::path::{Path, PathBuf};
 
 /// The surroundings of a running step.
 pub struct StepContext<'r> {
     /// The step.
     pub step: StepId,
-    /// The recipe it stands in.
-    pub recipe: &'r Recipe,
+    /// The unit of lengths among the step's parameters; feeds are in this unit per minute.
+    pub units: LengthUnit,
     /// The setup that counts, in millimetres.
     pub setup: &'r Setup,
     /// Who watches steps that take long.
     pub watch: &'r dyn RunWatcher,
     /// Findings that do not stop the step.
     pub findings: Vec<Diagnostic>,
-    /// What steps have to say about themselves.
-    pub reports: Vec<StepReport>,
+    /// What steps tell about themselves.
+    pub reports: Vec<Box<dyn TransformReport>>,
+    /// The recipe that the step stands in; `None` for a step that was built in Rust, whose findings have no place in one.
+    pub(super) recipe: Option<&'r Recipe>,
 }
 
 impl StepContext<'_> {
@@ -32,8 +37,33 @@ impl StepContext<'_> {
         keys: &[&str],
         label: &str,
     ) -> Diagnostic {
-        let place = self.recipe.step_value_span(usize::from(self.step.0), keys);
-        Diagnostic::new(code, message).with_label(&self.recipe.source, place, label)
+        self.label_parameter(Diagnostic::new(code, message), keys, label)
+    }
+
+    /// The finding with a label at the step, where a recipe has it.
+    pub fn label_step(&self, found: Diagnostic, label: &str) -> Diagnostic {
+        let Some(recipe) = self.recipe else { return found };
+        let place = recipe.step_span(usize::from(self.step.0));
+        found.with_label(&recipe.source, place, label)
+    }
+
+    /// The finding with a label at one of the step's parameters (the keys below its name), or at the nearest thing to it
+    /// that a recipe says.
+    pub fn label_parameter(&self, found: Diagnostic, keys: &[&str], label: &str) -> Diagnostic {
+        let Some(recipe) = self.recipe else { return found };
+        let place = recipe.step_value_span(usize::from(self.step.0), keys);
+        found.with_label(&recipe.source, place, label)
+    }
+
+    /// The path of a file that the step names: beside the recipe; without one it is taken as it is.
+    pub fn resolve_file(&self, file: &FilePath) -> PathBuf {
+        let named_in = self.recipe.map_or("", |recipe| recipe.source.name());
+        file.resolve_beside(Path::new(named_in))
+    }
+
+    /// Takes what the step tells about itself.
+    pub fn add_report(&mut self, report: impl TransformReport) {
+        self.reports.push(Box::new(report));
     }
 
     /// Why the step cannot go on, at one of its parameters.
@@ -52,29 +82,25 @@ impl StepContext<'_> {
         let span = program.statement(statement).map(crate::program::Statement::origin).unwrap_or_default();
         let diagnostic =
             Diagnostic::new(codes::STEP_FAILED, message).with_label(program.source(), span, label);
-        let step = self.recipe.step_span(usize::from(self.step.0));
-        Box::new(diagnostic.with_label(&self.recipe.source, step, "by this step"))
+        Box::new(self.label_step(diagnostic, "by this step"))
     }
 
     /// A record that the step leaves as it is although it should change, at the record and at the step.
     pub fn report_unchanged(&mut self, message: impl Into<String>, program: &Program, statement: usize) {
         let span = program.statement(statement).map(crate::program::Statement::origin).unwrap_or_default();
-        let step = self.recipe.step_span(usize::from(self.step.0));
-        self.findings.push(
-            Diagnostic::new(codes::NOT_CHANGED, message)
-                .with_label(program.source(), span, "left as it is")
-                .with_label(&self.recipe.source, step, "by this step"),
-        );
+        let finding =
+            Diagnostic::new(codes::NOT_CHANGED, message).with_label(program.source(), span, "left as it is");
+        self.findings.push(self.label_step(finding, "by this step"));
     }
 
-    /// The unit of the program's lengths: what it says, what its feeds are in, else the recipe's.
+    /// The unit of the program's lengths: what it says, what its feeds are in, else that of the parameters.
     pub fn file_length_unit(&self, program: &Program) -> LengthUnit {
-        program.stated_length_unit().or_else(|| program.feed_length_unit()).unwrap_or(self.recipe.units)
+        program.stated_length_unit().or_else(|| program.feed_length_unit()).unwrap_or(self.units)
     }
 
-    /// The feed of a motion in the recipe's unit per minute; `None` when the spindle speed it needs is not known.
+    /// The feed of a motion in the unit of the parameters per minute; `None` when the spindle speed it needs is not known.
     pub fn feed_per_minute(&self, motion: &Motion, file: LengthUnit) -> Option<f64> {
         let feed = motion.feed?.mm_per_minute(file, motion.spindle_rpm(), Some(motion.length()))?;
-        Some(feed / self.recipe.units.mm_per_unit())
+        Some(feed / self.units.mm_per_unit())
     }
 }

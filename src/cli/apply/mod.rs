@@ -18,7 +18,6 @@ use clsmith::program::Dialect;
 use clsmith::recipe::Provenance;
 use clsmith::report::unified_diff;
 use clsmith::source::Source;
-use clsmith::transform::Step;
 use clsmith::write::is_interrupt;
 use outputs::{ApplyOutcome, write_program};
 use std::io::{self, Write};
@@ -237,7 +236,7 @@ impl ApplyArgs {
         job: &CorrectionJob<'_>,
     ) -> Option<Diagnostic> {
         let given = self.inputs.iter().chain([&self.recipe]).chain(&self.setup).map(PathBuf::as_path);
-        let read = job.recipe.steps.iter().filter_map(Step::input_file);
+        let read = job.recipe.steps.iter().flat_map(|step| step.transform().reads());
         let models: Vec<PathBuf> = read.map(|file| file.resolve_beside(&self.recipe)).collect();
         let all = given
             .chain(setup_file)

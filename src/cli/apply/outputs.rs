@@ -12,9 +12,9 @@ use clsmith::parse::parse;
 use clsmith::program::Program;
 use clsmith::report::changes::{self, RecipeChanges};
 use clsmith::report::comparison::ComparisonSubject;
-use clsmith::report::{path_drawing, step_report};
+use clsmith::report::path_drawing;
 use clsmith::source::Source;
-use clsmith::transform::StepReport;
+use clsmith::transform::TransformReport;
 use clsmith::undo::RunReport;
 use std::io::{self, Write};
 use std::path::Path;
@@ -27,7 +27,7 @@ pub(super) struct ApplyOutcome<'r> {
     pub source: &'r Arc<Source>,
     pub program: &'r Program,
     pub findings: &'r [Diagnostic],
-    pub reports: &'r [StepReport],
+    pub reports: &'r [Box<dyn TransformReport>],
 }
 
 impl ApplyOutcome<'_> {
@@ -102,10 +102,10 @@ impl ApplyArgs {
     fn draw_step_reports(
         &self,
         path: &Path,
-        reports: &[StepReport],
+        reports: &[Box<dyn TransformReport>],
         outputs: &CommandOutputs,
     ) -> io::Result<Option<Diagnostic>> {
-        let panels: Vec<_> = reports.iter().flat_map(step_report::build_panels).collect();
+        let panels: Vec<_> = reports.iter().flat_map(|report| report.build_panels()).collect();
         let Some(text) = path_drawing::draw_path_panels(&panels)? else {
             if !self.quiet {
                 eprintln!("{}: not drawn, no step has anything to show", path.display());
@@ -135,8 +135,8 @@ impl ApplyArgs {
 }
 
 /// What the steps say about themselves, also when they had nothing to change.
-fn write_step_reports(err: &mut impl Write, reports: &[StepReport]) -> io::Result<()> {
-    reports.iter().try_for_each(|report| err.write_all(step_report::to_text(report).as_bytes()))
+fn write_step_reports(err: &mut impl Write, reports: &[Box<dyn TransformReport>]) -> io::Result<()> {
+    reports.iter().try_for_each(|report| err.write_all(report.to_text().as_bytes()))
 }
 
 /// Writes the program; a finding when that fails.

@@ -15,8 +15,8 @@ use crate::cli::unattended::{
 use clsmith::batch;
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::fingerprint::Digest;
+use clsmith::report::changes;
 use clsmith::report::finding_policy::FindingPolicy;
-use clsmith::report::{changes, step_report};
 use clsmith::source::Source;
 use clsmith::write::{is_interrupt, is_same_file};
 use serde::Serialize;
@@ -253,7 +253,7 @@ impl<'h> HookRun<'h> {
             UnattendedOutcome::PassedOriginal | UnattendedOutcome::Refused | UnattendedOutcome::Stopped => {}
         }
         let mut reports = self.correction.reports.iter();
-        reports.try_for_each(|report| err.write_all(step_report::to_text(report).as_bytes()))
+        reports.try_for_each(|report| err.write_all(report.to_text().as_bytes()))
     }
 
     /// The last word, and the line in the log.

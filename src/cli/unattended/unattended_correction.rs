@@ -13,7 +13,7 @@ use clsmith::report::changes::{self, StepChanges};
 use clsmith::report::finding_policy::FindingPolicy;
 use clsmith::simulation_run::RunWatcher;
 use clsmith::source::Source;
-use clsmith::transform::StepReport;
+use clsmith::transform::TransformReport;
 use serde::Serialize;
 use std::sync::Arc;
 
@@ -45,8 +45,8 @@ pub struct UnattendedCorrection {
     pub findings: Vec<Diagnostic>,
     /// What each step changed.
     pub steps: Vec<StepChanges>,
-    /// What steps say about themselves.
-    pub reports: Vec<StepReport>,
+    /// What steps tell about themselves.
+    pub reports: Vec<Box<dyn TransformReport>>,
     /// The recipe, once it was read.
     pub recipe: Option<LoggedRecipe>,
     /// Whether it is refused for what stands around it, a broken recipe say, and may go through when that is put right.

@@ -1,8 +1,8 @@
 //! The changes of a recipe as text for people.
 
 use super::{RecipeChanges, StepChanges};
+use crate::presentation::safe_text::to_safe_line;
 use crate::report::record_kind::RecordKind;
-use crate::report::render::safe_text::to_safe_line;
 use crate::report::stats::MotionTotals;
 use crate::report::text_format::{format_counted, format_duration, format_fixed, format_table, unit_name};
 use std::collections::BTreeMap;

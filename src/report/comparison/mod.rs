@@ -26,7 +26,7 @@ use crate::program::operation::find_operations;
 use crate::program::{LengthUnit, Program};
 use crate::setup::Setup;
 use crate::source::Source;
-use crate::transform::{Recipe, StepReport};
+use crate::transform::{Recipe, TransformReport};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -47,8 +47,8 @@ pub struct ComparisonSubject<'a> {
     pub units: Option<LengthUnit>,
     /// What was found.
     pub findings: &'a [Diagnostic],
-    /// What steps say about themselves.
-    pub reports: &'a [StepReport],
+    /// What steps tell about themselves.
+    pub reports: &'a [Box<dyn TransformReport>],
     /// SHA-256 of the recipe and all files that it depends on, in hexadecimal digits, where it was taken.
     pub print: Option<&'a str>,
 }

@@ -1,8 +1,8 @@
 //! Differences as text for people.
 
 use super::{DiffCounts, DifferenceKind, ProgramDiff, StatementDifference};
+use crate::presentation::safe_text::to_safe_line;
 use crate::report::record_kind::RecordKind;
-use crate::report::render::safe_text::to_safe_line;
 use crate::report::text_format::{format_counted, format_duration, format_length, format_short, unit_name};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -143,5 +143,5 @@ fn append_difference(out: &mut String, change: &StatementDifference, unit: &str)
 
 /// One line as it stands, blanks kept, since blanks may be all that differs.
 fn to_visible_line(line: &str) -> String {
-    line.chars().map(|c| crate::report::render::safe_text::to_visible_character(c, true)).collect()
+    line.chars().map(|c| crate::presentation::safe_text::to_visible_character(c, true)).collect()
 }

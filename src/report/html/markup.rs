@@ -1,6 +1,6 @@
 //! Text as HTML.
 
-use crate::report::render::safe_text::to_visible_character;
+use crate::presentation::safe_text::to_visible_character;
 use std::io::{self, Write};
 
 /// Text as HTML that shows it and does nothing else; line breaks stay.

@@ -2,10 +2,10 @@
 
 use super::markup::{escape_html, write_table};
 use crate::diagnostic::Diagnostic;
+use crate::presentation::safe_text::to_safe_line;
 use crate::report::comparison::{Comparison, build_operation_rows, build_step_row, build_whole_rows};
+use crate::report::render::SeverityCounts;
 use crate::report::render::human::{self, HumanRenderOptions};
-use crate::report::render::{SeverityCounts, safe_text::to_safe_line};
-use crate::report::step_report;
 use crate::report::text_format::format_count;
 use crate::source::Source;
 use std::collections::BTreeMap;
@@ -89,7 +89,7 @@ fn write_steps(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<(
     let rows: Vec<Vec<String>> = changes.steps.iter().enumerate().map(row).collect();
     write_table(out, &["step", "edited", "inserted", "deleted"], 4, &rows)?;
     for report in comparison.subject.reports {
-        writeln!(out, "<pre>{}</pre>", escape_html(step_report::to_text(report).trim_matches('\n')))?;
+        writeln!(out, "<pre>{}</pre>", escape_html(report.to_text().trim_matches('\n')))?;
     }
     Ok(())
 }

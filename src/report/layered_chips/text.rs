@@ -1,7 +1,7 @@
 //! Chips as text for people.
 
 use super::{ChipPeak, ChipReport, OperationChips};
-use crate::report::render::safe_text::to_safe_line;
+use crate::presentation::safe_text::to_safe_line;
 use crate::report::text_format::{format_count, format_counted, format_fixed, format_short, format_table};
 use std::fmt::Write;
 

@@ -4,8 +4,8 @@
 //! given an excerpt instead: the labelled lines and their neighbours, decoded, in one text with offsets of its own. Lines
 //! of several files can stand in it, each under its own name, which is how one finding points into a CL file and a recipe.
 
-use super::safe_text;
 use crate::diagnostic::DiagnosticLabel;
+use crate::presentation::safe_text;
 use crate::source::{Source, Span};
 use miette::{MietteError, SourceCode, SourceSpan, SpanContents};
 use std::collections::BTreeSet;

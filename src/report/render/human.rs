@@ -1,8 +1,9 @@
 //! Findings for people, drawn by miette.
 
 use super::excerpt::{ExcerptMark, ExcerptOptions, SourceExcerpt};
-use super::{NO_FILE, SeverityCounts, line, safe_text};
+use super::{NO_FILE, SeverityCounts, line};
 use crate::diagnostic::{Diagnostic, DiagnosticCode, Severity};
+use crate::presentation::safe_text;
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
 use std::collections::BTreeMap;
 use std::fmt;

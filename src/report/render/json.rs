@@ -30,8 +30,9 @@
 //! `null` when it is longer than 1000 bytes; bytes that are no UTF-8 are read as Latin-1. `version` changes when a reader of
 //! this structure would have to; new keys may be added without.
 
-use super::{SeverityCounts, safe_text};
+use super::SeverityCounts;
 use crate::diagnostic::{Diagnostic, DiagnosticLabel};
+use crate::presentation::safe_text;
 use crate::source::Source;
 use serde::Serialize;
 use std::io::{self, Write};

@@ -1,7 +1,8 @@
 //! One line per finding, for editors, `grep` and logs.
 
-use super::{NO_FILE, safe_text};
+use super::NO_FILE;
 use crate::diagnostic::Diagnostic;
+use crate::presentation::safe_text;
 use std::io::{self, Write};
 
 /// Writes `file:line:column: CODE: message` for each finding, and `file: CODE: message` for one without a place.

@@ -4,7 +4,6 @@ mod excerpt;
 pub mod human;
 pub mod json;
 pub mod line;
-pub(super) mod safe_text;
 pub mod sarif;
 
 use crate::diagnostic::{Diagnostic, Severity};

@@ -3,8 +3,8 @@
 //! SARIF counts columns in characters where [`line`](super::line) and [`json`](super::json) count bytes; the byte offsets
 //! stand beside them.
 
-use super::safe_text;
 use crate::diagnostic::{Diagnostic, DiagnosticCode, DiagnosticLabel, Severity};
+use crate::presentation::safe_text;
 use crate::source::Source;
 use serde_sarif::sarif::{
     ArtifactLocation, Location, Message, MultiformatMessageString, PhysicalLocation, Region,

@@ -2,7 +2,7 @@
 
 use super::target_comparison::TargetMismatch;
 use super::{OperationSums, SimulationPeak, SimulationReport, SimulationSums};
-use crate::report::render::safe_text::to_safe_line;
+use crate::presentation::safe_text::to_safe_line;
 use crate::report::text_format::{
     format_count, format_counted, format_duration, format_fixed, format_short, format_table,
 };

@@ -3,7 +3,7 @@
 use super::{
     FeedRow, LengthUnitOrigin, MotionBoundingBox, MotionTotals, ProgramStats, ReportedRange, ToolStats,
 };
-use crate::report::render::safe_text::to_safe_line;
+use crate::presentation::safe_text::to_safe_line;
 use crate::report::text_format::{
     format_count, format_counted, format_duration, format_fixed, format_short, format_table, unit_name,
 };

@@ -1,7 +1,7 @@
 //! Hunks: changes with the lines around them.
 
 use super::UnifiedDiffOptions;
-use crate::report::render::safe_text::{decode_characters, to_visible_character};
+use crate::presentation::safe_text::{decode_characters, to_visible_character};
 use std::collections::VecDeque;
 use std::io::{self, Write};
 

@@ -21,7 +21,6 @@ use crate::write::ProgramEditor;
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
 use std::ops::Range;
-use std::path::Path;
 
 /// Places at which written passes are looked at, all together: more would take minutes.
 const LOOKS: f64 = 1e6;
@@ -140,8 +139,7 @@ fn read_mesh(path: &FilePath, mm: f64, context: &StepContext<'_>) -> Result<Mesh
     let fail = |why: String| {
         context.step_failure(format!("{} cannot be used: {why}", path.as_str()), &["against", "mesh"])
     };
-    let full = path.resolve_beside(Path::new(context.recipe.source.name()));
-    let bytes = std::fs::read(full).map_err(|error| fail(error.to_string()))?;
+    let bytes = std::fs::read(context.resolve_file(path)).map_err(|error| fail(error.to_string()))?;
     let mesh = Mesh::from_stl(&bytes).map_err(|error| fail(error.to_string()))?;
     if mm == 1.0 { Ok(mesh) } else { mesh.scaled(mm).map_err(|error| fail(error.to_string())) }
 }

@@ -31,12 +31,8 @@ impl MotionFindings<'_> {
             .and_then(|index| self.program.statement(index))
             .map(Statement::origin)
             .unwrap_or_default();
-        let step = context.recipe.step_span(usize::from(context.step.0));
-        Diagnostic::new(code, message).with_label(self.program.source(), span, label).with_label(
-            &context.recipe.source,
-            step,
-            "by this step",
-        )
+        let finding = Diagnostic::new(code, message).with_label(self.program.source(), span, label);
+        context.label_step(finding, "by this step")
     }
 
     /// Why the step cannot go on, at a motion.

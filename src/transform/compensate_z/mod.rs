@@ -23,6 +23,7 @@ mod parameters;
 mod pass_profile;
 mod pass_writer;
 mod report;
+mod report_text;
 mod step;
 mod tip_clearance;
 mod vertical_passes;

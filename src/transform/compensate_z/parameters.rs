@@ -45,16 +45,6 @@ pub struct CompensateZ {
     pub r#where: MotionFilter,
 }
 
-impl CompensateZ {
-    /// The model that it is compensated against.
-    pub(in crate::transform) fn mesh_path(&self) -> Option<&FilePath> {
-        match &self.against {
-            CompensationReference::Mesh(path) => Some(path),
-            _ => None,
-        }
-    }
-}
-
 /// What the points of a path are.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]

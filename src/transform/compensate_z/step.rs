@@ -5,16 +5,27 @@ use super::parameters::{ArcOutput, CompensateZ, CompensationReference, InputPoin
 use super::vertical_passes::is_cutting;
 use super::{by_mesh, by_normals, by_profile};
 use crate::diagnostic::Diagnostic;
-use crate::parameters::Positive;
+use crate::parameters::{FilePath, Positive};
 use crate::program::motion::{ActiveTool, Motion};
 use crate::program::{LengthUnit, Program};
-use crate::transform::{MotionSelection, StepContext, StepReport, Transform};
+use crate::transform::{MotionSelection, StepContext, Transform};
 use std::sync::Arc;
 
 /// Allowed gouge and gap where the recipe says none, mm.
 const TOLERANCE: f64 = 0.005;
 
 impl Transform for CompensateZ {
+    fn measures(&self) -> bool {
+        true
+    }
+
+    fn reads(&self) -> Vec<&FilePath> {
+        match &self.against {
+            CompensationReference::Mesh(path) => vec![path],
+            CompensationReference::Profile | CompensationReference::Normals => Vec::new(),
+        }
+    }
+
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>> {
         let file = context.file_length_unit(&program);
         let motions: Vec<Motion> = program.motions().collect();
@@ -36,7 +47,7 @@ impl Transform for CompensateZ {
                 by_mesh::compensate_by_mesh(&job, path, program, &motions, &meant, context)?
             }
         };
-        context.reports.push(StepReport::CompensateZ(report));
+        context.add_report(report);
         Ok(program)
     }
 }
@@ -60,7 +71,7 @@ pub(super) struct CompensateZJob {
 
 impl CompensateZJob {
     fn new(step: &CompensateZ, file: LengthUnit, context: &StepContext<'_>) -> Result<Self, Box<Diagnostic>> {
-        let recipe = context.recipe.units.mm_per_unit();
+        let recipe = context.units.mm_per_unit();
         let mm = |value: Option<Positive>| value.map(|value| value.get() * recipe);
         let was = mm(step.was_radius);
         match (step.input, was) {

@@ -37,11 +37,7 @@ impl RampFindings<'_> {
         if end != first {
             found = found.with_label(source, end, "and ends here");
         }
-        found.with_label(
-            &context.recipe.source,
-            context.recipe.step_span(usize::from(context.step.0)),
-            "by this step",
-        )
+        context.label_step(found, "by this step")
     }
 }
 

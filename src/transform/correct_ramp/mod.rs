@@ -28,11 +28,13 @@ mod ramp_correction;
 mod ramp_cutter;
 pub mod ramp_kind;
 pub mod ramp_limits;
+mod ramp_panels;
 pub mod ramp_passes;
 mod ramp_proof;
 mod ramp_search;
 mod ramp_writer;
 mod report;
+mod report_text;
 mod step;
 pub mod tool_region;
 

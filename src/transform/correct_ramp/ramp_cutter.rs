@@ -25,7 +25,7 @@ pub(super) fn resolve_ramp_cutter(
     file: LengthUnit,
     context: &StepContext<'_>,
 ) -> RampCutter {
-    let recipe = context.recipe.units.mm_per_unit();
+    let recipe = context.units.mm_per_unit();
     let own = |value: Option<Positive>| value.map(|value| value.get() * recipe);
     let (told, entry) = (step.tool, context.setup.find_tool_entry(tool));
     let insert = entry.and_then(|entry| entry.insert);

@@ -17,7 +17,7 @@ use crate::parameters::{Finite, NonNegative, Positive};
 use crate::program::motion::{ActiveTool, Motion};
 use crate::program::record::CutterCompensation;
 use crate::program::{LengthUnit, Program, Record, Statement, operation};
-use crate::transform::{MotionSelection, StepContext, StepReport, Transform};
+use crate::transform::{MotionSelection, StepContext, Transform};
 use crate::write::ProgramEditor;
 use std::sync::Arc;
 
@@ -37,6 +37,10 @@ pub(super) struct PlannedRamp {
 }
 
 impl Transform for CorrectRamp {
+    fn measures(&self) -> bool {
+        true
+    }
+
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>> {
         let file = context.file_length_unit(&program);
         let motions: Vec<Motion> = program.motions().collect();
@@ -64,7 +68,7 @@ impl Transform for CorrectRamp {
                 Some(plan) => findings::describe_unproven_ramp(&program, &motions, &plan.found, why, context),
                 None => context.step_failure(why.to_string(), &[]),
             })?;
-        context.reports.push(StepReport::CorrectRamp(CorrectRampReport { ramps: reports }));
+        context.add_report(CorrectRampReport { ramps: reports });
         Ok(program)
     }
 }
@@ -97,7 +101,7 @@ impl<'a> RampJudge<'a> {
         file: LengthUnit,
         context: &StepContext<'_>,
     ) -> Self {
-        let recipe = context.recipe.units.mm_per_unit();
+        let recipe = context.units.mm_per_unit();
         let polygon = match &step.region {
             RampRegionSpec::Hull | RampRegionSpec::Milled => None,
             RampRegionSpec::None => Some(ToolRegion::Everywhere),
@@ -128,7 +132,7 @@ impl<'a> RampJudge<'a> {
     }
 
     fn judge_ramps(&mut self, context: &mut StepContext<'_>) -> Result<(), Box<Diagnostic>> {
-        let recipe = context.recipe.units.mm_per_unit();
+        let recipe = context.units.mm_per_unit();
         let depth = self.step.depth_of_cut.map(|depth| depth.get() * recipe);
         let mut selection = MotionSelection::new(&self.step.r#where, self.program, context);
         let mut meant = Vec::new();
@@ -208,7 +212,7 @@ impl<'a> RampJudge<'a> {
         (cutter, limits): CutterAndLimits,
         context: &mut StepContext<'_>,
     ) {
-        let recipe = context.recipe.units.mm_per_unit();
+        let recipe = context.units.mm_per_unit();
         let (step, mm) = (self.step, self.file.mm_per_unit());
         let clearance = step.clearance.map_or(CLEARANCE, |clearance: NonNegative| clearance.get() * recipe);
         let begin = step.depth_of_cut.map(|depth: Positive| depth.get() * recipe + clearance);

@@ -61,17 +61,15 @@ pub enum MoveOriginTarget {
     Frame,
 }
 
-impl MoveOrigin {
-    /// Whether the step says a length, so that it matters in which unit it is meant.
-    pub(in crate::transform) fn has_lengths(&self) -> bool {
-        let triple = |triple: &move_parameters::VectorSpec| triple.iter().any(|value| value.get() != 0.0);
-        self.translate.as_ref().is_some_and(triple)
-            || self.rotate.as_ref().and_then(|rotate| rotate.about.as_ref()).is_some_and(triple)
+impl Transform for MoveOrigin {
+    /// Whether it says a length: a turn about the origin has none.
+    fn measures(&self) -> bool {
+        let is_length = |triple: &move_parameters::VectorSpec| triple.iter().any(|value| value.get() != 0.0);
+        self.translate.as_ref().is_some_and(is_length)
+            || self.rotate.as_ref().and_then(|rotate| rotate.about.as_ref()).is_some_and(is_length)
             || self.mirror.as_ref().is_some_and(|mirror| mirror.through.norm() > 0.0)
     }
-}
 
-impl Transform for MoveOrigin {
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>> {
         if self.mirror.is_none() && self.rotate.is_none() && self.translate.is_none() {
             return Err(context.step_failure("none of `mirror`, `rotate` and `translate` is given", &[]));
@@ -81,7 +79,7 @@ impl Transform for MoveOrigin {
             self.mirror.as_ref(),
             self.rotate.as_ref(),
             self.translate.as_ref(),
-            context.recipe.units,
+            context.units,
             file,
         );
         let scope = OperationScope::select_operations(&self.r#where, &program, context);

@@ -15,6 +15,7 @@ mod motion_pose;
 pub mod motion_split;
 mod parameters;
 mod report;
+mod report_text;
 mod segment_merge;
 mod short_pieces;
 mod split_read_back;

@@ -12,7 +12,7 @@ use crate::program::{LengthUnit, Program, Statement};
 use crate::setup::Setup;
 use crate::simulation_run::{EngagementModel, EngagementRunResult, Machining, SimulationRunOptions};
 use crate::transform::feed_plan::{FeedPlan, decimals_of_feed, round_feed_down};
-use crate::transform::{MotionSelection, StepContext, StepReport, Transform};
+use crate::transform::{MotionSelection, StepContext, Transform};
 use crate::write::ProgramEditor;
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -28,6 +28,10 @@ const NOISE: f64 = 1e-6;
 const TOLD: usize = 10;
 
 impl Transform for OptimizeFeed {
+    fn measures(&self) -> bool {
+        true
+    }
+
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>> {
         let job = OptimizeFeedJob::new(self, &program, context)?;
         let (before, ran) = job.simulate_blocks(self, &program, context)?;
@@ -44,13 +48,7 @@ impl Transform for OptimizeFeed {
         let (after, _) = proof?;
         job.prove_targets(&program, &after, &excused, context)?;
         job.add_load_notes((&mut program, context.step), &before, &after, &parts);
-        context.reports.push(StepReport::OptimizeFeed(job.build_report(
-            &program,
-            &before,
-            &after,
-            ran.grain,
-            context.step,
-        )));
+        context.add_report(job.build_report(&program, &before, &after, ran.grain, context.step));
         Ok(program)
     }
 }
@@ -79,7 +77,7 @@ impl OptimizeFeedJob {
         program: &Program,
         context: &StepContext<'_>,
     ) -> Result<Self, Box<Diagnostic>> {
-        let mm = context.recipe.units.mm_per_unit();
+        let mm = context.units.mm_per_unit();
         let Some(rules) = step.feed_rules(mm, &context.setup.machine) else {
             let message = "there is no highest feed: neither the step's `max_feed` nor the setup's `machine: { max_feed: ... }`";
             return Err(context.step_failure(message, &[]));
@@ -163,8 +161,7 @@ impl OptimizeFeedJob {
     }
 
     fn label_step(&self, found: Diagnostic, context: &StepContext<'_>) -> Box<Diagnostic> {
-        let place = context.recipe.step_span(usize::from(context.step.0));
-        Box::new(found.with_label(&context.recipe.source, place, "asked for by this step"))
+        Box::new(context.label_step(found, "asked for by this step"))
     }
 
     fn label_resolution(&self, found: Diagnostic, context: &StepContext<'_>) -> Box<Diagnostic> {
@@ -173,8 +170,7 @@ impl OptimizeFeedJob {
             EngagementModel::Layers { .. } if found.code == codes::LAYERS => ["layer"],
             EngagementModel::Layers { .. } => ["engagement"],
         };
-        let place = context.recipe.step_value_span(usize::from(context.step.0), &keys);
-        Box::new(found.with_label(&context.recipe.source, place, "asked for here"))
+        Box::new(context.label_parameter(found, &keys, "asked for here"))
     }
 
     /// Decides the feeds and writes them.
@@ -254,11 +250,12 @@ impl OptimizeFeedJob {
             let Some(mark) = before.marks.get(*block) else { continue };
             let span = program.statement(mark.statement).map(Statement::origin).unwrap_or_default();
             let message = "the target is passed here at the lowest feed allowed";
-            let place = context.recipe.step_value_span(usize::from(context.step.0), &["min_feed"]);
-            let finding = Diagnostic::new(codes::BELOW_MINIMUM, message)
-                .with_label(program.source(), span, "more than the target")
-                .with_label(&context.recipe.source, place, "the lowest feed");
-            context.findings.push(finding);
+            let finding = Diagnostic::new(codes::BELOW_MINIMUM, message).with_label(
+                program.source(),
+                span,
+                "more than the target",
+            );
+            context.findings.push(context.label_parameter(finding, &["min_feed"], "the lowest feed"));
         }
         if let Some(more) = found.below_minimum.len().checked_sub(TOLD).filter(|more| *more > 0) {
             let message = format!("the target is passed at the lowest feed allowed on {more} more motions");

@@ -41,11 +41,12 @@ impl OptimizeFeedJob {
                         criterion.display_name(),
                         criterion.unit()
                     );
-                    let place = context.recipe.step_value_span(usize::from(context.step.0), &["target"]);
-                    let found = Diagnostic::new(codes::TARGET_EXCEEDED, message)
-                        .with_label(program.source(), span, "passes the target")
-                        .with_label(&context.recipe.source, place, "the target");
-                    return Err(Box::new(found));
+                    let found = Diagnostic::new(codes::TARGET_EXCEEDED, message).with_label(
+                        program.source(),
+                        span,
+                        "passes the target",
+                    );
+                    return Err(Box::new(context.label_parameter(found, &["target"], "the target")));
                 }
             }
         }

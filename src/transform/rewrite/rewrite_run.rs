@@ -216,8 +216,7 @@ fn label_rule(
 ) -> Box<Diagnostic> {
     let rule = hit.rule.to_string();
     let path = [&["rules", rule.as_str()], keys].concat();
-    let place = context.recipe.step_value_span(usize::from(context.step.0), &path);
-    Box::new(error.with_label(&context.recipe.source, place, label))
+    Box::new(context.label_parameter(error, &path, label))
 }
 
 /// Why a rule cannot be applied to a statement: at the text of the rule, and at the argument.

@@ -14,7 +14,7 @@ use clsmith::program::motion::Motion;
 use clsmith::setup::Setup;
 use clsmith::source::Source;
 use clsmith::transform::compensate_z::CompensateZReport;
-use clsmith::transform::{Recipe, StepReport, run_recipe};
+use clsmith::transform::{Recipe, run_recipe};
 use nalgebra::Point3;
 use std::fmt::Write;
 
@@ -71,7 +71,8 @@ pub fn compensate_beside(path: &str, parameters: &str, text: &str) -> Result<Don
     let recipe = Recipe::load(&recipe)?;
     let setup = recipe.merge_setups(Setup::default(), Setup::default());
     let mut outcome = run_recipe(&recipe, &setup, support::program(text))?;
-    let Some(StepReport::CompensateZ(report)) = outcome.reports.pop() else { panic!("no report") };
+    let report = outcome.reports.pop().expect("a report");
+    let report = report.downcast_ref::<CompensateZReport>().unwrap().clone();
     let text = String::from_utf8_lossy(&outcome.program.to_bytes()).into_owned();
     Ok(Done { text, program: outcome.program, findings: outcome.findings, report })
 }

@@ -11,8 +11,9 @@ use clsmith::diagnostic::Diagnostic;
 use clsmith::program::Program;
 use clsmith::setup::Setup;
 use clsmith::source::Source;
+use clsmith::transform::correct_ramp::CorrectRampReport;
 use clsmith::transform::correct_ramp::{RampOutcome, RampReport};
-use clsmith::transform::{Recipe, RecipeOutcome as Ran, StepReport, run_recipe};
+use clsmith::transform::{Recipe, RecipeOutcome as Ran, run_recipe};
 
 /// What a step made of a program.
 pub struct Done {
@@ -47,7 +48,8 @@ pub fn correct_program(parameters: &str, setup: &str, program: Program) -> Resul
     let recipe = Recipe::load(&recipe)?;
     let setup = recipe.merge_setups(Setup::default(), Setup::default());
     let Ran { program, findings, mut reports } = run_recipe(&recipe, &setup, program)?;
-    let Some(StepReport::CorrectRamp(report)) = reports.pop() else { panic!("no report") };
+    let report = reports.pop().expect("a report");
+    let report = report.downcast_ref::<CorrectRampReport>().unwrap().clone();
     let text = String::from_utf8_lossy(&program.to_bytes()).into_owned();
     Ok(Done { text, findings, ramps: report.ramps })
 }

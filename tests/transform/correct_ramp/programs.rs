@@ -3,7 +3,7 @@
 use super::{Done, FACE_MILL, correct};
 use crate::support;
 use clsmith::job::{CorrectionJob, is_program_changed};
-use clsmith::report::{finding_policy::FindingPolicy, step_report, unified_diff};
+use clsmith::report::{finding_policy::FindingPolicy, unified_diff};
 use clsmith::setup::Setup;
 use clsmith::source::Source;
 use clsmith::transform::Recipe;
@@ -127,7 +127,7 @@ fn what_a_person_reads() {
             .unwrap();
         let mut shown = String::from_utf8_lossy(&out).into_owned();
         for report in &done.reports {
-            shown.push_str(&step_report::to_text(report));
+            shown.push_str(&report.to_text());
         }
         for found in &done.findings {
             shown.push_str(&format!(

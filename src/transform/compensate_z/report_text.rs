@@ -1,9 +1,10 @@
 //! What `compensate_z` did, as a table and as drawings.
 
-use super::path_drawing::{PanelPath, PanelPathStyle, PathPanel};
-use super::render::safe_text::to_safe_line;
-use super::text_format::{format_fixed, format_short, format_table};
-use crate::transform::compensate_z::{CompensateZReport, PassReport};
+use super::report::{CompensateZReport, PassReport};
+use crate::presentation::path_panel::{PanelPath, PanelPathStyle, PathPanel};
+use crate::presentation::safe_text::to_safe_line;
+use crate::presentation::text_format::{format_fixed, format_short, format_table};
+use crate::transform::step_report::{TransformReport, to_json_value};
 use std::fmt::Write;
 
 /// Passes told one by one at most.
@@ -12,8 +13,28 @@ const TOLD: usize = 12;
 /// Passes drawn at most.
 const DRAWN: usize = 4;
 
-/// The report as text.
-pub fn to_text(report: &CompensateZReport) -> String {
+impl TransformReport for CompensateZReport {
+    fn step_name(&self) -> &'static str {
+        "compensate_z"
+    }
+
+    fn to_text(&self) -> String {
+        describe_passes(self)
+    }
+
+    fn to_json(&self) -> serde_json::Value {
+        to_json_value(self)
+    }
+
+    /// The first passes as the paper draws them: the profile, the path that moving point by point would give, and
+    /// the compensated path.
+    fn build_panels(&self) -> Vec<PathPanel> {
+        let drawn = self.passes.iter().filter(|pass| !pass.path.is_empty());
+        drawn.take(DRAWN).map(build_pass_panel).collect()
+    }
+}
+
+fn describe_passes(report: &CompensateZReport) -> String {
     let cutter = if report.corner_radius_mm == report.radius_mm {
         format!("ball R{}", format_short(report.radius_mm))
     } else {
@@ -70,12 +91,6 @@ fn summarize_passes(report: &CompensateZReport) -> PassReport {
         path: Vec::new(),
         naive: Vec::new(),
     }
-}
-
-/// The first passes as the paper draws them: the profile, the path that moving point by point would give, and the compensated path.
-pub fn build_panels(report: &CompensateZReport) -> Vec<PathPanel> {
-    let drawn = report.passes.iter().filter(|pass| !pass.path.is_empty());
-    drawn.take(DRAWN).map(build_pass_panel).collect()
 }
 
 fn build_pass_panel(pass: &PassReport) -> PathPanel {

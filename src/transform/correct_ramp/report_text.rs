@@ -1,19 +1,35 @@
 //! What `correct_ramp` found and did, as a table.
 
-mod ramp_panels;
-
-pub use ramp_panels::build_panels;
-
-use super::render::safe_text::to_safe_line;
-use super::text_format::{format_duration, format_fixed, format_table};
-use crate::transform::correct_ramp::{CorrectRampReport, RampOutcome, RampReport};
+use super::ramp_panels::build_ramp_panels;
+use super::report::{CorrectRampReport, RampOutcome, RampReport};
+use crate::presentation::path_panel::PathPanel;
+use crate::presentation::safe_text::to_safe_line;
+use crate::presentation::text_format::{format_duration, format_fixed, format_table};
+use crate::transform::step_report::{TransformReport, to_json_value};
 use std::fmt::Write;
 
 /// Ramps told one by one at most; the rest is counted.
 const TOLD: usize = 40;
 
-/// The report as text.
-pub fn to_text(report: &CorrectRampReport) -> String {
+impl TransformReport for CorrectRampReport {
+    fn step_name(&self) -> &'static str {
+        "correct_ramp"
+    }
+
+    fn to_text(&self) -> String {
+        describe_ramps(self)
+    }
+
+    fn to_json(&self) -> serde_json::Value {
+        to_json_value(self)
+    }
+
+    fn build_panels(&self) -> Vec<PathPanel> {
+        build_ramp_panels(self)
+    }
+}
+
+fn describe_ramps(report: &CorrectRampReport) -> String {
     let count = |outcome: RampOutcome| report.ramps.iter().filter(|ramp| ramp.outcome == outcome).count();
     let (fit, corrected, kept) =
         (count(RampOutcome::Fits), count(RampOutcome::Corrected), count(RampOutcome::Kept));
@@ -60,10 +76,7 @@ pub fn to_text(report: &CorrectRampReport) -> String {
 /// A row for the ramp as it came, and one for what it became.
 fn ramp_rows(ramp: &RampReport) -> Vec<Vec<String>> {
     let passes = |count: usize| if count == 0 { String::new() } else { count.to_string() };
-    let row = |line: String,
-               name: String,
-               kind: String,
-               measured: &crate::transform::correct_ramp::ramp_limits::RampMeasurement| {
+    let row = |line: String, name: String, kind: String, measured: &super::ramp_limits::RampMeasurement| {
         vec![
             line,
             name,

@@ -6,7 +6,7 @@
 use crate::source::{Source, Span};
 
 /// The characters of a text in an unknown encoding, each with its number of bytes.
-pub(in crate::report) fn decode_characters(bytes: &[u8]) -> impl Iterator<Item = (char, usize)> + '_ {
+pub(crate) fn decode_characters(bytes: &[u8]) -> impl Iterator<Item = (char, usize)> + '_ {
     bytes.utf8_chunks().flat_map(|chunk| {
         let valid = chunk.valid().chars().map(|c| (c, c.len_utf8()));
         valid.chain(chunk.invalid().iter().map(|&byte| (char::from(byte), 1)))
@@ -16,7 +16,7 @@ pub(in crate::report) fn decode_characters(bytes: &[u8]) -> impl Iterator<Item =
 /// A stand-in for characters that would be invisible, move the cursor or reverse the line.
 ///
 /// A comment in a CL file must not be able to talk to the terminal.
-pub(in crate::report) fn to_visible_character(c: char, unicode: bool) -> char {
+pub(crate) fn to_visible_character(c: char, unicode: bool) -> char {
     let hidden = c.is_control()
         || matches!(c, '\u{ad}' | '\u{61c}' | '\u{feff}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}')
         || matches!(c, '\u{2060}'..='\u{206f}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}');
@@ -31,7 +31,7 @@ pub(in crate::report) fn to_visible_character(c: char, unicode: bool) -> char {
 }
 
 /// A message made safe, its line breaks kept.
-pub(in crate::report) fn to_safe_paragraph(text: &str, unicode: bool) -> String {
+pub(crate) fn to_safe_paragraph(text: &str, unicode: bool) -> String {
     text.replace("\r\n", "\n")
         .chars()
         .map(|c| if c == '\n' { c } else { to_visible_character(c, unicode) })
@@ -39,13 +39,13 @@ pub(in crate::report) fn to_safe_paragraph(text: &str, unicode: bool) -> String 
 }
 
 /// A message made safe and folded into one line.
-pub(in crate::report) fn to_safe_line(text: &str) -> String {
+pub(crate) fn to_safe_line(text: &str) -> String {
     let words: Vec<&str> = text.split(['\n', '\r']).map(str::trim).filter(|part| !part.is_empty()).collect();
     words.join(" ").chars().map(|c| to_visible_character(c, true)).collect()
 }
 
 /// The span inside its file and without the line end it closes with, which nobody needs underlined.
-pub(in crate::report) fn trim_line_end(source: &Source, span: Span) -> Span {
+pub(crate) fn trim_line_end(source: &Source, span: Span) -> Span {
     let length = source.bytes().len();
     let (start, end) = (span.to_range().start.min(length), span.to_range().end.min(length));
     let text = source.bytes().get(start..end).unwrap_or_default();

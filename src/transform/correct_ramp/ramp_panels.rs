@@ -1,13 +1,13 @@
 //! Ramps as drawings: from above, and their height along the way.
 
-use crate::report::path_drawing::{PanelPath, PanelPathStyle, PathPanel};
-use crate::transform::correct_ramp::{CorrectRampReport, RampOutcome, RampReport};
+use super::report::{CorrectRampReport, RampOutcome, RampReport};
+use crate::presentation::path_panel::{PanelPath, PanelPathStyle, PathPanel};
 
 /// Ramps drawn at most.
 const DRAWN: usize = 12;
 
 /// Two panels for each ramp that was corrected: across the tool axis, and height along the path, with the steepest slope allowed.
-pub fn build_panels(report: &CorrectRampReport) -> Vec<PathPanel> {
+pub(super) fn build_ramp_panels(report: &CorrectRampReport) -> Vec<PathPanel> {
     let corrected = report.ramps.iter().filter(|ramp| ramp.outcome == RampOutcome::Corrected);
     corrected.take(DRAWN).flat_map(|ramp| [build_top_view(ramp), build_height_panel(ramp)]).collect()
 }

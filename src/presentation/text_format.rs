@@ -31,7 +31,7 @@ pub(crate) fn format_count(value: u64) -> String {
 }
 
 /// A number with a fixed number of decimals and its thousands apart; never `-0`.
-pub(super) fn format_fixed(value: f64, decimals: usize) -> String {
+pub(crate) fn format_fixed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let negative_zero = text.starts_with('-') && text.bytes().all(|byte| matches!(byte, b'-' | b'0' | b'.'));
     let text = text.strip_prefix('-').filter(|_| negative_zero).unwrap_or(&text);
@@ -39,7 +39,7 @@ pub(super) fn format_fixed(value: f64, decimals: usize) -> String {
 }
 
 /// A number with at most three decimals and no trailing zeros.
-pub(super) fn format_short(value: f64) -> String {
+pub(crate) fn format_short(value: f64) -> String {
     let text = format_fixed(value, 3);
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
@@ -58,7 +58,7 @@ fn group_thousands(text: &str) -> String {
 }
 
 /// A length for a sentence: metres from 10 m on in metric files, else the file's unit.
-pub(super) fn format_length(value: f64, unit: LengthUnit) -> String {
+pub(crate) fn format_length(value: f64, unit: LengthUnit) -> String {
     match unit {
         LengthUnit::Mm if value.abs() >= 10_000.0 => format!("{} m", format_fixed(value / 1000.0, 1)),
         LengthUnit::Mm | LengthUnit::Inch => format!("{} {}", format_short(value), unit_name(unit)),
@@ -66,7 +66,7 @@ pub(super) fn format_length(value: f64, unit: LengthUnit) -> String {
 }
 
 /// `mm` or `in`.
-pub(super) fn unit_name(unit: LengthUnit) -> &'static str {
+pub(crate) fn unit_name(unit: LengthUnit) -> &'static str {
     match unit {
         LengthUnit::Mm => "mm",
         LengthUnit::Inch => "in",

@@ -1,27 +1,22 @@
-//! What steps have to say about themselves, as text for people.
+//! What `optimize_feed` did, as a table.
 
-use super::path_drawing::PathPanel;
-use super::render::safe_text::to_safe_line;
-use super::text_format::{format_count, format_duration, format_fixed, format_table};
-use crate::transform::StepReport;
-use crate::transform::optimize_feed::{OperationFeedReport, OptimizeFeedReport};
+use super::report::{OperationFeedReport, OptimizeFeedReport};
+use crate::presentation::safe_text::to_safe_line;
+use crate::presentation::text_format::{format_count, format_duration, format_fixed, format_table};
+use crate::transform::step_report::{TransformReport, to_json_value};
 use std::fmt::Write;
 
-/// A step's report.
-pub fn to_text(report: &StepReport) -> String {
-    match report {
-        StepReport::CompensateZ(report) => super::compensate_z_report::to_text(report),
-        StepReport::CorrectRamp(report) => super::correct_ramp_report::to_text(report),
-        StepReport::OptimizeFeed(report) => describe_optimized_feed(report),
+impl TransformReport for OptimizeFeedReport {
+    fn step_name(&self) -> &'static str {
+        "optimize_feed"
     }
-}
 
-/// What a step's report draws; empty for a step that draws nothing.
-pub fn build_panels(report: &StepReport) -> Vec<PathPanel> {
-    match report {
-        StepReport::CompensateZ(report) => super::compensate_z_report::build_panels(report),
-        StepReport::CorrectRamp(report) => super::correct_ramp_report::build_panels(report),
-        StepReport::OptimizeFeed(_) => Vec::new(),
+    fn to_text(&self) -> String {
+        describe_optimized_feed(self)
+    }
+
+    fn to_json(&self) -> serde_json::Value {
+        to_json_value(self)
     }
 }
 

@@ -1,0 +1,40 @@
+//! Line drawings as data: panels, each with a few paths laid over each other.
+
+/// One drawing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PathPanel {
+    /// What stands above it.
+    pub title: String,
+    /// What goes to the right.
+    pub right: &'static str,
+    /// What goes up.
+    pub up: &'static str,
+    /// Whether both directions have one scale.
+    pub one_scale: bool,
+    /// The paths; later ones are drawn over earlier ones.
+    pub paths: Vec<PanelPath>,
+}
+
+/// A path in a panel.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PanelPath {
+    /// Its name in the legend; none when empty.
+    pub name: String,
+    /// How it looks.
+    pub look: PanelPathStyle,
+    /// Its points.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// How a path looks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PanelPathStyle {
+    /// As it was: grey.
+    Before,
+    /// As it is: blue, its points marked.
+    After,
+    /// What it is compared with: black and thin.
+    Reference,
+    /// A wrong way: red.
+    Wrong,
+}
