@@ -1,6 +1,9 @@
-//! Surfaces that a cutter follows: profiles in vertical planes and meshes, and where the cutter's tip stands on them.
+//! This module handles the surfaces that a cutter follows, profiles in vertical planes and meshes, and
+//! computes where the cutter's tip is when it touches them.
 //!
-//! Everything is in millimetres, with z along the tool axis. Nothing here knows CL text or recipes.
+//! Lengths are in mm, with z along the tool axis. Plane geometry beyond profiles (hulls, buffers,
+//! intersections) comes from the crate `geo`, nearest points from `rstar`. Nothing here knows CL text or
+//! recipes.
 
 pub mod drop_cutter;
 pub mod mesh_section;

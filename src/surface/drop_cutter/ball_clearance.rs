@@ -1,7 +1,9 @@
-//! How far a ball with the shank above it is from a mesh: an exact distance in space, triangle by triangle.
+//! This module measures how far a ball-end cutter with the shank above it is from a mesh. The result is the
+//! exact distance in space, triangle by triangle.
 //!
-//! The cutter is everything nearer than its radius to the upright ray from the ball's centre. So its distance from a triangle is that of
-//! a ray from a triangle, which is a matter of points, edges and the inside, and knows nothing of how cutters are lowered.
+//! The cutter consists of all points that are nearer than its radius to the ray upwards from the ball's
+//! centre. So its distance from a triangle is the distance of a ray from a triangle. That needs only points,
+//! edges and the inside, and does not use the code that lowers cutters, so it is an independent proof.
 
 use super::triangle_columns::TriangleColumns;
 use crate::sim::Mesh;
@@ -9,20 +11,21 @@ use nalgebra::Vector3;
 
 type Triangle = [Vector3<f64>; 3];
 
-/// What a path shows. In mm.
+/// The clearance of a path over a mesh, in mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathClearance {
-    /// The nearest that the mesh comes, less the radius: negative where it is in the cutter.
+    /// The least distance of the mesh from the cutter's ray, minus the radius. It is negative if the mesh is
+    /// inside the cutter.
     pub low: f64,
-    /// The tip where that is.
+    /// The tip at which this is so.
     pub low_at: [f64; 3],
-    /// The farthest that it is, less the radius.
+    /// The largest distance along the path, minus the radius.
     pub high: f64,
-    /// The tip where that is.
+    /// The tip at which this is so.
     pub high_at: [f64; 3],
 }
 
-/// A mesh in square columns, for a ball.
+/// A mesh that is sorted in square columns for a ball.
 #[derive(Debug, Clone)]
 pub struct BallClearanceField {
     radius: f64,
@@ -44,10 +47,12 @@ impl BallClearanceField {
         }
     }
 
-    /// Looks along a path of straight lines, every `step` mm and at its points. None for a path without points.
+    /// Measures the clearance along a path of straight lines, every `step` mm and at its points. Returns
+    /// `None` for a path without points or with a number that is not finite.
     ///
-    /// The distance of a point of the mesh from a cutter that moves straight is a convex function of the way: between two places
-    /// looked at, a point gets no deeper into the cutter than what a ball passes on the way, `step^2 / (8 R)`.
+    /// The distance of a point of the mesh from a cutter that moves straight is a convex function of the
+    /// travel. So between two samples a point gets no deeper into the cutter than a ball's sagitta, `step^2 /
+    /// (8 R)`.
     pub fn measure_clearance(&self, path: &[[f64; 3]], step: f64) -> Option<PathClearance> {
         let first = path.first().filter(|_| path.iter().flatten().all(|value| value.is_finite()))?;
         let mut distance = self.clearance_at(*first, self.radius);
@@ -60,7 +65,7 @@ impl BallClearanceField {
             let mut index = 1.0;
             while index <= count {
                 let tip: [f64; 3] = from.lerp(&to, index / count).into();
-                // No farther than before, plus the way.
+                // The distance cannot grow by more than the travel since the sample before.
                 distance = self.clearance_at(tip, (distance + length / count + 1e-6).min(self.radius));
                 if distance < found.low {
                     (found.low, found.low_at) = (distance, tip);
@@ -74,7 +79,8 @@ impl BallClearanceField {
         Some(found)
     }
 
-    /// The mesh's distance from the ray above the ball's centre, less the radius; `most` where it is more.
+    /// Returns the distance of the mesh from the ray above the ball's centre, minus the radius, or `most` if
+    /// it is more.
     fn clearance_at(&self, [x, y, z]: [f64; 3], most: f64) -> f64 {
         let centre = Vector3::new(x, y, z + self.radius);
         let reach = self.radius + most.max(0.0);
@@ -92,7 +98,7 @@ impl BallClearanceField {
     }
 }
 
-/// Square of the distance of the ray up from a point from a box.
+/// Returns the squared distance between a box and the ray upwards from a point.
 fn squared_distance_to_box(at: &Vector3<f64>, low: &Vector3<f64>, high: &Vector3<f64>) -> f64 {
     let beside = |value: f64, low: f64, high: f64| (low - value).max(value - high).max(0.0);
     let (x, y) = (beside(at.x, low.x, high.x), beside(at.y, low.y, high.y));
@@ -100,18 +106,19 @@ fn squared_distance_to_box(at: &Vector3<f64>, low: &Vector3<f64>, high: &Vector3
     x * x + y * y + below * below
 }
 
-/// Square of the distance of the ray up from a point from a triangle.
+/// Returns the squared distance between a triangle and the ray upwards from a point.
 fn squared_distance_to_triangle(at: &Vector3<f64>, triangle: &Triangle) -> f64 {
     let [a, b, c] = *triangle;
     let normal = (b - a).cross(&(c - a));
     let sides = [(a, b), (b, c), (c, a)];
     let edges =
         sides.iter().map(|(from, to)| squared_distance_to_edge(at, from, to)).fold(f64::INFINITY, f64::min);
-    // Inside, seen along the normal: the distance of the ray's start from the plane.
+    // The ray's start is over the inside, seen along the normal: then its distance from the plane counts.
     let over = sides.iter().all(|(from, to)| normal.dot(&(to - from).cross(&(at - from))) >= 0.0);
     let square = normal.norm_squared();
     let start = if over && square > 0.0 { (at - a).dot(&normal).powi(2) / square } else { f64::INFINITY };
-    // Inside, seen from above, and above the start: the ray goes through.
+    // The ray's line passes the inside, seen from above, and the plane there is above the start: the ray goes
+    // through the triangle.
     let turned = sides.map(|(from, to)| {
         let (side, from) = (to - from, at - from);
         side.x * from.y - side.y * from.x
@@ -123,12 +130,13 @@ fn squared_distance_to_triangle(at: &Vector3<f64>, triangle: &Triangle) -> f64 {
     edges.min(start)
 }
 
-/// Square of the distance of the ray up from a point from an edge: across where the ray is beside it, else from the start.
+/// Returns the squared distance between an edge and the ray upwards from a point. It is the horizontal
+/// distance where the ray is beside the edge, else the distance from the ray's start.
 fn squared_distance_to_edge(at: &Vector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>) -> f64 {
     let side = to - from;
     let nearest = |share: f64| from + side * share.clamp(0.0, 1.0);
     let level = side.x * side.x + side.y * side.y;
-    // Where the edge is nearest to the endless upright line.
+    // The point of the edge that is nearest to the endless vertical line.
     let beside =
         if level > 0.0 { ((at.x - from.x) * side.x + (at.y - from.y) * side.y) / level } else { 0.0 };
     let place = nearest(beside);
@@ -139,7 +147,7 @@ fn squared_distance_to_edge(at: &Vector3<f64>, from: &Vector3<f64>, to: &Vector3
     let square = side.norm_squared();
     let share = if square > 0.0 { (at - from).dot(&side) / square } else { 0.0 };
     let start = (nearest(share) - at).norm_squared();
-    // An edge that rises past the start is beside the ray from there on.
+    // An edge that rises past the height of the start is beside the ray from there on.
     let rises = if side.z != 0.0 { (at.z - from.z) / side.z } else { f64::NAN };
     if (0.0..=1.0).contains(&rises) {
         let place = from + side * rises;

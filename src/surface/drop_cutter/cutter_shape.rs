@@ -1,24 +1,26 @@
-//! Cutters that can be lowered: ball, bull-nose and flat end, as the disc on which the corner's circle is centred.
+//! This module holds the shapes of cutters that can be lowered: ball, bull-nose and flat end. A shape is a
+//! disc whose rim is rounded with the corner radius.
 
-/// How far inside the side material has to reach to count as under a cutter, mm: numbers in STL files are no better, and a cutter
-/// that goes along a wall touches it.
+/// Material must be at least this far inside the cutter's side to count as under the cutter, in mm. Numbers
+/// in STL files are not more exact, and a cutter that moves along a wall touches it.
 const SIDE: f64 = 1e-6;
 
-/// A ball, bull-nose or flat end mill; its side goes up without end. mm.
+/// A ball-end, bull-nose or flat-end mill whose side goes up without end; lengths are in mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DropCutterShape {
     radius: f64,
     corner: f64,
-    /// Radius of the flat bottom, and of the circle around which the corner's circle turns.
+    /// The radius of the flat bottom. It is also the distance of the centre of the corner's circle from the
+    /// axis.
     flat: f64,
-    /// Up to here material is under the cutter, not beside it.
+    /// The distance from the axis up to which material is under the cutter and not beside it.
     reach: f64,
 }
 
-/// Why numbers make no cutter.
+/// The reason why numbers do not describe a cutter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum CutterShapeError {
-    /// The diameter is not positive, or not finite.
+    /// The diameter is not positive or not finite.
     #[error("the diameter is not a positive length")]
     Diameter,
     /// The corner radius is negative or does not fit into the diameter.
@@ -27,10 +29,12 @@ pub enum CutterShapeError {
 }
 
 impl DropCutterShape {
-    /// A cutter from its diameter and corner radius: 0 is a flat end, half the diameter a ball.
+    /// Makes a cutter from its diameter and corner radius in mm. A corner radius of 0 is a flat end, half the
+    /// diameter a ball.
     ///
     /// # Errors
-    /// When the diameter is not positive, or the corner radius negative or more than half of it.
+    /// Returns an error if the diameter is not positive, or if the corner radius is negative or more than
+    /// half of it.
     pub fn new(diameter: f64, corner_radius: f64) -> Result<Self, CutterShapeError> {
         if !(diameter > 0.0 && diameter.is_finite()) {
             return Err(CutterShapeError::Diameter);
@@ -43,59 +47,61 @@ impl DropCutterShape {
         Ok(Self { radius, corner: corner_radius, flat: radius - corner_radius, reach })
     }
 
-    /// A ball end.
+    /// Makes a ball-end mill.
     ///
     /// # Errors
-    /// When the diameter is not positive.
+    /// Returns an error if the diameter is not positive.
     pub fn ball(diameter: f64) -> Result<Self, CutterShapeError> {
         Self::new(diameter, diameter / 2.0)
     }
 
-    /// A flat end with sharp corners.
+    /// Makes a flat-end mill with a sharp edge.
     ///
     /// # Errors
-    /// When the diameter is not positive.
+    /// Returns an error if the diameter is not positive.
     pub fn flat(diameter: f64) -> Result<Self, CutterShapeError> {
         Self::new(diameter, 0.0)
     }
 
-    /// Half the diameter.
+    /// Returns half the diameter.
     pub fn radius_mm(&self) -> f64 {
         self.radius
     }
 
-    /// Radius of the corner: 0 of a flat end, [`DropCutterShape::radius_mm`] of a ball.
+    /// Returns the corner radius: 0 for a flat end, [`DropCutterShape::radius_mm`] for a ball.
     pub fn corner_radius_mm(&self) -> f64 {
         self.corner
     }
 
-    /// Radius of the flat part of the bottom: 0 of a ball.
+    /// Returns the radius of the flat part of the bottom: 0 for a ball.
     pub fn flat_radius_mm(&self) -> f64 {
         self.flat
     }
 
-    /// Height of the bottom above the tip at a distance from the axis, for `r` up to the radius.
+    /// Returns the height of the bottom above the tip at a distance from the axis, for `r` up to the radius,
+    /// mm.
     pub fn height_at(&self, r: f64) -> f64 {
         let across = r - self.flat;
         if across <= 0.0 {
             return 0.0;
         }
-        // Beyond the radius only by rounding.
+        // Only rounding can make this negative.
         self.corner - (self.corner * self.corner - across * across).max(0.0).sqrt()
     }
 
-    /// Largest distance from the axis at which material is under the cutter.
+    /// Returns the largest distance from the axis at which material is under the cutter.
     pub(super) fn reach_mm(&self) -> f64 {
         self.reach
     }
 
-    /// Sine of the angle between the axis and the cutter's normal at a distance from the axis; 0 on a flat end up to its edge.
+    /// Returns the sine of the angle between the axis and the cutter's normal at a distance from the axis. It
+    /// is 0 on a flat end up to its edge.
     pub(super) fn lean_sine(&self, r: f64) -> f64 {
         if r <= self.flat || self.corner <= 0.0 { 0.0 } else { ((r - self.flat) / self.corner).min(1.0) }
     }
 
-    /// Height of the bottom above the tip at a distance from the axis less than the radius, and its rise outwards there, divided by
-    /// that distance.
+    /// Returns the height of the bottom above the tip at a distance from the axis below the radius, and the
+    /// outward slope of the bottom there, divided by that distance.
     #[inline]
     pub(super) fn tangent_at(&self, r: f64) -> (f64, f64) {
         let across = r - self.flat;
@@ -106,12 +112,13 @@ impl DropCutterShape {
         (self.corner - up, across / (up * r))
     }
 
-    /// Where a plane that rises by `slope` in its steepest direction touches: how far from the axis, uphill.
+    /// Returns the distance from the axis, uphill, at which a plane touches the cutter whose steepest slope
+    /// is `slope`.
     pub(super) fn plane_contact_radius(&self, slope: f64) -> f64 {
         if slope <= 0.0 {
             return 0.0;
         }
-        // With the slope below the line, so that one without bound gives a sine of 1.
+        // The sine of the slope's angle, written so that an infinite slope gives 1.
         (self.flat + self.corner / (1.0 + 1.0 / (slope * slope)).sqrt()).min(self.reach)
     }
 }

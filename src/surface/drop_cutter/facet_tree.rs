@@ -1,45 +1,48 @@
-//! Facets in a binary tree in which every node knows how high a cutter can stand on it at most.
+//! This module holds facets in a binary tree in which every node has an upper bound for the height of a
+//! cutter on it.
 //!
-//! A node has its box from above, and a plane that nothing in it is above. The bottom of a cutter is convex, so it is above its tangent
-//! plane at any of its points. Upper plane minus tangent plane, at the box's highest corner, is therefore a bound on the tip's
-//! height. Where the two are nearly parallel, which is where contacts are, it is as good as second order: few nodes beside those of
-//! the contact are looked at.
+//! A node has a box seen from above, and a plane that nothing in the node exceeds. The bottom of a cutter is
+//! convex, so it is above its tangent plane at any of its points. The upper plane minus a tangent plane, at
+//! the highest corner of the box, is therefore a bound of the tip's height. Where the two planes are nearly
+//! parallel, as at contacts, the error of the bound is of second order. So few nodes besides those of the
+//! contact are examined.
 
 use super::cutter_shape::DropCutterShape;
 use super::facet_contact::Facet;
 use std::ops::Range;
 
-/// Facets of a leaf at most.
+/// The most facets of a leaf.
 const LEAF: usize = 3;
 
-/// Planes of nodes are no steeper: one sharp edge must not tilt a plane over a whole box.
+/// The steepest plane of a node. One sharp edge must not tilt the plane over a whole box.
 const STEEPEST: f64 = 4.0;
 
-/// Sine of the lean at which tangent planes are laid at most: upright at the radius they would say nothing.
+/// The largest sine of the angle at which a tangent plane of the cutter is used. A vertical tangent plane at
+/// the radius would give no bound.
 const LEAN: f64 = 0.98;
 
-/// A node of the tree, the box around it, and the plane above it.
+/// A node of the tree, with the box around it and the plane above it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FacetTreeNode {
     middle: [f64; 2],
     half: [f64; 2],
     slope: [f64; 2],
-    /// Height of the plane over the box's middle.
+    /// The height of the plane over the middle of the box.
     top: f64,
-    /// The first of two children beside each other, or the first facet.
+    /// The index of the first of two neighbouring children, or of the first facet.
     next: u32,
-    /// Facets of a leaf; 0 of other nodes.
+    /// The number of facets of a leaf; 0 for other nodes.
     facets: u32,
 }
 
-/// What is below a node, by number.
+/// The children of a node, by index.
 pub(super) enum NodeChildren {
     Nodes(usize, usize),
     Facets(Range<usize>),
 }
 
 impl FacetTreeNode {
-    /// What is below this node.
+    /// Returns the children of this node.
     pub(super) fn children(&self) -> NodeChildren {
         let next = self.next as usize;
         match self.facets {
@@ -48,7 +51,8 @@ impl FacetTreeNode {
         }
     }
 
-    /// The tip's height over anything in this node is no more; minus infinity where nothing of it is under the cutter.
+    /// Returns an upper bound of the tip's height over everything in this node, or minus infinity if nothing
+    /// of it is under the cutter.
     #[inline]
     pub(super) fn tip_height_bound(&self, cutter: &DropCutterShape, [x, y]: [f64; 2]) -> f64 {
         let [dx, dy] = [self.middle[0] - x, self.middle[1] - y];
@@ -59,6 +63,8 @@ impl FacetTreeNode {
         let r = (dx * dx + dy * dy).sqrt();
         let (corner, across) = (cutter.corner_radius_mm(), r - cutter.flat_radius_mm());
         let (mut top, mut tilt) = (self.top, 0.0);
+        // The tangent plane of the cutter's corner at the box's middle, or at the steepest angle that is
+        // used.
         if across > 0.0 && corner > 0.0 {
             let sine = (across / corner).min(LEAN);
             let cosine = (1.0 - sine * sine).sqrt();
@@ -66,12 +72,13 @@ impl FacetTreeNode {
             top -= corner * (1.0 - cosine) + rise * (across - corner * sine);
             tilt = rise / r;
         }
+        // The difference of the two planes is linear, so its maximum over the box is at a corner.
         top + (self.slope[0] - tilt * dx).abs() * self.half[0]
             + (self.slope[1] - tilt * dy).abs() * self.half[1]
     }
 }
 
-/// Sorts facets into leaves and makes the tree above them, the root first.
+/// Sorts facets into leaves and builds the tree above them, with the root first.
 pub(super) fn build_tree(facets: &mut [Facet]) -> Vec<FacetTreeNode> {
     let mut nodes = Vec::with_capacity(facets.len());
     if !facets.is_empty() {
@@ -81,7 +88,8 @@ pub(super) fn build_tree(facets: &mut [Facet]) -> Vec<FacetTreeNode> {
     nodes
 }
 
-/// Puts what is below a node behind all others: children beside each other, for they are looked at together.
+/// Adds the nodes below a node. The two children of a node are neighbours, because they are examined
+/// together.
 fn grow_tree(facets: &mut [Facet], first: usize, own: usize, nodes: &mut Vec<FacetTreeNode>) {
     let (count, next) = (facets.len(), nodes.len());
     let Some(parent) = nodes.get_mut(own) else { return };
@@ -99,12 +107,13 @@ fn grow_tree(facets: &mut [Facet], first: usize, own: usize, nodes: &mut Vec<Fac
     grow_tree(right, first + half, next + 1, nodes);
 }
 
-/// Three times a facet's middle along an axis.
+/// Returns three times the centre of a facet along an axis.
 fn tripled_center(facet: &Facet, axis: usize) -> f64 {
     facet.corners.iter().filter_map(|corner| corner.get(axis)).sum()
 }
 
-/// The axis along which facets are farthest apart; also z, so that a bottom parts from its top.
+/// Returns the axis along which the facets are furthest apart. This includes z, so that the bottom of a part
+/// is separated from its top.
 fn widest_axis(facets: &[Facet]) -> usize {
     let width = |axis: usize| {
         let (low, high) =
@@ -122,6 +131,7 @@ fn widest_axis(facets: &[Facet]) -> usize {
     }
 }
 
+/// Makes a node around some facets: the box, and a level or a tilted plane above them.
 fn bounding_node(facets: &[Facet]) -> FacetTreeNode {
     let corners = || facets.iter().flat_map(|facet| facet.corners);
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
@@ -141,7 +151,7 @@ fn bounding_node(facets: &[Facet]) -> FacetTreeNode {
     let middle = [f64::midpoint(low[0], high[0]), f64::midpoint(low[1], high[1])];
     let half = [(high[0] - low[0]) / 2.0, (high[1] - low[1]) / 2.0];
     let level = FacetTreeNode { middle, half, slope: [0.0; 2], top: highest, next: 0, facets: 0 };
-    // The mean slope of what is seen from above, when that makes the plane lower at its highest corner.
+    // The tilted plane has the mean slope of the facets, weighted by their areas seen from above.
     let mean = turn.map(|turn| turn / area);
     let steep = mean[0].hypot(mean[1]);
     if !(steep > 0.0 && steep < f64::INFINITY) {
@@ -151,7 +161,8 @@ fn bounding_node(facets: &[Facet]) -> FacetTreeNode {
     let above = |[x, y, z]: [f64; 3]| z - slope[0] * (x - middle[0]) - slope[1] * (y - middle[1]);
     let top = corners().map(above).fold(f64::NEG_INFINITY, f64::max);
     let reach = top + slope[0].abs() * half[0] + slope[1].abs() * half[1];
-    // A tilted plane may stand a little above the highest corner and still be the better one where the cutter leans alike.
+    // A tilted plane may be a little higher than the highest vertex and still give the better bound where the
+    // cutter has the same slope.
     let depth = half[0].max(half[1]) * steep.min(STEEPEST);
     if reach <= highest + depth { FacetTreeNode { slope, top, ..level } } else { level }
 }

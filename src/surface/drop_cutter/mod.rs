@@ -1,9 +1,11 @@
-//! Cutters lowered onto a mesh: the height at which the tip first touches.
+//! This module lowers cutters onto a mesh: it finds the height at which the tip first touches.
 //!
-//! A cutter at (x, y) touches at the point of the mesh where `z - h(r)` is largest: `r` is the point's distance from the axis and
-//! `h` the height of the cutter's bottom above its tip there ([`DropCutterShape::height_at`]). Over a facet or an edge that is a concave
-//! function, so its largest value is in closed form inside, or at the border: on facets, then edges, then vertices. Triangles
-//! count whichever way they face: in a closed mesh one that faces down always lies under one that faces up.
+//! A cutter at (x, y) touches the point of the mesh where `z - h(r)` is largest. Here `r` is the point's
+//! distance from the axis, and `h` is the height of the cutter's bottom above its tip there
+//! ([`DropCutterShape::height_at`]). Over a facet or an edge this is a concave function. So its maximum has a
+//! closed form in the interior, or is on the boundary: facets come first, then edges, then vertices.
+//! Triangles count whichever direction they face: in a closed mesh a triangle that faces down is always below
+//! one that faces up.
 
 mod ball_clearance;
 mod cutter_shape;
@@ -23,29 +25,30 @@ use crate::sim::Mesh;
 use facet_contact::{Facet, HighestTouch};
 use facet_tree::{FacetTreeNode, NodeChildren};
 
-/// A cutter and a mesh, sorted so that a height takes microseconds.
+/// A cutter and a mesh that is sorted so that a height takes microseconds.
 #[derive(Debug, Clone)]
 pub struct DropCutter {
     cutter: DropCutterShape,
-    /// A leaf's facets stand together.
+    /// The facets; those of one leaf are together.
     facets: Vec<Facet>,
-    /// The first is the root.
+    /// The nodes of the tree; the first one is the root.
     nodes: Vec<FacetTreeNode>,
 }
 
-/// Where a lowered cutter stands.
+/// The position of a lowered cutter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DropPosition {
-    /// Height of the cutter's tip, mm.
+    /// The height of the cutter's tip, mm.
     pub tip_z: f64,
-    /// The point of the mesh that it touches, mm; one of them where there are several.
+    /// The point of the mesh that it touches, mm; if there are several, one of them.
     pub contact: [f64; 3],
-    /// Unit normal there, out of the material and never downwards: a facet's own, at an edge or vertex the cutter's.
+    /// The unit normal there, which points out of the material and never downwards. On a facet it is the
+    /// facet's normal, at an edge or vertex the cutter's.
     pub normal: [f64; 3],
 }
 
 impl DropCutter {
-    /// Sorts a mesh's triangles for a cutter. Takes n log n time, and some 200 bytes a triangle.
+    /// Sorts a mesh's triangles for a cutter. For n triangles this takes n log n time and about 200 n bytes.
     pub fn new(mesh: &Mesh, cutter: DropCutterShape) -> Self {
         let mut facets: Vec<Facet> =
             mesh.triangle_vertices().map(|corners| Facet::new(corners, &cutter)).collect();
@@ -53,16 +56,17 @@ impl DropCutter {
         Self { cutter, facets, nodes }
     }
 
-    /// The cutter.
+    /// Returns the cutter.
     pub fn cutter(&self) -> DropCutterShape {
         self.cutter
     }
 
-    /// The lowest height of the tip over (x, y), mm, at which no part of the mesh is inside the cutter (which goes on upwards
-    /// without end). None where no triangle lies under the cutter; material that only its side touches, less than 1e-6 mm from the
-    /// radius, is not under it, so a cutter may go along a wall.
+    /// Returns the lowest height of the tip over (x, y), mm, at which no part of the mesh is inside the
+    /// cutter, which extends upwards without end. Returns `None` if no triangle is under the cutter. Material
+    /// that only the side touches, less than 1e-6 mm inside the radius, is not under the cutter, so a cutter
+    /// may move along a wall.
     ///
-    /// Exact to 1e-9 mm along the surface's normal for coordinates of some metres.
+    /// The result is exact to 1e-9 mm along the surface's normal for coordinates of some metres.
     pub fn drop_at(&self, x: f64, y: f64) -> Option<DropPosition> {
         let mut best = HighestTouch::NONE;
         let root = self.nodes.first()?;
@@ -76,7 +80,8 @@ impl DropCutter {
         })
     }
 
-    /// Looks at everything below a node that can be higher than the best so far, the more promising child first.
+    /// Examines everything below a node that can be higher than the highest touch so far. The child with the
+    /// higher bound comes first.
     fn lower_onto_node(&self, at: usize, place: [f64; 2], best: &mut HighestTouch) {
         let Some(node) = self.nodes.get(at) else { return };
         let (first, second) = match node.children() {

@@ -1,8 +1,10 @@
-//! An independent look at a path over a mesh: how deep it cuts into it, and how far above it stays.
+//! This module checks a path over a mesh independently: how deep it cuts into the mesh, and how far above it
+//! stays.
 //!
-//! Nothing here knows contacts. The cutter is a solid with a signed distance, and the mesh a set of points. The distance is a convex
-//! function that changes by no more than one moves, so a triangle is divided until no part of it can be nearer than the nearest point
-//! seen so far, less an allowed error; and so is the error between places looked at along the path known.
+//! It does not use contact points. The cutter is a solid with a signed distance, and the mesh is a set of
+//! points. The distance is convex and changes by at most the displacement. So a triangle is subdivided until
+//! no part of it can be nearer than the nearest point known so far, minus an allowed error. The error between
+//! the samples along the path is also known.
 
 use super::DropCutterShape;
 use super::triangle_columns::TriangleColumns;
@@ -11,23 +13,24 @@ use nalgebra::Vector3;
 
 type Triangle = [Vector3<f64>; 3];
 
-/// How a path lies over a mesh.
+/// The deviation of a path from a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathDeviation {
-    /// How deep the mesh reaches into the cutter's solid at most, mm; 0 when it never does.
+    /// The largest depth of the mesh in the cutter's solid, mm; 0 if it never enters it.
     pub gouge: f64,
-    /// The tip where that is.
+    /// The tip at which this is so.
     pub gouge_at: [f64; 3],
     /// The largest distance between the cutter and the mesh along the path, mm, up to the cutter's radius.
     pub gap: f64,
-    /// The tip where that is.
+    /// The tip at which this is so.
     pub gap_at: [f64; 3],
-    /// How much larger either can be in truth, mm: between the places looked at.
+    /// By how much either value may be larger in truth, mm, because of the distance of samples.
     pub error: f64,
 }
 
-/// Gouges and gaps of a cutter whose tip goes along a path of straight lines, as distances in space: an independent check that takes its
-/// time. `resolution` (mm, at least 1e-6) is the allowed error. None for a path without points, or with one that is not finite.
+/// Measures gouge and gap of a cutter whose tip moves along a path of straight lines, as distances in space.
+/// This is an independent check that takes time. `resolution` (mm, at least 1e-6) is the allowed error.
+/// Returns `None` for a path without points or with a number that is not finite.
 pub fn measure_deviation(
     mesh: &Mesh,
     cutter: DropCutterShape,
@@ -48,7 +51,7 @@ pub fn measure_deviation(
         let mut index = 1.0;
         while index <= count {
             let tip: [f64; 3] = from.lerp(&to, index / count).into();
-            // No farther than before, plus the way.
+            // The distance cannot grow by more than the travel since the sample before.
             let most = (distance + length / count + resolution).min(cutter.radius_mm());
             distance = field.distance_to_cutter(&cutter, tip, most, error);
             if distance < low {
@@ -69,8 +72,9 @@ pub fn measure_deviation(
     })
 }
 
-/// Signed distance of a point from the cutter's solid, negative inside, and its gradient. The solid is an upright cylinder of the flat's
-/// radius that begins a corner radius above the tip, made larger by the corner radius on all sides.
+/// Returns the signed distance of a point from the cutter's solid, negative inside, and its gradient. The
+/// solid is a vertical cylinder with the radius of the flat that begins one corner radius above the tip,
+/// enlarged by the corner radius on all sides.
 fn signed_distance(cutter: &DropCutterShape, from_tip: Vector3<f64>) -> (f64, Vector3<f64>) {
     let corner = cutter.corner_radius_mm();
     let r = from_tip.x.hypot(from_tip.y);
@@ -83,7 +87,7 @@ fn signed_distance(cutter: &DropCutterShape, from_tip: Vector3<f64>) -> (f64, Ve
     if beside > below { (beside - corner, out) } else { (below - corner, -Vector3::z()) }
 }
 
-/// A mesh's triangles, and by columns which of them are where.
+/// A mesh's triangles, with columns that list the triangles in them.
 struct TriangleField {
     columns: TriangleColumns,
     triangles: Vec<Triangle>,
@@ -95,7 +99,8 @@ impl TriangleField {
         Self { columns: TriangleColumns::new(mesh, cutter.radius_mm()), triangles }
     }
 
-    /// The least signed distance of the mesh from a cutter, `most` where it is more; at most `error` too large.
+    /// Returns the least signed distance of the mesh from a cutter, or `most` if it is more. It is at most
+    /// `error` too large.
     fn distance_to_cutter(&self, cutter: &DropCutterShape, tip: [f64; 3], most: f64, error: f64) -> f64 {
         let [x, y, z] = tip;
         let reach = cutter.radius_mm() + most.max(0.0);
@@ -112,13 +117,16 @@ impl TriangleField {
     }
 }
 
-/// Lowers the least distance to that of a triangle, divided as long as a part may be nearer.
+/// Lowers the least distance to that of a triangle. The triangle is subdivided as long as a part may be
+/// nearer.
 fn lower_least_distance(cutter: &DropCutterShape, triangle: Triangle, error: f64, least: &mut f64) {
     let (whole, distance) = TrianglePart::new(cutter, triangle);
     *least = least.min(distance);
     subdivide_triangle(cutter, &whole, error, least);
 }
 
+/// Subdivides a part of a triangle in four as long as it may be nearer than the least distance minus the
+/// error.
 fn subdivide_triangle(cutter: &DropCutterShape, part: &TrianglePart, error: f64, least: &mut f64) {
     if part.nearest >= *least - error || part.size <= error {
         return;
@@ -130,7 +138,7 @@ fn subdivide_triangle(cutter: &DropCutterShape, part: &TrianglePart, error: f64,
         *least = least.min(distance);
         part
     });
-    // The more promising first.
+    // The part with the lowest bound is examined first.
     parts.sort_unstable_by(|one, other| one.nearest.total_cmp(&other.nearest));
     for part in &parts {
         subdivide_triangle(cutter, part, error, least);
@@ -140,14 +148,14 @@ fn subdivide_triangle(cutter: &DropCutterShape, part: &TrianglePart, error: f64,
 /// A part of a triangle, relative to the tip.
 struct TrianglePart {
     corners: Triangle,
-    /// Nothing of it is nearer.
+    /// A lower bound of its distance.
     nearest: f64,
-    /// From its middle to the farthest corner.
+    /// The distance from its middle to the furthest vertex.
     size: f64,
 }
 
 impl TrianglePart {
-    /// With the distance of its middle.
+    /// Makes a part; also returns the distance of its middle.
     fn new(cutter: &DropCutterShape, corners: Triangle) -> (Self, f64) {
         let [a, b, c] = corners;
         let middle = (a + b + c) / 3.0;
@@ -156,8 +164,9 @@ impl TrianglePart {
         let out = if r > 0.0 { Vector3::new(middle.x / r, middle.y / r, 0.0) } else { Vector3::zeros() };
         let sides = corners.map(|corner| corner - middle);
         let least = |along: Vector3<f64>| sides.iter().map(|side| along.dot(side)).fold(0.0, f64::min);
-        // Convex functions lie above their tangent planes, and the distance is no less than that from the level below the tip and from
-        // the endless cylinder: those are what holds where a flat end's edge lets the gradient jump.
+        // A convex function is above its tangent planes. The distance is also not less than that from the
+        // plane at the tip's height and from the endless cylinder; these two bounds hold where the gradient
+        // jumps at the edge of a flat end.
         let nearest = (distance + least(gradient))
             .max(least(-Vector3::z()) - middle.z)
             .max(r - cutter.radius_mm() + least(out));

@@ -1,50 +1,56 @@
-//! Paths of a cutter that goes over the mesh along lines given from above.
+//! This module computes the path of a cutter that follows a mesh along lines given in the view from above.
 //!
-//! Heights are sampled along the path. A straight chord between two places where the cutter stands free leaves every point of the mesh
-//! free but for what lies between the samples. A point that is outside the cutter at both ends, a distance `L` apart, is no deeper
-//! in it on the way than
+//! Heights are sampled along the path. Let a straight chord connect two positions at which no point of the
+//! mesh is inside the cutter. Then a point is inside the cutter on the chord only if it is between the
+//! samples. A point that is outside at both ends of a chord of length `L` is at most this deep inside on the
+//! way:
 //!
-//! - `c - sqrt(c^2 - L^2/4)` with a corner radius `c >= L/2`: what touches the cutter is a ball of radius `c`, seen from the point,
-//! - `L/2` with a smaller one, for a move of `L/2` gets out of it,
-//! - with a flat end, going `a` across and `h` up, the greater of `R - sqrt(R^2 - a^2/4)` (it grazes the side) and
-//!   `a h / (a + h)` (it passes below the one end and beside the other).
+//! - with a corner radius `c >= L/2`: `c - sqrt(c^2 - L^2/4)`, since relative to the point the part of the
+//!   cutter that can reach it contains a ball of radius `c`;
+//! - with a smaller corner radius: `L/2`, since a move of `L/2` leaves the cutter;
+//! - with a flat end and a chord that goes `a` across and `h` up: the larger of `R - sqrt(R^2 - a^2/4)` (the
+//!   side grazes the point) and `a h / (a + h)` (the edge passes below it at one end and beside it at the
+//!   other).
 //!
-//! Chords are halved until this is a quarter of the tolerance and heights half-way and at the quarters are as near to them. So no
-//! needle between samples is cut into, however thin. Valleys between two samples may be passed over when they are narrower
-//! than the largest step; the cutter then stays above.
+//! Chords are bisected until this depth is at most a quarter of the tolerance, and until the heights at the
+//! middle and at the quarters are within a quarter of the tolerance of them. So even a needle between two
+//! samples is not cut into, however thin it is. Valleys between two samples may be missed if they are
+//! narrower than the largest step; the cutter then stays above them.
 
 use super::{DropCutter, DropPosition, simplify};
 
-/// The finest tolerance, mm: what is asked for below it is taken as this.
+/// The finest tolerance, mm; a smaller one is replaced by it.
 const FINEST: f64 = 1e-6;
 
-/// A place of the path, the length along its leg, and the tip's height there.
+/// A sample of the path: the length along its leg, and the height of the tip there.
 #[derive(Debug, Clone, Copy)]
 struct DropSample {
     along: f64,
     tip: Option<f64>,
 }
 
-/// A straight leg of the path and how it is sampled.
+/// A straight leg of the path, and the way in which it is sampled.
 struct DropLeg<'a> {
     cutter: &'a DropCutter,
     from: [f64; 2],
     to: [f64; 2],
     length: f64,
     tolerance: f64,
-    /// Chords this short are not halved, mm.
+    /// Chords that are at most this long are not bisected, mm.
     shortest: f64,
 }
 
 impl DropCutter {
-    /// The tip's path over the mesh along a line of (x, y), as chords: points (x, y, tip z), mm, a list for each stretch that has
-    /// triangles under the cutter.
+    /// Returns the tip's path over the mesh along a line of (x, y), as chords: lists of points (x, y, tip z)
+    /// in mm, one list for each part with triangles under the cutter.
     ///
-    /// Chords are as long as `tolerance` (mm, at least 1e-6) lets them be: heights at samples, which are no farther apart than
-    /// [`DropCutter::largest_step_mm`], are met to half of it, and what lies between samples is not cut into deeper than a quarter of it,
-    /// measured along its normal. Where the height jumps, at upright walls, the path goes straight up or down beside the wall, off
-    /// by no more than the tolerance. Ends at the mesh's border are found to that as well. Points of the line stay points of the path.
-    /// Legs of no or endless length are left out, and stretches with material may be when they are shorter than two largest steps.
+    /// Chords are as long as `tolerance` (mm, at least 1e-6) allows. The heights at samples, which are at
+    /// most [`DropCutter::largest_step_mm`] apart, are met to half of it. Material between samples is cut
+    /// into by at most a quarter of it, measured along its normal. Where the height jumps, at vertical walls,
+    /// the path goes straight up or down beside the wall, with an error of at most the tolerance. The ends at
+    /// the mesh's boundary are found with the same error. Points of the line stay points of the path. Legs
+    /// without length or with infinite length are left out. Parts with material may be missed if they are
+    /// shorter than two of the largest steps.
     pub fn follow_line(&self, line: &[[f64; 2]], tolerance: f64) -> Vec<Vec<[f64; 3]>> {
         let tolerance = tolerance.max(FINEST);
         let mut runs: Vec<Vec<[f64; 3]>> = Vec::new();
@@ -56,7 +62,7 @@ impl DropCutter {
         for leg in legs {
             let samples = leg.sample_leg(self.largest_step_mm(tolerance));
             for (index, run) in leg.simplify_runs(&samples).into_iter().enumerate() {
-                // Only a leg's first stretch can go on from the leg before.
+                // Only the first part of a leg can continue the leg before.
                 let goes_on = index == 0 && open.last().zip(run.first()).is_some_and(|(a, b)| a == b);
                 if !goes_on {
                     runs.push(std::mem::take(&mut open));
@@ -69,20 +75,25 @@ impl DropCutter {
         runs
     }
 
-    /// The largest distance between samples from above, mm, for a tolerance: a quarter of the radius, or so little that a ball of the
-    /// corner's radius (of the cutter's, with a flat end) is passed with a quarter of the tolerance.
+    /// Returns the largest distance between samples in the view from above, mm, for a tolerance. It is a
+    /// quarter of the radius, or less if a ball with the corner radius (with a flat end, the cutter's radius)
+    /// would otherwise be off by more than a quarter of the tolerance.
     pub fn largest_step_mm(&self, tolerance: f64) -> f64 {
         let corner = self.cutter().corner_radius_mm();
         let round = if corner > 0.0 { corner } else { self.cutter().radius_mm() };
+        // The sagitta of a chord s on radius R is about s^2 / (8 R); it equals tolerance / 4 at s = sqrt(2 R
+        // tolerance).
         let step = (2.0 * round * tolerance.max(FINEST)).sqrt();
         step.min(self.cutter().radius_mm() / 4.0)
     }
 
-    /// How deep a point that is free at both ends of a chord can be in the cutter on the way; `across` and `up` are the chord's.
+    /// Returns how deep a point that is outside the cutter at both ends of a chord can be inside it between
+    /// them, mm. `across` and `up` are the chord's lengths.
     fn max_depth_between(&self, across: f64, up: f64) -> f64 {
         let cutter = self.cutter();
         let sagitta = |radius: f64, chord: f64| {
             let half = chord / 2.0;
+            // R - sqrt(R^2 - h^2), written so that nothing cancels.
             if half < radius { half * half / (radius + (radius * radius - half * half).sqrt()) } else { half }
         };
         let corner = cutter.corner_radius_mm();
@@ -125,7 +136,7 @@ impl<'a> DropLeg<'a> {
     }
 
     fn sample_leg(&self, step: f64) -> Vec<DropSample> {
-        // Four parts each, if nothing asks for more.
+        // A part is refined into four samples at least, so the parts may be four steps long.
         let count = (self.length / (4.0 * step)).ceil().max(1.0);
         let mut last = self.sample_at(0.0);
         let mut samples = vec![last];
@@ -140,7 +151,7 @@ impl<'a> DropLeg<'a> {
         samples
     }
 
-    /// Adds samples behind `from` up to `to`, so that chords between neighbours are good.
+    /// Adds the samples after `from` up to `to`, so that all chords between neighbours are good enough.
     fn refine_samples(&self, from: DropSample, to: DropSample, samples: &mut Vec<DropSample>) {
         let across = to.along - from.along;
         let middle = f64::midpoint(from.along, to.along);
@@ -169,7 +180,7 @@ impl<'a> DropLeg<'a> {
         self.refine_samples(half, to, samples);
     }
 
-    /// Whether the height half-way is a quarter of the tolerance from the chord's.
+    /// Returns whether the height at the middle is within a quarter of the tolerance of the chord.
     fn is_straight(&self, from: DropSample, half: DropSample, to: DropSample) -> bool {
         match (from.tip, half.tip, to.tip) {
             (Some(a), Some(z), Some(b)) => (z - f64::midpoint(a, b)).abs() <= self.tolerance / 4.0,
@@ -177,7 +188,8 @@ impl<'a> DropLeg<'a> {
         }
     }
 
-    /// Whether what lies between two samples cannot be cut into deeper than a quarter of the tolerance.
+    /// Returns whether material between two samples cannot be cut into by more than a quarter of the
+    /// tolerance.
     fn is_gouge_free(&self, from: DropSample, to: DropSample) -> bool {
         match (from.tip, to.tip) {
             (Some(a), Some(b)) => {
@@ -187,7 +199,7 @@ impl<'a> DropLeg<'a> {
         }
     }
 
-    /// Stretches with heights, with few points.
+    /// Returns the parts with heights, reduced to few points.
     fn simplify_runs(&self, samples: &[DropSample]) -> Vec<Vec<[f64; 3]>> {
         let mut runs = Vec::new();
         for stretch in samples.chunk_by(|a, b| a.tip.is_some() == b.tip.is_some()) {
@@ -207,13 +219,14 @@ impl<'a> DropLeg<'a> {
         runs
     }
 
-    /// Jumps as steps: beside the wall on its lower side, and over at the upper height.
+    /// Replaces jumps by vertical steps beside the wall: a step up is at the position before the wall, a step
+    /// down at the position behind it.
     fn insert_steps(&self, heights: &[[f64; 2]]) -> Vec<[f64; 2]> {
         let mut stepped: Vec<[f64; 2]> = Vec::with_capacity(heights.len());
         for next in heights {
             if let Some(last) = stepped.last().copied() {
                 let up = next[1] - last[1];
-                // Only chords at the shortest length were left as they are.
+                // Only chords of the shortest length may still be too deep, and these are jumps.
                 if self.cutter.max_depth_between(next[0] - last[0], up) > self.tolerance / 4.0 {
                     stepped.push(if up > 0.0 { [last[0], next[1]] } else { [next[0], last[1]] });
                 }

@@ -1,7 +1,9 @@
-//! Few points instead of many: the longest chords that stay near a line of (length, height).
+//! This module reduces the points of a line of (length, height): it finds the longest chords within a
+//! tolerance.
 
-/// Keeps points so that the line through them is no farther than `tolerance` above or below any point left out. The first, the last and both
-/// ends of upright steps stay. From each point kept, the chord to the farthest point is taken that all between allow.
+/// Keeps some of the points, so that the line through them is at most `tolerance` above or below every point
+/// that is left out. The first and last point and both ends of vertical steps are kept. From each point that
+/// is kept, the chord goes to the furthest point that all points between allow.
 pub(super) fn simplify_polyline(points: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
     let mut kept = Vec::new();
     let mut rest = points;
@@ -16,14 +18,15 @@ pub(super) fn simplify_polyline(points: &[[f64; 2]], tolerance: f64) -> Vec<[f64
     kept
 }
 
-/// Which of `others` the longest chord from a point ends at; the first when there is none.
+/// Returns the index in `others` of the end of the longest chord from a point, or 0 if there is none.
 fn farthest_reachable([u0, z0]: [f64; 2], others: &[[f64; 2]], tolerance: f64) -> usize {
+    // The slopes between `least` and `most` pass all points so far within the tolerance.
     let (mut least, mut most) = (f64::NEG_INFINITY, f64::INFINITY);
     let mut reached = 0;
     for (index, [u, z]) in others.iter().enumerate() {
         let across = u - u0;
         if across <= 0.0 {
-            // An upright step ends the chord, and is one of its own when it starts here.
+            // A vertical step ends the chord; it is a chord of its own if it starts here.
             return reached;
         }
         let slope = (z - z0) / across;
@@ -35,7 +38,7 @@ fn farthest_reachable([u0, z0]: [f64; 2], others: &[[f64; 2]], tolerance: f64) -
         if least > most {
             break;
         }
-        // A step beside the next point: what is before it must be met.
+        // Before a step, the chord must meet the point beside the step.
         if others.get(index + 1).is_some_and(|[next, _]| next <= u) {
             break;
         }

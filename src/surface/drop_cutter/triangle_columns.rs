@@ -1,11 +1,11 @@
-//! Where triangles are, seen from above: square columns, each with those that have part in it.
+//! This module sorts triangles into square columns in the view from above.
 
 use crate::sim::Mesh;
 
-/// More columns than this along a side are not made.
+/// The most columns along a side.
 const MOST_COLUMNS: f64 = 1000.0;
 
-/// A mesh's triangles by columns of half a cutter's radius.
+/// A mesh's triangles in columns whose side is half a cutter's radius.
 #[derive(Debug, Clone)]
 pub(super) struct TriangleColumns {
     origin: [f64; 2],
@@ -34,16 +34,17 @@ impl TriangleColumns {
         all
     }
 
-    /// The triangles of each column that a rectangle has part in; one that reaches over several comes more than once.
+    /// Returns the triangles of each column that a rectangle touches. A triangle in several columns is
+    /// returned several times.
     pub fn columns_within(&self, low: [f64; 2], high: [f64; 2]) -> impl Iterator<Item = &[u32]> {
         self.covered_columns(low, high).filter_map(|column| self.columns.get(column)).map(Vec::as_slice)
     }
 
-    /// Numbers of the columns that a rectangle has part in.
+    /// Returns the indices of the columns that a rectangle touches.
     fn covered_columns(&self, low: [f64; 2], high: [f64; 2]) -> impl Iterator<Item = usize> + use<> {
         let range = |low: f64, high: f64, origin: f64, size: usize| {
             let [first, last] = [low, high].map(|value| ((value - origin) / self.cell).floor());
-            // Empty when it lies beside.
+            // The range is empty if the rectangle is beside the grid.
             if last < 0.0 {
                 0..0
             } else {

@@ -1,9 +1,9 @@
-//! The upper envelope of pieces of straight lines in a plane, by halves.
+//! This module computes the upper envelope of line segments in a plane by divide and conquer.
 
-/// Ends nearer than this are one, mm.
+/// Ends that are nearer to each other than this are the same point, mm.
 const SAME: f64 = 1e-9;
 
-/// A piece of a straight line from left to right; mm.
+/// A line segment from left to right; coordinates are in mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SectionSegment {
     from: [f64; 2],
@@ -11,14 +11,15 @@ pub(super) struct SectionSegment {
 }
 
 impl SectionSegment {
-    /// Between two points; none when it is upright, for then its neighbours have its upper end.
+    /// Makes the segment between two points, or `None` if it is vertical, since its neighbours then contain
+    /// its upper end.
     pub(super) fn new(a: [f64; 2], b: [f64; 2]) -> Option<Self> {
         let (from, to) = if a[0] <= b[0] { (a, b) } else { (b, a) };
         (to[0] > from[0]).then_some(Self { from, to })
     }
 
     fn height_at(&self, u: f64) -> f64 {
-        // Exact at both ends, so that pieces go on meeting.
+        // The values at both ends are exact, so that neighbouring segments keep meeting.
         if u <= self.from[0] {
             return self.from[1];
         }
@@ -28,12 +29,13 @@ impl SectionSegment {
         self.from[1] + (self.to[1] - self.from[1]) * ((u - self.from[0]) / (self.to[0] - self.from[0]))
     }
 
+    /// Returns the part between two values of u, or `None` if it has no length.
     fn sub_segment(&self, from: f64, to: f64) -> Option<Self> {
         (to > from).then(|| Self { from: [from, self.height_at(from)], to: [to, self.height_at(to)] })
     }
 }
 
-/// What is seen of the pieces from above, from left to right and beside each other.
+/// Returns the upper envelope of the segments: parts that do not overlap, from left to right.
 pub(super) fn find_upper_envelope(pieces: &[SectionSegment]) -> Vec<SectionSegment> {
     match pieces {
         [] | [_] => pieces.to_vec(),
@@ -44,7 +46,7 @@ pub(super) fn find_upper_envelope(pieces: &[SectionSegment]) -> Vec<SectionSegme
     }
 }
 
-/// The upper of two envelopes.
+/// Returns the upper envelope of two envelopes.
 fn merge_upper(one: &[SectionSegment], other: &[SectionSegment]) -> Vec<SectionSegment> {
     let mut merged: Vec<SectionSegment> = Vec::with_capacity(one.len() + other.len());
     let mut stops: Vec<f64> =
@@ -56,7 +58,8 @@ fn merge_upper(one: &[SectionSegment], other: &[SectionSegment]) -> Vec<SectionS
         let [from, to] = pair else { continue };
         while ones.next_if(|piece| piece.to[0] <= *from).is_some() {}
         while others.next_if(|piece| piece.to[0] <= *from).is_some() {}
-        // Stops lie between neighbours' ends, so a piece that has begun goes on to the next stop.
+        // `stops` contains the ends of all segments, so a segment that has begun continues at least to the
+        // next stop.
         let a = ones.peek().filter(|piece| piece.from[0] <= *from).copied();
         let b = others.peek().filter(|piece| piece.from[0] <= *from).copied();
         match (a, b) {
@@ -68,7 +71,7 @@ fn merge_upper(one: &[SectionSegment], other: &[SectionSegment]) -> Vec<SectionS
     merged
 }
 
-/// The upper of two pieces between two places.
+/// Adds the higher of two segments between two values of u.
 fn push_higher(a: &SectionSegment, b: &SectionSegment, from: f64, to: f64, merged: &mut Vec<SectionSegment>) {
     let [start, end] = [from, to].map(|u| a.height_at(u) - b.height_at(u));
     if start >= 0.0 && end >= 0.0 {
@@ -76,6 +79,7 @@ fn push_higher(a: &SectionSegment, b: &SectionSegment, from: f64, to: f64, merge
     } else if start <= 0.0 && end <= 0.0 {
         push_segment(merged, b, from, to);
     } else {
+        // The difference is linear, so its zero is found by linear interpolation.
         let cross = (from + (to - from) * (start / (start - end))).clamp(from, to);
         let (first, second) = if start > 0.0 { (a, b) } else { (b, a) };
         push_segment(merged, first, from, cross);
@@ -83,12 +87,13 @@ fn push_higher(a: &SectionSegment, b: &SectionSegment, from: f64, to: f64, merge
     }
 }
 
-/// Adds a part of a piece, and joins it to the part before where that is the same line.
+/// Adds a part of a segment, or extends the part before if both are on the same line.
 fn push_segment(merged: &mut Vec<SectionSegment>, piece: &SectionSegment, from: f64, to: f64) {
     let Some(part) = piece.sub_segment(from, to) else { return };
     if let Some(last) = merged.last_mut().filter(|last| last.to == part.from) {
         let whole = SectionSegment { from: last.from, to: part.to };
-        // What was cut only at the other envelope's stops; the sum of joined roundings stays far below any use.
+        // Parts that were only divided at the other envelope's ends are joined again. The rounding of many
+        // joins stays far below any use.
         if (whole.height_at(part.from[0]) - part.from[1]).abs() <= 1e-12 {
             *last = whole;
             return;
@@ -97,7 +102,7 @@ fn push_segment(merged: &mut Vec<SectionSegment>, piece: &SectionSegment, from: 
     merged.push(part);
 }
 
-/// Pieces as chains, parted where nothing is between them; a step is two points over each other.
+/// Joins segments to chains, which end where there is a gap. A step becomes two points above each other.
 pub(super) fn chain_segments(pieces: Vec<SectionSegment>) -> Vec<Vec<[f64; 2]>> {
     let mut chains: Vec<Vec<[f64; 2]>> = Vec::new();
     for piece in pieces {

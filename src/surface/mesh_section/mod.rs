@@ -1,37 +1,39 @@
-//! Vertical sections of a mesh: its topmost line in a plane.
+//! This module cuts a mesh by vertical planes and returns its topmost line in each plane.
 //!
-//! Corners within 1e-9 mm of the plane are counted to one of its sides, and in a second look to the other: two sections next to the
-//! plane, and the top of both is the closed solid's. So a wall in the plane has its top, whichever side the solid is on.
-//! A place where an edge goes through is computed from the edge alone and from its lower side to its upper, so neighbouring triangles meet
-//! to the last bit.
+//! Vertices within 1e-9 mm of the plane count to one side of it, and in a second pass to the other side. This
+//! gives two sections next to the plane, and the upper envelope of both is that of the closed solid. So a
+//! wall in the plane has its top in the result, whichever side the solid is on. The point where the plane
+//! meets an edge is computed from the edge alone, from its lower side to its upper side, so neighbouring
+//! triangles meet to the last bit.
 
 mod envelope;
 
 use crate::sim::Mesh;
 use envelope::SectionSegment;
 
-/// A corner this near to a plane lies in it, mm: some rounding at coordinates of metres.
+/// The distance within which a vertex is in a plane, mm. It is a few roundings at coordinates of metres.
 const IN_PLANE: f64 = 1e-9;
 
-/// Slabs at most: a bound on memory for mixed sizes of triangles.
+/// The most slabs, which bounds the memory for triangles of mixed sizes.
 const SLABS: usize = 1 << 20;
 
-/// A mesh sorted for sections by parallel planes.
+/// A mesh that is sorted for sections by parallel vertical planes.
 ///
-/// A plane holds the z direction and a direction u at `angle` from x; `offset` is its distance from the origin to the left of u:
-/// (x, y) = u (cos, sin) + offset (-sin, cos).
+/// A plane contains the z direction and a direction u at `angle` from x. `offset` is its distance from the
+/// origin to the left of u: (x, y) = u (cos, sin) + offset (-sin, cos).
 #[derive(Debug, Clone)]
 pub struct VerticalMeshSections {
     direction: [f64; 2],
     low: f64,
     width: f64,
     slabs: Vec<Vec<u32>>,
-    /// Corners as u, offset, z.
+    /// The vertices of each triangle as u, offset and z.
     triangles: Vec<[[f64; 3]; 3]>,
 }
 
 impl VerticalMeshSections {
-    /// Sorts a mesh's triangles for planes at an angle from x, radians. Takes time and memory in proportion to them.
+    /// Sorts a mesh's triangles for planes at an angle from x, radians. Time and memory grow in proportion to
+    /// their number.
     pub fn new(mesh: &Mesh, angle: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
         let turned = |[x, y, z]: [f64; 3]| [x * cos + y * sin, y * cos - x * sin, z];
@@ -42,7 +44,7 @@ impl VerticalMeshSections {
             let (from, to) = triangle_offset_range(triangle);
             (low, high, wide) = (low.min(from), high.max(to), wide + (to - from));
         }
-        // As wide as a triangle on the average, so that most are in two.
+        // A slab is as wide as a triangle on average, so that most triangles are in two slabs.
         let width = (wide / triangles.len() as f64).max((high - low) / SLABS as f64).max(IN_PLANE);
         let mut slabs = vec![Vec::new(); ((high - low) / width) as usize + 1];
         for (index, triangle) in triangles.iter().enumerate() {
@@ -56,18 +58,18 @@ impl VerticalMeshSections {
         Self { direction: [cos, sin], low, width, slabs, triangles }
     }
 
-    /// The direction of u: a unit vector in x and y.
+    /// Returns the direction of u: a unit vector in x and y.
     pub fn direction(&self) -> [f64; 2] {
         self.direction
     }
 
-    /// The point in space of a point (u, z) in the plane at an offset.
+    /// Returns the point in space of a point (u, z) in the plane at an offset.
     pub fn point_at(&self, offset: f64, [u, z]: [f64; 2]) -> [f64; 3] {
         let [cos, sin] = self.direction;
         [u * cos - offset * sin, u * sin + offset * cos, z]
     }
 
-    /// Least and largest offset of the mesh.
+    /// Returns the least and the largest offset of the mesh.
     pub fn offset_range(&self) -> (f64, f64) {
         self.triangles
             .iter()
@@ -75,11 +77,13 @@ impl VerticalMeshSections {
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (from, to)| (low.min(from), high.max(to)))
     }
 
-    /// The topmost line of the mesh in the plane at an offset, mm: chains of (u, z) with u never falling, one for each stretch with
-    /// material, in order. Steps are upright pieces. A mesh that only touches the plane with a vertex or a level edge across has none.
+    /// Returns the topmost line of the mesh in the plane at an offset, mm: chains of (u, z) whose u never
+    /// falls, one for each part with material, in order. Steps are vertical segments. A mesh that only
+    /// touches the plane with a vertex or a level edge across it has none.
     pub fn section_at(&self, offset: f64) -> Vec<Vec<[f64; 2]>> {
         let slab = (offset - self.low) / self.width;
-        // Also none when the offset is not a number. An offset a rounding beyond the last slab's end is looked for in it.
+        // The condition is also false if the offset is not a number. An offset slightly beyond the last slab
+        // belongs to it.
         if !(slab >= -1.0 && slab <= self.slabs.len() as f64 + 1.0) {
             return Vec::new();
         }
@@ -90,25 +94,27 @@ impl VerticalMeshSections {
             let before = cut_triangle(triangle, offset, |v| v >= offset - IN_PLANE);
             let behind = cut_triangle(triangle, offset, |v| v > offset + IN_PLANE);
             pieces.extend(before);
-            // The same when no corner is in the plane.
+            // Both are the same if no vertex is in the plane.
             pieces.extend(behind.filter(|_| before != behind));
         }
         envelope::chain_segments(envelope::find_upper_envelope(&pieces))
     }
 }
 
-/// The topmost line of a mesh in one vertical plane: see [`VerticalMeshSections::section_at`], which is faster for several.
+/// Returns the topmost line of a mesh in one vertical plane; see [`VerticalMeshSections::section_at`], which
+/// is faster for several planes.
 pub fn section_mesh(mesh: &Mesh, angle: f64, offset: f64) -> Vec<Vec<[f64; 2]>> {
     VerticalMeshSections::new(mesh, angle).section_at(offset)
 }
 
-/// Least and largest offset.
+/// Returns the least and the largest offset of a triangle.
 fn triangle_offset_range(triangle: &[[f64; 3]; 3]) -> (f64, f64) {
     let [a, b, c] = triangle.map(|[_, v, _]| v);
     (a.min(b).min(c), a.max(b).max(c))
 }
 
-/// The piece in which a plane cuts a triangle whose corners are beyond it or not, if there is one that is not upright.
+/// Returns the segment in which a plane cuts a triangle, if there is one that is not vertical. `beyond` says
+/// on which side of the plane an offset is.
 fn cut_triangle(
     triangle: &[[f64; 3]; 3],
     offset: f64,
@@ -122,7 +128,7 @@ fn cut_triangle(
             _ => return None,
         };
         let share = ((offset - before[1]) / (behind[1] - before[1])).clamp(0.0, 1.0);
-        // Exact at both ends.
+        // The values are exact at both ends.
         let meet = |from: f64, to: f64| if share >= 1.0 { to } else { from + (to - from) * share };
         Some([meet(before[0], behind[0]), meet(before[2], behind[2])])
     });

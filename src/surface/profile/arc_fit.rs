@@ -1,20 +1,21 @@
-//! Arcs through runs of short chords.
+//! This module fits arcs through runs of short chords.
 
 use super::chain_piece::{ArcPiece, Point};
 use super::chords::ChordVertex;
 use std::f64::consts::TAU;
 
-/// Arcs that bulge by less than so many tolerances stay chords: two chords would do.
+/// An arc whose sagitta is less than this many tolerances stays chords, since two chords would be enough.
 const WORTH: f64 = 4.0;
 
-/// Larger radii (mm) are written as chords: controls refuse or round them.
+/// Arcs with a larger radius (mm) are written as chords, because controls refuse or round them.
 const FLATTEST: f64 = 1e5;
 
-/// The longest arc from `anchor` (at or after place `at`) through the run's places within the tolerance, and the place that it
-/// reaches; `None` when it reaches no farther than a chord does (place `chord`) or is not worth it.
+/// Finds the longest arc from `anchor` (at or after vertex `at`) through the run's vertices within the
+/// tolerance. Returns the index of the vertex that it reaches, and the arc. Returns `None` if it reaches no
+/// further than a chord does (vertex `chord`) or is too flat to be worth it.
 ///
-/// The reach is doubled and then halved, each time with the circle through both ends and the place in the middle; all
-/// places and the middles between them are looked at, so the whole costs O(n log n).
+/// The reach is doubled and then bisected, each time with the circle through both ends and the vertex in the
+/// middle. All vertices and the midpoints between them are tested, so the cost is O(n log n).
 pub(super) fn fit_longest_arc(
     run: &[ChordVertex],
     at: usize,
@@ -30,7 +31,7 @@ pub(super) fn fit_longest_arc(
         .find(|(_, place)| place.is_corner())
         .map_or(last, |(index, _)| index);
     let fit = |end: usize| fit_arc(run, at, anchor, end, tolerance);
-    // A chord's reach holds no arc of worth; the first look is at twice as far.
+    // No arc worth it fits within a chord's reach, so the first trial goes twice as far.
     let mut good: Option<(usize, ArcPiece)> = None;
     let mut reach = (2 * (chord.max(at + 1) - at)).max(4);
     let mut bad = bound + 1;
@@ -60,7 +61,7 @@ pub(super) fn fit_longest_arc(
     (low > chord && best.sagitta_mm() >= WORTH * tolerance).then_some((low, best))
 }
 
-/// The arc from `anchor` to place `end`, when it stays within the tolerance of all between.
+/// Returns the arc from `anchor` to vertex `end` if it stays within the tolerance of all points between.
 fn fit_arc(run: &[ChordVertex], at: usize, anchor: Point, end: usize, tolerance: f64) -> Option<ArcPiece> {
     let places = run.get(at + 1..=end)?;
     let middle = places.get(places.len() / 2)?.point;
@@ -76,7 +77,7 @@ fn fit_arc(run: &[ChordVertex], at: usize, anchor: Point, end: usize, tolerance:
                 return None;
             }
         }
-        // The run must go round with the arc, never back, and not past its end.
+        // The run must go around in the direction of the arc, never back, and not past the arc's end.
         let (a, b) = (vector_from_centre(&arc, before), vector_from_centre(&arc, place.point));
         let step = (a.0 * b.1 - a.1 * b.0).atan2(a.0 * b.0 + a.1 * b.1) * sense;
         if step * arc.radius < -tolerance {
@@ -92,9 +93,11 @@ fn vector_from_centre(arc: &ArcPiece, point: Point) -> (f64, f64) {
     (point.u - arc.centre.u, point.z - arc.centre.z)
 }
 
-/// The arc through three points in their order; `None` when they lie on a line or too flat a circle.
+/// Returns the arc through three points in their order, or `None` if they are on a line or on a circle that
+/// is too flat.
 fn arc_through_points(a: Point, b: Point, c: Point) -> Option<ArcPiece> {
     let (bu, bz, cu, cz) = (b.u - a.u, b.z - a.z, c.u - a.u, c.z - a.z);
+    // The circumcentre relative to a, from the two equations |m|^2 = |m - b|^2 = |m - c|^2.
     let double = 2.0 * (bu * cz - bz * cu);
     let (b2, c2) = (bu * bu + bz * bz, cu * cu + cz * cz);
     let centre = Point::new(a.u + (cz * b2 - bz * c2) / double, a.z + (bu * c2 - cu * b2) / double);
@@ -104,7 +107,7 @@ fn arc_through_points(a: Point, b: Point, c: Point) -> Option<ArcPiece> {
     }
     let angle = |point: Point| (point.z - centre.z).atan2(point.u - centre.u);
     let start = angle(a);
-    // Counter-clockwise when the middle lies to the right of the chord.
+    // The arc is counter-clockwise if the middle point is to the right of the chord.
     let left = (angle(c) - start).rem_euclid(TAU);
     let sweep = if double > 0.0 { left } else { left - TAU };
     Some(ArcPiece { centre, radius, start, sweep })

@@ -1,4 +1,4 @@
-//! From contact points to the path of the ball's tip, and back.
+//! This module converts contact points to the path of the ball's tip, and back.
 
 use super::chain::{Chain, LARGEST};
 use super::chain_piece::{ChainPiece, Point};
@@ -6,16 +6,17 @@ use super::graph_segment::{GraphSegment, HeightGraph, PiecePart, UPRIGHT};
 use super::rolling_ball::roll_ball;
 use super::upper_envelope::{UpperEnvelope, find_upper_envelope};
 
-/// The smallest radius of a ball, mm: a thousand times what pieces of a chain may be apart.
+/// The smallest radius of a ball, mm. It is a thousand times the largest distance between pieces of a chain.
 pub const SMALLEST_BALL: f64 = 1e-3;
 
-/// Ends of a path closer than this (mm) need no line between them.
+/// Two ends of a path that are closer than this (mm) are not joined by a line.
 const MEETS: f64 = 1e-10;
 
-/// A chain's end this near (mm) to the outermost place is beside it: files round places to a ten-thousandth.
+/// A chain's end that is this near (mm) to the outermost point counts as being there, because files round
+/// coordinates to a ten-thousandth.
 const BESIDE: f64 = 1e-3;
 
-/// Why there is no path.
+/// The reason why there is no path.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum BallCompensationError {
     /// The ball's radius cannot be used.
@@ -23,40 +24,46 @@ pub enum BallCompensationError {
     Radius(f64),
 }
 
-/// The path of the tip (the south pole) of a ball of `radius` mm that touches `profile` from above everywhere it can:
-/// `z(u) = max over q with |u - q_u| <= R of q_z + sqrt(R^2 - (u - q_u)^2) - R`.
+/// Returns the path of the tip (the south pole) of a ball of `radius` mm that touches `profile` from above
+/// wherever it can: `z(u) = max over q with |u - q_u| <= R of q_z + sqrt(R^2 - (u - q_u)^2) - R`.
 ///
-/// The path is exact: lines, offset arcs of arcs (larger by R where the profile bulges, smaller where it is hollow), and arcs
-/// of radius R about corners. Loops at hollow corners are gone; where the height jumps (beside walls, below overhangs) the
-/// path goes straight up or down. It runs the way the profile runs from start to end in u. Distances between path and envelope
-/// stay below 1e-9 mm for parts up to a metre (rounding, and pieces narrower than 1e-9 mm count as upright); a difference of
-/// height is larger only where the path is steep.
+/// The path is exact. It consists of lines, of offsets of arcs (larger by R where the profile is convex,
+/// smaller where it is concave), and of arcs of radius R around convex vertices. There are no loops at
+/// concave vertices. Where the height jumps, beside walls and below overhangs, the path goes straight up or
+/// down. It has the direction of the profile in u. The path is within 1e-9 mm of the envelope for parts up to
+/// a metre (rounding; pieces narrower than 1e-9 mm count as vertical). The difference in height is only
+/// larger where the path is steep.
 ///
-/// Where the path starts and ends: the ball stands on the profile's free end with the end's own normal, so the tip is at
-/// `u - R sin U`; where something in front keeps it away from there, it stands where it touches both. It does not roll about a free
-/// end. A wall up to the end is followed to its top, a wall down at the end to its foot. Where the profile's end lies under the
-/// profile itself (by more than 0.001 mm), the path goes to where the ball's side leaves the outermost place.
+/// At the start and the end of the path, the ball touches the profile's free end with the normal of the end,
+/// so the tip is at `u - R sin U`. If another part of the profile keeps it away from there, it is where it
+/// touches both. It does not roll around a free end. A wall up to the end is followed to its top, a wall down
+/// at the end to its foot. If the profile's end is below the profile itself (by more than 0.001 mm), the path
+/// goes to where the ball's side leaves the outermost point.
 ///
-/// Seen from above only the highest points matter; [`find_unreachable_parts`](super::find_unreachable_parts) tells what the ball does not touch.
+/// Only the highest points over each u matter; [`find_unreachable_parts`](super::find_unreachable_parts)
+/// finds the parts that the ball does not touch.
 ///
-/// O(n) for profiles that never turn back in u, else O(n log n). Source: Dragoi 2009, section 3, with the offset's loops removed.
+/// The cost is O(n) for profiles that never turn back in u, else O(n log n). The source is Dragoi 2009,
+/// section 3, with the loops of the offset removed.
 ///
 /// # Errors
-/// [`BallCompensationError`] when the radius is not from [`SMALLEST_BALL`] to [`LARGEST`].
+/// Returns a [`BallCompensationError`] if the radius is not from [`SMALLEST_BALL`] to [`LARGEST`].
 pub fn compensate_profile(profile: &Chain, radius: f64) -> Result<Chain, BallCompensationError> {
     check_radius(radius)?;
     Ok(make_centre_path(profile, radius).centre_to_tip(radius))
 }
 
-/// The contact profile that a ball of `was_radius` mm leaves when its tip follows `tip`: the inverse of [`compensate_profile`], and
-/// the same with z turned over. Of a path that gouges, what is left is lower than what was meant.
+/// Returns the contact profile that a ball of `was_radius` mm leaves if its tip follows `tip`. This is the
+/// inverse of [`compensate_profile`], and the same computation with z mirrored. If the path gouges, the
+/// result is lower than what was intended.
 ///
 /// # Errors
-/// [`BallCompensationError`] when the radius is not from [`SMALLEST_BALL`] to [`LARGEST`].
+/// Returns a [`BallCompensationError`] if the radius is not from [`SMALLEST_BALL`] to [`LARGEST`].
 pub fn recover_profile(tip: &Chain, was_radius: f64) -> Result<Chain, BallCompensationError> {
     Ok(compensate_profile(&tip.flipped(), was_radius)?.flipped())
 }
 
+/// Checks that the ball's radius can be used.
 pub(super) fn check_radius(radius: f64) -> Result<(), BallCompensationError> {
     if (SMALLEST_BALL..=LARGEST).contains(&radius) {
         Ok(())
@@ -65,7 +72,7 @@ pub(super) fn check_radius(radius: f64) -> Result<(), BallCompensationError> {
     }
 }
 
-/// The envelope of a ball's centre over a chain, and how it ends on either side.
+/// The upper envelope of a ball's centre over a chain, and how it ends on both sides.
 pub(super) struct CentreEnvelope {
     pub stretches: Vec<GraphSegment>,
     pub low: EnvelopeEnd,
@@ -73,18 +80,18 @@ pub(super) struct CentreEnvelope {
     pub forward: bool,
 }
 
-/// How the envelope ends on one side.
+/// The way in which the envelope ends on one side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum EnvelopeEnd {
-    /// At the chain's free end: the ball does not roll about it.
+    /// It ends at the chain's free end, and the ball does not roll around it.
     Free(Point),
-    /// Beside a wall that goes down to the chain's end at this height.
+    /// It ends beside a wall that goes down to the chain's end at this height.
     Wall(f64),
-    /// At a place of the chain that is not its end.
+    /// It ends at a point of the chain that is not its end.
     Nose,
 }
 
-/// The envelope over the whole chain, nothing trimmed.
+/// Computes the envelope over the whole chain, without trimming its ends.
 pub(super) fn make_centre_envelope(chain: &Chain, radius: f64) -> CentreEnvelope {
     let sky = find_upper_envelope(chain);
     let forward = chain.end().u >= chain.start().u;
@@ -103,6 +110,7 @@ pub(super) fn make_centre_envelope(chain: &Chain, radius: f64) -> CentreEnvelope
     }
 }
 
+/// Returns the largest absolute coordinate of a segment, from which rounding is estimated.
 fn largest_coordinate(stretch: &GraphSegment) -> f64 {
     let place = stretch.left.u.abs().max(stretch.right.u.abs());
     match stretch.graph {
@@ -111,7 +119,7 @@ fn largest_coordinate(stretch: &GraphSegment) -> f64 {
     }
 }
 
-/// The highest point at the skyline's end on one side (-1 left, 1 right).
+/// Returns the highest point at the end of the profile's upper envelope on one side (-1 left, 1 right).
 fn outermost_point(sky: &UpperEnvelope, side: f64) -> Option<Point> {
     let stretch = if side < 0.0 { sky.stretches.first() } else { sky.stretches.last() };
     let of_stretch = stretch.map(|stretch| if side < 0.0 { stretch.left } else { stretch.right });
@@ -119,13 +127,15 @@ fn outermost_point(sky: &UpperEnvelope, side: f64) -> Option<Point> {
     let far = of_stretch.into_iter().chain(of_tops.map(|(top, _)| *top)).map(|point| point.u * side);
     let far = far.fold(f64::NEG_INFINITY, f64::max);
     let near = |point: &Point| point.u * side >= far - UPRIGHT;
-    // Tops are sorted by u, so those at the end are together.
+    // The tops are sorted by u, so those at the end are together.
     let tops: &mut dyn Iterator<Item = &(Point, usize)> =
         if side < 0.0 { &mut sky.tops.iter() } else { &mut sky.tops.iter().rev() };
     let tops = tops.map(|(top, _)| *top).take_while(near);
     tops.chain(of_stretch.filter(near)).max_by(|a, b| a.z.total_cmp(&b.z))
 }
 
+/// Finds how the envelope ends at a free end of the chain, of which `outer` is the outermost point on that
+/// side.
 fn classify_end(free: Point, piece: Option<&ChainPiece>, outer: Point) -> EnvelopeEnd {
     if free.distance(outer) <= BESIDE {
         return EnvelopeEnd::Free(outer);
@@ -135,7 +145,7 @@ fn classify_end(free: Point, piece: Option<&ChainPiece>, outer: Point) -> Envelo
     if below && upright { EnvelopeEnd::Wall(free.z) } else { EnvelopeEnd::Nose }
 }
 
-/// The path of the centre.
+/// Returns the path of the ball's centre.
 pub(super) fn make_centre_path(chain: &Chain, radius: f64) -> Chain {
     let CentreEnvelope { mut stretches, low, high, forward } = make_centre_envelope(chain, radius);
     let about = |stretch: &GraphSegment, free: Point| match stretch.graph {
@@ -148,6 +158,7 @@ pub(super) fn make_centre_path(chain: &Chain, radius: f64) -> Chain {
     };
     let mut start = stretches.first().map(|stretch| stretch.left);
     let mut stop = stretches.last().map(|stretch| stretch.right);
+    // The ball does not roll around a free end, so the caps around it are removed.
     if let EnvelopeEnd::Free(free) = high {
         while let Some(cap) = stretches.pop_if(|stretch| about(stretch, free)) {
             stop = Some(cap.left);
@@ -159,7 +170,7 @@ pub(super) fn make_centre_path(chain: &Chain, radius: f64) -> Chain {
             start = Some(cap.right);
             dropped += 1;
         }
-        // A chain of no extent has one cap for both ends, and the ball stands on it.
+        // A chain without extent has one cap for both ends, and the ball is on top of it.
         if stretches.is_empty()
             && let EnvelopeEnd::Free(other) = high
             && other.distance(free) <= UPRIGHT
@@ -168,6 +179,7 @@ pub(super) fn make_centre_path(chain: &Chain, radius: f64) -> Chain {
             stop = start;
         }
     }
+    // The ball follows a wall at the end down to the wall's foot.
     if let (EnvelopeEnd::Wall(foot), Some(top)) = (low, start) {
         start = Some(Point::new(top.u, foot.min(top.z)));
     }
@@ -180,7 +192,7 @@ pub(super) fn make_centre_path(chain: &Chain, radius: f64) -> Chain {
     join_segments(stretches.get(dropped..).unwrap_or_default(), start, stop, forward)
 }
 
-/// The chain of stretches between two points, with straight lines where they do not meet.
+/// Joins segments between two points to a chain, with straight lines where they do not meet.
 fn join_segments(
     stretches: &[GraphSegment],
     start: Option<Point>,

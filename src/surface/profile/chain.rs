@@ -1,54 +1,56 @@
-//! A chain: pieces that hang together.
+//! This module holds chains: connected lines and arcs.
 
 use super::chain_piece::{ChainPiece, Point};
 use std::f64::consts::TAU;
 
-/// The end of a piece and the start of the next are one point when no farther apart than this, mm.
+/// The end of a piece and the start of the next one are the same point if they are at most this far apart,
+/// mm.
 pub const CONNECTED: f64 = 1e-6;
 
-/// The largest coordinate and radius that is taken, mm: at ten kilometres a number still tells 2e-9 mm apart.
+/// The largest coordinate and radius, mm. At ten kilometres a number still resolves 2e-9 mm.
 pub const LARGEST: f64 = 1e7;
 
-/// Connected pieces from a start to an end. It may run towards +u or -u, stand upright in part, and overhang.
+/// Connected pieces from a start to an end. A chain may go towards +u or -u, be vertical in parts, and
+/// overhang.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chain {
     pieces: Vec<ChainPiece>,
 }
 
-/// Why pieces make no chain.
+/// The reason why pieces do not make a chain.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ChainError {
-    /// No piece, or of a polyline fewer than two points.
+    /// There is no piece, or a polyline has fewer than two points.
     #[error("the chain has no piece")]
     Empty,
-    /// A number that is not finite or too large.
+    /// A number is not finite or too large.
     #[error("piece {piece}: a number is not finite, or larger than {LARGEST:e} mm")]
     Number {
-        /// Which piece, from 0.
+        /// The index of the piece, from 0.
         piece: usize,
     },
-    /// A radius that is not positive, or more than one turn.
+    /// A radius is not positive, or an arc is longer than one turn.
     #[error("piece {piece}: an arc needs a positive radius and at most one turn")]
     Arc {
-        /// Which piece, from 0.
+        /// The index of the piece, from 0.
         piece: usize,
     },
-    /// A piece does not start where the one before ends.
+    /// A piece does not start at the end of the piece before.
     #[error("piece {piece} starts {gap:.6} mm from the end of the piece before")]
     Gap {
-        /// Which piece, from 0.
+        /// The index of the piece, from 0.
         piece: usize,
-        /// How far apart, mm.
+        /// The distance between both ends, mm.
         gap: f64,
     },
 }
 
 impl Chain {
-    /// The chain of `pieces`, mm.
+    /// Makes the chain of `pieces`, mm.
     ///
     /// # Errors
-    /// [`ChainError`] when there is no piece, a number is not finite or beyond [`LARGEST`], an arc is none, or two pieces lie
-    /// farther apart than [`CONNECTED`]; it says which piece.
+    /// Returns a [`ChainError`] with the index of the piece if there is no piece, a number is not finite or
+    /// beyond [`LARGEST`], an arc is not valid, or two pieces are further apart than [`CONNECTED`].
     pub fn new(pieces: Vec<ChainPiece>) -> Result<Self, ChainError> {
         if pieces.is_empty() {
             return Err(ChainError::Empty);
@@ -65,10 +67,11 @@ impl Chain {
         Ok(Self { pieces })
     }
 
-    /// The straight pieces through `points`, mm.
+    /// Makes the straight pieces through `points`, mm.
     ///
     /// # Errors
-    /// [`ChainError`] when there are fewer than two points or a number is not finite or beyond [`LARGEST`].
+    /// Returns a [`ChainError`] if there are fewer than two points, or a number is not finite or beyond
+    /// [`LARGEST`].
     pub fn from_points(points: &[Point]) -> Result<Self, ChainError> {
         let pair = |pair: &[Point]| match pair {
             [from, to] => Some(ChainPiece::line(*from, *to)),
@@ -77,67 +80,68 @@ impl Chain {
         Self::new(points.windows(2).filter_map(pair).collect())
     }
 
-    /// A chain of pieces that are known to fit.
+    /// Makes a chain of pieces that are known to be connected.
     pub(super) fn from_trusted(pieces: Vec<ChainPiece>) -> Self {
         Self { pieces }
     }
 
-    /// Its pieces, at least one.
+    /// Returns the pieces, at least one.
     pub fn pieces(&self) -> &[ChainPiece] {
         &self.pieces
     }
 
-    /// Where it starts.
+    /// Returns the start.
     pub fn start(&self) -> Point {
         self.pieces.first().map(ChainPiece::start).unwrap_or_default()
     }
 
-    /// Where it ends.
+    /// Returns the end.
     pub fn end(&self) -> Point {
         self.pieces.last().map(ChainPiece::end).unwrap_or_default()
     }
 
-    /// Starts and ends of its pieces, in order: one more than there are pieces.
+    /// Returns the starts and ends of the pieces in order: one more than there are pieces.
     pub fn vertices(&self) -> impl Iterator<Item = Point> + '_ {
         std::iter::once(self.start()).chain(self.pieces.iter().map(ChainPiece::end))
     }
 
-    /// Its length, mm.
+    /// Returns the length, mm.
     pub fn length_mm(&self) -> f64 {
         self.pieces.iter().map(ChainPiece::length_mm).sum()
     }
 
-    /// The same chain from its end to its start.
+    /// Returns the same chain from its end to its start.
     #[must_use]
     pub fn reversed(&self) -> Self {
         Self { pieces: self.pieces.iter().rev().map(ChainPiece::reversed).collect() }
     }
 
-    /// The same chain, moved, mm.
+    /// Returns the same chain, moved by some mm.
     #[must_use]
     pub fn shifted(&self, du: f64, dz: f64) -> Self {
         Self { pieces: self.pieces.iter().map(|piece| piece.shifted(du, dz)).collect() }
     }
 
-    /// The same chain, z turned over.
+    /// Returns the same chain with z mirrored.
     #[must_use]
     pub fn flipped(&self) -> Self {
         Self { pieces: self.pieces.iter().map(ChainPiece::flipped).collect() }
     }
 
-    /// The path of the ball's centre, from that of its tip (its south pole).
+    /// Returns the path of the ball's centre for this path of its tip (the south pole).
     #[must_use]
     pub fn tip_to_centre(&self, radius: f64) -> Self {
         self.shifted(0.0, radius)
     }
 
-    /// The path of the ball's tip, from that of its centre.
+    /// Returns the path of the ball's tip for this path of its centre.
     #[must_use]
     pub fn centre_to_tip(&self, radius: f64) -> Self {
         self.shifted(0.0, -radius)
     }
 }
 
+/// Checks the numbers of one piece.
 fn check_piece(index: usize, piece: &ChainPiece) -> Result<(), ChainError> {
     let fine = |number: f64| number.abs() <= LARGEST;
     match piece {
@@ -150,7 +154,7 @@ fn check_piece(index: usize, piece: &ChainPiece) -> Result<(), ChainError> {
             if ![arc.centre.u, arc.centre.z, arc.radius, arc.start, arc.sweep].into_iter().all(fine) {
                 return Err(ChainError::Number { piece: index });
             }
-            // A full turn that was computed may be a rounding longer than one.
+            // The computed sweep of a full turn may be slightly more than one turn.
             if arc.radius <= 0.0 || arc.sweep.abs() > TAU + 1e-9 {
                 return Err(ChainError::Arc { piece: index });
             }

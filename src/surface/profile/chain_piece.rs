@@ -1,28 +1,28 @@
-//! Points, lines and arcs in the (u, z) plane.
+//! This module holds points, lines and arcs in the (u, z) plane.
 
 /// A point of the plane, mm.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Point {
-    /// Along the pass.
+    /// The coordinate along the pass.
     pub u: f64,
-    /// Up the tool axis.
+    /// The coordinate along the tool axis, upwards.
     pub z: f64,
 }
 
 impl Point {
-    /// The point at (u, z).
+    /// Makes the point at (u, z).
     pub const fn new(u: f64, z: f64) -> Self {
         Self { u, z }
     }
 
-    /// Distance to another point, mm.
+    /// Returns the distance to another point, mm.
     pub fn distance(self, other: Self) -> f64 {
-        // Coordinates are no larger than ten kilometres: a square cannot overflow, and `hypot` is slow.
+        // Coordinates are at most ten kilometres, so squares cannot overflow, and `hypot` would be slow.
         let (du, dz) = (self.u - other.u, self.z - other.z);
         (du * du + dz * dz).sqrt()
     }
 
-    /// The point at a share `t` of the way to `other`.
+    /// Returns the point at the fraction `t` of the line to `other`.
     pub fn lerp(self, other: Self, t: f64) -> Self {
         Self { u: self.u + (other.u - self.u) * t, z: self.z + (other.z - self.z) * t }
     }
@@ -31,59 +31,60 @@ impl Point {
 /// A straight piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinePiece {
-    /// Where it starts.
+    /// The start.
     pub from: Point,
-    /// Where it ends.
+    /// The end.
     pub to: Point,
 }
 
-/// A piece of a circle; angles in radians from +u towards +z.
+/// A piece of a circle; angles are in radians from +u towards +z.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArcPiece {
-    /// Centre.
+    /// The centre.
     pub centre: Point,
-    /// Radius, mm.
+    /// The radius, mm.
     pub radius: f64,
-    /// Angle of the start, seen from the centre.
+    /// The angle of the start, seen from the centre.
     pub start: f64,
-    /// Angle from start to end: positive from +u towards +z, negative the other way.
+    /// The angle from start to end: positive from +u towards +z, negative in the other direction.
     pub sweep: f64,
 }
 
 /// A line or an arc.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ChainPiece {
-    /// Straight.
+    /// A straight piece.
     Line(LinePiece),
-    /// Round.
+    /// An arc.
     Arc(ArcPiece),
 }
 
 impl ArcPiece {
-    /// The point at an angle.
+    /// Returns the point at an angle.
     pub fn point_at_angle(&self, angle: f64) -> Point {
         let (sin, cos) = angle.sin_cos();
         Point::new(self.centre.u + self.radius * cos, self.centre.z + self.radius * sin)
     }
 
-    /// Height of the arc over its chord (its sagitta), mm; beyond half a turn, the distance of the farthest point.
+    /// Returns the height of the arc over its chord (its sagitta), mm. For more than half a turn it is the
+    /// distance of the furthest point.
     pub fn sagitta_mm(&self) -> f64 {
         self.radius * (1.0 - (self.sweep.abs() / 2.0).min(std::f64::consts::PI).cos())
     }
 }
 
 impl ChainPiece {
-    /// A straight piece.
+    /// Makes a straight piece.
     pub const fn line(from: Point, to: Point) -> Self {
         Self::Line(LinePiece { from, to })
     }
 
-    /// An arc.
+    /// Makes an arc.
     pub const fn arc(centre: Point, radius: f64, start: f64, sweep: f64) -> Self {
         Self::Arc(ArcPiece { centre, radius, start, sweep })
     }
 
-    /// Where it starts.
+    /// Returns the start.
     pub fn start(&self) -> Point {
         match self {
             Self::Line(line) => line.from,
@@ -91,7 +92,7 @@ impl ChainPiece {
         }
     }
 
-    /// Where it ends.
+    /// Returns the end.
     pub fn end(&self) -> Point {
         match self {
             Self::Line(line) => line.to,
@@ -99,7 +100,7 @@ impl ChainPiece {
         }
     }
 
-    /// The point at a share `t` (0..=1) of its length.
+    /// Returns the point at a fraction `t` (0 to 1) of the length.
     pub fn point_at(&self, t: f64) -> Point {
         match self {
             Self::Line(line) => line.from.lerp(line.to, t),
@@ -107,7 +108,8 @@ impl ChainPiece {
         }
     }
 
-    /// Its direction at a share `t` of its length, a unit vector; zero when it has no length.
+    /// Returns the direction at a fraction `t` of the length as a unit vector, or zero if the piece has no
+    /// length.
     pub fn direction_at(&self, t: f64) -> Point {
         match self {
             Self::Line(line) => {
@@ -126,7 +128,7 @@ impl ChainPiece {
         }
     }
 
-    /// Its length, mm.
+    /// Returns the length, mm.
     pub fn length_mm(&self) -> f64 {
         match self {
             Self::Line(line) => line.from.distance(line.to),
@@ -134,7 +136,7 @@ impl ChainPiece {
         }
     }
 
-    /// The same piece from its end to its start.
+    /// Returns the same piece from its end to its start.
     pub fn reversed(&self) -> Self {
         match self {
             Self::Line(line) => Self::line(line.to, line.from),
@@ -142,7 +144,7 @@ impl ChainPiece {
         }
     }
 
-    /// The same piece, moved.
+    /// Returns the same piece, moved.
     pub fn shifted(&self, du: f64, dz: f64) -> Self {
         let moved = |point: Point| Point::new(point.u + du, point.z + dz);
         match self {
@@ -151,7 +153,7 @@ impl ChainPiece {
         }
     }
 
-    /// The same piece, z turned over.
+    /// Returns the same piece with z mirrored.
     pub fn flipped(&self) -> Self {
         let over = |point: Point| Point::new(point.u, -point.z);
         match self {
@@ -160,7 +162,7 @@ impl ChainPiece {
         }
     }
 
-    /// The part of it from share `from` to share `to` of its length.
+    /// Returns the part between two fractions of the length.
     pub fn sub_piece(&self, from: f64, to: f64) -> Self {
         match self {
             Self::Line(_) => Self::line(self.point_at(from), self.point_at(to)),

@@ -1,4 +1,4 @@
-//! The longest chords within a tolerance.
+//! This module replaces a chain by the longest chords within a tolerance.
 
 use super::arc_fit::fit_longest_arc;
 use super::ball_compensation::make_centre_path;
@@ -7,61 +7,64 @@ use super::chain_piece::{ArcPiece, ChainPiece, Point};
 use super::direction_wedge::find_longest_chord;
 use std::f64::consts::FRAC_PI_2;
 
-/// Arcs are looked at in points between which they bulge by this share of the tolerance; chords keep to the rest of it.
+/// Arcs are sampled at points between which the sagitta is this fraction of the tolerance; chords keep within
+/// the rest.
 const SHARE: f64 = 1.0 / 64.0;
 
-/// A bend sharper than this is a corner, when both sides go straight for [`ARM`] tolerances: 20 degrees.
+/// A bend of more than this angle (20 degrees) is a corner if both sides go straight for [`ARM`] tolerances.
 const CORNER: f64 = 0.35;
 const ARM: f64 = 2.0;
 
-/// Hollow corners that turn by more than this (120 degrees) count as if they turned by this.
+/// Concave corners that turn by more than this (120 degrees) are treated as if they turned by this.
 const SHARPEST: f64 = 2.0 * std::f64::consts::FRAC_PI_3;
 
-/// Looking for what a corner's sides do ends after so many pieces.
+/// The most pieces that are examined on each side of a corner.
 const ARM_PIECES: usize = 64;
 
-/// On which side of the chain chords may lie.
+/// The side of the chain on which chords may be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ChordSide {
-    /// Either side; vertices lie on the chain.
+    /// Chords may be on either side; their vertices are on the chain.
     #[default]
     Both,
-    /// On the chain or above it: a tip path that never gouges.
+    /// Chords are on the chain or above it, as a tip path needs that must not gouge.
     Above,
-    /// On the chain or below it.
+    /// Chords are on the chain or below it.
     Below,
 }
 
-/// Why there are no chords.
+/// The reason why there are no chords.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ChordError {
     /// The tolerance cannot be used.
     #[error("a tolerance of {0} mm: it must be from 0.000001 to {LARGEST:e} mm")]
     Tolerance(f64),
-    /// A curve leaves the numbers that a chain can hold.
+    /// The curve has numbers that a chain cannot hold.
     #[error(transparent)]
     Chain(#[from] ChainError),
 }
 
-/// The chain made of few long chords, nowhere farther than `tolerance` mm from `chain`, and the chain nowhere farther from them.
+/// Returns a chain of few long chords that is nowhere further than `tolerance` mm from `chain`, and of which
+/// `chain` is nowhere further.
 ///
-/// Each chord is the longest that the tolerance allows from where the one before ends (wedges of directions, Sklansky and Gonzalez
-/// 1980, with chord ends on the chain): on a curve of radius of curvature rho it is close to `2 sqrt(2 rho tolerance)`.
-/// Corners are kept: bends sharper than 20 degrees with straight sides of two tolerances. Vertices of lines stay where they
-/// are or go; on arcs they lie anywhere.
+/// Each chord is the longest that the tolerance allows from the end of the one before. The method is that of
+/// wedges of directions (Sklansky and Gonzalez 1980), with chord ends on the chain. On a curve with the
+/// radius of curvature rho, a chord is close to `2 sqrt(2 rho tolerance)` long. Corners are kept: bends of
+/// more than 20 degrees between straight sides of two tolerances. Vertices of lines stay where they are or
+/// are removed; on arcs, vertices are anywhere.
 ///
-/// With `keep_arcs`, arcs that bulge by more than two tolerances stay arcs, and chords that lie on a circle within the
-/// tolerance become one arc when it bulges by more than four tolerances. Smaller arcs go.
+/// With `keep_arcs`, arcs with a sagitta of more than two tolerances stay arcs, and chords on a circle within
+/// the tolerance become one arc if its sagitta is more than four tolerances. Smaller arcs become chords.
 ///
-/// Above and below, the chain is offset by 0.41 of the tolerance to that side (less where hollow corners are sharper than
-/// a right angle) and followed within as much again, which takes some 1.5 times as many chords; both ends move by the
-/// offset along the normal there. Only in hollow corners that turn by more than 120 degrees they may leave more than
-/// the tolerance.
+/// With `Above` and `Below`, the chain is offset by 0.41 of the tolerance to that side (less if concave
+/// corners are sharper than a right angle) and followed within as much again, which takes about 1.5 times as
+/// many chords. Both ends move by the offset along the normal there. Only in concave corners that turn by
+/// more than 120 degrees the distance may exceed the tolerance.
 ///
-/// O(n) for chords, O(n log n) with `keep_arcs`.
+/// The cost is O(n) for chords and O(n log n) with `keep_arcs`.
 ///
 /// # Errors
-/// [`ChordError`] when the tolerance is not from 1e-6 to [`LARGEST`] mm.
+/// Returns a [`ChordError`] if the tolerance is not from 1e-6 to [`LARGEST`] mm.
 pub fn fit_chords(
     chain: &Chain,
     tolerance: f64,
@@ -78,11 +81,12 @@ pub fn fit_chords(
     })
 }
 
-/// Chords on or above a chain: within h of its offset by h, which is the path of a small ball's centre.
+/// Returns chords on or above a chain. They are within h of the chain's offset by h, which is the path of the
+/// centre of a ball of radius h.
 fn fit_chords_above(chain: &Chain, tolerance: f64, keep_arcs: bool) -> Chain {
     let sense = if chain.end().u >= chain.start().u { 1.0 } else { -1.0 };
     let mut before = Point::default();
-    // Hollow bends between pieces; a right angle may also be hidden in many small ones.
+    // The sharpest concave bend between pieces. A right angle may also be hidden in many small bends.
     let mut bend = FRAC_PI_2;
     for piece in chain.pieces().iter().filter(|piece| piece.length_mm() > 0.0) {
         let after = piece.direction_at(0.0);
@@ -90,21 +94,23 @@ fn fit_chords_above(chain: &Chain, tolerance: f64, keep_arcs: bool) -> Chain {
         bend = bend.max(turn * sense);
         before = piece.direction_at(1.0);
     }
-    // In a hollow corner the offset is farther away than h.
+    // In a concave corner with the turn b, the offset is h / cos(b / 2) from the corner. Together with the h
+    // of the chords this is the tolerance.
     let corner = 1.0 / (0.5 * bend.min(SHARPEST)).cos();
     let height = tolerance / (1.0 + corner);
     follow_chain(&make_centre_path(chain, height), height, keep_arcs)
 }
 
-/// A place on the chain at which a chord may end.
+/// A vertex of the chain at which a chord may end.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ChordVertex {
     pub point: Point,
-    /// The arc that leads here from the place before; `None` for a line.
+    /// The arc that leads here from the vertex before; `None` for a line.
     arc: Option<ArcPiece>,
     corner: bool,
 }
 
+/// Follows a chain with chords and, if asked for, arcs within a tolerance.
 fn follow_chain(chain: &Chain, tolerance: f64, keep_arcs: bool) -> Chain {
     let mut run = vec![ChordVertex { point: chain.start(), arc: None, corner: false }];
     let mut pieces: Vec<ChainPiece> = Vec::new();
@@ -117,9 +123,10 @@ fn follow_chain(chain: &Chain, tolerance: f64, keep_arcs: bool) -> Chain {
                 run.push(ChordVertex { point: piece.end(), arc: None, corner: false });
             }
             ChainPiece::Arc(arc) => {
-                // sagitta = 2 r sin^2(sweep / 4)
+                // The sagitta is r (1 - cos(sweep / 2)) = 2 r sin^2(sweep / 4), which is solved for the
+                // sweep.
                 let most = 4.0 * (SHARE * tolerance / (2.0 * arc.radius)).min(1.0).sqrt().asin();
-                // A million only bounds memory: an arc of 100 m within 1e-6 mm takes less.
+                // The limit of a million only bounds the memory: an arc of 100 m within 1e-6 mm needs fewer.
                 let count = (arc.sweep.abs() / most).ceil().clamp(1.0, 1e6);
                 for index in 0..count as usize {
                     let part = ArcPiece {
@@ -141,9 +148,9 @@ fn follow_chain(chain: &Chain, tolerance: f64, keep_arcs: bool) -> Chain {
     Chain::from_trusted(pieces)
 }
 
-/// Adds an arc, or makes the last one longer when it is of the same circle.
+/// Adds an arc, or extends the last one if both are on the same circle.
 fn append_arc(pieces: &mut Vec<ChainPiece>, arc: ArcPiece, tolerance: f64) {
-    // Both circles agree ten times better than the tolerance asks, so that sums of many merges stay within it.
+    // Both circles must agree ten times better than the tolerance, so that many merges stay within it.
     let close = tolerance / 10.0;
     if let Some(ChainPiece::Arc(last)) = pieces.last_mut()
         && last.centre.distance(arc.centre) <= close.min(1e-6)
@@ -158,7 +165,7 @@ fn append_arc(pieces: &mut Vec<ChainPiece>, arc: ArcPiece, tolerance: f64) {
     pieces.push(ChainPiece::Arc(arc));
 }
 
-/// Adds the chords of places between two arcs that stay.
+/// Adds the chords of a run of vertices between two arcs that are kept.
 fn append_run_chords(run: &[ChordVertex], tolerance: f64, keep_arcs: bool, pieces: &mut Vec<ChainPiece>) {
     let mut run = run.to_vec();
     let exact = if run.iter().any(|place| place.arc.is_some()) { 1.0 - SHARE } else { 1.0 };
@@ -184,12 +191,12 @@ fn append_run_chords(run: &[ChordVertex], tolerance: f64, keep_arcs: bool, piece
 }
 
 impl ChordVertex {
-    /// The arc that leads here, where it is no line.
+    /// Returns the arc that leads here, or `None` for a line.
     pub fn incoming_arc(&self) -> Option<ArcPiece> {
         self.arc
     }
 
-    /// Whether a chord or arc may not go on past it.
+    /// Returns whether a chord or an arc must end here.
     pub fn is_corner(&self) -> bool {
         self.corner
     }
@@ -213,7 +220,7 @@ fn mark_corners(run: &mut [ChordVertex], tolerance: f64) {
         .enumerate()
         .filter_map(|(index, places)| {
             let [before, at, after] = places else { return None };
-            // The cheap look first: how it bends right here.
+            // The cheap test comes first: the bend at this vertex alone.
             let near =
                 |from: &ChordVertex, to: &ChordVertex| (to.point.u - from.point.u, to.point.z - from.point.z);
             if !turn(near(before, at), near(at, after)) {

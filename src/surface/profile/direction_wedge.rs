@@ -1,12 +1,14 @@
-//! Directions from a point, and the longest chord that keeps to them.
+//! This module holds the directions from a point that pass some vertices, and finds the longest chord in
+//! them.
 
 use super::chain_piece::{ChainPiece, Point};
 use super::chords::ChordVertex;
 
-/// Beyond the last vertex that a chord reaches, it looks this much further (and twice as far again as it has come).
+/// The search continues by this many vertices beyond the last one that a chord reaches, and by twice as many
+/// as the chord has.
 const LOOK_AHEAD: usize = 64;
 
-/// The directions from an anchor in which a chord passes all places so far within the tolerance.
+/// The wedge of directions from an anchor in which a chord passes all vertices so far within the tolerance.
 #[derive(Clone, Copy)]
 struct DirectionWedge {
     right: (f64, f64),
@@ -22,8 +24,9 @@ fn dot(a: (f64, f64), b: (f64, f64)) -> f64 {
 }
 
 impl DirectionWedge {
-    /// Directions that pass a place at (du, dz), farther away than the tolerance.
+    /// Makes the wedge of directions that pass a point at (du, dz), which is further away than the tolerance.
     fn passing_point((du, dz): (f64, f64), distance: f64, tolerance: f64) -> Self {
+        // The wedge has the half angle asin(tolerance / distance) around the direction of the point.
         let (du, dz) = (du / distance, dz / distance);
         let sin = tolerance / distance;
         let cos = (1.0 - sin * sin).max(0.0).sqrt();
@@ -43,7 +46,7 @@ impl DirectionWedge {
             && cross(direction, self.left) >= 0.0
     }
 
-    /// What both allow; `None` when that is nothing, or when they look opposite ways.
+    /// Returns the intersection, or `None` if it is empty or the wedges have opposite directions.
     fn intersect(self, other: Self) -> Option<Self> {
         if dot(self.middle_direction(), other.middle_direction()) <= 0.0 {
             return None;
@@ -54,8 +57,8 @@ impl DirectionWedge {
     }
 }
 
-/// The place that the longest chord from `anchor` (between place `at` and the next) reaches: index of the place at or
-/// before it, and the point.
+/// Finds the point that the longest chord from `anchor` (between vertex `at` and the next) reaches. Returns
+/// the index of the vertex at or before that point, and the point.
 pub(super) fn find_longest_chord(
     run: &[ChordVertex],
     at: usize,
@@ -69,11 +72,11 @@ pub(super) fn find_longest_chord(
     for (index, place) in run.iter().enumerate().skip(at + 1) {
         let to = (place.point.u - anchor.u, place.point.z - anchor.z);
         let distance = dot(to, to).sqrt();
-        // A chain that comes back would not be followed to where it turned.
+        // A chord to a chain that comes back would not reach the point where the chain turned.
         if distance < far - tolerance {
             break;
         }
-        // What lies this close to the anchor is passed in any direction.
+        // A vertex this close to the anchor is passed by chords in any direction.
         let near = distance <= tolerance;
         let allowed = wedge.is_none_or(|wedge| wedge.contains(to));
         if allowed && (distance >= far || index == at + 1) {
@@ -95,7 +98,8 @@ pub(super) fn find_longest_chord(
     extend_along_arc(run, best, best_wedge, anchor, tolerance)
 }
 
-/// Goes on along an arc beyond the last place for as far as the wedge allows: by halving, to a millionth of the arc.
+/// Extends the chord along an arc beyond the last vertex as far as the wedge allows, by bisection to a
+/// millionth of the arc.
 fn extend_along_arc(
     run: &[ChordVertex],
     best: (usize, Point),

@@ -1,22 +1,23 @@
-//! Arcs of ellipses.
+//! This module holds arcs of ellipses.
 
 use super::chain_piece::Point;
 use super::parametric_curve::ParametricCurve;
 
-/// An arc of an ellipse. At parameter t: `centre + a cos t e1 + b sin t e2`, e1 turned by `tilt` from +u.
+/// An arc of an ellipse. Its point at parameter t is `centre + a cos t e1 + b sin t e2`, where e1 is +u
+/// turned by `tilt`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EllipseArc {
-    /// Centre, mm.
+    /// The centre, mm.
     pub centre: Point,
     /// Half the first axis, mm.
     pub a: f64,
     /// Half the second axis, mm.
     pub b: f64,
-    /// Angle of the first axis from +u towards +z, radians.
+    /// The angle of the first axis from +u towards +z, radians.
     pub tilt: f64,
-    /// Parameter of the start, radians.
+    /// The parameter of the start, radians.
     pub start: f64,
-    /// Parameter from start to end, radians, with its sign.
+    /// The parameter from start to end with its sign, radians.
     pub sweep: f64,
 }
 

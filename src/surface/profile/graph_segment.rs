@@ -1,55 +1,57 @@
-//! Stretches: graphs z(u) over an interval of u, of which envelopes are made.
+//! This module holds segments of graphs z(u) over an interval of u, of which envelopes are made.
 
 use super::chain_piece::{ArcPiece, ChainPiece, Point};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// What is narrower than this (mm) counts as upright: horizontal places differ by no more.
+/// A piece that is narrower than this (mm) counts as vertical, since horizontal coordinates differ by no
+/// more.
 pub(super) const UPRIGHT: f64 = 1e-9;
 
 /// The graph of a straight line or of half a circle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum HeightGraph {
-    /// Through two points, the first with the smaller u.
+    /// The line through two points, of which the first has the smaller u.
     Line { left: Point, right: Point },
     /// The upper or lower half of a circle.
     Round { centre: Point, radius: f64, upper: bool },
 }
 
-/// Which part of a piece a stretch belongs to.
+/// The part of a piece that a segment belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum PiecePart {
-    /// Its inside.
+    /// The interior of the piece.
     Body,
     /// One of its ends (or any single point).
     Vertex,
 }
 
-/// A graph between two of its points. Their heights are kept: where a circle is upright, u tells a height only to the root of a
-/// rounding.
+/// A graph between two of its points. The heights of both points are stored, because where a circle is
+/// vertical, u only determines a height to the square root of a rounding.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct GraphSegment {
     pub left: Point,
     pub right: Point,
     pub graph: HeightGraph,
-    /// Index of the piece of the chain that it comes from.
+    /// The index of the chain's piece that it comes from.
     pub piece: usize,
     pub part: PiecePart,
 }
 
 impl HeightGraph {
-    /// Height at u; beyond its ends a circle goes on at its middle height.
+    /// Returns the height at u. Beyond its ends a circle continues at the height of its centre.
     pub fn height_at(&self, u: f64) -> f64 {
         match *self {
             Self::Line { left, right } => left.z + (u - left.u) / (right.u - left.u) * (right.z - left.z),
             Self::Round { centre, radius, upper } => {
                 let across = u - centre.u;
+                // R^2 - d^2 as (R - d)(R + d) loses less to rounding.
                 let height = ((radius - across) * (radius + across)).max(0.0).sqrt();
                 if upper { centre.z + height } else { centre.z - height }
             }
         }
     }
 
-    /// Steepness at u; not finite where it is upright.
+    /// Returns the absolute slope at u; it is not finite where the graph is vertical.
     pub fn steepness_at(&self, u: f64) -> f64 {
         match *self {
             Self::Line { left, right } => ((right.z - left.z) / (right.u - left.u)).abs(),
@@ -60,7 +62,8 @@ impl HeightGraph {
         }
     }
 
-    /// Where two graphs may cross between `lo` and `hi`: ascending, at most two, possibly some where they do not.
+    /// Returns the values of u between `lo` and `hi` at which two graphs may cross. They ascend, are at most
+    /// two, and may include some where the graphs do not cross.
     pub fn find_crossings(&self, other: &Self, lo: f64, hi: f64) -> [Option<f64>; 2] {
         let found = match (*self, *other) {
             (Self::Line { .. }, Self::Line { .. }) => {
@@ -76,7 +79,7 @@ impl HeightGraph {
                 intersect_circles(a, ra, b, rb)
             }
         };
-        // Not-a-number falls out here as well.
+        // Values that are not numbers are removed here as well.
         let inside = |u: f64| (lo < u && u < hi).then_some(u);
         match found.map(inside) {
             [Some(a), Some(b)] if b < a => [Some(b), Some(a)],
@@ -85,16 +88,18 @@ impl HeightGraph {
     }
 }
 
+/// Returns the values of u at which a line and a circle cross.
 fn intersect_line_circle(left: Point, right: Point, centre: Point, radius: f64) -> [f64; 2] {
     let length = left.distance(right);
     let (du, dz) = ((right.u - left.u) / length, (right.z - left.z) / length);
     let along = (centre.u - left.u) * du + (centre.z - left.z) * dz;
     let off = (centre.z - left.z) * du - (centre.u - left.u) * dz;
-    // A line that misses by rounding is a tangent: where it is nearest is the place to look at.
+    // A line that misses by rounding is treated as a tangent, with its nearest point as the result.
     let half = ((radius - off) * (radius + off)).max(0.0).sqrt();
     [left.u + (along - half) * du, left.u + (along + half) * du]
 }
 
+/// Returns the values of u at which two circles cross.
 fn intersect_circles(a: Point, ra: f64, b: Point, rb: f64) -> [f64; 2] {
     let (du, dz) = (b.u - a.u, b.z - a.z);
     let apart = du.hypot(dz);
@@ -102,13 +107,14 @@ fn intersect_circles(a: Point, ra: f64, b: Point, rb: f64) -> [f64; 2] {
         return [f64::NAN; 2];
     }
     let (du, dz) = (du / apart, dz / apart);
+    // The distance of the common chord from the first centre: (d^2 + ra^2 - rb^2) / (2 d).
     let along = 0.5 * (apart + (ra - rb) * ((ra + rb) / apart));
     let half = ((ra - along) * (ra + along)).max(0.0).sqrt();
     [a.u + along * du - half * dz, a.u + along * du + half * dz]
 }
 
 impl GraphSegment {
-    /// Height at u.
+    /// Returns the height at u.
     pub fn height_at(&self, u: f64) -> f64 {
         if u == self.left.u {
             self.left.z
@@ -119,23 +125,24 @@ impl GraphSegment {
         }
     }
 
-    /// Its point at u.
+    /// Returns the point at u.
     pub fn point_at(&self, u: f64) -> Point {
         Point::new(u, self.height_at(u))
     }
 
-    /// The part of it from `lo` to `hi`, both inside.
+    /// Returns the part from `lo` to `hi`, which are both inside.
     pub fn sub_segment(&self, lo: f64, hi: f64) -> Self {
         Self { left: self.point_at(lo), right: self.point_at(hi), ..*self }
     }
 
-    /// The piece of a chain from `lo` to `hi`.
+    /// Converts the segment to a piece of a chain.
     pub fn to_piece(self) -> ChainPiece {
         let (from, to) = (self.left, self.right);
         match self.graph {
             HeightGraph::Line { .. } => ChainPiece::line(from, to),
             HeightGraph::Round { centre, radius, upper } => {
-                // An upper half goes from pi to 0, a lower one from -pi to 0; an end may lie a rounding beyond.
+                // An upper half goes from pi to 0, a lower one from -pi to 0; an end may be slightly beyond
+                // by rounding.
                 let angle = |point: Point| {
                     let angle = (point.z - centre.z).atan2(point.u - centre.u);
                     match upper {
@@ -151,7 +158,8 @@ impl GraphSegment {
     }
 }
 
-/// Gives `take` the parts of a piece that are graphs, in the piece's order; an upright part gives its ends to `top`.
+/// Gives the parts of a piece that are graphs to `take`, in the order of the piece. A vertical part gives its
+/// ends to `top`.
 pub(super) fn split_into_graphs(
     index: usize,
     piece: &ChainPiece,
@@ -188,12 +196,12 @@ pub(super) fn split_into_graphs(
     }
 }
 
-/// The angles from..to of an arc's parts between its upright tangents.
+/// Returns the angles (from, to) of the parts of an arc between its vertical tangents.
 fn split_at_vertical_tangents(arc: &ArcPiece) -> impl Iterator<Item = (f64, f64)> {
     let (start, end) = (arc.start, arc.start + arc.sweep);
     let (low, high) = (start.min(end), start.max(end));
     let first = (low / PI).floor() as i64 + 1;
-    // At most one turn: no more than three parts.
+    // An arc has at most one turn, so there are at most three parts.
     let mut cuts = vec![low];
     cuts.extend((first..first + 3).map(|turn| turn as f64 * PI).filter(|cut| *cut < high));
     cuts.push(high);

@@ -1,13 +1,20 @@
-//! Profiles in a vertical plane, and the path of a ball over them.
+//! This module holds profiles in a vertical plane and computes the path of a ball over them.
 //!
-//! A profile lies in a plane with coordinates (u, z), mm: u horizontal along the pass, z up along the tool axis. Its points are
-//! places where the cutter shall touch the part. What is programmed is the ball's tip, its south pole:
-//! `tip = contact + R (n - z)` with n the upward normal (Dragoi 2009, eq. (1) and (2)). Point by point that gouges in concave
-//! corners and leaves gaps at convex ones; [`compensate_profile`] therefore follows the exact envelope of the ball over the whole
-//! profile, and [`recover_profile`] undoes it.
+//! A profile is in a plane with the coordinates (u, z) in mm: u is horizontal along the pass, z goes up along
+//! the tool axis. Its points are the points at which the cutter must touch the part. The program moves the
+//! ball's tip, its south pole: `tip = contact + R (n - z)` with n the upward normal (Dragoi 2009, eq. (1) and
+//! (2)). Applied point by point, this gouges in concave corners and leaves gaps at convex ones. So
+//! [`compensate_profile`] follows the exact envelope of the ball over the whole profile, and
+//! [`recover_profile`] is its inverse.
 //!
-//! From input to output: curves ([`EllipseArc`], [`NurbsCurve`]) become a [`Chain`] of lines and arcs, a chain is compensated, its tip
-//! path becomes as few [`fit_chords`] as the tolerance allows, and [`check_tip_path`] looks at the result with other means.
+//! The path of a ball over a profile is an upper envelope and not an offset whose loops are cut out: it
+//! consists of segments that are functions of u, of which the highest one counts everywhere. So loops, jumps
+//! beside walls and overhangs need no special rules. The contact of an old ball is recovered by the same
+//! computation with z mirrored.
+//!
+//! Curves ([`EllipseArc`], [`NurbsCurve`]) become a [`Chain`] of lines and arcs. The chain is compensated,
+//! its tip path becomes as few [`fit_chords`] as the tolerance allows, and [`check_tip_path`] checks the
+//! result by an independent method.
 
 mod arc_fit;
 mod ball_compensation;

@@ -1,4 +1,4 @@
-//! Rational B-splines of any degree.
+//! This module holds rational B-splines (NURBS) of any degree.
 
 use super::chain_piece::Point;
 use super::parametric_curve::ParametricCurve;
@@ -9,49 +9,49 @@ use crate::program::geometry::Spline;
 #[derive(Debug, Clone, PartialEq)]
 pub struct NurbsCurve {
     degree: usize,
-    /// Control points with their weights: (w u, w z, w).
+    /// The control points with their weights w as (w u, w z, w).
     controls: Vec<[f64; 3]>,
     knots: Vec<f64>,
 }
 
-/// Why numbers make no NURBS curve.
+/// The reason why numbers do not make a NURBS curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum NurbsError {
-    /// Fewer control points than the degree needs, or degree 0.
+    /// There are fewer control points than the degree needs, or the degree is 0.
     #[error("a curve of degree {degree} needs at least {} control points, not {controls}", degree + 1)]
     Controls {
         /// The degree.
         degree: usize,
-        /// How many control points there are.
+        /// The number of control points.
         controls: usize,
     },
-    /// Not as many weights as control points.
+    /// There are not as many weights as control points.
     #[error("{controls} control points and {weights} weights")]
     Weights {
-        /// How many control points there are.
+        /// The number of control points.
         controls: usize,
-        /// How many weights there are.
+        /// The number of weights.
         weights: usize,
     },
-    /// A weight that is not positive.
+    /// A weight is not positive; the value is its index.
     #[error("weight {0} is not positive")]
     Weight(usize),
-    /// The number of knots is not control points + degree + 1.
+    /// The number of knots is not that of control points + degree + 1.
     #[error("{0} knots: control points + degree + 1 are needed")]
     Knots(usize),
-    /// A knot that is smaller than the one before, or the range of the parameter has no length.
+    /// A knot is smaller than the one before, or the range of the parameter has no length.
     #[error("the knots do not ascend")]
     Order,
-    /// A number that is not finite.
+    /// A number is not finite.
     #[error("a number is not finite")]
     Number,
 }
 
 impl NurbsCurve {
-    /// The curve of `controls` (mm), their `weights` and the full knot vector.
+    /// Makes the curve of `controls` (mm), their `weights` and the full knot vector.
     ///
     /// # Errors
-    /// [`NurbsError`] when counts, order or signs do not fit.
+    /// Returns a [`NurbsError`] if counts, order or signs do not fit.
     pub fn new(
         degree: usize,
         controls: &[Point],
@@ -88,10 +88,10 @@ impl NurbsCurve {
         Ok(Self { degree, controls, knots })
     }
 
-    /// A spline of a program, seen in a vertical plane.
+    /// Makes the curve of a program's spline in the coordinates of a vertical plane.
     ///
     /// # Errors
-    /// [`NurbsError`] when its counts do not fit.
+    /// Returns a [`NurbsError`] if the spline's counts do not fit.
     pub fn from_spline(spline: &Spline, plane: &ProfilePlane) -> Result<Self, NurbsError> {
         let controls: Vec<Point> = spline.controls.iter().map(|point| plane.to_plane(*point)).collect();
         Self::new(3, &controls, &vec![1.0; controls.len()], spline.knots.clone())
@@ -103,17 +103,18 @@ impl NurbsCurve {
 }
 
 impl ParametricCurve for NurbsCurve {
-    /// De Boor's algorithm on the weighted points.
+    /// Computes a point with de Boor's algorithm on the weighted points.
     fn point_at(&self, parameter: f64) -> Point {
         let (degree, count) = (self.degree, self.controls.len());
         let parameter = parameter.clamp(self.knot_at(degree), self.knot_at(count));
-        // The span that holds the parameter; the end belongs to the last span that has a length.
+        // The knot span that contains the parameter; the end belongs to the last span that has a length.
         let end = self.knot_at(count);
         let after =
             self.knots.partition_point(|knot| if parameter < end { *knot <= parameter } else { *knot < end });
         let span = after.saturating_sub(1).clamp(degree, count - 1);
         let mut points: Vec<[f64; 3]> =
             self.controls.iter().skip(span - degree).take(degree + 1).copied().collect();
+        // Each level replaces neighbouring points by their weighted means; the last point is the curve's.
         for level in 1..=degree {
             for index in (level..=degree).rev() {
                 let low = self.knot_at(span + index - degree);

@@ -1,37 +1,40 @@
-//! Curves given by a parameter, and how they become chains.
+//! This module holds curves that are given by a parameter, and converts them to chains.
 
 use super::chain::{Chain, LARGEST};
 use super::chain_piece::{ChainPiece, Point};
 use super::chords::{ChordError, ChordSide, fit_chords};
 
-/// Curves are first sampled so that they bulge by this share of the tolerance between samples: sixteen samples a chord.
+/// The fraction of the tolerance that the sagitta between samples may have. It makes sixteen samples a chord.
 const SHARE: f64 = 1.0 / 256.0;
 
-/// A part between knots is halved no more often than this; what is left then is far below any tolerance.
+/// The most bisections of a part between knots. What is left then is far below any tolerance.
 const DEEPEST: u32 = 20;
 
 /// A curve in the (u, z) plane.
 pub trait ParametricCurve {
-    /// The point at a parameter.
+    /// Returns the point at a parameter.
     fn point_at(&self, parameter: f64) -> Point;
 
-    /// The parameters between which the curve is smooth, ascending; the first is its start, the last its end.
+    /// Returns the parameters between which the curve is smooth, ascending. The first one is the start, the
+    /// last one the end.
     fn knots(&self) -> Vec<f64>;
 }
 
-/// The curve in chords no farther than `tolerance` mm from it, near the least number: long where the curvature is small,
-/// `2 sqrt(2 rho tolerance)` at a radius of curvature rho (Dragoi 2009, section 3, fig. 7). Chord ends lie on the curve.
+/// Converts a curve to chords that are at most `tolerance` mm from it. Their number is near the least
+/// possible: with the radius of curvature rho, a chord is about `2 sqrt(2 rho tolerance)` long (Dragoi 2009,
+/// section 3, fig. 7). Chord ends are on the curve.
 ///
 /// # Errors
-/// [`ChordError`] when the tolerance is below 2e-6 mm or the curve goes beyond [`LARGEST`].
+/// Returns a [`ChordError`] if the tolerance is below 2e-6 mm or the curve exceeds [`LARGEST`].
 pub fn to_chords(curve: &impl ParametricCurve, tolerance: f64) -> Result<Chain, ChordError> {
     to_chain(curve, tolerance, false)
 }
 
-/// The curve in arcs and chords no farther than `tolerance` mm from it, as [`fit_chords`] makes them with arcs.
+/// Converts a curve to arcs and chords that are at most `tolerance` mm from it, as [`fit_chords`] makes them
+/// with arcs.
 ///
 /// # Errors
-/// [`ChordError`] when the tolerance is below 2e-6 mm or the curve goes beyond [`LARGEST`].
+/// Returns a [`ChordError`] if the tolerance is below 2e-6 mm or the curve exceeds [`LARGEST`].
 pub fn to_arcs(curve: &impl ParametricCurve, tolerance: f64) -> Result<Chain, ChordError> {
     to_chain(curve, tolerance, true)
 }
@@ -47,7 +50,8 @@ fn to_chain(curve: &impl ParametricCurve, tolerance: f64, arcs: bool) -> Result<
         if let [from, to] = *pair
             && from < to
         {
-            // Four parts at least, so that a part that turns back on itself is not taken for straight.
+            // There are at least four parts, so that a part that turns back on itself does not count as
+            // straight.
             for part in 0..4 {
                 let at = |share: f64| from + (to - from) * share;
                 let (from, to) = (at(f64::from(part) / 4.0), at(f64::from(part + 1) / 4.0));
@@ -74,7 +78,7 @@ fn to_chain(curve: &impl ParametricCurve, tolerance: f64, arcs: bool) -> Result<
     fit_chords(&Chain::new(pieces)?, tolerance * (1.0 - SHARE), arcs, ChordSide::Both)
 }
 
-/// Adds the samples after `from` up to `to`, between which the curve bulges by no more than `fine`.
+/// Adds the samples after `from` up to `to`, between which the sagitta of the curve is at most `fine`.
 fn sample_curve(
     curve: &impl ParametricCurve,
     from: (f64, Point),
@@ -92,7 +96,7 @@ fn sample_curve(
             let direction = chord.direction_at(0.0);
             let (du, dz) = (point.u - from.1.u, point.z - from.1.z);
             let across = (direction.u * dz - direction.z * du).abs();
-            // Without a direction the chord is a point.
+            // A chord without length has no direction, so the distance from its point counts.
             if chord.length_mm() > 0.0 { across } else { du.hypot(dz) }
         })
         .fold(0.0, f64::max);

@@ -1,29 +1,31 @@
-//! The centre's path of a ball that rolls over a skyline.
+//! This module computes the path of the centre of a ball that rolls over the upper envelope of a profile.
 //!
-//! Over every point q of the skyline the centre may not lie below the arc `q_z + sqrt(R^2 - (u - q_u)^2)`; the path is the
-//! upper envelope of these arcs. Of two such arcs the one of the point further right wins from some u on, for good: their
-//! difference never falls, since a half circle's slope falls with u. So does a whole piece against everything to its left.
-//! Taken from left to right, each piece therefore cuts off the end of the envelope so far, and nothing else: a stack, O(n).
+//! Over every point q of the envelope the centre must not be below the arc `q_z + sqrt(R^2 - (u - q_u)^2)`.
+//! The path is the upper envelope of these arcs. Of two such arcs, the one whose point is further right is
+//! higher from some u on, and stays higher: the difference never falls, since the slope of a half circle
+//! falls with u. The same holds for a whole piece against everything to its left. So if pieces are taken from
+//! left to right, each one only cuts off the end of the path so far: a stack, O(n).
 
 use super::chain_piece::Point;
 use super::graph_segment::{GraphSegment, HeightGraph, PiecePart, UPRIGHT};
 use super::upper_envelope::UpperEnvelope;
 
-/// Stretches narrower than this (mm) are left out; their neighbours are joined.
+/// Segments narrower than this (mm) are left out, and their neighbours are joined.
 const THIN: f64 = 1e-12;
 
-/// The envelope, growing to the right.
+/// The path, growing to the right.
 pub(super) struct RollingBall {
     pub stretches: Vec<GraphSegment>,
     radius: f64,
-    /// Heights closer than this are equal: a few roundings of the largest number.
+    /// Heights that are closer than this are equal; it is a few roundings of the largest number.
     tie: f64,
-    /// The point that was put in last.
+    /// The point that was added last.
     last: Option<Point>,
 }
 
-/// The path of the centre of a ball of `radius` over a skyline, by ascending u; where two stretches do not meet, the ball goes
-/// straight up or down. `scale` is the largest coordinate.
+/// Returns the path of the centre of a ball of `radius` over the upper envelope of a profile, with u
+/// ascending. Where two segments do not meet, the ball goes straight up or down. `scale` is the largest
+/// coordinate.
 pub(super) fn roll_ball(skyline: &UpperEnvelope, radius: f64, scale: f64) -> Vec<GraphSegment> {
     let mut roll = RollingBall {
         stretches: Vec::with_capacity(2 * skyline.stretches.len() + 2),
@@ -38,7 +40,7 @@ pub(super) fn roll_ball(skyline: &UpperEnvelope, radius: f64, scale: f64) -> Vec
         }
         let mut rest = *stretch;
         while let Some((top, piece)) = tops.next_if(|(top, _)| top.u < stretch.right.u) {
-            // A top inside a stretch counts only when it stands out of it.
+            // A top within a segment only counts if it is above the segment.
             if top.z > stretch.height_at(top.u) {
                 roll.roll_over_segment(&rest.sub_segment(rest.left.u, top.u));
                 roll.roll_over_point(top, piece);
@@ -53,8 +55,8 @@ pub(super) fn roll_ball(skyline: &UpperEnvelope, radius: f64, scale: f64) -> Vec
     roll.stretches
 }
 
-/// The height at which a tail and what is laid over it meet, where they do but for rounding: that of the flatter one, since
-/// a steep one tells no height.
+/// Returns the height at which the tail of the path and the new segment meet, if they meet up to rounding. It
+/// is the height of the flatter one, because the height of a steep one is not exact.
 fn meeting_height(
     tail: (f64, f64, HeightGraph),
     new: (f64, HeightGraph),
@@ -62,20 +64,21 @@ fn meeting_height(
     tie: f64,
 ) -> Option<f64> {
     let (steep_tail, steep_new) = (tail.2.steepness_at(tail.0), new.1.steepness_at(tail.0));
-    // Where a circle is upright a rounding in u is its root in height.
+    // Where a circle is vertical, a rounding in u becomes its square root in height.
     let noise = (4.0 * tie * (1.0 + steep_tail + steep_new)).min(4.0 * (radius * tie).sqrt());
     let meets = (tail.1 - new.0).abs() <= noise;
     meets.then_some(if steep_tail < 0.5 * steep_new { tail.1 } else { new.0 })
 }
 
 impl RollingBall {
+    /// Returns the half circle of the ball's centre over one point.
     fn ball_cap(&self, at: Point, piece: usize) -> GraphSegment {
         let graph = HeightGraph::Round { centre: at, radius: self.radius, upper: true };
         let (left, right) = (Point::new(at.u - self.radius, at.z), Point::new(at.u + self.radius, at.z));
         GraphSegment { left, right, graph, piece, part: PiecePart::Vertex }
     }
 
-    /// The ball over one point.
+    /// Rolls the ball over one point.
     fn roll_over_point(&mut self, at: Point, piece: usize) {
         if self
             .last
@@ -87,7 +90,7 @@ impl RollingBall {
         self.lay_over_envelope(None, self.ball_cap(at, piece));
     }
 
-    /// The ball over a stretch: about its left end, along it, about its right end.
+    /// Rolls the ball over a segment: around its left end, along it, and around its right end.
     fn roll_over_segment(&mut self, stretch: &GraphSegment) {
         if stretch.left.u >= stretch.right.u {
             return;
@@ -98,7 +101,7 @@ impl RollingBall {
         self.lay_over_envelope(self.offset_segment(stretch), self.ball_cap(right, stretch.piece));
     }
 
-    /// The offset by the ball's radius; `None` where the ball does not fit in.
+    /// Returns the offset of a segment by the ball's radius, or `None` if the ball does not fit in.
     fn offset_segment(&self, stretch: &GraphSegment) -> Option<GraphSegment> {
         let (graph, left, right) = match stretch.graph {
             HeightGraph::Line { left, right } => {
@@ -110,7 +113,8 @@ impl RollingBall {
             }
             HeightGraph::Round { centre, radius, upper } => {
                 let offset = if upper { radius + self.radius } else { radius - self.radius };
-                // A hollow no wider than the ball: it touches both ends at once, or nearly so.
+                // In a hollow that is no wider than the ball, the ball touches both ends at once or nearly
+                // so.
                 if offset <= UPRIGHT {
                     return None;
                 }
@@ -122,7 +126,8 @@ impl RollingBall {
         Some(GraphSegment { left, right, graph, piece: stretch.piece, part: PiecePart::Body })
     }
 
-    /// Lays `body` (where there is one) and then `cap` over the envelope: they win from some u on.
+    /// Lays `body` (if there is one) and then `cap` over the path. They are higher than the path from some u
+    /// on.
     fn lay_over_envelope(&mut self, body: Option<GraphSegment>, cap: GraphSegment) {
         let bound = body.map_or(cap.left.u, |body| body.right.u);
         let start = body.map_or(cap.left.u, |body| body.left.u);
@@ -130,6 +135,8 @@ impl RollingBall {
             Some(body) if u <= bound => body.height_at(u),
             _ => cap.height_at(u),
         };
+        // Remove segments that are below the new ones from their start on; the first one that is not is cut
+        // where they cross.
         let mut from = start;
         let mut meet = None;
         while let Some(tail) = self.stretches.last_mut() {
@@ -147,6 +154,7 @@ impl RollingBall {
             let about = cap.graph.find_crossings(&tail.graph, bend, hi);
             let mut left = lo;
             from = hi;
+            // Between two crossings one of both is higher everywhere, so testing the middle is enough.
             for right in
                 along.into_iter().flatten().chain([bend]).chain(about.into_iter().flatten()).chain([hi])
             {
@@ -180,7 +188,7 @@ impl RollingBall {
         let lo = bound.max(from);
         if cap.right.u - lo > THIN {
             let left = match body {
-                // The cap goes on where the body ends.
+                // The cap continues where the body ends.
                 Some(body) if lo == body.right.u => body.right,
                 _ => Point::new(lo, meet.filter(|_| lo == from).unwrap_or_else(|| cap.height_at(lo))),
             };

@@ -1,35 +1,38 @@
-//! Looking at a tip path with other means: many samples, and distances.
+//! This module checks a tip path by an independent method: many samples and their distances.
 
 use super::chain::Chain;
 use super::chain_piece::{ChainPiece, Point};
 
-/// Samples in a block that is skipped or looked at as a whole.
+/// The number of samples in a block that is examined or skipped as a whole.
 const BLOCK: usize = 64;
 
-/// What samples of a profile and a tip path show.
+/// The deviation of a tip path from a profile, measured with samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProfileDeviation {
-    /// How deep the ball (or the shank above it, as wide as the ball) goes into the profile at most, mm; 0 when nowhere.
+    /// The largest depth of the ball (or of the shank above it, as wide as the ball) in the profile, mm; 0 if
+    /// there is none.
     pub gouge: f64,
-    /// Place of the tip where that is.
+    /// The position of the tip at which this is so.
     pub gouge_at: Point,
-    /// How far the ball is from touching the profile at most, mm; 0 when it touches everywhere.
+    /// The largest distance of the ball from touching the profile, mm; 0 if it touches everywhere.
     pub gap: f64,
-    /// Place of the tip where that is.
+    /// The position of the tip at which this is so.
     pub gap_at: Point,
-    /// How far both may be from the truth because of the distance of samples, mm.
+    /// By how much both may differ from the truth because of the distance of samples, mm.
     pub bound: f64,
 }
 
-/// Samples a tip path and a profile every `step` mm, at corners and ends, and measures how far the ball of `radius` mm is
-/// from the profile in all places of the path. Where the path goes straight up or down it need not touch anything, so gaps are not
-/// looked at there.
+/// Samples a tip path and a profile every `step` mm and at vertices and ends, and measures how far the ball
+/// of `radius` mm is from the profile at every sample of the path. Where the path goes straight up or down
+/// the ball need not touch anything, so gaps are not measured there.
 ///
-/// Of the profile's samples under the ball the nearest counts; those above its centre count by their horizontal distance,
-/// for the shank. So this knows nothing of envelopes, offsets or contact points. Between two samples a line or arc of curvature k is at
-/// most `step^2/8 (1/R + k)` nearer than they are, and the same holds along the path: the bound is the sum of both.
-/// Both results may be off by the bound when `step` is small against radii; gouges are told too small, gaps too large.
-/// That all of the profile was reached is not told here: see [`find_unreachable_parts`](super::find_unreachable_parts).
+/// Of the profile's samples, the one nearest to the ball counts; samples above its centre count with their
+/// horizontal distance, for the shank. So the check does not use envelopes, offsets or contact points.
+/// Between two samples, a line or an arc of curvature k is at most `step^2/8 (1/R + k)` nearer than the
+/// samples, and the same holds along the path; the bound is the sum of both. If `step` is small against the
+/// radii, both results are within the bound: gouges are measured too small, gaps too large. Whether all of
+/// the profile was reached is not checked here: see
+/// [`find_unreachable_parts`](super::find_unreachable_parts).
 pub fn check_tip_path(profile: &Chain, tip: &Chain, radius: f64, step: f64) -> ProfileDeviation {
     let mut samples = Vec::new();
     sample_chain(profile, step, |point, _| samples.push(point));
@@ -56,7 +59,7 @@ pub fn check_tip_path(profile: &Chain, tip: &Chain, radius: f64, step: f64) -> P
     verdict
 }
 
-/// The largest curvature of a chain's arcs, as far as samples can see it.
+/// Returns the largest curvature of a chain's arcs, 1/mm.
 fn largest_curvature(chain: &Chain) -> f64 {
     let of = |piece: &ChainPiece| match piece {
         ChainPiece::Arc(arc) => 1.0 / arc.radius,
@@ -65,12 +68,12 @@ fn largest_curvature(chain: &Chain) -> f64 {
     chain.pieces().iter().map(of).fold(0.0, f64::max)
 }
 
-/// Gives out points of a chain, no farther apart than `step`, and whether they lie on an upright line.
+/// Gives the points of a chain that are at most `step` apart, and whether they are on a vertical line.
 fn sample_chain(chain: &Chain, step: f64, mut give: impl FnMut(Point, bool)) {
-    // Also what is no number becomes a step.
+    // This also replaces a step that is not a number.
     let step = step.max(1e-6);
     for piece in chain.pieces() {
-        // A slightly slanted join beside a wall is as good as upright.
+        // A slightly tilted joint beside a wall counts as vertical.
         let upright = matches!(piece, ChainPiece::Line(line) if (line.to.u - line.from.u).abs() < 1e-9);
         let count = (piece.length_mm() / step).ceil().clamp(1.0, 1e8) as usize;
         for index in 0..=count {
@@ -83,14 +86,14 @@ fn square(number: f64) -> f64 {
     number * number
 }
 
-/// Samples by ascending u, in blocks with their bounds, and the ball's centre that was looked at last.
+/// The samples with u ascending, in blocks with their bounds, and the last position of the ball's centre.
 struct SampleBlocks {
     samples: Vec<Point>,
     blocks: Vec<SampleBlock>,
-    /// The block in which the nearest sample was.
+    /// The index of the block that had the nearest sample.
     near: usize,
     last: Option<Point>,
-    /// How far the centre has come in all.
+    /// The total distance that the centre has travelled.
     way: f64,
 }
 
@@ -98,7 +101,8 @@ struct SampleBlock {
     from: f64,
     to: f64,
     top: f64,
-    /// The distance of its nearest sample when the centre had come so far: it has changed by no more than the way since.
+    /// The distance of its nearest sample when the centre had travelled `way`. Since then it has changed by
+    /// at most the distance travelled.
     distance: f64,
     way: f64,
 }
@@ -118,13 +122,14 @@ impl SampleBlocks {
         Self { samples, blocks, near: 0, last: None, way: 0.0 }
     }
 
-    /// The distance of the nearest sample from the ray upwards from `centre`.
+    /// Returns the distance of the nearest sample from the ray upwards from `centre`.
     fn distance_to_nearest(&mut self, centre: Point) -> f64 {
         self.way += self.last.map_or(0.0, |last| last.distance(centre));
         self.last = Some(centre);
         let mut best = f64::INFINITY;
         self.scan_block(self.near, centre, &mut best);
-        // Outwards from the block over which the centre stands, until blocks are farther away sideways than the best.
+        // Go outwards from the block below the centre, until blocks are further away sideways than the best
+        // sample.
         let middle = self.blocks.partition_point(|block| block.to < centre.u);
         for index in middle..self.blocks.len() {
             if self.blocks.get(index).is_none_or(|block| block.from - centre.u >= best) {
@@ -141,6 +146,7 @@ impl SampleBlocks {
         best
     }
 
+    /// Examines a block, unless its bounds show that it has no nearer sample.
     fn scan_block(&mut self, index: usize, centre: Point, best: &mut f64) {
         let Some(block) = self.blocks.get_mut(index) else { return };
         if block.distance - (self.way - block.way) >= *best {

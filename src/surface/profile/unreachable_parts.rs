@@ -1,4 +1,4 @@
-//! What of a profile a ball cannot touch.
+//! This module finds the parts of a profile that a ball cannot touch.
 
 use super::ball_compensation::{BallCompensationError, EnvelopeEnd, check_radius, make_centre_envelope};
 use super::chain::Chain;
@@ -6,35 +6,40 @@ use super::chain_piece::{ChainPiece, Point};
 use super::graph_segment::{GraphSegment, HeightGraph, PiecePart, UPRIGHT};
 use std::f64::consts::TAU;
 
-/// A part of a profile that the ball does not touch: a corner or hollow tighter than the ball, or a place under an overhang.
+/// A part of a profile that the ball does not touch: a corner or hollow that is tighter than the ball, or a
+/// part under an overhang.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UnreachablePart {
-    /// Index of the piece in which it begins.
+    /// The index of the piece in which it begins.
     pub first: usize,
-    /// Index of the piece in which it ends.
+    /// The index of the piece in which it ends.
     pub last: usize,
-    /// Where it begins.
+    /// The point at which it begins.
     pub from: Point,
-    /// Where it ends.
+    /// The point at which it ends.
     pub to: Point,
-    /// How far its farthest place is from the ball where that stands beside it, mm: what is left there.
+    /// The thickness of the material that is left, mm: the distance of the part's furthest point from the
+    /// ball in its positions beside the part.
     pub left: f64,
 }
 
-/// A part of a piece that the ball touches, by shares of its length, and where the ball's centre is at both ends.
+/// A part of a piece that the ball touches, with the fraction of the piece's length and the ball's centre at
+/// both ends.
 struct TouchedPart {
     piece: usize,
     from: (f64, Point),
     to: (f64, Point),
 }
 
-/// What of `profile` a ball of `radius` mm does not touch, where more than `tolerance` mm is left, in the profile's order.
+/// Finds the parts of `profile` that a ball of `radius` mm does not touch and where more than `tolerance` mm
+/// is left, in the order of the profile.
 ///
-/// Walls are touched by the ball's side where it goes up or down beside them. What is left is looked at in the ends
-/// of pieces, and in the middle and the quarters of arcs.
+/// Walls are touched by the side of the ball where it goes up or down beside them. The remaining thickness is
+/// measured at the ends of pieces, and at the middle and the quarters of arcs.
 ///
 /// # Errors
-/// [`BallCompensationError`] as for [`compensate_profile`](super::compensate_profile).
+/// Returns a [`BallCompensationError`] in the same cases as
+/// [`compensate_profile`](super::compensate_profile).
 pub fn find_unreachable_parts(
     profile: &Chain,
     radius: f64,
@@ -44,7 +49,8 @@ pub fn find_unreachable_parts(
     let mut touches = find_touched_parts(profile, radius);
     touches.sort_by(|a, b| a.piece.cmp(&b.piece).then(a.from.0.total_cmp(&b.from.0)));
     let mut found = Vec::new();
-    // From the chain's start, or the touch that reaches farthest so far, to the next.
+    // An unreachable part goes from the furthest end of all touched parts so far (or the chain's start) to
+    // the start of the next one.
     let mut reached: (usize, f64, Option<Point>) = (0, 0.0, None);
     let end = (profile.pieces().len().saturating_sub(1), 1.0);
     let stops = touches.iter().map(|touch| (touch.piece, touch.from.0, Some(touch.from.1)));
@@ -67,7 +73,7 @@ pub fn find_unreachable_parts(
     Ok(found)
 }
 
-/// The part between two places of the chain.
+/// Measures the part between two positions on the chain, or returns `None` if it has no length.
 fn measure_unreachable_part(
     profile: &Chain,
     from: (usize, f64),
@@ -78,7 +84,7 @@ fn measure_unreachable_part(
     let mut left = 0.0_f64;
     let mut look = |point: Point| {
         let near = balls.iter().flatten().map(|ball| ball.distance(point)).fold(f64::INFINITY, f64::min);
-        // A ball that goes straight from one place to the other passes all between.
+        // A ball that goes straight from one position to the other passes all points between.
         let near = match balls {
             [Some(a), Some(b)]
                 if (a.u - b.u).abs() <= UPRIGHT && (a.z.min(b.z)..=a.z.max(b.z)).contains(&point.z) =>
@@ -112,7 +118,7 @@ fn measure_unreachable_part(
     bounds.map(|(first, from, last, to)| UnreachablePart { first, last, from, to, left })
 }
 
-/// Where the ball touches.
+/// Finds the parts that the ball touches.
 fn find_touched_parts(profile: &Chain, radius: f64) -> Vec<TouchedPart> {
     let envelope = make_centre_envelope(profile, radius);
     let mut touches = Vec::with_capacity(envelope.stretches.len());
@@ -129,7 +135,7 @@ fn find_touched_parts(profile: &Chain, radius: f64) -> Vec<TouchedPart> {
         }
         before = Some(stretch);
     }
-    // Walls down to the chain's ends.
+    // The ball's side also touches walls down to the chain's ends.
     for (end, stretch, high) in
         [(envelope.low, envelope.stretches.first(), false), (envelope.high, envelope.stretches.last(), true)]
     {
@@ -137,7 +143,7 @@ fn find_touched_parts(profile: &Chain, radius: f64) -> Vec<TouchedPart> {
             let top = if high { stretch.right } else { stretch.left };
             let side = if high { -radius } else { radius };
             add_touched_walls(&mut touches, profile, stretch.piece, top.u, side, [foot, top.z]);
-            // The foot counts also where the wall is not quite upright.
+            // The foot counts even if the wall is not exactly vertical.
             let at_end = high == envelope.forward;
             let last = profile.pieces().len().saturating_sub(1);
             let (piece, share) = if at_end { (last, 1.0) } else { (0, 0.0) };
@@ -153,7 +159,8 @@ fn make_touched_part(piece: usize, a: (f64, Point), b: (f64, Point)) -> TouchedP
     TouchedPart { piece, from, to }
 }
 
-/// Adds what the ball's side touches of upright pieces around `piece` while its centre goes between two heights at u.
+/// Adds the parts of vertical pieces around `piece` that the ball's side touches while its centre moves
+/// between two heights at u.
 fn add_touched_walls(
     touches: &mut Vec<TouchedPart>,
     profile: &Chain,
@@ -174,7 +181,7 @@ fn add_touched_walls(
             matches!(piece, ChainPiece::Line(_)) && near(piece.start()) && near(piece.end())
         })
     };
-    // The top belongs to the upright piece or to its neighbour on either side.
+    // The top of a wall may belong to the vertical piece or to its neighbour on either side.
     let before = (0..piece).rev().take_while(stands);
     let after = (piece + 1..pieces.len()).take_while(stands);
     for index in before.chain(after).chain(Some(piece).filter(stands)) {
@@ -188,10 +195,11 @@ fn add_touched_walls(
     }
 }
 
-/// Where the ball touches when its centre is at a place of a stretch.
+/// Returns the point that the ball touches when its centre is at a point of a segment.
 fn contact_point(stretch: &GraphSegment, centre: Point, radius: f64) -> Point {
     match (stretch.part, stretch.graph) {
         (PiecePart::Vertex, HeightGraph::Round { centre: vertex, .. }) => vertex,
+        // The inverse of the offset: back from the centre's arc or line by the ball's radius.
         (_, HeightGraph::Round { centre: middle, radius: offset, upper }) => {
             let was = if upper { offset - radius } else { offset + radius };
             middle.lerp(centre, was / offset)
@@ -203,7 +211,7 @@ fn contact_point(stretch: &GraphSegment, centre: Point, radius: f64) -> Point {
     }
 }
 
-/// The share of a piece's length at which a point on it lies.
+/// Returns the position of a point on a piece as a fraction of the piece's length.
 fn fraction_along(piece: &ChainPiece, point: Point) -> f64 {
     match piece {
         ChainPiece::Line(line) => {
@@ -221,7 +229,7 @@ fn fraction_along(piece: &ChainPiece, point: Point) -> f64 {
             if sweep <= 0.0 {
                 return 0.0;
             }
-            // What lies beyond both ends by rounding belongs to the nearer one.
+            // A point that is beyond an end by rounding belongs to the nearer end.
             if along <= sweep {
                 along / sweep
             } else if along - sweep < TAU - along {

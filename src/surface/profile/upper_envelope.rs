@@ -1,20 +1,23 @@
-//! What is seen of a chain from straight above: of all points over one u only the highest can touch a ball from above.
+//! This module computes the upper envelope of a chain: of all points over one u only the highest can touch a
+//! ball from above.
 
 use super::chain::Chain;
 use super::chain_piece::Point;
 use super::graph_segment::{GraphSegment, PiecePart, split_into_graphs};
 
-/// Pieces of one run may overlap by this much (mm): the ends of arcs are rounded.
+/// Neighbouring pieces of one run may overlap by this much (mm), because the ends of arcs are rounded.
 const ROUNDING: f64 = 1e-12;
 
-/// The skyline: stretches by ascending u that do not overlap, and single points that stand above them.
+/// The upper envelope: segments with u ascending that do not overlap, and single points that may be above
+/// them.
 pub(super) struct UpperEnvelope {
     pub stretches: Vec<GraphSegment>,
-    /// Ends of upright pieces, ascending; not all of them are seen.
+    /// The ends of vertical pieces, with u ascending. Some of them may be below the envelope.
     pub tops: Vec<(Point, usize)>,
 }
 
-/// The skyline of a chain: runs that go one way in u are skylines already and are merged by halves, O(n log n).
+/// Computes the upper envelope of a chain. Runs that go in one direction of u are envelopes already; they are
+/// merged in pairs, O(n log n).
 pub(super) fn find_upper_envelope(chain: &Chain) -> UpperEnvelope {
     let mut runs: Vec<Vec<GraphSegment>> = Vec::new();
     let mut run: Vec<GraphSegment> = Vec::with_capacity(chain.pieces().len());
@@ -54,7 +57,7 @@ pub(super) fn find_upper_envelope(chain: &Chain) -> UpperEnvelope {
     UpperEnvelope { stretches: runs.pop().unwrap_or_default(), tops }
 }
 
-/// A run in ascending order. Where two pieces overlap by a rounding, the second one gives way.
+/// Puts a run in ascending order. If two pieces overlap by a rounding, the second one is shortened.
 fn order_run(mut run: Vec<GraphSegment>, forward: bool) -> Vec<GraphSegment> {
     if !forward {
         run.reverse();
@@ -70,7 +73,7 @@ fn order_run(mut run: Vec<GraphSegment>, forward: bool) -> Vec<GraphSegment> {
     run
 }
 
-/// The higher of two skylines, everywhere.
+/// Merges two envelopes: the result is the higher one everywhere.
 fn merge_upper(first: &[GraphSegment], second: &[GraphSegment]) -> Vec<GraphSegment> {
     let mut high: Vec<GraphSegment> = Vec::with_capacity(first.len() + second.len());
     let (mut firsts, mut seconds) = (first.iter().copied(), second.iter().copied());
@@ -80,7 +83,7 @@ fn merge_upper(first: &[GraphSegment], second: &[GraphSegment]) -> Vec<GraphSegm
             (Some(one), Some(two)) => {
                 let lo = one.left.u.max(two.left.u);
                 let hi = one.right.u.min(two.right.u);
-                // What only one of them covers.
+                // The part before the overlap is only covered by one of them.
                 let alone = if one.left.u < two.left.u { one } else { two };
                 let until = lo.min(alone.right.u);
                 push_segment(&mut high, alone, alone.left.u, until);
@@ -108,7 +111,7 @@ fn remaining_segment(stretch: GraphSegment, from: f64) -> Option<GraphSegment> {
     Some(if from > stretch.left.u { stretch.sub_segment(from, stretch.right.u) } else { stretch })
 }
 
-/// Adds the higher of two stretches between `lo` and `hi`; they cross at most twice.
+/// Adds the higher of two segments between `lo` and `hi`; they cross at most twice.
 fn push_higher(high: &mut Vec<GraphSegment>, one: &GraphSegment, two: &GraphSegment, lo: f64, hi: f64) {
     let mut from = lo;
     let cuts = one.graph.find_crossings(&two.graph, lo, hi);
@@ -122,7 +125,7 @@ fn push_higher(high: &mut Vec<GraphSegment>, one: &GraphSegment, two: &GraphSegm
     }
 }
 
-/// Adds a stretch, or makes the last one longer when it is the same.
+/// Adds a segment, or extends the last one if both belong to the same graph.
 fn push_segment(high: &mut Vec<GraphSegment>, stretch: GraphSegment, lo: f64, hi: f64) {
     if lo >= hi {
         return;
