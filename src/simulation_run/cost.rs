@@ -1,52 +1,53 @@
-//! What a run costs, before it runs.
+//! This module estimates the cost of a run before it starts.
 
 use super::{Machining, SimulationRunOptions};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::sim::Dexels;
 
-/// What a run may cost.
+/// The most that a run may cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SimulationBudget {
-    /// Bytes of stock.
+    /// The memory of the stock in bytes.
     pub bytes: u64,
-    /// Visits to columns.
+    /// The number of times that columns are examined.
     pub visits: f64,
 }
 
 impl Default for SimulationBudget {
-    /// 2 GiB, and some hours of one core.
+    /// Returns 2 GiB and about some hours of one core.
     fn default() -> Self {
         Self { bytes: 2 << 30, visits: 2e12 }
     }
 }
 
-/// What a run costs.
+/// The estimated cost of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SimulationCost {
-    /// Distance of columns, mm.
+    /// The distance of columns, mm.
     pub cell: f64,
-    /// Columns.
+    /// The number of columns.
     pub columns: u64,
-    /// Bytes of stock, overhangs aside.
+    /// The memory of the stock in bytes, without overhangs.
     pub bytes: u64,
-    /// About how many times a column is looked at, at most.
+    /// An upper estimate of the number of times that columns are examined.
     pub visits: f64,
-    /// Length of the path, mm.
+    /// The length of the path, mm.
     pub path_mm: f64,
 }
 
-/// Cells in the smallest cutter's diameter when nobody says the cell.
+/// The number of cells in the smallest cutter's diameter if the cell is not given.
 const CELLS_ACROSS: f64 = 40.0;
 
-/// Fewest cells in a cutter's diameter: with less, the border of the ground is known to no more than a fifth of the radius.
+/// The fewest cells in a cutter's diameter. With fewer, the boundary of material is known to no more than a
+/// fifth of the radius.
 const FEWEST_ACROSS: f64 = 10.0;
 
 impl Machining<'_> {
-    /// What a run with these options costs.
+    /// Estimates the cost of a run with these options.
     ///
     /// # Errors
-    /// [`codes::TOO_MUCH`] when it is more than the budget, with a cell that fits; [`codes::CELL_TOO_COARSE`] when the cell is
-    /// too coarse for a cutter.
+    /// Returns [`codes::TOO_MUCH`] with a cell that fits if the cost exceeds the budget, and
+    /// [`codes::CELL_TOO_COARSE`] if the cell is too coarse for a cutter.
     pub fn estimate_cost(&self, options: &SimulationRunOptions) -> Result<SimulationCost, Box<Diagnostic>> {
         let smallest = self
             .tooling
@@ -56,6 +57,8 @@ impl Machining<'_> {
             .fold(f64::INFINITY, f64::min);
         let asked = options.cell;
         let (path_mm, area, pieces) = self.measure_path(options.longest);
+        // Every column under a piece is examined once for that piece, so the visits are its area divided by
+        // that of a cell.
         let at = |cell: f64| SimulationCost {
             cell,
             columns: self.stock.count_columns(cell) as u64,
@@ -66,6 +69,7 @@ impl Machining<'_> {
         let fits = |plan: &SimulationCost| {
             plan.bytes <= options.budget.bytes && plan.visits <= options.budget.visits
         };
+        // A cell that the user gave is never changed; only the default may be made coarser to fit.
         if let Some(cell) = asked
             && cell * FEWEST_ACROSS > smallest
         {
@@ -77,6 +81,7 @@ impl Machining<'_> {
         if fits(&wanted) {
             return Ok(wanted);
         }
+        // Grow the cell in steps of 10 % until it fits, and round it up so that the message has few digits.
         let mut cell = wanted.cell;
         while !fits(&at(cell)) && cell < 1e4 {
             cell *= 1.1;
@@ -99,7 +104,8 @@ impl Machining<'_> {
         Err(Box::new(Diagnostic::new(codes::TOO_MUCH, message).with_help(help)))
     }
 
-    /// Length of the path, the ground that its pieces cover (each counted whole), and how many pieces.
+    /// Returns the length of the path in mm, the sum of the areas under its pieces in mm2, and the number of
+    /// pieces. Tools without a known shape do not count.
     fn measure_path(&self, longest: f64) -> (f64, f64, u64) {
         let unit = self.units.mm_per_unit();
         let (mut path, mut area, mut pieces) = (0.0, 0.0, 0);
@@ -113,7 +119,8 @@ impl Machining<'_> {
             let radius = cutter.radius_mm();
             let count = (length / longest).ceil().max(1.0);
             path += length;
-            // A piece that goes on where the last one ended looks at half of the disc again at most.
+            // A piece is a strip with a disc's ends. One that continues the piece before examines at most
+            // half of the disc again.
             area += length * 2.0 * radius + count * std::f64::consts::PI * radius * radius;
             pieces += count as u64;
         }
@@ -121,7 +128,7 @@ impl Machining<'_> {
     }
 }
 
-/// A length with as many digits as matter.
+/// Formats a length with three significant digits.
 fn format_short(value: f64) -> String {
     let digits = (2.0 - value.abs().max(1e-9).log10().floor()).clamp(0.0, 6.0) as usize;
     let text = format!("{value:.digits$}");

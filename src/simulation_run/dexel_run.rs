@@ -1,4 +1,4 @@
-//! Running a program over its stock.
+//! This module runs a program over its stock of columns.
 
 use super::faults::FaultCollector;
 use super::{Machining, RunWatcher, SimulationRunOptions};
@@ -6,32 +6,34 @@ use crate::diagnostic::{Diagnostic, codes};
 use crate::program::motion::Motion;
 use crate::sim::{Dexels, Engagement, MotionPiece, PathLinearizer, PathPiece, Simulation};
 
-/// Pieces that are worked on together: enough for every thread, few enough to stay small.
+/// The number of pieces that are simulated together: enough for every thread, and few enough to need little
+/// memory.
 const BATCH: usize = 1024;
 
-/// Largest distance of a chord from its arc, as a share of a cell and in mm.
+/// The largest distance of a chord from its arc, as a fraction of a cell, and in mm; the smaller one counts.
 const SAGITTA: (f64, f64) = (0.02, 0.002);
 
-/// How far the chords of arcs and splines are from them at most, mm, with columns `cell` mm apart.
+/// Returns the largest distance of chords from their arcs and splines, mm, for columns that are `cell` mm
+/// apart.
 pub fn chord_tolerance_mm(cell: f64) -> f64 {
     (cell * SAGITTA.0).min(SAGITTA.1)
 }
 
-/// A motion and what it engaged.
+/// A motion and its engagement.
 #[derive(Debug)]
 pub struct EngagedMotion<'a> {
     /// The motion.
     pub motion: &'a Motion,
-    /// Its number among all motions of the program.
+    /// The index of the motion among all motions of the program.
     pub number: usize,
-    /// Index of its cutter; `None` where the shape of a tool in a rapid is not known.
+    /// The index of its cutter; `None` for a rapid with a tool whose shape is not known.
     pub cutter: Option<usize>,
-    /// Its pieces in order, with the share of its length where each begins and ends; none for a motion that stays.
+    /// Its pieces in order, each with its engagement. The list is empty for a motion that stays at its place.
     pub pieces: &'a [(MotionPiece, Engagement)],
 }
 
 impl EngagedMotion<'_> {
-    /// What the whole motion engaged; `None` for one that stays.
+    /// Returns the engagement of the whole motion, or `None` if it stays at its place.
     pub fn whole_engagement(&self) -> Option<Engagement> {
         let (first, rest) = self.pieces.split_first()?;
         let mut whole = first.1.clone();
@@ -40,24 +42,25 @@ impl EngagedMotion<'_> {
     }
 }
 
-/// What is left after a run.
+/// The result of a run.
 #[derive(Debug)]
 pub struct DexelRunResult {
     /// The stock that is left.
     pub left: Dexels,
-    /// Volume of the stock before, mm3.
+    /// The volume of the stock before the run, mm3.
     pub before_mm3: f64,
-    /// Distance of columns, mm.
+    /// The distance of columns, mm.
     pub cell: f64,
-    /// Collisions, cuts at rapid or without spindle.
+    /// The findings: collisions, and cuts at rapid or with a spindle that does not turn.
     pub findings: Vec<Diagnostic>,
 }
 
 impl Machining<'_> {
-    /// Runs the whole program. `sink` gets every motion in order with what it engaged. `None` when `watch` stopped it.
+    /// Runs the whole program. `sink` gets every motion in order with its engagement. Returns `None` if
+    /// `watch` stopped the run.
     ///
     /// # Errors
-    /// As [`Machining::estimate_cost`].
+    /// Returns the errors of [`Machining::estimate_cost`].
     pub fn simulate_program(
         &self,
         options: &SimulationRunOptions,
@@ -65,6 +68,8 @@ impl Machining<'_> {
         sink: &mut dyn FnMut(&EngagedMotion<'_>),
     ) -> Result<Option<DexelRunResult>, Box<Diagnostic>> {
         let plan = self.estimate_cost(options)?;
+        // The estimate has already compared the number of columns with the budget, so no limit is needed
+        // here.
         let stock = self.stock.to_dexels(plan.cell, usize::MAX).map_err(|error| {
             Box::new(Diagnostic::new(codes::TOO_MUCH, format!("the stock cannot be simulated: {error}")))
         })?;
@@ -79,6 +84,7 @@ impl Machining<'_> {
         loop {
             let next = motions.next();
             if let Some((number, motion)) = &next {
+                // The first motion defines the workpiece frame, even if the shape of its tool is not known.
                 trace.adopt_workpiece_frame(motion);
                 let cutter = self.tooling.cutter_index(motion);
                 let start = batch.steps.len();
@@ -88,6 +94,7 @@ impl Machining<'_> {
                 done += motion.length() * self.units.mm_per_unit();
                 batch.motions.push((*number, motion.clone(), cutter, start..batch.steps.len()));
             }
+            // A batch ends with a whole motion, so that every motion has all its pieces.
             if batch.steps.len() >= BATCH || next.is_none() {
                 batch.simulate_batch(self, &mut simulation, plan.cell, &mut faults, sink);
                 watch.report_progress(done, plan.path_mm);
@@ -104,7 +111,7 @@ impl Machining<'_> {
     }
 }
 
-/// Motions that wait to be simulated together.
+/// The motions that wait to be simulated together.
 #[derive(Default)]
 struct PieceBatch {
     steps: Vec<MotionPiece>,
@@ -112,6 +119,7 @@ struct PieceBatch {
 }
 
 impl PieceBatch {
+    /// Simulates the waiting pieces, collects faults, and gives each motion to `sink`.
     fn simulate_batch(
         &mut self,
         machining: &Machining<'_>,
@@ -124,6 +132,7 @@ impl PieceBatch {
         let pieces: Vec<PathPiece> = self.steps.iter().map(|step| step.piece).collect();
         let engaged = simulation.sweep_pieces(&pieces, cutters);
         let found: Vec<(MotionPiece, Engagement)> = self.steps.drain(..).zip(engaged).collect();
+        // Faults are checked for whole motions, so that each motion has at most one finding of a kind.
         for (number, motion, cutter, range) in self.motions.drain(..) {
             let cut = EngagedMotion {
                 motion: &motion,

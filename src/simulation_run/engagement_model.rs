@@ -1,4 +1,4 @@
-//! What every motion engages, by columns or by the exact chips of layers.
+//! This module finds the engagement of every motion, from columns or from the exact chips of layers.
 
 use super::layer_run::{LayerRunOptions, LayerRunResult, MotionChips, to_flat_mill};
 use super::tooling::statement_span;
@@ -7,51 +7,52 @@ use crate::diagnostic::{Diagnostic, codes};
 use crate::layered_chips::{FlatMill, measure_engagement};
 use crate::sim::{Engagement, MotionPiece};
 
-/// What engagement is found with.
+/// The model from which engagements are found.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum EngagementModel {
-    /// Columns: any cutter.
+    /// Columns, which work for any cutter.
     #[default]
     Dexels,
-    /// Layers: flat end mills, exactly within each layer. Shanks and holders are not looked at.
+    /// Layers, which are exact within each layer and work for flat end mills. Shanks and holders are not
+    /// examined.
     Layers {
-        /// Their thickness, mm; else a fortieth of the smallest cutter's diameter.
+        /// The thickness of the layers, mm; if not given, a fortieth of the smallest cutter's diameter.
         thickness: Option<f64>,
     },
 }
 
-/// How finely the stock is divided.
+/// The resolution at which the stock is divided.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StockResolution {
-    /// Distance of columns, mm.
+    /// The distance of columns, mm.
     Cell(f64),
-    /// Thickness of layers, mm.
+    /// The thickness of layers, mm.
     Layer(f64),
 }
 
-/// What a run found.
+/// The result of a run that finds engagements.
 #[derive(Debug)]
 pub struct EngagementRunResult {
-    /// How fine it was.
+    /// The resolution of the run.
     pub grain: StockResolution,
-    /// Lower corner of the box around the stock, mm.
+    /// The lowest corner of the box around the stock, mm.
     pub lowest: [f64; 3],
-    /// Collisions, cuts at rapid or without spindle.
+    /// The findings: collisions, and cuts at rapid or with a spindle that does not turn.
     pub findings: Vec<Diagnostic>,
 }
 
-/// Layers in the smallest cutter's diameter when nobody says their thickness.
+/// The number of layers in the smallest cutter's diameter if their thickness is not given.
 const LAYERS_ACROSS: f64 = 40.0;
 
-/// Largest distance of a border's chords from the curve, mm. Finer than `clsmith chips` draws, for the film that chords leave
-/// is where directions are lost.
+/// The largest distance of a boundary's chords from the curve, mm. It is finer than in the drawings of
+/// `clsmith chips`, because directions are lost in the film that chords leave.
 const TOLERANCE: f64 = 0.001;
 
 impl Machining<'_> {
-    /// How finely a run with these options divides the stock.
+    /// Returns the resolution at which a run with these options divides the stock.
     ///
     /// # Errors
-    /// Of columns as [`Machining::estimate_cost`].
+    /// For columns, returns the errors of [`Machining::estimate_cost`].
     pub fn choose_resolution(
         &self,
         options: &SimulationRunOptions,
@@ -65,16 +66,20 @@ impl Machining<'_> {
                 let smallest = diameters.fold(f64::INFINITY, f64::min);
                 let ([.., low], [.., high]) = self.stock.bounds();
                 let usual = if smallest.is_finite() { smallest / LAYERS_ACROSS } else { 0.1 };
+                // A layer must not be thicker than the stock is high.
                 Ok(StockResolution::Layer(usual.min(high - low)))
             }
         }
     }
 
-    /// Runs the whole program, as [`Machining::simulate_program`] does. `None` when `watch` stopped it.
+    /// Runs the whole program as [`Machining::simulate_program`] does. Returns `None` if `watch` stopped the
+    /// run.
     ///
     /// # Errors
-    /// Of columns as [`Machining::estimate_cost`]. Of layers [`codes::LAYERS`] for stock that has none, and [`codes::NOT_IN_LAYERS`] for a
-    /// motion that they cannot model: there is no engagement to go by then, and the material that it leaves would make later ones wrong.
+    /// For columns, returns the errors of [`Machining::estimate_cost`]. For layers, returns [`codes::LAYERS`]
+    /// for stock that cannot be divided in layers, and [`codes::NOT_IN_LAYERS`] for a motion that layers
+    /// cannot model: such a motion has no engagement, and the material that it leaves would make later
+    /// engagements wrong.
     pub fn find_engagements(
         &self,
         options: &SimulationRunOptions,
@@ -93,6 +98,7 @@ impl Machining<'_> {
         Ok(findings.map(|findings| EngagementRunResult { grain, lowest, findings }))
     }
 
+    /// Finds engagements in layers; fails if any motion cannot be modelled.
     fn find_layer_engagements(
         &self,
         options: &SimulationRunOptions,
@@ -103,6 +109,8 @@ impl Machining<'_> {
         let mills = self.list_flat_mills()?;
         let options =
             LayerRunOptions { tolerance: TOLERANCE, longest: options.longest, ..LayerRunOptions::new(layer) };
+        // The run cannot be stopped from within the sink, so the first refusal is kept and returned at the
+        // end.
         let mut refused = None;
         let mut number = 0;
         let ran = self.simulate_layers(&options, watch, &mut |cut| {
@@ -118,20 +126,21 @@ impl Machining<'_> {
                     Some((*step, measure_engagement(chip, mill?, &step.piece, options.tolerance)))
                 })
                 .collect();
+            // Every motion passes here in order, so counting them gives their index.
             sink(&EngagedMotion { motion: cut.motion, number, cutter: cut.cutter, pieces: &pieces });
             number += 1;
         })?;
         match refused {
             Some(refused) => Err(refused),
             None => Ok(ran.map(|mut ran| {
-                // A repeated point is no matter for feeds.
+                // A repeated point has no effect on feeds.
                 ran.findings.retain(|found| found.code != codes::STILL_MOTION);
                 ran
             })),
         }
     }
 
-    /// The cutters as flat end mills.
+    /// Returns the cutters as flat end mills, or a finding for the first one that is not a flat end mill.
     fn list_flat_mills(&self) -> Result<Vec<FlatMill>, Box<Diagnostic>> {
         let mill = |(index, cutter)| {
             to_flat_mill(cutter).map_err(|has| {
@@ -152,7 +161,7 @@ impl Machining<'_> {
         self.tooling.cutters().iter().enumerate().map(mill).collect()
     }
 
-    /// Why a motion cannot be modelled, with its place.
+    /// Returns a finding for a motion that cannot be modelled, with its place; `None` if all its pieces can.
     fn describe_refusal(&self, cut: &MotionChips<'_>) -> Option<Box<Diagnostic>> {
         let (refusal, _) = cut.first_refusal()?;
         let message = format!("this motion cannot be modelled in layers: {refusal}");

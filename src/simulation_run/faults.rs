@@ -1,4 +1,5 @@
-//! What goes wrong in a run, as findings: a few of each kind with their places, the rest as a number.
+//! This module collects the faults of a run as findings. The first ones of each kind have their places; the
+//! others are counted.
 
 use super::tooling::statement_span;
 use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
@@ -7,10 +8,10 @@ use crate::program::motion::Motion;
 use crate::sim::{CutterModel, Engagement, NonCuttingKind};
 use std::collections::BTreeMap;
 
-/// Findings of one kind that are told one by one.
+/// The number of findings of one kind that are reported one by one.
 const TOLD: usize = 10;
 
-/// Collects faults.
+/// Collects the faults of a run.
 #[derive(Debug, Default)]
 pub(super) struct FaultCollector {
     told: Vec<Diagnostic>,
@@ -18,7 +19,7 @@ pub(super) struct FaultCollector {
 }
 
 impl FaultCollector {
-    /// Looks at what a motion engaged. `cell` is the distance of columns, mm.
+    /// Checks the engagement of a motion. `cell` is the distance of columns, mm.
     pub fn check_engagement(
         &mut self,
         program: &Program,
@@ -35,13 +36,14 @@ impl FaultCollector {
             let message = format!("the {what} stands {depth:.2} mm deep in material");
             self.add_finding(program, motion, codes::COLLISION, message, "on this motion");
         }
-        // A speck below a cell's cube is what rounding leaves where a rapid grazes the stock.
+        // A volume below a cell's cube is rounding, where a rapid touches the stock.
         if found.has_removed_material() && found.removed_mm3 >= cell.powi(3) {
             self.check_removal(program, motion, found.removed_mm3);
         }
     }
 
-    /// Looks at a motion that removed so much, in mm3: no rapid should, and no tool that does not turn.
+    /// Checks a motion that removed a volume in mm3. No rapid may remove material, and no tool whose spindle
+    /// does not turn.
     pub fn check_removal(&mut self, program: &Program, motion: &Motion, mm3: f64) {
         if motion.rapid {
             let message = format!("a rapid goes through material and takes {mm3:.3} mm3 of it");
@@ -52,7 +54,7 @@ impl FaultCollector {
         }
     }
 
-    /// Tells of a motion, or counts it once enough of its kind were told.
+    /// Adds a finding for a motion, or counts it if there are enough of its kind.
     pub fn add_finding(
         &mut self,
         program: &Program,
@@ -69,10 +71,11 @@ impl FaultCollector {
         }
     }
 
-    /// All findings.
+    /// Returns all findings, with one more for each kind that was only counted from some number on.
     pub fn collect_findings(mut self, program: &Program) -> Vec<Diagnostic> {
         for (count, code) in self.counts.values().filter(|(count, _)| *count > TOLD) {
             let message = format!("{} more motions have this: {}", count - TOLD, code.meaning());
+            // The summary shows the place of the first finding of its kind.
             let first =
                 self.told.iter().find(|found| found.code == *code).and_then(|found| found.labels.first());
             let span = first.map(|label| label.span).unwrap_or_default();

@@ -1,8 +1,12 @@
-//! Machining: a program, its setup and the simulation put together.
+//! This module puts a program, its setup and the simulation together.
 //!
-//! [`Machining::new`] finds the cutter of every tool and the stock, asks for what is missing and says what it assumes;
-//! [`Machining::estimate_cost`] knows what a run costs; [`Machining::simulate_program`] removes material motion by motion and hands each motion on
-//! with what it engaged; [`Machining::simulate_layers`] does so in layers, with the exact chips of flat end mills.
+//! [`Machining::new`] finds the cutter of every tool and the stock, reports what is missing, and reports its
+//! assumptions. [`Machining::estimate_cost`] estimates the cost of a run. [`Machining::simulate_program`]
+//! removes material motion by motion and passes each motion on with its engagement.
+//! [`Machining::simulate_layers`] does the same in layers, with the exact chips of flat end mills.
+//!
+//! The workpiece frame is the frame of the program's first motion. Shank and holder remove nothing: their
+//! collisions are reported, and the material stays.
 
 mod cost;
 mod dexel_run;
@@ -25,16 +29,16 @@ use crate::setup::Setup;
 use crate::sim::{Mesh, Stock};
 use std::sync::Arc;
 
-/// How a run is made.
+/// The options of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SimulationRunOptions {
-    /// Distance of columns, mm; else a fortieth of the smallest cutter's diameter.
+    /// The distance of columns, mm; if not given, a fortieth of the smallest cutter's diameter.
     pub cell: Option<f64>,
-    /// Longest piece of a motion that is looked at on its own, mm; infinite for whole motions.
+    /// The longest piece of a motion that is simulated on its own, mm; infinite for whole motions.
     pub longest: f64,
-    /// Whether forces are asked for, which takes several times as long.
+    /// Whether the engagement must be fine enough for forces, which takes several times as long.
     pub forces: bool,
-    /// What a run may cost.
+    /// The most that a run may cost.
     pub budget: SimulationBudget,
 }
 
@@ -44,7 +48,7 @@ impl Default for SimulationRunOptions {
     }
 }
 
-/// A program ready to be machined.
+/// A program that is ready to be machined.
 #[derive(Debug)]
 pub struct Machining<'p> {
     program: &'p Program,
@@ -55,17 +59,19 @@ pub struct Machining<'p> {
 }
 
 impl<'p> Machining<'p> {
-    /// Brings program and setup together. `units` is the unit of the program's lengths. Findings that are no errors (assumptions) are
-    /// added to `findings`.
+    /// Brings a program and a setup together. `units` is the unit of the program's lengths. Findings that are
+    /// not errors (assumptions) are added to `findings`.
     ///
     /// # Errors
-    /// Everything that is missing: stock, shapes of tools.
+    /// Returns a finding for everything that is missing: the stock, and shapes of tools.
     pub fn new(
         program: &'p Program,
         setup: &'p Setup,
         units: LengthUnit,
         findings: &mut Vec<Diagnostic>,
     ) -> Result<Self, Vec<Diagnostic>> {
+        // Tools and stock are both examined before anything is returned, so that all that is missing is
+        // reported at once.
         let mut errors = Vec::new();
         let tooling = Tooling::from_program(program, setup, units, findings, &mut errors);
         let stock = match setup_stock::build_stock(setup) {
@@ -81,35 +87,35 @@ impl<'p> Machining<'p> {
         }
     }
 
-    /// The program.
+    /// Returns the program.
     pub fn program(&self) -> &'p Program {
         self.program
     }
 
-    /// The setup.
+    /// Returns the setup.
     pub fn setup(&self) -> &'p Setup {
         self.setup
     }
 
-    /// The unit of the program's lengths.
+    /// Returns the unit of the program's lengths.
     pub fn length_unit(&self) -> LengthUnit {
         self.units
     }
 
-    /// The tools and their cutters.
+    /// Returns the tools and their cutters.
     pub fn tooling(&self) -> &Tooling {
         &self.tooling
     }
 
-    /// The stock before the first cut.
+    /// Returns the stock before the first cut.
     pub fn stock(&self) -> &Stock {
         &self.stock
     }
 
-    /// A target part read from STL, in the units that its numbers have.
+    /// Reads a target part from an STL file whose numbers have these units.
     ///
     /// # Errors
-    /// Why the bytes are no closed mesh.
+    /// Returns the reason why the bytes are not a closed mesh.
     pub fn read_target_part(bytes: &[u8], units: LengthUnit) -> Result<Arc<Mesh>, crate::sim::MeshError> {
         setup_stock::read_mesh_mm(bytes, units).map(Arc::new)
     }

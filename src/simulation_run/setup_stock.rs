@@ -1,4 +1,4 @@
-//! The stock that a setup describes, with its files read.
+//! This module builds the stock that a setup describes and reads its files.
 
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::LengthUnit;
@@ -6,12 +6,13 @@ use crate::setup::{FileRef, Setup, StockBodyShape};
 use crate::sim::{Mesh, MeshError, SolidBody, Stock, stock_file};
 use std::sync::Arc;
 
-/// The stock of a setup.
+/// Builds the stock of a setup.
 ///
 /// # Errors
-/// When there is none, or a file of it cannot be used.
+/// Returns a finding if the setup describes no stock or a file of it cannot be used.
 pub(super) fn build_stock(setup: &Setup) -> Result<Stock, Vec<Diagnostic>> {
     let described = setup.require_stock().map_err(|found| vec![*found])?;
+    // All files are read before an error is returned, so that the user sees every fault at once.
     let mut errors = Vec::new();
     let mut bodies = Vec::new();
     for body in &described.bodies {
@@ -54,7 +55,7 @@ fn read_saved_stock(file: &FileRef) -> Result<SolidBody, Diagnostic> {
     Ok(SolidBody::Remains(Arc::new(dexels)))
 }
 
-/// A mesh in millimetres.
+/// Reads a mesh from STL and converts it to mm.
 pub(super) fn read_mesh_mm(bytes: &[u8], units: LengthUnit) -> Result<Mesh, MeshError> {
     let mesh = Mesh::from_stl(bytes)?;
     if units == LengthUnit::Mm { Ok(mesh) } else { mesh.scaled(units.mm_per_unit()) }

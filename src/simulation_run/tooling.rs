@@ -1,4 +1,4 @@
-//! The tools of a program and their cutters.
+//! This module finds the tools of a program and their cutters.
 
 use crate::diagnostic::Diagnostic;
 use crate::program::motion::{ActiveTool, Motion};
@@ -16,14 +16,17 @@ pub struct Tooling {
     cutters: Vec<CutterModel>,
 }
 
+/// A tool that the program uses.
 #[derive(Debug, Clone)]
 struct UsedTool {
     tool: Arc<ActiveTool>,
-    /// The first statement that moves it.
+    /// The index of the first statement that moves the tool.
     statement: usize,
 }
 
 impl Tooling {
+    /// Finds the tools of a program and resolves their cutters. Adds assumptions to `findings` and missing
+    /// shapes to `errors`.
     pub(super) fn from_program(
         program: &Program,
         setup: &Setup,
@@ -35,7 +38,8 @@ impl Tooling {
         let mut gaps: Vec<Arc<ActiveTool>> = Vec::new();
         let none = Arc::new(ActiveTool::default());
         for motion in program.motions() {
-            // A tool that only ever moves in rapids cuts nothing, but may crash: it is simulated when its shape is known.
+            // A tool that only moves in rapids does not cut, but may collide. It is simulated if its shape is
+            // known.
             let tool = motion.tool.as_ref().unwrap_or(&none);
             if found.find_tool(tool).is_some() || gaps.iter().any(|gap| is_same_tool(gap, tool)) {
                 continue;
@@ -48,6 +52,7 @@ impl Tooling {
                     found.tools.push(UsedTool { tool: Arc::clone(tool), statement });
                     found.cutters.push(resolved.cutter);
                 }
+                // Only a tool that cuts needs a shape. It is reported once, at its first motion at feed.
                 Err(gap) if !motion.rapid => {
                     gaps.push(Arc::clone(tool));
                     errors.push(gap.diagnostic(program.source(), span));
@@ -59,11 +64,11 @@ impl Tooling {
     }
 
     fn find_tool(&self, tool: &Arc<ActiveTool>) -> Option<usize> {
-        // The tool in force is nearly always one of the last.
+        // The active tool is nearly always one of the last.
         self.tools.iter().rposition(|used| is_same_tool(&used.tool, tool))
     }
 
-    /// Index of the cutter of a motion's tool.
+    /// Returns the index of the cutter of a motion's tool.
     pub fn cutter_index(&self, motion: &Motion) -> Option<usize> {
         match &motion.tool {
             Some(tool) => self.find_tool(tool),
@@ -71,17 +76,17 @@ impl Tooling {
         }
     }
 
-    /// The cutters.
+    /// Returns the cutters.
     pub fn cutters(&self) -> &[CutterModel] {
         &self.cutters
     }
 
-    /// The tool of a cutter.
+    /// Returns the tool of a cutter.
     pub fn tool_of_cutter(&self, cutter: usize) -> Option<&Arc<ActiveTool>> {
         self.tools.get(cutter).map(|used| &used.tool)
     }
 
-    /// What says that the teeth of tools are not known; one finding for each such tool.
+    /// Returns a finding for each tool whose teeth are not known.
     pub fn find_missing_teeth(&self, program: &Program, setup: &Setup) -> Vec<Diagnostic> {
         let without = self.tools.iter().zip(&self.cutters).filter(|(_, cutter)| cutter.teeth.is_none());
         let gap = |(used, _): (&UsedTool, &CutterModel)| {
@@ -90,7 +95,8 @@ impl Tooling {
         without.map(gap).collect()
     }
 
-    /// The force models of all cutters for both senses of the spindle; `None` for a cutter without teeth.
+    /// Makes the force models of all cutters for both directions of the spindle; `None` for a cutter without
+    /// teeth.
     pub fn build_load_models(&self, material: CuttingCoefficients) -> Vec<Option<[LoadModel; 2]>> {
         let both = [SpindleDirection::Clockwise, SpindleDirection::CounterClockwise];
         let models = |cutter: &CutterModel| {
@@ -101,11 +107,12 @@ impl Tooling {
     }
 }
 
-/// Whether two tools are one: the same allocation, mostly, else the same in every field.
+/// Returns whether two tools are the same: mostly the same allocation, else equal in every field.
 fn is_same_tool(a: &Arc<ActiveTool>, b: &Arc<ActiveTool>) -> bool {
     Arc::ptr_eq(a, b) || a == b
 }
 
+/// Returns where a statement is in the source, or an empty span if there is no such statement.
 pub(super) fn statement_span(program: &Program, statement: usize) -> Span {
     program.statement(statement).map(Statement::origin).unwrap_or_default()
 }

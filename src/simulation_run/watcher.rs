@@ -1,17 +1,17 @@
-//! Watching a run: progress out, a wish to stop in.
+//! This module lets a caller watch a run: it gets progress, and it can stop the run.
 
-/// Somebody who watches a run.
+/// A caller that watches a run.
 pub trait RunWatcher: Sync {
-    /// Told now and then how much of the path is done, in mm.
+    /// Gets the length of the path that is done and the whole length, in mm, from time to time.
     fn report_progress(&self, done: f64, whole: f64);
 
-    /// Asked now and then whether to stop.
+    /// Returns whether the run must stop; it is called from time to time.
     fn is_stop_requested(&self) -> bool {
         false
     }
 }
 
-/// Nobody watches.
+/// A watcher that ignores progress and never stops the run.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct SilentWatcher;
 

@@ -1,12 +1,13 @@
-//! Parts of a chain, cut where it passes upright lines and a level.
+//! This module cuts a chain where it passes vertical lines and a level, and keeps the wanted parts.
 
 use crate::surface::profile::{Chain, ChainPiece, Point};
 use std::f64::consts::{PI, TAU};
 
-/// Parts shorter than this are rounding, mm.
+/// Parts that are shorter than this are rounding, mm.
 const SHORTEST: f64 = 1e-9;
 
-/// The connected parts of a chain whose middles are wanted, when it is cut at every u of `upright` and at the height `level`.
+/// Cuts a chain at every u of `upright` and at the height `level`, and returns the connected parts whose
+/// middles are wanted.
 pub(super) fn cut_chain(
     chain: &Chain,
     upright: &[f64],
@@ -16,6 +17,7 @@ pub(super) fn cut_chain(
     let mut parts: Vec<Vec<ChainPiece>> = Vec::new();
     let mut open = false;
     for piece in chain.pieces() {
+        // Sorted fractions of all crossings divide the piece in parts that are wanted or not as a whole.
         let mut shares = vec![0.0, 1.0];
         for u in upright {
             shares.extend(find_crossing_fractions(piece, |point| point.u, *u, 0.0));
@@ -32,7 +34,7 @@ pub(super) fn cut_chain(
                 open = false;
                 continue;
             }
-            // A piece that is not cut stays as it is, to the last bit.
+            // A piece that is not cut stays the same to the last bit.
             let part = if from == 0.0 && to == 1.0 { *piece } else { piece.sub_piece(from, to) };
             match parts.last_mut().filter(|_| open) {
                 Some(last) => last.push(part),
@@ -44,7 +46,8 @@ pub(super) fn cut_chain(
     parts.into_iter().filter_map(|pieces| Chain::new(pieces).ok()).collect()
 }
 
-/// Shares of a piece's length at which a coordinate has a value; `turn` is the angle from the coordinate's direction to +u.
+/// Returns the fractions of a piece's length at which a coordinate has a value. `turn` is the angle from the
+/// coordinate's direction to +u.
 fn find_crossing_fractions(
     piece: &ChainPiece,
     coordinate: impl Fn(Point) -> f64,
@@ -55,10 +58,11 @@ fn find_crossing_fractions(
     match piece {
         ChainPiece::Line(line) => {
             let (from, to) = (coordinate(line.from), coordinate(line.to));
-            // Of a line along the value, no share is finite.
+            // A line along which the coordinate is constant gives a fraction that is not finite.
             [(value - from) / (to - from)].into_iter().filter(inside).collect()
         }
         ChainPiece::Arc(arc) => {
+            // The coordinate on the circle is c + R cos(angle - turn), so it has the value at two angles.
             let cosine = (value - coordinate(arc.centre)) / arc.radius;
             if cosine.abs() > 1.0 {
                 return Vec::new();
@@ -67,7 +71,7 @@ fn find_crossing_fractions(
             let angles =
                 [turn + half, turn - half].into_iter().flat_map(|angle| [angle - TAU, angle, angle + TAU]);
             let share = |angle: f64| {
-                // Both counted from the start, within two turns of it.
+                // Both angles count from the start of the arc, and may be up to two turns away from it.
                 let start = arc.start.rem_euclid(TAU);
                 (angle - start) / arc.sweep
             };

@@ -1,4 +1,4 @@
-//! From a part to a program.
+//! This module makes a program from a part.
 
 use super::pass_linking::{PassLinking, link_tracks};
 use super::pass_track::{PassTrack, ProgramRounding};
@@ -17,29 +17,31 @@ use crate::write::new_program;
 use nalgebra::Point3;
 use rayon::prelude::*;
 
-/// Of the tolerance, this share is for the path's chords; the rest for curves in chords, and for what the proof cannot see.
+/// The fractions of the tolerance for the chords of the path, for curves in chords, for the chords of the
+/// proof, and for short lines. The rest is for what the proof cannot see.
 const PATH_SHARE: f64 = 0.8;
 const CURVE_SHARE: f64 = 0.03;
 const DENSE_SHARE: f64 = 0.01;
 const SHORT_SHARE: f64 = 0.1;
 
-/// The finest that curves are divided, mm.
+/// The finest tolerance with which curves are divided, mm.
 const FINEST: f64 = 1e-6;
 
-/// What passes are made over, ready to be used.
+/// The ground of the passes, ready to be used.
 enum PassGround<'a> {
     Profile { dense: Chain, tips: Vec<Chain> },
     Mesh { mesh: &'a Mesh, sections: VerticalMeshSections, cutter: DropCutter },
 }
 
-/// What to go over, its lowest and highest z, and from where to where it goes across the planes, where that is known.
+/// The ground, its lowest and highest z, and its own range across the planes, if it is known.
 type PreparedGround<'a> = (PassGround<'a>, f64, f64, Option<(f64, f64)>);
 
 /// Makes the program over a part, proves it and reads it back.
 ///
 /// # Errors
-/// A finding when there is nothing to go over, when numbers do not go together, or when the program is not what was meant.
-/// That the proof fails is none: [`SurfaceProof::is_within`] tells.
+/// Returns a finding if there is nothing to mill, if the options do not fit together, or if the program that
+/// is read back differs from the one that was written. A proof that fails is not an error:
+/// [`SurfaceProof::is_within`] tells whether it holds.
 pub fn make_surface_program(
     part: &SurfacePart,
     options: &SurfaceMillingOptions,
@@ -48,8 +50,9 @@ pub fn make_surface_program(
     let print = ProgramRounding { dialect: words.dialect, units: words.units };
     let ball = DropCutterShape::new(2.0 * options.radius, options.radius)
         .map_err(|error| invalid_option(format!("a ball of radius {} mm: {error}", options.radius)))?;
+    // Rounding to the program's decimals moves a point by up to one unit of the last decimal.
     let tolerance = PATH_SHARE * options.tolerance - print.last_decimal_mm();
-    // Not below FINEST, nor so little that rounding is the larger part.
+    // The tolerance must not be below FINEST, nor so small that rounding to decimals uses most of it.
     if !(tolerance >= options.tolerance / 4.0 && tolerance >= 10.0 * FINEST) {
         let message = format!(
             "{} writes {} decimals, too few for a tolerance of {} mm",
@@ -79,6 +82,7 @@ pub fn make_surface_program(
             range.0, range.1, options.step
         ))
     })?;
+    // Planes do not depend on each other; only the order of cutting does.
     let slices: Vec<PlaneSlice> =
         places.par_iter().map(|offset| slice_plane(&making, &ground, options, *offset)).collect();
     let tracks = make_tracks(&slices, options, print);
@@ -92,7 +96,7 @@ pub fn make_surface_program(
         ))));
     }
     let proof = prove_passes(&slices, &tracks, &ground, options, print);
-    // Up to a round number, as people write heights.
+    // The clearance height is rounded up to a round number, as people write heights.
     let clear = (high.max(making.floor) + options.clearance) / words.units.mm_per_unit();
     let clear = new_program::round_coordinate((clear * 1e3 - 1e-6).ceil() / 1e3, words.dialect);
     let between = PassLinking {
@@ -107,8 +111,11 @@ pub fn make_surface_program(
         [first, second, ..] => (second - first).abs(),
         _ => 0.0,
     };
+    // A link over the surface is only worth it between neighbouring planes.
     let near = (3.0 * spacing).max(2.0 * options.radius);
     let beside = make_height_probe(part, options);
+    // The highest point beside a position, above which a rapid must end. A profile is known by its own
+    // highest point.
     let top = |at: Point3<f64>| {
         let mm = words.units.mm_per_unit();
         let height = match &beside {
@@ -148,7 +155,8 @@ pub fn make_surface_program(
     })
 }
 
-/// A flat cutter that tells the highest place of a mesh within the ball's radius and the approach.
+/// Makes a flat cutter that finds the highest point of a mesh within the ball's radius and the approach;
+/// `None` for a profile.
 fn make_height_probe(part: &SurfacePart, options: &SurfaceMillingOptions) -> Option<DropCutter> {
     let wide = DropCutterShape::flat(2.0 * (options.radius + options.approach)).ok()?;
     match part {
@@ -157,11 +165,13 @@ fn make_height_probe(part: &SurfacePart, options: &SurfaceMillingOptions) -> Opt
     }
 }
 
+/// Makes a finding about an option.
 fn invalid_option(message: String) -> Box<Diagnostic> {
     Box::new(Diagnostic::new(codes::SURFACE_OPTION, message))
 }
 
-/// What to go over, its lowest and highest z, and from where to where it goes across the planes. Sets the floor.
+/// Prepares the ground and returns it with its lowest and highest z and its own range across the planes. Sets
+/// the floor of `making`.
 fn prepare_ground<'a>(
     part: &'a SurfacePart,
     options: &SurfaceMillingOptions,
@@ -199,6 +209,7 @@ fn prepare_ground<'a>(
     }
 }
 
+/// Makes the passes in one plane.
 fn slice_plane(
     making: &PassMaker,
     ground: &PassGround<'_>,
@@ -216,7 +227,7 @@ fn slice_plane(
     }
 }
 
-/// Tracks plane by plane, in the order and direction in which they are cut.
+/// Converts the passes to tracks plane by plane, in the order and direction in which they are cut.
 fn make_tracks(
     slices: &[PlaneSlice],
     options: &SurfaceMillingOptions,
@@ -233,12 +244,14 @@ fn make_tracks(
             slice.tips.iter().filter_map(track).collect()
         };
         tracks.shrink_to_fit();
+        // In a zigzag, only a plane that has a pass reverses the direction.
         back = options.pattern == PassPattern::ZigZag && (back == tracks.is_empty());
         all.push(tracks);
     }
     all
 }
 
+/// Proves all passes against the part: in their planes, and in space if the part is a mesh.
 fn prove_passes(
     slices: &[PlaneSlice],
     tracks: &[Vec<PassTrack>],
@@ -271,7 +284,8 @@ fn prove_passes(
     look.prove_all(&passes)
 }
 
-/// From the end of a pass to the start of one in the next plane, over the surface; none where that is far or not known to be safe.
+/// Returns the points over the surface from the end of a pass to the start of one in the next plane, or
+/// `None` if that is far or not known to be safe.
 fn link_over_surface(
     ground: &PassGround<'_>,
     making: &PassMaker,
@@ -288,7 +302,7 @@ fn link_over_surface(
     }
     match ground {
         PassGround::Profile { .. } => {
-            // The same place of a profile that is the same between the planes.
+            // A profile is the same in all planes, so a straight line between equal points of it is safe.
             let [a, b] = ends.map(|end| making.planes.distance_along(end));
             let same = (a - b).abs() + (start[2] - end[2]).abs() <= 4.0 * print.last_decimal_mm();
             same.then(|| vec![to])
@@ -296,7 +310,7 @@ fn link_over_surface(
         PassGround::Mesh { cutter, .. } => {
             let runs = cutter.follow_line(&ends, making.tolerance);
             let [run] = runs.as_slice() else { return None };
-            // From end to end, or there is a hole in between.
+            // The path must go from end to end, otherwise there is a hole between them.
             let whole = run
                 .first()
                 .zip(run.last())
@@ -308,7 +322,7 @@ fn link_over_surface(
     }
 }
 
-/// The middle plane that has a pass.
+/// Returns the figure of the middle plane that has a pass: its offset, the part's line and the tip's.
 fn figure_of_middle_plane(
     slices: &[PlaneSlice],
     tracks: &[Vec<PassTrack>],

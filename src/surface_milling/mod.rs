@@ -1,8 +1,18 @@
-//! Whole programs from surfaces: a mesh or a profile is gone over in parallel vertical planes by a ball, tip output.
+//! This module makes whole programs for surfaces: a ball mills a mesh or a profile in parallel vertical
+//! planes, and the program moves its tip.
 //!
-//! [`make_surface_program`] makes the passes plane by plane (`plane_slices`), puts them into the program's own decimals (`pass_track`), looks at what came
-//! out with other means (`surface_proof`), joins them (`pass_linking`) and writes the program ([`crate::write::new_program`]), which is read back. What is
-//! proved is what is written, rounding included. Source of the method: Dragoi 2009; the passes are its steps 4 to 17.
+//! [`make_surface_program`] makes the passes plane by plane (`plane_slices`), rounds them to the program's
+//! own decimals (`pass_track`), checks them by an independent method (`surface_proof`), links them
+//! (`pass_linking`) and writes the program ([`crate::write::new_program`]). The method is that of Dragoi
+//! 2009; the passes are its steps 4 to 17.
+//!
+//! The proof covers what is written, with its rounding: passes are rounded first and then measured, and the
+//! text is read back and must have exactly these motions. The proof does not use envelopes or lowered
+//! cutters. It is the distance of the ball and of the shank above it from the part's own points or triangles.
+//!
+//! By default the heights over a mesh come from the whole mesh. A path that is right in its plane gouges
+//! beside it wherever the part changes from plane to plane. The heights of the plane alone are for parts that
+//! do not change; for all others the proof fails.
 
 mod chain_cutting;
 mod make_program;
@@ -26,77 +36,78 @@ pub use surface_proof::SurfaceProof;
 use crate::program::{Dialect, LengthUnit};
 use crate::sim::Mesh;
 
-/// What is gone over.
+/// The part that is milled.
 #[derive(Debug, Clone)]
 pub enum SurfacePart {
     /// A closed solid, mm.
     Mesh(Mesh),
-    /// A profile, the same in all planes.
+    /// A profile that is the same in all planes.
     Profile(SectionProfile),
 }
 
-/// What the heights of passes over a mesh are made from.
+/// The source of the heights of passes over a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum PassHeights {
-    /// The whole mesh: the ball touches nothing beside the plane either.
+    /// The whole mesh: the ball does not touch anything beside the plane either.
     #[default]
     Mesh,
-    /// The mesh's line in the plane alone, as the paper has it: right for parts that are the same in all planes.
+    /// The mesh's line in the plane alone, as in the paper. It is right for parts that are the same in all
+    /// planes.
     Profile,
 }
 
-/// How to go over a part. Lengths in mm, feeds in mm/min.
+/// The options for milling a part; lengths are in mm, feeds in mm/min.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurfaceMillingOptions {
-    /// Which way the planes stand.
+    /// The direction of the planes.
     pub planes: PassPlanes,
-    /// First and last plane; a mesh has its own, a profile its width.
+    /// The first and the last plane; if not given, a mesh has its own range and a profile its width.
     pub range: Option<(f64, f64)>,
-    /// Largest distance of planes.
+    /// The largest distance of planes.
     pub step: f64,
-    /// Radius of the ball.
+    /// The radius of the ball.
     pub radius: f64,
-    /// How deep passes may go into the part, and how far off it they may stay.
+    /// The largest depth of passes in the part, and their largest distance from it.
     pub tolerance: f64,
-    /// What heights over a mesh are made from.
+    /// The source of the heights over a mesh.
     pub against: PassHeights,
-    /// How passes follow each other.
+    /// The pattern in which passes follow each other.
     pub pattern: PassPattern,
-    /// Whether arcs are written, where the dialect holds them.
+    /// Whether arcs are written, if the dialect has them.
     pub arcs: bool,
-    /// The tip never goes below; the lowest place of the part if not given.
+    /// The height below which the tip never goes; if not given, the lowest point of the part.
     pub floor: Option<f64>,
-    /// How far above the highest place of the part (or the floor) the tool goes across.
+    /// The height above the highest point of the part (or the floor) at which the tool goes across.
     pub clearance: f64,
-    /// How far above a pass the plunge feed begins.
+    /// The height above a pass at which the plunge feed begins.
     pub approach: f64,
-    /// Feed of passes.
+    /// The feed of passes.
     pub feed: f64,
-    /// Feed of the way down to a pass.
+    /// The feed down to a pass.
     pub plunge: f64,
-    /// Feed between passes; rapid when there is none.
+    /// The feed between passes; rapid if not given.
     pub air: Option<f64>,
     /// The words around the path.
     pub words: SurfaceProgramWords,
 }
 
-/// What a program says besides its path.
+/// The parts of a program besides its path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurfaceProgramWords {
     /// The dialect, one of [`crate::write::new_program::WRITABLE`].
     pub dialect: Dialect,
-    /// Unit of the program.
+    /// The unit of the program.
     pub units: LengthUnit,
-    /// Name of the part.
+    /// The name of the part.
     pub name: String,
-    /// Name of the operation.
+    /// The name of the operation.
     pub operation: String,
-    /// Number of the tool.
+    /// The number of the tool.
     pub tool: u32,
-    /// Name of the tool; by its diameter if not given.
+    /// The name of the tool; if not given, it is named by its diameter.
     pub tool_name: Option<String>,
-    /// Spindle speed in revolutions a minute.
+    /// The spindle speed in revolutions per minute.
     pub spindle: Option<f64>,
-    /// Whether to switch coolant on.
+    /// Whether coolant is switched on.
     pub coolant: bool,
 }

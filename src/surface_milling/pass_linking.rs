@@ -1,38 +1,40 @@
-//! Passes joined to one path: from pass to pass over the surface where that is near and safe, else up, across and down again.
+//! This module links passes to one path. From pass to pass the tool goes over the surface if that is near and
+//! safe, otherwise up, across and down again.
 
 use super::pass_track::{PassTrack, ProgramRounding};
 use crate::program::MotionClass;
 use crate::write::new_program::{DraftMove, DraftMoveKind};
 use nalgebra::Point3;
 
-/// How passes follow each other.
+/// The pattern in which passes follow each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum PassPattern {
-    /// Forth and back: every other plane the other way.
+    /// Every other plane is milled in the opposite direction.
     #[default]
     ZigZag,
-    /// Every pass the same way, with a retract after each.
+    /// Every pass has the same direction, with a retract after each.
     OneWay,
 }
 
-/// How the tool goes between passes. All in the program's unit.
+/// The options for the path between passes, all in the program's unit.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PassLinking {
     pub pattern: PassPattern,
-    /// Height of the tip at which nothing is in the way.
+    /// The height of the tip at which nothing is in the way.
     pub clear: f64,
-    /// From here above a pass it goes down at the plunge feed.
+    /// The height above a pass from which the tool goes down at the plunge feed.
     pub approach: f64,
     pub feed: f64,
     pub plunge: f64,
-    /// Feed between passes above the part; rapid when there is none.
+    /// The feed between passes above the part; rapid if not given.
     pub air: Option<f64>,
 }
 
-/// The motions through all tracks, which stand plane by plane in the order and direction in which they are cut.
+/// Returns the motions through all tracks, which are sorted plane by plane in the order and direction in
+/// which they are cut.
 ///
-/// `link` gives points from the end of one track to the start of the next over which the tool may go at feed; `top` the highest z of
-/// the part beside a place, above which a rapid has to end.
+/// `link` returns the points from the end of one track to the start of the next over which the tool may go at
+/// feed. `top` returns the highest z of the part beside a point; a rapid must end above it.
 pub(super) fn link_tracks(
     planes: &[Vec<PassTrack>],
     between: &PassLinking,
@@ -44,7 +46,7 @@ pub(super) fn link_tracks(
     let mut at: Option<Point3<f64>> = None;
     for tracks in planes {
         for (index, track) in tracks.iter().enumerate() {
-            // Parts of one plane have something between them that is not to be cut.
+            // Between two parts of one plane there is something that must not be cut.
             let near = index == 0 && between.pattern == PassPattern::ZigZag;
             match at.and_then(|at| link(at, track.start).filter(|_| near)) {
                 Some(points) => path.step_over(points),
@@ -60,6 +62,7 @@ pub(super) fn link_tracks(
     path.moves
 }
 
+/// The path that grows from pass to pass.
 struct LinkedPath {
     moves: Vec<DraftMove>,
     between: PassLinking,
@@ -67,25 +70,27 @@ struct LinkedPath {
 }
 
 impl LinkedPath {
+    /// Moves through the air, by rapid or at the air feed.
     fn move_through_air(&mut self, to: Point3<f64>, class: MotionClass) {
-        // Where it already is, nothing moves.
+        // A motion to the current point would move nothing.
         if self.moves.last().is_some_and(|last| last.to == to) {
             return;
         }
         let way = match self.between.air {
-            // Where the tool comes from at first, nobody knows; no feed would be right.
+            // Nobody knows where the tool starts, so no feed would be right for the first motion.
             Some(feed) if !self.moves.is_empty() => DraftMoveKind::Line { feed },
             _ => DraftMoveKind::Rapid,
         };
         self.moves.push(DraftMove { to, way, class });
     }
 
+    /// Moves straight up to the clearance height.
     fn retract_from(&mut self, at: Point3<f64>) {
         self.move_through_air(Point3::new(at.x, at.y, self.between.clear), MotionClass::Retract);
     }
 
-    /// Up from a place, across, and down to another, the last bit at the plunge feed: from above everything beside it, since stock may stand
-    /// on a wall.
+    /// Moves up from a point, across, and down to another one. The last part at the plunge feed begins above
+    /// everything beside it, because stock may stand on a wall.
     fn retract_and_plunge(&mut self, at: Option<Point3<f64>>, start: Point3<f64>, top: f64) {
         let first = at.is_none();
         if let Some(at) = at {
@@ -104,6 +109,7 @@ impl LinkedPath {
         self.moves.push(DraftMove { to: start, way, class: MotionClass::Engage });
     }
 
+    /// Moves over the surface to the next pass.
     fn step_over(&mut self, points: Vec<Point3<f64>>) {
         let way = DraftMoveKind::Line { feed: self.between.feed };
         for to in points {
@@ -113,6 +119,7 @@ impl LinkedPath {
         }
     }
 
+    /// Cuts along a track.
     fn follow_track(&mut self, track: &PassTrack) {
         let feed = self.between.feed;
         self.moves.extend(track.steps.iter().map(|step| {

@@ -1,39 +1,40 @@
-//! Parallel vertical planes.
+//! This module describes the parallel vertical planes of the passes.
 
-/// More planes than this are a mistake in the step.
+/// The most planes. A request for more is a mistake in the step.
 pub const MOST_PLANES: usize = 100_000;
 
-/// Which way the planes stand: they hold z and a horizontal direction u.
+/// The direction of the planes: they contain z and a horizontal direction u.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PassPlanes {
-    /// From x to u, radians.
+    /// The angle from x to u, radians.
     angle: f64,
     /// Whether offsets count to the right of u instead of to its left.
     to_the_right: bool,
 }
 
 impl PassPlanes {
-    /// Along x; offsets are y.
+    /// Planes along x; their offset is y.
     pub const ZX: Self = Self { angle: 0.0, to_the_right: false };
-    /// Along y; offsets are x.
+    /// Planes along y; their offset is x.
     pub const YZ: Self = Self { angle: std::f64::consts::FRAC_PI_2, to_the_right: true };
 
-    /// Along a direction at an angle (degrees) from x; offsets count to its left.
+    /// Makes planes along a direction at an angle (degrees) from x. Their offsets count to its left.
     pub fn from_degrees(degrees: f64) -> Self {
         Self { angle: degrees.to_radians(), to_the_right: false }
     }
 
-    /// From x to u, radians.
+    /// Returns the angle from x to u, radians.
     pub fn angle_radians(&self) -> f64 {
         self.angle
     }
 
-    /// An offset as [`crate::surface::mesh_section::VerticalMeshSections`] counts it (to the left of u); the same the other way round.
+    /// Converts an offset to one that counts to the left of u, as in
+    /// [`crate::surface::mesh_section::VerticalMeshSections`]. The inverse conversion is the same.
     pub fn offset_to_left(&self, offset: f64) -> f64 {
         if self.to_the_right { -offset } else { offset }
     }
 
-    /// The direction of u, exact along the axes.
+    /// Returns the direction of u; it is exact along the axes.
     pub fn direction(&self) -> [f64; 2] {
         match *self {
             Self::ZX => [1.0, 0.0],
@@ -42,24 +43,25 @@ impl PassPlanes {
         }
     }
 
-    /// The point in space of (u, z) in the plane at an offset.
+    /// Returns the point in space of (u, z) in the plane at an offset.
     pub fn point_at(&self, offset: f64, u: f64, z: f64) -> [f64; 3] {
         let ([cos, sin], left) = (self.direction(), self.offset_to_left(offset));
         [u * cos - left * sin, u * sin + left * cos, z]
     }
 
-    /// How far along u a point lies.
+    /// Returns the coordinate u of a point.
     pub fn distance_along(&self, [x, y]: [f64; 2]) -> f64 {
         let [cos, sin] = self.direction();
         x * cos + y * sin
     }
 }
 
-/// Offsets from `from` to `to`, both among them, evenly and no farther apart than `step`; none when there would be more than
-/// [`MOST_PLANES`] or a number is not finite. One plane when both ends are the same.
+/// Returns offsets from `from` to `to`, both included, with equal distances of at most `step`. If both ends
+/// are the same there is one plane. Returns `None` if there would be more than [`MOST_PLANES`] or a number is
+/// not finite.
 pub fn plane_offsets(from: f64, to: f64, step: f64) -> Option<Vec<f64>> {
     let wide = to - from;
-    // A hair more than a whole number of steps is a whole number.
+    // Slightly more than a whole number of steps counts as a whole number.
     let count = (wide.abs() / step - 1e-9).ceil().max(0.0);
     if !(wide.is_finite() && step > 0.0 && count < MOST_PLANES as f64) {
         return None;

@@ -1,4 +1,4 @@
-//! Passes in space, in the numbers that the program will have.
+//! This module holds passes in space, in the rounded numbers that the program will have.
 
 use super::pass_planes::PassPlanes;
 use crate::program::{Dialect, LengthUnit};
@@ -6,13 +6,14 @@ use crate::surface::profile::{Chain, ChainPiece, Point};
 use crate::write::new_program::{round_coordinate, round_feed};
 use nalgebra::{Point3, Vector3};
 
-/// Arcs are cut so that none sweeps more, radians: half a turn or more has no plane of its own.
+/// The largest sweep of an arc, radians; longer arcs are divided. An arc of half a turn or more does not
+/// define its plane.
 const MOST_SWEEP: f64 = 2.6;
 
-/// Arcs with ends nearer than so many last decimals are lines.
+/// An arc whose ends are nearer to each other than this many last decimals becomes a line.
 const SHORT: f64 = 50.0;
 
-/// How numbers are written.
+/// The way in which numbers are rounded when they are written.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ProgramRounding {
     pub dialect: Dialect,
@@ -26,7 +27,7 @@ pub(super) struct PassTrack {
     pub steps: Vec<TrackStep>,
 }
 
-/// A line, or an arc about a centre and a unit axis (right-hand).
+/// A line, or an arc around a centre and a unit axis in the right-hand direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct TrackStep {
     pub to: Point3<f64>,
@@ -34,36 +35,37 @@ pub(super) struct TrackStep {
 }
 
 impl ProgramRounding {
-    /// A point in mm as the program will have it.
+    /// Converts a point from mm to the rounded numbers of the program.
     pub fn round_point(&self, [x, y, z]: [f64; 3]) -> Point3<f64> {
         Point3::new(self.round_length(x), self.round_length(y), self.round_length(z))
     }
 
-    /// A length in mm as the program will have it.
+    /// Converts a length from mm to the rounded number of the program.
     pub fn round_length(&self, mm: f64) -> f64 {
         round_coordinate(mm / self.units.mm_per_unit(), self.dialect)
     }
 
-    /// A feed in mm/min as the program will have it.
+    /// Converts a feed from mm/min to the rounded number of the program.
     pub fn round_feed(&self, mm: f64) -> f64 {
         round_feed(mm / self.units.mm_per_unit(), self.dialect)
     }
 
-    /// The last decimal, mm.
+    /// Returns one unit of the last decimal, mm.
     pub fn last_decimal_mm(&self) -> f64 {
         10f64.powi(-(crate::write::new_program::coordinate_decimals(self.dialect) as i32))
             * self.units.mm_per_unit()
     }
 
-    /// A point of the program in mm.
+    /// Converts a point of the program to mm.
     pub fn point_in_mm(&self, point: Point3<f64>) -> [f64; 3] {
         (point * self.units.mm_per_unit()).into()
     }
 }
 
 impl PassTrack {
-    /// A tip path in the plane at an offset. Lines no longer than `least` mm between other pieces are left out: a control would stop there.
-    /// None when nothing of the path is left in the program's decimals.
+    /// Converts a tip path in the plane at an offset to a track. Lines of at most `least` mm between other
+    /// pieces are left out, because a control would stop there. Returns `None` if nothing of the path is left
+    /// in the program's decimals.
     pub fn new(
         tip: &Chain,
         planes: &PassPlanes,
@@ -98,14 +100,15 @@ impl PassTrack {
                     ChainPiece::Arc(arc) if long => {
                         let [from, to] = [from, to].map(|point| point_in_plane(point, planes, print));
                         let off = (from.distance(arc.centre) - to.distance(arc.centre)).abs();
-                        // As far from both ends as they are printed; rounding is none of its business.
+                        // The centre must be equally far from both printed ends. A difference within rounding
+                        // does not need a correction.
                         let near = if off <= 2.0 * print.last_decimal_mm() {
                             arc.centre
                         } else {
                             nearest_equidistant_point(from, to, arc.centre)
                         };
                         let centre = space(near);
-                        // From +u towards +z.
+                        // The axis is that of a turn from +u towards +z.
                         Some((centre, Vector3::new(sin, -cos, 0.0) * arc.sweep.signum()))
                     }
                     _ => None,
@@ -116,12 +119,13 @@ impl PassTrack {
         (!track.steps.is_empty()).then_some(track)
     }
 
-    /// Where it ends.
+    /// Returns the end of the track.
     pub fn end_point(&self) -> Point3<f64> {
         self.steps.last().map_or(self.start, |step| step.to)
     }
 
-    /// The track as it lies in its plane, mm: what the program says, not what was meant.
+    /// Returns the track in its plane, mm. It consists of the printed numbers, not of those that were
+    /// intended.
     pub fn to_plane_chain(&self, planes: &PassPlanes, print: ProgramRounding) -> Option<Chain> {
         let flat = |point: Point3<f64>| point_in_plane(point, planes, print);
         let up = |axis: &Vector3<f64>| {
@@ -141,7 +145,7 @@ impl PassTrack {
         Chain::new(pieces).ok()
     }
 
-    /// Its points in mm, arcs in chords no farther than `tolerance` from them.
+    /// Returns points along the track in mm; arcs become chords that are at most `tolerance` from them.
     pub fn sample_points(
         &self,
         planes: &PassPlanes,
@@ -154,6 +158,7 @@ impl PassTrack {
         let pieces = flat.iter().flat_map(|chain| chain.pieces());
         for (step, piece) in self.steps.iter().zip(pieces) {
             if let ChainPiece::Arc(arc) = piece {
+                // The chord whose sagitta is the tolerance: 2 sqrt(2 r tolerance).
                 let chord = 2.0 * (2.0 * arc.radius * tolerance).sqrt();
                 let count = (piece.length_mm() / chord).ceil().max(1.0) as u32;
                 points.extend((1..count).map(|part| {
@@ -167,22 +172,23 @@ impl PassTrack {
     }
 }
 
-/// A point of the program in the plane, mm.
+/// Converts a point of the program to coordinates of the plane, mm.
 fn point_in_plane(point: Point3<f64>, planes: &PassPlanes, print: ProgramRounding) -> Point {
     let [x, y, z] = print.point_in_mm(point);
     Point::new(planes.distance_along([x, y]), z)
 }
 
-/// The point as far from both ends that is nearest to `centre`.
+/// Returns the point nearest to `centre` that is equally far from both ends.
 fn nearest_equidistant_point(from: Point, to: Point, centre: Point) -> Point {
     let length = from.distance(to);
     let middle = from.lerp(to, 0.5);
+    // The centre is projected on the perpendicular bisector of the chord.
     let (nu, nz) = (-(to.z - from.z) / length, (to.u - from.u) / length);
     let off = (centre.u - middle.u) * nu + (centre.z - middle.z) * nz;
     Point::new(middle.u + nu * off, middle.z + nz * off)
 }
 
-/// The arc between two points about the point as far from both that is nearest to `centre`.
+/// Returns the arc between two points around the point nearest to `centre` that is equally far from both.
 fn arc_between(from: Point, to: Point, centre: Point, counter_clockwise: bool) -> ChainPiece {
     let centre = nearest_equidistant_point(from, to, centre);
     let angle = |point: Point| (point.z - centre.z).atan2(point.u - centre.u);

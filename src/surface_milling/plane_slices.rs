@@ -1,4 +1,5 @@
-//! One plane after the other: what the ball follows there, and the path of its tip.
+//! This module makes the passes plane by plane: the line that the ball follows in a plane, and the path of
+//! its tip.
 
 use super::chain_cutting;
 use super::pass_planes::PassPlanes;
@@ -6,41 +7,42 @@ use crate::surface::drop_cutter::DropCutter;
 use crate::surface::mesh_section::VerticalMeshSections;
 use crate::surface::profile::{Chain, ChordSide, Point, compensate_profile, fit_chords};
 
-/// A tip may be this much below the floor, mm: rounding.
+/// The depth below the floor that counts as rounding, mm.
 const LEVEL: f64 = 1e-7;
 
-/// What is needed to make paths in planes; mm.
+/// The data for making paths in planes; lengths are in mm.
 pub(super) struct PassMaker {
     pub planes: PassPlanes,
     pub radius: f64,
-    /// How far a path may be from the exact one.
+    /// The largest distance of a path from the exact one.
     pub tolerance: f64,
     pub arcs: bool,
-    /// The tip never goes below it.
+    /// The height below which the tip never goes.
     pub floor: f64,
 }
 
 /// The passes in one plane, from lower to higher u.
 #[derive(Debug, Clone)]
 pub(super) struct PlaneSlice {
-    /// Where the plane is, counted as the user does.
+    /// The position of the plane, with the user's sign.
     pub offset: f64,
-    /// What was followed in the plane; none when it was the mesh in space.
+    /// The line that was followed in the plane; `None` if the mesh in space was followed.
     pub ground: Option<Chain>,
-    /// Paths of the tip.
+    /// The paths of the tip.
     pub tips: Vec<Chain>,
 }
 
 impl PassMaker {
-    /// Paths over one profile.
+    /// Makes the paths over a profile.
     pub fn tips_over_profile(&self, profile: &Chain) -> Vec<Chain> {
         let upward = if profile.start().u <= profile.end().u { profile.clone() } else { profile.reversed() };
         let Ok(tip) = compensate_profile(&upward, self.radius) else { return Vec::new() };
         self.simplify_tips(chain_cutting::cut_chain(&tip, &[], self.floor, |at| at.z >= self.floor - LEVEL))
     }
 
-    /// The slice of a mesh by its line in the plane alone.
+    /// Makes the slice of a mesh from its line in the plane alone.
     pub fn slice_in_plane(&self, sections: &VerticalMeshSections, offset: f64) -> PlaneSlice {
+        // The holes are bridged far below, so that one envelope covers the whole plane.
         let stretches = self.section_chains(sections, offset);
         let Some(ground) = bridge_holes(&stretches, self.radius) else {
             return PlaneSlice { offset, ground: None, tips: Vec::new() };
@@ -48,7 +50,7 @@ impl PassMaker {
         let ranges = self.find_tip_ranges(&stretches);
         let tips = compensate_profile(&ground, self.radius).map_or(Vec::new(), |tip| {
             let ends: Vec<f64> = ranges.iter().flat_map(|(from, to)| [*from, *to]).collect();
-            // What lies between stretches, farther than the ball goes for each of them, is left.
+            // Between two parts of the line, what is further than the ball goes for each of them is left out.
             let upright = if ranges.len() > 1 { ends.as_slice() } else { &[] };
             let inside =
                 |u: f64| ranges.len() < 2 || ranges.iter().any(|(from, to)| (*from..=*to).contains(&u));
@@ -59,7 +61,7 @@ impl PassMaker {
         PlaneSlice { offset, ground: Some(ground), tips: self.simplify_tips(tips) }
     }
 
-    /// The slice of a mesh with heights over the whole mesh.
+    /// Makes the slice of a mesh with heights over the whole mesh.
     pub fn slice_over_mesh(
         &self,
         sections: &VerticalMeshSections,
@@ -67,13 +69,15 @@ impl PassMaker {
         offset: f64,
     ) -> PlaneSlice {
         let mut tips = Vec::new();
-        // Paths over meshes keep to three quarters of what they are given. Fitting arcs needs most of it.
+        // Fitting arcs needs most of the tolerance, so the path itself gets a quarter of it.
         let share = if self.arcs { 0.25 } else { 1.0 };
         for (from, to) in self.find_tip_ranges(&self.section_chains(sections, offset)) {
             let ends = [from, to].map(|u| {
                 let [x, y, _] = self.planes.point_at(offset, u, 0.0);
                 [x, y]
             });
+            // A path over a mesh stays within three quarters of the tolerance that it is given, so it may get
+            // a little more.
             for run in cutter.follow_line(&ends, self.tolerance * share * 1.25) {
                 let flat: Vec<Point> = run
                     .iter()
@@ -92,12 +96,14 @@ impl PassMaker {
         PlaneSlice { offset, ground: None, tips }
     }
 
+    /// Replaces tip paths by few chords and arcs within the tolerance.
     fn simplify_tips(&self, tips: Vec<Chain>) -> Vec<Chain> {
         tips.iter()
             .filter_map(|tip| fit_chords(tip, self.tolerance, self.arcs, ChordSide::Both).ok())
             .collect()
     }
 
+    /// Returns the mesh's line in a plane as chains.
     fn section_chains(&self, sections: &VerticalMeshSections, offset: f64) -> Vec<Chain> {
         let polyline = |points: &Vec<[f64; 2]>| {
             let points: Vec<Point> = points.iter().map(|[u, z]| Point::new(*u, *z)).collect();
@@ -106,7 +112,8 @@ impl PassMaker {
         sections.section_at(self.planes.offset_to_left(offset)).iter().filter_map(polyline).collect()
     }
 
-    /// From where to where the tip goes for each stretch, in u: where the ball stands on its free ends. Ranges that overlap are one.
+    /// Returns the range of u that the tip covers for each chain, where the ball touches its free ends.
+    /// Ranges that overlap are merged.
     fn find_tip_ranges(&self, stretches: &[Chain]) -> Vec<(f64, f64)> {
         let mut ranges: Vec<(f64, f64)> = Vec::new();
         for stretch in stretches {
@@ -121,7 +128,7 @@ impl PassMaker {
     }
 }
 
-/// Stretches as one chain: over the holes between them it goes so low that no ball gets there.
+/// Joins chains to one. Over the holes between them it goes so deep that no ball reaches it.
 fn bridge_holes(stretches: &[Chain], radius: f64) -> Option<Chain> {
     let lowest = stretches.iter().flat_map(Chain::vertices).map(|at| at.z).fold(f64::INFINITY, f64::min);
     let deep = lowest - 3.0 * radius;

@@ -1,4 +1,4 @@
-//! The profile that is swept: curves that hang together, as a file describes them.
+//! This module holds the profile that is swept: connected curves as a file describes them.
 
 use crate::surface::profile::{
     Chain, ChainError, ChainPiece, ChordError, EllipseArc, NurbsCurve, Point, to_arcs, to_chords,
@@ -18,33 +18,34 @@ pub enum ProfileCurve {
 /// A profile in a vertical plane, mm.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SectionProfile {
-    /// Its curves; each starts where the one before ends.
+    /// The curves; each starts where the one before ends.
     pub curves: Vec<ProfileCurve>,
-    /// Over which width it is swept, where that is said.
+    /// The width over which the profile is swept, if it is given.
     pub width: Option<f64>,
 }
 
-/// Why curves make no chain.
+/// The reason why curves do not make a chain.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum SectionProfileError {
-    /// Pieces that do not fit.
+    /// The pieces do not fit together.
     #[error(transparent)]
     Chain(#[from] ChainError),
-    /// A tolerance that cannot be.
+    /// The tolerance cannot be used.
     #[error(transparent)]
     Chords(#[from] ChordError),
 }
 
 impl SectionProfile {
-    /// A profile of straight pieces and arcs only.
+    /// Makes a profile that only has straight pieces and arcs.
     pub fn from_chain(chain: &Chain) -> Self {
         Self { curves: chain.pieces().iter().copied().map(ProfileCurve::Piece).collect(), width: None }
     }
 
-    /// The profile with ellipses and NURBS in arcs and chords no farther than `tolerance` (mm) from them.
+    /// Converts the profile to a chain in which ellipses and NURBS curves are arcs and chords at most
+    /// `tolerance` (mm) from them.
     ///
     /// # Errors
-    /// When the pieces do not fit or the tolerance is too small.
+    /// Returns an error if the pieces do not fit together or the tolerance is too small.
     pub fn to_chain(&self, tolerance: f64) -> Result<Chain, SectionProfileError> {
         self.convert_curves(|curve| match curve {
             ProfileCurve::Piece(piece) => Ok(vec![*piece]),
@@ -53,10 +54,10 @@ impl SectionProfile {
         })
     }
 
-    /// The profile to check against: the curves themselves in fine chords, by no arc fitted.
+    /// Converts the profile to the chain that the proof uses: curves become fine chords without fitted arcs.
     ///
     /// # Errors
-    /// As [`SectionProfile::to_chain`].
+    /// Returns the errors of [`SectionProfile::to_chain`].
     pub fn to_dense_chain(&self, tolerance: f64) -> Result<Chain, SectionProfileError> {
         self.convert_curves(|curve| match curve {
             ProfileCurve::Piece(piece) => Ok(vec![*piece]),
@@ -77,7 +78,7 @@ impl SectionProfile {
     }
 }
 
-/// Least and largest u and z of a chain, from its ends and enough places of its arcs.
+/// Returns the least and the greatest u and z of a chain, from its ends and from enough points of its arcs.
 pub(super) fn chain_bounds(chain: &Chain) -> (Point, Point) {
     let (mut low, mut high) = (chain.start(), chain.start());
     for piece in chain.pieces() {

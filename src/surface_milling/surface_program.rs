@@ -1,4 +1,4 @@
-//! What comes out: the program, and what is known about it.
+//! This module holds the result: the program and what is known about it.
 
 use super::SurfaceMillingOptions;
 use super::pass_track::ProgramRounding;
@@ -7,53 +7,55 @@ use crate::program::MotionClass;
 use crate::surface::profile::{Chain, UnreachablePart};
 use crate::write::new_program::{DraftMove, DraftTool, ProgramDraft};
 
-/// A ball's length in its own diameters, where a program has to say one.
+/// The length of a ball-end mill in diameters, for dialects that need a length.
 const TOOL_LENGTH: f64 = 8.0;
 
 /// A program over a part, proved and read back.
 #[derive(Debug, Clone)]
 pub struct SurfaceProgram {
-    /// What the program does.
+    /// The motions and words of the program.
     pub draft: ProgramDraft,
-    /// Its text.
+    /// The text of the program.
     pub text: Vec<u8>,
-    /// How far its passes are from the part.
+    /// The proved distances of its passes from the part.
     pub proof: SurfaceProof,
-    /// How many planes have a pass.
+    /// The number of planes that have a pass.
     pub planes: usize,
-    /// How many planes were asked for and meet nothing.
+    /// The number of planes that were asked for and do not meet the part.
     pub empty: usize,
-    /// How many passes.
+    /// The number of passes.
     pub passes: usize,
-    /// Distance of neighbouring planes, mm; 0 of a single one.
+    /// The distance of neighbouring planes, mm; 0 for a single plane.
     pub spacing: f64,
-    /// What of a profile the ball does not touch.
+    /// The parts of a profile that the ball does not touch.
     pub unreached: Vec<UnreachablePart>,
     /// The middle plane: its offset, the part's line in it, and the tip's.
     pub figure: Option<(f64, Chain, Vec<Chain>)>,
 }
 
 impl SurfaceProgram {
-    /// How long the tool cuts, mm.
+    /// Returns the length of all cuts, mm.
     pub fn cutting_length_mm(&self) -> f64 {
         let moves = self.draft.moves.iter().zip(self.draft.moves.iter().skip(1));
         let cuts = moves.filter(|(_, to)| to.class == MotionClass::Cut);
         cuts.map(|(from, to)| (to.to - from.to).norm()).sum::<f64>() * self.draft.units.mm_per_unit()
     }
 
-    /// How many motions cut.
+    /// Returns the number of motions that cut.
     pub fn cutting_motion_count(&self) -> usize {
         self.draft.moves.iter().filter(|step| step.class == MotionClass::Cut).count()
     }
 
-    /// Height of what stays between passes on level ground, mm.
+    /// Returns the height of the scallops between passes on level ground, mm.
     pub fn scallop_height_mm(&self, radius: f64) -> f64 {
+        // Two circles of radius R at the distance s cross R - sqrt(R^2 - (s / 2)^2) above their lowest
+        // points.
         let half = (self.spacing / 2.0).min(radius);
         radius - (radius * radius - half * half).sqrt()
     }
 }
 
-/// The program around the motions.
+/// Puts the program's words around the motions.
 pub(super) fn draft_program(
     options: &SurfaceMillingOptions,
     print: ProgramRounding,

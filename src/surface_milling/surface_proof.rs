@@ -1,4 +1,5 @@
-//! The finished passes looked at with other means than those that made them: how deep they go, how far off they stay.
+//! This module proves the finished passes by an independent method: it measures how deep they go into the
+//! part and how far they stay from it.
 
 use super::pass_planes::PassPlanes;
 use super::pass_track::{PassTrack, ProgramRounding};
@@ -6,29 +7,29 @@ use crate::surface::drop_cutter::BallClearanceField;
 use crate::surface::profile::{Chain, check_tip_path};
 use rayon::prelude::*;
 
-/// Between the places looked at, distances may be off by this share of the tolerance.
+/// The fraction of the tolerance by which distances may be off between samples.
 const SHARE: f64 = 0.05;
 
-/// Samples of a pass at most: a bound on time where the tolerance is very fine.
+/// The most samples of a pass, which bounds the time if the tolerance is very fine.
 const MOST_SAMPLES: f64 = 2e6;
 
-/// How far the passes of a program are from the part. All in mm.
+/// The distances of a program's passes from the part, all in mm.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SurfaceProof {
-    /// How deep the ball goes into the part at most; 0 when it never does.
+    /// The largest depth of the ball in the part; 0 if it never enters it.
     pub gouge: f64,
-    /// The tip where that is.
+    /// The tip at which this is so.
     pub gouge_at: [f64; 3],
-    /// How far the ball is from touching the part at most.
+    /// The largest distance of the ball from touching the part.
     pub gap: f64,
-    /// The tip where that is.
+    /// The tip at which this is so.
     pub gap_at: [f64; 3],
-    /// How much deeper it may be between the places that were looked at.
+    /// By how much the depth may be larger between samples.
     pub bound: f64,
 }
 
 impl SurfaceProof {
-    /// The worse of both, each for itself.
+    /// Returns the worse gouge and the worse gap of two proofs.
     fn worse_of(self, other: Self) -> Self {
         let mut worse = self;
         if other.gouge > worse.gouge {
@@ -41,20 +42,20 @@ impl SurfaceProof {
         worse
     }
 
-    /// Whether both are within a tolerance, what the check may miss included.
+    /// Returns whether gouge and gap are within a tolerance, including what the samples may miss.
     pub fn is_within(&self, tolerance: f64) -> bool {
         self.gouge + self.bound <= tolerance && self.gap <= tolerance
     }
 }
 
-/// What a pass is compared with.
+/// A pass and the line that it is compared with.
 pub(super) struct ProvedPass<'a> {
     pub offset: f64,
     pub track: &'a PassTrack,
     pub ground: Option<&'a Chain>,
 }
 
-/// How to look.
+/// The data for proving passes.
 pub(super) struct PassProver<'a> {
     pub planes: &'a PassPlanes,
     pub radius: f64,
@@ -64,7 +65,7 @@ pub(super) struct PassProver<'a> {
 }
 
 impl PassProver<'_> {
-    /// The worst of all passes.
+    /// Returns the worst values of all passes.
     pub fn prove_all(&self, passes: &[ProvedPass<'_>]) -> SurfaceProof {
         let all: Vec<SurfaceProof> = passes.par_iter().map(|pass| self.prove_pass(pass)).collect();
         all.into_iter().fold(SurfaceProof::default(), SurfaceProof::worse_of)
@@ -76,12 +77,13 @@ impl PassProver<'_> {
         [in_plane, in_space].into_iter().flatten().fold(SurfaceProof::default(), SurfaceProof::worse_of)
     }
 
-    /// Against the line in the plane, by [`check_tip_path`].
+    /// Compares a pass with the line in its plane, by [`check_tip_path`].
     fn prove_in_plane(&self, pass: &ProvedPass<'_>, ground: &Chain) -> Option<SurfaceProof> {
         let tip = pass.track.to_plane_chain(self.planes, self.print)?;
         let wanted = SHARE * self.tolerance;
         let least = (tip.length_mm() + ground.length_mm()) / MOST_SAMPLES;
-        // As fine as two balls of this radius would need; curvatures of the part may ask for more.
+        // The first step is that of two balls of this radius, 2 step^2 / (8 R) = wanted; curvatures of the
+        // part may need a finer one.
         let mut step = (4.0 * self.radius * wanted).sqrt().min(self.radius / 4.0).max(least);
         let mut verdict = check_tip_path(ground, &tip, self.radius, step);
         if verdict.bound > wanted && step > least {
@@ -98,10 +100,11 @@ impl PassProver<'_> {
         })
     }
 
-    /// Against the mesh, by [`BallClearanceField::measure_clearance`].
+    /// Compares a pass with the mesh in space, by [`BallClearanceField::measure_clearance`].
     fn prove_in_space(&self, pass: &ProvedPass<'_>, space: &BallClearanceField) -> Option<SurfaceProof> {
         let bound = SHARE * self.tolerance / 2.0;
-        // Arcs in chords are looked at as far off them as that.
+        // Half of the error is for the chords of arcs, the other half for the distance of samples, step^2 /
+        // (8 R).
         let points = pass.track.sample_points(self.planes, self.print, pass.offset, bound);
         let found = space.measure_clearance(&points, (8.0 * self.radius * bound).sqrt())?;
         Some(SurfaceProof {

@@ -1,15 +1,16 @@
-//! Which tools of a program are flat end mills, and why the others are not.
+//! This module finds which tools of a program are flat end mills, and why the others are not.
 
 use crate::layered_chips::FlatMill;
 use crate::sim::CutterModel;
 
-/// Lengths in mm and angles in radians below which a corner, a taper or a point is none: no grinder could make it.
+/// The length in mm and the angle in radians below which a corner radius, a taper or a tip angle counts as
+/// none. No grinder could make it.
 const NONE: f64 = 1e-6;
 
-/// A cutter as a flat end mill.
+/// Converts a cutter to a flat end mill.
 ///
 /// # Errors
-/// What it has that a flat end mill has not, to be read after "tool 3 has".
+/// Returns the property that makes it no flat end mill, to be read after "tool 3 has".
 pub fn to_flat_mill(cutter: &CutterModel) -> Result<FlatMill, String> {
     let profile = &cutter.profile;
     if profile.bottom_angle_rad() > NONE {

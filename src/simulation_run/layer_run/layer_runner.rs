@@ -1,4 +1,4 @@
-//! The run itself.
+//! This module runs a program over the layers of its stock.
 
 use super::flat_mills::to_flat_mill;
 use super::stock_reach::can_reach_stock;
@@ -17,21 +17,23 @@ use crate::simulation_run::{Machining, RunWatcher};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// Pieces that are worked on together: enough for every thread, few enough to stay small.
+/// The number of pieces that are cut together: enough for every thread, and few enough to need little memory.
 const BATCH: usize = 512;
 
-/// Ways below this in the file's unit are none: finer than any file's decimals.
+/// The length below which a motion does not move the tip, in the file's unit. It is finer than any file's
+/// decimals.
 const SAME_PLACE: f64 = 1e-9;
 
-/// Turns below this many radians are none: 0.00001 mm at 100 mm.
+/// The angle in radians below which a motion does not turn the axis. It moves a point at 100 mm by 0.00001
+/// mm.
 const SAME_AXIS: f64 = 1e-7;
 
 impl Machining<'_> {
-    /// Runs the program in layers, up to the last line asked for. `sink` gets every motion in order with its chip. `None` when
-    /// `watch` stopped it.
+    /// Runs the program in layers, up to the last line that is asked for. `sink` gets every motion in order
+    /// with its chips. Returns `None` if `watch` stopped the run.
     ///
     /// # Errors
-    /// [`codes::LAYERS`] when the stock cannot be cut into such layers.
+    /// Returns [`codes::LAYERS`] if the stock cannot be divided in such layers.
     pub fn simulate_layers(
         &self,
         options: &LayerRunOptions,
@@ -48,12 +50,15 @@ impl Machining<'_> {
         let last = *options.lines.end();
         let motions =
             || self.program.motions().map(|motion| (end_line_number(self.program, &motion), motion));
+        // The whole length is needed for progress; it only counts the motions that will be run.
         let whole: f64 =
             motions().take_while(|(line, _)| *line <= last).map(|(_, motion)| motion.length() * unit).sum();
         let mut done = 0.0;
         for (line, motion) in motions().take_while(|(line, _)| *line <= last) {
             done += motion.length() * unit;
             let alone = options.one_by_one && options.lines.contains(&line);
+            // The queue is emptied before and after such a motion, so that the stack is right when it reaches
+            // the sink.
             if alone {
                 running.cut_queued(sink);
             }
@@ -72,7 +77,7 @@ impl Machining<'_> {
     }
 }
 
-/// 1-based line of the statement that ends a motion.
+/// Returns the line of the statement that ends a motion, counted from 1.
 fn end_line_number(program: &Program, motion: &Motion) -> usize {
     let start = program.statement(motion.last_statement()).map(Statement::origin).unwrap_or_default().start;
     program.source().line_column(start).0
@@ -87,19 +92,20 @@ struct WaitingMotion {
     steps: Range<usize>,
 }
 
+/// The state of a run.
 struct LayerRunner<'r> {
     machining: &'r Machining<'r>,
     options: &'r LayerRunOptions,
     stack: LayerStack,
     trace: PathLinearizer,
-    /// One for each cutter; those that are no flat end mills stand empty and are never asked for.
+    /// The mills, one for each cutter; those that are not flat end mills are never cut with.
     mills: Vec<Result<FlatMill, UnsuitableTool>>,
     faults: FaultCollector,
     steps: Vec<MotionPiece>,
     waiting: Vec<WaitingMotion>,
 }
 
-/// A tool that is no flat end mill.
+/// A tool that is not a flat end mill, with the number of its motions and the statement of the first one.
 struct UnsuitableTool {
     has: String,
     motions: usize,
@@ -123,11 +129,12 @@ impl<'r> LayerRunner<'r> {
         }
     }
 
-    /// Lets a motion wait, with its pieces where it has some.
+    /// Adds a motion to those that wait, with its pieces if it is cut.
     fn queue_motion(&mut self, line: usize, motion: Motion) {
         self.trace.adopt_workpiece_frame(&motion);
         let start = self.steps.len();
         let cutter = self.machining.tooling.cutter_index(&motion);
+        // A motion that is left out stays in the queue without pieces, so that the sink gets every motion.
         let left_out = self.check_uncut(&motion, cutter);
         if let Some(cutter) = cutter.filter(|_| left_out.is_none()) {
             self.trace.append_pieces(&motion, cutter, &mut self.steps);
@@ -136,7 +143,7 @@ impl<'r> LayerRunner<'r> {
         self.waiting.push(WaitingMotion { motion, line, cutter, left_out, steps });
     }
 
-    /// Why a motion is not cut; tells of it, too.
+    /// Returns the reason why a motion is not cut, and records it as a fault.
     fn check_uncut(&mut self, motion: &Motion, cutter: Option<usize>) -> Option<UncutReason> {
         if motion.path == MotionPath::Start {
             return None;
@@ -149,6 +156,7 @@ impl<'r> LayerRunner<'r> {
         }
         match cutter.and_then(|index| self.mills.get_mut(index)) {
             Some(Ok(_)) => None,
+            // Its motions are only counted here; one finding for each tool follows at the end.
             Some(Err(other)) => {
                 other.motions += 1;
                 other.first.get_or_insert(motion.last_statement());
@@ -158,8 +166,9 @@ impl<'r> LayerRunner<'r> {
         }
     }
 
-    /// Cuts what waits.
+    /// Cuts the waiting pieces and gives each waiting motion to `sink`.
     fn cut_queued(&mut self, sink: &mut dyn FnMut(&MotionChips<'_>)) {
+        // A tool that is not a flat end mill has no pieces; an empty mill keeps its index free.
         let nothing = FlatMill { radius: 0.0, flutes: 0.0 };
         let mills: Vec<FlatMill> =
             self.mills.iter().map(|mill| mill.as_ref().copied().unwrap_or(nothing)).collect();
@@ -174,7 +183,8 @@ impl<'r> LayerRunner<'r> {
             .drain(..)
             .zip(chips)
             .map(|(step, chip)| match chip {
-                // A chord of an arc that rounding has made a point, or a piece beside all material.
+                // The chord of an arc that rounding has made a point, or a piece that cannot reach any
+                // material.
                 Err(MillStepError::Still) => (step, Ok(Chip::default())),
                 Err(_) if harmless(&step) => (step, Ok(Chip::default())),
                 chip => (step, chip),
@@ -195,7 +205,7 @@ impl<'r> LayerRunner<'r> {
         }
     }
 
-    /// All findings: those of motions, and one for each tool that is no flat end mill.
+    /// Returns all findings: those of motions, and one for each tool that is not a flat end mill.
     fn collect_findings(&mut self) -> Vec<Diagnostic> {
         let program = self.machining.program;
         let mut findings = std::mem::take(&mut self.faults).collect_findings(program);
@@ -220,7 +230,7 @@ impl<'r> LayerRunner<'r> {
     }
 }
 
-/// What is wrong with a motion.
+/// Records the faults of a motion: pieces that cannot be modelled, and cuts at rapid or without spindle.
 fn check_layer_motion(
     faults: &mut FaultCollector,
     machining: &Machining<'_>,
@@ -241,7 +251,8 @@ fn check_layer_motion(
     }
     let radius = cut.cutter.and_then(|index| mills.get(index)).map_or(0.0, |mill| mill.radius);
     let length = cut.motion.length() * machining.units.mm_per_unit();
-    // Slivers between the chords of one border and the next are no cuts.
+    // Slivers between the chords of two boundaries are not cuts: at most the tolerance times the length of
+    // the section's edge and path.
     let sliver = options.tolerance * (length + TAU * radius);
     let layers = cut.piece_chips().flat_map(|chip| &chip.layers).filter(|layer| layer.area_mm2 > sliver);
     let removed: f64 = layers.map(|layer| layer.area_mm2 * layer.thickness).sum();

@@ -1,7 +1,12 @@
-//! Running a program over its stock in layers: the chip of every motion.
+//! This module runs a program over its stock in layers and finds the chip of every motion.
 //!
-//! As [`Machining::simulate_program`](super::Machining::simulate_program), with the exact chips of [`crate::layered_chips`] in place of columns. That theory is one of
-//! flat end mills whose axis does not lie in the layers; what it cannot model is told and left out, and its material stays.
+//! It works like [`Machining::simulate_program`](super::Machining::simulate_program), with the exact chips of
+//! [`crate::layered_chips`] instead of columns. Columns and layers are two simulations of the same path, with
+//! the same frames, chords and checks, so each one checks the other.
+//!
+//! Layers model flat end mills whose axis is not nearly parallel to the layers. A motion that they cannot
+//! model is reported, left out and not approximated, and its material stays. It is not reported if it cannot
+//! reach the stock.
 
 mod flat_mills;
 mod layer_runner;
@@ -16,70 +21,72 @@ use crate::program::motion::Motion;
 use crate::sim::MotionPiece;
 use std::ops::RangeInclusive;
 
-/// How chips are made.
+/// The options of a run in layers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LayerRunOptions {
-    /// Thickness of the layers, mm.
+    /// The thickness of the layers, mm.
     pub layer: f64,
-    /// Largest distance of a border's chords, and of an arc's, from the curve, mm.
+    /// The largest distance of chords from their curve, for boundaries and for arcs, mm.
     pub tolerance: f64,
-    /// Lines of the file whose motions are asked for. What comes before them is cut, what comes after them is not run.
+    /// The lines of the file whose motions are asked for. Motions before them are cut too, motions after them
+    /// are not run.
     pub lines: RangeInclusive<usize>,
-    /// Longest piece of a motion that is cut on its own, mm; infinite for whole motions.
+    /// The longest piece of a motion that is cut on its own, mm; infinite for whole motions.
     pub longest: f64,
-    /// Whether motions asked for are run one by one, so that the sink sees the workpiece right after each; takes longer.
+    /// Whether the motions that are asked for are cut one by one, so that the sink gets the workpiece right
+    /// after each. This takes longer.
     pub one_by_one: bool,
 }
 
 impl LayerRunOptions {
-    /// Layers of this thickness (mm), the whole program, chords within 0.002 mm.
+    /// Returns the options for layers of this thickness (mm), the whole program, and chords within 0.002 mm.
     pub fn new(layer: f64) -> Self {
         Self { layer, tolerance: 0.002, lines: 1..=usize::MAX, longest: f64::INFINITY, one_by_one: false }
     }
 }
 
-/// Why a motion was not cut.
+/// The reason why a motion was not cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UncutReason {
-    /// Its tool is no flat end mill.
+    /// Its tool is not a flat end mill.
     Tool,
-    /// A rapid of a tool whose shape nobody says.
+    /// It is a rapid of a tool whose shape is not known.
     Unknown,
-    /// It goes nowhere.
+    /// It neither moves the tip nor turns the axis.
     Still,
 }
 
-/// A motion and its chip.
+/// A motion and its chips.
 #[derive(Debug)]
 pub struct MotionChips<'a> {
     /// The motion.
     pub motion: &'a Motion,
-    /// 1-based line of the statement that ends it.
+    /// The line of the statement that ends it, counted from 1.
     pub line: usize,
-    /// Whether it is asked for.
+    /// Whether the motion is asked for.
     pub asked: bool,
-    /// Index of its cutter, where its tool's shape is known.
+    /// The index of its cutter, if the shape of its tool is known.
     pub cutter: Option<usize>,
-    /// Why it was not cut; [`MotionChips::pieces`] is empty then.
+    /// The reason why it was not cut; then [`MotionChips::pieces`] is empty.
     pub left_out: Option<UncutReason>,
-    /// Its pieces in order, each with its chip, or why it has none.
+    /// Its pieces in order, each with its chip or the reason why it has none.
     pub pieces: &'a [(MotionPiece, Result<Chip, MillStepError>)],
-    /// The workpiece after it where motions are run one by one, else after some motions more.
+    /// The workpiece: right after this motion if motions are cut one by one, else after some more motions.
     pub stack: &'a LayerStack,
 }
 
 impl MotionChips<'_> {
-    /// Volume of its chips, mm3.
+    /// Returns the volume of its chips, mm3.
     pub fn volume_mm3(&self) -> f64 {
         self.piece_chips().map(Chip::volume_mm3).sum()
     }
 
-    /// The chips of its pieces.
+    /// Returns the chips of its pieces.
     pub fn piece_chips(&self) -> impl Iterator<Item = &Chip> {
         self.pieces.iter().filter_map(|(_, chip)| chip.as_ref().ok())
     }
 
-    /// The first piece that could not be modelled, and how many there are.
+    /// Returns the reason of the first piece that could not be modelled, and the number of such pieces.
     pub fn first_refusal(&self) -> Option<(MillStepError, usize)> {
         let mut refused = self.pieces.iter().filter_map(|(_, chip)| chip.as_ref().err());
         let first = refused.next()?;
@@ -87,13 +94,14 @@ impl MotionChips<'_> {
     }
 }
 
-/// What is left after a run.
+/// The result of a run in layers.
 #[derive(Debug)]
 pub struct LayerRunResult {
     /// The workpiece that is left.
     pub left: LayerStack,
-    /// Volume of the workpiece before, mm3.
+    /// The volume of the workpiece before the run, mm3.
     pub before_mm3: f64,
-    /// What could not be modelled, cuts at rapid or without spindle.
+    /// The findings: motions that could not be modelled, and cuts at rapid or with a spindle that does not
+    /// turn.
     pub findings: Vec<Diagnostic>,
 }

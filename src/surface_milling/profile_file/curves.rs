@@ -1,7 +1,8 @@
-//! Pieces of a profile file as curves.
+//! This module converts the pieces of a profile file to curves.
 //!
-//! Who writes by hand rounds. So a centre may be off by [`ROUNDED`], and an ellipse is moved by as much: a curve always starts exactly
-//! where the one before ends, and the next one starts where it really ends.
+//! People who write files by hand round their numbers. So a centre may be off by [`ROUNDED`], and an ellipse
+//! is moved by as much. A curve always starts exactly at the end of the one before, and the next one starts
+//! where it really ends.
 
 use super::text::{ArcText, CurveTurnText, EllipseText, NurbsText, PieceText};
 use crate::parameters::Finite;
@@ -9,13 +10,13 @@ use crate::surface::profile::{ChainPiece, EllipseArc, LARGEST, NurbsCurve, Param
 use crate::surface_milling::ProfileCurve;
 use std::f64::consts::{PI, TAU};
 
-/// How far places that should be the same may be apart in a file written by hand, mm.
+/// The distance within which points of a file written by hand count as the same, mm.
 const ROUNDED: f64 = 2e-3;
 
-/// Shorter than this is no curve, mm.
+/// The length below which there is no curve, mm.
 const SHORTEST: f64 = 1e-6;
 
-/// What is wrong with a piece: at a key of it, at an element of the key's list.
+/// A fault of a piece, at one of its keys and at an element of that key's list.
 pub(super) struct PieceFault {
     pub message: String,
     pub label: &'static str,
@@ -40,7 +41,7 @@ impl PieceFault {
     }
 }
 
-/// The curves of a piece that starts at a place; `scale` makes mm of the file's unit.
+/// Builds the curves of a piece that starts at a point. `scale` converts the file's unit to mm.
 pub(super) fn build_curves(
     piece: &PieceText,
     start: Point,
@@ -68,7 +69,7 @@ pub(super) fn build_curves(
     }
 }
 
-/// Where a curve ends.
+/// Returns the end of a curve.
 pub(super) fn curve_end(curve: &ProfileCurve) -> Point {
     match curve {
         ProfileCurve::Piece(piece) => piece.end(),
@@ -77,7 +78,7 @@ pub(super) fn curve_end(curve: &ProfileCurve) -> Point {
     }
 }
 
-/// Where a piece is to end by its text, whatever is wrong with it.
+/// Returns the end of a piece as its text gives it, also if the piece has a fault.
 pub(super) fn meant_end(piece: &PieceText, scale: f64) -> Option<Point> {
     let to = match piece {
         PieceText::Line(to) => to,
@@ -91,7 +92,7 @@ pub(super) fn meant_end(piece: &PieceText, scale: f64) -> Option<Point> {
 
 fn build_point(place: [Finite; 2], scale: f64) -> Result<Point, PieceFault> {
     let [u, z] = place.map(|value| value.get() * scale);
-    // A thousandth of what chains take, so that offsets and sums still fit.
+    // The limit is a thousandth of that of chains, so that offsets and sums still fit.
     if u.abs().max(z.abs()) > LARGEST / 1e3 {
         return Err(PieceFault::new("this is more than ten metres away", "too far")
             .with_help("Compare it with `units:`."));
@@ -114,21 +115,22 @@ fn build_arc(text: &ArcText, start: Point, scale: f64) -> Result<ProfileCurve, P
         return Err(fault.with_help("Make a full circle of two arcs."));
     }
     let left = text.turn == CurveTurnText::Left;
-    // To the left of the chord.
+    // The unit normal to the left of the chord.
     let (nu, nz) = (-(to.z - start.z) / chord, (to.u - start.u) / chord);
     let middle = start.lerp(to, 0.5);
     let off = match (text.radius, text.centre) {
         (Some(radius), None) => {
             let radius = radius.get() * scale;
+            // The centre is sqrt(R^2 - (chord / 2)^2) from the chord.
             let square = radius * radius - chord * chord / 4.0;
-            // Half a turn is often meant exactly.
+            // Half a turn is often intended to be exact, so a radius slightly too small is accepted.
             if square < -ROUNDED * radius {
                 let message = format!("an arc of radius {} does not reach {:.4} mm", radius / scale, chord);
                 return Err(PieceFault::new(message, "too small for this arc")
                     .at_key("radius")
                     .with_help(format!("It must be {} or more.", chord / 2.0 / scale)));
             }
-            // The shorter way round has its centre on the side that it turns to.
+            // The shorter arc has its centre on the side to which it turns.
             square.max(0.0).sqrt() * if left == text.long { -1.0 } else { 1.0 }
         }
         (None, Some(centre)) => {
@@ -165,7 +167,7 @@ fn build_ellipse(text: &EllipseText, start: Point, scale: f64) -> Result<Profile
     let until = ellipse_parameter(&whole, to);
     for (at, parameter, key) in [(start, from, "centre"), (to, until, "to")] {
         let off = whole.point_at(parameter / TAU).distance(at);
-        // In the direction of the centre that is the distance from the ellipse, or a little more.
+        // Measured in the direction of the centre, this is the distance from the ellipse or a little more.
         if off.is_nan() || off > ROUNDED * (a / b).max(b / a) {
             let which = if key == "to" { "end" } else { "start" };
             let message = format!("the {which} of this piece is {off:.4} mm from the ellipse");
@@ -187,12 +189,12 @@ fn build_ellipse(text: &EllipseText, start: Point, scale: f64) -> Result<Profile
     Ok(ProfileCurve::Ellipse(ellipse))
 }
 
-/// The parameter at which an ellipse is in the direction of a point, seen from its centre after it was made a circle.
+/// Returns the parameter of an ellipse in the direction of a point, after scaling the ellipse to a circle.
 fn ellipse_parameter(ellipse: &EllipseArc, at: Point) -> f64 {
     let (sin, cos) = ellipse.tilt.sin_cos();
     let (u, z) = (at.u - ellipse.centre.u, at.z - ellipse.centre.z);
     let angle = ((z * cos - u * sin) / ellipse.b).atan2((u * cos + z * sin) / ellipse.a);
-    // From 0 to a turn, so that a share of the whole ellipse can be taken.
+    // The result is from 0 to a turn, so that it can be taken as a fraction of the whole ellipse.
     if angle < 0.0 { angle + 2.0 * PI } else { angle }
 }
 
@@ -240,7 +242,8 @@ fn build_nurbs(text: &NurbsText, start: Point, scale: f64) -> Result<ProfileCurv
     Ok(ProfileCurve::Nurbs(curve))
 }
 
-/// Knots of a curve that starts in its first control point and ends in its last, evenly between.
+/// Makes the knots of a curve that starts at its first control point and ends at its last, with even knots
+/// between.
 fn make_even_knots(degree: usize, count: usize) -> Vec<f64> {
     let spans = count - degree;
     (0..count + degree + 1).map(|index| index.saturating_sub(degree).min(spans) as f64).collect()

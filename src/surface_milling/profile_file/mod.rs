@@ -1,4 +1,5 @@
-//! Profile files: YAML that describes a profile piece by piece, each piece from where the one before ends.
+//! This module reads profile files: YAML that describes a profile piece by piece, each piece from the end of
+//! the one before.
 
 mod curves;
 mod text;
@@ -11,12 +12,12 @@ use std::sync::Arc;
 /// Reads a profile file.
 ///
 /// # Errors
-/// Everything that is wrong with the file, each at its place.
+/// Returns a finding for every fault of the file, at its place.
 pub fn load_profile(source: &Arc<Source>) -> Result<SectionProfile, Vec<Diagnostic>> {
     text::read_profile(source)
 }
 
-/// JSON schema of a profile file, for editors.
+/// Returns the JSON schema of a profile file, for editors.
 pub fn profile_schema() -> serde_json::Value {
     text::make_profile_schema()
 }

@@ -1,4 +1,4 @@
-//! A profile as it is written: what serde reads, and what the JSON schema tells editors.
+//! This module reads the text of a profile file with serde, and makes the JSON schema that editors use.
 
 use super::curves::{self, PieceFault};
 use crate::diagnostic::{Diagnostic, codes};
@@ -11,10 +11,11 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use std::sync::Arc;
 
-/// Whoever made more mistakes than this fixes the first ones first.
+/// The most faults that are reported. Whoever has more fixes the first ones first.
 const MOST: usize = 20;
 
-/// A profile in a vertical plane, for `clsmith section --profile`: places are [u, z], u along the pass and z up.
+/// A profile in a vertical plane, for `clsmith section --profile`. Points are [u, z], with u along the pass
+/// and z up.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "clsmith profile file")]
@@ -22,11 +23,11 @@ struct ProfileFileText {
     /// The unit of every length in this file.
     #[serde(default)]
     units: LengthUnit,
-    /// Over which width it is swept, from 0; `--from` and `--to` override it.
+    /// The width over which the profile is swept, from 0; `--from` and `--to` override it.
     width: Option<Positive>,
-    /// Where it starts.
+    /// The point at which the profile starts.
     start: [Finite; 2],
-    /// Its pieces; each starts where the one before ends.
+    /// The pieces of the profile; each starts where the one before ends.
     #[schemars(length(min = 1))]
     pieces: Vec<PieceText>,
 }
@@ -36,26 +37,26 @@ struct ProfileFileText {
 #[serde(rename_all = "snake_case")]
 #[schemars(rename = "Piece")]
 pub(super) enum PieceText {
-    /// A straight line to a place.
+    /// A straight line to a point.
     Line([Finite; 2]),
-    /// Straight lines from place to place.
+    /// Straight lines from point to point.
     Polyline(Vec<[Finite; 2]>),
-    /// An arc of a circle: by `radius` (the shorter way round unless `long`), or by `centre`.
+    /// An arc of a circle, given by `radius` (the shorter arc unless `long`) or by `centre`.
     Arc(ArcText),
     /// An arc of an ellipse.
     Ellipse(EllipseText),
-    /// A rational B-spline, from where the piece before ends.
+    /// A rational B-spline that starts where the piece before ends.
     Nurbs(NurbsText),
 }
 
-/// Which way a curve turns, going along it.
+/// The direction in which a curve turns, going along it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(rename = "Turn")]
 pub(super) enum CurveTurnText {
-    /// From +u towards +z: a hollow, going to +u.
+    /// From +u towards +z; going to +u, this is a hollow.
     Left,
-    /// From +u towards -z: a hill, going to +u.
+    /// From +u towards -z; going to +u, this is a hill.
     Right,
 }
 
@@ -64,15 +65,15 @@ pub(super) enum CurveTurnText {
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Arc")]
 pub(super) struct ArcText {
-    /// Where it ends.
+    /// The point at which the arc ends.
     pub to: [Finite; 2],
-    /// Its radius; or give `centre`.
+    /// The radius; give either this or `centre`.
     pub radius: Option<Positive>,
-    /// Its centre; or give `radius`.
+    /// The centre; give either this or `radius`.
     pub centre: Option<[Finite; 2]>,
-    /// Which way it turns.
+    /// The direction in which the arc turns.
     pub turn: CurveTurnText,
-    /// With `radius`: the longer way round.
+    /// With `radius`: take the longer arc.
     #[serde(default)]
     pub long: bool,
 }
@@ -82,15 +83,15 @@ pub(super) struct ArcText {
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Ellipse")]
 pub(super) struct EllipseText {
-    /// Where it ends.
+    /// The point at which the arc ends.
     pub to: [Finite; 2],
-    /// Its centre.
+    /// The centre of the ellipse.
     pub centre: [Finite; 2],
-    /// Half its axes; the first along `tilt`.
+    /// Half the axes of the ellipse; the first one is along `tilt`.
     pub semi_axes: [Positive; 2],
-    /// Angle of the first axis from +u towards +z, degrees.
+    /// The angle of the first axis from +u towards +z, degrees.
     pub tilt: Option<Degrees>,
-    /// Which way it turns.
+    /// The direction in which the arc turns.
     pub turn: CurveTurnText,
 }
 
@@ -99,11 +100,11 @@ pub(super) struct EllipseText {
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Nurbs")]
 pub(super) struct NurbsText {
-    /// Control points after the first one, which is where the piece starts.
+    /// The control points after the first one, which is the start of the piece.
     pub points: Vec<[Finite; 2]>,
-    /// Its degree; 3 if not given.
+    /// The degree; 3 if not given.
     pub degree: Option<u8>,
-    /// A weight for each control point, the first one included; all 1 if not given.
+    /// A weight for each control point, including the first one; all 1 if not given.
     pub weights: Option<Vec<Positive>>,
     /// All knots: as many as control points, degree and 1 together; clamped and even if not given.
     pub knots: Option<Vec<Finite>>,
@@ -147,7 +148,7 @@ pub(super) fn read_profile(source: &Arc<Source>) -> Result<SectionProfile, Vec<D
                 path.extend(wrong.key.map(YamlPathSegment::Key));
                 path.extend(wrong.index.map(YamlPathSegment::Index));
                 found.push(locate_fault(&document, &path, &wrong));
-                // What comes after starts where this piece was to end.
+                // The next piece starts where this one was intended to end.
                 at = curves::meant_end(piece, scale).unwrap_or(at);
             }
         }
@@ -159,6 +160,7 @@ pub(super) fn read_profile(source: &Arc<Source>) -> Result<SectionProfile, Vec<D
 }
 
 fn locate_fault(document: &YamlDocument, path: &[YamlPathSegment<'_>], wrong: &PieceFault) -> Diagnostic {
+    // The place is that of the innermost key that exists in the file.
     let paths = (0..=path.len()).rev().filter_map(|count| path.get(..count));
     let span = paths.filter_map(|path| document.value_span(path)).next().unwrap_or_default();
     let found = Diagnostic::new(codes::BAD_VALUE, wrong.message.clone()).with_label(
