@@ -1,43 +1,44 @@
-//! Bytes of a file, and places in them.
+//! This module holds the bytes of a file and places in them.
 //!
-//! Everything above this module speaks of bytes by [`Span`]; only people see lines and columns.
+//! All other modules give places as a [`Span`] of bytes; only people see lines and columns.
 
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 
 /// A half-open range of bytes in a [`Source`].
 ///
-/// 32 bits are enough because [`Source::new`] refuses files of 4 GiB and more; a statement costs 8 bytes less for it.
+/// 32 bits are enough because [`Source::new`] refuses files of 4 GiB and more. They make a statement 8 bytes
+/// smaller.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord)]
 pub struct Span {
-    /// First byte.
+    /// The offset of the first byte.
     pub start: u32,
-    /// One past the last byte.
+    /// The offset behind the last byte.
     pub end: u32,
 }
 
 impl Span {
-    /// The bytes `start..end`. Offsets come from a [`Source`], so they fit 32 bits.
+    /// Makes the span of the bytes `start..end`. Offsets come from a [`Source`], so they fit in 32 bits.
     pub fn new(start: usize, end: usize) -> Self {
         Self { start: start as u32, end: end.max(start) as u32 }
     }
 
-    /// Number of bytes.
+    /// Returns the number of bytes.
     pub fn len(self) -> usize {
         (self.end - self.start) as usize
     }
 
-    /// Whether the span holds no byte.
+    /// Returns whether the span has no byte.
     pub fn is_empty(self) -> bool {
         self.start == self.end
     }
 
-    /// The span as a range of `usize`.
+    /// Returns the span as a range of `usize`.
     pub fn to_range(self) -> std::ops::Range<usize> {
         self.start as usize..self.end as usize
     }
 
-    /// A span inside this one, given by offsets from its start.
+    /// Returns a span inside this one, given by offsets from its start.
     pub fn sub_span(self, from: usize, to: usize) -> Self {
         let start = self.start as usize;
         Self::new(start + from, (start + to).min(self.end as usize))
@@ -57,19 +58,19 @@ pub struct Source {
     line_starts: OnceLock<Vec<u32>>,
 }
 
-/// A file is too large for 32-bit spans.
+/// The file is too large for 32-bit spans.
 #[derive(Debug, Clone, Copy, thiserror::Error)]
 #[error("the file has {bytes} bytes; clsmith reads files below 4 GiB")]
 pub struct SourceTooLarge {
-    /// Size of the refused file.
+    /// The size of the refused file.
     pub bytes: usize,
 }
 
 impl Source {
-    /// Takes the bytes of a file; `name` is what diagnostics call it.
+    /// Takes the bytes of a file; `name` is its name in diagnostics.
     ///
     /// # Errors
-    /// [`SourceTooLarge`] from 4 GiB on.
+    /// Returns [`SourceTooLarge`] for 4 GiB and more.
     pub fn new(name: impl Into<String>, bytes: Vec<u8>) -> Result<Arc<Self>, SourceTooLarge> {
         if bytes.len() >= u32::MAX as usize {
             return Err(SourceTooLarge { bytes: bytes.len() });
@@ -77,22 +78,23 @@ impl Source {
         Ok(Arc::new(Self { name: name.into(), bytes, line_starts: OnceLock::new() }))
     }
 
-    /// What diagnostics call the file.
+    /// Returns the name of the file in diagnostics.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// All bytes.
+    /// Returns all bytes.
     pub fn bytes(&self) -> &[u8] {
         &self.bytes
     }
 
-    /// The bytes of a span; empty when the span does not lie in this file.
+    /// Returns the bytes of a span, or no bytes if the span is not in this file.
     pub fn slice(&self, span: Span) -> &[u8] {
         self.bytes.get(span.to_range()).unwrap_or_default()
     }
 
-    /// 1-based line and column (in bytes) of an offset. Lines end at LF, CRLF or a lone CR.
+    /// Returns the line and the column (in bytes) of an offset, both counted from 1. Lines end at LF, CRLF or
+    /// a lone CR.
     pub fn line_column(&self, offset: u32) -> (usize, usize) {
         let starts = self.line_starts.get_or_init(|| find_line_starts(&self.bytes));
         let line = starts.partition_point(|&start| start <= offset).max(1);
@@ -100,7 +102,7 @@ impl Source {
         (line, (offset - start) as usize + 1)
     }
 
-    /// The span of a 1-based line, without its line end. `None` past the last line.
+    /// Returns the span of a line, counted from 1, without its line end. Returns `None` past the last line.
     pub fn line_span(&self, line: usize) -> Option<Span> {
         let starts = self.line_starts.get_or_init(|| find_line_starts(&self.bytes));
         let start = *starts.get(line.checked_sub(1)?)? as usize;
@@ -117,6 +119,7 @@ impl fmt::Debug for Source {
     }
 }
 
+/// Returns the offsets at which lines start.
 fn find_line_starts(bytes: &[u8]) -> Vec<u32> {
     let mut starts = vec![0];
     for at in memchr::memchr2_iter(b'\n', b'\r', bytes) {

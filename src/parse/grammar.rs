@@ -1,4 +1,7 @@
-//! From pest's pairs to our own [`StatementSyntax`]: the only place that knows pest.
+//! This module converts pest's pairs to our own [`StatementSyntax`]. It is the only module that knows pest.
+//!
+//! pest reads `str`, so every byte from 0x80 on is given to it as DEL. Offsets stay the same, and every code
+//! page is read alike.
 
 use crate::number;
 use crate::program::{FieldGroup, FieldKind, StatementField, StatementKind, StatementSyntax};
@@ -6,18 +9,21 @@ use pest::Parser;
 use pest::iterators::Pair;
 use std::borrow::Cow;
 
+/// The grammar of CL text, of which `grammar/cl.pest` is the only description.
 #[derive(pest_derive::Parser)]
 #[grammar = "grammar/cl.pest"]
 struct ClGrammar;
 
-/// No statement is longer (in bytes). pest takes some 250 times a text of short fields in memory, so a file that is one line
-/// would take the machine down; the longest measured line has 124 characters.
+/// The longest statement that is read, in bytes; longer ones are refused (CL0001). pest needs about 250 times
+/// the memory of a text of short fields, so a large file of one line would use up all memory. The longest
+/// measured line has 124 characters.
 const LONGEST: usize = 2 << 20;
 
-/// The statement at the start of `window`, and the number of bytes it takes.
+/// Reads the statement at the start of `window`; the text of the result shows how many bytes it takes.
 ///
-/// `window` holds whole lines. `StatementSyntax::open` says that the statement goes on past its end; give a longer window, unless the
-/// file ends there. Never fails: what no form of the grammar fits has [`StatementKind::Refused`].
+/// `window` holds whole lines. `StatementSyntax::open` says that the statement continues past the end of the
+/// window; then the caller gives a longer window, unless the file ends there. This never fails: text that
+/// fits no form of the grammar gets [`StatementKind::Refused`].
 pub fn parse_statement(window: &[u8]) -> StatementSyntax<'_> {
     if window.len() > LONGEST {
         return bare_syntax(window, StatementKind::Refused);
@@ -26,7 +32,8 @@ pub fn parse_statement(window: &[u8]) -> StatementSyntax<'_> {
     let Some(statement) =
         ClGrammar::parse(Rule::statement, &readable).ok().and_then(|mut pairs| pairs.next())
     else {
-        // `refused` takes any text, so this is only reached when pest itself gives up (its call limit, unset here).
+        // The rule `refused` takes any text, so this is only reached if pest itself gives up (its call limit,
+        // which is not set here).
         return bare_syntax(window, StatementKind::Refused);
     };
     let Some(form) = statement.into_inner().next() else {
@@ -41,7 +48,8 @@ pub fn parse_statement(window: &[u8]) -> StatementSyntax<'_> {
     syntax
 }
 
-/// Where a refused line stopped making sense: the furthest byte the strict forms reached.
+/// Returns the offset at which a refused line is no longer readable: the furthest byte that the strict forms
+/// reached.
 pub fn find_refusal_offset(text: &[u8]) -> usize {
     if text.len() > LONGEST {
         return 0;
@@ -55,7 +63,7 @@ pub fn find_refusal_offset(text: &[u8]) -> usize {
     }
 }
 
-/// pest reads `str`; every byte from 0x80 on becomes DEL, so offsets stay and every code page is read alike.
+/// Replaces every byte from 0x80 on by DEL, since pest reads `str`.
 fn mask_non_ascii(window: &[u8]) -> Cow<'_, str> {
     match std::str::from_utf8(window) {
         Ok(text) if text.is_ascii() => Cow::Borrowed(text),
@@ -65,10 +73,12 @@ fn mask_non_ascii(window: &[u8]) -> Cow<'_, str> {
     }
 }
 
+/// Makes a syntax without fields.
 fn bare_syntax(text: &[u8], form: StatementKind) -> StatementSyntax<'_> {
     StatementSyntax { text, form, word: 0..0, fields: Vec::new(), remark: None, open: false }
 }
 
+/// Returns the kind of statement that a rule of the grammar stands for.
 fn statement_kind(rule: Rule) -> StatementKind {
     match rule {
         Rule::blank_line => StatementKind::Blank,
@@ -85,6 +95,7 @@ fn statement_kind(rule: Rule) -> StatementKind {
     }
 }
 
+/// Adds a part of a statement: its word, its remark or a field.
 fn add_part(part: Pair<'_, Rule>, syntax: &mut StatementSyntax<'_>) {
     let at = part.as_span().start()..part.as_span().end();
     match part.as_rule() {
@@ -94,6 +105,7 @@ fn add_part(part: Pair<'_, Rule>, syntax: &mut StatementSyntax<'_>) {
     }
 }
 
+/// Reads a field; returns `None` for pairs that are not fields.
 fn parse_field(part: Pair<'_, Rule>) -> Option<StatementField> {
     let at = part.as_span().start()..part.as_span().end();
     let kind = match part.as_rule() {
@@ -114,6 +126,7 @@ fn parse_field(part: Pair<'_, Rule>) -> Option<StatementField> {
     Some(StatementField { at, kind })
 }
 
+/// Reads a nested record with its word and fields.
 fn parse_group(part: Pair<'_, Rule>) -> FieldGroup {
     let mut group = FieldGroup { word: 0..0, fields: Vec::new() };
     for inner in part.into_inner() {

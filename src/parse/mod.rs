@@ -1,4 +1,8 @@
-//! From bytes to a [`Program`]: one statement at a time, by the grammar, with a shortcut for plain GOTO lines.
+//! This module reads bytes to a [`Program`], one statement at a time. The grammar reads statements, and plain
+//! GOTO lines take a shortcut.
+//!
+//! pest keeps a line index of its whole input, so it gets one statement at a time. If the grammar reports
+//! that a statement continues past its window of lines, the window is doubled.
 
 mod grammar;
 mod shortcut;
@@ -12,21 +16,22 @@ use crate::source::{Source, Span};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// What came out of reading a file: a program, always, and what was wrong on the way.
+/// The result of reading a file: always a program, and the findings on the way.
 #[derive(Debug)]
 pub struct ParsedProgram {
     /// The program; its statements tile the source.
     pub program: Program,
-    /// Findings, in the order of the file.
+    /// The findings, in the order of the file.
     pub diagnostics: Vec<Diagnostic>,
-    /// Whether the file is no CL data at all: then the one finding says so, and nothing else about it is worth saying.
+    /// Whether the file is not CL data at all. Then the only finding says so, and nothing else about the file
+    /// is worth reporting.
     pub refused: bool,
 }
 
-/// Reads a whole file. `dialect` forces one; otherwise it is detected.
+/// Reads a whole file. `dialect` forces a dialect; otherwise it is detected.
 ///
-/// Never refuses a statement: what cannot be read is kept and reported. A file that is no CL data at all (an APT part
-/// program, UTF-16 text) is kept as one statement with one diagnostic.
+/// No statement is refused: one that cannot be read is kept and reported. A file that is not CL data at all
+/// (an APT part program, UTF-16 text) is kept as one statement with one finding.
 pub fn parse(source: &Arc<Source>, dialect: Option<Dialect>) -> ParsedProgram {
     let bytes = source.bytes();
     let mut reader = StatementReader {
@@ -43,7 +48,7 @@ pub fn parse(source: &Arc<Source>, dialect: Option<Dialect>) -> ParsedProgram {
             "",
         ));
     }
-    // A six-value GOTO has some 62 bytes, a three-value one some 32.
+    // A GOTO with six values has about 62 bytes, one with three values about 32.
     reader.program.reserve(bytes.len() / 48);
     let mut at = 0;
     if bytes.starts_with(b"\xEF\xBB\xBF") {
@@ -73,18 +78,18 @@ pub fn parse(source: &Arc<Source>, dialect: Option<Dialect>) -> ParsedProgram {
     ParsedProgram { program: reader.program, diagnostics: reader.diagnostics, refused: false }
 }
 
-/// All numbers of a statement with their places in its text, in the order they stand.
+/// Returns all numbers of a statement with their places in its text, in the order of the text.
 pub fn statement_numbers(text: &[u8]) -> Vec<(Range<usize>, f64)> {
     shortcut::plain_goto_numbers(text).unwrap_or_else(|| split_statement(text).0.numbers())
 }
 
-/// The same for a text that is one plain GOTO line, of which files are full; `None` for anything else, which only the grammar
-/// can take apart.
+/// Returns the same for a text that is one plain GOTO line, as most statements are. Returns `None` for any
+/// other text, which only the grammar can read.
 pub fn plain_goto_numbers(text: &[u8]) -> Option<Vec<(Range<usize>, f64)>> {
     shortcut::plain_goto_numbers(text)
 }
 
-/// What each of those numbers is, `record` being what the text means.
+/// Returns the roles of those numbers; `record` is the meaning of the text.
 pub fn number_roles(record: &Record, text: &[u8]) -> Vec<NumberRole> {
     match record {
         Record::Goto(goto) => record::path_roles(goto.axis.is_some()),
@@ -92,10 +97,10 @@ pub fn number_roles(record: &Record, text: &[u8]) -> Vec<NumberRole> {
     }
 }
 
-/// The meaning of a text that is to be one whole statement.
+/// Returns the meaning of a text that must be one whole statement.
 ///
 /// # Errors
-/// As [`read_record`]; also when the text holds more than the statement.
+/// Returns the errors of [`read_record`], and an error if the text holds more than one statement.
 pub fn read_whole_record(text: &[u8]) -> Result<Record, BadRecord> {
     if let Some((goto, length)) = shortcut::read_plain_goto(text)
         && length == text.len()
@@ -114,10 +119,10 @@ pub fn read_whole_record(text: &[u8]) -> Result<Record, BadRecord> {
     Err(BadRecord { at: length..text.len(), problem, is_number: false })
 }
 
-/// Takes one statement text (from an edit or a rewrite rule) apart and reads its meaning.
+/// Reads the words and the meaning of one statement's text, which comes from an edit or a rewrite rule.
 ///
 /// # Errors
-/// What is wrong with it; refused text too.
+/// Returns what is wrong with the text; refused text is an error too.
 pub fn read_record(text: &[u8]) -> Result<(Record, StatementSyntax<'_>), BadRecord> {
     let syntax = split_statement(text).0;
     if syntax.form == StatementKind::Refused {
@@ -128,6 +133,7 @@ pub fn read_record(text: &[u8]) -> Result<(Record, StatementSyntax<'_>), BadReco
     Record::read(&syntax).map(|record| (record, syntax))
 }
 
+/// The state of reading a file.
 struct StatementReader<'s> {
     source: &'s Arc<Source>,
     program: Program,
@@ -137,7 +143,7 @@ struct StatementReader<'s> {
 }
 
 impl StatementReader<'_> {
-    /// Reads one statement and gives its length; an error when the file is no CL data.
+    /// Reads one statement and returns its length. Returns an error if the file is not CL data.
     fn read_statement(&mut self, at: usize, rest: &[u8]) -> Result<usize, Box<Diagnostic>> {
         let (syntax, length) = split_statement(rest);
         let span = Span::new(at, at + length);
@@ -165,6 +171,7 @@ impl StatementReader<'_> {
         Ok(length)
     }
 
+    /// Returns the meaning of a statement, or [`Record::Unparsed`] with a finding if it has none.
     fn interpret_syntax(&mut self, syntax: &StatementSyntax<'_>, span: Span) -> Record {
         let problem = match syntax.form {
             StatementKind::Refused => {
@@ -187,6 +194,7 @@ impl StatementReader<'_> {
         Record::Unparsed
     }
 
+    /// Keeps the whole file as one unparsed statement with one finding.
     fn refuse_file(self, diagnostic: Diagnostic) -> ParsedProgram {
         let mut program = Program::new(Arc::clone(self.source));
         let bytes = self.source.bytes().len();
@@ -197,6 +205,7 @@ impl StatementReader<'_> {
     }
 }
 
+/// Makes the finding for a statement that the grammar refuses.
 fn malformed_finding(source: &Arc<Source>, text: &[u8], span: Span) -> Diagnostic {
     let end = trimmed_length(text);
     let at = grammar::find_refusal_offset(text).min(end.saturating_sub(1));
@@ -207,7 +216,8 @@ fn malformed_finding(source: &Arc<Source>, text: &[u8], span: Span) -> Diagnosti
     )
 }
 
-/// The statement at the start of `rest`, with as many lines as it continues over.
+/// Splits off the statement at the start of `rest`, with as many lines as it continues over. Returns its
+/// syntax and its length in bytes.
 fn split_statement(rest: &[u8]) -> (StatementSyntax<'_>, usize) {
     let mut lines = 1;
     let mut window = find_lines_end(rest, 0, lines);
@@ -217,13 +227,13 @@ fn split_statement(rest: &[u8]) -> (StatementSyntax<'_>, usize) {
             let length = syntax.text.len();
             return (syntax, length.max(1));
         }
-        // Doubling keeps a statement of very many lines linear.
+        // Doubling the window keeps the time for a statement of very many lines linear.
         window = find_lines_end(rest, window, lines);
         lines *= 2;
     }
 }
 
-/// The end of the `count`-th line after `from`. LF, CRLF and a lone CR end a line.
+/// Returns the end of the `count`-th line after `from`. LF, CRLF and a lone CR end a line.
 fn find_lines_end(bytes: &[u8], from: usize, count: usize) -> usize {
     let mut end = from;
     for _ in 0..count {
@@ -237,11 +247,12 @@ fn find_lines_end(bytes: &[u8], from: usize, count: usize) -> usize {
     end
 }
 
-/// Length without the line end and the blanks before it.
+/// Returns the length without the line end and the blanks before it.
 fn trimmed_length(text: &[u8]) -> usize {
     text.trim_ascii_end().len()
 }
 
+/// Returns why bytes are not text, or `None` if they may be. More than a quarter of zero bytes means binary.
 fn detect_non_text(bytes: &[u8]) -> Option<&'static str> {
     if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
         return Some("the file is UTF-16 text");

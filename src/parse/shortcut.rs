@@ -1,6 +1,8 @@
-//! A shortcut for plain GOTO lines, which are most of every file, and for the comments that clsmith itself puts before them.
+//! This module is a shortcut for plain GOTO lines, which are most of every file, and for the comments that
+//! clsmith itself writes before them.
 //!
-//! It may only agree with the grammar or decline: the property test `shortcut_agrees_with_the_grammar` holds it to that.
+//! It must agree with the grammar or decline; the property test `shortcut_agrees_with_the_grammar` checks
+//! this.
 
 use crate::number::parse_plain_decimal;
 use crate::program::OWN_WORD;
@@ -8,30 +10,31 @@ use crate::program::record::{Goto, has_direction};
 use nalgebra::{Point3, Vector3};
 use std::ops::Range;
 
-/// Reads `GOTO/x,y,z[,i,j,k]` with blanks and a `$` continuation where CATIA and Creo write them.
+/// Reads `GOTO/x,y,z[,i,j,k]`, with blanks and a `$` continuation as CATIA and Creo write them.
 ///
-/// Gives the record and the length in bytes with the line end. `None` for anything else, comments and exponents included.
+/// Returns the record and its length in bytes with the line end. Returns `None` for anything else, including
+/// comments and exponents.
 #[inline]
 pub(super) fn read_plain_goto(text: &[u8]) -> Option<(Goto, usize)> {
     let scan = scan_goto(text)?;
     let [x, y, z, i, j, k] = scan.values;
     let axis = match scan.count {
         3 => None,
-        // Without a direction it is an error, which the grammar's way reports.
+        // An axis without direction is an error, which the grammar reports.
         _ => Some(Vector3::new(i, j, k)).filter(has_direction).map(Some)?,
     };
     Some((Goto { point: Point3::new(x, y, z), axis }, scan.end))
 }
 
-/// The numbers of such a line with their places in it.
+/// Returns the numbers of such a line with their places in it.
 pub(super) fn plain_goto_numbers(text: &[u8]) -> Option<Vec<(Range<usize>, f64)>> {
     let scan = scan_goto(text).filter(|scan| scan.end == text.len())?;
     let numbers = scan.places.into_iter().zip(scan.values).take(scan.count);
     Some(numbers.map(|((start, end), value)| (start..end, value)).collect())
 }
 
-/// The length, with its line end, of a comment of clsmith's own at the start of a text. Longer ones than it writes are left to
-/// the grammar.
+/// Returns the length, with its line end, of a comment of clsmith's own at the start of a text. Comments
+/// longer than clsmith writes are left to the grammar.
 pub(super) fn provenance_comment_length(text: &[u8]) -> Option<usize> {
     text.strip_prefix(b"$$ ")?.strip_prefix(OWN_WORD.as_bytes())?.strip_prefix(b" ")?;
     let line = text.get(..OWN_LENGTH).unwrap_or(text);
@@ -41,9 +44,10 @@ pub(super) fn provenance_comment_length(text: &[u8]) -> Option<usize> {
     }
 }
 
-/// Bytes of a comment that the shortcut takes.
+/// The longest comment in bytes that the shortcut takes.
 const OWN_LENGTH: usize = 128;
 
+/// The values of a GOTO line, their places, their number, and the end of the line.
 struct GotoScan {
     values: [f64; 6],
     places: [(usize, usize); 6],
@@ -51,6 +55,7 @@ struct GotoScan {
     end: usize,
 }
 
+/// Scans a GOTO line; returns `None` if it is not plain.
 #[inline(always)]
 fn scan_goto(text: &[u8]) -> Option<GotoScan> {
     let mut at = text.strip_prefix(b"GOTO").map(|_| 4)?;
@@ -70,7 +75,7 @@ fn scan_goto(text: &[u8]) -> Option<GotoScan> {
         if text.get(at) != Some(&b',') {
             break;
         }
-        // Six values and a comma: more of them, or a `$` that may continue past the end of the file.
+        // A comma after six values means more values, or a `$` that may continue past the end of the file.
         if scan.count == 6 {
             return None;
         }
@@ -80,6 +85,7 @@ fn scan_goto(text: &[u8]) -> Option<GotoScan> {
     matches!(scan.count, 3 | 6).then_some(scan)
 }
 
+/// Skips blanks.
 #[inline]
 fn skip_blanks(text: &[u8], mut at: usize) -> usize {
     while text.get(at) == Some(&b' ') {
@@ -88,7 +94,7 @@ fn skip_blanks(text: &[u8], mut at: usize) -> usize {
     at
 }
 
-/// Skips blanks and one `$` with its line end after a comma. `None` when a comment follows the `$`.
+/// Skips blanks and, after a comma, one `$` with its line end. Returns `None` if a comment follows the `$`.
 #[inline]
 fn skip_continuation(text: &[u8], at: usize) -> Option<usize> {
     let at = skip_blanks(text, at);
@@ -102,7 +108,7 @@ fn skip_continuation(text: &[u8], at: usize) -> Option<usize> {
     }
 }
 
-/// The end of the line that may hold only blanks from `at` on; the end of the text counts as one.
+/// Returns the end of the line if it only has blanks from `at` on. The end of the text counts as a line end.
 #[inline]
 fn find_line_end(text: &[u8], at: usize) -> Option<usize> {
     let at = skip_blanks(text, at);
@@ -110,7 +116,7 @@ fn find_line_end(text: &[u8], at: usize) -> Option<usize> {
         [] => Some(at),
         [b'\n', ..] => Some(at + 1),
         [b'\r', b'\n', ..] => Some(at + 2),
-        // A lone CR ends a line as well, but only the grammar decides what follows it.
+        // A lone CR also ends a line, but only the grammar decides what follows it.
         _ => None,
     }
 }
@@ -122,7 +128,8 @@ mod tests {
     use crate::program::Record;
     use proptest::prelude::*;
 
-    /// Either the shortcut declines, or it gives what the grammar gives: same record bit for bit, same length, no finding.
+    /// Checks that the shortcut declines or gives what the grammar gives: the same record bit for bit, the
+    /// same length, and no finding.
     fn agrees(text: &[u8]) -> Result<bool, TestCaseError> {
         let Some((short, length)) = read_plain_goto(text) else { return Ok(false) };
         let (syntax, full_length) = split_statement(text);
@@ -138,7 +145,8 @@ mod tests {
         Ok(true)
     }
 
-    /// Mostly plain, so that most lines have one odd thing or none: those come near the edge.
+    /// Makes values that are mostly plain, so that most lines have at most one unusual part and are close to
+    /// the shortcut's limits.
     fn value() -> impl Strategy<Value = String> {
         prop_oneof![
             40 => "-?[0-9]{1,4}\\.[0-9]{0,10}",
@@ -150,7 +158,7 @@ mod tests {
         ]
     }
 
-    /// Between two values.
+    /// Makes the text between two values.
     fn between() -> impl Strategy<Value = String> {
         prop_oneof![
             40 => " {0,3}, {0,3}",
@@ -161,7 +169,7 @@ mod tests {
         ]
     }
 
-    /// After the last value.
+    /// Makes the text after the last value.
     fn tail() -> impl Strategy<Value = String> {
         prop_oneof![
             6 => prop::sample::select(vec!["\n", "\r\n", "", " \n", "  \r\n"]).prop_map(str::to_owned),
