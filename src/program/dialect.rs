@@ -1,11 +1,11 @@
-//! The dialects of CL text: how they are told apart, and the facts that differ between them.
+//! This module holds the dialects of CL text: how they are detected, and the facts in which they differ.
 
 use super::provenance_comments::ProvenanceComment;
 use super::record::Record;
 use super::syntax::{StatementKind, StatementSyntax};
 use std::fmt;
 
-/// A dialect of CL text. Names are those of `--dialect` and of reports.
+/// A dialect of CL text. The names are those of `--dialect` and of reports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Dialect {
     /// Siemens NX CLSF.
@@ -29,16 +29,18 @@ pub enum Dialect {
     Iso,
 }
 
-/// How the printed axis of a CIRCLE turns.
+/// The direction in which an arc turns about the printed axis of a CIRCLE.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ArcRule {
-    /// Left-hand: axis +z is clockwise (measured: NX 1,143 of 1,143 tangent arcs, FF 53 of 53).
+    /// Left-hand: about +z the arc is clockwise (measured: NX 1,143 of 1,143 tangent arcs, FF 53 of 53).
     LeftHand,
-    /// Right-hand: axis +z is counter-clockwise (measured: SolidWorks 2,914 of 2,953).
+    /// Right-hand: about +z the arc is counter-clockwise (measured: SolidWorks 2,914 of 2,953).
     RightHand,
-    /// A word in the record says it.
+    /// A word in the record gives the direction.
     ByWord,
-    /// Nothing says it: the sense that continues the motion before, else right-hand as ISO 4343 has it.
+    /// Nothing gives the direction, and nobody has measured it (Creo, plain ISO). The arc takes the direction
+    /// that continues the motion before it. If that does not decide, it is right-hand, as in ISO 4343, and a
+    /// note says so.
     FromTangent,
 }
 
@@ -56,7 +58,7 @@ impl Dialect {
         Self::Iso,
     ];
 
-    /// The name on the command line and in reports.
+    /// Returns the name on the command line and in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Nx => "nx",
@@ -71,7 +73,7 @@ impl Dialect {
         }
     }
 
-    /// The name people know it by.
+    /// Returns the name that people use.
     pub fn display_name(self) -> &'static str {
         match self {
             Self::Nx => "Siemens NX CLSF",
@@ -86,12 +88,12 @@ impl Dialect {
         }
     }
 
-    /// The dialect of a name.
+    /// Returns the dialect with a name, in upper or lower case.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|dialect| dialect.name().eq_ignore_ascii_case(name))
     }
 
-    /// How the axis of a CIRCLE turns.
+    /// Returns the direction of arcs about the axis of a CIRCLE.
     pub fn arc_rule(self) -> ArcRule {
         match self {
             Self::Nx | Self::MakinoFf => ArcRule::LeftHand,
@@ -101,18 +103,19 @@ impl Dialect {
         }
     }
 
-    /// Whether numbers stand right-aligned in columns.
+    /// Returns whether numbers are right-aligned in columns.
     pub fn has_columns(self) -> bool {
         matches!(self, Self::Catia | Self::CatiaIcam)
     }
 
-    /// Whether a program is expected to end in FINI (or END).
+    /// Returns whether a program is expected to end in FINI (or END).
     pub fn ends_with_fini(self) -> bool {
         !matches!(self, Self::Nx | Self::MakinoFf | Self::Iso)
     }
 
-    /// Whether `TLAXIS` tells how the setup stands in the machine instead of the axis in the printed coordinates: CAMWorks
-    /// CLT prints every setup in its own frame with the tool along z (its arcs' axis is always 0,0,1).
+    /// Returns whether `TLAXIS` gives the setup's orientation in the machine instead of the axis in the
+    /// printed coordinates. CAMWorks CLT prints every setup in its own frame with the tool along z (the axis
+    /// of its arcs is always 0,0,1).
     pub fn has_setup_axis(self) -> bool {
         self == Self::CamWorks
     }
@@ -124,7 +127,7 @@ impl fmt::Display for Dialect {
     }
 }
 
-/// Finds the dialect while statements go by.
+/// Detects the dialect while statements pass by.
 #[derive(Debug, Default)]
 pub struct DialectDetector {
     catia: bool,
@@ -133,7 +136,8 @@ pub struct DialectDetector {
 }
 
 impl DialectDetector {
-    /// Looks at one statement. Marks are exact texts that only one system writes, so the first one decides.
+    /// Examines one statement. The marks are exact texts that only one system writes, so the first mark
+    /// decides.
     pub fn observe_statement(&mut self, syntax: &StatementSyntax<'_>, record: &Record) {
         if self.found.is_some() {
             return;
@@ -145,6 +149,7 @@ impl DialectDetector {
                 None
             }
             (StatementKind::Comment, _) => self.detect_in_comment(syntax.text),
+            // Creo's own records are in `$$->` comments, its G-POST's in `REMARK ->`.
             (StatementKind::Structured, _) if syntax.text.trim_ascii_start().starts_with(b"$$") => {
                 Some(Dialect::Creo)
             }
@@ -155,7 +160,7 @@ impl DialectDetector {
         };
     }
 
-    /// The dialect, [`Dialect::Iso`] when nothing told.
+    /// Returns the dialect, or [`Dialect::Iso`] if there was no mark.
     pub fn detected_dialect(&self) -> Dialect {
         match self.found {
             Some(found) => found,
@@ -165,9 +170,10 @@ impl DialectDetector {
         }
     }
 
+    /// Finds a mark in a comment. CATIA's marks are only remembered, since an ICAM mark may follow.
     fn detect_in_comment(&mut self, text: &[u8]) -> Option<Dialect> {
         if ProvenanceComment::from_text(text).is_some() {
-            // It holds names of the user, whatever they are.
+            // Our own comments hold names of the user, which may contain any mark.
             return None;
         }
         let has = |mark: &[u8]| memchr::memmem::find(text, mark).is_some();
@@ -180,6 +186,7 @@ impl DialectDetector {
     }
 }
 
+/// Finds a mark in a text for people.
 fn detect_in_free_text(syntax: &StatementSyntax<'_>) -> Option<Dialect> {
     let text = syntax.fields.first().map(|field| syntax.bytes_at(&field.at)).unwrap_or_default();
     match syntax.major_word().as_str() {
@@ -189,6 +196,7 @@ fn detect_in_free_text(syntax: &StatementSyntax<'_>) -> Option<Dialect> {
     }
 }
 
+/// Finds a mark among the major words.
 fn detect_in_words(major: &str, syntax: &StatementSyntax<'_>) -> Option<Dialect> {
     match major {
         "TLDATA" | "MSYS" | "PAINT" | "END-OF-PATH" => Some(Dialect::Nx),
@@ -200,6 +208,7 @@ fn detect_in_words(major: &str, syntax: &StatementSyntax<'_>) -> Option<Dialect>
     }
 }
 
+/// Returns whether a CIRCLE ends in a word for its direction, as CLT writes it.
 fn has_trailing_sense_word(syntax: &StatementSyntax<'_>) -> bool {
     let last = syntax.fields.len().checked_sub(1).and_then(|last| syntax.word_at(last));
     matches!(last.as_deref(), Some("CLOCKWISE" | "COUNTERCLOCKWISE"))

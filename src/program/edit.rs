@@ -1,18 +1,21 @@
-//! The one gate through which a statement changes.
+//! This module is the only place where a statement changes.
 //!
-//! Texts come from `write`, which patches and reads back; here they are only put in place and signed with the step.
+//! The texts come from `write`, which patches them and reads them back. Here they are only put in place and
+//! signed with the step.
 
 use super::statement::{Statement, StatementChange, StepId, TextLocation};
 use super::{Program, Record};
 use crate::source::Span;
 
 impl Program {
+    /// Appends a text to the texts of edits.
     fn store_text(&mut self, text: &[u8]) -> TextLocation {
         let start = (self.source.bytes().len() + self.edits.len()) as u64;
         self.edits.extend_from_slice(text);
         TextLocation { start, length: text.len() as u32 }
     }
 
+    /// Appends the text of an inserted statement and records it in the history.
     fn store_inserted_text(&mut self, text: &[u8], step: StepId) -> TextLocation {
         let place = self.store_text(text);
         if let Some(history) = &mut self.history {
@@ -21,7 +24,7 @@ impl Program {
         place
     }
 
-    /// Gives a statement a new text and the record that was read from it. Equal text is no change.
+    /// Gives a statement a new text and the record that was read from it. An equal text is not a change.
     pub(crate) fn replace_statement(&mut self, index: usize, text: &[u8], record: Record, step: StepId) {
         let same = self.statement(index).is_none_or(|statement| self.statement_text(statement) == text);
         if same {
@@ -34,6 +37,7 @@ impl Program {
             }
             statement.text = place;
             statement.record = record;
+            // A statement that is not in the file stays inserted, whoever edits it.
             statement.change = match statement.change {
                 StatementChange::Inserted(_) => StatementChange::Inserted(step),
                 _ => StatementChange::Edited(step),
@@ -41,19 +45,21 @@ impl Program {
         }
     }
 
-    /// Takes a statement out of the program. One that a step inserted is still kept, as deleted, for the report.
+    /// Removes a statement from the program. It is kept with a mark, also if a step inserted it, so that the
+    /// report can show it.
     pub(crate) fn delete_statement(&mut self, index: usize, step: StepId) {
         if let Some(statement) = self.statements.get_mut(index) {
             statement.change = StatementChange::Deleted(step);
         }
     }
 
-    /// Puts new statements in, each before the statement of its index (the count of statements for the end). Insertions of
-    /// one index keep their order. Indices are those before the call.
+    /// Inserts new statements, each before the statement with its index (the count of statements for the
+    /// end). Insertions with the same index keep their order. Indices are those before the call.
     pub(crate) fn insert_statements(&mut self, mut new: Vec<(usize, Vec<u8>, Record)>, step: StepId) {
         if new.is_empty() {
             return;
         }
+        // A stable sort keeps the order of insertions at the same place. One pass then merges both lists.
         new.sort_by_key(|(index, _, _)| *index);
         let mut merged = Vec::with_capacity(self.statements.len() + new.len());
         let mut new = new.into_iter().peekable();
@@ -61,6 +67,8 @@ impl Program {
         let end = old.last().map_or(0, |last| last.origin.end);
         for (index, statement) in old.into_iter().enumerate() {
             while let Some((_, text, record)) = new.next_if(|(before, _, _)| *before <= index) {
+                // The origin is an empty span at the following statement, so that findings can point at a
+                // place in the file.
                 let origin = Span { start: statement.origin.start, end: statement.origin.start };
                 let text = self.store_inserted_text(&text, step);
                 merged.push(Statement { record, text, origin, change: StatementChange::Inserted(step) });

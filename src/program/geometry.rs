@@ -1,53 +1,55 @@
-//! Paths between two points: lines, arcs, helices and splines, in the program's frame and the file's unit.
+//! This module holds paths between two points, lines, arcs, helices and splines, in the program's frame and
+//! the file's unit.
 
 use nalgebra::{Point3, Unit, Vector3};
 use std::f64::consts::TAU;
 
-/// Points closer than this (in the file's unit) are one point: half of the fourth decimal, the coarsest that any measured
-/// dialect prints.
+/// Points that are closer than this (in the file's unit) are the same. It is half of the fourth decimal, the
+/// coarsest that any measured dialect prints.
 pub const SAME_POINT: f64 = 5e-5;
 
-/// Where the tool is: its tip and its axis (from the tip into the holder, a unit vector).
+/// A pose of the tool: its tip, and its axis as a unit vector from the tip into the holder.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
-    /// Cutter location.
+    /// The tip (the cutter location).
     pub point: Point3<f64>,
-    /// Tool axis.
+    /// The tool axis.
     pub axis: Vector3<f64>,
 }
 
-/// How the tool goes from one pose to the next.
+/// The path from one pose to the next.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MotionPath {
-    /// Straight; the axis turns evenly (slerp) when it differs.
+    /// A straight line. If the axes differ, the axis turns at a constant rate (slerp).
     Line,
-    /// An arc or helix.
+    /// An arc or a helix.
     Arc(Box<CircularArc>),
     /// A cubic B-spline.
     Spline(Box<Spline>),
-    /// It stays (a FROM, or a point where nothing was known before).
+    /// No path: the tool stays at its place (FROM, or a point before which no pose was known).
     Start,
 }
 
-/// An arc, right-hand about `axis`, from `start`; a helix when `rise` is not zero.
+/// An arc from `start`, right-hand about `axis`. It is a helix if `rise` is not zero.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CircularArc {
-    /// Where it starts.
+    /// The start of the arc.
     pub start: Point3<f64>,
-    /// A point of its axis.
+    /// A point on its axis.
     pub center: Point3<f64>,
-    /// Its axis; the sweep is positive about it.
+    /// The axis; the sweep is positive about it.
     pub axis: Unit<Vector3<f64>>,
-    /// Radius: the distance of the start from the axis.
+    /// The radius, which is the distance of the start from the axis.
     pub radius: f64,
-    /// Sweep in radians, positive.
+    /// The sweep in radians, positive.
     pub sweep: f64,
-    /// Travel along the axis over the whole sweep.
+    /// The travel along the axis over the whole sweep.
     pub rise: f64,
 }
 
 impl CircularArc {
-    /// The arc from `start` to `end` about `axis` (right-hand). Equal start and end make a full turn; `turns_more` are added.
+    /// Makes the arc from `start` to `end` about `axis` (right-hand). Equal start and end make a full turn;
+    /// `turns_more` full turns are added.
     pub fn from_endpoints(
         start: Point3<f64>,
         end: Point3<f64>,
@@ -57,6 +59,7 @@ impl CircularArc {
     ) -> Self {
         let from = project_to_plane(start - center, &axis);
         let to = project_to_plane(end - center, &axis);
+        // The signed angle from one spoke to the other about the axis.
         let mut sweep = axis.dot(&from.cross(&to)).atan2(from.dot(&to));
         let full = (from - to).norm() <= SAME_POINT;
         if full {
@@ -69,47 +72,52 @@ impl CircularArc {
         Self { start, center, axis, radius: from.norm(), sweep, rise }
     }
 
-    /// The point at a share `t` (0..=1) of the arc.
+    /// Returns the point at a fraction `t` (0 to 1) of the arc.
     pub fn point_at(&self, t: f64) -> Point3<f64> {
         let rotation = nalgebra::Rotation3::from_axis_angle(&self.axis, self.sweep * t);
         self.center + rotation * (self.start - self.center) + self.axis.into_inner() * (self.rise * t)
     }
 
-    /// The unit tangent at a share `t`; zero when the arc has no length.
+    /// Returns the unit tangent at a fraction `t`, or zero if the arc has no length.
     pub fn tangent_at(&self, t: f64) -> Vector3<f64> {
         let rotation = nalgebra::Rotation3::from_axis_angle(&self.axis, self.sweep * t);
         let spoke = rotation * project_to_plane(self.start - self.center, &self.axis);
+        // The derivative of start rotated by sweep t plus rise t along the axis.
         let derivative = self.axis.cross(&spoke) * self.sweep + self.axis.into_inner() * self.rise;
         derivative.try_normalize(0.0).unwrap_or_default()
     }
 
-    /// Length.
+    /// Returns the length.
     pub fn length(&self) -> f64 {
         (self.radius * self.sweep).hypot(self.rise)
     }
 
-    /// How far the end lies off the circle: the difference of its distance from the axis and the radius.
+    /// Returns the distance of the end from the circle: the difference between its distance from the axis and
+    /// the radius.
     pub fn end_deviation(&self, end: Point3<f64>) -> f64 {
         (project_to_plane(end - self.center, &self.axis).norm() - self.radius).abs()
     }
 }
 
+/// Returns the part of a vector across an axis.
 fn project_to_plane(vector: Vector3<f64>, axis: &Unit<Vector3<f64>>) -> Vector3<f64> {
     vector - axis.into_inner() * axis.dot(&vector)
 }
 
-/// A clamped cubic B-spline, as NX prints it: the first control point is where the tool is, the leading zero knots and the
-/// repeated last knot are left out (measured: CNTRL count = knot count + 2 in 70 of 70).
+/// A clamped cubic B-spline as NX prints it. The first control point is the tool's position, and the leading
+/// zero knots and the repeated last knot are left out (measured: the number of CNTRL is that of knots + 2 in
+/// 70 of 70).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spline {
-    /// Control points, the start included.
+    /// The control points, including the start.
     pub controls: Vec<Point3<f64>>,
-    /// The full knot vector: control points + 4.
+    /// The full knot vector; it has four more entries than there are control points.
     pub knots: Vec<f64>,
 }
 
 impl Spline {
-    /// The spline of printed knots and control points. `None` when the counts or the order of the knots do not fit.
+    /// Makes the spline of printed knots and control points. Returns `None` if the counts or the order of the
+    /// knots do not fit.
     pub fn from_knots(start: Point3<f64>, printed_knots: &[f64], controls: &[Point3<f64>]) -> Option<Self> {
         let last = *printed_knots.last()?;
         let ascending = printed_knots.windows(2).all(|pair| matches!(pair, [a, b] if a <= b));
@@ -125,17 +133,18 @@ impl Spline {
         Some(Self { controls, knots })
     }
 
-    /// The point at a share `t` (0..=1) of the parameter range (de Boor's algorithm).
+    /// Returns the point at a fraction `t` (0 to 1) of the parameter range, by de Boor's algorithm.
     pub fn point_at(&self, t: f64) -> Point3<f64> {
         let count = self.controls.len();
         let knot = |index: usize| self.knots.get(index).copied().unwrap_or_default();
         let last = knot(self.knots.len().saturating_sub(1));
         let u = t.clamp(0.0, 1.0) * last;
-        // The span that holds u; the end belongs to the last span that has a length.
+        // The knot span that contains u; the end belongs to the last span that has a length.
         let after = self.knots.partition_point(|&knot| if u < last { knot <= u } else { knot < last });
         let span = after.saturating_sub(1).clamp(3, count.saturating_sub(1).max(3));
         let mut points: Vec<Vector3<f64>> =
             self.controls.iter().skip(span - 3).take(4).map(|point| point.coords).collect();
+        // Each level replaces neighbouring points by their weighted means; the last point is the spline's.
         for level in 1..=3 {
             for index in (level..=3).rev() {
                 let low = knot(span + index - 3);
@@ -151,7 +160,8 @@ impl Spline {
         points.get(3).copied().map(Point3::from).unwrap_or_else(Point3::origin)
     }
 
-    /// The unit tangent at the start.
+    /// Returns the unit tangent at the start. It points to the first control point that differs from the
+    /// start.
     pub fn start_tangent(&self) -> Vector3<f64> {
         let first = self.controls.first();
         let next =
@@ -162,7 +172,7 @@ impl Spline {
         }
     }
 
-    /// The unit tangent at the end.
+    /// Returns the unit tangent at the end.
     pub fn end_tangent(&self) -> Vector3<f64> {
         let last = self.controls.last();
         let before = last
@@ -173,7 +183,8 @@ impl Spline {
         }
     }
 
-    /// Length, by 16 chords for each knot span (relative error below 1e-3 for the spans CAM systems write).
+    /// Returns the length, from 16 chords for each knot span (relative error below 1e-3 for the spans that
+    /// CAM systems write).
     pub fn length(&self) -> f64 {
         let steps = 16 * self.controls.len().saturating_sub(3).max(1);
         let mut length = 0.0;
@@ -188,7 +199,7 @@ impl Spline {
 }
 
 impl MotionPath {
-    /// Length of the path from `from` to `to`.
+    /// Returns the length of the path from `from` to `to`.
     pub fn length(&self, from: Point3<f64>, to: Point3<f64>) -> f64 {
         match self {
             Self::Start => 0.0,
@@ -198,7 +209,7 @@ impl MotionPath {
         }
     }
 
-    /// Unit tangent at the end; `None` when the path has no length.
+    /// Returns the unit tangent at the end, or `None` if the path has no length.
     pub fn end_tangent(&self, from: Point3<f64>, to: Point3<f64>) -> Option<Vector3<f64>> {
         let tangent = match self {
             Self::Start => Vector3::zeros(),
@@ -210,8 +221,8 @@ impl MotionPath {
         (tangent.norm() > 0.5).then_some(tangent)
     }
 
-    /// Points on the path that bound it within an arc's sagitta: both ends, and inside an arc every 15 degrees, inside a
-    /// spline its samples. For boxes and drawings.
+    /// Returns points on the path that bound it up to the sagitta of arcs: both ends, points on arcs at every
+    /// 15 degrees, and samples of splines. They are for boxes and drawings.
     pub fn sample_points(&self, from: Point3<f64>, to: Point3<f64>) -> Vec<Point3<f64>> {
         match self {
             Self::Start => vec![to],

@@ -1,59 +1,64 @@
-//! What steps made of statements, one edit after the other: kept on request, for the comments that say so in the file.
+//! This module keeps the history of edits: what steps made of statements, one edit after the other. It is
+//! kept on request, for the comments in the file that tell about them.
 //!
-//! Texts of edits are never overwritten, so an earlier text is a place among them. A text's own place is its key, which stays
-//! when statements are put in and indices move.
+//! Texts of edits are never overwritten, so an earlier text is a location among them. Each edit is stored
+//! under the location of the text that it made. That key stays valid when statements are inserted and indices
+//! move. No step has to keep a log, and a program without history pays nothing.
 
 use super::statement::{Statement, StepId, TextLocation};
 use super::{Program, StatementChange};
 use std::collections::BTreeMap;
 
-/// The edits of a program.
+/// The history of a program's edits.
 #[derive(Debug, Clone, Default)]
 pub(super) struct EditHistory {
-    /// By the start of the text that an edit made.
+    /// The edits, by the start of the text that each one made.
     made: BTreeMap<u64, EditOrigin>,
     notes: BTreeMap<u64, Box<str>>,
 }
 
+/// The step that made a text, and the text before.
 #[derive(Debug, Clone, Copy)]
 struct EditOrigin {
     by: StepId,
-    /// The text before; `None` where the statement was put in.
+    /// The text before; `None` if the statement was inserted.
     from: Option<TextLocation>,
 }
 
 impl EditHistory {
+    /// Records that a step replaced one text by another.
     pub(super) fn record_edit(&mut self, to: TextLocation, from: Option<TextLocation>, by: StepId) {
         self.made.insert(to.start, EditOrigin { by, from });
     }
 }
 
-/// What one step made of a statement.
+/// An edit: the text that one step made of a statement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StatementEdit<'p> {
     /// The step.
     pub by: StepId,
-    /// The text before; `None` where the step put the statement in.
+    /// The text before; `None` if the step inserted the statement.
     pub before: Option<&'p [u8]>,
-    /// The text that it made.
+    /// The text that the step made.
     pub after: &'p [u8],
-    /// What the step has to say of it.
+    /// A note of the step about this edit.
     pub note: Option<&'p str>,
 }
 
 impl Program {
-    /// From now on every edit is remembered (see [`Program::edits_of_statement`]): some 50 bytes for each.
+    /// Keeps every edit from now on (see [`Program::edits_of_statement`]), which takes about 50 bytes for
+    /// each.
     pub fn keep_history(&mut self) {
         self.history.get_or_insert_default();
     }
 
-    /// Whether it is remembered.
+    /// Returns whether edits are kept.
     pub fn has_history(&self) -> bool {
         self.history.is_some()
     }
 
-    /// What steps made of a statement, the first edit first; empty for a program that keeps no history. That a statement was
-    /// taken out is no edit.
+    /// Returns the edits of a statement, the first one first. It is empty for a program that keeps no
+    /// history. The deletion of a statement is not an edit.
     pub fn edits_of_statement(&self, statement: &Statement) -> Vec<StatementEdit<'_>> {
         let mut edits = Vec::new();
         let Some(history) = &self.history else { return edits };
@@ -63,7 +68,7 @@ impl Program {
             let before = made.from.map(|from| self.text_at(from));
             edits.push(StatementEdit { by: made.by, before, after: self.text_at(place), note });
             match made.from {
-                // Texts only come to the end, so this ends, too.
+                // Texts are only appended, so earlier texts have smaller offsets and the loop ends.
                 Some(from) if from.start < place.start => place = from,
                 _ => break,
             }
@@ -72,7 +77,8 @@ impl Program {
         edits
     }
 
-    /// Says something about what a step just made of a statement; nothing where it made nothing, or no history is kept.
+    /// Adds a note about a step's edit of a statement. It has no effect if the step did not edit the
+    /// statement or no history is kept.
     pub(crate) fn add_edit_note(&mut self, index: usize, by: StepId, note: String) {
         let Some(statement) = self.statements.get(index) else { return };
         let changed = matches!(statement.change, StatementChange::Edited(step) | StatementChange::Inserted(step) if step == by);

@@ -1,7 +1,11 @@
-//! A program: statements over untouched text, and what can be seen in them.
+//! This module holds a program: statements over untouched text, and the views of them.
 //!
-//! Text is the truth and records are a view over it. Fresh from the parser the statements' spans tile the file. Motions
-//! ([`motion`]) and operations ([`operation`]) are views that are computed, not stored.
+//! Text is the truth and records are a view of it. An edit makes text, and the record is read from that text
+//! by the same parser. So a simulation after a step sees exactly what will be written, including rounding.
+//! Fresh from the parser, the spans of the statements tile the file. Deleted statements stay, with a mark,
+//! until the program is dropped, so the report needs no log.
+//!
+//! Motions ([`motion`]) and operations ([`operation`]) are views that are computed and not stored.
 
 mod dialect;
 mod edit;
@@ -40,7 +44,7 @@ pub struct Program {
 }
 
 impl Program {
-    /// An empty program over a source; the parser fills it.
+    /// Makes an empty program over a source; the parser fills it.
     pub(crate) fn new(source: Arc<Source>) -> Self {
         Self { source, edits: Vec::new(), statements: Vec::new(), dialect: Dialect::Iso, history: None }
     }
@@ -60,40 +64,42 @@ impl Program {
         self.statements.push(Statement { record, text, origin: span, change: StatementChange::Untouched });
     }
 
-    /// The file it was read from.
+    /// Returns the file from which the program was read.
     pub fn source(&self) -> &Arc<Source> {
         &self.source
     }
 
-    /// Its dialect: detected, or forced when it was parsed.
+    /// Returns the dialect: detected, or forced when the program was parsed.
     pub fn dialect(&self) -> Dialect {
         self.dialect
     }
 
-    /// All statements in order, deleted ones included (see [`Statement::is_live`]).
+    /// Returns all statements in order, including deleted ones (see [`Statement::is_live`]).
     pub fn statements(&self) -> &[Statement] {
         &self.statements
     }
 
-    /// The statement of an index.
+    /// Returns the statement with an index.
     pub fn statement(&self, index: usize) -> Option<&Statement> {
         self.statements.get(index)
     }
 
-    /// The live statements with their indices.
+    /// Returns the live statements with their indices.
     pub fn live_statements(&self) -> impl DoubleEndedIterator<Item = (usize, &Statement)> {
         self.statements.iter().enumerate().filter(|(_, statement)| statement.is_live())
     }
 
-    /// The text of a statement as it stands now, line end included.
+    /// Returns the current text of a statement with its line end.
     pub fn statement_text(&self, statement: &Statement) -> &[u8] {
         self.text_at(statement.text)
     }
 
+    /// Returns the text at a location.
     fn text_at(&self, place: TextLocation) -> &[u8] {
         let start = place.start as usize;
         let length = place.length as usize;
         let source = self.source.bytes();
+        // Offsets from the source's length on are in the texts of edits.
         let (bytes, start) = if start < source.len() {
             (source, start)
         } else {
@@ -102,7 +108,8 @@ impl Program {
         bytes.get(start..start + length).unwrap_or_default()
     }
 
-    /// The unit of lengths: what the file says first, `None` where it says nothing (NX and CATIA never do).
+    /// Returns the unit of lengths that the file states first, or `None` if it states none (NX and CATIA
+    /// never do).
     pub fn stated_length_unit(&self) -> Option<LengthUnit> {
         self.live_statements().find_map(|(_, statement)| match statement.record() {
             Record::Units(units) => Some(*units),
@@ -110,7 +117,8 @@ impl Program {
         })
     }
 
-    /// The unit that the words of the feeds name (MMPM, IPM, ...); `None` where none does, or where they disagree.
+    /// Returns the unit that the words of the feeds name (MMPM, IPM, ...), or `None` if no feed names one or
+    /// they disagree.
     pub fn feed_length_unit(&self) -> Option<LengthUnit> {
         let mut found: Option<LengthUnit> = None;
         for (_, statement) in self.live_statements() {
@@ -119,7 +127,8 @@ impl Program {
                 Record::Cycle(cycle) => cycle.feed,
                 _ => None,
             };
-            // A feed in the file's own unit says nothing; the two defaults tell it from one that does.
+            // A feed in the file's own unit gives different results for the two defaults, and says nothing
+            // about the unit.
             let Some(word) = feed.and_then(|feed| feed.unit) else { continue };
             let (mm, inch) = (word.length_unit(LengthUnit::Mm), word.length_unit(LengthUnit::Inch));
             match (found, mm) {
@@ -131,13 +140,13 @@ impl Program {
         found
     }
 
-    /// The bytes of the whole program as it stands, piece by piece, in order. Pieces that were not touched are slices of the
-    /// source, joined as far as they reach.
+    /// Returns the bytes of the whole program as it is now, piece by piece and in order. Untouched pieces are
+    /// slices of the source, joined as far as they reach.
     pub fn byte_chunks(&self) -> impl Iterator<Item = &[u8]> {
         ProgramChunks { program: self, next: 0 }
     }
 
-    /// The bytes of the whole program as it stands.
+    /// Returns the bytes of the whole program as it is now.
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(self.source.bytes().len());
         self.byte_chunks().for_each(|piece| bytes.extend_from_slice(piece));
@@ -145,6 +154,7 @@ impl Program {
     }
 }
 
+/// An iterator over the program's bytes.
 struct ProgramChunks<'p> {
     program: &'p Program,
     next: usize,
@@ -164,6 +174,7 @@ impl<'p> Iterator for ProgramChunks<'p> {
             if statement.change != StatementChange::Untouched {
                 return Some(self.program.statement_text(statement));
             }
+            // Untouched neighbours are one slice of the source, so that writing copies few large pieces.
             let mut end = statement.origin.end;
             while let Some(next) = statements.get(self.next)
                 && next.change == StatementChange::Untouched

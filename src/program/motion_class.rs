@@ -1,4 +1,4 @@
-//! What a motion is for.
+//! This module holds the classes of motions.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;

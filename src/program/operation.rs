@@ -1,7 +1,8 @@
-//! Operations: how a program is divided.
+//! This module divides a program into operations.
 //!
-//! NX `TOOL PATH/`..`END-OF-PATH`, CATIA `$$ OPERATION NAME :`, Creo `FEATNO`..`END`, CLT `OPFEATSTART`..`OPFEATEND`; one
-//! unnamed operation where the file marks none. Statements before the first mark belong to the first operation.
+//! Operations are marked by NX `TOOL PATH/`..`END-OF-PATH`, CATIA `$$ OPERATION NAME :`, Creo `FEATNO`..`END`
+//! and CLT `OPFEATSTART`..`OPFEATEND`. A file without marks has one unnamed operation. Statements before the
+//! first mark belong to the first operation.
 
 use super::{Program, Record, Statement};
 use std::ops::Range;
@@ -9,17 +10,17 @@ use std::ops::Range;
 /// One operation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Operation {
-    /// Its name, empty where the file has none. Bytes that are no UTF-8 stand as Latin-1.
+    /// The name, empty if the file has none. Bytes that are not UTF-8 are read as Latin-1.
     pub name: String,
-    /// The statement that starts it.
+    /// The index of the statement that starts it.
     pub start: usize,
-    /// Its statements.
+    /// The indices of its statements.
     pub statements: Range<usize>,
     /// Whether an end mark closed it.
     pub closed: bool,
 }
 
-/// The operations of a program, in order, without gaps. Never empty.
+/// Finds the operations of a program, in order and without gaps. There is always at least one.
 pub fn find_operations(program: &Program) -> Vec<Operation> {
     let end = program.statements().len();
     let mut found: Vec<Operation> = Vec::new();
@@ -47,19 +48,19 @@ pub fn find_operations(program: &Program) -> Vec<Operation> {
     found
 }
 
-/// The name in an operation's start statement.
+/// Returns the name in the start statement of an operation.
 pub fn operation_name(program: &Program, statement: &Statement) -> Option<String> {
     let Record::OperationStart(names) = statement.record() else { return None };
     program.statement_text(statement).get((*names.name).clone()).map(decode_text)
 }
 
-/// The tool's name in an operation's start statement (NX).
+/// Returns the name of the tool in the start statement of an operation (NX).
 pub fn tool_name(program: &Program, statement: &Statement) -> Option<String> {
     let Record::OperationStart(names) = statement.record() else { return None };
     names.tool.as_deref().and_then(|at| program.statement_text(statement).get(at.clone())).map(decode_text)
 }
 
-/// UTF-8 where it is, else Latin-1: every byte a character, none lost.
+/// Reads bytes as UTF-8 or, if they are not, as Latin-1, in which every byte is a character.
 pub fn decode_text(bytes: &[u8]) -> String {
     match std::str::from_utf8(bytes) {
         Ok(text) => text.to_owned(),

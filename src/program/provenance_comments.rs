@@ -1,19 +1,20 @@
-//! Comments that clsmith itself has written into a file (`provenance:`), as a later run finds them.
+//! This module recognizes comments that clsmith itself has written into a file (`provenance:`), for later
+//! runs.
 
-/// A comment of clsmith's own.
+/// A kind of comment that clsmith has written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ProvenanceComment {
     /// A line of the header: version, recipe, input.
     Header,
-    /// `clsmith scale_feed: ...`: what a step did to the record that follows.
+    /// A line `clsmith scale_feed: ...`, which tells what a step did to the record that follows.
     Change,
 }
 
-/// The word that such a comment begins with, after the file's comment mark.
+/// The word with which such a comment begins, after the file's comment mark.
 pub const OWN_WORD: &str = "clsmith";
 
 impl ProvenanceComment {
-    /// Whether a statement's text is one.
+    /// Returns the kind of a statement's text, or `None` if it is not such a comment.
     pub fn from_text(text: &[u8]) -> Option<Self> {
         let text = text.trim_ascii_start();
         let text = text.strip_prefix(b"$$").or_else(|| text.strip_prefix(b"REMARK"))?;

@@ -1,35 +1,38 @@
-//! One statement of a program: its record, where its text is, and who changed it.
+//! This module holds one statement of a program: its record, the location of its text, and the step that
+//! changed it.
 
 use super::record::Record;
 use crate::source::Span;
 
-/// The recipe step that changed a statement (its index in the recipe's list).
+/// The recipe step that changed a statement: its index in the recipe's list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct StepId(pub u16);
 
-/// What happened to a statement since it was read.
+/// The change of a statement since it was read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum StatementChange {
-    /// Nothing: it is written byte for byte.
+    /// It is unchanged and is written byte for byte.
     Untouched,
-    /// Its text was changed; the last step that did is named.
+    /// Its text was changed; the value is the last step that did.
     Edited(StepId),
     /// It was not in the file.
     Inserted(StepId),
-    /// It is not written. Kept so that reports can say what went and why.
+    /// It is not written. It is kept so that reports can show what was removed and by which step.
     Deleted(StepId),
 }
 
-/// Where a statement's text is: in the source, or among the texts that edits made.
+/// The location of a statement's text: in the source, or among the texts of edits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct TextLocation {
-    /// Offset in the source; from the source's length on, offset in the edits (40 bits would do, a file has 32).
+    /// The offset in the source. From the length of the source on, it is an offset in the texts of edits, so
+    /// it may need more than 32 bits.
     pub(crate) start: u64,
-    /// Bytes.
+    /// The number of bytes.
     pub(crate) length: u32,
 }
 
-/// A statement. Its text is the truth; the record is read from it and never changes without it.
+/// A statement. Its text is the truth; the record is read from it and never changes without it. A file has
+/// one for each line, so a test holds its size to at most 88 bytes.
 #[derive(Debug, Clone)]
 pub struct Statement {
     pub(super) record: Record,
@@ -39,27 +42,27 @@ pub struct Statement {
 }
 
 impl Statement {
-    /// What it means.
+    /// Returns the meaning.
     pub fn record(&self) -> &Record {
         &self.record
     }
 
-    /// Its bytes in the source; for an inserted statement the empty place it was inserted at.
+    /// Returns its bytes in the source; for an inserted statement, the empty span at which it was inserted.
     pub fn origin(&self) -> Span {
         self.origin
     }
 
-    /// What happened to it.
+    /// Returns the change.
     pub fn change(&self) -> StatementChange {
         self.change
     }
 
-    /// Whether it is still part of the program.
+    /// Returns whether it is still part of the program.
     pub fn is_live(&self) -> bool {
         !matches!(self.change, StatementChange::Deleted(_))
     }
 
-    /// The step that changed it.
+    /// Returns the step that changed it.
     pub fn edited_by(&self) -> Option<StepId> {
         match self.change {
             StatementChange::Untouched => None,

@@ -1,15 +1,17 @@
-//! The words and fields of one statement, as the grammar sees them: places in the statement's text, and number values.
+//! This module holds the words and fields of one statement as the grammar reads them: places in the
+//! statement's text, and values of numbers.
 //!
-//! [`StatementSyntax`] is made on demand and never stored. Records read their meaning from it; edits and rewrite rules work on it.
+//! A [`StatementSyntax`] is made on demand and never stored. Records read their meaning from it; edits and
+//! rewrite rules work on it.
 
 use std::ops::Range;
 
-/// Which form of the grammar a statement has.
+/// The form of the grammar that a statement has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StatementKind {
-    /// Nothing but blanks.
+    /// Only blanks.
     Blank,
-    /// `$$ ...`
+    /// A comment: `$$ ...`
     Comment,
     /// Creo's `$$-> WORD / ...` and G-POST's `REMARK -> WORD / ...`.
     Structured,
@@ -23,24 +25,24 @@ pub enum StatementKind {
     OperationStart,
     /// Bare numbers.
     Numbers,
-    /// `L1 = LINE/...`: the source of an APT processor.
+    /// `L1 = LINE/...`: the input of an APT processor.
     Definition,
     /// A major word with or without fields.
     Words,
-    /// What no form fits.
+    /// A statement that fits no form.
     Refused,
 }
 
-/// A field of a statement: its bytes (relative to the statement's text) and what stands there.
+/// A field of a statement: its place (relative to the statement's text) and its content.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StatementField {
-    /// Place in the statement's text.
+    /// The place in the statement's text.
     pub at: Range<usize>,
-    /// What stands there.
+    /// The content.
     pub kind: FieldKind,
 }
 
-/// What stands in a field.
+/// The content of a field.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FieldKind {
     /// Nothing between two commas.
@@ -49,70 +51,72 @@ pub enum FieldKind {
     Number(f64),
     /// A word or name.
     Text,
-    /// `'...'`, quotes included in the place.
+    /// A text `'...'`; its place includes the quotes.
     Quoted,
-    /// `(WORD/...)`, as CATIA nests CIRCLE and LINE.
+    /// A nested record `(WORD/...)`, as CATIA nests CIRCLE and LINE.
     Group(Box<FieldGroup>),
 }
 
 /// A nested record.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FieldGroup {
-    /// Place of its word.
+    /// The place of its word.
     pub word: Range<usize>,
     /// Its fields.
     pub fields: Vec<StatementField>,
 }
 
-/// One statement, taken apart.
+/// One statement, divided into its parts.
 #[derive(Debug, Clone)]
 pub struct StatementSyntax<'t> {
-    /// The statement's whole text, line end included.
+    /// The statement's whole text with its line end.
     pub text: &'t [u8],
-    /// Its form.
+    /// The form of the grammar.
     pub form: StatementKind,
-    /// Place of the major word(s); empty when there is none.
+    /// The place of the major word(s); empty if there is none.
     pub word: Range<usize>,
-    /// Its fields in order.
+    /// The fields in order.
     pub fields: Vec<StatementField>,
-    /// Place of a trailing `$$` comment.
+    /// The place of a `$$` comment at the end.
     pub remark: Option<Range<usize>>,
-    /// The statement continues past the end of the file.
+    /// Whether the statement continues past the end of the file.
     pub open: bool,
 }
 
 impl<'t> StatementSyntax<'t> {
-    /// The bytes at a place; empty when the place is not in the text.
+    /// Returns the bytes at a place, or no bytes if the place is not in the text.
     pub fn bytes_at(&self, at: &Range<usize>) -> &'t [u8] {
         self.text.get(at.clone()).unwrap_or_default()
     }
 
-    /// The major word in upper case, inner blanks folded to one and blanks around commas dropped: `TOOL PATH`, `TLON,GOFWD`.
+    /// Returns the major word in upper case, with single blanks between words and no blanks around commas:
+    /// `TOOL PATH`, `TLON,GOFWD`.
     pub fn major_word(&self) -> String {
         fold_text(self.bytes_at(&self.word))
     }
 
-    /// All numbers in the order they stand, nested ones included. The index of a number here is what edits name.
+    /// Returns all numbers in the order of the text, including nested ones. Edits name a number by its index
+    /// in this list.
     pub fn numbers(&self) -> Vec<(Range<usize>, f64)> {
         let mut found = Vec::new();
         collect_numbers(&self.fields, &mut found);
         found
     }
 
-    /// A field's text in upper case, when it is a word.
+    /// Returns the text of a field in upper case if it is a word.
     pub fn word_at(&self, index: usize) -> Option<String> {
         let field = self.fields.get(index)?;
         matches!(field.kind, FieldKind::Text).then(|| fold_text(self.bytes_at(&field.at)))
     }
 
-    /// A field's value, when it is a number.
+    /// Returns the value of a field if it is a number.
     pub fn number_at(&self, index: usize) -> Option<f64> {
         self.fields.get(index).and_then(StatementField::number_value)
     }
 }
 
 impl StatementField {
-    /// The value, when it is a number.
+    /// Returns the value if the field is a number.
     pub fn number_value(&self) -> Option<f64> {
         match self.kind {
             FieldKind::Number(value) => Some(value),
@@ -121,6 +125,7 @@ impl StatementField {
     }
 }
 
+/// Adds the numbers of fields, including those of nested records.
 fn collect_numbers(fields: &[StatementField], into: &mut Vec<(Range<usize>, f64)>) {
     for field in fields {
         match &field.kind {
@@ -131,7 +136,8 @@ fn collect_numbers(fields: &[StatementField], into: &mut Vec<(Range<usize>, f64)
     }
 }
 
-/// Upper case, runs of blanks folded to one, no blanks around commas. Bytes from 0x80 on stand as Latin-1.
+/// Returns a text in upper case, with single blanks between words and no blanks around commas. Bytes from
+/// 0x80 on are read as Latin-1.
 pub fn fold_text(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len());
     let mut blank = false;

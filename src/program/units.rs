@@ -1,8 +1,8 @@
-//! Units of length, feed and spindle speed.
+//! This module holds the units of length, feed and spindle speed.
 
 use serde::{Deserialize, Serialize};
 
-/// Millimetres in an inch.
+/// The millimetres in an inch.
 pub const MM_PER_INCH: f64 = 25.4;
 
 /// Unit of lengths.
@@ -26,7 +26,7 @@ impl std::fmt::Display for LengthUnit {
 }
 
 impl LengthUnit {
-    /// Millimetres in one unit.
+    /// Returns the millimetres in one unit.
     pub fn mm_per_unit(self) -> f64 {
         match self {
             Self::Mm => 1.0,
@@ -35,7 +35,7 @@ impl LengthUnit {
     }
 }
 
-/// Unit of a feed, as the record's word says it.
+/// The unit of a feed, as a word of the record gives it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum FeedUnit {
     /// `MMPM`: mm/min.
@@ -55,7 +55,7 @@ pub enum FeedUnit {
 }
 
 impl FeedUnit {
-    /// The unit that a word of the standard names.
+    /// Returns the unit that a word of the standard names.
     pub fn from_word(word: &str) -> Option<Self> {
         Some(match word {
             "MMPM" => Self::MmPerMinute,
@@ -69,7 +69,7 @@ impl FeedUnit {
         })
     }
 
-    /// The standard's word.
+    /// Returns the word of the standard.
     pub fn word(self) -> &'static str {
         match self {
             Self::MmPerMinute => "MMPM",
@@ -82,12 +82,13 @@ impl FeedUnit {
         }
     }
 
-    /// Whether the feed is per revolution of the spindle.
+    /// Returns whether the feed is per revolution of the spindle.
     pub fn is_per_revolution(self) -> bool {
         matches!(self, Self::MmPerRevolution | Self::InchPerRevolution | Self::PerRevolution)
     }
 
-    /// The unit of length in the feed: what its word says, else the file's; `None` for inverse time.
+    /// Returns the unit of length in the feed: the one that its word names, else the file's; `None` for
+    /// inverse time.
     pub fn length_unit(self, file: LengthUnit) -> Option<LengthUnit> {
         match self {
             Self::MmPerMinute | Self::MmPerRevolution => Some(LengthUnit::Mm),
@@ -98,23 +99,25 @@ impl FeedUnit {
     }
 }
 
-/// A feed in force: its value and its unit, where the file says one.
+/// A feed in force: its value and its unit, if the file gives one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Feed {
     /// The programmed value, in `unit`.
     pub value: f64,
-    /// The unit the file states; `None` when no FEDRAT has named one yet (then units of the file per minute).
+    /// The unit that the file gives; `None` if no FEDRAT has named one yet (then units of the file per
+    /// minute).
     pub unit: Option<FeedUnit>,
 }
 
 impl Feed {
-    /// The unit, with the default of the standard where the file names none.
+    /// Returns the unit, or the default of the standard if the file names none.
     pub fn unit_or_default(self) -> FeedUnit {
         self.unit.unwrap_or(FeedUnit::PerMinute)
     }
 
-    /// In millimetres per minute. `spindle_rpm` (rev/min) is needed for feeds per revolution; `length` is the path's
-    /// length in the file's unit, needed for inverse time. `None` when what is needed is not known.
+    /// Returns the feed in mm/min. `spindle_rpm` (rev/min) is needed for feeds per revolution, and `length`,
+    /// the length of the path in the file's unit, for inverse time. Returns `None` if what is needed is not
+    /// known.
     pub fn mm_per_minute(
         self,
         file: LengthUnit,
@@ -122,6 +125,7 @@ impl Feed {
         length: Option<f64>,
     ) -> Option<f64> {
         let unit = self.unit_or_default();
+        // An inverse-time feed counts motions per minute, so the speed is its value times the length.
         let Some(length_unit) = unit.length_unit(file) else {
             return length.map(|length| self.value * length * file.mm_per_unit());
         };

@@ -1,4 +1,5 @@
-//! Arcs: from the record that announces one and the points before and after it to the sense and sweep.
+//! This module finds the direction and sweep of arcs, from the record that announces an arc and the points
+//! before and after it.
 
 use super::modal_state::MotionProblemKind;
 use crate::program::dialect::ArcRule;
@@ -7,10 +8,12 @@ use crate::program::record::{ArcSense, Circle, DriveArc, MoveArc};
 use nalgebra::{Point3, Unit, Vector3};
 use std::f64::consts::{PI, TAU};
 
-/// Radii may differ by the rounding of both points and the centre (measured: at most 0.0001 in every NX arc).
+/// The largest difference of radii. Both points and the centre are rounded (measured: at most 0.0001 in every
+/// NX arc).
 const RADIUS_TOLERANCE: f64 = 2e-3;
 
-/// Angles of MOVARC are printed with three decimals of a degree; twice their rounding, in radians.
+/// The tolerance of MOVARC angles in radians: twice their rounding, since they are printed with three
+/// decimals of a degree.
 const ANGLE_TOLERANCE: f64 = 2e-5;
 
 /// An arc that waits for its end point.
@@ -21,14 +24,15 @@ pub(super) enum PendingArc {
     Drive(DriveArc),
 }
 
-/// The arc, if there is one, and what is wrong with it.
+/// The arc, if there is one, and the problems found with it.
 pub(super) struct ResolvedArc {
     pub(super) arc: Option<CircularArc>,
     pub(super) problems: Vec<MotionProblemKind>,
 }
 
 impl PendingArc {
-    /// `direction` is INDIRV, `before` the unit tangent of the feed motion before.
+    /// Resolves the arc. `direction` is that of INDIRV, and `before` is the unit tangent of the feed motion
+    /// before.
     pub(super) fn resolve(
         self,
         rule: ArcRule,
@@ -45,6 +49,7 @@ impl PendingArc {
     }
 }
 
+/// Resolves a CIRCLE: finds its direction from the record, the dialect or the motion before.
 fn resolve_circle(
     circle: &Circle,
     rule: ArcRule,
@@ -60,6 +65,8 @@ fn resolve_circle(
         (ArcSense::OfDialect, ArcRule::LeftHand) => false,
         (ArcSense::OfDialect, ArcRule::RightHand | ArcRule::ByWord) => true,
         (ArcSense::OfDialect, ArcRule::FromTangent) => {
+            // A counter-clockwise arc leaves in the direction axis x spoke; a motion before it that goes the
+            // same way confirms it.
             let tangent = printed.cross(&(start - circle.center));
             match before.map(|before| before.dot(&tangent)) {
                 Some(along) if along.abs() > 0.9 * tangent.norm() => along > 0.0,
@@ -71,6 +78,7 @@ fn resolve_circle(
         }
     };
     let axis = if counter_clockwise { printed } else { -printed };
+    // `TIMES,n` counts how often the direction of the end point is reached, so n - 1 full turns are added.
     let arc = CircularArc::from_endpoints(start, end, circle.center, axis, circle.times - 1);
     if let Some(radius) = circle.radius {
         let off = (radius - arc.radius).abs();
@@ -82,13 +90,16 @@ fn resolve_circle(
     ResolvedArc { arc: Some(arc), problems }
 }
 
+/// Resolves a MOVARC, whose angle and end point both give the sweep.
 fn resolve_move_arc(record: &MoveArc, start: Point3<f64>, end: Point3<f64>) -> ResolvedArc {
     let mut problems = Vec::new();
     let mut arc = CircularArc::from_endpoints(start, end, record.center, Unit::new_normalize(record.axis), 0);
     if let Some(degrees) = record.sweep_degrees {
         let told = degrees.to_radians();
-        // The end point and the angle both say where the arc ends; whole turns only the angle can say. Ends that fall
-        // together (or change places by their rounding) are a full circle or an arc too short to show in the decimals.
+        // Both the end point and the angle give the end of the arc, but only the angle gives whole turns.
+        // Ends that coincide, or change their order by rounding, are either a full circle or an arc too short
+        // to show in the decimals.
+        // The sweep from the end points is from 0 to a turn, so an angle near 0 may have become a full turn.
         let missing = TAU - (arc.sweep - told);
         if (0.0..PI).contains(&told) && missing.abs() * arc.radius < RADIUS_TOLERANCE {
             arc.sweep = told;
@@ -107,7 +118,8 @@ fn resolve_move_arc(record: &MoveArc, start: Point3<f64>, end: Point3<f64>) -> R
     ResolvedArc { arc: Some(arc), problems }
 }
 
-/// CATIA gives the start tangent; the arc's plane holds it and the spoke, and its axis turns the spoke into the tangent.
+/// Resolves CATIA's drive arc. CATIA gives the start tangent. The arc's plane contains it and the spoke from
+/// the centre to the start, and the axis turns the spoke into the tangent.
 fn resolve_drive_arc(
     record: &DriveArc,
     start: Point3<f64>,
@@ -123,7 +135,8 @@ fn resolve_drive_arc(
     if normal.norm() < 0.5 * spoke.norm() * direction.norm() || spoke.norm() < SAME_POINT {
         return ResolvedArc { arc: None, problems: vec![MotionProblemKind::TangentMismatch] };
     }
-    // Five printed decimals tilt the normal a little; the exact plane is that of start, end and centre where they span one.
+    // The five printed decimals tilt the normal slightly. If start, end and centre define a plane, that plane
+    // is exact.
     let through_end = spoke.cross(&(end - record.center));
     let exact = if through_end.norm() > 1e-3 * spoke.norm_squared() {
         through_end * through_end.dot(&normal).signum()
@@ -142,6 +155,7 @@ fn resolve_drive_arc(
     ResolvedArc { arc: Some(arc), problems }
 }
 
+/// Reports an end that is off the circle.
 fn check_arc_end(arc: &CircularArc, end: Point3<f64>, problems: &mut Vec<MotionProblemKind>) {
     let off = arc.end_deviation(end);
     if off > RADIUS_TOLERANCE {

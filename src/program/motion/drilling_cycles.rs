@@ -1,4 +1,4 @@
-//! Drilling cycles: one hole as a group of motions.
+//! This module resolves drilling cycles: it plans one hole as a group of motions.
 
 use crate::program::geometry::{MotionPath, Pose, SAME_POINT};
 use crate::program::record::{CycleKind, DrillingCycle};
@@ -11,11 +11,12 @@ pub(super) struct HoleMove {
     pub(super) rapid: bool,
 }
 
-/// The moves of one hole: over it and down to the clearance at rapid, to the depth at feed, and back.
+/// Plans the moves of one hole: at rapid to above the hole and down to the clearance, at feed to the depth,
+/// and back.
 ///
-/// Distances are along the tool axis from the hole's point. NX prints a coordinate after FEDTO (negative is below the
-/// point); every other form prints a depth (measured: SolidWorks `FEDTO,5.4` for a hole 5.4 deep). The tool comes back to the
-/// retract height where one is given, else to the clearance.
+/// Distances are along the tool axis from the hole's point. NX prints a coordinate after FEDTO (negative is
+/// below the point); all other forms print a depth (measured: SolidWorks `FEDTO,5.4` for a hole 5.4 deep).
+/// The tool comes back to the retract height if one is given, else to the clearance.
 pub(super) fn plan_hole_moves(
     cycle: &DrillingCycle,
     nx: bool,
@@ -27,9 +28,11 @@ pub(super) fn plan_hole_moves(
     let bottom = above(if nx && cycle.depth_is_fedto { depth } else { -depth.abs() });
     let clearance_height = cycle.clearance.unwrap_or(0.0);
     let clearance = above(clearance_height);
+    // A retract height below the clearance would leave the tool in the hole.
     let retract = above(cycle.retract.map_or(clearance_height, |retract| retract.max(clearance_height)));
     let mut legs = Vec::with_capacity(4);
     let mut position = at;
+    // A move without length is left out, except the first one of a file, which sets the position.
     let mut go = |to: Pose, rapid: bool| {
         let from = position.unwrap_or(to);
         let path = if position.is_some() { MotionPath::Line } else { MotionPath::Start };
@@ -38,7 +41,7 @@ pub(super) fn plan_hole_moves(
             position = Some(to);
         }
     };
-    // The approach crosses at the height the tool is at, when that is above the clearance.
+    // The approach is at the tool's current height if that is above the clearance.
     let height = at.map_or(clearance_height, |pose| (pose.point - hole.point).dot(&hole.axis));
     if height > clearance_height {
         go(above(height), true);

@@ -1,7 +1,11 @@
-//! Motions: the tool path with its modal state resolved.
+//! This module resolves motions: the tool path with its modal state.
 //!
-//! [`Program::motions`] is the one state machine that knows modality, the sense of arcs in each dialect, frames and units.
-//! Simulation, reports and transforms see motions, never raw points.
+//! [`Program::motions`] is the only state machine that knows modality, the direction of arcs in each dialect,
+//! frames and units. Simulation, reports and transforms see motions, never raw points.
+//!
+//! RAPID holds for the next record only, however many points that has. Feed, spindle and tool stay in force
+//! from one operation to the next, as in posts. NX's tool axis starts at z in every `TOOL PATH`, and the
+//! tool's position is carried over into a new `MSYS`.
 
 mod arcs;
 mod drilling_cycles;
@@ -23,22 +27,23 @@ use std::sync::Arc;
 /// One move of the tool.
 #[derive(Debug, Clone)]
 pub struct Motion {
-    /// Indices of the statements that make it, the deleted among them included: from the first that belongs to this motion
-    /// alone (RAPID, CIRCLE, INDIRV, NURBS) to the one that ends it.
+    /// The indices of the statements that make it, including deleted ones: from the first one that belongs to
+    /// this motion alone (RAPID, CIRCLE, INDIRV, NURBS) to the one that ends it.
     pub statements: Range<usize>,
-    /// Where the tool comes from; the same as `to` for a path of [`MotionPath::Start`].
+    /// The pose at the start; equal to `to` for a path of [`MotionPath::Start`].
     pub from: Pose,
-    /// Where it goes.
+    /// The pose at the end.
     pub to: Pose,
-    /// How.
+    /// The path between both.
     pub path: MotionPath,
-    /// Contact normal, where the file gives one (nine-value GOTO).
+    /// The contact normal, if the file gives one (GOTO with nine values).
     pub normal: Option<nalgebra::Vector3<f64>>,
     /// Whether it is a rapid.
     pub rapid: bool,
-    /// The feed in force (of a rapid: the one that comes back after it); a cycle's own feed in its holes.
+    /// The feed in force; for a rapid, the feed that holds again after it; in the holes of a cycle, the
+    /// cycle's own feed.
     pub feed: Option<Feed>,
-    /// The FEDRAT statement (or CYCLE) that set the feed.
+    /// The index of the FEDRAT (or CYCLE) statement that set the feed.
     pub feed_from: Option<usize>,
     /// The spindle in force.
     pub spindle: Option<Arc<Spindle>>,
@@ -46,29 +51,29 @@ pub struct Motion {
     pub tool: Option<Arc<ActiveTool>>,
     /// The frame in force.
     pub frame: Option<Arc<CoordinateFrame>>,
-    /// What it is for.
+    /// The class of the motion.
     pub class: MotionClass,
-    /// Whether the file says the class (else it was found from rapid, axis and direction).
+    /// Whether the file states the class. Otherwise it was found from rapid, axis and direction.
     pub class_is_told: bool,
-    /// Index of the operation, as [`super::operation::find_operations`] counts them.
+    /// The index of the operation, as [`super::operation::find_operations`] counts them.
     pub operation: usize,
-    /// In a drilling cycle: the number of the hole, and the cycle. A hole is one group of motions: rapid to the clearance,
-    /// feed to the depth, and back.
+    /// In a drilling cycle, the number of the hole and the cycle. A hole is one group of motions: at rapid to
+    /// the clearance, at feed to the depth, and back.
     pub hole: Option<(usize, Arc<DrillingCycle>)>,
 }
 
 impl Motion {
-    /// Index of the statement that ends the motion.
+    /// Returns the index of the statement that ends the motion.
     pub fn last_statement(&self) -> usize {
         self.statements.end.saturating_sub(1)
     }
 
-    /// Length of the path in the file's unit.
+    /// Returns the length of the path in the file's unit.
     pub fn length(&self) -> f64 {
         self.path.length(self.from.point, self.to.point)
     }
 
-    /// Spindle speed in rev/min, when it is given so.
+    /// Returns the spindle speed in rev/min, if it is given in that unit and the spindle turns.
     pub fn spindle_rpm(&self) -> Option<f64> {
         let spindle = self.spindle.as_deref().filter(|spindle| spindle.on)?;
         (spindle.unit == super::record::SpindleUnit::RevolutionsPerMinute).then_some(spindle.speed).flatten()
@@ -76,7 +81,7 @@ impl Motion {
 }
 
 impl Program {
-    /// The motions in order.
+    /// Returns the motions in order.
     pub fn motions(&self) -> Motions<'_> {
         Motions::new(self)
     }

@@ -1,4 +1,5 @@
-//! Statements that set something which holds until it is set again: feed, spindle, tool, axis, frame, cycle, operation.
+//! This module processes statements that set something until it is set again: feed, spindle, tool, axis,
+//! frame, cycle and operation.
 
 use super::modal_state::{CoordinateFrame, MotionProblemKind};
 use super::state_machine::Motions;
@@ -9,13 +10,15 @@ use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 
 impl Motions<'_> {
+    /// Processes a record that does not move the tool.
     pub(super) fn process_modal_record(&mut self, index: usize, record: &Record) {
         let state = &mut self.state;
         match record {
             Record::Feed(feed) => {
+                // A feed without a unit keeps the unit of the feed before.
                 let unit = feed.unit.or(state.feed.and_then(|(before, _)| before.unit));
                 state.feed = Some((crate::program::Feed { value: feed.value, unit }, index));
-                // CAM systems write no FEDRAT between RAPID and its motion; APT says a feed ends a rapid.
+                // CAM systems write no FEDRAT between RAPID and its motion. In APT, a feed ends a rapid.
                 if let Some(rapid) = self.pending.rapid.take() {
                     self.report_problem(rapid, MotionProblemKind::RapidWithoutMotion);
                 }
@@ -29,7 +32,7 @@ impl Motions<'_> {
                 let another = tool.number.is_some_and(|number| number != call.number);
                 if another && tool.loaded && call.loads {
                     tool.name = None;
-                    // A tool that nothing describes must not pass for the one before it.
+                    // The shape of the tool before must not be used for a tool that nothing describes.
                     tool.data = tool.data.take().filter(|_| tool.shape_is_new);
                 }
                 tool.number = Some(call.number);
@@ -57,6 +60,7 @@ impl Motions<'_> {
                 }
             }
             Record::Cycle(cycle) => {
+                // CYCLE/ON with words only changes some values of the cycle in force.
                 let before = state.cycle.as_ref().map(|(before, _)| before.as_ref());
                 let cycle_in_force = cycle.inherit_from(before);
                 let own = cycle.feed.map(|_| index);
@@ -73,6 +77,7 @@ impl Motions<'_> {
         }
     }
 
+    /// Starts an operation: counts it, and takes over the tool that an NX TOOL PATH names.
     pub(super) fn start_operation(&mut self, index: usize) {
         if self.operations_seen {
             self.state.operation += 1;
@@ -80,7 +85,8 @@ impl Motions<'_> {
         self.operations_seen = true;
         let Some(statement) = self.program.statement(index) else { return };
         if let Some(name) = operation::tool_name(self.program, statement) {
-            // A TOOL PATH describes its tool anew; a number comes with the LOAD that follows, or is the one loaded.
+            // A TOOL PATH describes its tool anew. The number comes with the LOAD that follows, or is that of
+            // the loaded tool.
             self.state.change_tool(|tool| {
                 if tool.name.as_deref() != Some(name.as_str()) {
                     tool.data = None;
@@ -92,16 +98,19 @@ impl Motions<'_> {
                 tool.name = Some(name);
             });
         }
+        // In NX every TOOL PATH starts with the axis along z.
         if self.program.dialect() == crate::program::Dialect::Nx {
             self.state.axis = Vector3::z();
         }
     }
 
+    /// Processes a frame or a shift.
     pub(super) fn process_frame(&mut self, index: usize, record: &FrameRecord) {
         let at = |index: usize| record.numbers.get(index).copied().unwrap_or_default();
         let three = |start: usize| Vector3::new(at(start), at(start + 1), at(start + 2));
         match record.word {
             FrameWord::Msys => {
+                // MSYS prints the origin and two axes; the third one is their cross product.
                 let (x, y) = (three(3), three(6));
                 let axes = Matrix3::from_columns(&[x, y, x.cross(&y)]);
                 let frame = CoordinateFrame { statement: index, origin: three(0), axes };
@@ -109,6 +118,7 @@ impl Motions<'_> {
                 self.state.frame = Some(Arc::new(frame));
             }
             FrameWord::Csys => {
+                // CSYS prints three rows with the axes as columns, and the origin in the fourth column.
                 let axes = Matrix3::new(at(0), at(1), at(2), at(4), at(5), at(6), at(8), at(9), at(10));
                 let origin = Vector3::new(at(3), at(7), at(11));
                 self.state.frame = Some(Arc::new(CoordinateFrame { statement: index, origin, axes }));
@@ -119,7 +129,8 @@ impl Motions<'_> {
         }
     }
 
-    /// NX prints points in MSYS: in a new one the tool stands where it stood, with other coordinates.
+    /// Expresses the tool's pose in a new frame. NX prints points in MSYS, so in a new one the tool has the
+    /// same position with other coordinates.
     pub(super) fn express_pose_in(&mut self, new: &CoordinateFrame) {
         let (Some(pose), Some(old)) = (self.state.pose, self.state.frame.as_deref()) else { return };
         if (old.origin, old.axes) == (new.origin, new.axes) {
@@ -132,6 +143,7 @@ impl Motions<'_> {
         });
     }
 
+    /// Takes the rows of a CATIA0 matrix as the frame; fewer than three rows are a problem.
     pub(super) fn finish_matrix(&mut self) {
         let Some((statement, rows)) = self.pending.matrix.take() else { return };
         if let [[a, b, c, x], [d, e, f, y], [g, h, i, z]] = rows.as_slice() {
@@ -144,7 +156,7 @@ impl Motions<'_> {
     }
 }
 
-/// A printed axis as it is, unless it is more than its rounding away from a unit vector.
+/// Returns a printed axis unchanged, unless its length differs from 1 by more than rounding.
 pub(super) fn normalize_axis(axis: Vector3<f64>) -> Vector3<f64> {
     if (axis.norm_squared() - 1.0).abs() < 2e-3 { axis } else { axis.try_normalize(1e-6).unwrap_or(axis) }
 }

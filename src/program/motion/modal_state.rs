@@ -1,4 +1,4 @@
-//! The modal state of a CL program.
+//! This module holds the modal state of a CL program.
 
 use crate::program::geometry::Pose;
 use crate::program::motion_class::MotionClass;
@@ -10,20 +10,21 @@ use std::sync::Arc;
 /// The tool in force.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ActiveTool {
-    /// Its number, once a record has said it.
+    /// The number, once a record has given it.
     pub number: Option<u32>,
-    /// Its name, where the file has one (NX: in `TOOL PATH/`).
+    /// The name, if the file has one (NX: in `TOOL PATH/`).
     pub name: Option<String>,
-    /// Its shape, as far as the file says.
+    /// The shape, as far as the file gives it.
     pub data: Option<ToolData>,
-    /// Whether a record loaded it (an NX path without LOAD/TOOL only describes it).
+    /// Whether a record loaded the tool (an NX path without LOAD/TOOL only describes it).
     pub loaded: bool,
-    /// Whether the shape was told after the last load: it then is of the tool that comes next (CUTTER stands before LOADTL).
+    /// Whether the shape was given after the last load. Then it belongs to the tool that comes next (CUTTER
+    /// comes before LOADTL).
     pub(super) shape_is_new: bool,
 }
 
 impl ActiveTool {
-    /// The tool as people call it: `tool 3`, `tool 3 (MILL_10)`, `tool MILL_10`, `the tool`.
+    /// Returns the name of the tool for people: `tool 3`, `tool 3 (MILL_10)`, `tool MILL_10` or `the tool`.
     pub fn display_name(&self) -> String {
         match (self.number, &self.name) {
             (Some(number), Some(name)) => format!("tool {number} ({name})"),
@@ -34,79 +35,79 @@ impl ActiveTool {
     }
 }
 
-/// Where the printed coordinates stand: `outside = origin + axes * printed`.
+/// The frame of the printed coordinates: `outside = origin + axes * printed`.
 ///
-/// The direction of CSYS, CAMERA and CATIA0 matrices is the file's own statement; for NX it is measured.
+/// For CSYS, CAMERA and CATIA0 matrices the file itself states this direction; for NX it is measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CoordinateFrame {
-    /// The statement that set it (of a CATIA0 matrix: its mark).
+    /// The statement that set the frame (for a CATIA0 matrix, its mark).
     pub statement: usize,
-    /// Origin.
+    /// The origin.
     pub origin: Vector3<f64>,
-    /// Axes as columns.
+    /// The axes as columns.
     pub axes: Matrix3<f64>,
 }
 
-/// A problem met while motions were resolved, for `check`.
+/// A problem that was found while motions were resolved, for `check`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionProblem {
-    /// The statement it is about.
+    /// The index of the statement that it is about.
     pub statement: usize,
-    /// What is wrong.
+    /// The kind of the problem.
     pub kind: MotionProblemKind,
 }
 
-/// Kinds of [`MotionProblem`].
+/// The kinds of [`MotionProblem`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum MotionProblemKind {
-    /// RAPID with no motion after it.
+    /// No motion follows a RAPID.
     RapidWithoutMotion,
-    /// CIRCLE, MOVARC or INDIRV with no end point after it.
+    /// No end point follows a CIRCLE, MOVARC or INDIRV.
     ArcWithoutEnd,
-    /// The end of the arc lies off its circle by this much.
+    /// The end of the arc is this far from its circle.
     ArcEndOffCircle(f64),
-    /// The start of the arc lies off its circle (printed radius and distance differ) by this much.
+    /// The start of the arc is this far from its circle (the printed radius and the distance differ).
     ArcStartOffCircle(f64),
-    /// An arc or step from a place that no statement has told.
+    /// An arc or a step starts at a position that no statement has given.
     UnknownStart,
     /// The start tangent (INDIRV) and the arc do not fit.
     TangentMismatch,
-    /// NURBS, KNOT and CNTRL counts or order do not fit.
+    /// The counts or the order of NURBS, KNOT and CNTRL do not fit.
     BrokenSpline,
-    /// A stored sense of an arc was not told and had to be assumed right-hand.
+    /// The direction of an arc is not given and was assumed to be right-hand.
     AssumedSense,
-    /// A CATIA0 mark without three rows of four numbers.
+    /// Three rows of four numbers do not follow a CATIA0 mark.
     BrokenFrame,
 }
 
-/// Everything modal.
+/// The whole modal state.
 #[derive(Debug, Clone)]
 pub struct ModalState {
-    /// Where the tool is, once known.
+    /// The pose of the tool, once it is known.
     pub pose: Option<Pose>,
-    /// The axis in force.
+    /// The tool axis in force.
     pub axis: Vector3<f64>,
     /// Whether MULTAX is in force.
     pub multi_axis: bool,
-    /// Feed, and the statement that set it.
+    /// The feed, and the statement that set it.
     pub feed: Option<(Feed, usize)>,
-    /// Spindle.
+    /// The spindle.
     pub spindle: Option<Arc<Spindle>>,
-    /// Tool.
+    /// The tool.
     pub tool: Option<Arc<ActiveTool>>,
-    /// Frame.
+    /// The frame.
     pub frame: Option<Arc<CoordinateFrame>>,
-    /// TRANS and ORIGIN: the shift that the post will add.
+    /// The shift that the post will add, from TRANS and ORIGIN.
     pub shift: Vector3<f64>,
-    /// Cutter compensation, and the statement that set it.
+    /// The cutter compensation, and the statement that set it.
     pub compensation: Option<(CutterCompensation, usize)>,
-    /// Cycle, and the statement that set it.
+    /// The cycle, and the statement that set it.
     pub cycle: Option<(Arc<DrillingCycle>, usize)>,
-    /// Class of motion that the file has marked.
+    /// The class of motions that the file has marked.
     pub marked: Option<MotionClass>,
-    /// Unit of lengths, where the file says it.
+    /// The unit of lengths, if the file states it.
     pub units: Option<LengthUnit>,
-    /// Index of the operation.
+    /// The index of the operation.
     pub operation: usize,
 }
 
@@ -131,7 +132,7 @@ impl Default for ModalState {
 }
 
 impl ModalState {
-    /// Changes the tool in force; `change` sees a copy of it.
+    /// Changes the tool in force; `change` gets a copy of it.
     pub(super) fn change_tool(&mut self, change: impl FnOnce(&mut ActiveTool)) {
         let mut tool = self.tool.as_deref().cloned().unwrap_or_default();
         change(&mut tool);

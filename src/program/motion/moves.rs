@@ -1,4 +1,5 @@
-//! Statements that move the tool: from the announced arc, spline or point to a [`Motion`] with everything modal.
+//! This module processes statements that move the tool. It makes a [`Motion`] with the modal state from the
+//! announced arc, spline or point.
 
 use super::arcs::PendingArc;
 use super::modal_records::normalize_axis;
@@ -12,6 +13,7 @@ use nalgebra::Vector3;
 use std::sync::Arc;
 
 impl Motions<'_> {
+    /// Keeps an arc until its end point follows.
     pub(super) fn announce_arc(&mut self, index: usize, arc: PendingArc) {
         if let Some((_, before)) = self.pending.arc.replace((arc, index)) {
             self.report_problem(before, MotionProblemKind::ArcWithoutEnd);
@@ -19,11 +21,14 @@ impl Motions<'_> {
         self.pending.first.get_or_insert(index);
     }
 
+    /// Moves to the point of a GOTO.
     pub(super) fn process_goto(&mut self, index: usize, goto: &Goto) {
         let axis = goto.axis.map_or(self.state.axis, normalize_axis);
         self.move_to(MotionTarget { pose: Pose { point: goto.point, axis }, normal: None, statement: index });
     }
 
+    /// Moves to the points of a long GOTO or of a line of numbers: one point with axis and normal, points
+    /// with axes, or points alone.
     pub(super) fn process_points(&mut self, index: usize, numbers: &[f64]) {
         let at = |index: usize| Vector3::from_iterator(numbers.iter().skip(index).take(3).copied());
         if has_contact_normal(numbers) {
@@ -32,7 +37,7 @@ impl Motions<'_> {
         }
         let with_axes = self.state.multi_axis && has_tool_axes(numbers);
         let step = if with_axes { 6 } else { 3 };
-        // RAPID is for the next record, however many points it has.
+        // RAPID holds for the next record, however many points it has.
         let rapid = self.pending.rapid;
         for start in (0..numbers.len()).step_by(step) {
             self.pending.rapid = rapid;
@@ -42,19 +47,21 @@ impl Motions<'_> {
         }
     }
 
+    /// Sets the tool's pose at a FROM.
     pub(super) fn process_from(&mut self, index: usize, goto: &Goto) {
         let axis = goto.axis.map_or(self.state.axis, normalize_axis);
         let pose = Pose { point: goto.point, axis };
         self.state.axis = axis;
         self.state.pose = Some(pose);
         self.last_tangent = None;
-        // The tool does not move: what RAPID or CIRCLE announced is for the motion after it.
+        // The tool does not move, so an announced RAPID or CIRCLE is for the motion after this one.
         let announced = std::mem::take(&mut self.pending);
         let motion = self.build_motion(pose, pose, MotionPath::Start, index);
         self.pending = announced;
         self.queue.push_back(motion);
     }
 
+    /// Moves by a step (GODLTA); a single number is a step along the tool axis.
     pub(super) fn process_delta(&mut self, index: usize, step: &[f64]) {
         let delta = match step {
             [x, y, z] => Vector3::new(*x, *y, *z),
@@ -70,13 +77,14 @@ impl Motions<'_> {
         }
     }
 
-    /// GOHOME without a point: the machine goes where only its post knows.
+    /// Forgets the pose at a GOHOME without a point: only the post knows where the machine goes.
     pub(super) fn forget_pose(&mut self) {
         self.state.pose = None;
         self.last_tangent = None;
         self.pending = PendingMotion { matrix: self.pending.matrix.take(), ..PendingMotion::default() };
     }
 
+    /// Moves to a target: as a hole if a cycle is in force, along the announced arc, or straight.
     pub(super) fn move_to(&mut self, target: MotionTarget) {
         self.pending.first.get_or_insert(target.statement);
         self.state.axis = target.pose.axis;
@@ -84,7 +92,7 @@ impl Motions<'_> {
             return self.drill_hole(&target);
         }
         let Some(from) = self.state.pose else {
-            // The first point of a file: where the tool comes from is not told.
+            // At the first point of a file it is not known where the tool comes from.
             if let Some((_, statement)) = self.pending.arc.take() {
                 self.report_problem(statement, MotionProblemKind::UnknownStart);
             }
@@ -102,6 +110,7 @@ impl Motions<'_> {
         self.push_motion(from, target.pose, path, &target);
     }
 
+    /// Resolves an announced arc and reports its problems. An arc that cannot be resolved becomes a line.
     pub(super) fn resolve_arc_path(
         &mut self,
         arc: PendingArc,
@@ -118,6 +127,7 @@ impl Motions<'_> {
         resolved.arc.map_or(MotionPath::Line, |arc| MotionPath::Arc(Box::new(arc)))
     }
 
+    /// Adds a motion and updates the pose. The tangent only continues through feed motions.
     pub(super) fn push_motion(&mut self, from: Pose, to: Pose, path: MotionPath, target: &MotionTarget) {
         let tangent = path.end_tangent(from.point, to.point);
         let mut motion = self.build_motion(from, to, path, target.statement);
@@ -127,6 +137,7 @@ impl Motions<'_> {
         self.queue.push_back(motion);
     }
 
+    /// Adds the motions of one hole.
     pub(super) fn drill_hole(&mut self, target: &MotionTarget) {
         let Some((cycle, _)) = self.state.cycle.clone() else { return };
         let hole = self.holes;
@@ -149,6 +160,7 @@ impl Motions<'_> {
         self.last_tangent = None;
     }
 
+    /// Adds the motion of a spline when its last control point has been read.
     pub(super) fn finish_spline(&mut self) {
         let Some(spline) = self.pending.spline.take() else { return };
         let (Some(&end), Some(from)) = (spline.controls.last(), self.state.pose) else {
@@ -168,7 +180,8 @@ impl Motions<'_> {
         self.push_motion(from, pose, path, &MotionTarget { pose, normal: None, statement: spline.last });
     }
 
-    /// The motion that ends with `statement`, with everything modal; what was pending is used up.
+    /// Builds the motion that ends with `statement`, with the modal state. The pending announcements are used
+    /// up.
     pub(super) fn build_motion(
         &mut self,
         from: Pose,
@@ -200,9 +213,9 @@ impl Motions<'_> {
         }
     }
 
-    /// The marked class; without a mark: rapids are rapid, a straight feed move down the tool axis engages, one up it
-    /// retracts, everything else cuts. A rapid is never a cut and a feed move never rapid, whatever the
-    /// mark says (NX colour 37 holds both).
+    /// Returns the class that the file marked. Without a mark, rapids are rapid, a straight feed motion down
+    /// the tool axis engages, one up the axis retracts, and everything else cuts. A rapid is never a cut and
+    /// a feed motion is never a rapid, whatever the mark says (NX colour 37 has both).
     pub(super) fn classify_motion(
         &self,
         rapid: bool,

@@ -1,4 +1,4 @@
-//! The state machine that turns statements into motions.
+//! This module holds the state machine that converts statements to motions.
 
 use super::Motion;
 use super::arcs::PendingArc;
@@ -10,7 +10,7 @@ use nalgebra::{Point3, Vector3};
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// Iterator over the motions of a program.
+/// An iterator over the motions of a program.
 #[derive(Debug, Clone)]
 pub struct Motions<'p> {
     pub(super) program: &'p Program,
@@ -24,27 +24,29 @@ pub struct Motions<'p> {
     pub(super) holes: usize,
     /// The cycle that CYCLE/ON switches on again.
     pub(super) last_cycle: Option<(Arc<DrillingCycle>, usize)>,
-    /// The CYCLE that holds the feed of the cycle in force: CYCLE/ON,FEDTO,... takes it over without printing it.
+    /// The CYCLE statement that has the feed of the cycle in force: CYCLE/ON,FEDTO,... takes the feed over
+    /// without printing it.
     pub(super) cycle_feed: Option<usize>,
 }
 
-/// What statements have announced for the next motion.
+/// The announcements of statements for the next motion.
 #[derive(Debug, Clone, Default)]
 pub(super) struct PendingMotion {
     /// The first statement that belongs to the next motion.
     pub(super) first: Option<usize>,
-    /// RAPID.
+    /// The statement of a RAPID.
     pub(super) rapid: Option<usize>,
-    /// CIRCLE, MOVARC.
+    /// The arc of a CIRCLE or MOVARC, and its statement.
     pub(super) arc: Option<(PendingArc, usize)>,
-    /// INDIRV.
+    /// The direction of an INDIRV, and its statement.
     pub(super) direction: Option<(Vector3<f64>, usize)>,
-    /// NURBS with what has come of it.
+    /// The spline of a NURBS as far as it has been read.
     pub(super) spline: Option<PendingSpline>,
-    /// `$$*CATIA0` and its rows.
+    /// The statement of a `$$*CATIA0`, and the rows of its matrix.
     pub(super) matrix: Option<(usize, Vec<[f64; 4]>)>,
 }
 
+/// A spline whose control points are being read.
 #[derive(Debug, Clone, Default)]
 pub(super) struct PendingSpline {
     pub(super) statement: usize,
@@ -53,7 +55,7 @@ pub(super) struct PendingSpline {
     pub(super) last: usize,
 }
 
-/// Where a motion goes, before it is known how.
+/// The target of a motion before its path is known.
 pub(super) struct MotionTarget {
     pub(super) pose: Pose,
     pub(super) normal: Option<Vector3<f64>>,
@@ -77,18 +79,18 @@ impl<'p> Motions<'p> {
         }
     }
 
-    /// The modal state after the statements read so far.
+    /// Returns the modal state after the statements read so far.
     pub fn state(&self) -> &ModalState {
         &self.state
     }
 
-    /// Problems met so far; taken once.
+    /// Returns the problems found so far and forgets them.
     pub fn take_problems(&mut self) -> Vec<MotionProblem> {
         std::mem::take(&mut self.problems)
     }
 
-    /// Reads one statement and gives its index; motions that it ends are left out. For who asks [`Motions::state`] at every
-    /// statement instead of for motions.
+    /// Reads one statement and returns its index. Motions that it ends are dropped. This is for callers who
+    /// need [`Motions::state`] at every statement instead of motions.
     pub fn read_statement(&mut self) -> Option<usize> {
         let index = self.next;
         let statement = self.program.statement(index)?;
@@ -101,11 +103,14 @@ impl<'p> Motions<'p> {
         Some(index)
     }
 
+    /// Adds a problem.
     pub(super) fn report_problem(&mut self, statement: usize, kind: MotionProblemKind) {
         self.problems.push(MotionProblem { statement, kind });
     }
 
+    /// Processes one record: moves the tool, announces something, or changes the modal state.
     pub(super) fn process_record(&mut self, index: usize, record: &Record) {
+        // A spline or matrix ends at the first record that cannot belong to it.
         if self.pending.spline.is_some()
             && !matches!(record, Record::Knot(_) | Record::Control(_) | Record::Comment | Record::Blank)
         {
@@ -122,7 +127,7 @@ impl<'p> Motions<'p> {
             Record::Points(numbers) => self.process_points(index, numbers),
             Record::From(goto) => self.process_from(index, goto),
             Record::GoHome(Some(goto)) => {
-                // Whatever cycle is in force, there is no hole at home.
+                // There is no hole at home, whatever cycle is in force.
                 let cycle = self.state.cycle.take();
                 self.process_goto(index, goto);
                 self.state.cycle = cycle;
@@ -172,6 +177,7 @@ impl<'p> Motions<'p> {
         }
     }
 
+    /// Finishes what is pending at the end of the program, and reports announcements without a motion.
     pub(super) fn finish(&mut self) {
         self.finish_spline();
         self.finish_pending_matrix();

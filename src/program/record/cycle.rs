@@ -1,39 +1,42 @@
-//! Drilling cycles: `CYCLE/DRILL,...` and the holes after it.
+//! This module reads drilling cycles: `CYCLE/DRILL,...` and the holes after it.
 
 use super::{BadRecord, NumberRole, Record, RecordReading};
 use crate::program::syntax::{FieldKind, StatementField, StatementSyntax, fold_text};
 use crate::program::units::{Feed, FeedUnit};
 
-/// What the cycle does in the hole.
+/// The motions of the cycle in the hole.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CycleKind {
-    /// Down at feed, up at rapid (DRILL, CDRILL, CSINK, BRKCHP, DEEP, ...).
+    /// Down at feed and up at rapid (DRILL, CDRILL, CSINK, BRKCHP, DEEP, ...).
     Drill,
     /// Down and up at feed (TAP, BORE, REAM, THREAD, MILL).
     FeedOut,
 }
 
-/// A drilling cycle. Distances are relative to the hole's point along the tool axis, in the file's unit; signs as printed.
+/// A drilling cycle. Distances are relative to the hole's point along the tool axis, in the file's unit, with
+/// the printed signs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrillingCycle {
-    /// What happens in the hole.
+    /// The motions in the hole.
     pub kind: CycleKind,
-    /// `FEDTO`, `DEPTH`, or the first bare number.
+    /// The depth: `FEDTO`, `DEPTH`, or the first number without a word.
     pub depth: Option<f64>,
-    /// Whether `depth` came from `FEDTO`: NX prints a coordinate there (negative is down), others a depth.
+    /// Whether `depth` came from `FEDTO`. NX prints a coordinate there (negative is down), others print a
+    /// depth.
     pub depth_is_fedto: bool,
-    /// `RAPTO`, `CLEAR`, or the bare number that stands for it.
+    /// The clearance: `RAPTO`, `CLEAR`, or the number without a word that stands for it.
     pub clearance: Option<f64>,
-    /// `RTRCTO`, `RETURN`; `AUTO` is `None`.
+    /// The retract height: `RTRCTO` or `RETURN`; `None` for `AUTO`.
     pub retract: Option<f64>,
-    /// Whether `RTRCTO,AUTO` stands there: back to the clearance.
+    /// Whether the record has `RTRCTO,AUTO`, which goes back to the clearance.
     pub retract_is_auto: bool,
-    /// `CYCLE/ON,...` (NX): what the record does not say stays as in the cycle in force.
+    /// Whether the record is NX's `CYCLE/ON,...`: values that it does not give stay as in the cycle in force.
     pub changes: bool,
-    /// Feed, where the record has one.
+    /// The feed, if the record has one.
     pub feed: Option<Feed>,
 }
 
+/// Reads a record of this family.
 pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordReading {
     if major != "CYCLE" {
         return None;
@@ -41,20 +44,21 @@ pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordRe
     let first = syntax.word_at(0).unwrap_or_default();
     Some(match first.as_str() {
         "OFF" | "NOMORE" => Ok(Record::CycleOff),
-        // CYCLE/ON switches the last cycle on again; CLT announces each cycle so, SolidWorks with CYCLE/INIT. NX's
-        // CYCLE/ON,FEDTO,... changes the one in force.
+        // CYCLE/ON switches the last cycle on again. CLT announces each cycle in this way, SolidWorks with
+        // CYCLE/INIT. NX's CYCLE/ON,FEDTO,... changes the cycle in force.
         "ON" if syntax.fields.len() == 1 => Ok(Record::CycleOn),
         "INIT" | "" => Ok(Record::Known),
         _ => read_cycle(&first, syntax).map(|cycle| Record::Cycle(Box::new(cycle))),
     })
 }
 
-/// A number of the cycle with the word that governs it.
+/// A word or a number of the cycle; a word governs the number after it.
 enum CycleItem {
     Word(String),
     Number(f64),
 }
 
+/// Returns the words and numbers of a cycle in order.
 fn collect_cycle_items(syntax: &StatementSyntax<'_>) -> Vec<CycleItem> {
     let words = |field: &StatementField| {
         let text = fold_text(syntax.bytes_at(&field.at));
@@ -68,6 +72,7 @@ fn collect_cycle_items(syntax: &StatementSyntax<'_>) -> Vec<CycleItem> {
     syntax.fields.iter().flat_map(item).collect()
 }
 
+/// Reads a cycle: each number is given its meaning by the word before it, or by its position.
 fn read_cycle(first: &str, syntax: &StatementSyntax<'_>) -> Result<DrillingCycle, BadRecord> {
     let kind = match first.split(' ').next().unwrap_or_default() {
         "TAP" | "BORE" | "REAM" | "THREAD" | "MILL" | "BORE1" | "BORE2" | "RTAP" => CycleKind::FeedOut,
@@ -103,7 +108,7 @@ fn read_cycle(first: &str, syntax: &StatementSyntax<'_>) -> Result<DrillingCycle
             "RTRCTO" | "RETURN" => cycle.retract = Some(value),
             unit if FeedUnit::from_word(unit).is_some() && cycle.feed.is_none() => {
                 cycle.feed = Some(Feed { value, unit: FeedUnit::from_word(unit) });
-                // What follows the feed without a word is the clearance (CLT, ISO): not another feed.
+                // A number without a word after the feed is the clearance (CLT, ISO), not another feed.
                 word = "AFTER-FEED".to_owned();
                 continue;
             }
@@ -114,13 +119,14 @@ fn read_cycle(first: &str, syntax: &StatementSyntax<'_>) -> Result<DrillingCycle
             word = String::new();
         }
     }
-    // Positional forms: CATIA depth,clearance; ISO depth,feed,clearance; CLT depth ... feed,clearance,retract,retract.
+    // Forms by position: CATIA depth,clearance; ISO depth,feed,clearance; CLT depth ...
+    // feed,clearance,retract,retract.
     let mut bare = bare.into_iter();
     let positional = cycle.depth.is_none();
     cycle.depth = cycle.depth.or_else(|| bare.next());
     if let Some(rapid) = rapid_to {
         match bare.next().filter(|_| positional) {
-            // ISO: RAPTO counts down from the clearance, where the tool also returns to.
+            // In ISO, RAPTO counts down from the clearance, to which the tool also returns.
             Some(clearance) => {
                 cycle.clearance = Some((clearance - rapid).max(0.0));
                 cycle.retract = cycle.retract.or(Some(clearance));
@@ -134,7 +140,7 @@ fn read_cycle(first: &str, syntax: &StatementSyntax<'_>) -> Result<DrillingCycle
 }
 
 impl DrillingCycle {
-    /// The cycle in force after this record, given the one before.
+    /// Returns the cycle in force after this record, given the one before.
     pub(crate) fn inherit_from(&self, before: Option<&Self>) -> Self {
         let Some(before) = before.filter(|_| self.changes) else { return self.clone() };
         let new_depth = self.depth.is_some();
@@ -152,11 +158,12 @@ impl DrillingCycle {
     }
 }
 
-/// CLT writes two numbers after PECKING.
+/// Returns whether a word governs more than one number. CLT writes two numbers after PECKING.
 fn keeps_governing(word: &str) -> bool {
     word == "PECKING"
 }
 
+/// Returns the roles of the numbers of a cycle.
 pub(super) fn number_roles(syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
     let mut roles = Vec::new();
     let mut word = String::new();
@@ -166,7 +173,8 @@ pub(super) fn number_roles(syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
             CycleItem::Number(_) => {
                 roles.push(match word.as_str() {
                     unit if FeedUnit::from_word(unit).is_some() => NumberRole::Feed,
-                    // Times, counts, speeds, angles; threads per inch are the same in every unit of length.
+                    // Times, counts, speeds and angles do not depend on the unit of length. Neither do
+                    // threads per inch.
                     "DWELL" | "TIMES" | "REV" | "SPINDL" | "RPM" | "TPI" | "TLANGL" | "ORIENT" => {
                         NumberRole::Plain
                     }

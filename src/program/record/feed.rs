@@ -1,10 +1,10 @@
-//! Feed, spindle and cutter compensation.
+//! This module reads feeds, spindles and cutter compensation.
 
 use super::{BadRecord, NumberRole, Record, RecordReading, bad_record, wrong_count};
 use crate::program::syntax::{FieldKind, StatementSyntax, fold_text};
 use crate::program::units::{Feed, FeedUnit};
 
-/// Sense of the spindle.
+/// The direction of the spindle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SpindleDirection {
     /// `CLW`.
@@ -13,12 +13,12 @@ pub enum SpindleDirection {
     CounterClockwise,
 }
 
-/// Unit of a spindle speed.
+/// The unit of a spindle speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SpindleUnit {
-    /// `RPM`, also where no unit stands.
+    /// `RPM`, also if no unit is given.
     RevolutionsPerMinute,
-    /// `SFM`: feet (or, in metric files, metres) of surface per minute.
+    /// `SFM`: feet (in metric files, metres) of surface per minute.
     SurfaceFeet,
     /// `SMM`: metres of surface per minute.
     SurfaceMetres,
@@ -27,18 +27,19 @@ pub enum SpindleUnit {
 /// `SPINDL/`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spindle {
-    /// Whether it turns after the record.
+    /// Whether the spindle turns after the record.
     pub on: bool,
-    /// Speed in `unit`, where one stands.
+    /// The speed in `unit`, if the record gives one.
     pub speed: Option<f64>,
-    /// Unit of the speed.
+    /// The unit of the speed.
     pub unit: SpindleUnit,
-    /// Sense, where one stands.
+    /// The direction, if the record gives one.
     pub direction: Option<SpindleDirection>,
 }
 
 impl Spindle {
-    /// The spindle in force after this record: what it does not say (`SPINDL/ON`, `SPINDL/CCLW`) stays as it was before.
+    /// Returns the spindle in force after this record. Values that the record does not give (`SPINDL/ON`,
+    /// `SPINDL/CCLW`) stay as before.
     pub(crate) fn inherit_from(&self, before: Option<&Self>) -> Self {
         let mut spindle = self.clone();
         let Some(before) = before else { return spindle };
@@ -50,7 +51,7 @@ impl Spindle {
     }
 }
 
-/// Side of cutter compensation.
+/// The side of cutter compensation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CompensationSide {
     /// `LEFT`.
@@ -64,12 +65,13 @@ pub enum CompensationSide {
 pub enum CutterCompensation {
     /// `CUTCOM/LEFT` or `RIGHT`, perhaps with a plane.
     On(CompensationSide),
-    /// `CUTCOM/ON`: the side follows (CLT).
+    /// `CUTCOM/ON`: the side follows later (CLT).
     Armed,
     /// `CUTCOM/OFF`.
     Off,
 }
 
+/// Reads a record of this family.
 pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordReading {
     Some(match major {
         "FEDRAT" => read_feed(syntax),
@@ -79,12 +81,15 @@ pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordRe
     })
 }
 
+/// Reads a FEDRAT.
 fn read_feed(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     let mut value = None;
     let mut unit = None;
     let mut other = false;
     for field in &syntax.fields {
         match &field.kind {
+            // The first number and the first unit count, whatever their order: dialects print them in both
+            // orders.
             FieldKind::Number(number) => value = value.or(Some(*number)),
             FieldKind::Text => {
                 let word = fold_text(syntax.bytes_at(&field.at));
@@ -103,8 +108,8 @@ fn read_feed(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
             _ => {}
         }
     }
-    // FEDRAT/RAPID, FEDRAT/AUTO, FEDRAT/100,FPM and the like belong to a post; they set no feed we know. Beside a unit we know,
-    // a further word (FEDRAT/100,MMPM,LOCK) does not make it another feed.
+    // FEDRAT/RAPID, FEDRAT/AUTO, FEDRAT/100,FPM and the like belong to a post and set no feed that is known
+    // here. After a known unit, a further word (FEDRAT/100,MMPM,LOCK) does not change the feed.
     if other && (value.is_none() || unit.is_none()) {
         return Ok(Record::Known);
     }
@@ -117,15 +122,17 @@ fn read_feed(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     Ok(Record::Feed(Feed { value, unit }))
 }
 
+/// Returns the place of the first number, or that of the word.
 fn first_number_range(syntax: &StatementSyntax<'_>) -> std::ops::Range<usize> {
     syntax.numbers().first().map_or(syntax.word.clone(), |(at, _)| at.clone())
 }
 
-/// A word that can only be a mistyped number: `1O00`, `12.3.4`.
+/// Returns whether a word can only be a mistyped number: `1O00`, `12.3.4`.
 fn looks_numeric(word: &str) -> bool {
     word.starts_with(|first: char| first.is_ascii_digit() || matches!(first, '.' | '-' | '+'))
 }
 
+/// Reads a SPINDL.
 fn read_spindle(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     let mut spindle =
         Spindle { on: true, speed: None, unit: SpindleUnit::RevolutionsPerMinute, direction: None };
@@ -154,17 +161,19 @@ fn read_spindle(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     Ok(Record::Spindle(Box::new(spindle)))
 }
 
+/// Reads a CUTCOM.
 fn read_cutter_compensation(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     Ok(Record::CutterCompensation(match syntax.word_at(0).as_deref() {
         Some("LEFT") => CutterCompensation::On(CompensationSide::Left),
         Some("RIGHT") => CutterCompensation::On(CompensationSide::Right),
         Some("ON") => CutterCompensation::Armed,
         Some("OFF") => CutterCompensation::Off,
-        // CUTCOM/ADJUST, CUTCOM/NORMAL, CUTCOM/n and the like are a post's own.
+        // CUTCOM/ADJUST, CUTCOM/NORMAL, CUTCOM/n and the like belong to a post.
         _ => return Ok(Record::Known),
     }))
 }
 
+/// Returns the roles of the numbers of a feed or a spindle.
 pub(super) fn number_roles(record: &Record, syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
     let surface =
         matches!(record, Record::Spindle(spindle) if spindle.unit != SpindleUnit::RevolutionsPerMinute);

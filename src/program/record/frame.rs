@@ -1,14 +1,15 @@
-//! Frames: where the program's coordinates stand in the part, and shifts and turns of them.
+//! This module reads frames, which place the program's coordinates in the part, and their shifts and turns.
 
 use super::{NumberRole, Record, RecordReading, read_all_numbers, wrong_count};
 use crate::program::syntax::{StatementKind, StatementSyntax};
 
-/// The word of a frame record; the meaning of its numbers hangs on it.
+/// The word of a frame record, on which the meaning of its numbers depends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FrameWord {
     /// NX `MSYS/`: origin, x axis, y axis (9 numbers).
     Msys,
-    /// `CSYS/`, `$$-> CSYS /`, `CAMERA/`: three rows of x, y, z column and translation (12 numbers).
+    /// `CSYS/`, `$$-> CSYS /`, `CAMERA/`: three rows with the x, y and z columns and the translation (12
+    /// numbers).
     Csys,
     /// `TRANS/dx,dy,dz`: the post adds this to every point.
     Trans,
@@ -18,15 +19,16 @@ pub enum FrameWord {
     Rotary,
 }
 
-/// A frame record and its numbers as printed.
+/// A frame record with its numbers as printed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrameRecord {
     /// The word.
     pub word: FrameWord,
-    /// Its numbers.
+    /// The numbers.
     pub numbers: Vec<f64>,
 }
 
+/// Reads a record of this family.
 pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordReading {
     let (word, takes, counts): (_, _, &[usize]) = match major {
         "MSYS" => (FrameWord::Msys, "9 numbers", &[9]),
@@ -53,19 +55,23 @@ pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordRe
     }))
 }
 
+/// Reads a comment with four numbers as a row of a CATIA0 matrix.
 pub(super) fn read_matrix_row(syntax: &StatementSyntax<'_>) -> Record {
     debug_assert_eq!(syntax.form, StatementKind::MatrixRow);
-    // It is a comment first of all: one that holds a number too large to read is no row, and no error.
+    // The row is a comment first of all. If it has a number that is too large to read, it is not a row, and
+    // not an error.
     match read_all_numbers(syntax).as_deref() {
         Ok([a, b, c, d]) => Record::MatrixRow(Box::new([*a, *b, *c, *d])),
         _ => Record::Comment,
     }
 }
 
+/// Returns the roles of the numbers of a frame.
 pub(super) fn number_roles(record: &Record) -> Vec<NumberRole> {
     let word = match record {
         Record::Frame(frame) => frame.word,
-        // Which row it is only the statements before it say; the frame view gives rows their roles.
+        // Only the statements before it tell which row a matrix row is; the frame view gives its numbers
+        // their roles.
         _ => return Vec::new(),
     };
     match word {
@@ -85,10 +91,12 @@ pub(super) fn number_roles(record: &Record) -> Vec<NumberRole> {
     }
 }
 
+/// Returns the roles of an origin's coordinates.
 fn origin_roles() -> Vec<NumberRole> {
     vec![NumberRole::FrameOrigin(0), NumberRole::FrameOrigin(1), NumberRole::FrameOrigin(2)]
 }
 
+/// Returns the roles of an axis' components.
 fn frame_axis_roles(axis: u8) -> Vec<NumberRole> {
     (0..3).map(|component| NumberRole::FrameAxis(axis, component)).collect()
 }

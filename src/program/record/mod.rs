@@ -1,8 +1,8 @@
-//! Records: what a statement means, read from its [`StatementSyntax`].
+//! This module holds records: the meaning of a statement, read from its [`StatementSyntax`].
 //!
-//! One file per family. Each family reads its records and says, number by number, what role a number plays
-//! ([`NumberRole`]), so that geometric and unit transforms need no list of records of their own. A record that stands here is
-//! well formed; a known word with wrong arguments is a [`BadRecord`].
+//! There is one file for each family of records. Each family reads its records and gives the role of every
+//! number ([`NumberRole`]), so that transforms of geometry and units need no list of records of their own. A
+//! record is always well formed; a known word with wrong arguments is a [`BadRecord`].
 
 mod cycle;
 mod feed;
@@ -26,25 +26,27 @@ use super::units::{Feed, LengthUnit};
 use nalgebra::{Point3, Vector3};
 use std::ops::Range;
 
-/// What a statement means. Kept small (see the test): a file has a record for each of its statements.
+/// The meaning of a statement. A file has one for each of its statements, so rare records are boxed and a
+/// test holds the size.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Record {
-    /// The UTF-8 byte order mark in front of the first statement.
+    /// The UTF-8 byte order mark before the first statement.
     ByteOrderMark,
-    /// Nothing.
+    /// A statement without content.
     Blank,
-    /// `$$ ...` with no meaning for the tool path.
+    /// `$$ ...` without meaning for the tool path.
     Comment,
 
-    /// `GOTO/` one point, with or without a tool axis.
+    /// `GOTO/` with one point, with or without a tool axis.
     Goto(Goto),
-    /// `GOTO/` several points or a point with axis and contact normal, and lines of bare numbers that continue it.
+    /// `GOTO/` with several points or with a point, axis and contact normal; also lines of bare numbers that
+    /// continue it.
     Points(Box<[f64]>),
-    /// `FROM/`: where the tool is.
+    /// `FROM/`: the position of the tool.
     From(Box<Goto>),
     /// `GOHOME`, with or without a point.
     GoHome(Option<Box<Goto>>),
-    /// `GODLTA/`: a step from where the tool is (one number steps along the tool axis).
+    /// `GODLTA/`: a step from the tool's position (a single number is a step along the tool axis).
     GoDelta(Box<[f64]>),
     /// `CIRCLE/`: the next GOTO is the end of an arc.
     Circle(Box<Circle>),
@@ -58,9 +60,9 @@ pub enum Record {
     Nurbs,
     /// `KNOT/`: knots of the spline.
     Knot(Box<[f64]>),
-    /// `CNTRL/`: a control point; the last one is where the tool ends.
+    /// `CNTRL/`: a control point; the tool ends at the last one.
     Control(Box<Point3<f64>>),
-    /// `RAPID`: the next motion, and only that, is a rapid.
+    /// `RAPID`: the next motion, and only that one, is a rapid.
     Rapid,
 
     /// `FEDRAT/`.
@@ -70,7 +72,7 @@ pub enum Record {
     /// `CUTCOM/`.
     CutterCompensation(CutterCompensation),
 
-    /// `LOAD/TOOL`, `LOADTL/`, `TURRET/`, `TOOLNO/`: a tool by number.
+    /// `LOAD/TOOL`, `LOADTL/`, `TURRET/`, `TOOLNO/`: a tool by its number.
     ToolCall(ToolCall),
     /// `TLDATA/`, `CUTTER/`, Creo's `$$-> CUTTER`: the shape of the tool.
     ToolData(Box<ToolData>),
@@ -79,21 +81,22 @@ pub enum Record {
     /// `MULTAX`, `MULTAX/ON`, `MULTAX/OFF`.
     MultiAxis(bool),
 
-    /// `MSYS/`, `CSYS/`, `CAMERA/`, `TRANS/`, `ORIGIN/`, `ROTABL/`: a frame or a turn of one.
+    /// `MSYS/`, `CSYS/`, `CAMERA/`, `TRANS/`, `ORIGIN/`, `ROTABL/`: a frame, or a shift or turn of it.
     Frame(Box<FrameRecord>),
     /// CATIA's `$$*CATIA0`: a matrix follows in comments.
     FrameMark,
-    /// `$$` and four numbers: a row of that matrix, where one is expected.
+    /// `$$` and four numbers: a row of that matrix, if one is expected.
     MatrixRow(Box<[f64; 4]>),
 
     /// `CYCLE/DRILL,...`: each following GOTO is a hole.
     Cycle(Box<DrillingCycle>),
-    /// `CYCLE/ON`: the cycle goes on.
+    /// `CYCLE/ON`: the last cycle is switched on again.
     CycleOn,
     /// `CYCLE/OFF`.
     CycleOff,
 
-    /// A word that says what kind of motion follows (`PAINT/COLOR`, FF's `PPRINT/MOTION`, CLT's `MOVE_ATTRIB`).
+    /// A word that gives the class of the motions that follow (`PAINT/COLOR`, FF's `PPRINT/MOTION`, CLT's
+    /// `MOVE_ATTRIB`).
     Marked(MotionMark),
     /// An operation starts; its name is in the text.
     OperationStart(OperationNames),
@@ -108,20 +111,20 @@ pub enum Record {
 
     /// A known word without effect on the tool path (`COOLNT`, `PAINT/PATH`, `INTOL`, ...).
     Known,
-    /// A word clsmith does not know; kept and passed on.
+    /// A word that clsmith does not know; it is kept and passed on.
     Other,
     /// A statement of an APT part program.
     Definition,
-    /// What the grammar refused, or a known word with wrong arguments; kept and passed on.
+    /// A text that the grammar refused, or a known word with wrong arguments; it is kept and passed on.
     Unparsed,
 }
 
-/// Why a known word cannot be read as its record: which bytes of the statement, and what is wrong there.
+/// The reason why a known word cannot be read as its record, and the bytes of the statement where this is so.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BadRecord {
-    /// Place in the statement's text.
+    /// The place in the statement's text.
     pub at: Range<usize>,
-    /// What is wrong, for a person.
+    /// A description of the problem for people.
     pub problem: String,
     /// Whether a number was expected and something else was found.
     pub is_number: bool,
@@ -131,7 +134,8 @@ impl Record {
     /// Reads the meaning of a statement.
     ///
     /// # Errors
-    /// [`BadRecord`] for a known word whose arguments do not fit. Refused text is no error here: it is [`Record::Unparsed`].
+    /// Returns a [`BadRecord`] for a known word whose arguments do not fit. Refused text is not an error
+    /// here; it is [`Record::Unparsed`].
     pub fn read(syntax: &StatementSyntax<'_>) -> Result<Self, BadRecord> {
         match syntax.form {
             StatementKind::Blank => return Ok(Self::Blank),
@@ -145,6 +149,7 @@ impl Record {
             StatementKind::Numbers => return path::read_points_line(syntax),
             StatementKind::Structured | StatementKind::Words => {}
         }
+        // A word belongs to at most one family, so the first one that reads it decides.
         let major = syntax.major_word();
         let families = [
             path::read_record,
@@ -162,9 +167,9 @@ impl Record {
         Ok(Self::Other)
     }
 
-    /// What each number of a statement is, in the order of [`StatementSyntax::numbers`].
+    /// Returns the role of each number of a statement, in the order of [`StatementSyntax::numbers`].
     ///
-    /// A number whose role is not known is [`NumberRole::Plain`]; transforms never touch those.
+    /// A number whose role is not known is [`NumberRole::Plain`]; transforms never change such numbers.
     pub fn number_roles(&self, syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
         let count = syntax.numbers().len();
         let mut roles = match self {
@@ -190,7 +195,7 @@ impl Record {
         roles
     }
 
-    /// Whether the statement moves the tool, or is the end of a motion that statements before it describe.
+    /// Returns whether the statement moves the tool, or ends a motion that statements before it describe.
     pub fn is_motion(&self) -> bool {
         matches!(
             self,
@@ -204,17 +209,18 @@ impl Record {
     }
 }
 
-/// What a family's reader gives: `None` when the word is not of the family.
+/// The result of a family's reader; `None` if the word does not belong to the family.
 type RecordReading = Option<Result<Record, BadRecord>>;
 
+/// Makes a bad record at a place.
 fn bad_record(at: Range<usize>, problem: impl Into<String>) -> BadRecord {
     BadRecord { at, problem: problem.into(), is_number: false }
 }
 
-/// All fields as numbers, ignoring one trailing empty field (CLT ends its lists with a comma).
+/// Reads all fields as numbers. One empty field at the end is ignored, since CLT ends its lists with a comma.
 ///
 /// # Errors
-/// The first field that is no number.
+/// Returns the first field that is not a number.
 fn read_all_numbers(syntax: &StatementSyntax<'_>) -> Result<Vec<f64>, BadRecord> {
     let mut fields = syntax.fields.as_slice();
     if let Some((last, rest)) = fields.split_last()
@@ -225,6 +231,7 @@ fn read_all_numbers(syntax: &StatementSyntax<'_>) -> Result<Vec<f64>, BadRecord>
     fields.iter().map(|field| read_number(syntax, field)).collect()
 }
 
+/// Reads a field as a number.
 fn read_number(
     syntax: &StatementSyntax<'_>,
     field: &super::syntax::StatementField,
@@ -237,12 +244,14 @@ fn read_number(
     })
 }
 
+/// Makes a bad record for a wrong number of arguments.
 fn wrong_count(major: &str, syntax: &StatementSyntax<'_>, takes: &str, found: usize) -> BadRecord {
     let start = syntax.word.start;
     let end = syntax.fields.last().map_or(syntax.word.end, |field| field.at.end.max(syntax.word.end));
     bad_record(start..end, format!("{major} takes {takes}, this has {found}"))
 }
 
+/// Returns the point of the first three numbers.
 fn point_from_numbers(numbers: &[f64]) -> Option<Point3<f64>> {
     match numbers {
         [x, y, z, ..] => Some(Point3::new(*x, *y, *z)),
@@ -250,6 +259,7 @@ fn point_from_numbers(numbers: &[f64]) -> Option<Point3<f64>> {
     }
 }
 
+/// Returns the vector of the first three numbers.
 fn vector_from_numbers(numbers: &[f64]) -> Option<Vector3<f64>> {
     point_from_numbers(numbers).map(|point| point.coords)
 }

@@ -1,4 +1,4 @@
-//! Points, arcs and splines.
+//! This module reads points, arcs and splines.
 
 use super::{
     BadRecord, NumberRole, Record, RecordReading, bad_record, point_from_numbers, read_all_numbers,
@@ -7,19 +7,20 @@ use super::{
 use crate::program::syntax::{FieldGroup, FieldKind, StatementSyntax};
 use nalgebra::{Point3, Vector3};
 
-/// A point with or without a tool axis. Without one the axis in force stays (measured: 15,397 three-value GOTOs in one file).
+/// A point with or without a tool axis. Without one, the axis in force stays (measured: 15,397 GOTOs with
+/// three values in one file).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Goto {
-    /// Cutter location, in the file's unit and frame.
+    /// The cutter location, in the file's unit and frame.
     pub point: Point3<f64>,
-    /// Tool axis as printed (a unit vector up to its decimals).
+    /// The tool axis as printed (a unit vector up to its decimals).
     pub axis: Option<Vector3<f64>>,
 }
 
-/// What a CIRCLE record itself says of the sense of its arc.
+/// The direction of an arc as its CIRCLE record gives it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ArcSense {
-    /// Nothing; the dialect decides.
+    /// The record gives none; the dialect decides.
     OfDialect,
     /// `CLOCKWISE`, seen from the tip of the axis.
     Clockwise,
@@ -30,44 +31,47 @@ pub enum ArcSense {
 /// `CIRCLE/cx,cy,cz,i,j,k[,r[,tolerance,0.5,diameter,corner]][,TIMES,n][,CLOCKWISE]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Circle {
-    /// Centre.
+    /// The centre.
     pub center: Point3<f64>,
-    /// Axis as printed; its sense is the dialect's.
+    /// The axis as printed; its meaning for the direction depends on the dialect.
     pub axis: Vector3<f64>,
-    /// Radius, where the dialect prints one.
+    /// The radius, if the dialect prints one.
     pub radius: Option<f64>,
-    /// What the record says of the sense.
+    /// The direction as the record gives it.
     pub sense: ArcSense,
-    /// `TIMES,n` of a helix: how often the direction of the end point is reached.
+    /// `TIMES,n` of a helix: how often the direction of the end point is reached. So the sweep is the angle
+    /// plus n - 1 turns.
     pub times: u32,
 }
 
 /// `MOVARC/cx,cy,cz,i,j,k,r,ANGLE,degrees`, or with `CENTER`, `AXIS`, `RADIUS` before their numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MoveArc {
-    /// Centre.
+    /// The centre.
     pub center: Point3<f64>,
-    /// Axis; the arc is right-hand about it.
+    /// The axis; the arc is right-hand about it.
     pub axis: Vector3<f64>,
-    /// Radius.
+    /// The radius.
     pub radius: f64,
-    /// Sweep in degrees, positive, where the record gives it.
+    /// The sweep in degrees, positive, if the record gives it.
     pub sweep_degrees: Option<f64>,
 }
 
 /// `TLON,GOFWD/(CIRCLE/cx,cy,cz,r),ON,[2,INTOF,](LINE/cx,cy,cz,ex,ey,ez)`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DriveArc {
-    /// Centre.
+    /// The centre.
     pub center: Point3<f64>,
-    /// Radius.
+    /// The radius.
     pub radius: f64,
-    /// End of the arc: the second point of the LINE.
+    /// The end of the arc: the second point of the LINE.
     pub end: Point3<f64>,
-    /// `2,INTOF`: the sweep is more than 180 degrees (measured over 405 arcs: if and only if).
+    /// Whether `2,INTOF` is given: the sweep is more than 180 degrees (measured over 405 arcs: if and only
+    /// if).
     pub beyond_half: bool,
 }
 
+/// Reads a record of this family.
 pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordReading {
     Some(match major {
         "GOTO" => read_goto(major, syntax),
@@ -89,7 +93,7 @@ pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordRe
     })
 }
 
-/// A line of bare numbers: further points.
+/// Reads a line of bare numbers as further points.
 pub(super) fn read_points_line(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     let numbers = read_all_numbers(syntax)?;
     if numbers.len() % 3 != 0 {
@@ -98,6 +102,7 @@ pub(super) fn read_points_line(syntax: &StatementSyntax<'_>) -> Result<Record, B
     Ok(Record::Points(numbers.into()))
 }
 
+/// Reads a GOTO with one or several points.
 fn read_goto(major: &str, syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     let numbers = read_all_numbers(syntax)?;
     match (numbers.len(), goto_from_numbers(&numbers)) {
@@ -107,6 +112,7 @@ fn read_goto(major: &str, syntax: &StatementSyntax<'_>) -> Result<Record, BadRec
     }
 }
 
+/// Reads a record with one point.
 fn read_single_goto(major: &str, syntax: &StatementSyntax<'_>) -> Result<Goto, BadRecord> {
     let numbers = read_all_numbers(syntax)?;
     let goto = goto_from_numbers(&numbers)
@@ -114,7 +120,7 @@ fn read_single_goto(major: &str, syntax: &StatementSyntax<'_>) -> Result<Goto, B
     require_axis_direction(goto, syntax)
 }
 
-/// A tool axis of no length tells no post how the tool stands.
+/// Refuses a tool axis without length, because it gives no orientation to a post.
 fn require_axis_direction(goto: Goto, syntax: &StatementSyntax<'_>) -> Result<Goto, BadRecord> {
     match goto.axis {
         Some(axis) if !has_direction(&axis) => {
@@ -124,12 +130,13 @@ fn require_axis_direction(goto: Goto, syntax: &StatementSyntax<'_>) -> Result<Go
     }
 }
 
-/// Whether a printed vector is long enough to have a direction.
+/// Returns whether a printed vector is long enough to have a direction.
 pub(crate) fn has_direction(vector: &Vector3<f64>) -> bool {
     let length = vector.norm();
     length > 1e-6 && length.is_finite()
 }
 
+/// Returns the point of three or six numbers.
 fn goto_from_numbers(numbers: &[f64]) -> Option<Goto> {
     match numbers {
         [_, _, _] => point_from_numbers(numbers).map(|point| Goto { point, axis: None }),
@@ -140,6 +147,7 @@ fn goto_from_numbers(numbers: &[f64]) -> Option<Goto> {
     }
 }
 
+/// Reads all fields as numbers and checks their count.
 fn read_counted_numbers(
     major: &str,
     syntax: &StatementSyntax<'_>,
@@ -153,11 +161,13 @@ fn read_counted_numbers(
     Ok(numbers.into())
 }
 
+/// Reads a record of three numbers as a vector.
 pub(super) fn read_vector(major: &str, syntax: &StatementSyntax<'_>) -> Result<Vector3<f64>, BadRecord> {
     let numbers = read_counted_numbers(major, syntax, "3 numbers", |count| count == 3)?;
     vector_from_numbers(&numbers).ok_or_else(|| wrong_count(major, syntax, "3 numbers", numbers.len()))
 }
 
+/// Reads a CIRCLE: numbers by position, and words for the direction and the turns.
 fn read_circle(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     let mut numbers = Vec::new();
     let mut sense = ArcSense::OfDialect;
@@ -192,6 +202,7 @@ fn read_circle(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     Ok(Record::Circle(Box::new(Circle { center, axis, radius, sense, times })))
 }
 
+/// Reads the number of turns after TIMES.
 fn read_turn_count(
     syntax: &StatementSyntax<'_>,
     field: Option<&crate::program::syntax::StatementField>,
@@ -207,7 +218,7 @@ fn read_turn_count(
     Ok(turns as u32)
 }
 
-/// The place of the three fields from `at` on.
+/// Returns the place of the three fields from `at` on.
 pub(super) fn vector_range(syntax: &StatementSyntax<'_>, at: usize) -> std::ops::Range<usize> {
     match (syntax.fields.get(at), syntax.fields.get(at + 2)) {
         (Some(first), Some(last)) => first.at.start..last.at.end,
@@ -215,6 +226,7 @@ pub(super) fn vector_range(syntax: &StatementSyntax<'_>, at: usize) -> std::ops:
     }
 }
 
+/// Makes a bad record for a field that does not belong there.
 fn unexpected_field(
     syntax: &StatementSyntax<'_>,
     field: &crate::program::syntax::StatementField,
@@ -228,6 +240,7 @@ fn unexpected_field(
     }
 }
 
+/// Reads a MOVARC, with or without words before its numbers.
 fn read_move_arc(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     let mut numbers = Vec::new();
     let mut sweep_degrees = None;
@@ -253,6 +266,7 @@ fn read_move_arc(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     }
 }
 
+/// Reads a drive arc of CATIA; other drive motions are passed on as they are.
 fn read_drive_arc(major: &str, syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     let (mut circle, mut line, mut beyond_half) = (None, None, false);
     for field in &syntax.fields {
@@ -280,10 +294,12 @@ fn read_drive_arc(major: &str, syntax: &StatementSyntax<'_>) -> Result<Record, B
     }
 }
 
+/// Reads all fields of a nested record as numbers.
 fn read_group_numbers(syntax: &StatementSyntax<'_>, group: &FieldGroup) -> Result<Vec<f64>, BadRecord> {
     group.fields.iter().map(|field| read_number(syntax, field)).collect()
 }
 
+/// Returns the roles of the numbers of this family.
 pub(super) fn number_roles(record: &Record, syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
     let count = syntax.numbers().len();
     let points =
@@ -307,7 +323,8 @@ pub(super) fn number_roles(record: &Record, syntax: &StatementSyntax<'_>) -> Vec
         Record::Circle(circle) => {
             let lengths = count.saturating_sub(6 + usize::from(circle.times > 1));
             let mut roles = [points(3), arc_axis_roles()].concat();
-            // centre, axis, radius, tolerance, 0.5, diameter, corner radius: the 0.5 is no length.
+            // The numbers are centre, axis, radius, tolerance, 0.5, diameter and corner radius; the 0.5 is
+            // not a length.
             roles.extend(
                 (0..lengths).map(|index| if index == 2 { NumberRole::Plain } else { NumberRole::Length }),
             );
@@ -318,8 +335,8 @@ pub(super) fn number_roles(record: &Record, syntax: &StatementSyntax<'_>) -> Vec
     }
 }
 
-/// CATIA's drive arc: centre and radius in one group, centre and end in the other, and between them perhaps the 2 of
-/// `ON,2,INTOF`, which is a count.
+/// Returns the roles of CATIA's drive arc: centre and radius in one group, centre and end in the other, and
+/// perhaps between them the 2 of `ON,2,INTOF`, which is a count.
 fn drive_arc_roles(
     syntax: &StatementSyntax<'_>,
     field: &crate::program::syntax::StatementField,
@@ -335,12 +352,13 @@ fn drive_arc_roles(
     }
 }
 
-/// Whether the numbers of a long GOTO are a point, a tool axis and a contact normal: two unit vectors after the point.
+/// Returns whether the numbers of a long GOTO are a point, a tool axis and a contact normal, that is, whether
+/// two unit vectors follow the point.
 pub(crate) fn has_contact_normal(numbers: &[f64]) -> bool {
     numbers.len() == 9 && [3, 6].iter().all(|&at| numbers.get(at..).is_some_and(is_unit_vector))
 }
 
-/// Whether the numbers are points with axes: every second triple is a unit vector.
+/// Returns whether the numbers are points with axes, that is, whether every second triple is a unit vector.
 pub(crate) fn has_tool_axes(numbers: &[f64]) -> bool {
     numbers.len().is_multiple_of(6) && numbers.chunks(6).all(|pose| pose.get(3..).is_some_and(is_unit_vector))
 }
@@ -349,7 +367,7 @@ fn is_unit_vector(numbers: &[f64]) -> bool {
     vector_from_numbers(numbers).is_some_and(|vector| (vector.norm() - 1.0).abs() < 1e-3)
 }
 
-/// Roles of a point with or without its tool axis.
+/// Returns the roles of a point with or without its tool axis.
 pub(crate) fn goto_roles(axis: bool) -> Vec<NumberRole> {
     let mut roles = vec![NumberRole::Point(0), NumberRole::Point(1), NumberRole::Point(2)];
     if axis {
@@ -358,10 +376,12 @@ pub(crate) fn goto_roles(axis: bool) -> Vec<NumberRole> {
     roles
 }
 
+/// Returns the roles of a unit vector.
 fn direction_roles() -> Vec<NumberRole> {
     vec![NumberRole::Direction(0), NumberRole::Direction(1), NumberRole::Direction(2)]
 }
 
+/// Returns the roles of an arc's axis.
 fn arc_axis_roles() -> Vec<NumberRole> {
     vec![NumberRole::ArcAxis(0), NumberRole::ArcAxis(1), NumberRole::ArcAxis(2)]
 }

@@ -1,4 +1,5 @@
-//! What gives a program its structure: operations, units, text, marks of motion classes, and words without effect.
+//! This module reads the structure of a program: operations, units, text, marks of motion classes, and words
+//! without effect.
 
 use super::{BadRecord, NumberRole, Record, RecordReading, bad_record};
 use crate::program::motion_class::MotionClass;
@@ -6,22 +7,23 @@ use crate::program::syntax::{StatementKind, StatementSyntax, fold_text};
 use crate::program::units::LengthUnit;
 use std::ops::Range;
 
-/// Where an operation's and its tool's names stand in a statement's text.
+/// The places of an operation's and its tool's names in a statement's text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OperationNames {
-    /// The operation's name.
+    /// The place of the operation's name.
     pub name: Box<Range<usize>>,
-    /// The tool's name, where the record has one.
+    /// The place of the tool's name, if the record has one.
     pub tool: Option<Box<Range<usize>>>,
 }
 
-/// A mark in the file that says what kind of motion follows.
+/// A mark in the file that gives the class of the motions that follow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MotionMark {
     /// The class; `None` ends the mark.
     pub class: Option<MotionClass>,
 }
 
+/// Reads a record of this family.
 pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordReading {
     Some(Ok(match major {
         "PAINT" => read_paint(syntax),
@@ -37,19 +39,20 @@ pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordRe
     }))
 }
 
-/// `TOOL PATH/name,TOOL,tool`.
+/// Reads `TOOL PATH/name,TOOL,tool`.
 pub(super) fn read_tool_path(syntax: &StatementSyntax<'_>) -> Record {
     let at = |index: usize| syntax.fields.get(index).map(|field| Box::new(field.at.clone()));
     Record::OperationStart(OperationNames { name: at(0).unwrap_or_default(), tool: at(1) })
 }
 
+/// Reads Creo's FEATNO, which starts an operation.
 fn read_feature_start(syntax: &StatementSyntax<'_>) -> Record {
     let at = syntax.fields.first().map(|field| field.at.clone()).unwrap_or_default();
     Record::OperationStart(OperationNames { name: Box::new(at), tool: None })
 }
 
-/// `$$ OPERATION NAME : X` (CATIA) starts an operation; the words before the colon are English in every language measured,
-/// unlike the `Start generation of` line after it.
+/// Reads a comment. `$$ OPERATION NAME : X` (CATIA) starts an operation. The words before the colon are
+/// English in every language that was measured, unlike the `Start generation of` line after it.
 pub(super) fn read_comment(syntax: &StatementSyntax<'_>) -> Record {
     const MARK: &[u8] = b"$$ OPERATION NAME : ";
     let Some(rest) = syntax.text.strip_prefix(MARK) else { return Record::Comment };
@@ -58,6 +61,7 @@ pub(super) fn read_comment(syntax: &StatementSyntax<'_>) -> Record {
     Record::OperationStart(OperationNames { name: Box::new(name), tool: None })
 }
 
+/// Reads a record whose rest is text for people. Some of these texts mark operations or motions.
 pub(super) fn read_free_text(syntax: &StatementSyntax<'_>) -> Record {
     let Some(field) = syntax.fields.first() else { return Record::Text };
     match syntax.major_word().as_str() {
@@ -70,7 +74,7 @@ pub(super) fn read_free_text(syntax: &StatementSyntax<'_>) -> Record {
     }
 }
 
-/// Makino FF labels its motions in PPRINT: `MOTION,CUTIN,TYPE,VERTICAL-INFEED`.
+/// Reads the labels of motions that Makino FF writes in PPRINT: `MOTION,CUTIN,TYPE,VERTICAL-INFEED`.
 fn read_makino_motion(text: &str) -> Record {
     let mut words = text.split(',');
     if words.next() != Some("MOTION") {
@@ -87,8 +91,8 @@ fn read_makino_motion(text: &str) -> Record {
     Record::Marked(MotionMark { class: Some(class) })
 }
 
-/// NX colours mark motion classes (measured over what follows each): 186 start and rapid, 211 rapid, 42 engage, 31 cut,
-/// 36 step-over, 37 retract.
+/// Reads the colours with which NX marks motion classes (measured from the motions that follow each): 186
+/// start and rapid, 211 rapid, 42 engage, 31 cut, 36 step-over, 37 retract.
 fn read_paint(syntax: &StatementSyntax<'_>) -> Record {
     let (Some("COLOR"), Some(color)) = (syntax.word_at(0).as_deref(), syntax.number_at(1)) else {
         return Record::Known;
@@ -105,7 +109,7 @@ fn read_paint(syntax: &StatementSyntax<'_>) -> Record {
     Record::Marked(MotionMark { class })
 }
 
-/// CLT: `MOVE_ATTRIB/ LEADIN,END_ATTRIB`.
+/// Reads the marks of CLT: `MOVE_ATTRIB/ LEADIN,END_ATTRIB`.
 fn read_move_attribute(syntax: &StatementSyntax<'_>) -> Record {
     let class = match syntax.word_at(0).as_deref() {
         Some("LEADIN") => Some(MotionClass::Engage),
@@ -115,6 +119,7 @@ fn read_move_attribute(syntax: &StatementSyntax<'_>) -> Record {
     Record::Marked(MotionMark { class })
 }
 
+/// Reads the unit of lengths.
 fn read_units(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     match syntax.word_at(0).as_deref() {
         Some("MM" | "MILLIMETERS" | "METRIC") => Ok(Record::Units(LengthUnit::Mm)),
@@ -123,8 +128,10 @@ fn read_units(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     }
 }
 
-/// Words of the standard and of the measured dialects that do not change the tool path.
+/// Returns whether a word of the standard or of the measured dialects is known to have no effect on the tool
+/// path.
 fn is_known_word(major: &str) -> bool {
+    // The list is sorted for the binary search below.
     const KNOWN: &[&str] = &[
         "AUTOPS",
         "AUXFUN",
@@ -194,7 +201,8 @@ fn is_known_word(major: &str) -> bool {
     KNOWN.binary_search(&major).is_ok()
 }
 
-/// Roles in words without effect: tolerances and boxes are lengths, the rest stays.
+/// Returns the roles of numbers in words without effect: tolerances and boxes are lengths, all others are
+/// plain.
 pub(super) fn number_roles(syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
     let major = syntax.major_word();
     let numbers = syntax.numbers().len();

@@ -1,58 +1,60 @@
-//! Tools: their numbers, shapes and axis.
+//! This module reads tools: their numbers, shapes and axis.
 
 use super::{BadRecord, NumberRole, Record, RecordReading, path, read_all_numbers, wrong_count};
 use crate::program::syntax::{FieldKind, StatementKind, StatementSyntax};
 
-/// Which word described a tool's shape; the meaning of its numbers hangs on it.
+/// The word that described a tool's shape, on which the meaning of its numbers depends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ToolWord {
     /// NX `TLDATA/MILL,D,corner radius,length,taper,tip`.
     TlDataMill,
     /// NX `TLDATA/DRILL[,MILL],D,corner radius,length,point angle,flute length`.
     TlDataDrill,
-    /// NX `TLDATA/` of another kind (TURN, WEDM, ...): kept, no shape known.
+    /// NX `TLDATA/` of another kind (TURN, WEDM, ...): it is kept, but gives no shape.
     TlDataOther,
-    /// `CUTTER/d[,r,e,f,a,b,h]`, the standard's seven parameters.
+    /// `CUTTER/d[,r,e,f,a,b,h]`, the seven parameters of the standard.
     Cutter,
     /// `CUTTER/d` in a comment of Creo: the diameter.
     CreoCutter,
 }
 
-/// Shape of a tool as far as the CL data says. Lengths in the file's unit.
+/// The shape of a tool as far as the CL data gives it; lengths are in the file's unit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToolData {
-    /// The record's word.
+    /// The word of the record.
     pub word: ToolWord,
-    /// Diameter (of a lathe tool: of its nose).
+    /// The diameter (for a lathe tool, that of its nose).
     pub diameter: Option<f64>,
-    /// Corner radius.
+    /// The corner radius.
     pub corner_radius: Option<f64>,
-    /// Length below the holder.
+    /// The length below the holder.
     pub length: Option<f64>,
-    /// Flank taper against the axis in degrees.
+    /// The taper of the flank against the axis, degrees.
     pub taper_degrees: Option<f64>,
-    /// Angle of the tip: of a drill the full point angle, of a mill the angle of its bottom against the plane.
+    /// The angle of the tip, degrees: for a drill the full point angle, for a mill the angle of its bottom
+    /// against the plane.
     pub tip_degrees: Option<f64>,
-    /// Length of the flutes.
+    /// The length of the flutes.
     pub flute_length: Option<f64>,
 }
 
-/// A tool by number.
+/// A call of a tool by its number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ToolCall {
-    /// Number of the tool.
+    /// The number of the tool.
     pub number: u32,
-    /// Whether the record loads it (`LOAD/TOOL`, `LOADTL`, `TURRET`), or only names it (`TOOLNO`).
+    /// Whether the record loads the tool (`LOAD/TOOL`, `LOADTL`, `TURRET`) or only names it (`TOOLNO`).
     pub loads: bool,
 }
 
+/// Reads a record of this family.
 pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordReading {
     Some(match major {
         "TLDATA" => read_tl_data(syntax),
         "CUTTER" => read_cutter(syntax),
         "LOADTL" => read_tool_call(major, syntax, 0, true),
         "TOOLNO" => read_tool_call(major, syntax, 0, false),
-        // CATIA's lathe tools: TURRET/1,OSETNO,1,SETOOL,...
+        // This is the form of CATIA's lathe tools: TURRET/1,OSETNO,1,SETOOL,...
         "TURRET" => read_tool_call(major, syntax, 0, true),
         "LOAD" if syntax.word_at(0).as_deref() == Some("TOOL") => read_tool_call(major, syntax, 1, true),
         "TLAXIS" => read_tool_axis(major, syntax),
@@ -61,6 +63,7 @@ pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordRe
     })
 }
 
+/// Reads the number of a tool in the field `at`.
 fn read_tool_call(
     major: &str,
     syntax: &StatementSyntax<'_>,
@@ -72,11 +75,12 @@ fn read_tool_call(
             Ok(Record::ToolCall(ToolCall { number: number as u32, loads }))
         }
         Some(_) => Err(wrong_count(major, syntax, "a whole tool number", 1)),
-        // LOADTL/NOMORE, TOOLNO/'name': a name, or a post's own word.
+        // LOADTL/NOMORE and TOOLNO/'name' have a name or a word of a post.
         None => Ok(Record::Known),
     }
 }
 
+/// Reads NX's TLDATA.
 fn read_tl_data(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     let words = syntax.fields.iter().take_while(|field| matches!(field.kind, FieldKind::Text)).count();
     let rest: Option<Vec<f64>> = syntax.fields.iter().skip(words).map(|field| field.number_value()).collect();
@@ -108,8 +112,9 @@ fn read_tl_data(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     })))
 }
 
+/// Reads a CUTTER.
 fn read_cutter(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
-    // CUTTER/OPTION,... and the like set no shape.
+    // CUTTER/OPTION,... and the like give no shape.
     if syntax.word_at(0).is_some_and(|word| !word.starts_with(|first: char| first.is_ascii_digit())) {
         return Ok(Record::Known);
     }
@@ -125,14 +130,15 @@ fn read_cutter(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
         corner_radius: at(1),
         length: at(6),
         taper_degrees: at(5),
-        // The standard's alpha is the angle of the bottom against the plane, 31 for a 118 degree drill.
+        // The standard's alpha is the angle of the bottom against the plane: 31 for a drill of 118 degrees.
         tip_degrees: at(4),
         flute_length: None,
     })))
 }
 
+/// Reads a TLAXIS.
 fn read_tool_axis(major: &str, syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
-    // TLAXIS/NORMPS, TLAXIS/OFF: words of part programs and posts.
+    // TLAXIS/NORMPS and TLAXIS/OFF are words of part programs and posts.
     if syntax.word_at(0).is_some_and(|word| word.starts_with(|first: char| first.is_ascii_alphabetic())) {
         return Ok(Record::Known);
     }
@@ -142,6 +148,7 @@ fn read_tool_axis(major: &str, syntax: &StatementSyntax<'_>) -> Result<Record, B
     }
 }
 
+/// Returns the roles of the numbers of this family.
 pub(super) fn number_roles(record: &Record, syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
     let count = syntax.numbers().len();
     match record {
@@ -149,12 +156,14 @@ pub(super) fn number_roles(record: &Record, syntax: &StatementSyntax<'_>) -> Vec
             vec![NumberRole::Direction(0), NumberRole::Direction(1), NumberRole::Direction(2)]
         }
         Record::ToolData(data) => (0..count).map(|index| tool_number_role(data.word, index)).collect(),
-        // TOOLNO/2,10.0 (CATIA): number, then the diameter; the long forms mix angles, feeds and lengths.
+        // TOOLNO/2,10.0 (CATIA) has the number and the diameter; its long forms mix angles, feeds and
+        // lengths.
         Record::ToolCall(call) if !call.loads && count == 2 => vec![NumberRole::Plain, NumberRole::Length],
         _ => vec![NumberRole::Plain; count],
     }
 }
 
+/// Returns the role of a number in a tool's shape.
 fn tool_number_role(word: ToolWord, index: usize) -> NumberRole {
     let length = match word {
         ToolWord::TlDataMill => index <= 2,
