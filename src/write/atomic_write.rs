@@ -1,4 +1,4 @@
-//! An output appears whole or not at all.
+//! This module writes files so that an output appears whole or not at all.
 
 use super::interrupt::{Interrupt, InterruptibleWriter};
 use std::fs::{self, File, Metadata};
@@ -6,30 +6,34 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
+/// The size of the write buffer in bytes.
 const CHUNK: usize = 256 * 1024;
+/// The end of the name of temporary files.
 const SUFFIX: &str = ".tmp";
 
-/// A temporary file that nobody wrote to for so long, and that nobody has locked, was left over by a killed process.
+/// The age from which an unlocked temporary file counts as left over by a killed process.
 const LEFTOVER_AGE: Duration = Duration::from_secs(60);
 
-/// Writes a file so that every reader sees either all of the old one or all of the new one.
+/// Writes a file so that every reader sees either all of the old file or all of the new one.
 ///
-/// The bytes go to a temporary file in the target's folder, which is flushed, synced and renamed. The permissions of an
-/// existing target are kept; its owner and the other names of a hard-linked file are not: those go on naming the old bytes.
-/// A symbolic link stays, and the file it points at is replaced. What is no file (a pipe, `/dev/stdout`) has no old content
-/// to protect and is written directly.
+/// The bytes go to a temporary file in the target's folder, which is flushed, synced and renamed. The
+/// permissions of an existing target are kept. Its owner is not kept, and neither are the other names of a
+/// hard-linked file, which keep naming the old bytes. A symbolic link stays, and the file that it points at
+/// is replaced. A target that is not a file (a pipe, `/dev/stdout`) has no old content to protect and is
+/// written directly.
 ///
 /// # Errors
-/// What `write` returns, or what the operating system says. The target is then as it was, and the temporary file is gone.
-/// A write-protected target is refused, although a rename could replace it.
+/// Returns the errors of `write` and of the operating system. The target is then unchanged, and the temporary
+/// file is removed. A write-protected target is refused, although a rename could replace it.
 pub fn write_atomically(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     write_atomically_unless(path, &Interrupt::new(), write)
 }
 
-/// [`write_atomically`], which gives up between two chunks once `interrupt` is raised.
+/// Writes a file as [`write_atomically`] does, but stops between two chunks once `interrupt` is raised.
 ///
 /// # Errors
-/// As [`write_atomically`]; after an interrupt, one that [`is_interrupt`](super::is_interrupt) recognizes.
+/// Returns the errors of [`write_atomically`]; after an interrupt, one that
+/// [`is_interrupt`](super::is_interrupt) recognizes.
 pub fn write_atomically_unless(
     path: &Path,
     interrupt: &Interrupt,
@@ -38,7 +42,7 @@ pub fn write_atomically_unless(
     TemporaryFiles::default().write_file(path, interrupt, write)
 }
 
-/// How temporary files are called. Whoever has a name of their own can tell theirs after a power cut.
+/// The names of temporary files. A caller with names of its own can recognize its files after a power cut.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TemporaryFiles {
     prefix: String,
@@ -51,22 +55,22 @@ impl Default for TemporaryFiles {
 }
 
 impl TemporaryFiles {
-    /// Temporary files called `.clsmith-<owner>-*.tmp`.
+    /// Makes names of the form `.clsmith-<owner>-*.tmp`.
     pub fn for_owner(owner: &str) -> Self {
         Self { prefix: format!(".clsmith-{owner}-") }
     }
 
-    /// Whether a file is, by its name, one of these that a process left behind when it was killed.
+    /// Returns whether a file is, by its name, a temporary file that a killed process may have left behind.
     pub fn is_leftover(&self, name: &std::ffi::OsStr) -> bool {
         let name = name.as_encoded_bytes();
         name.starts_with(self.prefix.as_bytes()) && name.ends_with(SUFFIX.as_bytes())
     }
 
-    /// Removes what killed processes left behind in a folder, and gives the number of files removed.
+    /// Removes the temporary files in a folder that killed processes left behind, and returns their number.
     ///
-    /// A process holds a lock on the temporary file that it writes, and loses it when it ends, however it ends. A file without
-    /// a lock that nobody wrote to for a minute is therefore left over; younger ones may not be locked yet. What cannot be
-    /// read, locked or removed stays.
+    /// A process holds a lock on the temporary file that it writes, and loses it when it ends, however it
+    /// ends. So a file without a lock that was not written for a minute is left over; younger files may not
+    /// be locked yet. Files that cannot be read, locked or removed stay.
     pub fn remove_leftovers(&self, folder: &Path) -> usize {
         let Some(oldest) = SystemTime::now().checked_sub(LEFTOVER_AGE) else { return 0 };
         let Ok(entries) = fs::read_dir(folder) else { return 0 };
@@ -77,10 +81,10 @@ impl TemporaryFiles {
             .count()
     }
 
-    /// As [`write_atomically_unless`].
+    /// Writes a file as [`write_atomically_unless`] does.
     ///
     /// # Errors
-    /// As [`write_atomically_unless`].
+    /// Returns the errors of [`write_atomically_unless`].
     pub fn write_file(
         &self,
         path: &Path,
@@ -104,10 +108,11 @@ impl TemporaryFiles {
     }
 }
 
-/// [`write_atomically`] for a file that is not there yet.
+/// Writes a file as [`write_atomically`] does if it does not exist yet.
 ///
 /// # Errors
-/// [`io::ErrorKind::AlreadyExists`] when something has that name, also if it came meanwhile; it stays as it is.
+/// Returns [`io::ErrorKind::AlreadyExists`] if the name exists, even if it was created in the meantime; that
+/// file stays unchanged.
 pub fn write_new_atomically(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -124,6 +129,7 @@ pub fn write_new_atomically(
     Ok(())
 }
 
+/// Replaces a file, or creates it if `old` is `None`.
 fn replace_file(
     temporaries: &TemporaryFiles,
     target: &Path,
@@ -131,22 +137,25 @@ fn replace_file(
     interrupt: &Interrupt,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
-    // The same folder, because a rename is only atomic within one file system.
+    // The temporary file is in the same folder, because a rename is only atomic within one file system.
     let folder = parent_folder(target);
-    // Nobody who may not read the old file may read the new one, not even while it is being written.
+    // A user who may not read the old file must not be able to read the new one, not even while it is
+    // written.
     let temporary = create_temporary(folder, &temporaries.prefix, old.map(Metadata::permissions))?;
     fill_file(temporary.as_file(), interrupt, write)?;
-    // The umask may have taken away what the old file allows.
+    // The umask may have removed permissions that the old file has.
     if let Some(old) = old {
         temporary.as_file().set_permissions(old.permissions())?;
     }
     temporary.as_file().sync_all()?;
+    // This is the last moment at which an interrupt leaves the old file in place.
     interrupt.check()?;
     temporary.persist(target).map_err(|failed| failed.error)?;
     sync_folder(folder);
     Ok(())
 }
 
+/// Writes the content through a buffer that checks for interrupts.
 fn fill_file(
     file: &File,
     interrupt: &Interrupt,
@@ -157,31 +166,33 @@ fn fill_file(
     out.flush()
 }
 
-/// Creates a temporary file that its process holds a lock on, with the permissions of the file that it replaces.
+/// Creates a temporary file with a lock that this process holds, and with the permissions of the file that it
+/// replaces.
 fn create_temporary(
     folder: &Path,
     prefix: &str,
     permissions: Option<fs::Permissions>,
 ) -> io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
-    // A fixed prefix: the target's own name in front could pass the length a file name may have.
+    // The prefix is fixed, because the target's own name before it could exceed the longest file name.
     builder.prefix(prefix).suffix(SUFFIX);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        // What any new file asks for; the user's umask takes away what they do not want to share. The default of
-        // tempfile, 0600, would hide the output from the colleague at the machine.
+        // These are the permissions of any new file; the user's umask removes those that are not wanted. The
+        // default of tempfile, 0600, would hide the output from the colleague at the machine.
         builder.permissions(permissions.unwrap_or_else(|| fs::Permissions::from_mode(0o666)));
     }
     #[cfg(not(unix))]
     let _ = permissions;
     let temporary = builder.tempfile_in(folder)?;
-    // A file system without locks still writes; then only no other run will clear the file away.
+    // A file system without locks can still be written; then only no other run will remove the file.
     let _ = temporary.as_file().try_lock();
     Ok(temporary)
 }
 
-/// Whether a temporary file is one whose process was killed: nobody holds its lock, and it is no newer than `oldest`.
+/// Returns whether the process of a temporary file was killed: nobody holds its lock, and it is older than
+/// `oldest`.
 fn is_abandoned(path: &Path, oldest: SystemTime) -> bool {
     let rests = fs::symlink_metadata(path)
         .and_then(|there| if there.is_file() { there.modified() } else { Ok(SystemTime::now()) })
@@ -192,7 +203,7 @@ fn is_abandoned(path: &Path, oldest: SystemTime) -> bool {
 /// Follows symbolic links at the end of a path, also to a file that does not exist yet.
 pub(super) fn follow_links(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_path_buf();
-    // As many as Linux follows.
+    // Linux follows as many links.
     for _ in 0..40 {
         let Ok(next) = fs::read_link(&path) else { return Ok(path) };
         path = parent_folder(&path).join(next);
@@ -200,6 +211,7 @@ pub(super) fn follow_links(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::other("too many symbolic links"))
 }
 
+/// Returns the folder of a path, which is `.` for a bare name.
 pub(super) fn parent_folder(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -207,7 +219,8 @@ pub(super) fn parent_folder(path: &Path) -> &Path {
     }
 }
 
-// After the rename the new file stands; some file systems cannot sync a folder, and "failed" would now be wrong.
+// After the rename the new file is in place. Some file systems cannot sync a folder, and an error would now
+// be wrong.
 #[cfg(unix)]
 fn sync_folder(folder: &Path) {
     if let Ok(folder) = File::open(folder) {

@@ -1,7 +1,8 @@
-//! The gate through which transforms change a program.
+//! This module is the gate through which transforms change a program.
 //!
-//! An edit makes a text, reads it back with the parser, and puts both in place, signed with the step. So a record always
-//! says what its text says, and what simulation or checks see after a step is what will be written.
+//! An edit makes a text, reads it back with the parser, and puts text and record in place together, signed
+//! with the step. So a record always has the meaning of its text, and a simulation or a check after a step
+//! sees what will be written.
 
 use super::file_style::FileStyle;
 use super::number_patch;
@@ -10,7 +11,7 @@ use crate::parse;
 use crate::program::{Program, Record, StatementSyntax, StepId};
 use std::ops::Range;
 
-/// Edits one program on behalf of one recipe step.
+/// Edits one program for one recipe step.
 #[derive(Debug)]
 pub struct ProgramEditor {
     program: Program,
@@ -26,17 +27,18 @@ impl ProgramEditor {
         Self { program, step, style, inserted: Vec::new() }
     }
 
-    /// The program with the edits made so far (insertions come with [`ProgramEditor::finish`]).
+    /// Returns the program with the edits so far; insertions are made by [`ProgramEditor::finish`].
     pub fn program(&self) -> &Program {
         &self.program
     }
 
-    /// The file's style.
+    /// Returns the file's style.
     pub fn style(&self) -> &FileStyle {
         &self.style
     }
 
-    /// Lets changed lengths and feeds have more decimals than their own, where a step needs them (see [`FileStyle::finer`]).
+    /// Sets how many decimals changed lengths and feeds get beyond their own, if a step needs them (see
+    /// [`FileStyle::finer`]).
     pub fn set_extra_decimals(&mut self, decimals: usize) {
         self.style.finer = decimals;
     }
@@ -44,7 +46,8 @@ impl ProgramEditor {
     /// Gives numbers of a statement new values: pairs of the number's index and its value.
     ///
     /// # Errors
-    /// When the patched text cannot be read back (a value too large to print, say).
+    /// Returns an error if the patched text cannot be read back, for example because a value is too large to
+    /// print.
     pub fn set_numbers(&mut self, index: usize, edits: &[(usize, f64)]) -> Result<(), Box<Diagnostic>> {
         let Some(statement) = self.program.statement(index) else { return Ok(()) };
         let text = self.program.statement_text(statement);
@@ -58,10 +61,11 @@ impl ProgramEditor {
         }
     }
 
-    /// Replaces parts of a statement's text; `parts` are places in it with their new bytes, in order, not overlapping.
+    /// Replaces parts of a statement's text. `parts` are places in it with their new bytes, in order and
+    /// without overlap.
     ///
     /// # Errors
-    /// When the new text cannot be read back.
+    /// Returns an error if the new text cannot be read back.
     pub fn replace_parts(
         &mut self,
         index: usize,
@@ -80,26 +84,26 @@ impl ProgramEditor {
         self.set_text(index, &out)
     }
 
-    /// Gives a statement a new text, line end included.
+    /// Gives a statement a new text with its line end.
     ///
     /// # Errors
-    /// When it is not one well-formed statement.
+    /// Returns an error if the text is not one well-formed statement.
     pub fn set_text(&mut self, index: usize, text: &[u8]) -> Result<(), Box<Diagnostic>> {
         let record = self.read_back(index, text)?;
         self.program.replace_statement(index, text, record, self.step);
         Ok(())
     }
 
-    /// Takes a statement out.
+    /// Deletes a statement.
     pub fn delete_statement(&mut self, index: usize) {
         self.program.delete_statement(index, self.step);
     }
 
-    /// Puts a statement in before another (the count of statements for the end). `text` needs no line end; it gets the
-    /// file's.
+    /// Inserts a statement before another one (before the count of statements for the end). `text` needs no
+    /// line end; it gets that of the file.
     ///
     /// # Errors
-    /// When it is not one well-formed statement.
+    /// Returns an error if the text is not one well-formed statement.
     pub fn insert_before(&mut self, index: usize, text: &[u8]) -> Result<(), Box<Diagnostic>> {
         let text = [strip_line_end(text), self.style.line_end.as_bytes()].concat();
         let record = self.read_back(index, &text)?;
@@ -107,18 +111,19 @@ impl ProgramEditor {
         Ok(())
     }
 
-    /// Puts a statement in after another.
+    /// Inserts a statement after another one.
     ///
     /// # Errors
-    /// When it is not one well-formed statement.
+    /// Returns an error if the text is not one well-formed statement.
     pub fn insert_after(&mut self, index: usize, text: &[u8]) -> Result<(), Box<Diagnostic>> {
         self.insert_before(index + 1, text)
     }
 
-    /// Closes the gate.
+    /// Closes the gate and returns the program with all edits.
     ///
     /// # Errors
-    /// As [`ProgramEditor::set_text`]: a last line without line end gets one when something is put after it.
+    /// Returns the errors of [`ProgramEditor::set_text`]: a last line without line end gets one if something
+    /// is inserted after it.
     pub fn finish(mut self) -> Result<Program, Box<Diagnostic>> {
         let end = self.program.statements().len();
         let last = self
@@ -129,6 +134,7 @@ impl ProgramEditor {
         if let Some((last, text)) = last.filter(|(_, text)| !text.ends_with(b"\n") && !text.ends_with(b"\r"))
             && let Some((_, new, _)) = self.inserted.iter_mut().rev().find(|(index, _, _)| *index == end)
         {
+            // The old last line gets a line end, and the new last line has none, as the file had it.
             new.truncate(strip_line_end(new).len());
             let closed = [text, self.style.line_end.as_bytes()].concat();
             self.set_text(last, &closed)?;
@@ -137,6 +143,7 @@ impl ProgramEditor {
         Ok(self.program)
     }
 
+    /// Reads a text back; makes an error of a text that is not one statement.
     fn read_back(&self, index: usize, text: &[u8]) -> Result<Record, Box<Diagnostic>> {
         let problem = match parse::read_whole_record(text) {
             Ok(record) => return Ok(record),
@@ -148,6 +155,7 @@ impl ProgramEditor {
         Err(self.unwritable_error(index, &message))
     }
 
+    /// Makes the error for a text that cannot be written, with the place of its statement.
     fn unwritable_error(&self, index: usize, message: &str) -> Box<Diagnostic> {
         let mut diagnostic = Diagnostic::new(codes::UNREADABLE_EDIT, message);
         if let Some(statement) = self.program.statement(index) {
@@ -158,11 +166,12 @@ impl ProgramEditor {
     }
 }
 
-/// A statement's text taken apart, with its index and program: for transforms that look at words.
+/// Returns the syntax of a statement's text, for transforms that examine words.
 pub fn statement_syntax(program: &Program, index: usize) -> Option<StatementSyntax<'_>> {
     program.statement(index).map(|statement| parse::syntax(program.statement_text(statement)))
 }
 
+/// Returns a text without its line end.
 fn strip_line_end(text: &[u8]) -> &[u8] {
     let end = text.iter().rposition(|byte| !matches!(byte, b'\n' | b'\r')).map_or(0, |last| last + 1);
     text.get(..end).unwrap_or_default()

@@ -1,41 +1,44 @@
-//! How a file writes its numbers and lines, measured on the file itself.
+//! This module measures on a file itself how it writes its numbers and lines.
 
 use crate::number::{self, NumberFormat, ZeroStyle};
 use crate::parse;
 use crate::program::{NumberRole, Program, Record};
 
-/// How many statements of a kind are looked at; files are uniform.
+/// The number of statements of a kind that are examined; files are uniform.
 const SAMPLE: usize = 200;
 
 /// The style of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FileStyle {
-    /// Zero style.
+    /// The zero style.
     pub zeros: ZeroStyle,
-    /// Most decimals seen in coordinates and lengths.
+    /// The most decimals in coordinates and lengths.
     pub length_decimals: usize,
-    /// Most decimals seen in unit vectors.
+    /// The most decimals in unit vectors.
     pub direction_decimals: usize,
-    /// Most decimals seen in feeds.
+    /// The most decimals in feeds.
     pub feed_decimals: usize,
-    /// Numbers stand right-aligned in columns.
+    /// Whether numbers are right-aligned in columns.
     pub columns: bool,
-    /// `\n`, `\r\n` or a lone `\r`: what most of the sampled lines end in.
+    /// The line end of most of the sampled lines: `\n`, `\r\n` or a lone `\r`.
     pub line_end: &'static str,
-    /// Decimals that changed lengths and feeds get beyond their own; 0 unless a step converts to a larger unit.
+    /// The number of decimals that changed lengths and feeds get beyond their own; 0 unless a step converts
+    /// to a larger unit.
     pub finer: usize,
 }
 
-/// No number gets more decimals than this by [`FileStyle::finer`]: a hundred-millionth of an inch is below any file's own.
+/// The most decimals that [`FileStyle::finer`] gives a number. A hundred-millionth of an inch is below the
+/// decimals of any file.
 const FINEST: usize = 8;
 
 impl FileStyle {
-    /// Measures a program as it stands, what earlier steps changed included: so two steps of one recipe write the same bytes
-    /// as two runs with one step each. Where nothing is there to measure it is 4, 7 and 4 decimals, as NX has them.
+    /// Measures a program as it is now, including the changes of earlier steps. So two steps of one recipe
+    /// write the same bytes as two runs with one step each. If there is nothing to measure, the style has 4,
+    /// 7 and 4 decimals, as in NX.
     pub fn from_program(program: &Program) -> Self {
         let mut seen = StyleSample::from_program(program);
         if seen.lines == 0 {
-            // No point and no feed: what its first line ends in.
+            // A file without points and feeds has the line end of its first line.
             let bytes = program.source().bytes();
             let end: &[u8] = match memchr::memchr2(b'\n', b'\r', bytes).and_then(|end| bytes.get(end..)) {
                 Some([b'\r', b'\n', ..]) => b"\r\n",
@@ -44,6 +47,7 @@ impl FileStyle {
             };
             seen.count_line_end(end);
         }
+        // One number may look padded or cut by chance, so the majority decides.
         let solidworks = program.dialect() == crate::program::Dialect::SolidWorks;
         Self {
             zeros: if solidworks || seen.cut_zeros > seen.padded { ZeroStyle::Cut } else { ZeroStyle::Kept },
@@ -60,7 +64,7 @@ impl FileStyle {
         }
     }
 
-    /// Decimals that the file has for a role.
+    /// Returns the number of decimals that the file has for a role.
     pub fn role_decimals(&self, role: NumberRole) -> usize {
         match role {
             NumberRole::Direction(_) | NumberRole::ArcAxis(_) | NumberRole::FrameAxis(..) => {
@@ -74,7 +78,8 @@ impl FileStyle {
         }
     }
 
-    /// The form of a changed number: its own decimals at least, or the file's where the file cuts zeros.
+    /// Returns the format of a changed number: at least its own decimals, or those of the file if the file
+    /// cuts zeros.
     pub fn changed_format(&self, role: NumberRole, original: &[u8]) -> NumberFormat {
         let own = number::count_decimals(original);
         let decimals = match self.zeros {
@@ -89,12 +94,13 @@ impl FileStyle {
             _ => self.finer,
         };
         let decimals = decimals.max((decimals + finer).min(FINEST));
+        // Each further decimal makes the tolerance ten times finer.
         let tolerance = role_tolerance(role) * 0.1f64.powi(finer as i32);
         let point = original.contains(&b'.') || !matches!(role, NumberRole::Plain | NumberRole::SurfaceSpeed);
         NumberFormat { decimals, tolerance, zeros: self.zeros, point }
     }
 
-    /// The form of a new number.
+    /// Returns the format of a new number.
     pub fn new_format(&self, role: NumberRole) -> NumberFormat {
         let point = role != NumberRole::Plain;
         NumberFormat {
@@ -106,8 +112,9 @@ impl FileStyle {
     }
 }
 
-/// Half of the coarsest last decimal that measured dialects print: 4 for lengths and feeds, 6 for unit vectors. The axes of a
-/// frame carry whole parts: 7 decimals, as NX prints them, keep a metre within the fourth decimal.
+/// Returns half of the coarsest last decimal that measured dialects print: 4 decimals for lengths and feeds,
+/// 6 for unit vectors. The axes of a frame move whole parts: 7 decimals, as NX prints them, keep a metre
+/// within the fourth decimal.
 fn role_tolerance(role: NumberRole) -> f64 {
     match role {
         NumberRole::FrameAxis(..) => 5e-8,
@@ -116,6 +123,7 @@ fn role_tolerance(role: NumberRole) -> f64 {
     }
 }
 
+/// The counts from which a style is made.
 #[derive(Default)]
 struct StyleSample {
     points: usize,
@@ -127,12 +135,14 @@ struct StyleSample {
     lengths: Option<usize>,
     directions: Option<usize>,
     feed: Option<usize>,
-    /// Numbers that only a writer without padding writes, and those that only one with padding does.
+    /// The number of numbers that only a writer without padding writes, and of those that only one with
+    /// padding writes.
     cut_zeros: usize,
     padded: usize,
 }
 
 impl StyleSample {
+    /// Measures the points, feeds and axes of a program until there are enough of each kind.
     fn from_program(program: &Program) -> Self {
         let mut seen = Self::default();
         for (_, statement) in program.live_statements() {
@@ -152,13 +162,14 @@ impl StyleSample {
         seen
     }
 
-    /// Counts what a line ends in.
+    /// Counts the line end of a line.
     fn count_line_end(&mut self, text: &[u8]) {
         self.lines += 1;
         self.crlf += usize::from(text.ends_with(b"\r\n"));
         self.cr += usize::from(text.ends_with(b"\r"));
     }
 
+    /// Measures the numbers of one statement.
     fn measure_statement(&mut self, record: &Record, text: &[u8]) {
         self.count_line_end(text);
         for ((at, _), role) in

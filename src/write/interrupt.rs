@@ -1,48 +1,50 @@
-//! Ctrl-C while a file is being written.
+//! This module handles Ctrl-C while a file is being written.
 
 use std::io::{self, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The wish to stop, shared by whoever hears the signal and whoever does the work.
+/// A request to stop, which the signal handler and the working code share.
 ///
-/// The signal handler only raises the flag. The writer looks at it between two chunks and fails with an error, so the
-/// temporary file is removed the way it is after any other error: by its destructor. No handler needs a list of files to
-/// delete, and a process that is killed outright leaves one `.clsmith-*.tmp` behind but never half an output.
+/// The signal handler only raises the flag. The writer checks it between two chunks and fails with an error,
+/// so the temporary file is removed by its destructor, as after any other error. So no handler needs a list
+/// of files to delete. A process that is killed outright leaves one `.clsmith-*.tmp` file behind, but never
+/// half an output.
 #[derive(Debug, Clone, Default)]
 pub struct Interrupt(Arc<AtomicBool>);
 
 impl Interrupt {
-    /// A flag that nobody has raised.
+    /// Makes a flag that is not raised.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Asks the work to stop; safe to call from a signal handler's thread.
+    /// Requests a stop. It is safe to call this from a signal handler's thread.
     pub fn raise(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether somebody asked to stop.
+    /// Returns whether a stop was requested.
     pub fn is_raised(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// For loops that work long between two writes.
+    /// Returns an error if a stop was requested; for loops that work long between two writes.
     ///
     /// # Errors
-    /// One that [`is_interrupt`] recognizes, once the flag is raised.
+    /// Returns an error that [`is_interrupt`] recognizes once the flag is raised.
     pub fn check(&self) -> io::Result<()> {
         if self.is_raised() { Err(io::Error::other(WriteInterrupted)) } else { Ok(()) }
     }
 }
 
-/// Whether an error means that the user stopped the run, rather than that writing failed.
+/// Returns whether an error means that the user stopped the run, and not that writing failed.
 pub fn is_interrupt(error: &io::Error) -> bool {
     error.get_ref().is_some_and(|inner| inner.is::<WriteInterrupted>())
 }
 
-// Not `ErrorKind::Interrupted`: `write_all` takes that kind as "try again" and would never return.
+// The kind is not `ErrorKind::Interrupted`, because `write_all` takes that as "try again" and would never
+// return.
 #[derive(Debug, thiserror::Error)]
 #[error("stopped before the file was complete")]
 struct WriteInterrupted;

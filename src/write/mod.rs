@@ -1,4 +1,5 @@
-//! Writing: patching statements in the file's own style, and files that appear whole or not at all.
+//! This module writes: it patches statements in the file's own style, and writes files that appear whole or
+//! not at all.
 
 mod atomic_write;
 mod editor;

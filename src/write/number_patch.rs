@@ -1,26 +1,27 @@
-//! Patching numbers in a statement's text, each in its own style.
+//! This module patches numbers in a statement's text, each in its own style.
 
 use super::file_style::FileStyle;
 use crate::parse;
 use crate::program::{NumberRole, Record};
 
-/// A change below this share of the value is the noise of arithmetic, not an edit.
+/// A change below this fraction of the value is noise of the arithmetic and not an edit.
 const NOISE: f64 = 1e-13;
 
-/// A feed is printed to a thousandth of itself at least.
+/// The fraction of a feed to which it is printed at least.
 pub const FEED_SHARE: f64 = 1e-3;
 
-/// Fewest decimals of a unit vector in a new statement: CATIA prints its start tangents with five.
+/// The fewest decimals of a unit vector in a new statement. CATIA prints its start tangents with five.
 const DIRECTION_DECIMALS: usize = 5;
 
-/// Fewest decimals of other numbers in a new statement.
+/// The fewest decimals of other numbers in a new statement.
 const LENGTH_DECIMALS: usize = 4;
 
-/// The text with new values for some of its numbers; `None` when nothing changes.
+/// Returns the text with new values for some of its numbers, or `None` if nothing changes.
 ///
-/// `edits` are pairs of a number's index (in the order the numbers stand) and its new value. Numbers keep their decimals, or
-/// get more when fewer would lose the edit; in column dialects they keep their column. Everything else stays as it is.
-/// A value that is no number is left out; [`super::ProgramEditor`] refuses it.
+/// `edits` are pairs of a number's index (in the order of the text) and its new value. Numbers keep their
+/// decimals, or get more if fewer would lose the edit. In dialects with columns they keep their column.
+/// Everything else stays unchanged. A value that is not finite is ignored; [`super::ProgramEditor`] refuses
+/// it.
 pub fn patch_numbers(
     text: &[u8],
     record: &Record,
@@ -30,7 +31,7 @@ pub fn patch_numbers(
     let out = reprint_numbers(text, record, edits, style, |role, original, old, wanted| {
         let mut form = style.changed_format(role, original);
         if role == NumberRole::Feed {
-            // Feeds span four powers of ten (0.002 inch/rev, 9000 mm/min): what counts is the proportion.
+            // Feeds span four powers of ten (0.002 inch/rev, 9000 mm/min), so their tolerance is relative.
             form.tolerance = form.tolerance.min(wanted.abs() * FEED_SHARE);
         }
         form.format_number(wanted, wanted - old)
@@ -38,10 +39,11 @@ pub fn patch_numbers(
     (out != text).then_some(out)
 }
 
-/// A statement's text with other values for some of its numbers, for a new statement in the form of an old one.
+/// Returns a statement's text with other values for some of its numbers, for a new statement in the form of
+/// an old one.
 ///
-/// The numbers are rounded to the decimals of the old ones, or of the file where that has more, but to no fewer than four (unit
-/// vectors: five): half of the last one is all they are off.
+/// The numbers are rounded to the decimals of the old ones, or to those of the file if it has more, but to at
+/// least four (unit vectors: five). So they are off by at most half of the last decimal.
 pub fn copy_with_numbers(
     text: &[u8],
     record: &Record,
@@ -63,7 +65,8 @@ pub fn copy_with_numbers(
     out.unwrap_or_else(|| text.to_vec())
 }
 
-/// The text with the numbers of `edits` printed anew, those left out that do not change; `None` when none does.
+/// Prints the numbers of `edits` anew, except those that do not change. Returns the text, or `None` if no
+/// number changes.
 fn reprint_numbers(
     text: &[u8],
     record: &Record,
@@ -99,12 +102,12 @@ fn reprint_numbers(
     Some(out)
 }
 
-/// Ends the number where the old one ended, taking blanks from before it, or adding some.
+/// Ends the number in the column where the old one ended, by removing blanks before it or adding some.
 fn push_in_column(out: &mut Vec<u8>, before: &[u8], old_length: usize, printed: &str) {
     let blanks = before.iter().rev().take_while(|&&byte| byte == b' ').count();
     let kept = before.get(..before.len() - blanks).unwrap_or_default();
     let width = blanks + old_length;
-    // Where no comma but blanks part a number from what stands before it, one of them stays.
+    // If only blanks, and no comma, separate a number from the text before it, one blank must stay.
     let least =
         usize::from(blanks > 0 && !matches!(kept.last(), None | Some(b',' | b'/' | b'(' | b'\n' | b'\r')));
     out.extend_from_slice(kept);

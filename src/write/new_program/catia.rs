@@ -1,16 +1,17 @@
-//! CATIA V5 APT.
+//! This module writes CATIA V5 APT.
 
 use super::{ArcMove, DialectWriter, ProgramDraft};
 use crate::program::{LengthUnit, MotionClass};
 use nalgebra::Point3;
 
-/// Five decimals in eleven columns for coordinates, six for axes, four in ten columns for feeds and speeds.
+/// Writes CATIA V5 APT: five decimals in eleven columns for coordinates, six for axes, and four in ten
+/// columns for feeds and speeds.
 #[derive(Default)]
 pub(super) struct CatiaWriter {
     text: String,
     unit: &'static str,
     tolerance: f64,
-    /// Whether an arc was the last motion.
+    /// Whether the last motion was an arc.
     in_arcs: bool,
 }
 
@@ -67,7 +68,7 @@ impl DialectWriter for CatiaWriter {
         }
     }
 
-    /// CATIA marks no motions.
+    /// Does nothing, since CATIA does not mark motions.
     fn write_class(&mut self, _: MotionClass) {}
 
     fn write_feed(&mut self, feed: f64) {
@@ -85,6 +86,7 @@ impl DialectWriter for CatiaWriter {
     }
 
     fn write_arc(&mut self, arc: &ArcMove) {
+        // Only the first of several arcs is announced with its tolerances.
         if !self.in_arcs {
             self.push_line(format!("INTOL /{:11.5}", self.tolerance));
             self.push_line("OUTTOL/    0.00000");
@@ -92,8 +94,9 @@ impl DialectWriter for CatiaWriter {
             self.in_arcs = true;
         }
         let (centre, to) = (arc.centre, arc.to);
+        // INDIRV is the start tangent: the axis cross the spoke to the start.
         let start = arc.axis.cross(&(arc.from - centre)).try_normalize(0.0).unwrap_or_default();
-        // Adding zero makes plus zero of minus zero.
+        // Adding zero makes zero of minus zero.
         let start = start.map(|value| (value * 1e5).round() / 1e5 + 0.0);
         let radius = (arc.from - centre).norm();
         self.push_line(format!("INDIRV/{:11.5},{:11.5},{:11.5}", start.x, start.y, start.z));
@@ -111,7 +114,7 @@ impl DialectWriter for CatiaWriter {
         if draft.spindle.is_some() {
             self.push_line("SPINDL/OFF");
         }
-        // An empty line ends every file of this system.
+        // Every file of this system ends with an empty line.
         for line in ["REWIND/0", "END", ""] {
             self.push_line(line);
         }

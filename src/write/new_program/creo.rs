@@ -1,10 +1,11 @@
-//! PTC Creo NCL.
+//! This module writes PTC Creo NCL.
 
 use super::{ArcMove, DialectWriter, ProgramDraft};
 use crate::program::{LengthUnit, MotionClass};
 use nalgebra::Point3;
 
-/// Ten decimals for coordinates, six for the rest; blanks around the slash and behind commas.
+/// Writes PTC Creo NCL: ten decimals for coordinates and six for other numbers, with blanks around the slash
+/// and behind commas.
 #[derive(Default)]
 pub(super) struct CreoWriter {
     text: String,
@@ -44,7 +45,7 @@ impl DialectWriter for CreoWriter {
         }
     }
 
-    /// Creo marks no motions.
+    /// Does nothing, since Creo does not mark motions.
     fn write_class(&mut self, _: MotionClass) {}
 
     fn write_feed(&mut self, feed: f64) {
@@ -52,7 +53,7 @@ impl DialectWriter for CreoWriter {
     }
 
     fn write_rapid(&mut self, to: Point3<f64>) {
-        // With its blank behind.
+        // Creo writes a blank behind this word.
         self.push_line("RAPID ");
         DialectWriter::write_line(self, to);
     }
@@ -61,7 +62,8 @@ impl DialectWriter for CreoWriter {
         CreoWriter::push_line(self, format!("GOTO / {:.10}, {:.10}, {:.10}", to.x, to.y, to.z));
     }
 
-    /// Nobody has measured how Creo's arcs turn: what comes back from this is a straight motion, which reading back refuses.
+    /// Writes a straight motion, since nobody has measured the direction of Creo's arcs. Reading back then
+    /// refuses the program.
     fn write_arc(&mut self, arc: &ArcMove) {
         DialectWriter::write_line(self, arc.to);
     }

@@ -1,70 +1,70 @@
-//! What a new program shall do.
+//! This module holds the draft of a new program.
 
 use crate::program::{LengthUnit, MotionClass};
 use nalgebra::{Point3, Vector3};
 
-/// A program of one operation with one tool along z. Lengths in `units`, feeds in `units` a minute.
+/// A program of one operation with one tool along z. Lengths are in `units`, feeds in `units` per minute.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProgramDraft {
-    /// Name of the part or program.
+    /// The name of the part or program.
     pub name: String,
-    /// Name of the operation.
+    /// The name of the operation.
     pub operation: String,
-    /// Its tool.
+    /// The tool.
     pub tool: DraftTool,
-    /// Spindle speed in revolutions a minute, clockwise; none leaves it to the machine.
+    /// The spindle speed in revolutions per minute, clockwise; `None` leaves it to the machine.
     pub spindle: Option<f64>,
     /// Whether coolant is switched on, and off at the end.
     pub coolant: bool,
-    /// Unit of everything.
+    /// The unit of all lengths.
     pub units: LengthUnit,
-    /// The tolerance of arcs that a dialect wants to be told.
+    /// The tolerance of arcs, for dialects that state it.
     pub tolerance: f64,
-    /// The motions. The first one says where the tool starts.
+    /// The motions. The first one gives the start of the tool.
     pub moves: Vec<DraftMove>,
 }
 
 /// The tool of a draft.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DraftTool {
-    /// Its number.
+    /// The number.
     pub number: u32,
-    /// Its name.
+    /// The name.
     pub name: String,
-    /// Its diameter.
+    /// The diameter.
     pub diameter: f64,
-    /// Its corner radius: half the diameter of a ball.
+    /// The corner radius; half the diameter for a ball.
     pub corner_radius: f64,
-    /// Its length.
+    /// The length.
     pub length: f64,
 }
 
 /// A motion of a draft.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DraftMove {
-    /// Where it ends.
+    /// The end point.
     pub to: Point3<f64>,
-    /// How it goes there.
+    /// The path to the end point.
     pub way: DraftMoveKind,
-    /// What it is for.
+    /// The class.
     pub class: MotionClass,
 }
 
-/// How a motion goes.
+/// The path of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DraftMoveKind {
-    /// At rapid.
+    /// A rapid.
     Rapid,
-    /// Straight.
+    /// A straight line.
     Line {
         /// The feed.
         feed: f64,
     },
-    /// Along an arc of no more than half a turn.
+    /// An arc of at most half a turn.
     Arc {
-        /// Its centre.
+        /// The centre.
         centre: Point3<f64>,
-        /// A unit vector about which it goes counter-clockwise.
+        /// The unit vector about which the arc is counter-clockwise.
         axis: Vector3<f64>,
         /// The feed.
         feed: f64,
@@ -72,7 +72,7 @@ pub enum DraftMoveKind {
 }
 
 impl DraftMoveKind {
-    /// The feed; none of a rapid.
+    /// Returns the feed, or `None` for a rapid.
     pub fn feed(&self) -> Option<f64> {
         match self {
             Self::Rapid => None,

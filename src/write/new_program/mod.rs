@@ -1,7 +1,9 @@
-//! Whole programs, written new: what a program shall do, as text of a dialect that reads back as exactly that.
+//! This module writes whole new programs in the text of a dialect, which reads back as exactly the intended
+//! program.
 //!
-//! A [`ProgramDraft`] says what is meant, in numbers that the dialect can print ([`round_coordinate`]). [`write_program()`] makes the text, one file for each
-//! dialect after programs of these systems, and reads it back before anybody gets it.
+//! A [`ProgramDraft`] holds the intended program in numbers that the dialect can print
+//! ([`round_coordinate`]). [`write_program()`] makes the text and reads it back before anyone gets it. There
+//! is one file for each dialect, made after programs of these systems.
 
 mod catia;
 mod creo;
@@ -15,10 +17,11 @@ pub use read_back::ReadBackError;
 use crate::program::{Dialect, MotionClass};
 use nalgebra::Point3;
 
-/// The dialects that whole programs can be written in.
+/// The dialects in which whole programs can be written.
 pub const WRITABLE: [Dialect; 3] = [Dialect::Nx, Dialect::Catia, Dialect::Creo];
 
-/// Decimals of coordinates in a dialect's programs (measured; see [`WRITABLE`] for those that are written).
+/// Returns the decimals of coordinates in a dialect's programs (measured; see [`WRITABLE`] for the dialects
+/// that are written).
 pub fn coordinate_decimals(dialect: Dialect) -> usize {
     match dialect {
         Dialect::Catia => 5,
@@ -27,44 +30,45 @@ pub fn coordinate_decimals(dialect: Dialect) -> usize {
     }
 }
 
-/// Whether the sense of an arc in a vertical plane is known in a dialect: measured in NX, told by INDIRV in CATIA. No arc of Creo's was ever
-/// seen.
+/// Returns whether the direction of an arc in a vertical plane is known in a dialect. It is measured in NX
+/// and given by INDIRV in CATIA. No arc of Creo was ever seen.
 pub fn can_write_arcs(dialect: Dialect) -> bool {
     matches!(dialect, Dialect::Nx | Dialect::Catia)
 }
 
-/// A coordinate as the dialect prints it.
+/// Returns a coordinate as the dialect prints it.
 pub fn round_coordinate(value: f64, dialect: Dialect) -> f64 {
     round_to_decimals(value, coordinate_decimals(dialect))
 }
 
-/// A feed as the dialect prints it: with six decimals in Creo, four elsewhere.
+/// Returns a feed as the dialect prints it: with six decimals in Creo, four elsewhere.
 pub fn round_feed(value: f64, dialect: Dialect) -> f64 {
     round_to_decimals(value, if dialect == Dialect::Creo { 6 } else { 4 })
 }
 
+/// Rounds a value to a number of decimals.
 fn round_to_decimals(value: f64, decimals: usize) -> f64 {
     let scale = 10f64.powi(decimals as i32);
     let rounded = (value * scale).round() / scale;
-    // Minus zero would be printed as such.
+    // Minus zero would be printed with its sign.
     if rounded == 0.0 { 0.0 } else { rounded }
 }
 
-/// What the dialects have to say in their own words, in the order in which it is asked for.
+/// The words of a dialect, in the order in which they are written.
 trait DialectWriter {
-    /// Everything up to the first motion.
+    /// Writes everything up to the first motion.
     fn write_start(&mut self, draft: &ProgramDraft);
-    /// What the next motions are for.
+    /// Writes the class of the next motions.
     fn write_class(&mut self, class: MotionClass);
-    /// A new feed, for motions from here on.
+    /// Writes a new feed for the following motions.
     fn write_feed(&mut self, feed: f64);
-    /// A rapid to a point.
+    /// Writes a rapid to a point.
     fn write_rapid(&mut self, to: Point3<f64>);
-    /// A straight motion at feed.
+    /// Writes a straight motion at feed.
     fn write_line(&mut self, to: Point3<f64>);
-    /// An arc at feed.
+    /// Writes an arc at feed.
     fn write_arc(&mut self, arc: &ArcMove);
-    /// Everything after the last motion.
+    /// Writes everything after the last motion and returns the text.
     fn write_end(&mut self, draft: &ProgramDraft) -> Vec<u8>;
 }
 
@@ -73,14 +77,15 @@ struct ArcMove {
     from: Point3<f64>,
     to: Point3<f64>,
     centre: Point3<f64>,
-    /// The sweep is counter-clockwise about it.
+    /// The unit vector about which the sweep is counter-clockwise.
     axis: nalgebra::Vector3<f64>,
 }
 
-/// Writes a draft as a program of a dialect of [`WRITABLE`], NX for any other.
+/// Writes a draft as a program of a dialect of [`WRITABLE`], or of NX for any other dialect.
 ///
 /// # Errors
-/// [`ReadBackError`] when the text does not read back as the draft: numbers that the dialect cannot print, or names that it does not hold.
+/// Returns a [`ReadBackError`] if the text does not read back as the draft, because of numbers that the
+/// dialect cannot print or names that it cannot hold.
 pub fn write_program(draft: &ProgramDraft, dialect: Dialect) -> Result<Vec<u8>, ReadBackError> {
     let mut writer: Box<dyn DialectWriter> = match dialect {
         Dialect::Catia => Box::new(catia::CatiaWriter::default()),
@@ -102,6 +107,7 @@ pub fn write_program(draft: &ProgramDraft, dialect: Dialect) -> Result<Vec<u8>, 
             writer.write_feed(wanted);
             feed = Some(wanted);
         }
+        // The first motion has no start, so it cannot be an arc.
         match (&step.way, at) {
             (DraftMoveKind::Rapid, _) => writer.write_rapid(step.to),
             (DraftMoveKind::Arc { centre, axis, .. }, Some(from)) => {

@@ -1,10 +1,11 @@
-//! Siemens NX CLSF.
+//! This module writes Siemens NX CLSF.
 
 use super::{ArcMove, DialectWriter, ProgramDraft};
 use crate::program::{LengthUnit, MotionClass};
 use nalgebra::Point3;
 
-/// Four decimals for lengths, seven for vectors, without exception in what was measured.
+/// Writes Siemens NX CLSF: four decimals for lengths and seven for vectors, without exception in the measured
+/// files.
 #[derive(Default)]
 pub(super) struct NxWriter {
     text: String,
@@ -35,7 +36,7 @@ impl DialectWriter for NxWriter {
         self.push_line("$$ centerline data");
         self.push_line("PAINT/PATH");
         self.push_line("PAINT/SPEED,10");
-        // NX leaves a blank behind these two.
+        // NX writes a blank behind these two lines.
         self.push_line(format!("LOAD/TOOL,{0},ADJUST,{0} ", tool.number));
         if let Some(speed) = draft.spindle {
             self.push_line(format!("SPINDL/RPM,{speed},CLW "));
@@ -67,7 +68,7 @@ impl DialectWriter for NxWriter {
     }
 
     fn write_line(&mut self, to: Point3<f64>) {
-        // The axis stands at the first point and stays in force.
+        // The axis is printed at the first point and stays in force.
         let axis = if self.begun { "" } else { ",0.0000000,0.0000000,1.0000000" };
         self.begun = true;
         NxWriter::push_line(self, format!("GOTO/{:.4},{:.4},{:.4}{axis}", to.x, to.y, to.z));

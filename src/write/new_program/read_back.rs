@@ -1,4 +1,4 @@
-//! Reading a written program back: it must say what was meant, and nothing else.
+//! This module reads a written program back: it must mean what the draft means, and nothing else.
 
 use super::{DraftMove, DraftMoveKind, ProgramDraft};
 use crate::parse::parse;
@@ -7,30 +7,32 @@ use crate::program::motion::Motion;
 use crate::program::{Dialect, Program};
 use crate::source::Source;
 
-/// Coordinates are printed exactly as they were rounded; this much only for doubles, in any unit.
+/// The largest relative difference of coordinates. They are printed exactly as they were rounded, so only the
+/// arithmetic of `f64` may differ.
 const SAME: f64 = 1e-9;
 
-/// What the radius of an arc may change by between its ends because of rounded coordinates, in last decimals.
+/// The largest difference of an arc's radii at its ends, in units of the last decimal; the coordinates are
+/// rounded.
 const ARC_SLACK: f64 = 4.0;
 
-/// A program that does not read back as it was meant.
+/// A program does not read back as it was intended.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("motion {motion}: {reason}")]
 pub struct ReadBackError {
-    /// Which motion, from 1; 0 for the program as a whole.
+    /// The number of the motion, from 1; 0 for the program as a whole.
     pub motion: usize,
-    /// What is different.
+    /// The difference.
     pub reason: String,
 }
 
-/// Whether a text says what a draft means.
+/// Checks that a text means what a draft means.
 pub(super) fn check_read_back(
     text: &[u8],
     draft: &ProgramDraft,
     dialect: Dialect,
 ) -> Result<(), ReadBackError> {
     let whole = |reason: String| ReadBackError { motion: 0, reason };
-    // A line end in a name would be a statement of its own, a comma a field, and from a dollar sign on all is comment.
+    // In a name, a line end would begin a statement, a comma a field, and a dollar sign a comment.
     let breaks = |c: char| !(c.is_ascii_graphic() || c == ' ') || matches!(c, ',' | '$');
     if let Some(name) =
         [&draft.name, &draft.operation, &draft.tool.name].into_iter().find(|name| name.contains(breaks))
@@ -39,7 +41,7 @@ pub(super) fn check_read_back(
     }
     let source =
         Source::new("the written program", text.to_vec()).map_err(|error| whole(error.to_string()))?;
-    // Nothing is told about the dialect: the text must show it.
+    // The dialect is not given, because the text itself must show it.
     let parsed = parse(&source, None);
     if let Some(found) = parsed.diagnostics.first() {
         return Err(whole(format!("{}: {}", found.code, found.message)));
@@ -65,6 +67,7 @@ pub(super) fn check_read_back(
     }
 }
 
+/// Compares a motion with the intended one.
 fn check_motion(meant: &DraftMove, motion: &Motion, slack: f64) -> Result<(), String> {
     let off = (motion.to.point - meant.to).norm();
     if off.is_nan() || off > SAME * (1.0 + meant.to.coords.norm()) {
@@ -83,7 +86,7 @@ fn check_motion(meant: &DraftMove, motion: &Motion, slack: f64) -> Result<(), St
         (DraftMoveKind::Arc { centre, axis, .. }, MotionPath::Arc(arc)) => {
             let turned = arc.axis.dot(axis);
             let off = (arc.center - centre).norm();
-            // An axis of seven decimals, in the plane of points of four.
+            // The axis has seven decimals, but the points that define the plane only have four.
             if off > SAME * (1.0 + centre.coords.norm()) || turned < 0.99 || arc.sweep > 3.2 {
                 return Err(format!("the arc turns otherwise: {arc:?}"));
             }
