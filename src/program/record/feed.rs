@@ -7,9 +7,9 @@ use crate::program::units::{Feed, FeedUnit};
 /// The direction of the spindle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SpindleDirection {
-    /// `CLW`.
+    /// Clockwise, seen from the holder down to the work: `CLW`.
     Clockwise,
-    /// `CCLW`.
+    /// Counter-clockwise: `CCLW`.
     CounterClockwise,
 }
 
@@ -24,7 +24,7 @@ pub enum SpindleUnit {
     SurfaceMetres,
 }
 
-/// `SPINDL/`.
+/// A `SPINDL/` record.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spindle {
     /// Whether the spindle turns after the record.
@@ -54,20 +54,20 @@ impl Spindle {
 /// The side of cutter compensation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CompensationSide {
-    /// `LEFT`.
+    /// The tool is to the left of the programmed path: `LEFT`.
     Left,
-    /// `RIGHT`.
+    /// The tool is to the right of it: `RIGHT`.
     Right,
 }
 
-/// `CUTCOM/`.
+/// A `CUTCOM/` record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CutterCompensation {
     /// `CUTCOM/LEFT` or `RIGHT`, perhaps with a plane.
     On(CompensationSide),
     /// `CUTCOM/ON`: the side follows later (CLT).
     Armed,
-    /// `CUTCOM/OFF`.
+    /// `CUTCOM/OFF`: compensation ends.
     Off,
 }
 

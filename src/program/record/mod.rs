@@ -65,20 +65,20 @@ pub enum Record {
     /// `RAPID`: the next motion, and only that one, is a rapid.
     Rapid,
 
-    /// `FEDRAT/`.
+    /// `FEDRAT/`: a feed.
     Feed(Feed),
-    /// `SPINDL/`.
+    /// `SPINDL/`: the spindle's speed and direction.
     Spindle(Box<Spindle>),
-    /// `CUTCOM/`.
+    /// `CUTCOM/`: cutter compensation is switched.
     CutterCompensation(CutterCompensation),
 
     /// `LOAD/TOOL`, `LOADTL/`, `TURRET/`, `TOOLNO/`: a tool by its number.
     ToolCall(ToolCall),
     /// `TLDATA/`, `CUTTER/`, Creo's `$$-> CUTTER`: the shape of the tool.
     ToolData(Box<ToolData>),
-    /// `TLAXIS/`.
+    /// `TLAXIS/`: the tool axis.
     ToolAxis(Box<Vector3<f64>>),
-    /// `MULTAX`, `MULTAX/ON`, `MULTAX/OFF`.
+    /// `MULTAX`, `MULTAX/ON`, `MULTAX/OFF`: points have tool axes, or no longer have them.
     MultiAxis(bool),
 
     /// `MSYS/`, `CSYS/`, `CAMERA/`, `TRANS/`, `ORIGIN/`, `ROTABL/`: a frame, or a shift or turn of it.
@@ -92,7 +92,7 @@ pub enum Record {
     Cycle(Box<DrillingCycle>),
     /// `CYCLE/ON`: the last cycle is switched on again.
     CycleOn,
-    /// `CYCLE/OFF`.
+    /// `CYCLE/OFF`: the cycle ends.
     CycleOff,
 
     /// A word that gives the class of the motions that follow (`PAINT/COLOR`, FF's `PPRINT/MOTION`, CLT's
@@ -102,7 +102,7 @@ pub enum Record {
     OperationStart(OperationNames),
     /// An operation ends.
     OperationEnd,
-    /// `UNITS/`, `UNIT/`.
+    /// `UNITS/`, `UNIT/`: the unit of lengths.
     Units(LengthUnit),
     /// `FINI`, `END`: the program ends.
     ProgramEnd,

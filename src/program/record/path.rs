@@ -24,11 +24,11 @@ pub enum ArcSense {
     OfDialect,
     /// `CLOCKWISE`, seen from the tip of the axis.
     Clockwise,
-    /// `COUNTERCLOCKWISE`.
+    /// `COUNTERCLOCKWISE`, seen from the tip of the axis.
     CounterClockwise,
 }
 
-/// `CIRCLE/cx,cy,cz,i,j,k[,r[,tolerance,0.5,diameter,corner]][,TIMES,n][,CLOCKWISE]`.
+/// An arc: `CIRCLE/cx,cy,cz,i,j,k[,r[,tolerance,0.5,diameter,corner]][,TIMES,n][,CLOCKWISE]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Circle {
     /// The centre.
@@ -44,7 +44,7 @@ pub struct Circle {
     pub times: u32,
 }
 
-/// `MOVARC/cx,cy,cz,i,j,k,r,ANGLE,degrees`, or with `CENTER`, `AXIS`, `RADIUS` before their numbers.
+/// An arc: `MOVARC/cx,cy,cz,i,j,k,r,ANGLE,degrees`, or with `CENTER`, `AXIS`, `RADIUS` before their numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MoveArc {
     /// The centre.
@@ -57,7 +57,7 @@ pub struct MoveArc {
     pub sweep_degrees: Option<f64>,
 }
 
-/// `TLON,GOFWD/(CIRCLE/cx,cy,cz,r),ON,[2,INTOF,](LINE/cx,cy,cz,ex,ey,ez)`.
+/// An arc: `TLON,GOFWD/(CIRCLE/cx,cy,cz,r),ON,[2,INTOF,](LINE/cx,cy,cz,ex,ey,ez)`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DriveArc {
     /// The centre.
