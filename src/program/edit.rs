@@ -49,6 +49,7 @@ impl Program {
     /// report can show it.
     pub(crate) fn delete_statement(&mut self, index: usize, step: StepId) {
         if let Some(statement) = self.statements.get_mut(index) {
+            self.step_edits.record_deletion(&statement.record, statement.change, step);
             statement.change = StatementChange::Deleted(step);
         }
     }
@@ -59,6 +60,7 @@ impl Program {
         if new.is_empty() {
             return;
         }
+        new.iter().for_each(|(_, _, record)| self.step_edits.record_insertion(record));
         // A stable sort keeps the order of insertions at the same place. One pass then merges both lists.
         new.sort_by_key(|(index, _, _)| *index);
         let mut merged = Vec::with_capacity(self.statements.len() + new.len());

@@ -16,7 +16,9 @@ pub mod motion_class;
 pub mod operation;
 mod provenance_comments;
 pub mod record;
+mod record_kind;
 mod statement;
+mod step_edits;
 mod syntax;
 pub mod units;
 
@@ -25,7 +27,9 @@ pub use history::StatementEdit;
 pub use motion_class::MotionClass;
 pub use provenance_comments::{OWN_WORD, ProvenanceComment};
 pub use record::{NumberRole, Record};
+pub use record_kind::RecordKind;
 pub use statement::{Statement, StatementChange, StepId};
+pub use step_edits::StepEdits;
 pub use syntax::{FieldGroup, FieldKind, StatementField, StatementKind, StatementSyntax, fold_text};
 pub use units::{Feed, FeedUnit, LengthUnit};
 
@@ -41,12 +45,20 @@ pub struct Program {
     statements: Vec<Statement>,
     dialect: Dialect,
     history: Option<Box<history::EditHistory>>,
+    step_edits: step_edits::StepEditCounts,
 }
 
 impl Program {
     /// Makes an empty program over a source; the parser fills it.
     pub(crate) fn new(source: Arc<Source>) -> Self {
-        Self { source, edits: Vec::new(), statements: Vec::new(), dialect: Dialect::Iso, history: None }
+        Self {
+            source,
+            edits: Vec::new(),
+            statements: Vec::new(),
+            dialect: Dialect::Iso,
+            history: None,
+            step_edits: step_edits::StepEditCounts::default(),
+        }
     }
 
     pub(crate) fn set_dialect(&mut self, dialect: Dialect) {

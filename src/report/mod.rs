@@ -14,7 +14,6 @@ pub mod html;
 pub mod layered_chips;
 pub mod path_drawing;
 pub mod plot;
-pub mod record_kind;
 pub mod render;
 mod rounding;
 pub mod simulation;

@@ -92,7 +92,11 @@ impl StepSequence<'_> {
         for (index, step) in self.steps.iter().enumerate() {
             context.step = step_id(index);
             match step.apply(program, &mut context) {
-                Ok(changed) => program = changed,
+                Ok(changed) => {
+                    program = changed;
+                    // Before the next step signs the same statements.
+                    program.close_step(context.step);
+                }
                 Err(stopped) => {
                     context.findings.push(*stopped);
                     return Err(context.findings);

@@ -3,6 +3,7 @@
 use super::file_style::FileStyle;
 use crate::parse;
 use crate::program::{NumberRole, Record};
+use std::iter::Peekable;
 
 /// A change below this fraction of the value is noise of the arithmetic and not an edit.
 const NOISE: f64 = 1e-13;
@@ -78,8 +79,12 @@ fn reprint_numbers(
     let roles = parse::number_roles(record, text);
     let mut out = Vec::with_capacity(text.len() + 16);
     let mut copied = 0;
+    // One way through both lists: a statement may have hundreds of thousands of numbers.
+    let mut edits = in_number_order(edits);
     for (index, (at, old)) in places.iter().enumerate() {
-        let Some(&(_, wanted)) = edits.iter().find(|(edited, _)| *edited == index) else { continue };
+        let Some((_, wanted)) = edits.next_if(|(edited, _)| *edited == index) else { continue };
+        // Of two values for one number the first counts.
+        while edits.next_if(|(edited, _)| *edited == index).is_some() {}
         if !wanted.is_finite() || (wanted - old).abs() <= NOISE * old.abs().max(1.0) {
             continue;
         }
@@ -100,6 +105,12 @@ fn reprint_numbers(
     }
     out.extend_from_slice(text.get(copied..).unwrap_or_default());
     Some(out)
+}
+
+fn in_number_order(edits: &[(usize, f64)]) -> Peekable<impl Iterator<Item = (usize, f64)>> {
+    let mut edits = edits.to_vec();
+    edits.sort_by_key(|(index, _)| *index);
+    edits.into_iter().peekable()
 }
 
 /// Ends the number in the column where the old one ended, by removing blanks before it or adding some.

@@ -2,8 +2,8 @@
 
 use super::stats::POCKET;
 use crate::support::{program, rounded_snapshots, snapshots};
+use clsmith::program::RecordKind;
 use clsmith::report::diff::{ProgramDiff, summarize_diff, to_json, to_text};
-use clsmith::report::record_kind::RecordKind;
 use std::fmt::Write;
 
 fn diff(a: &str, b: &str) -> ProgramDiff {

@@ -1,17 +1,17 @@
 //! What a recipe made of a program, step by step.
 //!
-//! Counted from the signatures of the statements, so no step keeps a log. A statement is signed by the last step that
-//! changed it. The JSON ([`to_json`]) is [`RecipeChanges`] as it stands, with `"version": 1`; `version` changes when a reader of
-//! the structure would have to, new keys may be added without.
+//! Each step is credited with what it changed itself ([`Program::step_edits`]), also where a later step changed the same
+//! statements again. The JSON ([`to_json`]) is [`RecipeChanges`] as it stands, with `"version": 1`; `version` changes when a
+//! reader of the structure would have to, new keys may be added without.
 
 mod text;
 
 use crate::program::LengthUnit;
 pub use text::{steps_to_text, to_text};
 
-use super::record_kind::RecordKind;
 use super::stats::{MotionLengthAndTime, MotionTotals, ResolvedLengthUnit};
-use crate::program::{Program, StatementChange};
+use crate::program::RecordKind;
+use crate::program::{Program, StepEdits};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -43,12 +43,12 @@ pub struct StepChanges {
     pub edited: BTreeMap<RecordKind, usize>,
     /// Statements it put in.
     pub inserted: BTreeMap<RecordKind, usize>,
-    /// Statements of the file that it took out.
+    /// Statements that it took out.
     pub deleted: BTreeMap<RecordKind, usize>,
 }
 
 impl StepChanges {
-    /// Whether the step changed nothing that a later step did not change again.
+    /// Whether the step changed nothing.
     pub fn is_empty(&self) -> bool {
         self.edited.is_empty() && self.inserted.is_empty() && self.deleted.is_empty()
     }
@@ -92,26 +92,17 @@ impl RecipeChanges {
 pub fn count_step_changes(after: &Program, steps: &[&str]) -> (Vec<StepChanges>, usize) {
     let named = |name: &&str| StepChanges { name: (*name).to_owned(), ..StepChanges::default() };
     let mut found: Vec<StepChanges> = steps.iter().map(named).collect();
-    let mut untouched = 0;
-    for statement in after.statements() {
-        let Some(step) = statement.edited_by() else {
-            untouched += 1;
-            continue;
-        };
-        let step = usize::from(step.0);
-        if found.len() <= step {
-            found.resize(step + 1, StepChanges::default());
+    for edits in after.step_edits() {
+        let index = usize::from(edits.step.0);
+        if found.len() <= index {
+            found.resize(index + 1, StepChanges::default());
         }
-        let Some(step) = found.get_mut(step) else { continue };
-        let counts = match statement.change() {
-            StatementChange::Inserted(_) => &mut step.inserted,
-            // One step put it in, this one took it out: the file never had it.
-            StatementChange::Deleted(_) if statement.origin().is_empty() => continue,
-            StatementChange::Deleted(_) => &mut step.deleted,
-            StatementChange::Edited(_) | StatementChange::Untouched => &mut step.edited,
-        };
-        *counts.entry(RecordKind::from_record(statement.record())).or_default() += 1;
+        if let Some(step) = found.get_mut(index) {
+            let StepEdits { edited, inserted, deleted, .. } = edits;
+            *step = StepChanges { name: std::mem::take(&mut step.name), edited, inserted, deleted };
+        }
     }
+    let untouched = after.statements().iter().filter(|statement| statement.edited_by().is_none()).count();
     (found, untouched)
 }
 

@@ -2,7 +2,7 @@
 
 use super::{RecipeChanges, StepChanges};
 use crate::presentation::safe_text::to_safe_line;
-use crate::report::record_kind::RecordKind;
+use crate::program::RecordKind;
 use crate::report::stats::MotionTotals;
 use crate::report::text_format::{format_counted, format_duration, format_fixed, format_table, unit_name};
 use std::collections::BTreeMap;

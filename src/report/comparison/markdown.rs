@@ -3,8 +3,8 @@
 use super::{Comparison, ComparisonFigures, ComparisonPeak, ComparisonRow};
 use crate::diagnostic::{Diagnostic, DiagnosticLabel};
 use crate::presentation::safe_text::to_safe_line;
+use crate::program::RecordKind;
 use crate::report::changes::StepChanges;
-use crate::report::record_kind::RecordKind;
 use crate::report::text_format::{format_count, format_counted, format_duration, format_fixed, format_short};
 use crate::transform::PROVENANCE;
 use std::collections::BTreeMap;

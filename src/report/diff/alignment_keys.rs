@@ -1,8 +1,8 @@
 //! What statements are aligned by: their meaning where it is the same, their shape where it is not.
 
 use crate::parse;
+use crate::program::RecordKind;
 use crate::program::{FieldKind, Program, Record, Statement, StatementField, StatementSyntax, fold_text};
-use crate::report::record_kind::RecordKind;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// The keys of a program's live statements.

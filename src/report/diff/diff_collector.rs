@@ -6,9 +6,9 @@ use super::difference_kind::{DifferenceKind, StatementPair};
 use super::{
     DiffCounts, DiffSide, MOST_LISTED, OperationDiff, ProgramDiff, StatementDifference, path_comparison,
 };
+use crate::program::RecordKind;
 use crate::program::geometry::SAME_POINT;
 use crate::program::{LengthUnit, Program, Record, Statement, operation};
-use crate::report::record_kind::RecordKind;
 use crate::report::statement_line;
 use crate::report::stats::{MotionTotals, ReportedRange, ResolvedLengthUnit};
 use std::collections::BTreeMap;

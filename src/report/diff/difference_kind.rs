@@ -2,8 +2,8 @@
 
 use super::alignment_keys::have_same_meaning;
 use crate::parse;
+use crate::program::RecordKind;
 use crate::program::{Feed, LengthUnit, NumberRole, Program, Record, Statement};
-use crate::report::record_kind::RecordKind;
 use serde::Serialize;
 
 /// How a statement differs.

@@ -16,9 +16,9 @@ pub use difference_kind::DifferenceKind;
 pub use path_comparison::PathComparison;
 pub use text::{summarize_diff, to_text};
 
-use super::record_kind::RecordKind;
 use super::stats::{DialectName, MotionTotals, ReportedRange, ResolvedLengthUnit};
 use crate::program::Program;
+use crate::program::RecordKind;
 use serde::Serialize;
 use std::collections::BTreeMap;
 

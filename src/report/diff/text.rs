@@ -2,7 +2,7 @@
 
 use super::{DiffCounts, DifferenceKind, ProgramDiff, StatementDifference};
 use crate::presentation::safe_text::to_safe_line;
-use crate::report::record_kind::RecordKind;
+use crate::program::RecordKind;
 use crate::report::text_format::{format_counted, format_duration, format_length, format_short, unit_name};
 use std::collections::BTreeMap;
 use std::fmt::Write;

@@ -1,6 +1,6 @@
-//! Kinds of statements, as reports count them.
+//! Kinds of statements, coarser than records, as changes and differences are counted.
 
-use crate::program::Record;
+use super::Record;
 use serde::Serialize;
 
 /// What a statement is about; coarser than [`Record`], the same in every dialect.
