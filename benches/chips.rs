@@ -7,11 +7,13 @@
 // A benchmark that cannot make its block has nothing to measure.
 #![allow(clippy::expect_used)]
 
+use clsmith::engagement::PathPiece;
 use clsmith::layered_chips::{
     BoundaryDiagram, FlatMill, LayerStack, LayerSweptArea, MillStep, Polygon, RimDirections, SectionFamily,
     cut_chips,
 };
-use clsmith::sim::{PathPiece, SolidBody, Stock, ToolPose};
+use clsmith::program::geometry::Pose;
+use clsmith::stock::{SolidBody, Stock};
 use geo::{Area, BooleanOps, Coord, LineString, MultiPolygon};
 use nalgebra::{Point3, Vector3};
 use std::hint::black_box;
@@ -43,7 +45,7 @@ fn path(count: usize) -> Vec<PathPiece> {
         let s = index as f64 * 0.5;
         let (lean, towards) = (0.25 + 0.2 * (s / 9.0).sin(), s / 15.0);
         let axis = Vector3::new(lean.sin() * towards.cos(), lean.sin() * towards.sin(), lean.cos());
-        ToolPose { point: Point3::new(s, 12.0 * (s / 20.0).sin(), -8.0 + (s / 11.0).cos()), axis }
+        Pose { point: Point3::new(s, 12.0 * (s / 20.0).sin(), -8.0 + (s / 11.0).cos()), axis }
     };
     (0..count).map(|index| PathPiece { from: place(index), to: place(index + 1), cutter: 0 }).collect()
 }

@@ -7,7 +7,10 @@
 // A benchmark that cannot make its cutter has nothing to measure.
 #![allow(clippy::expect_used, clippy::indexing_slicing)]
 
-use clsmith::sim::{CutterModel, DexelGrid, Dexels, Meridian, PathPiece, Simulation, Teeth, ToolPose};
+use clsmith::cutter::{CutterModel, Meridian, Teeth};
+use clsmith::engagement::{PathPiece, Simulation};
+use clsmith::program::geometry::Pose;
+use clsmith::stock::{DexelGrid, Dexels};
 use nalgebra::{Point3, Vector3};
 use std::hint::black_box;
 use std::time::Instant;
@@ -38,7 +41,7 @@ fn zigzag(lean: f64) -> Vec<PathPiece> {
         let (a, b) = (lean * (point.x / 11.0).sin(), lean * (point.y / 13.0).cos());
         Vector3::new(a.sin(), b.sin(), 1.0).normalize()
     };
-    let place = |point: &Point3<f64>| ToolPose {
+    let place = |point: &Point3<f64>| Pose {
         point: *point,
         axis: if lean > 0.0 { axis(point) } else { Vector3::z() },
     };

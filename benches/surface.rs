@@ -6,7 +6,7 @@
 // A benchmark that cannot make its mesh has nothing to measure.
 #![allow(clippy::expect_used)]
 
-use clsmith::sim::Mesh;
+use clsmith::stock::Mesh;
 use clsmith::surface::drop_cutter::{DropCutter, DropCutterShape};
 use clsmith::surface::mesh_section::VerticalMeshSections;
 use std::f64::consts::TAU;

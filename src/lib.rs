@@ -6,7 +6,9 @@
 
 pub mod batch;
 pub mod check;
+pub mod cutter;
 pub mod diagnostic;
+pub mod engagement;
 pub mod fingerprint;
 pub mod job;
 pub mod layered_chips;
@@ -20,9 +22,9 @@ pub mod recipe;
 pub mod recipe_rules;
 pub mod report;
 pub mod setup;
-pub mod sim;
 pub mod simulation_run;
 pub mod source;
+pub mod stock;
 pub mod surface;
 pub mod surface_milling;
 pub mod transform;

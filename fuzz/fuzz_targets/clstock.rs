@@ -2,7 +2,7 @@
 
 #![no_main]
 
-use clsmith::sim::remains;
+use clsmith::stock::stock_file;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
@@ -14,8 +14,8 @@ fuzz_target!(|bytes: &[u8]| {
 });
 
 fn check(bytes: &[u8]) {
-    let Ok(dexels) = remains::read(bytes) else { return };
+    let Ok(dexels) = stock_file::read_clstock(bytes) else { return };
     let mut again = Vec::new();
-    remains::write(&dexels, &mut again).expect("memory takes everything");
+    stock_file::write_clstock(&dexels, &mut again).expect("memory takes everything");
     assert!(again == bytes, "the bytes changed");
 }

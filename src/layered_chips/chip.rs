@@ -8,7 +8,7 @@ use super::mill_step::{FlatMill, MillStep, MillStepError};
 use super::section_family::SectionFamily;
 use super::stack::{Layer, LayerStack};
 use super::swept_area::{LayerSweptArea, RimDirections};
-use crate::sim::PathPiece;
+use crate::engagement::PathPiece;
 use rayon::prelude::*;
 
 /// The chip of a piece of path on one layer.

@@ -8,7 +8,8 @@
 //! The layered model covers flat end mills whose axis is not nearly parallel to the layers. A piece of path
 //! with any other mill or axis is left out and not approximated: its material stays, and a finding says so.
 
-use crate::sim::{PathPiece, ToolPose};
+use crate::engagement::PathPiece;
+use crate::program::geometry::Pose;
 use nalgebra::Vector3;
 
 /// A flat end mill; lengths are in mm.
@@ -87,7 +88,7 @@ impl MillStep {
         if !(mill.radius > 0.0 && mill.radius < FARTHEST && mill.flutes > 0.0) {
             return Err(MillStepError::NoCutter);
         }
-        let finite = |place: &ToolPose| {
+        let finite = |place: &Pose| {
             place.point.iter().all(|x| x.abs() <= FARTHEST) && (place.axis.norm() - 1.0).abs() < 1e-6
         };
         if !finite(&piece.from) || !finite(&piece.to) {

@@ -8,7 +8,7 @@ mod tiles;
 pub use layer::{Layer, LayerRemoval};
 
 use super::area::{AreaGrid, Clipper, GridArea};
-use crate::sim::{SolidBody, Stock};
+use crate::stock::{AxisBox, SolidBody, Stock};
 use level_mesh_sections::LevelMeshSections;
 use primitive_sections::SectionedCylinder;
 use rayon::prelude::*;
@@ -53,7 +53,7 @@ pub enum LayerStackError {
 /// The workpiece in layers z = const, from below.
 #[derive(Debug, Clone)]
 pub struct LayerStack {
-    bounds: ([f64; 3], [f64; 3]),
+    bounds: AxisBox,
     grid: AreaGrid,
     layers: Vec<Layer>,
 }
@@ -106,7 +106,7 @@ impl LayerStack {
     }
 
     /// Returns the lowest and highest corner of the box around the stock, mm.
-    pub fn bounds(&self) -> ([f64; 3], [f64; 3]) {
+    pub fn bounds(&self) -> AxisBox {
         self.bounds
     }
 

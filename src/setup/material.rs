@@ -4,8 +4,8 @@ use super::setup_reader::SetupReader;
 use super::stock::FileRef;
 use super::{Setup, YamlLocation};
 use crate::diagnostic::{Diagnostic, codes};
+use crate::engagement::CuttingCoefficients;
 use crate::parameters::{FilePath, Finite, NonNegative, Positive};
-use crate::sim;
 use crate::source::Source;
 use crate::yaml::YamlDocument;
 use schemars::JsonSchema;
@@ -19,7 +19,7 @@ pub struct WorkMaterial {
     /// What it is called.
     pub name: Option<String>,
     /// Its cutting coefficients in N/mm2 and N/mm.
-    pub coefficients: sim::CuttingCoefficients,
+    pub coefficients: CuttingCoefficients,
 }
 
 /// The material as the setup says it.
@@ -121,7 +121,7 @@ impl MaterialFileText {
     fn into_material(self) -> WorkMaterial {
         let k_tc = self.k_tc.get();
         let k_te = self.k_te.map_or(0.0, NonNegative::get);
-        let coefficients = sim::CuttingCoefficients {
+        let coefficients = CuttingCoefficients {
             k_tc,
             k_te,
             k_rc: self.k_rc.map_or(RADIAL * k_tc, NonNegative::get),

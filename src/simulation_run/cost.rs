@@ -2,7 +2,7 @@
 
 use super::{Machining, SimulationRunOptions};
 use crate::diagnostic::{Diagnostic, codes};
-use crate::sim::Dexels;
+use crate::stock::Dexels;
 
 /// The most that a run may cost.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,8 +3,9 @@
 use super::faults::FaultCollector;
 use super::{Machining, RunWatcher, SimulationRunOptions};
 use crate::diagnostic::{Diagnostic, codes};
+use crate::engagement::{Engagement, MotionPiece, PathLinearizer, PathPiece, Simulation};
 use crate::program::motion::Motion;
-use crate::sim::{Dexels, Engagement, MotionPiece, PathLinearizer, PathPiece, Simulation};
+use crate::stock::Dexels;
 
 /// The number of pieces that are simulated together: enough for every thread, and few enough to need little
 /// memory.

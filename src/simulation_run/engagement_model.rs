@@ -4,8 +4,8 @@ use super::layer_run::{LayerRunOptions, LayerRunResult, MotionChips, to_flat_mil
 use super::tooling::statement_span;
 use super::{EngagedMotion, Machining, RunWatcher, SimulationRunOptions};
 use crate::diagnostic::{Diagnostic, codes};
+use crate::engagement::{Engagement, MotionPiece};
 use crate::layered_chips::{FlatMill, measure_engagement};
-use crate::sim::{Engagement, MotionPiece};
 
 /// The model from which engagements are found.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

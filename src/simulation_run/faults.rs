@@ -2,10 +2,11 @@
 //! others are counted.
 
 use super::tooling::statement_span;
+use crate::cutter::{CutterModel, NonCuttingKind};
 use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
+use crate::engagement::Engagement;
 use crate::program::Program;
 use crate::program::motion::Motion;
-use crate::sim::{CutterModel, Engagement, NonCuttingKind};
 use std::collections::BTreeMap;
 
 /// The number of findings of one kind that are reported one by one.

@@ -26,7 +26,7 @@ pub use watcher::{RunWatcher, SilentWatcher};
 use crate::diagnostic::Diagnostic;
 use crate::program::{LengthUnit, Program};
 use crate::setup::Setup;
-use crate::sim::{Mesh, Stock};
+use crate::stock::{Mesh, Stock};
 use std::sync::Arc;
 
 /// The options of a run.
@@ -116,7 +116,7 @@ impl<'p> Machining<'p> {
     ///
     /// # Errors
     /// Returns the reason why the bytes are not a closed mesh.
-    pub fn read_target_part(bytes: &[u8], units: LengthUnit) -> Result<Arc<Mesh>, crate::sim::MeshError> {
+    pub fn read_target_part(bytes: &[u8], units: LengthUnit) -> Result<Arc<Mesh>, crate::stock::MeshError> {
         setup_stock::read_mesh_mm(bytes, units).map(Arc::new)
     }
 }

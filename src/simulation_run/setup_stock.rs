@@ -3,7 +3,7 @@
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::LengthUnit;
 use crate::setup::{FileRef, Setup, StockBodyShape};
-use crate::sim::{Mesh, MeshError, SolidBody, Stock, stock_file};
+use crate::stock::{Mesh, MeshError, SolidBody, Stock, stock_file};
 use std::sync::Arc;
 
 /// Builds the stock of a setup.

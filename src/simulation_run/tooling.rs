@@ -1,11 +1,12 @@
 //! This module finds the tools of a program and their cutters.
 
+use crate::cutter::CutterModel;
 use crate::diagnostic::Diagnostic;
+use crate::engagement::{CuttingCoefficients, LoadModel};
 use crate::program::motion::{ActiveTool, Motion};
 use crate::program::record::SpindleDirection;
 use crate::program::{LengthUnit, Program, Statement};
 use crate::setup::Setup;
-use crate::sim::{CutterModel, CuttingCoefficients, LoadModel};
 use crate::source::Span;
 use std::sync::Arc;
 

@@ -8,7 +8,7 @@ use super::surface_program::{SurfaceProgram, draft_program};
 use super::surface_proof::{PassProver, ProvedPass, SurfaceProof};
 use super::{PassHeights, PassPattern, PassPlanes, SurfaceMillingOptions, SurfacePart, plane_offsets};
 use crate::diagnostic::{Diagnostic, codes};
-use crate::sim::Mesh;
+use crate::stock::Mesh;
 use crate::surface::drop_cutter::BallClearanceField;
 use crate::surface::drop_cutter::{DropCutter, DropCutterShape};
 use crate::surface::mesh_section::VerticalMeshSections;

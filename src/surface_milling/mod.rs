@@ -34,7 +34,7 @@ pub use surface_program::SurfaceProgram;
 pub use surface_proof::SurfaceProof;
 
 use crate::program::{Dialect, LengthUnit};
-use crate::sim::Mesh;
+use crate::stock::Mesh;
 
 /// The part that is milled.
 #[derive(Debug, Clone)]

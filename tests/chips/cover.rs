@@ -2,12 +2,12 @@
 
 use super::brute;
 use super::sections::{axis, block, fresh, piece, place, place_at, section};
+use clsmith::engagement::PathPiece;
 use clsmith::layered_chips::Polygon;
 use clsmith::layered_chips::area::signed_area_mm2;
 use clsmith::layered_chips::{
     BoundaryDiagram, FlatMill, LayerSweptArea, MillStep, RimDirections, SectionFamily,
 };
-use clsmith::sim::PathPiece;
 use proptest::prelude::*;
 
 fn mill(radius: f64) -> FlatMill {

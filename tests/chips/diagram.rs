@@ -1,14 +1,15 @@
 //! The boundary construction diagram.
 
 use super::sections::{axis, piece, place};
+use clsmith::engagement::PathPiece;
 use clsmith::layered_chips::boundary_diagram::{BranchEnd, EdgeState};
 use clsmith::layered_chips::section_family::DiagramCurve;
 use clsmith::layered_chips::{BoundaryDiagram, FlatMill, MillStep, MillStepError, SectionFamily};
-use clsmith::sim::{PathPiece, ToolPose};
+use clsmith::program::geometry::Pose;
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
-fn family(radius: f64, from: ToolPose, to: ToolPose, z: f64) -> SectionFamily {
+fn family(radius: f64, from: Pose, to: Pose, z: f64) -> SectionFamily {
     let step = MillStep::new(FlatMill { radius, flutes: f64::INFINITY }, &piece(from, to)).unwrap();
     SectionFamily::new(&step, z)
 }
@@ -105,7 +106,7 @@ fn turning_about_the_tip_from_upright_is_told_apart() {
 fn what_cannot_be_modelled_is_refused() {
     let up = place([0.0; 3], [0.0, 0.0, 1.0]);
     let mill = FlatMill { radius: 5.0, flutes: 10.0 };
-    let refuse = |mill: FlatMill, from: ToolPose, to: ToolPose| {
+    let refuse = |mill: FlatMill, from: Pose, to: Pose| {
         MillStep::new(mill, &PathPiece { from, to, cutter: 0 }).unwrap_err()
     };
     assert_eq!(refuse(mill, up, up), MillStepError::Still);
@@ -115,6 +116,6 @@ fn what_cannot_be_modelled_is_refused() {
     );
     assert!(matches!(refuse(mill, up, place([1.0, 0.0, 0.0], axis(85.0, 0.0))), MillStepError::Tilt { .. }));
     assert_eq!(refuse(mill, up, place([1.0, 0.0, 0.0], [0.0, 0.0, -1.0])), MillStepError::Overturns);
-    let nowhere = ToolPose { point: nalgebra::Point3::new(f64::NAN, 0.0, 0.0), axis: Vector3::z() };
+    let nowhere = Pose { point: nalgebra::Point3::new(f64::NAN, 0.0, 0.0), axis: Vector3::z() };
     assert_eq!(refuse(mill, up, nowhere), MillStepError::NotFinite);
 }

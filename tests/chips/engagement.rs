@@ -1,8 +1,10 @@
 //! Engagement from chips: closed forms in three axes, and against the dexel simulation in five.
 
 use super::sections::{axis, block, piece, place};
+use clsmith::cutter::{CutterModel, Meridian};
+use clsmith::engagement::{Engagement, PathPiece, Simulation};
 use clsmith::layered_chips::{FlatMill, LayerStack, cut_chips, measure_engagement};
-use clsmith::sim::{CutterModel, Engagement, Meridian, PathPiece, Simulation, Stock};
+use clsmith::stock::Stock;
 use proptest::prelude::*;
 
 const MILL: FlatMill = FlatMill { radius: 5.0, flutes: 30.0 };
@@ -15,7 +17,7 @@ fn engaged(stock: &Stock, layer: f64, pieces: &[PathPiece]) -> Vec<Engagement> {
     found.map(|(piece, chip)| measure_engagement(&chip.unwrap(), &MILL, piece, TOLERANCE)).collect()
 }
 
-fn upright(x: f64, y: f64, z: f64) -> clsmith::sim::ToolPose {
+fn upright(x: f64, y: f64, z: f64) -> clsmith::program::geometry::Pose {
     place([x, y, z], [0.0, 0.0, 1.0])
 }
 

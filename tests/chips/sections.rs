@@ -1,18 +1,19 @@
 //! An independent look at sections: made in space and cut by half planes.
 
 use super::brute;
+use clsmith::engagement::PathPiece;
 use clsmith::layered_chips::{FlatMill, Polygon};
-use clsmith::sim::{PathPiece, ToolPose};
+use clsmith::program::geometry::Pose;
 use nalgebra::{Point3, Rotation3, Unit, Vector3};
 
 /// Corners of a sampled ellipse.
 const CORNERS: usize = 360;
 
-pub fn place(point: [f64; 3], axis: [f64; 3]) -> ToolPose {
-    ToolPose { point: Point3::from(point), axis: Vector3::from(axis).normalize() }
+pub fn place(point: [f64; 3], axis: [f64; 3]) -> Pose {
+    Pose { point: Point3::from(point), axis: Vector3::from(axis).normalize() }
 }
 
-pub fn piece(from: ToolPose, to: ToolPose) -> PathPiece {
+pub fn piece(from: Pose, to: Pose) -> PathPiece {
     PathPiece { from, to, cutter: 0 }
 }
 
@@ -23,18 +24,18 @@ pub fn axis(tilt: f64, towards: f64) -> [f64; 3] {
 }
 
 /// The place of the cutter at a time: the tip straight, the axis turned about the normal of both axes.
-pub fn place_at(piece: &PathPiece, t: f64) -> ToolPose {
+pub fn place_at(piece: &PathPiece, t: f64) -> Pose {
     let (from, to) = (piece.from.axis, piece.to.axis);
     let normal = from.cross(&to);
     let axis = match Unit::try_new(normal, 1e-14) {
         Some(normal) => Rotation3::from_axis_angle(&normal, from.angle(&to) * t) * from,
         None => from,
     };
-    ToolPose { point: piece.from.point + (piece.to.point - piece.from.point) * t, axis }
+    Pose { point: piece.from.point + (piece.to.point - piece.from.point) * t, axis }
 }
 
 /// The section of a mill at a place with the layer at z: lines of the cylinder that meet the layer, then cut by the planes of the ends.
-pub fn section(mill: &FlatMill, place: &ToolPose, z: f64) -> Vec<[f64; 2]> {
+pub fn section(mill: &FlatMill, place: &Pose, z: f64) -> Vec<[f64; 2]> {
     let a = place.axis;
     let u = a.cross(&if a.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() }).normalize();
     let v = a.cross(&u);
@@ -78,6 +79,6 @@ pub fn fresh(mill: &FlatMill, piece: &PathPiece, z: f64, count: usize) -> Vec<Po
 }
 
 /// A block as stock.
-pub fn block(from: [f64; 3], to: [f64; 3]) -> clsmith::sim::Stock {
-    clsmith::sim::Stock::new(vec![clsmith::sim::SolidBody::Block { from, to }], 0.0).unwrap()
+pub fn block(from: [f64; 3], to: [f64; 3]) -> clsmith::stock::Stock {
+    clsmith::stock::Stock::new(vec![clsmith::stock::SolidBody::Block { from, to }], 0.0).unwrap()
 }

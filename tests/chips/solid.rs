@@ -5,7 +5,7 @@ use super::stack::stack_of;
 use clsmith::layered_chips::area::{AreaGrid, Clipper, GridArea};
 use clsmith::layered_chips::chip::{Chip, LayerChip};
 use clsmith::layered_chips::{Polygon, stl_export};
-use clsmith::sim::{Mesh, SolidBody};
+use clsmith::stock::{Mesh, SolidBody};
 use proptest::prelude::*;
 
 fn chip(layers: Vec<(f64, f64, Vec<Polygon>)>) -> Chip {

@@ -2,10 +2,10 @@
 
 use super::area::{circle, square, star, turned};
 use super::brute;
-use crate::sim::shapes::{cube, mesh, sphere};
+use crate::stock::shapes::{cube, mesh, sphere};
 use clsmith::layered_chips::swept_area::LayerSweptArea;
 use clsmith::layered_chips::{LayerRemoval, LayerStack, LayerStackError, Polygon};
-use clsmith::sim::{DexelGrid, Dexels, Mesh, SolidBody, Stock};
+use clsmith::stock::{DexelGrid, Dexels, Mesh, SolidBody, Stock};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;

@@ -2,8 +2,9 @@
 
 use super::brute;
 use super::sections::{axis, block, fresh, piece, place};
+use clsmith::engagement::{PathPiece, Simulation};
 use clsmith::layered_chips::{Chip, FlatMill, LayerStack, MillStepError, cut_chips};
-use clsmith::sim::{Dexels, PathPiece, Simulation, Stock};
+use clsmith::stock::{Dexels, Stock};
 use proptest::prelude::*;
 
 const MILL: FlatMill = FlatMill { radius: 5.0, flutes: 30.0 };
@@ -14,7 +15,7 @@ fn chips(stock: &Stock, layer: f64, pieces: &[PathPiece]) -> (LayerStack, Vec<Re
     (stack, chips)
 }
 
-fn upright(x: f64, y: f64, z: f64) -> clsmith::sim::ToolPose {
+fn upright(x: f64, y: f64, z: f64) -> clsmith::program::geometry::Pose {
     place([x, y, z], [0.0, 0.0, 1.0])
 }
 
@@ -86,8 +87,8 @@ fn a_chip_may_be_two_pieces() {
     // Tilting about a point in the layer, with the middle already milled: both ends of the section go down into the stock.
     let stock = Stock::new(
         vec![
-            clsmith::sim::SolidBody::Block { from: [-20.0, -20.0, 0.0], to: [-4.9, 20.0, 1.0] },
-            clsmith::sim::SolidBody::Block { from: [4.9, -20.0, 0.0], to: [20.0, 20.0, 1.0] },
+            clsmith::stock::SolidBody::Block { from: [-20.0, -20.0, 0.0], to: [-4.9, 20.0, 1.0] },
+            clsmith::stock::SolidBody::Block { from: [4.9, -20.0, 0.0], to: [20.0, 20.0, 1.0] },
         ],
         0.0,
     )
@@ -202,8 +203,8 @@ fn results_do_not_depend_on_threads() {
 
 /// Volumes of the same pieces by dexels, and how far half a cell along all borders may make them wrong.
 fn by_dexels(stock: &Stock, pieces: &[PathPiece], cell: f64) -> Vec<f64> {
-    let profile = clsmith::sim::Meridian::new(2.0 * MILL.radius, 0.0, 0.0, 0.0, MILL.flutes).unwrap();
-    let cutter = clsmith::sim::CutterModel { profile, collars: Vec::new(), teeth: None };
+    let profile = clsmith::cutter::Meridian::new(2.0 * MILL.radius, 0.0, 0.0, 0.0, MILL.flutes).unwrap();
+    let cutter = clsmith::cutter::CutterModel { profile, collars: Vec::new(), teeth: None };
     let dexels: Dexels = stock.to_dexels(cell, usize::MAX).unwrap();
     let mut simulation = Simulation::new(dexels, false);
     simulation.sweep_pieces(pieces, &[cutter]).into_iter().map(|engagement| engagement.removed_mm3).collect()

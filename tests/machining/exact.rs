@@ -1,8 +1,9 @@
 //! The fast model, filled by the dexels, against the path of every tooth.
 
 use super::{SETUP, machine, nx};
+use clsmith::cutter::{Meridian, Teeth};
+use clsmith::engagement::{ToothMotion, ToothSampling, measure_exact_chips};
 use clsmith::program::record::SpindleDirection;
-use clsmith::sim::{Meridian, Teeth, ToothMotion, ToothSampling, measure_exact_chips};
 use nalgebra::Point3;
 
 /// A pass from (-8, y, z) to (12, y, z) over the block, climbing or falling by `rise`.

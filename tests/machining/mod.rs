@@ -6,9 +6,9 @@ mod paths;
 
 use crate::support;
 use clsmith::diagnostic::Diagnostic;
+use clsmith::engagement::Engagement;
 use clsmith::program::LengthUnit;
 use clsmith::setup::Setup;
-use clsmith::sim::Engagement;
 use clsmith::simulation_run::{DexelRunResult, Machining, SilentWatcher, SimulationRunOptions};
 use clsmith::source::Source;
 

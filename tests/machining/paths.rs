@@ -72,7 +72,8 @@ fn the_same_part_in_another_frame() {
         .replace("GOTO/-20.0000,0.0000,10.0000", "GOTO/0.0000,20.0000,10.0000");
     let first = nx(BALL, "");
     let (found, _) = machine(&format!("{first}{second}"), SETUP, 0.25);
-    let sum = |found: &[clsmith::sim::Engagement]| found.iter().map(|found| found.removed_mm3).sum::<f64>();
+    let sum =
+        |found: &[clsmith::engagement::Engagement]| found.iter().map(|found| found.removed_mm3).sum::<f64>();
     assert!(sum(&plain) > 100.0);
     near(sum(&found), sum(&plain), 0.01 * sum(&plain));
 }

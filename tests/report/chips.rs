@@ -8,9 +8,9 @@ use clsmith::report::layered_chips::{
     ChipReport, ChipReportOptions, ChipRow, draw_diagrams, draw_layers, to_text, write_csv, write_json,
     write_stl,
 };
-use clsmith::sim::Mesh;
 use clsmith::simulation_run::layer_run::LayerRunOptions;
 use clsmith::simulation_run::{Machining, SilentWatcher};
+use clsmith::stock::Mesh;
 use std::f64::consts::PI;
 
 fn options(layer: f64) -> LayerRunOptions {

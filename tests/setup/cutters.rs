@@ -1,10 +1,10 @@
 //! Cutters of each dialect's words, and of what the setup adds to them.
 
 use super::{close, good, tool};
+use clsmith::cutter::NonCuttingKind;
 use clsmith::program::LengthUnit;
 use clsmith::program::motion::ActiveTool;
 use clsmith::setup::{ResolvedCutter, Setup};
-use clsmith::sim::cutter::NonCuttingKind;
 
 #[track_caller]
 fn cutter(program: &str, setup: &str, units: LengthUnit) -> ResolvedCutter {

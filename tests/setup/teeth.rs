@@ -1,7 +1,7 @@
 //! Teeth: pitch and runout.
 
 use super::{close, good};
-use clsmith::sim::Teeth;
+use clsmith::cutter::Teeth;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 fn teeth(keys: &str) -> Option<Teeth> {

@@ -1,6 +1,6 @@
 //! Solids that the tests are about, with all digits of their corners.
 
-use clsmith::sim::Mesh;
+use clsmith::stock::Mesh;
 use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
 

@@ -7,7 +7,7 @@ mod files;
 mod paths;
 
 use clsmith::program::{Dialect, LengthUnit, MotionClass};
-use clsmith::sim::Mesh;
+use clsmith::stock::Mesh;
 use clsmith::surface::profile::{Chain, Point};
 use clsmith::surface_milling::{
     PassHeights, PassPattern, PassPlanes, SectionProfile, SurfaceMillingOptions, SurfacePart, SurfaceProgram,

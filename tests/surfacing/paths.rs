@@ -62,7 +62,7 @@ fn between_passes_a_feed_may_stand_for_rapid() {
 }
 
 /// No motion, rapid or not, may come into the part: looked at every 0.2 mm.
-fn stays_outside(part: &clsmith::sim::Mesh, options: &SurfaceMillingOptions) -> usize {
+fn stays_outside(part: &clsmith::stock::Mesh, options: &SurfaceMillingOptions) -> usize {
     let surfaced = over(part, options);
     let radius = options.radius;
     let cutter = DropCutter::new(part, DropCutterShape::new(2.0 * radius, radius).unwrap());

@@ -14,7 +14,7 @@ use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::program::{Dialect, LengthUnit};
 use clsmith::report::finding_policy::FindingPolicy;
 use clsmith::report::surface_milling as report;
-use clsmith::sim::Mesh;
+use clsmith::stock::Mesh;
 use clsmith::surface_milling::{
     self, SurfaceMillingOptions, SurfacePart, SurfaceProgram, load_profile, make_surface_program,
 };

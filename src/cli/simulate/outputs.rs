@@ -8,7 +8,7 @@ use clsmith::diagnostic::Diagnostic;
 use clsmith::report::comparison::Comparison;
 use clsmith::report::simulation;
 use clsmith::setup::Setup;
-use clsmith::sim::{stl_export, stock_file};
+use clsmith::stock::{stl_export, stock_file};
 use clsmith::write::is_same_file;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};

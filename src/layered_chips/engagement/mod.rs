@@ -16,7 +16,7 @@ mod moving_cylinder;
 
 use super::chip::{Chip, LayerChip};
 use super::mill_step::FlatMill;
-use crate::sim::{Engagement, EngagementBin, PathPiece};
+use crate::engagement::{Engagement, EngagementBin, PathPiece};
 use contact_samples::{ContactSample, LayerSlab};
 use moving_cylinder::MovingCylinder;
 

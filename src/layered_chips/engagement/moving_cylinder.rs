@@ -1,8 +1,8 @@
 //! This module moves a cylinder along a piece of path and finds the time at which it reaches a point.
 
 use super::contact_samples::LayerSlab;
+use crate::engagement::PathPiece;
 use crate::layered_chips::mill_step::FlatMill;
-use crate::sim::PathPiece;
 use nalgebra::Vector3;
 
 /// Tips that are closer together than this (mm) count as standing still, as in the simulation.

@@ -5,7 +5,7 @@
 //! to its upper one. So the sections of neighbouring triangles meet to the last bit, and their segments form
 //! closed boundaries.
 
-use crate::sim::Mesh;
+use crate::stock::Mesh;
 
 /// A directed segment of a section, with the material to its left.
 type DirectedSegment = [[f64; 2]; 2];

@@ -2,12 +2,13 @@
 
 use super::array_encoding::PageArray;
 use super::listing::NONE;
+use crate::engagement::PathLinearizer;
+use crate::program::geometry::Pose;
 use crate::program::motion::Motion;
 use crate::program::operation::find_operations;
 use crate::program::{MotionClass, Program};
 use crate::report::comparison::{ComparisonSubject, measure_motion};
 use crate::report::simulation::{MotionRow, SimulationReport};
-use crate::sim::{PathLinearizer, ToolPose};
 
 /// Chords are no further from their arcs than this in the drawing, mm.
 pub const CHORD_MM: f64 = 0.02;
@@ -113,7 +114,7 @@ impl PageMotionArrays {
         side
     }
 
-    fn push_path(&mut self, steps: &[crate::sim::MotionPiece], rapid: bool, origin: [f64; 3]) {
+    fn push_path(&mut self, steps: &[crate::engagement::MotionPiece], rapid: bool, origin: [f64; 3]) {
         let mut flags = if rapid { RAPID } else { 0 };
         for (index, step) in steps.iter().enumerate() {
             let from = to_drawing_vertex(&step.piece.from, origin);
@@ -181,7 +182,7 @@ impl PageMotionArrays {
     }
 }
 
-fn to_drawing_vertex(place: &ToolPose, [x, y, z]: [f64; 3]) -> [f32; 3] {
+fn to_drawing_vertex(place: &Pose, [x, y, z]: [f64; 3]) -> [f32; 3] {
     [place.point.x - x, place.point.y - y, place.point.z - z].map(|value| value as f32)
 }
 

@@ -1,6 +1,6 @@
 //! The stock that is left, as a field of heights that a browser can draw.
 
-use crate::sim::Dexels;
+use crate::stock::Dexels;
 
 /// Most columns of the drawing along a side.
 const MOST: usize = 240;

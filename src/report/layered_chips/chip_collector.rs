@@ -4,13 +4,13 @@ use super::chip_merging::merge_piece_chips;
 use super::chip_thickness::{ChipThicknessModel, STANDS, tip_travel_mm};
 use super::move_scene::{MoveScene, build_scene};
 use super::{ChipReport, ChipReportOptions, ChipRow, ChipTotals, OperationChips, UncutMotion};
+use crate::engagement::MotionPiece;
 use crate::layered_chips::chip::LayerChip;
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::program::operation;
 use crate::report::text_format::format_counted;
 use crate::report::tool_name;
-use crate::sim::MotionPiece;
 use crate::simulation_run::Machining;
 use crate::simulation_run::layer_run::{
     LayerRunOptions, LayerRunResult, MotionChips, UncutReason, to_flat_mill,

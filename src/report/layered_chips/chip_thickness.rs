@@ -1,8 +1,9 @@
 //! What makes the thickness of a tooth's chip of how the cutter's surface advances.
 
+use crate::cutter::CutterModel;
+use crate::engagement::MotionPiece;
 use crate::layered_chips::chip::LayerChip;
 use crate::layered_chips::{FlatMill, largest_feed_fraction};
-use crate::sim::{CutterModel, MotionPiece};
 
 /// Ways of the tip below this, mm, are none.
 pub(super) const STANDS: f64 = 1e-7;

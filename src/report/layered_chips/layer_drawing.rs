@@ -4,13 +4,13 @@
 use super::ChipReport;
 use super::move_scene::{MoveScene, MoveSceneLayer};
 use super::panel_sheet::{CHIP, EDGE, LegendSample, PanelArea, WORKPIECE, draw_sheet, drawing_error};
+use crate::engagement::PathPiece;
 use crate::layered_chips::area::{AreaGrid, Clipper, GridArea};
 use crate::layered_chips::boundary_diagram::BoundaryDiagram;
 use crate::layered_chips::section_family::SectionFamily;
 use crate::layered_chips::swept_area::{LayerSweptArea, RimDirections};
 use crate::layered_chips::{MillStep, Polygon};
 use crate::report::text_format::format_short;
-use crate::sim::PathPiece;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use std::io;

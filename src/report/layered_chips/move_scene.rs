@@ -1,8 +1,8 @@
 //! Moves with the workpiece around them: what pictures are made of.
 
 use super::ChipLayerRow;
+use crate::engagement::PathPiece;
 use crate::layered_chips::{FlatMill, Polygon};
-use crate::sim::PathPiece;
 use crate::simulation_run::Machining;
 use crate::simulation_run::layer_run::{MotionChips, to_flat_mill};
 

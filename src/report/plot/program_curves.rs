@@ -1,11 +1,11 @@
 //! Programs as curves.
 
 use super::curve_drawing::{CurvePanel, PlotCurve, PlotSegment, draw_curve_panels};
+use crate::engagement::PathLinearizer;
 use crate::program::geometry::MotionPath;
 use crate::program::{LengthUnit, Program};
 use crate::report::comparison::measure_motion;
 use crate::report::simulation::{MotionRow, SimulationReport};
-use crate::sim::PathLinearizer;
 use std::io;
 
 /// Chords are no further from their arcs than this in a drawing, mm.

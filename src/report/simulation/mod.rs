@@ -22,10 +22,10 @@ pub use text::to_text;
 
 use crate::diagnostic::Diagnostic;
 use crate::report::rounding::{serialize_rounded, serialize_rounded_option};
-use crate::sim::Dexels;
 use crate::simulation_run::{
     Machining, RunWatcher, SimulationCost, SimulationRunOptions, chord_tolerance_mm,
 };
+use crate::stock::Dexels;
 use motion_row::PrintedMotionRow;
 use serde::{Serialize, Serializer};
 

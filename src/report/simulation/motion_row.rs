@@ -30,7 +30,7 @@ pub struct MotionRow {
     pub axial_depth_mm: Option<f64>,
     /// Width of the cut across path and axis, mm; no more than the diameter at the highest engaged point.
     pub radial_depth_mm: Option<f64>,
-    /// Angle at which a tooth enters, degrees ([`crate::sim::Engagement::immersion_deg`]).
+    /// Angle at which a tooth enters, degrees ([`crate::engagement::Engagement::immersion_deg`]).
     pub engagement_start_deg: Option<f64>,
     /// Angle at which it leaves, degrees.
     pub engagement_end_deg: Option<f64>,

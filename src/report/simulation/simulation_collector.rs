@@ -2,13 +2,14 @@
 
 use super::unknown_feeds::UnknownFeedCollector;
 use super::{MotionRow, MotionRows, OperationSums, SimulationFaultCounts, SimulationSums};
+use crate::cutter::CutterModel;
 use crate::diagnostic::{Diagnostic, Severity};
+use crate::engagement::{CuttingLoads, Engagement, LoadModel};
 use crate::program::geometry::MotionPath;
 use crate::program::motion::{ActiveTool, Motion};
 use crate::program::operation;
 use crate::program::record::SpindleDirection;
 use crate::report::{statement_line, tool_name};
-use crate::sim::{CutterModel, CuttingLoads, Engagement, LoadModel};
 use crate::simulation_run::{EngagedMotion, Machining};
 use crate::transform::optimize_feed::acceleration::{self, TimedSegment};
 use std::sync::Arc;

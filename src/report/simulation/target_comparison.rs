@@ -3,7 +3,7 @@
 use super::SimulationReport;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::report::rounding::serialize_rounded;
-use crate::sim::{Mesh, TargetDeviation};
+use crate::stock::{Mesh, TargetDeviation};
 use serde::Serialize;
 
 /// How what is left differs from the target. What is within the tolerance in some direction does not count.

@@ -4,12 +4,11 @@ use super::file_tool_data::FileToolData;
 use super::tool_data_fault::{ToolDataFault, ToolDataFaultKind};
 use super::tool_entry::ToolEntry;
 use super::tool_text::SAME;
+use crate::cutter::{CutterModel, Meridian, NonCuttingCylinder, NonCuttingKind};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::LengthUnit;
 use crate::program::motion::ActiveTool;
 use crate::setup::Setup;
-use crate::sim::cutter::NonCuttingKind;
-use crate::sim::{CutterModel, Meridian, NonCuttingCylinder};
 use crate::source::{Source, Span};
 use std::sync::Arc;
 

@@ -1,10 +1,10 @@
 //! Teeth as they are written: how many, how far apart, how true they run.
 
 use super::tool_text::ToolText;
+use crate::cutter::Teeth;
 use crate::parameters::{Finite, NonNegative, Positive};
 use crate::setup::YamlLocation;
 use crate::setup::setup_reader::SetupReader;
-use crate::sim::Teeth;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Unexpected, Visitor};
 use std::borrow::Cow;

@@ -2,10 +2,10 @@
 
 use super::cutter_resolver::format_short;
 use super::tool_entry::ToolEntry;
+use crate::cutter::MeridianError;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::motion::ActiveTool;
 use crate::setup::{Setup, YamlLocation};
-use crate::sim::MeridianError;
 use crate::source::{Source, Span};
 use std::fmt::Write;
 use std::sync::Arc;

@@ -1,9 +1,9 @@
 //! An entry of `tools:`.
 
+use crate::cutter::Teeth;
 use crate::parameters::Glob;
 use crate::program::motion::ActiveTool;
 use crate::setup::{Setup, YamlLocation};
-use crate::sim::Teeth;
 
 /// What a setup says about the tools that it fits; what is `None` is left to the CL file. Lengths in mm, angles in
 /// radians.

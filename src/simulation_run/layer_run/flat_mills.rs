@@ -1,7 +1,7 @@
 //! This module finds which tools of a program are flat end mills, and why the others are not.
 
+use crate::cutter::CutterModel;
 use crate::layered_chips::FlatMill;
-use crate::sim::CutterModel;
 
 /// The length in mm and the angle in radians below which a corner radius, a taper or a tip angle counts as
 /// none. No grinder could make it.

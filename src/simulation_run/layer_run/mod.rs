@@ -15,10 +15,10 @@ mod stock_reach;
 pub use flat_mills::to_flat_mill;
 
 use crate::diagnostic::Diagnostic;
+use crate::engagement::MotionPiece;
 use crate::layered_chips::stack::LayerStack;
 use crate::layered_chips::{MillStepError, chip::Chip};
 use crate::program::motion::Motion;
-use crate::sim::MotionPiece;
 use std::ops::RangeInclusive;
 
 /// The options of a run in layers.

@@ -1,11 +1,9 @@
 //! This module decides whether a piece of path can touch the stock at all.
 
+use crate::engagement::PathPiece;
 use crate::layered_chips::FlatMill;
-use crate::sim::PathPiece;
+use crate::stock::AxisBox;
 use nalgebra::Point3;
-
-/// The lowest and the highest corner of a box, mm.
-type StockBox = ([f64; 3], [f64; 3]);
 
 /// Returns whether a mill's flutes can be inside the box of the stock anywhere on a piece; `true` if in
 /// doubt.
@@ -13,7 +11,7 @@ type StockBox = ([f64; 3], [f64; 3]);
 /// The test uses the box around the flutes at both ends, grown by the radius and by the distance of the
 /// turning upper end from its chord. A piece that cannot be modelled does not matter if it has nothing to
 /// cut.
-pub(super) fn can_reach_stock(piece: &PathPiece, mill: &FlatMill, stock: StockBox) -> bool {
+pub(super) fn can_reach_stock(piece: &PathPiece, mill: &FlatMill, stock: AxisBox) -> bool {
     let turn = piece.from.axis.angle(&piece.to.axis);
     // A point at the length L turns on an arc whose sagitta is L (1 - cos(turn / 2)).
     let grown = mill.radius + mill.flutes * (1.0 - (turn / 2.0).cos());

@@ -6,7 +6,7 @@
 //! edges and the inside, and does not use the code that lowers cutters, so it is an independent proof.
 
 use super::triangle_columns::TriangleColumns;
-use crate::sim::Mesh;
+use crate::stock::Mesh;
 use nalgebra::Vector3;
 
 type Triangle = [Vector3<f64>; 3];

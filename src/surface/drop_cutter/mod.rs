@@ -21,7 +21,7 @@ pub use ball_clearance::{BallClearanceField, PathClearance};
 pub use cutter_shape::{CutterShapeError, DropCutterShape};
 pub use path_deviation::{PathDeviation, measure_deviation};
 
-use crate::sim::Mesh;
+use crate::stock::Mesh;
 use facet_contact::{Facet, HighestTouch};
 use facet_tree::{FacetTreeNode, NodeChildren};
 

@@ -8,7 +8,7 @@
 
 use super::DropCutterShape;
 use super::triangle_columns::TriangleColumns;
-use crate::sim::Mesh;
+use crate::stock::Mesh;
 use nalgebra::Vector3;
 
 type Triangle = [Vector3<f64>; 3];

@@ -1,6 +1,6 @@
 //! This module sorts triangles into square columns in the view from above.
 
-use crate::sim::Mesh;
+use crate::stock::Mesh;
 
 /// The most columns along a side.
 const MOST_COLUMNS: f64 = 1000.0;

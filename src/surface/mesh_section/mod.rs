@@ -8,7 +8,7 @@
 
 mod envelope;
 
-use crate::sim::Mesh;
+use crate::stock::Mesh;
 use envelope::SectionSegment;
 
 /// The distance within which a vertex is in a plane, mm. It is a few roundings at coordinates of metres.

@@ -12,7 +12,7 @@ use crate::diagnostic::{Diagnostic, codes};
 use crate::parameters::FilePath;
 use crate::program::Program;
 use crate::program::motion::Motion;
-use crate::sim::Mesh;
+use crate::stock::Mesh;
 use crate::surface::drop_cutter::{
     BallClearanceField, DropCutter, DropCutterShape, PathDeviation, measure_deviation,
 };

@@ -5,8 +5,8 @@ use crate::support::{rounded_snapshots, snapshots};
 use clsmith::program::LengthUnit;
 use clsmith::report::simulation::time_plot::{PlottedMotion, ProgramTimeSeries, draw_time_series};
 use clsmith::report::simulation::{SimulationReport, to_json, to_text, write_csv};
-use clsmith::sim::stl_export;
 use clsmith::simulation_run::Machining;
+use clsmith::stock::stl_export;
 
 fn slot() -> SimulationReport {
     simulate(SLOT, SHOP, LengthUnit::Mm).unwrap()

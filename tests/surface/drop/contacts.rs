@@ -2,7 +2,7 @@
 
 use super::super::solids::{cube, mesh, sphere, terrain};
 use super::{cutters, over, tip};
-use clsmith::sim::Mesh;
+use clsmith::stock::Mesh;
 use clsmith::surface::drop_cutter::{DropCutter, DropCutterShape};
 
 fn near(found: f64, expected: f64, within: f64) {

@@ -1,7 +1,7 @@
 //! Cutters lowered onto a model.
 
 use super::{compensate_beside, in_plane, operation};
-use clsmith::sim::Mesh;
+use clsmith::stock::Mesh;
 use std::fmt::Write;
 use std::path::PathBuf;
 

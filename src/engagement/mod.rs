@@ -1,0 +1,28 @@
+//! What a cutter engages on its path through stock: sweeps that remove material, chip thickness, forces.
+//!
+//! Everything is in millimetres, radians and the workpiece frame. A motion becomes straight pieces ([`path_linearizer`]), a
+//! [`Simulation`] sweeps the cutter along them, and each piece gets an [`Engagement`], from which chip thickness, removal
+//! rate and forces follow for any feed and any teeth. [`crate::simulation_run`] runs whole programs with it.
+
+mod bin_filling;
+pub mod chip_load;
+pub mod chip_thickness;
+mod cutting_coefficients;
+pub mod cutting_force;
+mod edge_elements;
+pub mod engagement_bins;
+pub mod exact_tooth_paths;
+pub mod immersion;
+pub mod load_limited_feed;
+mod path_linearizer;
+mod path_piece;
+mod simulation;
+mod sweep;
+
+pub use cutting_coefficients::CuttingCoefficients;
+pub use cutting_force::{CuttingLoads, LoadModel};
+pub use engagement_bins::{Engagement, EngagementBin};
+pub use exact_tooth_paths::{ExactChipThickness, ToothMotion, ToothSampling, measure_exact_chips};
+pub use path_linearizer::{MotionPiece, PathLinearizer};
+pub use path_piece::PathPiece;
+pub use simulation::Simulation;

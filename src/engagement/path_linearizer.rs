@@ -1,0 +1,195 @@
+//! This module converts motions to straight pieces in the workpiece frame, in mm.
+//!
+//! The workpiece frame is the frame of the program's first motion. The stock stands in it, its dexels stand
+//! along its z axis, and motions in another MSYS or CSYS are converted to it.
+
+use crate::engagement::PathPiece;
+use crate::program::geometry::Pose;
+use crate::program::geometry::{CircularArc, MotionPath, Spline};
+use crate::program::motion::{CoordinateFrame, Motion};
+use nalgebra::{Point3, Vector3};
+
+/// A piece of a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotionPiece {
+    /// The path of the cutter on the piece.
+    pub piece: PathPiece,
+    /// The position at which the piece begins, as a fraction of the motion's length.
+    pub from: f64,
+    /// The position at which it ends, as a fraction of the motion's length.
+    pub to: f64,
+}
+
+/// Converts motions to pieces.
+///
+/// Motions in another frame than that of the program's first motion (NX's MSYS, a CSYS) are converted to it.
+/// Arcs and splines become chords that are at most `sagitta` from the curve.
+#[derive(Debug, Clone)]
+pub struct PathLinearizer {
+    unit: f64,
+    home: Option<Option<CoordinateFrame>>,
+    /// The largest distance of a chord from its curve, mm.
+    pub sagitta: f64,
+    /// The length of the longest piece, mm.
+    pub longest: f64,
+}
+
+impl PathLinearizer {
+    /// Makes a converter for a file whose lengths are in units of `unit` mm.
+    pub fn new(unit: f64, sagitta: f64, longest: f64) -> Self {
+        Self { unit, home: None, sagitta, longest }
+    }
+
+    /// Converts a pose of a motion to the workpiece frame, in mm.
+    fn to_workpiece_frame(&self, frame: Option<&CoordinateFrame>, pose: Pose) -> Pose {
+        let home = self.home.as_ref().and_then(Option::as_ref);
+        let same = match (frame, home) {
+            (None, None) => true,
+            (Some(frame), Some(home)) => (frame.origin, frame.axes) == (home.origin, home.axes),
+            _ => false,
+        };
+        let pose = if same { pose } else { pose_in_frame(home, pose_from_frame(frame, pose)) };
+        let axis = pose.axis.try_normalize(1e-9).unwrap_or_else(Vector3::z);
+        Pose { point: pose.point * self.unit, axis }
+    }
+
+    /// Takes the frame of a motion as the workpiece frame if it is the first motion.
+    pub fn adopt_workpiece_frame(&mut self, motion: &Motion) {
+        self.home.get_or_insert_with(|| motion.frame.as_deref().cloned());
+    }
+
+    /// Adds the pieces of a motion. A motion that stays at its place has none.
+    pub fn append_pieces(&mut self, motion: &Motion, cutter: usize, out: &mut Vec<MotionPiece>) {
+        self.adopt_workpiece_frame(motion);
+        let shares = match &motion.path {
+            MotionPath::Start => return,
+            MotionPath::Line => even_fractions(1),
+            MotionPath::Arc(arc) => even_fractions(self.count_chords(arc)),
+            MotionPath::Spline(spline) => self.subdivide_spline(spline),
+        };
+        let point = |share: f64| match &motion.path {
+            MotionPath::Arc(arc) => arc.point_at(share),
+            MotionPath::Spline(spline) => spline.point_at(share),
+            MotionPath::Line | MotionPath::Start => {
+                motion.from.point + (motion.to.point - motion.from.point) * share
+            }
+        };
+        let turn = motion.from.axis.angle(&motion.to.axis);
+        let place = |share: f64| {
+            // The ends are taken from the motion itself, so that neighbouring motions meet without rounding.
+            let point = match share {
+                0.0 => motion.from.point,
+                1.0 => motion.to.point,
+                _ => point(share),
+            };
+            let axis = slerp_axis(&motion.from.axis, &motion.to.axis, turn, share);
+            self.to_workpiece_frame(motion.frame.as_deref(), Pose { point, axis })
+        };
+        let mut places: Vec<Pose> = Vec::with_capacity(shares.len());
+        for share in shares {
+            let next = place(share);
+            if let Some(last) = places.last().copied() {
+                // A chord that is longer than the longest piece is divided evenly; its axis turns at a
+                // constant rate.
+                let parts = ((next.point - last.point).norm() / self.longest).ceil().clamp(1.0, 1e6);
+                let turn = last.axis.angle(&next.axis);
+                for part in 1..parts as usize {
+                    let share = part as f64 / parts;
+                    let point: Point3<f64> = last.point + (next.point - last.point) * share;
+                    places.push(Pose { point, axis: slerp_axis(&last.axis, &next.axis, turn, share) });
+                }
+            }
+            places.push(next);
+        }
+        let lengths = places.windows(2).map(|pair| match pair {
+            [from, to] => (to.point - from.point).norm(),
+            _ => 0.0,
+        });
+        let whole: f64 = lengths.clone().sum();
+        let count = places.len().saturating_sub(1).max(1) as f64;
+        let mut at = 0.0;
+        for (index, (pair, length)) in places.windows(2).zip(lengths).enumerate() {
+            let [from, to] = pair else { continue };
+            // Positions follow the length; a motion that only turns the axis is divided by count.
+            let end = if whole > 0.0 { at + length / whole } else { (index + 1) as f64 / count };
+            let end = if index + 2 == places.len() { 1.0 } else { end };
+            out.push(MotionPiece { piece: PathPiece { from: *from, to: *to, cutter }, from: at, to: end });
+            at = end;
+        }
+    }
+
+    /// Returns the number of chords that keep the sagitta.
+    fn count_chords(&self, arc: &CircularArc) -> usize {
+        let radius = arc.radius * self.unit;
+        // A chord over the angle a is R (1 - cos(a / 2)) from its arc; this is solved for a.
+        let step = 2.0 * (1.0 - (self.sagitta / radius).min(1.0)).acos();
+        // The chords of a helix are no further from it than the chords of its circle.
+        (arc.sweep / step.max(1e-4)).ceil().clamp(1.0, 1e6) as usize
+    }
+
+    /// Returns the parameters of a spline between which chords are close enough, found by bisection.
+    fn subdivide_spline(&self, spline: &Spline) -> Vec<f64> {
+        // There are as many equal parts to begin with as knot spans, so that no bend is missed.
+        let spans = spline.controls.len().saturating_sub(3).max(1);
+        let mut shares = vec![0.0];
+        for span in 0..spans {
+            let (from, to) = (span as f64 / spans as f64, (span + 1) as f64 / spans as f64);
+            self.bisect_spline(spline, from, to, 8, &mut shares);
+        }
+        shares
+    }
+
+    /// Bisects a part of a spline until three points within are at most the sagitta from the chord.
+    fn bisect_spline(&self, spline: &Spline, from: f64, to: f64, depth: u32, shares: &mut Vec<f64>) {
+        let [a, b] = [spline.point_at(from), spline.point_at(to)];
+        let off = |share: f64| {
+            let point = spline.point_at(from + (to - from) * share);
+            let chord = b - a;
+            let along = (point - a).dot(&chord) / chord.norm_squared().max(1e-300);
+            (point - a - chord * along.clamp(0.0, 1.0)).norm() * self.unit
+        };
+        if depth > 0 && [0.25, 0.5, 0.75].into_iter().any(|share| off(share) > self.sagitta) {
+            let middle = (from + to) / 2.0;
+            self.bisect_spline(spline, from, middle, depth - 1, shares);
+            self.bisect_spline(spline, middle, to, depth - 1, shares);
+        } else {
+            shares.push(to);
+        }
+    }
+}
+
+/// Returns the fractions from 0 to 1 in `count` equal steps.
+fn even_fractions(count: usize) -> Vec<f64> {
+    (0..=count).map(|index| index as f64 / count as f64).collect()
+}
+
+/// Interpolates between two unit axes that are `turn` radians apart, along the great circle (slerp).
+fn slerp_axis(from: &Vector3<f64>, to: &Vector3<f64>, turn: f64, share: f64) -> Vector3<f64> {
+    if share <= 0.0 || turn == 0.0 {
+        return *from;
+    }
+    if share >= 1.0 {
+        return *to;
+    }
+    if turn < 1e-9 {
+        return from.lerp(to, share);
+    }
+    (from * ((1.0 - share) * turn).sin() + to * (share * turn).sin()) / turn.sin()
+}
+
+/// Converts a pose from a frame to the frame that the file's numbers are given in without one.
+fn pose_from_frame(frame: Option<&CoordinateFrame>, pose: Pose) -> Pose {
+    frame.map_or(pose, |frame| Pose {
+        point: (frame.origin + frame.axes * pose.point.coords).into(),
+        axis: frame.axes * pose.axis,
+    })
+}
+
+/// Converts a pose to a frame. A frame whose axes cannot be inverted leaves it unchanged.
+fn pose_in_frame(frame: Option<&CoordinateFrame>, pose: Pose) -> Pose {
+    let seen = frame.and_then(|frame| {
+        let inverse = frame.axes.try_inverse()?;
+        Some(Pose { point: (inverse * (pose.point.coords - frame.origin)).into(), axis: inverse * pose.axis })
+    });
+    seen.unwrap_or(pose)
+}

@@ -1,0 +1,137 @@
+//! This module moves cutters along pieces of path through the stock.
+//!
+//! Columns do not depend on each other. So bands of 32 rows ([`crate::stock::dexel::BAND_ROWS`]) are processed in
+//! parallel, each by all pieces of a batch in their order, and the results of the bands are added up in the
+//! order of the bands. The result is therefore the same for any number of threads.
+
+use crate::cutter::CutterModel;
+use crate::engagement::engagement_bins::Engagement;
+use crate::engagement::path_piece::PathPiece;
+use crate::engagement::sweep::{BandEngagement, PieceSweep, StraightSweep, SweepContext, TiltedSweep};
+use crate::program::geometry::Pose;
+use crate::stock::dexel::Dexels;
+use nalgebra::Vector3;
+use rayon::prelude::*;
+
+/// The stock, and the state that carries over from one piece of path to the next.
+#[derive(Debug)]
+pub struct Simulation {
+    stock: Dexels,
+    highest: f64,
+    last: Option<(Pose, usize)>,
+    detail: bool,
+}
+
+impl Simulation {
+    /// Starts a simulation with this stock. `detail` fills the engagement finely enough for forces, which
+    /// takes several times as long.
+    pub fn new(stock: Dexels, detail: bool) -> Self {
+        let highest = stock.highest_z_mm().unwrap_or(f64::NEG_INFINITY);
+        Self { stock, highest, last: None, detail }
+    }
+
+    /// Returns the stock that is left.
+    pub fn stock(&self) -> &Dexels {
+        &self.stock
+    }
+
+    /// Ends the simulation and returns the stock that is left.
+    pub fn into_stock(self) -> Dexels {
+        self.stock
+    }
+
+    /// Moves cutters along pieces of path, removes what they sweep, and returns one engagement for each
+    /// piece. A piece whose cutter is not in the list engages nothing.
+    pub fn sweep_pieces(&mut self, pieces: &[PathPiece], cutters: &[CutterModel]) -> Vec<Engagement> {
+        let sweeps: Vec<Option<PieceSweep>> = pieces
+            .iter()
+            .enumerate()
+            .map(|(index, piece)| {
+                let goes_on = pieces.get(index + 1).is_some_and(|next| is_continued_by(piece, next));
+                self.prepare_sweep(piece, cutters, !goes_on)
+            })
+            .collect();
+        // The pieces of one band run in program order, since each meets what the pieces before it left.
+        let found: Vec<Vec<(usize, BandEngagement)>> = self
+            .stock
+            .bands_mut()
+            .par_iter_mut()
+            .map(|band| {
+                let mut scratch = Vec::new();
+                let mut found = Vec::new();
+                let rows = band.first_row..band.first_row + band.row_count();
+                for (index, sweep) in sweeps.iter().enumerate() {
+                    let Some(sweep) = sweep else { continue };
+                    let reach = sweep.row_range();
+                    if reach.start < rows.end && rows.start < reach.end {
+                        let partial = sweep.sweep_band(band, &mut scratch);
+                        if !partial.is_empty() {
+                            found.push((index, partial));
+                        }
+                    }
+                }
+                found
+            })
+            .collect();
+        let mut engagements: Vec<Engagement> =
+            pieces.iter().map(|piece| empty_engagement(piece, cutters)).collect();
+        let cell = self.stock.grid().cell;
+        for (index, partial) in found.iter().flatten() {
+            if let Some(engagement) = engagements.get_mut(*index) {
+                partial.add_to_engagement(engagement, cell * cell, cell / 2.0);
+            }
+        }
+        // Forces need every direction, but columns leave gaps between directions; see `bin_filling`.
+        if self.detail {
+            for (engagement, piece) in
+                engagements.iter_mut().zip(pieces).filter(|(found, _)| found.has_removed_material())
+            {
+                let profile = cutters.get(piece.cutter).map(|cutter| &cutter.profile);
+                let radius = profile.map_or(0.0, |profile| profile.radius_at_height_mm(engagement.height[1]));
+                engagement.fill_empty_bins(radius, cell);
+            }
+        }
+        engagements
+    }
+
+    /// Prepares the sweep of one piece. `ends` says that the next piece does not continue it.
+    fn prepare_sweep(
+        &mut self,
+        piece: &PathPiece,
+        cutters: &[CutterModel],
+        ends: bool,
+    ) -> Option<PieceSweep> {
+        let cutter = cutters.get(piece.cutter)?;
+        let continues = self.last == Some((piece.from, piece.cutter));
+        self.last = Some((piece.to, piece.cutter));
+        let around = SweepContext { continues, ends, highest: self.highest, detail: self.detail };
+        let layout = self.stock.grid();
+        // Only a vertical axis has the closed form; see `sweep`.
+        if !is_vertical(&piece.from.axis) || !is_vertical(&piece.to.axis) {
+            return Some(PieceSweep::Tilted(Box::new(TiltedSweep::new(piece, cutter, layout, around))));
+        }
+        let [from, to] = [piece.from.point, piece.to.point].map(|point| [point.x, point.y, point.z]);
+        Some(PieceSweep::Straight(Box::new(StraightSweep::new(from, to, cutter, layout, around))))
+    }
+}
+
+/// Returns whether an axis is along z. The tolerance moves a point 100 mm up the axis by 0.00001 mm, which is
+/// less than any machine can hold.
+fn is_vertical(axis: &Vector3<f64>) -> bool {
+    axis.z > 0.0 && axis.x.hypot(axis.y) <= 1e-7
+}
+
+/// Returns the engagement of a piece that meets no material.
+fn empty_engagement(piece: &PathPiece, cutters: &[CutterModel]) -> Engagement {
+    let size =
+        cutters.get(piece.cutter).map_or([0.0; 2], |cutter| [cutter.radius_mm(), cutter.flute_length_mm()]);
+    Engagement::empty_for_piece(piece, size)
+}
+
+/// Returns whether the next piece has the same cutter, starts where this one ends, and turns off by less than
+/// 30 degrees (the cosine 0.866).
+fn is_continued_by(piece: &PathPiece, next: &PathPiece) -> bool {
+    let (this, that) = (piece.to.point - piece.from.point, next.to.point - next.from.point);
+    let ahead = this.dot(&that) > 0.866 * this.norm() * that.norm();
+    ahead && piece.cutter == next.cutter && piece.to.point == next.from.point
+}

@@ -1,0 +1,26 @@
+//! The workpiece: bodies and meshes that it is made of, and the columns (dexels) that are cut.
+//!
+//! Everything is in millimetres in the workpiece frame, in which dexels stand along z. What is left can be kept in a file
+//! ([`stock_file`]), written as a surface ([`stl_export`]) and compared with the part that it should become
+//! ([`target_deviation`]).
+
+mod axis_box;
+pub mod dexel;
+mod dexel_spans;
+mod dilate;
+pub mod mesh;
+mod raw_stock;
+mod solid_body;
+pub mod stl_export;
+mod stock_error;
+pub mod stock_file;
+pub mod target_deviation;
+
+pub use axis_box::AxisBox;
+pub use dexel::{DexelBand, DexelGrid, DexelSpan, Dexels};
+pub use mesh::{Mesh, MeshError};
+pub use raw_stock::Stock;
+pub use solid_body::SolidBody;
+pub use stock_error::StockError;
+pub use stock_file::StockFileError;
+pub use target_deviation::{GridMismatch, TargetDeviation};
