@@ -2,7 +2,7 @@
 //!
 //! [`Digest`] is of bytes; [`RecipeFingerprint`] of a recipe and every file that it depends on, by content and not by name.
 
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::setup::Setup;
 use crate::source::Source;
 use crate::transform::Recipe;
@@ -145,11 +145,7 @@ impl RecipeFingerprint {
     ///
     /// # Errors
     /// [`codes::UNREADABLE`] for a model or stock file that cannot be read.
-    pub fn read_files(
-        texts: &[Arc<Source>],
-        recipe: &Recipe,
-        setup: &Setup,
-    ) -> Result<Self, Box<Diagnostic>> {
+    pub fn read_files(texts: &[Arc<Source>], recipe: &Recipe, setup: &Setup) -> Result<Self, Failure> {
         let read = |source: &Arc<Source>| FileFingerprint {
             path: source.name().to_owned(),
             sha256: Digest::from_bytes(source.bytes()),
@@ -158,7 +154,7 @@ impl RecipeFingerprint {
         for path in list_binary_files(recipe, setup) {
             let name = path.to_string_lossy().into_owned();
             let sha256 = Digest::from_file(&path).map_err(|error| {
-                Box::new(Diagnostic::new(codes::UNREADABLE, format!("{name} cannot be read: {error}")))
+                Diagnostic::new(codes::UNREADABLE, format!("{name} cannot be read: {error}"))
             })?;
             files.push(FileFingerprint { path: name, sha256 });
         }

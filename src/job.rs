@@ -6,7 +6,7 @@
 //! of the original did not have counts as a finding of this run.
 
 use crate::check;
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::fingerprint::RecipeFingerprint;
 use crate::parse::parse;
 use crate::program::{Dialect, Program, Statement, StatementChange};
@@ -15,8 +15,8 @@ use crate::recipe::Provenance;
 use crate::report::finding_policy::FindingPolicy;
 use crate::setup::Setup;
 use crate::simulation_run::RunWatcher;
-use crate::source::{Source, SourceTooLarge};
-use crate::transform::{self, Recipe, TransformReport};
+use crate::source::Source;
+use crate::transform::{self, Recipe, RecipeOutcome, TransformReport};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -39,9 +39,9 @@ pub struct CorrectionJob<'r> {
 /// What came of a file.
 #[derive(Debug)]
 pub struct JobOutcome {
-    /// The corrected program; `None` when an error stands, and then nothing may be written.
-    pub program: Option<Program>,
-    /// What was found, as the policy leaves it.
+    /// The corrected program. It may be written: no error stands.
+    pub program: Program,
+    /// What was found, as the policy leaves it; no errors.
     pub findings: Vec<Diagnostic>,
     /// What steps tell about themselves.
     pub reports: Vec<Box<dyn TransformReport>>,
@@ -52,59 +52,58 @@ impl CorrectionJob<'_> {
     ///
     /// A changed program is printed, read back and checked; what is worse in it than in the original counts as a finding,
     /// so no step can break a program and say nothing.
-    pub fn correct_source(&self, source: &Arc<Source>) -> JobOutcome {
+    ///
+    /// # Errors
+    /// All findings, as the policy leaves them, once one of them is an error; [`Failure::Interrupted`] when `watch` stopped it.
+    pub fn correct_source(&self, source: &Arc<Source>) -> Result<JobOutcome, Failure> {
         let parsed = parse(source, self.dialect);
-        let findings = self.policy.apply(parsed.diagnostics);
+        let mut findings = self.policy.apply(parsed.diagnostics);
         if findings.iter().any(Diagnostic::is_error) {
-            return JobOutcome { program: None, findings, reports: Vec::new() };
+            return Err(findings.into());
         }
-        let outcome = match transform::run_recipe_watched(self.recipe, self.setup, parsed.program, self.watch)
-        {
-            Ok(outcome) => outcome,
-            Err(stopped) => return self.finish_outcome(None, findings, stopped),
+        let RecipeOutcome { program, findings: new, reports } = match self.run_steps(source, parsed.program) {
+            Ok(done) => done,
+            Err(failure) => return Err(self.apply_policy(failure).after(findings)),
         };
-        let reports = outcome.reports;
+        findings.extend(self.policy.apply(new));
+        if findings.iter().any(Diagnostic::is_error) {
+            return Err(findings.into());
+        }
+        Ok(JobOutcome { program, findings, reports })
+    }
+
+    /// The steps, the comments, and the look at what came of them.
+    fn run_steps(&self, source: &Arc<Source>, program: Program) -> Result<RecipeOutcome, Failure> {
+        let outcome = transform::run_recipe_watched(self.recipe, self.setup, program, self.watch)?;
         let mut new = outcome.findings;
         if self.recipe.provenance != Provenance::Comments {
             new.extend(provenance::find_stale_comments(&outcome.program));
         }
         let program = match provenance::add_comments(outcome.program, self.recipe, self.print) {
             Ok(program) => program,
-            Err(found) => {
-                new.push(*found);
-                return self.finish_outcome(None, findings, new);
-            }
+            Err(failure) => return Err(failure.after(new)),
         };
         if is_program_changed(&program) {
             match self.find_new_findings(source, &program) {
                 Ok(worse) => new.extend(worse),
-                Err(too_large) => {
-                    new.push(Diagnostic::new(codes::TOO_LARGE, too_large.to_string()));
-                }
+                Err(failure) => return Err(failure.after(new)),
             }
         }
-        JobOutcome { reports, ..self.finish_outcome(Some(program), findings, new) }
+        Ok(RecipeOutcome { program, findings: new, reports: outcome.reports })
     }
 
-    fn finish_outcome(
-        &self,
-        program: Option<Program>,
-        mut findings: Vec<Diagnostic>,
-        new: Vec<Diagnostic>,
-    ) -> JobOutcome {
-        findings.extend(self.policy.apply(new));
-        let stopped = findings.iter().any(Diagnostic::is_error);
-        JobOutcome { program: program.filter(|_| !stopped), findings, reports: Vec::new() }
+    fn apply_policy(&self, failure: Failure) -> Failure {
+        let Failure::Found(found) = failure else { return Failure::Interrupted };
+        let told = self.policy.apply(found.clone());
+        // What stopped the job is told even where its code is allowed: else it would stop without a word.
+        Failure::from(if told.iter().any(Diagnostic::is_error) { told } else { found })
     }
 
     /// Findings of the corrected text that the original did not have. Their places are in the corrected text.
-    fn find_new_findings(
-        &self,
-        source: &Arc<Source>,
-        program: &Program,
-    ) -> Result<Vec<Diagnostic>, SourceTooLarge> {
+    fn find_new_findings(&self, source: &Arc<Source>, program: &Program) -> Result<Vec<Diagnostic>, Failure> {
         let name = format!("{} (corrected)", source.name());
-        let corrected_source = Source::new(name, program.to_bytes())?;
+        let corrected_source = Source::new(name, program.to_bytes())
+            .map_err(|too_large| Diagnostic::new(codes::TOO_LARGE, too_large.to_string()))?;
         let (corrected, found) = check::read_and_check(&corrected_source, Some(program.dialect()));
         if let Some(differs) = find_first_difference(program, &corrected) {
             let span = corrected.statement(differs).map(Statement::origin).unwrap_or_default();

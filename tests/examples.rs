@@ -44,15 +44,12 @@ fn run(recipe: &Recipe, setup: &Setup, source: &Arc<Source>) -> String {
         dialect: None,
         watch: &clsmith::simulation_run::SilentWatcher,
     }
-    .correct_source(source);
+    .correct_source(source)
+    .unwrap();
     assert!(!done.findings.iter().any(Diagnostic::is_error), "{:?}", done.findings);
     let mut patch = Vec::new();
-    clsmith::report::unified_diff::write_unified_diff(
-        &mut patch,
-        &done.program.unwrap(),
-        &Default::default(),
-    )
-    .unwrap();
+    clsmith::report::unified_diff::write_unified_diff(&mut patch, &done.program, &Default::default())
+        .unwrap();
     String::from_utf8_lossy(&patch).into_owned()
 }
 

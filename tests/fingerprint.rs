@@ -64,6 +64,7 @@ fn a_model_that_is_missing_is_told() {
     let source = Source::new("recipe.yaml", recipe.as_bytes().to_vec()).unwrap();
     let recipe = Recipe::load(&source).unwrap();
     let found = RecipeFingerprint::read_files(&[source], &recipe, &recipe.setup).unwrap_err();
+    let found = &found.findings()[0];
     assert_eq!(found.code.id(), "CL0401");
     assert!(found.message.contains("nowhere.stl"), "{}", found.message);
 }

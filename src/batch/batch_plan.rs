@@ -4,7 +4,7 @@ use super::jobs_file::{BatchJobs, InputPattern, JobsFileLocation};
 use super::memory_budget;
 use super::path_pattern::{self, MatchedFile, NoMatchReason};
 use super::{OutputFolder, PortablePath, Shard};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::fingerprint::{Digest, RecipeFingerprint, VERSION};
 use crate::recipe::Provenance;
 use crate::setup::Setup;
@@ -38,7 +38,7 @@ impl PreparedRecipe {
         recipe: Recipe,
         setup: Setup,
         texts: &[Arc<Source>],
-    ) -> Result<Self, Box<Diagnostic>> {
+    ) -> Result<Self, Failure> {
         let print = RecipeFingerprint::read_files(texts, &recipe, &setup)?;
         Ok(Self { name: PortablePath::from_path(name), recipe, setup, print })
     }
@@ -93,7 +93,7 @@ impl BatchPlan {
         folder: &OutputFolder,
         results: &Path,
         read: &[PathBuf],
-    ) -> Result<Self, Vec<Diagnostic>> {
+    ) -> Result<Self, Failure> {
         let mut plan = Self { files: Vec::new(), findings: Vec::new() };
         let mut wrong = Vec::new();
         let not_in = std::fs::canonicalize(folder.root()).ok();
@@ -125,7 +125,7 @@ impl BatchPlan {
         wrong.extend(plan.find_overwritten_inputs(folder, read));
         wrong.extend(plan.find_output_links(folder));
         wrong.extend(plan.find_reserved_outputs(folder, results));
-        if wrong.is_empty() { Ok(plan) } else { Err(wrong) }
+        if wrong.is_empty() { Ok(plan) } else { Err(wrong.into()) }
     }
 
     /// Makes room for the comments of recipes that ask for them. `works` are the jobs' recipes, in their order.

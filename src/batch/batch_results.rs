@@ -9,7 +9,7 @@
 //! one have the same. `shard` is missing in the results of a whole batch. A line is a [`BatchRecord`].
 
 use super::{BatchRecord, Shard};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::fingerprint::{Digest, VERSION};
 use crate::source::{Source, Span};
 use serde::{Deserialize, Serialize};
@@ -87,16 +87,14 @@ fn push_json_line(text: &mut Vec<u8>, line: &impl Serialize) {
 ///
 /// # Errors
 /// [`codes::BAD_RESULTS`] at the first line that is none.
-pub fn read_results(source: &Arc<Source>) -> Result<BatchResults, Box<Diagnostic>> {
+pub fn read_results(source: &Arc<Source>) -> Result<BatchResults, Failure> {
     let mut lines = (1..).map_while(|line| source.line_span(line)).filter(|span| !span.is_empty());
     let first = lines.next().unwrap_or_default();
     let head: ResultsHead =
         parse_line(source, first, "the first line of results says which batch they are of")?;
     if head.clsmith_batch != FORMAT {
         let message = format!("{} has results of a format that this clsmith does not know", source.name());
-        return Err(Box::new(
-            Diagnostic::new(codes::BAD_RESULTS, message).with_label(source, first, "not 1"),
-        ));
+        return Err(Diagnostic::new(codes::BAD_RESULTS, message).with_label(source, first, "not 1").into());
     }
     let records: Result<Vec<BatchRecord>, _> =
         lines.map(|span| parse_line(source, span, "a line of results is about a file")).collect();
@@ -107,14 +105,15 @@ fn parse_line<T: for<'de> Deserialize<'de>>(
     source: &Arc<Source>,
     span: Span,
     what: &str,
-) -> Result<T, Box<Diagnostic>> {
-    serde_json::from_slice(source.slice(span)).map_err(|error| {
+) -> Result<T, Failure> {
+    let read = serde_json::from_slice(source.slice(span)).map_err(|error| {
         // The place is in the label; serde counts lines within the line.
         let why = error.to_string();
         let why = why.split(" at line ").next().unwrap_or_default();
         let message = format!("{} is no results file of a batch: {what}", source.name());
-        Box::new(Diagnostic::new(codes::BAD_RESULTS, message).with_label(source, span, why))
-    })
+        Diagnostic::new(codes::BAD_RESULTS, message).with_label(source, span, why)
+    })?;
+    Ok(read)
 }
 
 mod as_text {

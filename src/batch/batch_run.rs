@@ -4,7 +4,7 @@ use super::batch_plan::{BatchPlan, PlannedFile, PreparedRecipe};
 use super::file_run::{self, FileRunResult, FileRunSettings};
 use super::memory_budget::{MemoryQueue, MemoryTicket};
 use super::{BatchJournal, BatchRecord, FileOutcome, JournalEntry, LockedFolder};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::fingerprint::Digest;
 use crate::program::Dialect;
 use crate::report::finding_policy::FindingPolicy;
@@ -68,7 +68,7 @@ impl BatchRun<'_> {
     ///
     /// # Errors
     /// [`codes::UNWRITABLE`] if the journal cannot be begun, [`codes::OUTPUT_IN_USE`] if shards of another batch run.
-    pub fn run_batch(&self, watch: &dyn BatchWatcher) -> Result<BatchOutcome, Box<Diagnostic>> {
+    pub fn run_batch(&self, watch: &dyn BatchWatcher) -> Result<BatchOutcome, Failure> {
         let id = self.plan.batch_id(self.works, self.options);
         let mine = self.plan.files_of_shard(self.folder.folder().shard());
         self.folder.check_same_batch(id)?;
@@ -77,7 +77,7 @@ impl BatchRun<'_> {
         let unwritable = |error: io::Error| {
             let journal = self.folder.folder().journal_path();
             let message = format!("the journal {} cannot be written: {error}", journal.display());
-            Box::new(Diagnostic::new(codes::UNWRITABLE, message))
+            Diagnostic::new(codes::UNWRITABLE, message)
         };
         let journal = BatchJournal::begin_journal(self.folder, id, known.values()).map_err(unwritable)?;
         let settings = FileRunSettings {

@@ -2,9 +2,9 @@
 
 use super::batch_plan::{PlannedFile, PreparedRecipe, report_outside_link};
 use super::{BatchRecord, FileOutcome, JournalEntry, LockedFolder, StatementChangeCounts};
-use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::fingerprint::Digest;
-use crate::job::{self, CorrectionJob};
+use crate::job::{self, CorrectionJob, JobOutcome};
 use crate::program::{Dialect, Program};
 use crate::report::finding_policy::FindingPolicy;
 use crate::simulation_run::RunWatcher;
@@ -53,8 +53,8 @@ pub(super) fn run_file(
     let mut record = BatchRecord::new(file, work, FileOutcome::Failed);
     let findings = match correct_file(settings, file, work, &mut record, watch) {
         Ok(findings) => findings,
-        Err(FileRunStop::Interrupted) => return FileRunResult::Interrupted,
-        Err(FileRunStop::Found(found)) => settings.policy.apply(vec![*found]),
+        Err(Failure::Interrupted) => return FileRunResult::Interrupted,
+        Err(Failure::Found(found)) => found,
     };
     record.count_findings(&findings, &file.input.to_string());
     record.seconds = Some(started.elapsed().as_secs_f64());
@@ -85,32 +85,20 @@ pub fn report_input_changed(name: &str) -> Diagnostic {
     Diagnostic::new(codes::INPUT_CHANGED, format!("{name} was changed while it was read"))
 }
 
-enum FileRunStop {
-    Found(Box<Diagnostic>),
-    Interrupted,
-}
-
-impl FileRunStop {
-    fn from_finding(code: DiagnosticCode, message: String) -> Self {
-        Self::Found(Box::new(Diagnostic::new(code, message)))
-    }
-}
-
 fn correct_file(
     settings: FileRunSettings<'_>,
     file: &PlannedFile,
     work: &PreparedRecipe,
     record: &mut BatchRecord,
     watch: &dyn RunWatcher,
-) -> Result<Vec<Diagnostic>, FileRunStop> {
+) -> Result<Vec<Diagnostic>, Failure> {
     let name = file.input.to_string();
-    let unreadable = |error: io::Error| {
-        FileRunStop::from_finding(codes::UNREADABLE, format!("{name} cannot be read: {error}"))
-    };
+    let unreadable =
+        |error: io::Error| Diagnostic::new(codes::UNREADABLE, format!("{name} cannot be read: {error}"));
     let began = SystemTime::now();
     let (bytes, stamp) = read_input(&file.path).map_err(unreadable)?;
     let source = Source::new(name.clone(), bytes)
-        .map_err(|error| FileRunStop::from_finding(codes::TOO_LARGE, error.to_string()))?;
+        .map_err(|error| Diagnostic::new(codes::TOO_LARGE, error.to_string()))?;
     let digest = Digest::from_bytes(source.bytes());
     record.sha256.input = Some(digest);
     let job = CorrectionJob {
@@ -123,20 +111,19 @@ fn correct_file(
     };
     let done = job.correct_source(&source);
     if settings.interrupt.is_raised() {
-        return Err(FileRunStop::Interrupted);
+        return Err(Failure::Interrupted);
     }
     if !is_unchanged(&file.path, &stamp, began, digest).map_err(unreadable)? {
-        return Err(FileRunStop::Found(Box::new(report_input_changed(&name))));
+        return Err(report_input_changed(&name).into());
     }
-    if let Some(program) = done.program {
-        write_corrected(settings, file, &program)?;
-        record.sha256.output =
-            Some(Digest::from_reader(ChunkReader::new(program.byte_chunks())).map_err(unreadable)?);
-        record.changed = StatementChangeCounts::count_changes(&program);
-        record.outcome =
-            if job::is_program_changed(&program) { FileOutcome::Corrected } else { FileOutcome::Unchanged };
-    }
-    Ok(done.findings)
+    let JobOutcome { program, findings, .. } = done?;
+    write_corrected(settings, file, &program)?;
+    record.sha256.output =
+        Some(Digest::from_reader(ChunkReader::new(program.byte_chunks())).map_err(unreadable)?);
+    record.changed = StatementChangeCounts::count_changes(&program);
+    record.outcome =
+        if job::is_program_changed(&program) { FileOutcome::Corrected } else { FileOutcome::Unchanged };
+    Ok(findings)
 }
 
 /// What tells a file from a changed one without reading it.
@@ -177,14 +164,11 @@ fn write_corrected(
     settings: FileRunSettings<'_>,
     file: &PlannedFile,
     program: &Program,
-) -> Result<(), FileRunStop> {
+) -> Result<(), Failure> {
     let folder = settings.folder.folder();
     let target = folder.root().join(&file.output);
     let unwritable = |error: io::Error| {
-        FileRunStop::from_finding(
-            codes::UNWRITABLE,
-            format!("{} cannot be written: {error}", file.output_name),
-        )
+        Diagnostic::new(codes::UNWRITABLE, format!("{} cannot be written: {error}", file.output_name))
     };
     if let Some(parent) = target.parent() {
         fs::create_dir_all(parent).map_err(unwritable)?;
@@ -192,13 +176,13 @@ fn write_corrected(
     // Again: somebody may have put a link there since the batch was planned.
     let mut parts = file.output.ancestors().filter(|path| !path.as_os_str().is_empty());
     if let Some(link) = parts.find(|path| folder.is_link(path)) {
-        return Err(FileRunStop::Found(Box::new(report_outside_link(link))));
+        return Err(report_outside_link(link).into());
     }
     let all = |out: &mut dyn Write| program.byte_chunks().try_for_each(|piece| out.write_all(piece));
     folder
         .temporary_files()
         .write_file(&target, settings.interrupt, all)
-        .map_err(|error| if is_interrupt(&error) { FileRunStop::Interrupted } else { unwritable(error) })
+        .map_err(|error| if is_interrupt(&error) { Failure::Interrupted } else { unwritable(error).into() })
 }
 
 /// Slices one after the other, to be read.

@@ -1,6 +1,6 @@
 //! What a batch is asked to do: a jobs file, or the same from a command line.
 
-use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
+use crate::diagnostic::{Diagnostic, DiagnosticCode, Failure, codes};
 use crate::parameters::FilePath;
 use crate::recipe::deserialize_not_empty;
 use crate::source::{Source, Span};
@@ -117,8 +117,8 @@ pub fn jobs_schema() -> serde_json::Value {
 ///
 /// # Errors
 /// Everything that is wrong with it, each at its place.
-pub fn load_jobs(source: &Arc<Source>, path: &Path) -> Result<BatchJobs, Vec<Diagnostic>> {
-    let document = YamlDocument::parse(source).map_err(|diagnostic| vec![*diagnostic])?;
+pub fn load_jobs(source: &Arc<Source>, path: &Path) -> Result<BatchJobs, Failure> {
+    let document = YamlDocument::parse(source)?;
     let text: BatchJobsText = document.deserialize_checked(word_jobs_fault)?;
     let at = |path: &[YamlPathSegment<'_>]| {
         let span = document.value_span(path).unwrap_or_default();
@@ -154,7 +154,7 @@ pub fn load_jobs(source: &Arc<Source>, path: &Path) -> Result<BatchJobs, Vec<Dia
         });
     }
     let out = text.out.map(|out| out.resolve_beside(path));
-    if found.is_empty() { Ok(BatchJobs { base, out, jobs }) } else { Err(found) }
+    if found.is_empty() { Ok(BatchJobs { base, out, jobs }) } else { Err(found.into()) }
 }
 
 fn word_jobs_fault(finding: &LocatedYamlFault<'_>) -> Option<(DiagnosticCode, String, String)> {

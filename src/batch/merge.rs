@@ -2,16 +2,16 @@
 
 use super::batch_results::{BatchResults, ResultsHead};
 use super::{BatchRecord, FileOutcome, PortablePath, Shard};
-use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
+use crate::diagnostic::{Diagnostic, DiagnosticCode, Failure, codes};
 use std::collections::BTreeMap;
 
 /// The results of the whole batch: the same bytes as if one machine had done all of it.
 ///
 /// # Errors
 /// Parts of another batch or of another split, parts or files that are there twice, parts or files that are missing.
-pub fn merge_results(parts: Vec<BatchResults>) -> Result<(ResultsHead, Vec<BatchRecord>), Vec<Diagnostic>> {
+pub fn merge_results(parts: Vec<BatchResults>) -> Result<(ResultsHead, Vec<BatchRecord>), Failure> {
     let Some(first) = parts.first() else {
-        return Err(vec![report_missing("there are no results to merge".into())]);
+        return Err(report_missing("there are no results to merge".into()).into());
     };
     let mut wrong = Vec::new();
     for other in parts.iter().skip(1) {
@@ -26,7 +26,7 @@ pub fn merge_results(parts: Vec<BatchResults>) -> Result<(ResultsHead, Vec<Batch
         wrong.push(report_at_head(other, codes::NOT_ONE_BATCH, message, "differs"));
     }
     if !wrong.is_empty() {
-        return Err(wrong);
+        return Err(wrong.into());
     }
     let twice = find_repeated_shards(&parts);
     let each_once = twice.is_empty();
@@ -48,7 +48,7 @@ pub fn merge_results(parts: Vec<BatchResults>) -> Result<(ResultsHead, Vec<Batch
             records.len()
         )));
     }
-    if wrong.is_empty() { Ok((head, records)) } else { Err(wrong) }
+    if wrong.is_empty() { Ok((head, records)) } else { Err(wrong.into()) }
 }
 
 fn shard_count(results: &BatchResults) -> u32 {

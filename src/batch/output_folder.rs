@@ -1,7 +1,7 @@
 //! The output folder: what the batch keeps there for itself, and that nobody else writes to it meanwhile.
 
 use super::{BatchPlan, Shard};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::fingerprint::Digest;
 use crate::write::TemporaryFiles;
 use std::collections::BTreeSet;
@@ -117,7 +117,7 @@ impl OutputFolder {
     /// # Errors
     /// [`codes::OUTPUT_IN_USE`] while another batch, or this shard, runs there; [`codes::UNWRITABLE`] if it cannot be made,
     /// written to or locked.
-    pub fn lock_folder(self) -> Result<LockedFolder, Box<Diagnostic>> {
+    pub fn lock_folder(self) -> Result<LockedFolder, Failure> {
         fs::create_dir_all(&self.root).map_err(|error| report_unwritable(&self.root, &error))?;
         let whole = Self::new(&self.root, None).lock_path();
         let mut locks = Vec::new();
@@ -136,7 +136,7 @@ impl OutputFolder {
         &self,
         path: &Path,
         lock: impl FnOnce(&File) -> Result<(), TryLockError>,
-    ) -> Result<File, Box<Diagnostic>> {
+    ) -> Result<File, Failure> {
         let open = File::options().create(true).truncate(false).read(true).write(true).open(path);
         let file = open.map_err(|error| report_unwritable(path, &error))?;
         match lock(&file) {
@@ -147,12 +147,10 @@ impl OutputFolder {
                     _ => "another batch".to_owned(),
                 };
                 let message = format!("{who} is writing to {} at this moment", self.root.display());
-                Err(Box::new(Diagnostic::new(codes::OUTPUT_IN_USE, message)))
+                Err(Diagnostic::new(codes::OUTPUT_IN_USE, message).into())
             }
-            Err(TryLockError::Error(error)) => Err(Box::new(
-                Diagnostic::new(codes::UNWRITABLE, format!("{} cannot be locked: {error}", path.display()))
-                    .with_help("The file system must know locks (flock); some network shares are mounted without. Choose another output folder."),
-            )),
+            Err(TryLockError::Error(error)) => Err(Diagnostic::new(codes::UNWRITABLE, format!("{} cannot be locked: {error}", path.display()))
+                    .with_help("The file system must know locks (flock); some network shares are mounted without. Choose another output folder.").into()),
         }
     }
 }
@@ -160,8 +158,8 @@ impl OutputFolder {
 /// What the batch's own files begin with.
 const OWN: &str = ".clsmith-batch";
 
-fn report_unwritable(path: &Path, error: &io::Error) -> Box<Diagnostic> {
-    Box::new(Diagnostic::new(codes::UNWRITABLE, format!("{} cannot be written: {error}", path.display())))
+fn report_unwritable(path: &Path, error: &io::Error) -> Failure {
+    Diagnostic::new(codes::UNWRITABLE, format!("{} cannot be written: {error}", path.display())).into()
 }
 
 impl LockedFolder {
@@ -174,7 +172,7 @@ impl LockedFolder {
     ///
     /// # Errors
     /// [`codes::OUTPUT_IN_USE`] if one is of another.
-    pub fn check_same_batch(&self, id: Digest) -> Result<(), Box<Diagnostic>> {
+    pub fn check_same_batch(&self, id: Digest) -> Result<(), Failure> {
         for journal in self.folder.list_journals() {
             let lock = journal.with_extension("lock");
             let runs = || {
@@ -191,7 +189,7 @@ impl LockedFolder {
                     self.folder.root.display(),
                     journal.display()
                 );
-                return Err(Box::new(Diagnostic::new(codes::OUTPUT_IN_USE, message)));
+                return Err(Diagnostic::new(codes::OUTPUT_IN_USE, message).into());
             }
         }
         Ok(())

@@ -1,6 +1,6 @@
 //! Why a command ended before its end.
 
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::{Diagnostic, Failure};
 
 /// Why a run ended before its end.
 pub enum CommandStop {
@@ -8,6 +8,15 @@ pub enum CommandStop {
     Found(Vec<Diagnostic>),
     /// Ctrl-C.
     Interrupted,
+}
+
+impl From<Failure> for CommandStop {
+    fn from(failure: Failure) -> Self {
+        match failure {
+            Failure::Found(found) => Self::Found(found),
+            Failure::Interrupted => Self::Interrupted,
+        }
+    }
 }
 
 impl From<Vec<Diagnostic>> for CommandStop {

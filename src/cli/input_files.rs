@@ -1,6 +1,6 @@
 //! Reading inputs: CL files, recipes and setups, from files and from standard input.
 
-use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::program::{Dialect, LengthUnit};
 use clsmith::recipe::Provenance;
 use clsmith::setup::Setup;
@@ -33,7 +33,7 @@ pub fn read_source(path: &Path) -> Result<Arc<Source>, Box<Diagnostic>> {
 
 /// Reads a setup file.
 pub fn read_setup(path: &Path) -> Result<Setup, Vec<Diagnostic>> {
-    Setup::load(&read_source(path).map_err(|found| vec![*found])?)
+    Setup::load(&read_source(path).map_err(|found| vec![*found])?).map_err(Failure::into_findings)
 }
 
 /// A recipe and the setup that counts for it.
@@ -53,14 +53,20 @@ pub fn read_recipe(path: &Path, setup: Option<&Path>) -> Result<LoadedRecipe, Ve
         Ok(source)
     };
     let message = |found: Box<Diagnostic>| found.message;
-    let recipe = Recipe::load(&read(path).map_err(|found: Box<Diagnostic>| vec![*found])?)?;
-    let named = recipe.load_setup_file(|name| read(&path_beside_recipe(path, name)).map_err(message))?;
+    let source = read(path).map_err(|found: Box<Diagnostic>| vec![*found])?;
+    let recipe = Recipe::load(&source).map_err(Failure::into_findings)?;
+    let named = recipe
+        .load_setup_file(|name| read(&path_beside_recipe(path, name)).map_err(message))
+        .map_err(Failure::into_findings)?;
     let given = match setup {
-        Some(path) => Setup::load(&read(path).map_err(|found| vec![*found])?)?,
+        Some(path) => {
+            Setup::load(&read(path).map_err(|found| vec![*found])?).map_err(Failure::into_findings)?
+        }
         None => Setup::default(),
     };
     let setup = recipe.merge_setups(named, given);
-    let setup = setup.read_material_file(|path| read(path).map_err(message))?;
+    let setup =
+        setup.read_material_file(|path| read(path).map_err(message)).map_err(Failure::into_findings)?;
     Ok(LoadedRecipe { recipe, setup, texts: texts.into_inner() })
 }
 

@@ -272,8 +272,7 @@ impl PlotArgs {
         let units = ResolvedLengthUnit::from_program(program, self.units).unit;
         let machining = Machining::new(program, setup, units, findings)?;
         progress.begin_bar(program.source().name());
-        SimulationReport::simulate_program(&machining, &SimulationRunOptions::default(), progress)?
-            .ok_or(CommandStop::Interrupted)
+        Ok(SimulationReport::simulate_program(&machining, &SimulationRunOptions::default(), progress)?)
     }
 
     /// The output may be no input, nor a file that the setup names.

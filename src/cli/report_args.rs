@@ -3,7 +3,7 @@
 use super::command_outputs::CommandOutputs;
 use super::progress::CommandProgress;
 use clap::Args;
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::report::comparison::{Comparison, ComparisonRuns, ComparisonSubject, to_markdown};
 use clsmith::report::html;
 use clsmith::simulation_run::SimulationRunOptions;
@@ -46,11 +46,12 @@ impl ReportArgs {
         progress: &CommandProgress,
         outputs: &CommandOutputs,
     ) -> io::Result<Option<Diagnostic>> {
-        let Some(runs) =
-            ComparisonRuns::simulate_subject(&subject, &SimulationRunOptions::default(), progress)
-        else {
-            return outputs.interrupt().check().map(|()| None);
-        };
+        let runs =
+            match ComparisonRuns::simulate_subject(&subject, &SimulationRunOptions::default(), progress) {
+                Ok(runs) => runs,
+                Err(Failure::Interrupted) => return outputs.interrupt().check().map(|()| None),
+                Err(Failure::Found(found)) => return Ok(found.into_iter().next()),
+            };
         self.write_reports(&Comparison::from_runs(subject, &runs), outputs)
     }
 

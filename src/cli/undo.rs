@@ -6,7 +6,7 @@ use super::finding_args::FindingArgs;
 use super::input_files::{self, STANDARD};
 use super::terminal;
 use clap::Args;
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::source::Source;
 use clsmith::undo;
 use std::io;
@@ -75,7 +75,7 @@ impl UndoArgs {
         }
         let (file, undone) = match self.restore_original() {
             Ok(found) => found,
-            Err(found) => return Ok(Some(*found)),
+            Err(failure) => return Ok(failure.into_findings().into_iter().next()),
         };
         if let Some(found) = outputs.write_output(target, |out| out.write_all(&undone.bytes))? {
             return Ok(Some(found));
@@ -96,7 +96,7 @@ impl UndoArgs {
         Ok(None)
     }
 
-    fn restore_original(&self) -> Result<(Arc<Source>, undo::RestoredOriginal), Box<Diagnostic>> {
+    fn restore_original(&self) -> Result<(Arc<Source>, undo::RestoredOriginal), Failure> {
         let report = input_files::read_source(&self.report)?;
         let run = undo::UndoData::read_report(&report)?;
         let file = input_files::read_source(&self.file)?;

@@ -3,9 +3,11 @@
 //! Nothing here prints. `report::render` turns diagnostics into text for people, JSON or SARIF.
 
 mod catalogue;
+mod failure;
 
 pub use catalogue::codes;
 pub use catalogue::{CATALOGUE, DiagnosticCode, find_code};
+pub use failure::Failure;
 
 use crate::source::{Source, Span};
 use std::fmt;

@@ -151,13 +151,12 @@ impl StatementReader<'_> {
         if record == Record::Definition {
             let text = rest.get(..length).unwrap_or_default();
             let shown = span.sub_span(length - text.trim_ascii_start().len(), trimmed_length(text));
-            return Err(Box::new(
-                Diagnostic::new(
-                    codes::APT_PART_PROGRAM,
-                    "this is an APT part program, not cutter-location data",
-                )
-                .with_label(self.source, shown, "geometry and variables are defined here"),
-            ));
+            return Err(Diagnostic::new(
+                codes::APT_PART_PROGRAM,
+                "this is an APT part program, not cutter-location data",
+            )
+            .with_label(self.source, shown, "geometry and variables are defined here")
+            .into());
         }
         if syntax.open {
             self.diagnostics.push(

@@ -29,7 +29,7 @@ mod stale_comments;
 pub use comment_format::WIDTH;
 pub use stale_comments::find_stale_comments;
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Failure;
 use crate::fingerprint::RecipeFingerprint;
 use crate::program::{Program, StatementChange};
 use crate::recipe::Provenance;
@@ -52,7 +52,7 @@ pub fn add_comments(
     program: Program,
     recipe: &Recipe,
     print: Option<&RecipeFingerprint>,
-) -> Result<Program, Box<Diagnostic>> {
+) -> Result<Program, Failure> {
     let changed =
         program.statements().iter().any(|statement| statement.change() != StatementChange::Untouched);
     if recipe.provenance == Provenance::None || !changed {

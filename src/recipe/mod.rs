@@ -15,7 +15,7 @@ pub use motion_filter::{FeedRange, MotionFacts, MotionFilter};
 pub use provenance::Provenance;
 pub use recipe_text::recipe_schema;
 
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::setup::{Setup, YamlLocation};
 use crate::source::{Source, Span};
 use crate::yaml::YamlDocument;
@@ -52,11 +52,11 @@ impl<S: DeserializeOwned> Recipe<S> {
     ///
     /// # Errors
     /// Everything that is wrong with it, in the order of the text, each at its exact key or value; at most 20 findings.
-    pub fn load(source: &Arc<Source>) -> Result<Self, Vec<Diagnostic>> {
-        let document = YamlDocument::parse(source).map_err(|diagnostic| vec![*diagnostic])?;
+    pub fn load(source: &Arc<Source>) -> Result<Self, Failure> {
+        let document = YamlDocument::parse(source)?;
         let text: RecipeText<S> = document
             .deserialize_checked(recipe_fault_wording::word_recipe_fault)
-            .map_err(|found| keep_version_finding(&document, found))?;
+            .map_err(|failure| keep_version_finding(&document, failure))?;
         let document = Arc::new(document);
         let setup = text
             .setup
@@ -76,13 +76,14 @@ impl<S: DeserializeOwned> Recipe<S> {
 }
 
 /// In a recipe of another version, the version is all that is wrong: the rest was written by rules unknown here.
-fn keep_version_finding(document: &YamlDocument, mut found: Vec<Diagnostic>) -> Vec<Diagnostic> {
+fn keep_version_finding(document: &YamlDocument, failure: Failure) -> Failure {
+    let Failure::Found(mut found) = failure else { return failure };
     if document.value_span(&[YamlPathSegment::Key("version")]).is_some()
         && found.iter().any(|diagnostic| diagnostic.code == codes::RECIPE_VERSION)
     {
         found.retain(|diagnostic| diagnostic.code == codes::RECIPE_VERSION);
     }
-    found
+    found.into()
 }
 
 impl<S> Recipe<S> {
@@ -145,12 +146,12 @@ impl<S> Recipe<S> {
     pub fn load_setup_file(
         &self,
         read: impl FnOnce(&str) -> Result<Arc<Source>, String>,
-    ) -> Result<Setup, Vec<Diagnostic>> {
+    ) -> Result<Setup, Failure> {
         let Some(path) = &self.setup_file else { return Ok(Setup::default()) };
         let source = read(path).map_err(|reason| {
             let span = self.value_span(&[YamlPathSegment::Key("setup_file")]).unwrap_or_default();
             let message = format!("the setup file `{path}` cannot be read: {reason}");
-            vec![Diagnostic::new(codes::SETUP_FILE, message).with_label(&self.source, span, "named here")]
+            Diagnostic::new(codes::SETUP_FILE, message).with_label(&self.source, span, "named here")
         })?;
         Setup::load(&source)
     }

@@ -8,7 +8,7 @@ mod rules_text;
 pub use rule_facts::RecipeRuleFacts;
 pub use rules_text::rules_schema;
 
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::parameters::{FilePath, Glob, ToolPattern};
 use crate::source::{Source, Span};
 use crate::yaml::{YamlDocument, YamlPathSegment};
@@ -76,7 +76,7 @@ impl RecipeRules {
     ///
     /// # Errors
     /// Everything that is wrong with the file, each at its place.
-    pub fn load(source: &Arc<Source>) -> Result<Self, Vec<Diagnostic>> {
+    pub fn load(source: &Arc<Source>) -> Result<Self, Failure> {
         rules_text::load_rules(source)
     }
 
@@ -84,7 +84,7 @@ impl RecipeRules {
     ///
     /// # Errors
     /// [`codes::NO_RULE`] when no rule fits and `otherwise` does not say what to do then, or says `stop`.
-    pub fn choose_recipe(&self, facts: &RecipeRuleFacts) -> Result<RecipeChoice, Box<Diagnostic>> {
+    pub fn choose_recipe(&self, facts: &RecipeRuleFacts) -> Result<RecipeChoice, Failure> {
         for (index, rule) in self.rules.iter().enumerate() {
             if rule.when.matches_facts(facts) {
                 return Ok(self.make_choice(&rule.job, format!("rule {}", index + 1)));
@@ -93,7 +93,7 @@ impl RecipeRules {
         match &self.otherwise {
             RecipeFallback::Recipe(job) => Ok(self.make_choice(job, "otherwise".to_owned())),
             RecipeFallback::Pass => Ok(RecipeChoice::Pass),
-            RecipeFallback::Stop => Err(Box::new(self.report_no_rule(facts))),
+            RecipeFallback::Stop => Err(self.report_no_rule(facts).into()),
         }
     }
 

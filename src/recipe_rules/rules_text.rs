@@ -1,7 +1,7 @@
 //! Rules as they are written: what serde reads, and what the JSON schema tells editors.
 
 use super::{RecipeAndSetup, RecipeFallback, RecipeRule, RecipeRuleCondition, RecipeRules};
-use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
+use crate::diagnostic::{DiagnosticCode, Failure, codes};
 use crate::parameters::{FilePath, Glob, ToolPattern};
 use crate::source::Source;
 use crate::yaml::{LocatedYamlFault, YamlDocument, YamlFaultKind, YamlPathSegment};
@@ -113,8 +113,8 @@ pub fn rules_schema() -> serde_json::Value {
     schemars::schema_for!(RecipeRulesText).to_value()
 }
 
-pub(super) fn load_rules(source: &Arc<Source>) -> Result<RecipeRules, Vec<Diagnostic>> {
-    let document = YamlDocument::parse(source).map_err(|diagnostic| vec![*diagnostic])?;
+pub(super) fn load_rules(source: &Arc<Source>) -> Result<RecipeRules, Failure> {
+    let document = YamlDocument::parse(source)?;
     let text: RecipeRulesText = document.deserialize_checked(word_rules_fault)?;
     let rules = text.rules.into_iter().map(|rule| RecipeRule {
         when: RecipeRuleCondition {

@@ -3,7 +3,7 @@
 use super::setup_reader::SetupReader;
 use super::stock::FileRef;
 use super::{Setup, YamlLocation};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::engagement::CuttingCoefficients;
 use crate::parameters::{FilePath, Finite, NonNegative, Positive};
 use crate::source::Source;
@@ -41,8 +41,8 @@ impl WorkMaterial {
     ///
     /// # Errors
     /// Everything that is wrong with the file, each at its place.
-    pub fn load(source: &Arc<Source>) -> Result<Self, Vec<Diagnostic>> {
-        let document = YamlDocument::parse(source).map_err(|diagnostic| vec![*diagnostic])?;
+    pub fn load(source: &Arc<Source>) -> Result<Self, Failure> {
+        let document = YamlDocument::parse(source)?;
         let text: MaterialFileText = document.deserialize_checked(|_| None)?;
         Ok(text.into_material())
     }
@@ -61,11 +61,11 @@ impl Setup {
     pub fn read_material_file(
         mut self,
         read: impl FnOnce(&Path) -> Result<Arc<Source>, String>,
-    ) -> Result<Self, Vec<Diagnostic>> {
+    ) -> Result<Self, Failure> {
         if let Some(MaterialChoice::File(file)) = &self.material {
             let source = read(&file.path).map_err(|reason| {
                 let message = format!("the material file `{}` cannot be read: {reason}", file.written);
-                vec![file.make_finding(codes::MATERIAL_FILE, message)]
+                file.make_finding(codes::MATERIAL_FILE, message)
             })?;
             self.material = Some(MaterialChoice::Given(WorkMaterial::load(&source)?));
         }
@@ -77,18 +77,18 @@ impl Setup {
     /// # Errors
     /// [`codes::MATERIAL_MISSING`] when the setup says none, [`codes::MATERIAL_FILE`] when it names a file that nobody
     /// has read.
-    pub fn require_material(&self) -> Result<&WorkMaterial, Box<Diagnostic>> {
+    pub fn require_material(&self) -> Result<&WorkMaterial, Failure> {
         match &self.material {
             Some(MaterialChoice::Given(material)) => Ok(material),
             Some(MaterialChoice::File(file)) => {
                 let message = format!("the material file `{}` has not been read", file.written);
-                Err(Box::new(file.make_finding(codes::MATERIAL_FILE, message)))
+                Err(file.make_finding(codes::MATERIAL_FILE, message).into())
             }
             None => {
                 let message = "cutting forces need the material that is cut";
                 let help = "Add `material: { file: steel-c45.yaml }` or `material: { k_tc: 1900 }` under `setup:`; \
                             `configs/materials` has files for common ones.";
-                Err(Box::new(Diagnostic::new(codes::MATERIAL_MISSING, message).with_help(help)))
+                Err(Diagnostic::new(codes::MATERIAL_MISSING, message).with_help(help).into())
             }
         }
     }

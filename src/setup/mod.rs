@@ -20,7 +20,7 @@ pub use stock::{FileRef, SetupStock, StockBody, StockBodyShape};
 pub use tools::{CutterInsert, ResolvedCutter, ToolCylinder, ToolDataFault, ToolDataFaultKind, ToolEntry};
 pub use yaml_location::YamlLocation;
 
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::source::Source;
 use std::path::Path;
 use std::sync::Arc;
@@ -43,7 +43,7 @@ impl Setup {
     ///
     /// # Errors
     /// Everything that is wrong with the file, each at its place.
-    pub fn load(source: &Arc<Source>) -> Result<Self, Vec<Diagnostic>> {
+    pub fn load(source: &Arc<Source>) -> Result<Self, Failure> {
         setup_text::load_setup(source)
     }
 
@@ -65,13 +65,14 @@ impl Setup {
     ///
     /// # Errors
     /// [`codes::STOCK_MISSING`] when the setup says none.
-    pub fn require_stock(&self) -> Result<&SetupStock, Box<Diagnostic>> {
-        self.stock.as_ref().ok_or_else(|| {
+    pub fn require_stock(&self) -> Result<&SetupStock, Failure> {
+        let missing = || {
             let message = "a simulation needs the stock, and the setup says none";
             let help = "Add it under `setup:`, in the coordinates of the CL file: \
                         `stock: { block: { from: [x, y, z], to: [x, y, z] } }`, or `cylinder`, `stl`, `file`.";
-            Box::new(Diagnostic::new(codes::STOCK_MISSING, message).with_help(help))
-        })
+            Diagnostic::new(codes::STOCK_MISSING, message).with_help(help)
+        };
+        Ok(self.stock.as_ref().ok_or_else(missing)?)
     }
 
     /// The files that its stock is read from.

@@ -1,7 +1,7 @@
 //! What turns a setup's text into values in millimetres, and collects what is wrong with it.
 
 use super::YamlLocation;
-use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
+use crate::diagnostic::{Diagnostic, DiagnosticCode, Failure, codes};
 use crate::parameters::{LengthUnit, Positive};
 
 /// Who made more mistakes than this fixes the first ones first; each costs a reading of the file.
@@ -95,11 +95,11 @@ impl SetupReader {
     }
 
     /// The value, unless something was wrong.
-    pub fn finish_value<T>(mut self, value: T) -> Result<T, Vec<Diagnostic>> {
+    pub fn finish_value<T>(mut self, value: T) -> Result<T, Failure> {
         if self.found.is_empty() {
             return Ok(value);
         }
         self.found.sort_by_key(|diagnostic| diagnostic.labels.first().map(|label| label.span));
-        Err(self.found)
+        Err(self.found.into())
     }
 }

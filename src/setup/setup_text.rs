@@ -6,7 +6,7 @@ use super::setup_reader::SetupReader;
 use super::stock_text::StockText;
 use super::tools::ToolText;
 use super::{Setup, YamlLocation};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Failure;
 use crate::parameters::LengthUnit;
 use crate::source::Source;
 use crate::yaml::YamlDocument;
@@ -51,8 +51,8 @@ pub(crate) struct SetupText {
 }
 
 /// Reads a setup file.
-pub(super) fn load_setup(source: &Arc<Source>) -> Result<Setup, Vec<Diagnostic>> {
-    let document = YamlDocument::parse(source).map_err(|diagnostic| vec![*diagnostic])?;
+pub(super) fn load_setup(source: &Arc<Source>) -> Result<Setup, Failure> {
+    let document = YamlDocument::parse(source)?;
     let SetupFileText { units, machine, stock, tools, material } = document.deserialize_checked(|_| None)?;
     SetupText { machine, stock, tools, material }
         .check_setup(units, YamlLocation::new(&Arc::new(document), &[]))
@@ -68,11 +68,7 @@ impl SetupText {
     ///
     /// # Errors
     /// What serde cannot see: values that are right by themselves and do not fit together. At most 20 findings.
-    pub(crate) fn check_setup(
-        self,
-        units: LengthUnit,
-        place: YamlLocation,
-    ) -> Result<Setup, Vec<Diagnostic>> {
+    pub(crate) fn check_setup(self, units: LengthUnit, place: YamlLocation) -> Result<Setup, Failure> {
         let mut reader = SetupReader::new(units);
         let list = place.at_key("tools");
         let tools = self.tools.into_iter().flatten().enumerate();

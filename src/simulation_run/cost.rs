@@ -1,7 +1,7 @@
 //! This module estimates the cost of a run before it starts.
 
 use super::{Machining, SimulationRunOptions};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::stock::Dexels;
 
 /// The most that a run may cost.
@@ -48,7 +48,7 @@ impl Machining<'_> {
     /// # Errors
     /// Returns [`codes::TOO_MUCH`] with a cell that fits if the cost exceeds the budget, and
     /// [`codes::CELL_TOO_COARSE`] if the cell is too coarse for a cutter.
-    pub fn estimate_cost(&self, options: &SimulationRunOptions) -> Result<SimulationCost, Box<Diagnostic>> {
+    pub fn estimate_cost(&self, options: &SimulationRunOptions) -> Result<SimulationCost, Failure> {
         let smallest = self
             .tooling
             .cutters()
@@ -75,7 +75,7 @@ impl Machining<'_> {
         {
             let message = format!("a cell of {cell} mm is too coarse for a cutter of {smallest:.3} mm");
             let help = format!("Take a cell of {} mm or less.", format_short(smallest / CELLS_ACROSS));
-            return Err(Box::new(Diagnostic::new(codes::CELL_TOO_COARSE, message).with_help(help)));
+            return Err(Diagnostic::new(codes::CELL_TOO_COARSE, message).with_help(help).into());
         }
         let wanted = at(asked.unwrap_or(if smallest.is_finite() { smallest / CELLS_ACROSS } else { 0.1 }));
         if fits(&wanted) {
@@ -101,7 +101,7 @@ impl Machining<'_> {
         );
         let help =
             format!("A cell of {} mm fits. Or describe the stock no larger than it is.", format_short(cell));
-        Err(Box::new(Diagnostic::new(codes::TOO_MUCH, message).with_help(help)))
+        Err(Diagnostic::new(codes::TOO_MUCH, message).with_help(help).into())
     }
 
     /// Returns the length of the path in mm, the sum of the areas under its pieces in mm2, and the number of

@@ -2,7 +2,7 @@
 
 use super::faults::FaultCollector;
 use super::{Machining, RunWatcher, SimulationRunOptions};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::engagement::{Engagement, MotionPiece, PathLinearizer, PathPiece, Simulation};
 use crate::program::motion::Motion;
 use crate::stock::Dexels;
@@ -57,22 +57,21 @@ pub struct DexelRunResult {
 }
 
 impl Machining<'_> {
-    /// Runs the whole program. `sink` gets every motion in order with its engagement. Returns `None` if
-    /// `watch` stopped the run.
+    /// Runs the whole program. `sink` gets every motion in order with its engagement.
     ///
     /// # Errors
-    /// Returns the errors of [`Machining::estimate_cost`].
+    /// Returns the errors of [`Machining::estimate_cost`], and [`Failure::Interrupted`] if `watch` stopped the run.
     pub fn simulate_program(
         &self,
         options: &SimulationRunOptions,
         watch: &dyn RunWatcher,
         sink: &mut dyn FnMut(&EngagedMotion<'_>),
-    ) -> Result<Option<DexelRunResult>, Box<Diagnostic>> {
+    ) -> Result<DexelRunResult, Failure> {
         let plan = self.estimate_cost(options)?;
         // The estimate has already compared the number of columns with the budget, so no limit is needed
         // here.
         let stock = self.stock.to_dexels(plan.cell, usize::MAX).map_err(|error| {
-            Box::new(Diagnostic::new(codes::TOO_MUCH, format!("the stock cannot be simulated: {error}")))
+            Diagnostic::new(codes::TOO_MUCH, format!("the stock cannot be simulated: {error}"))
         })?;
         let before_mm3 = stock.volume_mm3();
         let mut simulation = Simulation::new(stock, options.forces);
@@ -99,16 +98,14 @@ impl Machining<'_> {
             if batch.steps.len() >= BATCH || next.is_none() {
                 batch.simulate_batch(self, &mut simulation, plan.cell, &mut faults, sink);
                 watch.report_progress(done, plan.path_mm);
-                if watch.is_stop_requested() {
-                    return Ok(None);
-                }
+                watch.check_stop()?;
             }
             if next.is_none() {
                 break;
             }
         }
         let findings = faults.collect_findings(self.program);
-        Ok(Some(DexelRunResult { left: simulation.into_stock(), before_mm3, cell: plan.cell, findings }))
+        Ok(DexelRunResult { left: simulation.into_stock(), before_mm3, cell: plan.cell, findings })
     }
 }
 

@@ -3,7 +3,7 @@
 use super::layer_run::{LayerRunOptions, LayerRunResult, MotionChips, to_flat_mill};
 use super::tooling::statement_span;
 use super::{EngagedMotion, Machining, RunWatcher, SimulationRunOptions};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::engagement::{Engagement, MotionPiece};
 use crate::layered_chips::{FlatMill, measure_engagement};
 
@@ -57,7 +57,7 @@ impl Machining<'_> {
         &self,
         options: &SimulationRunOptions,
         source: EngagementModel,
-    ) -> Result<StockResolution, Box<Diagnostic>> {
+    ) -> Result<StockResolution, Failure> {
         match source {
             EngagementModel::Dexels => Ok(StockResolution::Cell(self.estimate_cost(options)?.cell)),
             EngagementModel::Layers { thickness: Some(thickness) } => Ok(StockResolution::Layer(thickness)),
@@ -72,30 +72,29 @@ impl Machining<'_> {
         }
     }
 
-    /// Runs the whole program as [`Machining::simulate_program`] does. Returns `None` if `watch` stopped the
-    /// run.
+    /// Runs the whole program as [`Machining::simulate_program`] does.
     ///
     /// # Errors
     /// For columns, returns the errors of [`Machining::estimate_cost`]. For layers, returns [`codes::LAYERS`]
     /// for stock that cannot be divided in layers, and [`codes::NOT_IN_LAYERS`] for a motion that layers
     /// cannot model: such a motion has no engagement, and the material that it leaves would make later
-    /// engagements wrong.
+    /// engagements wrong. Returns [`Failure::Interrupted`] if `watch` stopped the run.
     pub fn find_engagements(
         &self,
         options: &SimulationRunOptions,
         source: EngagementModel,
         watch: &dyn RunWatcher,
         sink: &mut dyn FnMut(&EngagedMotion<'_>),
-    ) -> Result<Option<EngagementRunResult>, Box<Diagnostic>> {
+    ) -> Result<EngagementRunResult, Failure> {
         let grain = self.choose_resolution(options, source)?;
         let findings = match grain {
-            StockResolution::Cell(_) => self.simulate_program(options, watch, sink)?.map(|ran| ran.findings),
+            StockResolution::Cell(_) => self.simulate_program(options, watch, sink)?.findings,
             StockResolution::Layer(layer) => {
-                self.find_layer_engagements(options, layer, watch, sink)?.map(|ran| ran.findings)
+                self.find_layer_engagements(options, layer, watch, sink)?.findings
             }
         };
         let (lowest, _) = self.stock.bounds();
-        Ok(findings.map(|findings| EngagementRunResult { grain, lowest, findings }))
+        Ok(EngagementRunResult { grain, lowest, findings })
     }
 
     /// Finds engagements in layers; fails if any motion cannot be modelled.
@@ -105,7 +104,7 @@ impl Machining<'_> {
         layer: f64,
         watch: &dyn RunWatcher,
         sink: &mut dyn FnMut(&EngagedMotion<'_>),
-    ) -> Result<Option<LayerRunResult>, Box<Diagnostic>> {
+    ) -> Result<LayerRunResult, Failure> {
         let mills = self.list_flat_mills()?;
         let options =
             LayerRunOptions { tolerance: TOLERANCE, longest: options.longest, ..LayerRunOptions::new(layer) };
@@ -113,7 +112,7 @@ impl Machining<'_> {
         // end.
         let mut refused = None;
         let mut number = 0;
-        let ran = self.simulate_layers(&options, watch, &mut |cut| {
+        let mut ran = self.simulate_layers(&options, watch, &mut |cut| {
             if refused.is_none() {
                 refused = self.describe_refusal(cut);
             }
@@ -130,18 +129,16 @@ impl Machining<'_> {
             sink(&EngagedMotion { motion: cut.motion, number, cutter: cut.cutter, pieces: &pieces });
             number += 1;
         })?;
-        match refused {
-            Some(refused) => Err(refused),
-            None => Ok(ran.map(|mut ran| {
-                // A repeated point has no effect on feeds.
-                ran.findings.retain(|found| found.code != codes::STILL_MOTION);
-                ran
-            })),
+        if let Some(refused) = refused {
+            return Err(refused.into());
         }
+        // A repeated point has no effect on feeds.
+        ran.findings.retain(|found| found.code != codes::STILL_MOTION);
+        Ok(ran)
     }
 
     /// Returns the cutters as flat end mills, or a finding for the first one that is not a flat end mill.
-    fn list_flat_mills(&self) -> Result<Vec<FlatMill>, Box<Diagnostic>> {
+    fn list_flat_mills(&self) -> Result<Vec<FlatMill>, Failure> {
         let mill = |(index, cutter)| {
             to_flat_mill(cutter).map_err(|has| {
                 let called =
@@ -151,22 +148,18 @@ impl Machining<'_> {
                     self.program.motions().find(|motion| self.tooling.cutter_index(motion) == Some(index));
                 let span = first.map(|motion| statement_span(self.program, motion.last_statement()));
                 let found = Diagnostic::new(codes::NOT_IN_LAYERS, message);
-                Box::new(found.with_label(
-                    self.program.source(),
-                    span.unwrap_or_default(),
-                    "its first motion",
-                ))
+                found.with_label(self.program.source(), span.unwrap_or_default(), "its first motion").into()
             })
         };
         self.tooling.cutters().iter().enumerate().map(mill).collect()
     }
 
     /// Returns a finding for a motion that cannot be modelled, with its place; `None` if all its pieces can.
-    fn describe_refusal(&self, cut: &MotionChips<'_>) -> Option<Box<Diagnostic>> {
+    fn describe_refusal(&self, cut: &MotionChips<'_>) -> Option<Diagnostic> {
         let (refusal, _) = cut.first_refusal()?;
         let message = format!("this motion cannot be modelled in layers: {refusal}");
         let span = statement_span(self.program, cut.motion.last_statement());
         let found = Diagnostic::new(codes::NOT_IN_LAYERS, message);
-        Some(Box::new(found.with_label(self.program.source(), span, "not modelled")))
+        Some(found.with_label(self.program.source(), span, "not modelled"))
     }
 }

@@ -23,7 +23,7 @@ pub use engagement_model::{EngagementModel, EngagementRunResult, StockResolution
 pub use tooling::Tooling;
 pub use watcher::{RunWatcher, SilentWatcher};
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Failure};
 use crate::program::{LengthUnit, Program};
 use crate::setup::Setup;
 use crate::stock::{Mesh, Stock};
@@ -69,22 +69,18 @@ impl<'p> Machining<'p> {
         setup: &'p Setup,
         units: LengthUnit,
         findings: &mut Vec<Diagnostic>,
-    ) -> Result<Self, Vec<Diagnostic>> {
+    ) -> Result<Self, Failure> {
         // Tools and stock are both examined before anything is returned, so that all that is missing is
         // reported at once.
         let mut errors = Vec::new();
         let tooling = Tooling::from_program(program, setup, units, findings, &mut errors);
-        let stock = match setup_stock::build_stock(setup) {
-            Ok(stock) => Some(stock),
-            Err(found) => {
-                errors.extend(found);
-                None
-            }
-        };
-        match stock {
-            Some(stock) if errors.is_empty() => Ok(Self { program, setup, units, stock, tooling }),
-            _ => Err(errors),
+        // What is wrong with the tools and with the stock is told at once.
+        let stock =
+            setup_stock::build_stock(setup).map_err(|failure| failure.after(std::mem::take(&mut errors)))?;
+        if !errors.is_empty() {
+            return Err(errors.into());
         }
+        Ok(Self { program, setup, units, stock, tooling })
     }
 
     /// Returns the program.

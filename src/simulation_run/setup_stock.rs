@@ -1,6 +1,6 @@
 //! This module builds the stock that a setup describes and reads its files.
 
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::LengthUnit;
 use crate::setup::{FileRef, Setup, StockBodyShape};
 use crate::stock::{Mesh, MeshError, SolidBody, Stock, stock_file};
@@ -10,8 +10,8 @@ use std::sync::Arc;
 ///
 /// # Errors
 /// Returns a finding if the setup describes no stock or a file of it cannot be used.
-pub(super) fn build_stock(setup: &Setup) -> Result<Stock, Vec<Diagnostic>> {
-    let described = setup.require_stock().map_err(|found| vec![*found])?;
+pub(super) fn build_stock(setup: &Setup) -> Result<Stock, Failure> {
+    let described = setup.require_stock()?;
     // All files are read before an error is returned, so that the user sees every fault at once.
     let mut errors = Vec::new();
     let mut bodies = Vec::new();
@@ -32,13 +32,14 @@ pub(super) fn build_stock(setup: &Setup) -> Result<Stock, Vec<Diagnostic>> {
         }
     }
     if !errors.is_empty() {
-        return Err(errors);
+        return Err(errors.into());
     }
-    Stock::new(bodies, described.allowance_mm).map_err(|error| {
+    let stock = Stock::new(bodies, described.allowance_mm).map_err(|error| {
         let place = &described.place;
         let found = Diagnostic::new(codes::STOCK_FILE, format!("the stock cannot be used: {error}"));
-        vec![found.with_label(place.source(), place.value_span(), "described here")]
-    })
+        found.with_label(place.source(), place.value_span(), "described here")
+    })?;
+    Ok(stock)
 }
 
 fn read_file_bytes(file: &FileRef) -> Result<Vec<u8>, Diagnostic> {

@@ -1,5 +1,7 @@
 //! This module lets a caller watch a run: it gets progress, and it can stop the run.
 
+use crate::diagnostic::Failure;
+
 /// A caller that watches a run.
 pub trait RunWatcher: Sync {
     /// Gets the length of the path that is done and the whole length, in mm, from time to time.
@@ -8,6 +10,14 @@ pub trait RunWatcher: Sync {
     /// Returns whether the run must stop; it is called from time to time.
     fn is_stop_requested(&self) -> bool {
         false
+    }
+
+    /// Ends work that takes long; it is called between two parts of the work.
+    ///
+    /// # Errors
+    /// Returns [`Failure::Interrupted`] if the run must stop.
+    fn check_stop(&self) -> Result<(), Failure> {
+        if self.is_stop_requested() { Err(Failure::Interrupted) } else { Ok(()) }
     }
 }
 

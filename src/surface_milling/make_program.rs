@@ -7,7 +7,7 @@ use super::section_profile::chain_bounds;
 use super::surface_program::{SurfaceProgram, draft_program};
 use super::surface_proof::{PassProver, ProvedPass, SurfaceProof};
 use super::{PassHeights, PassPattern, PassPlanes, SurfaceMillingOptions, SurfacePart, plane_offsets};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::stock::Mesh;
 use crate::surface::drop_cutter::BallClearanceField;
 use crate::surface::drop_cutter::{DropCutter, DropCutterShape};
@@ -45,7 +45,7 @@ type PreparedGround<'a> = (PassGround<'a>, f64, f64, Option<(f64, f64)>);
 pub fn make_surface_program(
     part: &SurfacePart,
     options: &SurfaceMillingOptions,
-) -> Result<SurfaceProgram, Box<Diagnostic>> {
+) -> Result<SurfaceProgram, Failure> {
     let words = &options.words;
     let print = ProgramRounding { dialect: words.dialect, units: words.units };
     let ball = DropCutterShape::new(2.0 * options.radius, options.radius)
@@ -60,7 +60,7 @@ pub fn make_surface_program(
             new_program::coordinate_decimals(words.dialect),
             options.tolerance
         );
-        return Err(Box::new(Diagnostic::new(codes::TOLERANCE_TOO_FINE, message)));
+        return Err(Diagnostic::new(codes::TOLERANCE_TOO_FINE, message).into());
     }
     let arcs = options.arcs && new_program::can_write_arcs(words.dialect);
     let mut making = PassMaker {
@@ -89,11 +89,15 @@ pub fn make_surface_program(
     let passes: usize = tracks.iter().map(Vec::len).sum();
     if passes == 0 {
         let message = format!("no plane from {} to {} mm has anything to go over", range.0, range.1);
-        return Err(Box::new(Diagnostic::new(codes::NOTHING_TO_SURFACE, message).with_help(format!(
-            "The part lies from z = {low} to {high} mm{}; the tip stays above z = {} mm.",
-            own.map_or(String::new(), |(from, to)| format!(" and from {from} to {to} mm across the planes")),
-            making.floor
-        ))));
+        return Err(Diagnostic::new(codes::NOTHING_TO_SURFACE, message)
+            .with_help(format!(
+                "The part lies from z = {low} to {high} mm{}; the tip stays above z = {} mm.",
+                own.map_or(String::new(), |(from, to)| format!(
+                    " and from {from} to {to} mm across the planes"
+                )),
+                making.floor
+            ))
+            .into());
     }
     let proof = prove_passes(&slices, &tracks, &ground, options, print);
     // The clearance height is rounded up to a round number, as people write heights.
@@ -166,8 +170,8 @@ fn make_height_probe(part: &SurfacePart, options: &SurfaceMillingOptions) -> Opt
 }
 
 /// Makes a finding about an option.
-fn invalid_option(message: String) -> Box<Diagnostic> {
-    Box::new(Diagnostic::new(codes::SURFACE_OPTION, message))
+fn invalid_option(message: String) -> Failure {
+    Diagnostic::new(codes::SURFACE_OPTION, message).into()
 }
 
 /// Prepares the ground and returns it with its lowest and highest z and its own range across the planes. Sets
@@ -177,7 +181,7 @@ fn prepare_ground<'a>(
     options: &SurfaceMillingOptions,
     making: &mut PassMaker,
     ball: DropCutterShape,
-) -> Result<PreparedGround<'a>, Box<Diagnostic>> {
+) -> Result<PreparedGround<'a>, Failure> {
     match part {
         SurfacePart::Profile(profile) => {
             let share = |share: f64| (share * options.tolerance).max(FINEST);

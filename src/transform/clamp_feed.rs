@@ -4,7 +4,7 @@
 
 use super::feed_plan::{FeedPlan, decimals_of_feed, printed_decimals};
 use super::{MotionSelection, StepContext, Transform};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Failure;
 use crate::parameters::Positive;
 use crate::program::Program;
 use crate::recipe::MotionFilter;
@@ -36,7 +36,7 @@ impl Transform for ClampFeed {
         true
     }
 
-    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>> {
+    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
         let units = context.units.mm_per_unit();
         let machine = context.setup.machine.max_feed.map(|feed| feed.get() / units);
         let min = self.min.map_or(0.0, Positive::get);

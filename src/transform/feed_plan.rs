@@ -5,7 +5,7 @@
 //! FEDRAT of the file sets its own feed anyway, so programmed feeds come back by themselves.
 
 use super::statement_numbers::{major_word, strip_remark};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::number;
 use crate::parse;
 use crate::program::motion::Motion;
@@ -79,7 +79,7 @@ impl FeedPlan {
         mut self,
         editor: &mut ProgramEditor,
         findings: &mut Vec<Diagnostic>,
-    ) -> Result<(), Box<Diagnostic>> {
+    ) -> Result<(), Failure> {
         findings.extend(describe_unknown_feeds(editor.program()));
         self.unify_statement_feeds(editor.program(), findings);
         // A FEDRAT comes back after any number of cycles with feeds of their own, and a cycle after FEDRATs; of each kind only
@@ -160,7 +160,7 @@ fn is_continuation_line(program: &Program, statement: usize) -> bool {
 ///
 /// # Errors
 /// When it cannot be printed as a record that reads back.
-pub fn set_feed(editor: &mut ProgramEditor, statement: usize, feed: f64) -> Result<(), Box<Diagnostic>> {
+pub fn set_feed(editor: &mut ProgramEditor, statement: usize, feed: f64) -> Result<(), Failure> {
     let first = feed_number_indices(editor.program(), statement).next();
     match first {
         Some(number) => editor.set_numbers(statement, &[(number, feed)]),

@@ -20,7 +20,7 @@ pub use rewrite::{RewriteRegionSpec, RewriteRule};
 pub use step_context::StepContext;
 pub use step_report::TransformReport;
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Failure;
 use crate::parameters::FilePath;
 use crate::program::{Program, StepId};
 use crate::recipe::Provenance;
@@ -56,8 +56,8 @@ pub trait Transform {
     /// Changes the program.
     ///
     /// # Errors
-    /// A diagnostic with its places in the recipe and in the CL file. The program is gone with it.
-    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>>;
+    /// Diagnostics with their places in the recipe and in the CL file, or an interruption. The program is gone with them.
+    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure>;
 
     /// Whether lengths or feeds among its parameters are in the recipe's unit, so that it matters which one that is.
     fn measures(&self) -> bool {

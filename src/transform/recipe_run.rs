@@ -1,7 +1,7 @@
 //! Running the steps of a recipe, or transforms that were built in Rust, on a program.
 
 use super::{Recipe, Step, StepContext, Transform, TransformReport, step_id};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::{LengthUnit, Program};
 use crate::recipe::{Provenance, YamlPathSegment};
 use crate::setup::Setup;
@@ -21,12 +21,8 @@ pub struct RecipeOutcome {
 /// Applies the steps in order.
 ///
 /// # Errors
-/// What stopped a step, after the findings of the steps before it.
-pub fn run_recipe(
-    recipe: &Recipe,
-    setup: &Setup,
-    program: Program,
-) -> Result<RecipeOutcome, Vec<Diagnostic>> {
+/// What stopped a step, after the findings of the steps before it; [`Failure::Interrupted`] when somebody stopped it.
+pub fn run_recipe(recipe: &Recipe, setup: &Setup, program: Program) -> Result<RecipeOutcome, Failure> {
     run_recipe_watched(recipe, setup, program, &SilentWatcher)
 }
 
@@ -39,7 +35,7 @@ pub fn run_recipe_watched(
     setup: &Setup,
     mut program: Program,
     watch: &dyn RunWatcher,
-) -> Result<RecipeOutcome, Vec<Diagnostic>> {
+) -> Result<RecipeOutcome, Failure> {
     if recipe.provenance == Provenance::Comments {
         program.keep_history();
     }
@@ -60,7 +56,7 @@ pub fn run_steps(
     units: LengthUnit,
     setup: &Setup,
     program: Program,
-) -> Result<RecipeOutcome, Vec<Diagnostic>> {
+) -> Result<RecipeOutcome, Failure> {
     let run = StepSequence { steps, units, setup, recipe: None, watch: &SilentWatcher };
     run.apply_steps(program, Vec::new())
 }
@@ -75,11 +71,7 @@ struct StepSequence<'r> {
 }
 
 impl StepSequence<'_> {
-    fn apply_steps(
-        &self,
-        mut program: Program,
-        findings: Vec<Diagnostic>,
-    ) -> Result<RecipeOutcome, Vec<Diagnostic>> {
+    fn apply_steps(&self, mut program: Program, findings: Vec<Diagnostic>) -> Result<RecipeOutcome, Failure> {
         let mut context = StepContext {
             step: step_id(0),
             units: self.units,
@@ -91,16 +83,14 @@ impl StepSequence<'_> {
         };
         for (index, step) in self.steps.iter().enumerate() {
             context.step = step_id(index);
+            self.watch.check_stop()?;
             match step.apply(program, &mut context) {
                 Ok(changed) => {
                     program = changed;
                     // Before the next step signs the same statements.
                     program.close_step(context.step);
                 }
-                Err(stopped) => {
-                    context.findings.push(*stopped);
-                    return Err(context.findings);
-                }
+                Err(failure) => return Err(failure.after(context.findings)),
             }
         }
         Ok(RecipeOutcome { program, findings: context.findings, reports: context.reports })

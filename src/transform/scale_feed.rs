@@ -2,7 +2,7 @@
 
 use super::feed_plan::{self, FeedPlan};
 use super::{MotionSelection, StepContext, Transform};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Failure;
 use crate::parameters::Factor;
 use crate::program::{Program, Record};
 use crate::recipe::MotionFilter;
@@ -28,7 +28,7 @@ pub struct ScaleFeed {
 }
 
 impl Transform for ScaleFeed {
-    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>> {
+    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
         let factor = self.factor.get();
         let mut selection = MotionSelection::new(&self.r#where, &program, context);
         let plan = FeedPlan::for_motions(&program, |motion| {

@@ -3,7 +3,7 @@
 //! Roles come from the records ([`crate::program::NumberRole`]). Two of them hang on what stands before the statement: whether a
 //! long GOTO holds axes (MULTAX), and which row of a CATIA matrix a comment is.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Failure;
 use crate::number::{self, NumberFormat};
 use crate::parse;
 use crate::program::record::{has_contact_normal, has_tool_axes};
@@ -81,7 +81,7 @@ pub fn set_matrix_row(
     editor: &mut ProgramEditor,
     index: usize,
     edits: &[(usize, f64)],
-) -> Result<(), Box<Diagnostic>> {
+) -> Result<(), Failure> {
     let Some(statement) = editor.program().statement(index) else { return Ok(()) };
     let text = editor.program().statement_text(statement).to_vec();
     let numbers = parse::statement_numbers(&text);
@@ -131,7 +131,7 @@ pub fn strip_remark(text: &[u8]) -> Vec<u8> {
 ///
 /// # Errors
 /// When the comment does not read back.
-pub fn delete_keeping_remark(editor: &mut ProgramEditor, statement: usize) -> Result<(), Box<Diagnostic>> {
+pub fn delete_keeping_remark(editor: &mut ProgramEditor, statement: usize) -> Result<(), Failure> {
     let program = editor.program();
     let Some(found) = program.statement(statement) else { return Ok(()) };
     let text = program.statement_text(found);

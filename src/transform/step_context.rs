@@ -2,7 +2,7 @@
 //! findings.
 
 use super::{Recipe, TransformReport};
-use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
+use crate::diagnostic::{Diagnostic, DiagnosticCode, Failure, codes};
 use crate::parameters::FilePath;
 use crate::program::motion::Motion;
 use crate::program::{LengthUnit, Program, StepId};
@@ -67,8 +67,8 @@ impl StepContext<'_> {
     }
 
     /// Why the step cannot go on, at one of its parameters.
-    pub fn step_failure(&self, message: impl Into<String>, keys: &[&str]) -> Box<Diagnostic> {
-        Box::new(self.step_finding(codes::STEP_FAILED, message, keys, "asked for here"))
+    pub fn step_failure(&self, message: impl Into<String>, keys: &[&str]) -> Failure {
+        self.step_finding(codes::STEP_FAILED, message, keys, "asked for here").into()
     }
 
     /// Why the step cannot go on, at a statement of the program and at the step.
@@ -78,11 +78,22 @@ impl StepContext<'_> {
         program: &Program,
         statement: usize,
         label: &str,
-    ) -> Box<Diagnostic> {
+    ) -> Failure {
+        self.statement_finding(message, program, statement, label).into()
+    }
+
+    /// As [`StepContext::statement_failure`], for a finding that is yet to get a help of its own.
+    pub fn statement_finding(
+        &self,
+        message: impl Into<String>,
+        program: &Program,
+        statement: usize,
+        label: &str,
+    ) -> Diagnostic {
         let span = program.statement(statement).map(crate::program::Statement::origin).unwrap_or_default();
         let diagnostic =
             Diagnostic::new(codes::STEP_FAILED, message).with_label(program.source(), span, label);
-        Box::new(self.label_step(diagnostic, "by this step"))
+        self.label_step(diagnostic, "by this step")
     }
 
     /// A record that the step leaves as it is although it should change, at the record and at the step.

@@ -2,7 +2,7 @@
 
 use super::UndoPatch;
 use super::run_report::{CorrectedFile, FORMAT, FORMAT_VERSION, FileIdentity};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::fingerprint::Digest;
 use crate::source::{Source, Span};
 use serde::Deserialize;
@@ -45,7 +45,7 @@ impl UndoData {
     ///
     /// # Errors
     /// [`codes::NO_RUN_REPORT`] for anything else, [`codes::NEWER_RUN_REPORT`] for one of a clsmith to come.
-    pub fn read_report(report: &Arc<Source>) -> Result<Self, Box<Diagnostic>> {
+    pub fn read_report(report: &Arc<Source>) -> Result<Self, Failure> {
         let bytes = report.bytes();
         // Only the first value: results of batches and logs have one on each line.
         let head = RunReportHead::deserialize(&mut serde_json::Deserializer::from_slice(bytes))
@@ -66,7 +66,7 @@ impl UndoData {
                 let message =
                     format!("the report has version {newer}; this clsmith reads version {FORMAT_VERSION}");
                 let found = Diagnostic::new(codes::NEWER_RUN_REPORT, message);
-                return Err(Box::new(found.with_label(report, Span::new(0, 0), "")));
+                return Err(found.with_label(report, Span::new(0, 0), "").into());
             }
             None => return Err(report_no_run_report(report, 0, "the report does not say its version")),
         }
@@ -82,7 +82,7 @@ impl UndoData {
         &self,
         corrected: &Arc<Source>,
         report: &Arc<Source>,
-    ) -> Result<RestoredOriginal, Box<Diagnostic>> {
+    ) -> Result<RestoredOriginal, Failure> {
         let found = Digest::from_bytes(corrected.bytes());
         if found != self.output.sha256 {
             return Err(self.explain_other_file(corrected, found));
@@ -92,23 +92,23 @@ impl UndoData {
             bytes.filter(|bytes| Digest::from_bytes(bytes) == self.input.sha256).ok_or_else(|| {
                 let message = "what the report has of the original does not give the file that it names";
                 let found = Diagnostic::new(codes::BAD_UNDO, message);
-                Box::new(found.with_label(report, Span::new(0, 0), "changed since the run wrote it"))
+                found.with_label(report, Span::new(0, 0), "changed since the run wrote it")
             })?;
         Ok(RestoredOriginal { bytes, sha256: self.input.sha256, places: self.undo.0.len() })
     }
 
     /// Why a file is not the one that the run wrote.
-    fn explain_other_file(&self, file: &Arc<Source>, digest: Digest) -> Box<Diagnostic> {
+    fn explain_other_file(&self, file: &Arc<Source>, digest: Digest) -> Failure {
         if digest == self.input.sha256 {
             let message = "this is the original already, as it was before the run";
             let help = "There is nothing to undo; was the corrected file meant?";
-            return Box::new(Diagnostic::new(codes::OTHER_FILE, message).with_help(help));
+            return Diagnostic::new(codes::OTHER_FILE, message).with_help(help).into();
         }
         if let Some(ends) = self.detect_line_ends(file.bytes()) {
             let message =
                 format!("only the line ends differ from the file that the run wrote: here they are {ends}");
             let help = "An editor, a version control system or a transfer in text mode has changed them; take the file that clsmith wrote.";
-            return Box::new(Diagnostic::new(codes::OTHER_FILE, message).with_help(help));
+            return Diagnostic::new(codes::OTHER_FILE, message).with_help(help).into();
         }
         let at = self.output.crc32.find_first_difference(file.bytes());
         let line = |byte: usize| file.line_column(Span::new(byte, byte).start).0;
@@ -131,7 +131,7 @@ impl UndoData {
         };
         let line_end = file.line_span(line(at.start)).map_or(at.start, |line| line.end as usize);
         let span = Span::new(at.start, line_end.max(at.start));
-        Box::new(Diagnostic::new(codes::OTHER_FILE, message).with_label(file, span, label))
+        Diagnostic::new(codes::OTHER_FILE, message).with_label(file, span, label).into()
     }
 
     /// What the line ends are, where nothing else differs.
@@ -158,7 +158,7 @@ impl UndoData {
     }
 }
 
-fn report_unreadable(report: &Arc<Source>, error: &serde_json::Error) -> Box<Diagnostic> {
+fn report_unreadable(report: &Arc<Source>, error: &serde_json::Error) -> Failure {
     let head = report.bytes().trim_ascii_start();
     if head.first() == Some(&b'<') {
         let message = "this is a page for people; undo reads what `apply --json` writes";
@@ -174,6 +174,6 @@ fn report_unreadable(report: &Arc<Source>, error: &serde_json::Error) -> Box<Dia
     report_no_run_report(report, at, message)
 }
 
-fn report_no_run_report(report: &Arc<Source>, at: usize, message: impl Into<String>) -> Box<Diagnostic> {
-    Box::new(Diagnostic::new(codes::NO_RUN_REPORT, message).with_label(report, Span::new(at, at), ""))
+fn report_no_run_report(report: &Arc<Source>, at: usize, message: impl Into<String>) -> Failure {
+    Diagnostic::new(codes::NO_RUN_REPORT, message).with_label(report, Span::new(at, at), "").into()
 }

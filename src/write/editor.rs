@@ -6,7 +6,7 @@
 
 use super::file_style::FileStyle;
 use super::number_patch;
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::parse;
 use crate::program::{Program, Record, StatementSyntax, StepId};
 use std::ops::Range;
@@ -48,7 +48,7 @@ impl ProgramEditor {
     /// # Errors
     /// Returns an error if the patched text cannot be read back, for example because a value is too large to
     /// print.
-    pub fn set_numbers(&mut self, index: usize, edits: &[(usize, f64)]) -> Result<(), Box<Diagnostic>> {
+    pub fn set_numbers(&mut self, index: usize, edits: &[(usize, f64)]) -> Result<(), Failure> {
         let Some(statement) = self.program.statement(index) else { return Ok(()) };
         let text = self.program.statement_text(statement);
         if let Some((_, value)) = edits.iter().find(|(_, value)| !value.is_finite()) {
@@ -66,11 +66,7 @@ impl ProgramEditor {
     ///
     /// # Errors
     /// Returns an error if the new text cannot be read back.
-    pub fn replace_parts(
-        &mut self,
-        index: usize,
-        parts: &[(Range<usize>, &[u8])],
-    ) -> Result<(), Box<Diagnostic>> {
+    pub fn replace_parts(&mut self, index: usize, parts: &[(Range<usize>, &[u8])]) -> Result<(), Failure> {
         let Some(statement) = self.program.statement(index) else { return Ok(()) };
         let text = self.program.statement_text(statement);
         let mut out = Vec::with_capacity(text.len() + 16);
@@ -88,7 +84,7 @@ impl ProgramEditor {
     ///
     /// # Errors
     /// Returns an error if the text is not one well-formed statement.
-    pub fn set_text(&mut self, index: usize, text: &[u8]) -> Result<(), Box<Diagnostic>> {
+    pub fn set_text(&mut self, index: usize, text: &[u8]) -> Result<(), Failure> {
         let record = self.read_back(index, text)?;
         self.program.replace_statement(index, text, record, self.step);
         Ok(())
@@ -104,7 +100,7 @@ impl ProgramEditor {
     ///
     /// # Errors
     /// Returns an error if the text is not one well-formed statement.
-    pub fn insert_before(&mut self, index: usize, text: &[u8]) -> Result<(), Box<Diagnostic>> {
+    pub fn insert_before(&mut self, index: usize, text: &[u8]) -> Result<(), Failure> {
         let text = [strip_line_end(text), self.style.line_end.as_bytes()].concat();
         let record = self.read_back(index, &text)?;
         self.inserted.push((index, text, record));
@@ -115,7 +111,7 @@ impl ProgramEditor {
     ///
     /// # Errors
     /// Returns an error if the text is not one well-formed statement.
-    pub fn insert_after(&mut self, index: usize, text: &[u8]) -> Result<(), Box<Diagnostic>> {
+    pub fn insert_after(&mut self, index: usize, text: &[u8]) -> Result<(), Failure> {
         self.insert_before(index + 1, text)
     }
 
@@ -124,7 +120,7 @@ impl ProgramEditor {
     /// # Errors
     /// Returns the errors of [`ProgramEditor::set_text`]: a last line without line end gets one if something
     /// is inserted after it.
-    pub fn finish(mut self) -> Result<Program, Box<Diagnostic>> {
+    pub fn finish(mut self) -> Result<Program, Failure> {
         let end = self.program.statements().len();
         let last = self
             .program
@@ -144,7 +140,7 @@ impl ProgramEditor {
     }
 
     /// Reads a text back; makes an error of a text that is not one statement.
-    fn read_back(&self, index: usize, text: &[u8]) -> Result<Record, Box<Diagnostic>> {
+    fn read_back(&self, index: usize, text: &[u8]) -> Result<Record, Failure> {
         let problem = match parse::read_whole_record(text) {
             Ok(record) => return Ok(record),
             Err(problem) => problem,
@@ -156,13 +152,13 @@ impl ProgramEditor {
     }
 
     /// Makes the error for a text that cannot be written, with the place of its statement.
-    fn unwritable_error(&self, index: usize, message: &str) -> Box<Diagnostic> {
+    fn unwritable_error(&self, index: usize, message: &str) -> Failure {
         let mut diagnostic = Diagnostic::new(codes::UNREADABLE_EDIT, message);
         if let Some(statement) = self.program.statement(index) {
             diagnostic =
                 diagnostic.with_label(self.program.source(), statement.origin(), "for this statement");
         }
-        Box::new(diagnostic)
+        diagnostic.into()
     }
 }
 

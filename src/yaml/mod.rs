@@ -17,7 +17,7 @@ mod yaml_tree;
 pub(crate) use fault_diagnostics::{LocatedYamlFault, suggest_names};
 pub(crate) use yaml_fault::YamlFaultKind;
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Failure;
 use crate::source::{Source, Span};
 use node_location::KeyOrValue;
 use std::fmt;
@@ -46,7 +46,7 @@ impl YamlDocument {
     ///
     /// # Errors
     /// The one reason why the bytes are not a YAML document.
-    pub fn parse(source: &Arc<Source>) -> Result<Self, Box<Diagnostic>> {
+    pub fn parse(source: &Arc<Source>) -> Result<Self, Failure> {
         let (text, base) = yaml_syntax::check_text(source)?;
         let root = yaml_syntax::parse_tree(source, text, base)?;
         Ok(Self { source: Arc::clone(source), base, root })

@@ -8,7 +8,7 @@ use super::node_deserializer::NodeDeserializer;
 use super::yaml_fault::{YamlFault, YamlFaultKind};
 use super::yaml_tree;
 use super::{KeyOrValue, YamlDocument, fault_words};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use serde::de::DeserializeOwned;
 
 /// Who made more mistakes than this fixes the first ones first.
@@ -19,10 +19,7 @@ impl YamlDocument {
     ///
     /// # Errors
     /// Everything that is wrong, in the order of the text; at most 20 findings.
-    pub fn deserialize_checked<T: DeserializeOwned>(
-        &self,
-        special: FaultWording,
-    ) -> Result<T, Vec<Diagnostic>> {
+    pub fn deserialize_checked<T: DeserializeOwned>(&self, special: FaultWording) -> Result<T, Failure> {
         let mut tree = self.root.clone();
         let mut found = self.find_duplicate_keys();
         for (path, _, later) in yaml_tree::find_duplicate_entries(&self.root) {
@@ -48,7 +45,7 @@ impl YamlDocument {
             a.message == b.message
                 && a.labels.first().map(|label| label.span) == b.labels.first().map(|label| label.span)
         });
-        Err(found)
+        Err(found.into())
     }
 
     /// Whether the node is only wrong because something in it was taken out: the key itself, or a misspelling of it.

@@ -2,7 +2,7 @@
 
 use super::node_location;
 use super::yaml_tree::{YamlNode, YamlRefusal, YamlTreeBuilder};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::source::{Source, Span};
 use serde::de::DeserializeSeed;
 use std::sync::Arc;
@@ -11,24 +11,22 @@ use std::sync::Arc;
 pub const LARGEST: usize = 1 << 20;
 
 /// serde_yaml does not count the byte order mark, so it reads the text behind it.
-pub(super) fn check_text(source: &Arc<Source>) -> Result<(&str, usize), Box<Diagnostic>> {
+pub(super) fn check_text(source: &Arc<Source>) -> Result<(&str, usize), Failure> {
     let bytes = source.bytes();
     if bytes.len() > LARGEST {
         let message = format!("the file has {} bytes; recipes and setup files are below 1 MiB", bytes.len());
-        return Err(Box::new(Diagnostic::new(codes::YAML_TOO_LARGE, message).with_label(
-            source,
-            Span::new(0, 0),
-            "",
-        )));
+        return Err(Diagnostic::new(codes::YAML_TOO_LARGE, message)
+            .with_label(source, Span::new(0, 0), "")
+            .into());
     }
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let start = error.valid_up_to();
         let span = Span::new(start, start + error.error_len().unwrap_or(bytes.len() - start));
-        Box::new(Diagnostic::new(codes::YAML_NOT_TEXT, "the file is not UTF-8 text").with_label(
+        Diagnostic::new(codes::YAML_NOT_TEXT, "the file is not UTF-8 text").with_label(
             source,
             span,
             "this byte is not UTF-8",
-        ))
+        )
     })?;
     let (text, base) = match text.strip_prefix('\u{feff}') {
         Some(rest) => (rest, text.len() - rest.len()),
@@ -37,12 +35,10 @@ pub(super) fn check_text(source: &Arc<Source>) -> Result<(&str, usize), Box<Diag
     if let Some((at, c)) = text.char_indices().find(|&(_, c)| !is_printable(c)) {
         let span = Span::new(base + at, base + at + c.len_utf8());
         let message = format!("a control character (U+{:04X}) in the text", c as u32);
-        return Err(Box::new(
-            Diagnostic::new(codes::YAML_NOT_TEXT, message).with_label(source, span, "here"),
-        ));
+        return Err(Diagnostic::new(codes::YAML_NOT_TEXT, message).with_label(source, span, "here").into());
     }
     if let Some(at) = find_excess_bracket(text) {
-        return Err(Box::new(report_too_deep(source, Span::new(base + at, base + at + 1))));
+        return Err(report_too_deep(source, Span::new(base + at, base + at + 1)).into());
     }
     Ok((text, base))
 }
@@ -79,21 +75,21 @@ fn is_printable(c: char) -> bool {
 }
 
 /// Reads the one document of a file.
-pub(super) fn parse_tree(source: &Arc<Source>, text: &str, base: usize) -> Result<YamlNode, Box<Diagnostic>> {
+pub(super) fn parse_tree(source: &Arc<Source>, text: &str, base: usize) -> Result<YamlNode, Failure> {
     let builder = YamlTreeBuilder::new();
     let mut documents = serde_yaml::Deserializer::from_str(text);
     let Some(first) = documents.next() else {
-        return Err(Box::new(report_empty_file(source)));
+        return Err(report_empty_file(source).into());
     };
     let root = builder.deserialize(first).map_err(|error| {
         let at = error.location().map_or(0, |location| location.index().min(text.len()));
-        Box::new(explain_refusal(source, text, base, at, &error, builder.refusal()))
+        explain_refusal(source, text, base, at, &error, builder.refusal())
     })?;
     if documents.next().is_some() {
-        return Err(Box::new(report_second_document(source, text, base)));
+        return Err(report_second_document(source, text, base).into());
     }
     match root {
-        YamlNode::Null => Err(Box::new(report_empty_file(source))),
+        YamlNode::Null => Err(report_empty_file(source).into()),
         root => Ok(root),
     }
 }

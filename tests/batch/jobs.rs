@@ -2,12 +2,12 @@
 
 use crate::support;
 use clsmith::batch::jobs_file::{BatchJobs, jobs_schema, load_jobs};
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::report::render::line;
 use std::path::Path;
 
 fn read(text: &str) -> Result<BatchJobs, Vec<Diagnostic>> {
-    load_jobs(&support::text(text), Path::new("shop/jobs.yaml"))
+    load_jobs(&support::text(text), Path::new("shop/jobs.yaml")).map_err(Failure::into_findings)
 }
 
 const GOOD: &str = "\

@@ -66,7 +66,10 @@ fn parts_make_the_whole() {
 #[track_caller]
 fn refused(parts: Vec<BatchResults>, code: DiagnosticCode, words: &str) {
     let found = merge_results(parts).unwrap_err();
-    assert!(found.iter().any(|found| found.code == code && found.message.contains(words)), "{found:?}");
+    assert!(
+        found.findings().iter().any(|found| found.code == code && found.message.contains(words)),
+        "{found:?}"
+    );
 }
 
 #[test]
@@ -116,7 +119,8 @@ fn what_is_no_result_is_underlined() {
         (good[..good.len() - 20].to_owned(), 2),
         (good.replace("corrected", "perfect"), 2),
     ] {
-        let found = read_results(&support::text(&bad)).unwrap_err();
+        let failure = read_results(&support::text(&bad)).unwrap_err();
+        let found = &failure.findings()[0];
         assert_eq!(found.code, codes::BAD_RESULTS, "{bad}");
         let label = &found.labels[0];
         assert_eq!(label.source.line_column(label.span.start).0, line, "{bad}");

@@ -2,7 +2,7 @@
 
 use super::{SETUP, near, nx};
 use crate::support;
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::program::LengthUnit;
 use clsmith::setup::Setup;
 use clsmith::simulation_run::layer_run::{LayerRunOptions, LayerRunResult, UncutReason};
@@ -18,13 +18,15 @@ fn run(
     options: &LayerRunOptions,
 ) -> Result<(Motions, LayerRunResult), Vec<Diagnostic>> {
     let program = support::program(text);
-    let setup = Setup::load(&Source::new("shop.yaml", setup.as_bytes().to_vec()).unwrap())?;
-    let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new())?;
+    let setup = Setup::load(&Source::new("shop.yaml", setup.as_bytes().to_vec()).unwrap())
+        .map_err(Failure::into_findings)?;
+    let machining =
+        Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new()).map_err(Failure::into_findings)?;
     let mut motions = Vec::new();
     let ran = machining.simulate_layers(options, &SilentWatcher, &mut |cut| {
         motions.push((cut.line, cut.volume_mm3(), cut.left_out));
     });
-    Ok((motions, ran.map_err(|found| vec![*found])?.unwrap()))
+    Ok((motions, ran.map_err(Failure::into_findings)?))
 }
 
 fn codes(ran: &LayerRunResult) -> Vec<&'static str> {
@@ -157,7 +159,7 @@ fn stock_and_tools_that_cannot_be_are_errors_with_their_codes() {
     let setup = Setup::load(&source).unwrap();
     let program = support::program(&text);
     let errors = Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new()).unwrap_err();
-    assert!(errors.iter().any(|found| found.code.id() == "CL0504"), "{errors:?}");
+    assert!(errors.findings().iter().any(|found| found.code.id() == "CL0504"), "{errors:?}");
 }
 
 /// A real program over a block around its points, up to some line.
@@ -199,7 +201,7 @@ fn real(end: &str, tool: &str, units: LengthUnit, lines: usize) {
         cutting += usize::from(volume > 0.0);
         refused += usize::from(cut.first_refusal().is_some());
     });
-    let ran = ran.unwrap().unwrap();
+    let ran = ran.unwrap();
     assert!(cutting > 20, "{cutting} motions cut, {refused} were refused");
     near(ran.before_mm3 - ran.left.volume_mm3(), removed, 1e-3 * ran.before_mm3);
 }
@@ -220,9 +222,8 @@ fn the_options_of_the_simulation_stay_apart() {
     let program = support::program(nx(FLAT, "GOTO/-20.0000,0.0000,-3.0000\nGOTO/40.0000,0.0000,-3.0000\n"));
     let setup = Setup::load(&support::text(SETUP)).unwrap();
     let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new()).unwrap();
-    let chips = || {
-        machining.simulate_layers(&whole(), &SilentWatcher, &mut |_| {}).unwrap().unwrap().left.volume_mm3()
-    };
+    let chips =
+        || machining.simulate_layers(&whole(), &SilentWatcher, &mut |_| {}).unwrap().left.volume_mm3();
     let before = chips();
     machining
         .simulate_program(

@@ -5,7 +5,7 @@ mod exact;
 mod paths;
 
 use crate::support;
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::engagement::Engagement;
 use clsmith::program::LengthUnit;
 use clsmith::setup::Setup;
@@ -42,13 +42,15 @@ pub fn try_machine(
     options: SimulationRunOptions,
 ) -> Result<(Vec<Engagement>, DexelRunResult), Vec<Diagnostic>> {
     let program = support::program(text);
-    let setup = Setup::load(&Source::new("shop.yaml", setup.as_bytes().to_vec()).unwrap())?;
-    let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new())?;
+    let setup = Setup::load(&Source::new("shop.yaml", setup.as_bytes().to_vec()).unwrap())
+        .map_err(Failure::into_findings)?;
+    let machining =
+        Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new()).map_err(Failure::into_findings)?;
     let mut found = Vec::new();
     let ran = machining.simulate_program(&options, &SilentWatcher, &mut |cut| {
         found.extend(cut.whole_engagement().filter(|_| !cut.motion.rapid));
     });
-    Ok((found, ran.map_err(|found| vec![*found])?.unwrap()))
+    Ok((found, ran.map_err(Failure::into_findings)?))
 }
 
 /// Codes of findings.

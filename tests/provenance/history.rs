@@ -106,7 +106,7 @@ fn names_of_files_do_not_make_another_dialect() {
     for name in ["ICAM - old.apt", "CATIA APT VERSION 1.0.apt", "Pro/CLfile", "a $$-> b\n.apt", "täschle.apt"]
     {
         let source = clsmith::source::Source::new(name, PART.as_bytes().to_vec()).unwrap();
-        let program = super::done(&with_comments(HALF), &source).program.unwrap();
+        let program = super::done(&with_comments(HALF), &source).unwrap().program;
         let bytes = program.to_bytes();
         let again = parse(&crate::support::text(&bytes), None).program;
         assert_eq!(again.dialect(), program.dialect(), "{name}");

@@ -6,7 +6,7 @@ mod invariants;
 mod words;
 
 use crate::support;
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::fingerprint::RecipeFingerprint;
 use clsmith::job::{CorrectionJob, JobOutcome};
 use clsmith::program::Program;
@@ -26,7 +26,7 @@ pub fn recipe(text: &str) -> (Recipe, RecipeFingerprint) {
 }
 
 /// Corrects a file as `apply` does.
-pub fn done(recipe_text: &str, source: &Arc<Source>) -> JobOutcome {
+pub fn done(recipe_text: &str, source: &Arc<Source>) -> Result<JobOutcome, Failure> {
     let (recipe, print) = recipe(recipe_text);
     let setup = recipe.merge_setups(Setup::default(), Setup::default());
     let policy = FindingPolicy::default();
@@ -43,8 +43,8 @@ pub fn done(recipe_text: &str, source: &Arc<Source>) -> JobOutcome {
 
 /// The corrected program and what was found, which must be no error.
 pub fn corrected(recipe_text: &str, text: impl AsRef<[u8]>) -> (Program, Vec<Diagnostic>) {
-    let JobOutcome { program, findings, .. } = done(recipe_text, &support::text(text));
-    (program.unwrap_or_else(|| panic!("{findings:?}")), findings)
+    let JobOutcome { program, findings, .. } = done(recipe_text, &support::text(text)).unwrap();
+    (program, findings)
 }
 
 /// The steps of a recipe with comments.

@@ -104,18 +104,18 @@ fn optimize_feed_says_what_it_knows_of_the_chip() {
     let setup = "setup:\n  machine: { max_feed: 5000 }\n  stock: { block: { from: [0, 0, -10], to: [40, 20, 0] } }\n  \
         tools: [{ match: {}, teeth: 4, flute_length: 20 }]\n";
     let steps = "  - optimize_feed: { target: 0.065 }";
-    let done = done(&with_comments(steps).replace("steps:", &format!("{setup}steps:")), &support::text(part));
-    let text =
-        String::from_utf8(done.program.unwrap_or_else(|| panic!("{:?}", done.findings)).to_bytes()).unwrap();
+    let done = done(&with_comments(steps).replace("steps:", &format!("{setup}steps:")), &support::text(part))
+        .unwrap();
+    let text = String::from_utf8(done.program.to_bytes()).unwrap();
     let lines: Vec<&str> = text.lines().filter(|line| line.contains("optimize_feed")).collect();
     assert!(lines.iter().any(|line| line.contains(", h 0.040 -> 0.06")), "{text}");
     // What only an earlier step changed has no note of this one.
     let steps =
         "  - scale_feed: { factor: 1.5 }\n  - optimize_feed: { target: 0.06, min_feed: 480, max_feed: 480 }";
     let done =
-        super::done(&with_comments(steps).replace("steps:", &format!("{setup}steps:")), &support::text(part));
-    let text =
-        String::from_utf8(done.program.unwrap_or_else(|| panic!("{:?}", done.findings)).to_bytes()).unwrap();
+        super::done(&with_comments(steps).replace("steps:", &format!("{setup}steps:")), &support::text(part))
+            .unwrap();
+    let text = String::from_utf8(done.program.to_bytes()).unwrap();
     assert!(text.contains("$$ clsmith scale_feed: 320.0000 -> 480.0000\n"), "{text}");
 }
 

@@ -1,6 +1,7 @@
 //! Files that nobody writes by hand must not crash, hang or fill the memory.
 
 use super::{bad, load};
+use clsmith::diagnostic::Failure;
 use clsmith::recipe::YamlPathSegment;
 use clsmith::setup::Setup;
 use proptest::prelude::*;
@@ -139,7 +140,7 @@ proptest! {
 
 fn survive(bytes: &[u8]) -> Result<(), TestCaseError> {
     let source = super::source(bytes);
-    let found = Setup::load(&source).err().unwrap_or_default();
+    let found = Setup::load(&source).err().map_or_else(Vec::new, Failure::into_findings);
     match load(bytes) {
         Ok(recipe) => {
             for index in 0..=recipe.steps.len() {

@@ -7,7 +7,7 @@ mod reading;
 mod schema;
 mod select;
 
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::recipe::parameters::{Factor, Finite, Fraction, Glob, Positive};
 use clsmith::recipe::{MotionFilter, Recipe};
 use clsmith::source::Source;
@@ -64,7 +64,7 @@ pub fn source(text: impl AsRef<[u8]>) -> Arc<Source> {
 }
 
 pub fn load(text: impl AsRef<[u8]>) -> Result<Recipe<Step>, Vec<Diagnostic>> {
-    Recipe::load(&source(text))
+    Recipe::load(&source(text)).map_err(Failure::into_findings)
 }
 
 #[track_caller]

@@ -98,10 +98,10 @@ fn the_command_line_overrides_the_recipe_and_the_recipe_its_setup_file() {
 fn a_setup_file_that_cannot_be_read_is_reported_where_it_is_named() {
     let recipe = good("version: 1\nsetup_file: 'my shop.yaml'\nsteps: []");
     let found = recipe.load_setup_file(|_| Err("no such file".to_owned())).unwrap_err();
-    assert_eq!(found[0].code.id(), "CL0220");
-    assert_eq!(super::underlined_by(&found[0]), "'my shop.yaml'");
+    assert_eq!(found.findings()[0].code.id(), "CL0220");
+    assert_eq!(super::underlined_by(&found.findings()[0]), "'my shop.yaml'");
     let found = recipe.load_setup_file(|_| Ok(source("machine: { max_fed: 1 }"))).unwrap_err();
-    assert_eq!(super::underlined_by(&found[0]), "max_fed");
+    assert_eq!(super::underlined_by(&found.findings()[0]), "max_fed");
     assert_eq!(good("version: 1\nsteps: []").load_setup_file(|_| panic!()).unwrap(), Setup::default());
 }
 

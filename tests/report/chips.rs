@@ -2,7 +2,7 @@
 
 use super::simulation::{SHOP, SLOT, close, setup};
 use crate::support::{program, rounded_snapshots, snapshots};
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::program::LengthUnit;
 use clsmith::report::layered_chips::{
     ChipReport, ChipReportOptions, ChipRow, draw_diagrams, draw_layers, to_text, write_csv, write_json,
@@ -24,8 +24,9 @@ fn report(
     keep: ChipReportOptions,
 ) -> Result<ChipReport, Vec<Diagnostic>> {
     let (program, setup) = (program(text), setup(shop));
-    let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new())?;
-    ChipReport::simulate_layers(&machining, options, keep, &SilentWatcher).map(Option::unwrap)
+    let machining =
+        Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new()).map_err(Failure::into_findings)?;
+    ChipReport::simulate_layers(&machining, options, keep, &SilentWatcher).map_err(Failure::into_findings)
 }
 
 fn slot(keep: ChipReportOptions) -> ChipReport {

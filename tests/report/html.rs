@@ -38,8 +38,7 @@ pub fn told<T>(
         dialect: None,
         watch: &SilentWatcher,
     };
-    let JobOutcome { program, findings, reports } = job.correct_source(&source);
-    let program = program.unwrap_or_else(|| panic!("{findings:?}"));
+    let JobOutcome { program, findings, reports } = job.correct_source(&source).unwrap();
     let before = parse(&source, Some(program.dialect())).program;
     let subject = ComparisonSubject {
         before: Some(&before),

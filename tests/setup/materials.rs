@@ -1,6 +1,7 @@
 //! Cutting coefficients, in the setup or in a file of their own.
 
 use super::{close, draw, good, seen, source};
+use clsmith::diagnostic::Failure;
 use clsmith::setup::{Setup, WorkMaterial};
 use std::path::Path;
 
@@ -17,7 +18,7 @@ fn only_the_tangential_coefficient_is_required() {
 #[test]
 fn a_file_has_the_same_keys() {
     let setup = good("material: { file: materials/c45.yaml }");
-    assert_eq!(setup.require_material().unwrap_err().code.id(), "CL0507");
+    assert_eq!(setup.require_material().unwrap_err().findings()[0].code.id(), "CL0507");
     let read = |path: &Path| {
         assert_eq!(path, Path::new("shop/materials/c45.yaml"));
         Ok(source("name: C45\nk_tc: 1900\nk_te: 30\nk_rc: 600\nk_re: 50\nk_ac: 400\nk_ae: -3\n"))
@@ -35,8 +36,8 @@ fn what_is_said_when_there_is_none() {
     let setup = good("material: { file: c45.yaml }");
     let unreadable = setup.clone().read_material_file(|_| Err("no such file".to_owned())).unwrap_err();
     let broken = setup.read_material_file(|_| Ok(source("k_te: 5\n"))).unwrap_err();
-    let missing = *Setup::default().require_material().unwrap_err();
-    let no_stock = *Setup::default().require_stock().unwrap_err();
-    seen("nothing_said", &[unreadable, broken, vec![missing, no_stock]].concat());
-    assert!(draw(&WorkMaterial::load(&source("")).unwrap_err()).contains("CL0203"));
+    let missing = Setup::default().require_material().unwrap_err();
+    let no_stock = Setup::default().require_stock().unwrap_err();
+    seen("nothing_said", &[unreadable, broken, missing, no_stock].map(Failure::into_findings).concat());
+    assert!(draw(WorkMaterial::load(&source("")).unwrap_err().findings()).contains("CL0203"));
 }

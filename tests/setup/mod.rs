@@ -10,7 +10,7 @@ mod reading;
 mod teeth;
 
 use crate::support::snapshots;
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::program::motion::ActiveTool;
 use clsmith::report::render::human::{HumanRenderOptions, render_human};
 use clsmith::setup::Setup;
@@ -23,7 +23,7 @@ fn source(text: impl AsRef<[u8]>) -> Arc<Source> {
 
 /// Reads a setup file.
 fn load(text: impl AsRef<[u8]>) -> Result<Setup, Vec<Diagnostic>> {
-    Setup::load(&source(text))
+    Setup::load(&source(text)).map_err(Failure::into_findings)
 }
 
 #[track_caller]

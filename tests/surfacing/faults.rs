@@ -35,7 +35,8 @@ fn what_cannot_be_made_says_why() {
         (block(), fine_inch, codes::TOLERANCE_TOO_FINE),
     ];
     for (part, options, code) in cases {
-        assert_eq!(make_surface_program(&part, &options).unwrap_err().code, code, "{options:?}");
+        let failure = make_surface_program(&part, &options).unwrap_err();
+        assert_eq!(failure.findings()[0].code, code, "{options:?}");
     }
     let mut creo = SurfaceMillingOptions { tolerance: 1e-4, ..options() };
     creo.words.dialect = Dialect::Creo;

@@ -133,7 +133,7 @@ fn found(text: &str) -> Vec<(String, String)> {
     let source = support::text(text);
     let found = load_profile(&source).unwrap_err();
     let shown = |span: clsmith::source::Span| text[span.to_range()].to_owned();
-    found.iter().map(|found| (found.code.to_string(), shown(found.labels[0].span))).collect()
+    found.findings().iter().map(|found| (found.code.to_string(), shown(found.labels[0].span))).collect()
 }
 
 #[test]

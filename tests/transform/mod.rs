@@ -12,7 +12,7 @@ mod optimize_feed;
 mod rewrite;
 
 use crate::support;
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::setup::Setup;
 use clsmith::source::Source;
 use clsmith::transform::{Recipe, run_recipe};
@@ -28,8 +28,8 @@ pub fn apply(steps: &str, text: impl AsRef<[u8]>) -> (String, Vec<Diagnostic>) {
 /// Applies a whole recipe; the error is what stopped it.
 pub fn try_apply(recipe: &str, text: impl AsRef<[u8]>) -> Result<(String, Vec<Diagnostic>), Vec<Diagnostic>> {
     let recipe = Source::new("recipe.yaml", recipe.as_bytes().to_vec()).unwrap();
-    let recipe = Recipe::load(&recipe)?;
+    let recipe = Recipe::load(&recipe).map_err(Failure::into_findings)?;
     let setup = recipe.merge_setups(Setup::default(), Setup::default());
-    let outcome = run_recipe(&recipe, &setup, support::program(text))?;
+    let outcome = run_recipe(&recipe, &setup, support::program(text)).map_err(Failure::into_findings)?;
     Ok((String::from_utf8_lossy(&outcome.program.to_bytes()).into_owned(), outcome.findings))
 }

@@ -3,7 +3,7 @@
 use super::report;
 use crate::provenance::{done, with_comments};
 use crate::support;
-use clsmith::diagnostic::{Diagnostic, DiagnosticCode, codes};
+use clsmith::diagnostic::{Diagnostic, DiagnosticCode, Failure, codes};
 use clsmith::source::Source;
 use clsmith::undo::UndoData;
 use std::sync::Arc;
@@ -16,18 +16,18 @@ fn part() -> String {
 /// The corrected file of a run, and its report.
 fn run() -> (Vec<u8>, Arc<Source>) {
     let recipe = with_comments("  - scale_feed: { factor: 0.5 }");
-    let program = done(&recipe, &support::text(part())).program.unwrap();
+    let program = done(&recipe, &support::text(part())).unwrap().program;
     let report = report(&recipe, &program);
     (program.to_bytes(), report)
 }
 
-fn undo(file: &[u8], report: &Arc<Source>) -> Result<Vec<u8>, Box<Diagnostic>> {
+fn undo(file: &[u8], report: &Arc<Source>) -> Result<Vec<u8>, Failure> {
     let undo = UndoData::read_report(report)?;
     undo.restore_original(&support::text(file), report).map(|undone| undone.bytes)
 }
 
-fn refused(file: &[u8], report: &Arc<Source>, code: DiagnosticCode) -> Box<Diagnostic> {
-    let found = undo(file, report).unwrap_err();
+fn refused(file: &[u8], report: &Arc<Source>, code: DiagnosticCode) -> Diagnostic {
+    let found = undo(file, report).unwrap_err().into_findings().remove(0);
     assert_eq!(found.code, code, "{found:?}");
     found
 }

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 /// Whether the recipe changed the file; the original must come back in any case.
 fn comes_back(recipe: &str, source: &Arc<Source>) -> Option<bool> {
-    let program = done(recipe, source).program?;
+    let program = done(recipe, source).ok()?.program;
     let report = report(recipe, &program);
     assert!(undone(&program, &report) == source.bytes(), "{} comes back", source.name());
     Some(program.to_bytes() != source.bytes())
@@ -44,10 +44,10 @@ fn real_files_come_back() {
 fn two_runs_come_back_one_after_the_other() {
     let recipe = with_comments("  - scale_feed: { factor: 0.5 }");
     let first = support::text("UNITS/MM\nFEDRAT/200,MMPM\nGOTO/1,2,3");
-    let once = done(&recipe, &first).program.unwrap();
+    let once = done(&recipe, &first).unwrap().program;
     let once_report = report(&recipe, &once);
     let second = support::text(once.to_bytes());
-    let twice = done(&recipe, &second).program.unwrap();
+    let twice = done(&recipe, &second).unwrap().program;
     let twice_report = report(&recipe, &twice);
     assert_eq!(undone(&twice, &twice_report), second.bytes());
     assert_eq!(undone(&once, &once_report), first.bytes());

@@ -11,7 +11,7 @@ use super::progress::CommandProgress;
 use super::report_args::ReportArgs;
 use super::terminal;
 use clap::Args;
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::fingerprint::RecipeFingerprint;
 use clsmith::job::{CorrectionJob, JobOutcome};
 use clsmith::program::Dialect;
@@ -112,7 +112,7 @@ impl ApplyArgs {
             // A page says itself what it cannot read, and goes without.
             Err(_) if !needed => None,
             Err(found) => {
-                self.show_findings(&[*found], Some(&self.recipe.to_string_lossy()))?;
+                self.show_findings(found.findings(), Some(&self.recipe.to_string_lossy()))?;
                 return Ok(CommandExit::Errors);
             }
         };
@@ -170,17 +170,22 @@ impl ApplyArgs {
                 return Ok(CommandExit::Errors);
             }
         };
-        let JobOutcome { program, findings, reports } = job.correct_source(&source);
+        let done = job.correct_source(&source);
         progress.clear_bar();
+        let JobOutcome { program, findings, reports } = match done {
+            Ok(outcome) => outcome,
+            Err(Failure::Interrupted) => return Ok(CommandExit::Interrupted),
+            Err(Failure::Found(findings)) => {
+                self.show_findings(&findings, Some(source.name()))?;
+                if !self.quiet {
+                    eprintln!("{}: nothing was written", source.name());
+                }
+                return Ok(CommandExit::Errors);
+            }
+        };
         if !findings.is_empty() {
             self.show_findings(&findings, Some(source.name()))?;
         }
-        let Some(program) = program else {
-            if !self.quiet {
-                eprintln!("{}: nothing was written", source.name());
-            }
-            return Ok(CommandExit::Errors);
-        };
         if self.diff {
             let mut out = io::stdout().lock();
             let seen = terminal::is_stdout_terminal();

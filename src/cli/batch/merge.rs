@@ -8,7 +8,7 @@ use crate::cli::input_files;
 use crate::cli::terminal;
 use clap::Args;
 use clsmith::batch::{batch_results, merge, summary};
-use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::write::is_same_file;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -57,9 +57,10 @@ impl MergeArgs {
         let mut parts = Vec::new();
         let mut wrong = Vec::new();
         for path in &self.parts {
-            match input_files::read_source(path).and_then(|source| batch_results::read_results(&source)) {
+            let read = input_files::read_source(path).map_err(Failure::from);
+            match read.and_then(|source| batch_results::read_results(&source)) {
                 Ok(part) => parts.push(part),
-                Err(found) => wrong.push(*found),
+                Err(failure) => wrong.extend(failure.into_findings()),
             }
         }
         if !wrong.is_empty() {
@@ -67,7 +68,7 @@ impl MergeArgs {
         }
         let (head, records) = match merge::merge_results(parts) {
             Ok(merged) => merged,
-            Err(found) => return self.refuse_merge(policy.apply(found)),
+            Err(failure) => return self.refuse_merge(policy.apply(failure.into_findings())),
         };
         // Times are kept where the parts have them.
         let bytes = batch_results::results_to_bytes(&head, &records, true);

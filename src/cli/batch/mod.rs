@@ -18,7 +18,7 @@ use clsmith::batch::{
     BatchOutcome, BatchPlan, BatchRecord, BatchRun as Run, LockedFolder, OutputFolder, PreparedRecipe, Shard,
     summary,
 };
-use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::program::Dialect;
 use clsmith::write::is_same_file;
 use progress::BatchProgress;
@@ -177,7 +177,7 @@ impl BatchArgs {
         bars.clear_bars();
         let ran = match ran {
             Ok(ran) => ran,
-            Err(found) => return self.refuse_batch(&[*found]),
+            Err(failure) => return self.refuse_batch(failure.findings()),
         };
         if ran.interrupted {
             eprintln!("clsmith batch: stopped; go on with --resume");
@@ -195,10 +195,8 @@ impl BatchArgs {
     fn read_jobs(&self) -> Result<BatchJobs, Vec<Diagnostic>> {
         let Some(recipe) = &self.recipe else {
             let path = self.what.first().map(PathBuf::as_path).unwrap_or(Path::new(""));
-            return jobs_file::load_jobs(
-                &input_files::read_source(path).map_err(|found| vec![*found])?,
-                path,
-            );
+            let source = input_files::read_source(path).map_err(|found| vec![*found])?;
+            return jobs_file::load_jobs(&source, path).map_err(Failure::into_findings);
         };
         let asked = |path: &PathBuf| InputPattern { written: path.clone().into_os_string(), place: None };
         let job = jobs_file::BatchEntry {
@@ -224,7 +222,7 @@ impl BatchArgs {
             let work = input_files::read_recipe(&path, setup.as_deref()).and_then(
                 |LoadedRecipe { recipe, setup, texts }| {
                     PreparedRecipe::with_fingerprint(&job.recipe, recipe, setup, &texts)
-                        .map_err(|found| vec![*found])
+                        .map_err(Failure::into_findings)
                 },
             );
             read.extend([path].into_iter().chain(setup));
@@ -249,14 +247,14 @@ impl BatchArgs {
                         .any(|path| is_same_file(path, results))
                 });
                 let folder = match given.map(|results| report_results_are_input(results)).next() {
-                    None => folder.lock_folder().map_err(|found| vec![*found])?,
+                    None => folder.lock_folder().map_err(Failure::into_findings)?,
                     Some(found) => return Err(vec![found]),
                 };
                 plan.reserve_comment_memory(&works);
                 Ok(PreparedBatch { plan, works, folder, results, memory: self.memory_bytes() })
             }
             Ok(_) => Err(wrong),
-            Err(found) => Err(wrong.into_iter().chain(found).collect()),
+            Err(failure) => Err(failure.after(wrong).into_findings()),
         }
     }
 

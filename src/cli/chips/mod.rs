@@ -142,8 +142,7 @@ impl ChipsArgs {
         let keep =
             ChipReportOptions { borders: self.json.is_some() || self.stl.is_some(), scenes, at: self.at };
         under.progress.begin_bar(program.source().name());
-        let mut report = ChipReport::simulate_layers(&machining, &options, keep, under.progress)?
-            .ok_or(CommandStop::Interrupted)?;
+        let mut report = ChipReport::simulate_layers(&machining, &options, keep, under.progress)?;
         under.findings.append(&mut report.findings);
         let drawn = self.draw_chips(&report)?;
         Ok((report, drawn))

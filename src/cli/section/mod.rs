@@ -10,7 +10,7 @@ use super::finding_args::FindingArgs;
 use super::input_files;
 use super::terminal;
 use clap::{Args, ValueEnum};
-use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::program::{Dialect, LengthUnit};
 use clsmith::report::finding_policy::FindingPolicy;
 use clsmith::report::surface_milling as report;
@@ -181,7 +181,7 @@ impl SectionArgs {
         outputs.stop_on_ctrl_c(|| {})?;
         let done = self.check_outputs().and_then(|()| {
             let part = self.read_part(&options)?;
-            make_surface_program(&part, &options).map_err(|found| vec![*found])
+            make_surface_program(&part, &options).map_err(Failure::into_findings)
         });
         let surfaced = match done {
             Ok(surfaced) => surfaced,
@@ -234,7 +234,7 @@ impl SectionArgs {
     fn read_part(&self, options: &SurfaceMillingOptions) -> Result<SurfacePart, Vec<Diagnostic>> {
         if let Some(profile) = &self.profile {
             let source = input_files::read_source(profile).map_err(|found| vec![*found])?;
-            return load_profile(&source).map(SurfacePart::Profile);
+            return load_profile(&source).map(SurfacePart::Profile).map_err(Failure::into_findings);
         }
         let path = self.input_path();
         let source = input_files::read_source(path).map_err(|found| vec![*found])?;

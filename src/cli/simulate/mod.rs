@@ -217,7 +217,7 @@ impl SimulateArgs {
             ..SimulationRunOptions::default()
         };
         progress.begin_bar(program.source().name());
-        SimulationReport::simulate_program(&machining, &options, progress)?.ok_or(CommandStop::Interrupted)
+        Ok(SimulationReport::simulate_program(&machining, &options, progress)?)
     }
 }
 

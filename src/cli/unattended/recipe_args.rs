@@ -2,7 +2,7 @@
 
 use crate::cli::input_files;
 use clap::Args;
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::program::{Dialect, Program};
 use clsmith::recipe_rules::{RecipeChoice, RecipeRuleFacts, RecipeRules};
 use std::path::PathBuf;
@@ -36,7 +36,7 @@ impl RecipeArgs {
     pub fn read_chooser(&self) -> Result<RecipeChooser, Vec<Diagnostic>> {
         if let Some(path) = &self.select {
             let source = input_files::read_source(path).map_err(|found| vec![*found])?;
-            return RecipeRules::load(&source).map(RecipeChooser::Rules);
+            return RecipeRules::load(&source).map(RecipeChooser::Rules).map_err(Failure::into_findings);
         }
         let recipe = self.recipe.clone().unwrap_or_default();
         Ok(RecipeChooser::One(RecipeChoice::Recipe {
@@ -54,7 +54,7 @@ impl RecipeArgs {
 
 impl RecipeChooser {
     /// What becomes of a program.
-    pub fn choose_recipe(&self, file: &str, program: &Program) -> Result<RecipeChoice, Box<Diagnostic>> {
+    pub fn choose_recipe(&self, file: &str, program: &Program) -> Result<RecipeChoice, Failure> {
         match self {
             Self::One(choice) => Ok(choice.clone()),
             Self::Rules(rules) => rules.choose_recipe(&RecipeRuleFacts::from_program(file, program)),

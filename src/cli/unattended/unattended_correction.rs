@@ -3,7 +3,7 @@
 use super::run_log::LoggedRecipe;
 use super::{RecipeArgs, RecipeChooser};
 use crate::cli::input_files::{self, LoadedRecipe};
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::fingerprint::RecipeFingerprint;
 use clsmith::job::{CorrectionJob, JobOutcome, is_program_changed};
 use clsmith::parse::parse;
@@ -104,7 +104,7 @@ pub fn correct_unattended(
         Ok(RecipeChoice::Pass) => {
             return UnattendedCorrection::without_program(UnattendedOutcome::Passed, Vec::new());
         }
-        Err(found) => return UnattendedCorrection::refused(vec![*found]),
+        Err(failure) => return UnattendedCorrection::refused(failure.into_findings()),
     };
     let LoadedRecipe { recipe, setup, texts } = match input_files::read_recipe(&path, given.as_deref()) {
         Ok(loaded) => loaded,
@@ -112,23 +112,31 @@ pub fn correct_unattended(
     };
     let print = match RecipeFingerprint::read_files(&texts, &recipe, &setup) {
         Ok(print) => print,
-        Err(found) => return UnattendedCorrection::without_recipe(vec![*found]),
+        Err(failure) => return UnattendedCorrection::without_recipe(failure.into_findings()),
     };
     let used = LoggedRecipe { path: path.to_string_lossy().into_owned(), chosen_by: by, print };
     let print = Some(&used.print);
     let job = CorrectionJob { recipe: &recipe, setup: &setup, print, policy, dialect: args.dialect, watch };
-    let JobOutcome { program, findings, reports } = job.correct_source(source);
-    let names = recipe.step_names();
-    let steps =
-        program.as_ref().map_or_else(Vec::new, |program| changes::count_step_changes(program, &names).0);
-    let outcome = match &program {
-        Some(program) if is_program_changed(program) => UnattendedOutcome::Corrected,
-        Some(_) => UnattendedOutcome::Unchanged,
-        None => UnattendedOutcome::Refused,
+    let JobOutcome { program, findings, reports } = match job.correct_source(source) {
+        Ok(outcome) => outcome,
+        Err(failure) => {
+            let outcome = match failure {
+                Failure::Found(_) => UnattendedOutcome::Refused,
+                Failure::Interrupted => UnattendedOutcome::Stopped,
+            };
+            let stopped = UnattendedCorrection::without_program(outcome, failure.into_findings());
+            return UnattendedCorrection { recipe: Some(used), ..stopped };
+        }
+    };
+    let (steps, _) = changes::count_step_changes(&program, &recipe.step_names());
+    let outcome = if is_program_changed(&program) {
+        UnattendedOutcome::Corrected
+    } else {
+        UnattendedOutcome::Unchanged
     };
     UnattendedCorrection {
         outcome,
-        program,
+        program: Some(program),
         findings,
         steps,
         reports,

@@ -1,7 +1,7 @@
 //! The simulations that a comparison looks at, as far as they can be made.
 
 use super::ComparisonSubject;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Failure};
 use crate::program::{Program, StatementChange};
 use crate::report::simulation::SimulationReport;
 use crate::simulation_run::{Machining, RunWatcher, SimulationRunOptions};
@@ -26,14 +26,14 @@ impl ComparisonRuns {
         subject: &ComparisonSubject<'_>,
         options: &SimulationRunOptions,
         watch: &dyn RunWatcher,
-    ) -> Option<Self> {
+    ) -> Result<Self, Failure> {
         let mut runs = Self::default();
         match try_simulation(subject, subject.program, options, watch, &mut runs.assumptions) {
-            ComparisonRunOutcome::Done(simulated) => runs.after = Some(*simulated),
-            ComparisonRunOutcome::Stopped => return None,
-            ComparisonRunOutcome::Impossible(found) => {
+            Ok(simulated) => runs.after = Some(simulated),
+            Err(Failure::Interrupted) => return Err(Failure::Interrupted),
+            Err(Failure::Found(found)) => {
                 runs.missing = distinct_messages(&found);
-                return Some(runs);
+                return Ok(runs);
             }
         }
         let is_changed = subject
@@ -43,23 +43,17 @@ impl ComparisonRuns {
             .any(|statement| statement.change() != StatementChange::Untouched);
         if let Some(before) = subject.before.filter(|_| is_changed) {
             match try_simulation(subject, before, options, watch, &mut runs.assumptions) {
-                ComparisonRunOutcome::Done(simulated) => runs.before = Some(*simulated),
-                ComparisonRunOutcome::Stopped => return None,
-                ComparisonRunOutcome::Impossible(found) => {
+                Ok(simulated) => runs.before = Some(simulated),
+                Err(Failure::Interrupted) => return Err(Failure::Interrupted),
+                Err(Failure::Found(found)) => {
                     let before =
                         distinct_messages(&found).into_iter().map(|sentence| format!("before: {sentence}"));
                     runs.missing = before.collect();
                 }
             }
         }
-        Some(runs)
+        Ok(runs)
     }
-}
-
-enum ComparisonRunOutcome {
-    Done(Box<SimulationReport>),
-    Stopped,
-    Impossible(Vec<Diagnostic>),
 }
 
 fn try_simulation(
@@ -68,19 +62,12 @@ fn try_simulation(
     options: &SimulationRunOptions,
     watch: &dyn RunWatcher,
     assumptions: &mut Vec<String>,
-) -> ComparisonRunOutcome {
+) -> Result<SimulationReport, Failure> {
     let mut notes = Vec::new();
     let units = subject.resolve_length_unit(program).unit;
-    let machining = match Machining::new(program, subject.setup, units, &mut notes) {
-        Ok(machining) => machining,
-        Err(found) => return ComparisonRunOutcome::Impossible(found),
-    };
+    let machining = Machining::new(program, subject.setup, units, &mut notes)?;
     assumptions.extend(notes.into_iter().map(|note| note.message));
-    match SimulationReport::simulate_program(&machining, options, watch) {
-        Ok(Some(simulated)) => ComparisonRunOutcome::Done(Box::new(simulated)),
-        Ok(None) => ComparisonRunOutcome::Stopped,
-        Err(found) => ComparisonRunOutcome::Impossible(found),
-    }
+    SimulationReport::simulate_program(&machining, options, watch)
 }
 
 fn distinct_messages(found: &[Diagnostic]) -> Vec<String> {

@@ -25,7 +25,7 @@ pub use stl_export::write_stl;
 pub use sums::{ChipPeak, ChipTotals, OperationChips};
 pub use text::to_text;
 
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::layered_chips::stack::LayerStack;
 use crate::simulation_run::layer_run::LayerRunOptions;
 use crate::simulation_run::{Machining, RunWatcher};
@@ -89,12 +89,11 @@ impl ChipReport {
         options: &LayerRunOptions,
         keep: ChipReportOptions,
         watch: &dyn RunWatcher,
-    ) -> Result<Option<Self>, Vec<Diagnostic>> {
+    ) -> Result<Self, Failure> {
         let options =
             LayerRunOptions { one_by_one: options.one_by_one || keep.scenes > 0, ..options.clone() };
         let mut gathering = chip_collector::ChipCollector::new(machining, keep, options.tolerance);
-        let ran = machining.simulate_layers(&options, watch, &mut |cut| gathering.add_motion(cut));
-        let Some(ran) = ran.map_err(|found| vec![*found])? else { return Ok(None) };
+        let ran = machining.simulate_layers(&options, watch, &mut |cut| gathering.add_motion(cut))?;
         if gathering.rows.is_empty() && gathering.skipped.is_empty() {
             let (from, to) = (*options.lines.start(), *options.lines.end());
             let message = match to {
@@ -102,8 +101,8 @@ impl ChipReport {
                 to if to == from => format!("no motion ends on line {from}"),
                 to => format!("no motion ends on lines {from} to {to}"),
             };
-            return Err(vec![Diagnostic::new(codes::NO_MOTION_ASKED, message)]);
+            return Err(Diagnostic::new(codes::NO_MOTION_ASKED, message).into());
         }
-        Ok(Some(gathering.into_report(options, ran)))
+        Ok(gathering.into_report(options, ran))
     }
 }

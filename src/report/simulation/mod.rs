@@ -20,7 +20,7 @@ pub use sums::{OperationSums, SimulationPeak, SimulationSums};
 pub use target_comparison::TargetComparison;
 pub use text::to_text;
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Failure};
 use crate::report::rounding::{serialize_rounded, serialize_rounded_option};
 use crate::simulation_run::{
     Machining, RunWatcher, SimulationCost, SimulationRunOptions, chord_tolerance_mm,
@@ -145,20 +145,19 @@ impl SimulationReport {
         machining: &Machining<'_>,
         options: &SimulationRunOptions,
         watch: &dyn RunWatcher,
-    ) -> Result<Option<Self>, Vec<Diagnostic>> {
+    ) -> Result<Self, Failure> {
         let material = machining.setup().require_material().ok();
         let options = SimulationRunOptions { forces: material.is_some(), ..*options };
-        let plan = machining.estimate_cost(&options).map_err(|found| vec![*found])?;
+        let plan = machining.estimate_cost(&options)?;
         let mut gathering = simulation_collector::SimulationCollector::new(machining, plan.cell);
         let mut sink = |cut: &crate::simulation_run::EngagedMotion<'_>| gathering.add_motion(cut);
-        let ran = machining.simulate_program(&options, watch, &mut sink).map_err(|found| vec![*found])?;
-        let Some(ran) = ran else { return Ok(None) };
+        let ran = machining.simulate_program(&options, watch, &mut sink)?;
         let gathered = gathering.into_collected();
         let mut findings = ran.findings;
         findings.extend(gathered.findings);
         let left_mm3 = ran.left.volume_mm3();
         let removed_mm3 = gathered.totals.removed_mm3;
-        Ok(Some(Self {
+        Ok(Self {
             version: 1,
             file: machining.program().source().name().to_owned(),
             material: material.and_then(|material| material.name.clone()),
@@ -178,7 +177,7 @@ impl SimulationReport {
             motions: gathered.motions,
             findings,
             left: ran.left,
-        }))
+        })
     }
 }
 

@@ -3,7 +3,7 @@
 use super::flat_mills::to_flat_mill;
 use super::stock_reach::can_reach_stock;
 use super::{LayerRunOptions, LayerRunResult, MotionChips, UncutReason};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::engagement::{MotionPiece, PathLinearizer, PathPiece};
 use crate::layered_chips::chip::{Chip, cut_chips};
 use crate::layered_chips::stack::LayerStack;
@@ -30,19 +30,20 @@ const SAME_AXIS: f64 = 1e-7;
 
 impl Machining<'_> {
     /// Runs the program in layers, up to the last line that is asked for. `sink` gets every motion in order
-    /// with its chips. Returns `None` if `watch` stopped the run.
+    /// with its chips.
     ///
     /// # Errors
-    /// Returns [`codes::LAYERS`] if the stock cannot be divided in such layers.
+    /// Returns [`codes::LAYERS`] if the stock cannot be divided in such layers, and
+    /// [`Failure::Interrupted`] if `watch` stopped the run.
     pub fn simulate_layers(
         &self,
         options: &LayerRunOptions,
         watch: &dyn RunWatcher,
         sink: &mut dyn FnMut(&MotionChips<'_>),
-    ) -> Result<Option<LayerRunResult>, Box<Diagnostic>> {
+    ) -> Result<LayerRunResult, Failure> {
         let stack = LayerStack::new(&self.stock, options.layer).map_err(|error| {
             let message = format!("the stock cannot be cut into layers of {} mm: {error}", options.layer);
-            Box::new(Diagnostic::new(codes::LAYERS, message))
+            Diagnostic::new(codes::LAYERS, message)
         })?;
         let before_mm3 = stack.volume_mm3();
         let mut running = LayerRunner::new(self, options, stack);
@@ -67,13 +68,11 @@ impl Machining<'_> {
                 running.cut_queued(sink);
                 watch.report_progress(done, whole);
             }
-            if watch.is_stop_requested() {
-                return Ok(None);
-            }
+            watch.check_stop()?;
         }
         running.cut_queued(sink);
         let findings = running.collect_findings();
-        Ok(Some(LayerRunResult { left: running.stack, before_mm3, findings }))
+        Ok(LayerRunResult { left: running.stack, before_mm3, findings })
     }
 }
 

@@ -5,7 +5,7 @@ mod curves;
 mod text;
 
 use super::SectionProfile;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Failure;
 use crate::source::Source;
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use std::sync::Arc;
 ///
 /// # Errors
 /// Returns a finding for every fault of the file, at its place.
-pub fn load_profile(source: &Arc<Source>) -> Result<SectionProfile, Vec<Diagnostic>> {
+pub fn load_profile(source: &Arc<Source>) -> Result<SectionProfile, Failure> {
     text::read_profile(source)
 }
 

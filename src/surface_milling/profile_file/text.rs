@@ -1,7 +1,7 @@
 //! This module reads the text of a profile file with serde, and makes the JSON schema that editors use.
 
 use super::curves::{self, PieceFault};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::parameters::{Degrees, Finite, LengthUnit, Positive};
 use crate::source::Source;
 use crate::surface::profile::Point;
@@ -114,8 +114,8 @@ pub(super) fn make_profile_schema() -> serde_json::Value {
     schemars::schema_for!(ProfileFileText).to_value()
 }
 
-pub(super) fn read_profile(source: &Arc<Source>) -> Result<SectionProfile, Vec<Diagnostic>> {
-    let document = YamlDocument::parse(source).map_err(|diagnostic| vec![*diagnostic])?;
+pub(super) fn read_profile(source: &Arc<Source>) -> Result<SectionProfile, Failure> {
+    let document = YamlDocument::parse(source)?;
     let file: ProfileFileText = document.deserialize_checked(|_| None)?;
     let scale = file.units.mm_per_unit();
     let [u, z] = file.start.map(|value| value.get() * scale);
@@ -156,7 +156,7 @@ pub(super) fn read_profile(source: &Arc<Source>) -> Result<SectionProfile, Vec<D
             break;
         }
     }
-    if found.is_empty() { Ok(profile) } else { Err(found) }
+    if found.is_empty() { Ok(profile) } else { Err(found.into()) }
 }
 
 fn locate_fault(document: &YamlDocument, path: &[YamlPathSegment<'_>], wrong: &PieceFault) -> Diagnostic {

@@ -1,6 +1,6 @@
 //! The records that new arcs are modelled on.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Failure;
 use crate::program::record::{ArcSense, Circle};
 use crate::program::{ArcRule, Program, Record};
 use crate::surface::profile::{ArcPiece, ChainPiece, Point, ProfilePlane};
@@ -70,7 +70,7 @@ impl ArcTemplate {
         plane: &ProfilePlane,
         mm: f64,
         before: usize,
-    ) -> Result<bool, Box<Diagnostic>> {
+    ) -> Result<bool, Failure> {
         let space = |point: Point| plane.to_space(point);
         let way = |u: f64, z: f64| (space(Point::new(u, z)) - space(Point::default())).map(zero_out_rounding);
         let place = |point: Point3<f64>| -> [f64; 3] { (point / mm).coords.into() };

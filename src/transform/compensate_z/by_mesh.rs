@@ -8,7 +8,7 @@ use super::report::{CompensateZReport, PassReport, PassReporter};
 use super::step::CompensateZJob;
 use super::vertical_passes::find_cutting_runs;
 use super::written_passes;
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Failure, codes};
 use crate::parameters::FilePath;
 use crate::program::Program;
 use crate::program::motion::Motion;
@@ -46,7 +46,7 @@ pub(super) fn compensate_by_mesh(
     motions: &[Motion],
     meant: &[bool],
     context: &mut StepContext<'_>,
-) -> Result<(Program, CompensateZReport), Box<Diagnostic>> {
+) -> Result<(Program, CompensateZReport), Failure> {
     let mm = job.file.mm_per_unit();
     let place = MotionFindings { program: &program, motions };
     let tilted = |(motion, meant): (&Motion, &bool)| *meant && (motion.to.axis - Vector3::z()).amax() > 1e-6;
@@ -135,7 +135,7 @@ fn find_contact_motions(
     motions.iter().zip(meant).map(touches).collect()
 }
 
-fn read_mesh(path: &FilePath, mm: f64, context: &StepContext<'_>) -> Result<Mesh, Box<Diagnostic>> {
+fn read_mesh(path: &FilePath, mm: f64, context: &StepContext<'_>) -> Result<Mesh, Failure> {
     let fail = |why: String| {
         context.step_failure(format!("{} cannot be used: {why}", path.as_str()), &["against", "mesh"])
     };
@@ -197,7 +197,7 @@ fn prove_mesh_passes(
     reports: &mut [PassReport],
     place: &MotionFindings<'_>,
     context: &StepContext<'_>,
-) -> Result<(), Box<Diagnostic>> {
+) -> Result<(), Failure> {
     let mm = job.file.mm_per_unit();
     let path = |range: &Range<usize>| -> Vec<[f64; 3]> {
         let written = after.get(range.clone()).unwrap_or_default();

@@ -8,7 +8,7 @@ use super::report::{CompensateZReport, PassReport, PassReporter};
 use super::step::CompensateZJob;
 use super::vertical_passes::find_cutting_runs;
 use super::written_passes;
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::Program;
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
@@ -26,7 +26,7 @@ pub(super) fn compensate_by_normals(
     motions: &[Motion],
     meant: &[bool],
     context: &mut StepContext<'_>,
-) -> Result<(Program, CompensateZReport), Box<Diagnostic>> {
+) -> Result<(Program, CompensateZReport), Failure> {
     let mm = job.file.mm_per_unit();
     let place = MotionFindings { program: &program, motions };
     let runs = find_cutting_runs(motions, meant, mm);

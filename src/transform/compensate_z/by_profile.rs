@@ -8,7 +8,7 @@ use super::report::{CompensateZReport, PassReport, PassReporter};
 use super::step::CompensateZJob;
 use super::tip_clearance::lowest_tip_height_mm;
 use super::vertical_passes::{VerticalPass, find_vertical_passes};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::Program;
 use crate::program::motion::Motion;
 use crate::surface::profile::{Chain, ChainPiece, Point};
@@ -38,7 +38,7 @@ pub(super) fn compensate_by_profile(
     motions: &[Motion],
     meant: &[bool],
     context: &mut StepContext<'_>,
-) -> Result<(Program, CompensateZReport), Box<Diagnostic>> {
+) -> Result<(Program, CompensateZReport), Failure> {
     let mm = job.file.mm_per_unit();
     let place = MotionFindings { program: &program, motions };
     let writer = PassWriter::new(&program, motions, mm);
@@ -188,7 +188,7 @@ fn prove_profile_passes(
     mm: f64,
     reports: &mut [PassReport],
     context: &StepContext<'_>,
-) -> Result<(), Box<Diagnostic>> {
+) -> Result<(), Failure> {
     let after: Vec<Motion> = program.motions().collect();
     let place = MotionFindings { program: original, motions: before };
     let ranges = super::written_passes::find_written_passes(

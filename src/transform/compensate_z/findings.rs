@@ -4,7 +4,7 @@ use super::leads::LeadConflict;
 use super::pass_profile::PassFault;
 use super::pass_writer::UnwritableMotion;
 use super::vertical_passes::NoPassReason;
-use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
+use crate::diagnostic::{Diagnostic, DiagnosticCode, Failure, codes};
 use crate::program::motion::Motion;
 use crate::program::{Program, Statement};
 use crate::transform::StepContext;
@@ -42,54 +42,45 @@ impl MotionFindings<'_> {
         motion: usize,
         label: &str,
         context: &StepContext<'_>,
-    ) -> Box<Diagnostic> {
-        Box::new(self.build_finding(codes::STEP_FAILED, message, motion, label, context))
+    ) -> Failure {
+        self.build_finding(codes::STEP_FAILED, message, motion, label, context).into()
     }
 
-    pub fn describe_no_pass(&self, why: NoPassReason, context: &StepContext<'_>) -> Box<Diagnostic> {
+    pub fn describe_no_pass(&self, why: NoPassReason, context: &StepContext<'_>) -> Failure {
         match why {
             NoPassReason::LeavesPlane(motion) => {
                 let help = "Name the finishing passes by `where`, or compensate `against: { mesh: ... }` or `normals`, which need no planes.";
                 let message =
                     "the path is not made of passes in vertical planes: here it leaves the plane of its pass";
-                Box::new(
-                    self.build_finding(
-                        codes::STEP_FAILED,
-                        message.to_owned(),
-                        motion,
-                        "leaves the plane",
-                        context,
-                    )
-                    .with_help(help),
+                self.build_finding(
+                    codes::STEP_FAILED,
+                    message.to_owned(),
+                    motion,
+                    "leaves the plane",
+                    context,
                 )
+                .with_help(help)
+                .into()
             }
             NoPassReason::TurnsBack(motion) => {
                 let help = "A pass goes one way. Put a link or a retract between two passes in one plane, or compensate `against: { mesh: ... }`.";
                 let message =
                     "the path turns back in the plane of its pass: here it goes over what it has been over";
-                Box::new(
-                    self.build_finding(codes::STEP_FAILED, message.to_owned(), motion, "goes back", context)
-                        .with_help(help),
-                )
+                self.build_finding(codes::STEP_FAILED, message.to_owned(), motion, "goes back", context)
+                    .with_help(help)
+                    .into()
             }
             NoPassReason::AxisTurns(motion) => {
                 let help = "With a turning axis, compensate `against: normals`.";
                 let message = "the tool axis turns within a pass, so the pass has no plane along it";
-                Box::new(
-                    self.build_finding(
-                        codes::STEP_FAILED,
-                        message.to_owned(),
-                        motion,
-                        "turns the axis",
-                        context,
-                    )
-                    .with_help(help),
-                )
+                self.build_finding(codes::STEP_FAILED, message.to_owned(), motion, "turns the axis", context)
+                    .with_help(help)
+                    .into()
             }
         }
     }
 
-    pub fn describe_lead_conflict(&self, why: LeadConflict, context: &StepContext<'_>) -> Box<Diagnostic> {
+    pub fn describe_lead_conflict(&self, why: LeadConflict, context: &StepContext<'_>) -> Failure {
         let (motion, message, help) = match why {
             LeadConflict::Rapid(motion) => (
                 motion,
@@ -107,18 +98,12 @@ impl MotionFindings<'_> {
                 "Let the operation go to the start of its pass by a motion of its own.",
             ),
         };
-        Box::new(
-            self.build_finding(codes::STEP_FAILED, message.to_owned(), motion, "here", context)
-                .with_help(help),
-        )
+        self.build_finding(codes::STEP_FAILED, message.to_owned(), motion, "here", context)
+            .with_help(help)
+            .into()
     }
 
-    pub fn describe_pass_fault(
-        &self,
-        why: &PassFault,
-        motion: usize,
-        context: &StepContext<'_>,
-    ) -> Box<Diagnostic> {
+    pub fn describe_pass_fault(&self, why: &PassFault, motion: usize, context: &StepContext<'_>) -> Failure {
         match why {
             PassFault::Pass(why) => self.describe_no_pass(*why, context),
             PassFault::Geometry(why) => self.build_failure(
@@ -135,7 +120,7 @@ impl MotionFindings<'_> {
         why: UnwritableMotion,
         motion: usize,
         context: &StepContext<'_>,
-    ) -> Box<Diagnostic> {
+    ) -> Failure {
         self.build_failure(
             format!("this motion cannot be given another end: {why}"),
             motion,

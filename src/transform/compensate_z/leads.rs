@@ -3,7 +3,7 @@
 use super::findings::MotionFindings;
 use super::pass_writer::PassWriter;
 use super::vertical_passes::{UPRIGHT, is_cutting};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Failure;
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::program::{Program, Record, Statement};
@@ -267,7 +267,7 @@ pub(super) fn write_leads(
     mm: f64,
     original: &Program,
     context: &StepContext<'_>,
-) -> Result<(), Box<Diagnostic>> {
+) -> Result<(), Failure> {
     let start_of = |index: usize| -> Point3<f64> {
         let before = index.checked_sub(1);
         let of_pass = moved.iter().find(|pass| pass.motions.end == index).map(|pass| pass.end);

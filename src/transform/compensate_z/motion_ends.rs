@@ -1,7 +1,7 @@
 //! Ends of motions around passes, in the CL text.
 
 use super::pass_writer::{PassWriter, UnwritableMotion, delete_announcements, is_motion_record};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Failure;
 use crate::parse;
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
@@ -21,7 +21,7 @@ impl PassWriter<'_> {
         index: usize,
         end: Point3<f64>,
         start: Point3<f64>,
-    ) -> Result<Result<(), UnwritableMotion>, Box<Diagnostic>> {
+    ) -> Result<Result<(), UnwritableMotion>, Failure> {
         let Some(motion) = self.motions.get(index) else { return Ok(Ok(())) };
         let (by, from) = (end - motion.to.point * self.mm, start - motion.from.point * self.mm);
         let last = motion.last_statement();
@@ -68,7 +68,7 @@ impl PassWriter<'_> {
         editor: &mut ProgramEditor,
         motion: &Motion,
         by: Vector3<f64>,
-    ) -> Result<(), Box<Diagnostic>> {
+    ) -> Result<(), Failure> {
         for statement in motion.statements.clone() {
             let program = editor.program();
             let Some(found) = program.statement(statement).filter(|found| found.is_live()) else { continue };

@@ -3,7 +3,7 @@
 use super::arc_template::{ArcTemplate, find_arc_template};
 use super::pass_profile::slope_sine;
 use super::vertical_passes::VerticalPass;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Failure;
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::program::{Program, Record, Statement};
@@ -87,7 +87,7 @@ impl<'a> PassWriter<'a> {
         pass: &VerticalPass,
         path: &Chain,
         (radius, contact): (f64, bool),
-    ) -> Result<Result<(), UnwritableMotion>, Box<Diagnostic>> {
+    ) -> Result<Result<(), UnwritableMotion>, Failure> {
         let Some(goto) = self.find_goto(editor.program(), &pass.motions) else {
             return Ok(Err(UnwritableMotion::NoGoto));
         };
@@ -120,7 +120,7 @@ impl<'a> PassWriter<'a> {
         editor: &mut ProgramEditor,
         motions: Range<usize>,
         points: Vec<Vec<Point3<f64>>>,
-    ) -> Result<Result<(), UnwritableMotion>, Box<Diagnostic>> {
+    ) -> Result<Result<(), UnwritableMotion>, Failure> {
         let Some(goto) = self.find_goto(editor.program(), &motions) else {
             return Ok(Err(UnwritableMotion::NoGoto));
         };
@@ -146,7 +146,7 @@ impl<'a> PassWriter<'a> {
         editor: &mut ProgramEditor,
         motion: &Motion,
         end: Option<Point3<f64>>,
-    ) -> Result<(), Box<Diagnostic>> {
+    ) -> Result<(), Failure> {
         match end {
             Some(end) => editor.set_numbers(motion.last_statement(), &self.point_numbers(end)),
             None => {
@@ -195,7 +195,7 @@ impl<'a> PassWriter<'a> {
         pieces: &[ChainPiece],
         plane: &ProfilePlane,
         goto: usize,
-    ) -> Result<(), Box<Diagnostic>> {
+    ) -> Result<(), Failure> {
         let simple = is_line(editor.program(), motion);
         let (put_in, kept) = match pieces.split_last() {
             Some((ChainPiece::Line(line), rest)) if simple => (rest, Some(line.to)),
@@ -214,7 +214,7 @@ impl<'a> PassWriter<'a> {
         plane: &ProfilePlane,
         goto: usize,
         before: usize,
-    ) -> Result<(), Box<Diagnostic>> {
+    ) -> Result<(), Failure> {
         if let (ChainPiece::Arc(arc), Some(template)) = (piece, &self.arc)
             && !template.insert_arc(editor, arc, plane, self.mm, before)?
         {

@@ -4,7 +4,7 @@ use super::findings::MotionFindings;
 use super::parameters::{ArcOutput, CompensateZ, CompensationReference, InputPointKind, OutputPointKind};
 use super::vertical_passes::is_cutting;
 use super::{by_mesh, by_normals, by_profile};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Failure;
 use crate::parameters::{FilePath, Positive};
 use crate::program::motion::{ActiveTool, Motion};
 use crate::program::{LengthUnit, Program};
@@ -26,7 +26,7 @@ impl Transform for CompensateZ {
         }
     }
 
-    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>> {
+    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
         let file = context.file_length_unit(&program);
         let motions: Vec<Motion> = program.motions().collect();
         let mut selection = MotionSelection::new(&self.r#where, &program, context);
@@ -70,7 +70,7 @@ pub(super) struct CompensateZJob {
 }
 
 impl CompensateZJob {
-    fn new(step: &CompensateZ, file: LengthUnit, context: &StepContext<'_>) -> Result<Self, Box<Diagnostic>> {
+    fn new(step: &CompensateZ, file: LengthUnit, context: &StepContext<'_>) -> Result<Self, Failure> {
         let recipe = context.units.mm_per_unit();
         let mm = |value: Option<Positive>| value.map(|value| value.get() * recipe);
         let was = mm(step.was_radius);
@@ -117,7 +117,7 @@ impl CompensateZJob {
         meant: &[bool],
         first: usize,
         context: &StepContext<'_>,
-    ) -> Result<(), Box<Diagnostic>> {
+    ) -> Result<(), Failure> {
         if self.told {
             return Ok(());
         }

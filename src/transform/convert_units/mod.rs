@@ -5,7 +5,7 @@ mod unit_conversion;
 mod unit_words;
 
 use super::{StepContext, Transform, stale_records, unchanged_statements};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::{LengthUnit, Program, Record};
 use crate::write::ProgramEditor;
 use schemars::JsonSchema;
@@ -34,7 +34,7 @@ pub struct ConvertUnits {
 }
 
 impl Transform for ConvertUnits {
-    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>> {
+    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
         let stated = self.check_stated_unit(&program, context)?;
         let Some(from) = stated.or(self.from) else {
             let finding = context.step_finding(
@@ -43,9 +43,9 @@ impl Transform for ConvertUnits {
                 &[],
                 "asked for here",
             );
-            return Err(Box::new(finding.with_help(
+            return Err(finding.with_help(
                 "Add `from: mm` or `from: inch`. Feeds in MMPM or IPM and the sizes of the tools tell which.",
-            )));
+            ).into());
         };
         if from == self.to {
             return Ok(program);
@@ -57,10 +57,10 @@ impl Transform for ConvertUnits {
                 &["from"],
                 "says that it is not",
             );
-            return Err(Box::new(finding.with_help(
+            return Err(finding.with_help(
                 "A second conversion would put every point off by a factor of 25.4. If the lengths really are in the old unit, give the feeds \
                  its words first, by a `rewrite` step.",
-            )));
+            ).into());
         }
         let mut found = StepContext { findings: Vec::new(), reports: Vec::new(), ..*context };
         if stated.is_none() {
@@ -84,7 +84,7 @@ impl ConvertUnits {
         &self,
         program: &Program,
         context: &StepContext<'_>,
-    ) -> Result<Option<LengthUnit>, Box<Diagnostic>> {
+    ) -> Result<Option<LengthUnit>, Failure> {
         let mut stated = None;
         for (index, statement) in program.live_statements() {
             let Record::Units(unit) = statement.record() else { continue };

@@ -2,7 +2,7 @@
 
 use super::unit_conversion::UnitConversion;
 use super::unit_words;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Failure;
 use crate::parse;
 use crate::program::record::{SpindleUnit, ToolWord};
 use crate::program::{FeedUnit, LengthUnit, NumberRole, Record};
@@ -24,7 +24,7 @@ pub fn convert_statements(
     editor: &mut ProgramEditor,
     conversion: UnitConversion,
     context: &mut StepContext<'_>,
-) -> Result<(), Box<Diagnostic>> {
+) -> Result<(), Failure> {
     let mut rows = MatrixRowCounter::default();
     let mut multi_axis = false;
     let mut unit_in_force = None;

@@ -1,7 +1,7 @@
 //! Words that name units: of the file, of feeds, of surface speeds.
 
 use super::unit_conversion::UnitConversion;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Failure;
 use crate::program::{FeedUnit, FieldKind, LengthUnit, StatementField, StatementSyntax, fold_text};
 use crate::write::{self, ProgramEditor};
 use std::ops::Range;
@@ -26,7 +26,7 @@ pub fn swap_feed_words(
     editor: &mut ProgramEditor,
     index: usize,
     conversion: UnitConversion,
-) -> Result<(), Box<Diagnostic>> {
+) -> Result<(), Failure> {
     let Some(syntax) = write::statement_syntax(editor.program(), index) else { return Ok(()) };
     let parts = find_feed_words(&syntax)
         .into_iter()
@@ -39,11 +39,7 @@ pub fn swap_feed_words(
 ///
 /// # Errors
 /// When the new text does not read back.
-pub fn swap_speed_word(
-    editor: &mut ProgramEditor,
-    index: usize,
-    to: LengthUnit,
-) -> Result<(), Box<Diagnostic>> {
+pub fn swap_speed_word(editor: &mut ProgramEditor, index: usize, to: LengthUnit) -> Result<(), Failure> {
     let (old, new) = match to {
         LengthUnit::Inch => ("SMM", "SFM"),
         LengthUnit::Mm => ("SFM", "SMM"),
@@ -57,7 +53,7 @@ pub fn swap_speed_word(
 ///
 /// # Errors
 /// When the new text does not read back.
-pub fn swap_units(editor: &mut ProgramEditor, index: usize, to: LengthUnit) -> Result<(), Box<Diagnostic>> {
+pub fn swap_units(editor: &mut ProgramEditor, index: usize, to: LengthUnit) -> Result<(), Failure> {
     let Some(syntax) = write::statement_syntax(editor.program(), index) else { return Ok(()) };
     let name = match to {
         LengthUnit::Inch => "INCHES",
@@ -90,7 +86,7 @@ fn replace_words(
     editor: &mut ProgramEditor,
     index: usize,
     parts: Vec<(Range<usize>, &'static str)>,
-) -> Result<(), Box<Diagnostic>> {
+) -> Result<(), Failure> {
     let parts: Vec<_> = parts.into_iter().map(|(at, word)| (at, word.as_bytes())).collect();
     if parts.is_empty() { Ok(()) } else { editor.replace_parts(index, &parts) }
 }

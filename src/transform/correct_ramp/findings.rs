@@ -3,7 +3,7 @@
 use super::ramp_correction::{CorrectedRamp, LengtheningMethod};
 use super::ramp_search::FoundRamp;
 use super::report::RampReport;
-use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
+use crate::diagnostic::{Diagnostic, DiagnosticCode, Failure, codes};
 use crate::program::motion::{ActiveTool, Motion};
 use crate::program::{Program, Statement};
 use crate::source::Span;
@@ -132,21 +132,21 @@ pub(super) fn describe_missing_inserts(
     tool: Option<&ActiveTool>,
     error: bool,
     context: &StepContext<'_>,
-) -> Box<Diagnostic> {
+) -> Diagnostic {
     let called = tool.map_or_else(|| "the tool".to_owned(), ActiveTool::display_name);
     let statement = motions.get(motion).map_or(0, Motion::last_statement);
     if error {
         let message = format!(
             "neither the step nor `setup.tools` says which inserts {called} has, so no ramp can be judged"
         );
-        let found = context.statement_failure(message, program, statement, "its first ramp");
+        let found = context.statement_finding(message, program, statement, "its first ramp");
         let help = "Say `tool: { insert_height: ..., insert_radius: ... }` in the step, or `insert: { height: ..., radius: ... }` \
                     for the tool under `setup.tools`.";
-        return Box::new(found.with_help(help));
+        return found.with_help(help);
     }
     let message = format!("the ramps of {called} are left as they are: nothing says that it has inserts");
     let span = program.statement(statement).map(Statement::origin).unwrap_or_default();
-    Box::new(Diagnostic::new(codes::NO_INSERTS, message).with_label(program.source(), span, "its first ramp"))
+    Diagnostic::new(codes::NO_INSERTS, message).with_label(program.source(), span, "its first ramp")
 }
 
 /// A ramp that could not be written, or not proven.
@@ -156,7 +156,7 @@ pub(super) fn describe_unproven_ramp(
     found: &FoundRamp,
     why: impl Display,
     context: &StepContext<'_>,
-) -> Box<Diagnostic> {
+) -> Failure {
     let statement = motions.get(found.motions.start).map_or(0, |motion| motion.statements.start);
     let message = format!("this ramp cannot be corrected: {why}");
     context.statement_failure(message, program, statement, "the ramp begins")

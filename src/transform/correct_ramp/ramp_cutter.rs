@@ -2,7 +2,7 @@
 
 use super::parameters::CorrectRamp;
 use super::ramp_limits::IndexableCutter;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, codes};
 use crate::parameters::Positive;
 use crate::program::LengthUnit;
 use crate::program::motion::ActiveTool;
@@ -51,7 +51,9 @@ pub(super) fn resolve_ramp_cutter(
             "Say `tool: {{ {key}: ... }}` in the step, or complete `setup.tools` for the tool, there as \
              `diameter` and `insert: {{ height, radius }}`."
         );
-        RampCutter::Unknown(Box::new(context.step_failure(message, &["tool"]).with_help(help)))
+        RampCutter::Unknown(Box::new(
+            context.step_finding(codes::STEP_FAILED, message, &["tool"], "asked for here").with_help(help),
+        ))
     };
     match (diameter, radius, height) {
         (Some(diameter), Some(insert_radius), Some(insert_height)) => {

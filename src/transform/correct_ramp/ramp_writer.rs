@@ -6,7 +6,7 @@
 
 use super::ramp::{NOTHING, Ramp, RampStep};
 use super::ramp_search::FoundRamp;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Failure;
 use crate::parse;
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
@@ -137,7 +137,7 @@ pub(super) fn write_ramp(
     found: &FoundRamp,
     new: &Ramp,
     mm: f64,
-) -> Result<Result<WrittenRamp, UnwritableRamp>, Box<Diagnostic>> {
+) -> Result<Result<WrittenRamp, UnwritableRamp>, Failure> {
     let every = find_motion_statements(editor.program(), motions, &found.motions);
     let (mut forms, one_feed) =
         match every.and_then(|every| Ok((every, has_single_feed(motions, &found.motions)?))) {
@@ -249,7 +249,7 @@ impl RampWriter<'_> {
         motions: &[Motion],
         new: &Ramp,
         before: usize,
-    ) -> Result<(bool, bool), Box<Diagnostic>> {
+    ) -> Result<(bool, bool), Failure> {
         if self.found.ramp.start.z - new.start.z <= 1e-9 {
             return Ok((false, false));
         }
@@ -279,12 +279,7 @@ impl RampWriter<'_> {
     }
 
     /// A new statement, or two for an arc.
-    fn insert_step(
-        &self,
-        editor: &mut ProgramEditor,
-        step: &RampStep,
-        before: usize,
-    ) -> Result<(), Box<Diagnostic>> {
+    fn insert_step(&self, editor: &mut ProgramEditor, step: &RampStep, before: usize) -> Result<(), Failure> {
         if let Some((statement, numbers)) = self.circle_numbers(editor.program(), step) {
             let text = copy_statement(editor, statement, &numbers);
             editor.insert_before(before, &text)?;
@@ -299,7 +294,7 @@ impl RampWriter<'_> {
         editor: &mut ProgramEditor,
         step: &RampStep,
         form: MotionStatements,
-    ) -> Result<(), Box<Diagnostic>> {
+    ) -> Result<(), Failure> {
         let circle = self.circle_numbers(editor.program(), step);
         match (circle, form.arc) {
             (Some((_, numbers)), Some(arc)) if is_circle(editor.program(), arc) => {

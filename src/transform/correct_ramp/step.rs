@@ -12,7 +12,7 @@ use super::ramp_search::{FoundRamp, find_ramps};
 use super::ramp_writer::{self, UnwritableRamp, WrittenRamp};
 use super::report::{CorrectRampReport, RampOutcome, RampReport};
 use super::tool_region::ToolRegion;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Failure};
 use crate::parameters::{Finite, NonNegative, Positive};
 use crate::program::motion::{ActiveTool, Motion};
 use crate::program::record::CutterCompensation;
@@ -41,7 +41,7 @@ impl Transform for CorrectRamp {
         true
     }
 
-    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>> {
+    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
         let file = context.file_length_unit(&program);
         let motions: Vec<Motion> = program.motions().collect();
         let mut look = RampJudge::new(self, &program, &motions, file, context);
@@ -131,7 +131,7 @@ impl<'a> RampJudge<'a> {
         }
     }
 
-    fn judge_ramps(&mut self, context: &mut StepContext<'_>) -> Result<(), Box<Diagnostic>> {
+    fn judge_ramps(&mut self, context: &mut StepContext<'_>) -> Result<(), Failure> {
         let recipe = context.units.mm_per_unit();
         let depth = self.step.depth_of_cut.map(|depth| depth.get() * recipe);
         let mut selection = MotionSelection::new(&self.step.r#where, self.program, context);
@@ -149,6 +149,7 @@ impl<'a> RampJudge<'a> {
         let mut solid: Vec<(usize, Option<Arc<ActiveTool>>)> = Vec::new();
         let count = meant.len();
         for found in meant {
+            context.watch.check_stop()?;
             let Some(first) = self.motions.get(found.motions.start) else { continue };
             match self.find_tool_limits(first, context)? {
                 Some(known) => self.judge_ramp(found, known, context),
@@ -167,18 +168,12 @@ impl<'a> RampJudge<'a> {
                 context,
             );
             if all {
-                return Err(told);
+                return Err(told.into());
             }
-            context.findings.push(*told);
+            context.findings.push(told);
         }
-        let mut impossible = std::mem::take(&mut self.impossible);
-        match impossible.pop() {
-            Some(last) => {
-                context.findings.extend(impossible);
-                Err(Box::new(last))
-            }
-            None => Ok(()),
-        }
+        let impossible = std::mem::take(&mut self.impossible);
+        if impossible.is_empty() { Ok(()) } else { Err(impossible.into()) }
     }
 
     /// The limits of a motion's tool; `None` for a tool without inserts.
@@ -186,7 +181,7 @@ impl<'a> RampJudge<'a> {
         &mut self,
         motion: &Motion,
         context: &StepContext<'_>,
-    ) -> Result<Option<CutterAndLimits>, Box<Diagnostic>> {
+    ) -> Result<Option<CutterAndLimits>, Failure> {
         if let Some((_, limits)) = self.cutters.iter().find(|(tool, _)| *tool == motion.tool) {
             return Ok(*limits);
         }
@@ -194,7 +189,7 @@ impl<'a> RampJudge<'a> {
         let tool = motion.tool.as_deref().unwrap_or(&none);
         let limits = match ramp_cutter::resolve_ramp_cutter(self.step, tool, self.file, context) {
             RampCutter::Solid => None,
-            RampCutter::Unknown(found) => return Err(found),
+            RampCutter::Unknown(found) => return Err(found.into()),
             RampCutter::Indexable(cutter) => {
                 let limits = cutter
                     .ramp_limits()

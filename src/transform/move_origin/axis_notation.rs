@@ -1,7 +1,7 @@
 //! Writing out a tool axis that the file leaves unsaid, in the way that its dialect states axes.
 
 use super::move_tracker::RequiredAxis;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Failure;
 use crate::parse;
 use crate::program::{Dialect, NumberRole, Record};
 use crate::write::ProgramEditor;
@@ -56,7 +56,7 @@ pub fn write_axis(
     need: RequiredAxis,
     multi_axis: bool,
     six_values_seen: bool,
-) -> Result<AxisWriteOutcome, Box<Diagnostic>> {
+) -> Result<AxisWriteOutcome, Failure> {
     let dialect = editor.program().dialect();
     let form = AxisNotation::for_dialect(dialect);
     let Some(record) = editor.program().statement(index).map(crate::program::Statement::record) else {
@@ -90,7 +90,7 @@ pub fn write_axis(
 }
 
 /// Makes six values of three.
-fn append_axis(editor: &mut ProgramEditor, index: usize, axis: Vector3<f64>) -> Result<(), Box<Diagnostic>> {
+fn append_axis(editor: &mut ProgramEditor, index: usize, axis: Vector3<f64>) -> Result<(), Failure> {
     let Some(statement) = editor.program().statement(index) else { return Ok(()) };
     let text = editor.program().statement_text(statement);
     let numbers = parse::statement_numbers(text);

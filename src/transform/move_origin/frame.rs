@@ -4,7 +4,7 @@
 //! that has already mapped outside coordinates to the printed ones (Creo), `M`, becomes `T^-1 * M`.
 
 use super::operation_scope::OperationScope;
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::record::{FrameRecord, FrameWord};
 use crate::program::{Dialect, Program, Record};
 use crate::transform::statement_numbers::{MatrixRowCounter, set_matrix_row};
@@ -21,7 +21,7 @@ pub fn move_frames(
     place: &Affine,
     scope: &OperationScope,
     context: &mut StepContext<'_>,
-) -> Result<Program, Box<Diagnostic>> {
+) -> Result<Program, Failure> {
     if place.has_mirror() {
         return Err(context.step_failure(
             "a frame is right-handed and cannot hold a mirror; mirror the points (`change: points`)",
@@ -71,7 +71,7 @@ fn check_motions_in_frames(
     place: &Affine,
     scope: &OperationScope,
     context: &StepContext<'_>,
-) -> Result<(), Box<Diagnostic>> {
+) -> Result<(), Failure> {
     if program.dialect() == Dialect::SolidWorks {
         return Err(context.step_failure(
             "SolidWorks CAM prints its points in world coordinates (TRNTYP/WORLD): its CSYS says how the setup stands and does \
@@ -114,7 +114,7 @@ fn check_motions_in_frames(
     }
     if frame.is_none() {
         let finding = context.step_finding(codes::STEP_FAILED, NO_FRAME, &["change"], "asked for here");
-        return Err(Box::new(finding.with_help(HELP)));
+        return Err(finding.with_help(HELP).into());
     }
     Ok(())
 }
@@ -123,9 +123,8 @@ const NO_FRAME: &str =
     "there is no frame record (MSYS, CSYS, CAMERA, `$$*CATIA0`) that could move the points";
 const HELP: &str = "Use `change: points`, which is also the default.";
 
-fn missing_frame_error(program: &Program, index: usize, context: &StepContext<'_>) -> Box<Diagnostic> {
-    let diagnostic = *context.statement_failure(NO_FRAME, program, index, "stands in no frame");
-    Box::new(diagnostic.with_help(HELP))
+fn missing_frame_error(program: &Program, index: usize, context: &StepContext<'_>) -> Failure {
+    context.statement_finding(NO_FRAME, program, index, "stands in no frame").with_help(HELP).into()
 }
 
 fn check_frame(
@@ -134,7 +133,7 @@ fn check_frame(
     program: &Program,
     index: usize,
     context: &StepContext<'_>,
-) -> Result<(), Box<Diagnostic>> {
+) -> Result<(), Failure> {
     let message = match (frame.word, program.dialect()) {
         (FrameWord::Csys, Dialect::Creo | Dialect::CreoGpost) if place.changes_directions() => {
             "which way the rotation of this matrix turns is not known for Creo (measured is only that its translation is \

@@ -1,6 +1,6 @@
 //! Words of left and right: the sides of CUTCOM, and the sense of arcs that say it in words.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Failure;
 use crate::program::{FieldKind, StatementSyntax, fold_text};
 use crate::transform::Affine;
 use crate::write::{self, ProgramEditor};
@@ -14,7 +14,7 @@ const SENSES: &[[&str; 2]] = &[["CLOCKWISE", "COUNTERCLOCKWISE"], ["CLW", "CCLW"
 ///
 /// # Errors
 /// When the new text does not read back.
-pub fn swap_sides(editor: &mut ProgramEditor, index: usize) -> Result<(), Box<Diagnostic>> {
+pub fn swap_sides(editor: &mut ProgramEditor, index: usize) -> Result<(), Failure> {
     swap_words(editor, index, SIDES)
 }
 
@@ -22,7 +22,7 @@ pub fn swap_sides(editor: &mut ProgramEditor, index: usize) -> Result<(), Box<Di
 ///
 /// # Errors
 /// When the new text does not read back.
-pub fn swap_senses(editor: &mut ProgramEditor, index: usize) -> Result<(), Box<Diagnostic>> {
+pub fn swap_senses(editor: &mut ProgramEditor, index: usize) -> Result<(), Failure> {
     swap_words(editor, index, SENSES)
 }
 
@@ -41,11 +41,7 @@ pub fn keeps_plane(place: &Affine, normal: Vector3<f64>) -> bool {
     place.keeps_direction(normal)
 }
 
-fn swap_words(
-    editor: &mut ProgramEditor,
-    index: usize,
-    pairs: &[[&'static str; 2]],
-) -> Result<(), Box<Diagnostic>> {
+fn swap_words(editor: &mut ProgramEditor, index: usize, pairs: &[[&'static str; 2]]) -> Result<(), Failure> {
     let Some(syntax) = write::statement_syntax(editor.program(), index) else { return Ok(()) };
     let parts: Vec<(Range<usize>, Vec<u8>)> = syntax
         .fields

@@ -10,7 +10,7 @@ mod operation_scope;
 mod points;
 
 use super::{StepContext, Transform, stale_records, unchanged_statements};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, codes, Failure};
 use crate::program::Program;
 pub use move_parameters::{MirrorSpec, RotationSpec};
 pub use operation_scope::MoveScopeSpec;
@@ -70,7 +70,7 @@ impl Transform for MoveOrigin {
             || self.mirror.as_ref().is_some_and(|mirror| mirror.through.norm() > 0.0)
     }
 
-    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>> {
+    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
         if self.mirror.is_none() && self.rotate.is_none() && self.translate.is_none() {
             return Err(context.step_failure("none of `mirror`, `rotate` and `translate` is given", &[]));
         }

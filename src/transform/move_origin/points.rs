@@ -3,7 +3,7 @@
 use super::move_tracker::{MoveRefusal, MoveTracker};
 use super::operation_scope::OperationScope;
 use super::{axis_notation, handedness_words};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Failure;
 use crate::parse;
 use crate::program::record::{ArcSense, CutterCompensation};
 use crate::program::{NumberRole, Program, Record};
@@ -21,7 +21,7 @@ pub fn move_points(
     place: &Affine,
     scope: &OperationScope,
     context: &mut StepContext<'_>,
-) -> Result<Program, Box<Diagnostic>> {
+) -> Result<Program, Failure> {
     let mut walk = MoveTracker::new(place, program.dialect());
     let six_values_seen = program
         .live_statements()

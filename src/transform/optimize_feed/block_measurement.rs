@@ -3,7 +3,7 @@
 use super::block_feeds::{FeedBlock, FeedLimit, LimitedPiece};
 use super::load_limits::{LoadLimits, SpindleRotation};
 use super::short_pieces;
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::program::record::SpindleDirection;
@@ -40,28 +40,26 @@ pub(super) struct BlockMeasurement {
     pub measured: Vec<[f64; 2]>,
 }
 
-/// Simulates a program and gathers its blocks. `touches` says which motions may get another feed. `None` when `watch` stopped it.
+/// Simulates a program and gathers its blocks. `touches` says which motions may get another feed.
 pub(super) fn measure_blocks(
     machining: &Machining<'_>,
     (options, source): (&SimulationRunOptions, EngagementModel),
     limits: &LoadLimits,
     watch: &dyn RunWatcher,
     mut touches: impl FnMut(&Motion) -> bool,
-) -> Result<Option<(MeasuredBlocks, EngagementRunResult)>, Box<Diagnostic>> {
+) -> Result<(MeasuredBlocks, EngagementRunResult), Failure> {
     let mut gathered = MeasuredBlocks::default();
     let mut before = PreviousMotion::default();
     let ran = machining.find_engagements(options, source, watch, &mut |cut| {
         let touched = touches(cut.motion);
         gathered.add_motion(machining, limits, cut, touched, &mut before);
     })?;
-    Ok(ran.map(|ran| {
-        let reach = match ran.grain {
-            StockResolution::Cell(cell) => AROUND * cell,
-            StockResolution::Layer(_) => SHORT,
-        };
-        short_pieces::lower_short_pieces(&mut gathered.blocks, reach);
-        (gathered, ran)
-    }))
+    let reach = match ran.grain {
+        StockResolution::Cell(cell) => AROUND * cell,
+        StockResolution::Layer(_) => SHORT,
+    };
+    short_pieces::lower_short_pieces(&mut gathered.blocks, reach);
+    Ok((gathered, ran))
 }
 
 /// Cells of path before and after a piece in which other pieces tell of its load: a piece shorter than that may pass between two

@@ -6,7 +6,7 @@
 use super::motion_pose;
 use super::split_read_back;
 use super::split_statements::{self, SplitForm, SplitMotion};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::program::{Program, Record, StepId};
@@ -96,7 +96,7 @@ pub fn split_motions(
     step: StepId,
     wanted: &[(usize, Vec<f64>)],
     findings: &mut Vec<Diagnostic>,
-) -> Result<SplitProgram, Box<Diagnostic>> {
+) -> Result<SplitProgram, Failure> {
     let before = split_read_back::ReadMotions::from_program(&program);
     let (mut cuts, mut kept) = choose_splits(&program, &before.motions, wanted);
     let (split, parts) = loop {

@@ -1,6 +1,6 @@
 //! The statements of a motion's parts, in the form of the statements that make the whole.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Failure;
 use crate::parse;
 use crate::program::geometry::{MotionPath, Pose};
 use crate::program::motion::Motion;
@@ -49,7 +49,7 @@ pub(super) fn write_split_motion(
     editor: &mut ProgramEditor,
     motion: &Motion,
     cut: &SplitMotion,
-) -> Result<(), Box<Diagnostic>> {
+) -> Result<(), Failure> {
     match cut.written {
         SplitForm::Line => {
             for pose in &cut.poses {
@@ -85,7 +85,7 @@ fn write_move_arcs(
     motion: &Motion,
     cut: &SplitMotion,
     statement: usize,
-) -> Result<(), Box<Diagnostic>> {
+) -> Result<(), Failure> {
     let angle = find_move_arc_angle(editor.program(), statement);
     let degrees = |(start, end): (f64, f64)| angle.map(|(number, whole)| (number, whole * (end - start)));
     for (pose, part) in cut.poses.iter().zip(cut.part_fractions().skip(1)) {
@@ -119,7 +119,7 @@ fn write_drive_arcs(
     motion: &Motion,
     cut: &SplitMotion,
     direction: usize,
-) -> Result<(), Box<Diagnostic>> {
+) -> Result<(), Failure> {
     let MotionPath::Arc(arc) = &motion.path else { return Ok(()) };
     let last = motion.last_statement();
     let short = |(start, end): (f64, f64)| (end - start) * arc.sweep <= PI + HALF_TURN;

@@ -5,7 +5,7 @@ use super::block_measurement::{MeasuredBlocks, measure_blocks};
 use super::load_limits::LoadLimits;
 use super::motion_split::{SplitProgram, split_motions};
 use super::parameters::{LoadCriterion, OptimizeFeed};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, codes, Failure};
 use crate::parameters::Positive;
 use crate::program::motion::Motion;
 use crate::program::{LengthUnit, Program, Statement};
@@ -32,7 +32,7 @@ impl Transform for OptimizeFeed {
         true
     }
 
-    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>> {
+    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
         let job = OptimizeFeedJob::new(self, &program, context)?;
         let (before, ran) = job.simulate_blocks(self, &program, context)?;
         if !before.marks.iter().any(|mark| mark.cuts) {
@@ -76,7 +76,7 @@ impl OptimizeFeedJob {
         step: &OptimizeFeed,
         program: &Program,
         context: &StepContext<'_>,
-    ) -> Result<Self, Box<Diagnostic>> {
+    ) -> Result<Self, Failure> {
         let mm = context.units.mm_per_unit();
         let Some(rules) = step.feed_rules(mm, &context.setup.machine) else {
             let message = "there is no highest feed: neither the step's `max_feed` nor the setup's `machine: { max_feed: ... }`";
@@ -108,15 +108,13 @@ impl OptimizeFeedJob {
         step: &OptimizeFeed,
         program: &Program,
         context: &mut StepContext<'_>,
-    ) -> Result<(MeasuredBlocks, EngagementRunResult), Box<Diagnostic>> {
+    ) -> Result<(MeasuredBlocks, EngagementRunResult), Failure> {
         let setup: &Setup = context.setup;
         let mut notes = Vec::new();
-        let machining = Machining::new(program, setup, self.units, &mut notes).map_err(|found| {
-            let placed = |found: Diagnostic| {
-                if found.labels.is_empty() { *self.label_step(found, context) } else { found }
-            };
-            let found = found.into_iter().map(placed).collect();
-            keep_last_error(found, &mut context.findings)
+        let machining = Machining::new(program, setup, self.units, &mut notes).map_err(|failure| {
+            failure.map_findings(|found| {
+                if found.labels.is_empty() { self.label_step(found, context) } else { found }
+            })
         })?;
         context.findings.extend(notes);
         let needs =
@@ -124,17 +122,18 @@ impl OptimizeFeedJob {
         if needs(LoadCriterion::needs_teeth) {
             let gaps = machining.tooling().find_missing_teeth(program, setup);
             if !gaps.is_empty() {
-                return Err(keep_last_error(gaps, &mut context.findings));
+                return Err(gaps.into());
             }
         }
         let material = if needs(LoadCriterion::needs_material) {
-            Some(setup.require_material().map_err(|found| self.label_step(*found, context))?.coefficients)
+            let labelled = |failure: Failure| failure.map_findings(|found| self.label_step(found, context));
+            Some(setup.require_material().map_err(labelled)?.coefficients)
         } else {
             None
         };
         let grain = machining
             .choose_resolution(&self.options, self.source)
-            .map_err(|found| self.label_resolution(*found, context))?;
+            .map_err(|failure| failure.map_findings(|found| self.label_resolution(found, context)))?;
         let limits = LoadLimits::new(self.limits.clone(), machining.tooling(), material, grain);
         let mut selection = MotionSelection::new(&step.r#where, program, context);
         let watch = context.watch;
@@ -142,11 +141,9 @@ impl OptimizeFeedJob {
             measure_blocks(&machining, (&self.options, self.source), &limits, watch, |motion: &Motion| {
                 !motion.rapid && step.motions.contains(&motion.class) && selection.contains(motion, context)
             });
-        let gathered = gathered.map_err(|found| self.label_resolution(*found, context))?;
+        let (mut gathered, ran) =
+            gathered.map_err(|failure| failure.map_findings(|found| self.label_resolution(found, context)))?;
         selection.report_if_empty(context);
-        let Some((mut gathered, ran)) = gathered else {
-            return Err(context.step_failure("it was stopped before it was done", &[]));
-        };
         if !gathered.errors.is_empty() {
             let mut errors = std::mem::take(&mut gathered.errors);
             let more = errors.len().saturating_sub(TOLD);
@@ -155,22 +152,22 @@ impl OptimizeFeedJob {
                 let message = format!("{more} more motions cut with a feed or a speed that cannot be known");
                 errors.push(Diagnostic::new(codes::FEED_UNKNOWN, message));
             }
-            return Err(keep_last_error(errors, &mut context.findings));
+            return Err(errors.into());
         }
         Ok((gathered, ran))
     }
 
-    fn label_step(&self, found: Diagnostic, context: &StepContext<'_>) -> Box<Diagnostic> {
-        Box::new(context.label_step(found, "asked for by this step"))
+    fn label_step(&self, found: Diagnostic, context: &StepContext<'_>) -> Diagnostic {
+        context.label_step(found, "asked for by this step")
     }
 
-    fn label_resolution(&self, found: Diagnostic, context: &StepContext<'_>) -> Box<Diagnostic> {
+    fn label_resolution(&self, found: Diagnostic, context: &StepContext<'_>) -> Diagnostic {
         let keys = match self.source {
             EngagementModel::Dexels => ["cell"],
             EngagementModel::Layers { .. } if found.code == codes::LAYERS => ["layer"],
             EngagementModel::Layers { .. } => ["engagement"],
         };
-        Box::new(context.label_parameter(found, &keys, "asked for here"))
+        context.label_parameter(found, &keys, "asked for here")
     }
 
     /// Decides the feeds and writes them.
@@ -179,7 +176,7 @@ impl OptimizeFeedJob {
         program: Program,
         before: &MeasuredBlocks,
         context: &mut StepContext<'_>,
-    ) -> Result<OptimizedProgram, Box<Diagnostic>> {
+    ) -> Result<OptimizedProgram, Failure> {
         let mut blocks = before.blocks.clone();
         let step = context.step;
         let (splits, found) = loop {
@@ -264,13 +261,6 @@ impl OptimizeFeedJob {
     }
 }
 
-/// Of several errors the last one stops the step, the others are findings before it.
-fn keep_last_error(mut found: Vec<Diagnostic>, findings: &mut Vec<Diagnostic>) -> Box<Diagnostic> {
-    let last = found.pop().unwrap_or_else(|| Diagnostic::new(codes::STEP_FAILED, "the step cannot run"));
-    findings.extend(found);
-    Box::new(last)
-}
-
 impl OptimizeFeedJob {
     /// A program that cuts nothing anywhere is in the wrong place over its stock, and all of it would run at the feed of air.
     fn describe_nothing_cut(
@@ -278,7 +268,7 @@ impl OptimizeFeedJob {
         program: &Program,
         ran: &EngagementRunResult,
         context: &StepContext<'_>,
-    ) -> Box<Diagnostic> {
+    ) -> Failure {
         let mut points = program.motions().filter(|motion| !motion.rapid).map(|motion| motion.to.point);
         let path = points.next().map(|first| points.fold((first, first), |(a, b), p| (a.inf(&p), b.sup(&p))));
         let mm = self.units.mm_per_unit();

@@ -5,7 +5,7 @@ use super::block_feeds::{FeedBlock, FeedWindow};
 use super::block_measurement::{BlockMeasurement, MeasuredBlocks};
 use super::report::{OperationFeedReport, OptimizeFeedReport};
 use super::step::OptimizeFeedJob;
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, codes, Failure};
 use crate::program::{Program, Record, Statement, StatementChange, StepId, operation};
 use crate::simulation_run::StockResolution;
 use crate::transform::StepContext;
@@ -24,7 +24,7 @@ impl OptimizeFeedJob {
         after: &MeasuredBlocks,
         excused: &BTreeSet<usize>,
         context: &StepContext<'_>,
-    ) -> Result<(), Box<Diagnostic>> {
+    ) -> Result<(), Failure> {
         if self.rules.window == FeedWindow::HalfBlocks {
             return Ok(());
         }
@@ -46,7 +46,7 @@ impl OptimizeFeedJob {
                         span,
                         "passes the target",
                     );
-                    return Err(Box::new(context.label_parameter(found, &["target"], "the target")));
+                    return Err(context.label_parameter(found, &["target"], "the target").into());
                 }
             }
         }

@@ -19,7 +19,7 @@ pub use region::RewriteRegionSpec;
 pub use rule::RewriteRule;
 
 use super::{StepContext, Transform};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Failure, codes};
 use crate::program::Program;
 use charset::Charset;
 use rewrite_run::RewriteRun;
@@ -63,7 +63,7 @@ pub struct Rewrite {
 }
 
 impl Transform for Rewrite {
-    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>> {
+    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
         let is_ascii = self.rules.iter().all(RewriteRule::is_ascii);
         let charset = if is_ascii { Charset::Utf8 } else { Charset::from_program(&program) };
         let mut rules = ActiveRule::activate_rules(self, charset);

@@ -7,7 +7,7 @@ use super::rule_matching::{ActiveRule, RuleMatch};
 use super::rule_subject::RuleSubject;
 use super::spacing_style::{SpacingStyle, is_same_statement};
 use super::template::{StatementTemplate, TemplateInputs};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, codes, Failure};
 use crate::program::{Program, ProvenanceComment, Record, Statement, StatementChange};
 use crate::transform::StepContext;
 use crate::write::ProgramEditor;
@@ -41,7 +41,7 @@ impl<'w> RewriteRun<'w> {
     ///
     /// # Errors
     /// When an expression has no value, or what a rule writes is no statement.
-    pub fn rewrite_program(&self, program: Program) -> Result<Program, Box<Diagnostic>> {
+    pub fn rewrite_program(&self, program: Program) -> Result<Program, Failure> {
         let mut editor = ProgramEditor::new(program, self.context.step);
         let mut look = SpacingStyle::from_program(editor.program(), editor.style().line_end);
         let mut insertions = Vec::new();
@@ -61,7 +61,7 @@ impl<'w> RewriteRun<'w> {
         hit: RuleMatch,
         editor: &mut ProgramEditor,
         look: &mut SpacingStyle,
-    ) -> Result<Option<PendingInsertion>, Box<Diagnostic>> {
+    ) -> Result<Option<PendingInsertion>, Failure> {
         let program = editor.program();
         let (Some(active), Some(statement)) = (self.rules.get(hit.rule), program.statement(hit.statement))
         else {
@@ -77,7 +77,7 @@ impl<'w> RewriteRun<'w> {
         let filled = |template: &StatementTemplate, key: &str| {
             template.fill(&filling).map_err(|trouble| rule_failure(&trouble, hit, key, program, self.context))
         };
-        let mut all = |templates: &[StatementTemplate], key: &str| -> Result<Vec<Vec<u8>>, Box<Diagnostic>> {
+        let mut all = |templates: &[StatementTemplate], key: &str| -> Result<Vec<Vec<u8>>, Failure> {
             templates
                 .iter()
                 .map(|template| Ok(look.apply_spacing(&filled(template, key)?, program)))
@@ -90,7 +90,7 @@ impl<'w> RewriteRun<'w> {
             let text = reshape_statement(program, statement, &new, style, look);
             editor
                 .set_text(hit.statement, &text)
-                .map_err(|error| self.label_rule(*error, hit, &["replace"]))?;
+                .map_err(|failure| failure.map_findings(|found| self.label_rule(found, hit, &["replace"])))?;
         }
         if rule.delete {
             editor.delete_statement(hit.statement);
@@ -103,7 +103,7 @@ impl<'w> RewriteRun<'w> {
         &self,
         insertion: PendingInsertion,
         editor: &mut ProgramEditor,
-    ) -> Result<(), Box<Diagnostic>> {
+    ) -> Result<(), Failure> {
         let PendingInsertion { hit, before, after } = insertion;
         if !is_already_inserted(&before, editor.program(), hit.statement, true) {
             self.insert_texts(&before, hit.statement, hit, "insert_before", editor)?;
@@ -122,15 +122,17 @@ impl<'w> RewriteRun<'w> {
         hit: RuleMatch,
         key: &str,
         editor: &mut ProgramEditor,
-    ) -> Result<(), Box<Diagnostic>> {
+    ) -> Result<(), Failure> {
         for (number, text) in texts.iter().enumerate() {
-            if let Err(mut error) = editor.insert_before(before, text) {
-                // The editor knows what it was to insert before, not for which statement.
-                error.labels.clear();
+            if let Err(failure) = editor.insert_before(before, text) {
                 let program = editor.program();
                 let span = program.statement(hit.statement).map(Statement::origin).unwrap_or_default();
-                let error = error.with_label(program.source(), span, "beside this statement");
-                return Err(self.label_rule(error, hit, &[key, &number.to_string()]));
+                return Err(failure.map_findings(|mut found| {
+                    // The editor knows what it was to insert before, not for which statement.
+                    found.labels.clear();
+                    let found = found.with_label(program.source(), span, "beside this statement");
+                    self.label_rule(found, hit, &[key, &number.to_string()])
+                }));
             }
         }
         Ok(())
@@ -142,7 +144,7 @@ impl<'w> RewriteRun<'w> {
         hit: RuleMatch,
         program: &Program,
         inserts: bool,
-    ) -> Result<(), Box<Diagnostic>> {
+    ) -> Result<(), Failure> {
         let is_points = |record: &Record| matches!(record, Record::Goto(_) | Record::Points(_));
         let kept = program.statement(hit.statement).filter(|kept| kept.is_live());
         if !inserts && kept.is_some_and(|kept| is_points(kept.record())) {
@@ -158,10 +160,10 @@ impl<'w> RewriteRun<'w> {
         let message = "the rule would part a GOTO from the lines of numbers that go on with it";
         let error =
             self.context.statement_failure(message, program, index, "these numbers would stand alone");
-        Err(self.label_rule(*error, hit, &[]))
+        Err(error.map_findings(|found| self.label_rule(found, hit, &[])))
     }
 
-    fn label_rule(&self, error: Diagnostic, hit: RuleMatch, keys: &[&str]) -> Box<Diagnostic> {
+    fn label_rule(&self, error: Diagnostic, hit: RuleMatch, keys: &[&str]) -> Diagnostic {
         label_rule(error, hit, keys, "by this rule", self.context)
     }
 }
@@ -213,10 +215,10 @@ fn label_rule(
     keys: &[&str],
     label: &str,
     context: &StepContext<'_>,
-) -> Box<Diagnostic> {
+) -> Diagnostic {
     let rule = hit.rule.to_string();
     let path = [&["rules", rule.as_str()], keys].concat();
-    Box::new(context.label_parameter(error, &path, label))
+    context.label_parameter(error, &path, label)
 }
 
 /// Why a rule cannot be applied to a statement: at the text of the rule, and at the argument.
@@ -226,7 +228,7 @@ pub(super) fn rule_failure(
     key: &str,
     program: &Program,
     context: &StepContext<'_>,
-) -> Box<Diagnostic> {
+) -> Failure {
     let mut span = program.statement(hit.statement).map(Statement::origin).unwrap_or_default();
     let untouched = program
         .statement(hit.statement)
@@ -236,5 +238,5 @@ pub(super) fn rule_failure(
     }
     let message = format!("rule {} of this `rewrite` cannot be applied: {}", hit.rule + 1, trouble.message);
     let error = Diagnostic::new(codes::STEP_FAILED, message).with_label(program.source(), span, "on this");
-    label_rule(error, hit, &[key], "asked for here", context)
+    label_rule(error, hit, &[key], "asked for here", context).into()
 }

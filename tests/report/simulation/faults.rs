@@ -2,7 +2,7 @@
 
 use super::{SHOP, SLOT, close, setup, simulate};
 use crate::support::{program, snapshots};
-use clsmith::diagnostic::{Diagnostic, Severity};
+use clsmith::diagnostic::{Diagnostic, Failure, Severity};
 use clsmith::program::LengthUnit;
 use clsmith::report::render::line;
 use clsmith::report::simulation::SimulationReport;
@@ -84,6 +84,7 @@ fn a_run_that_costs_too_much_proposes_a_cell_that_fits() {
             &SilentWatcher,
         )
         .unwrap_err()
+        .into_findings()
     };
     snapshots("report").bind(|| {
         insta::assert_snapshot!("simulation_cost", told(&[run(0.001), run(3.0)].concat()));
@@ -101,9 +102,6 @@ fn a_stopped_run_gives_nothing() {
     }
     let (program, setup) = (program(SLOT), setup(SHOP));
     let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new()).unwrap();
-    assert!(
-        SimulationReport::simulate_program(&machining, &SimulationRunOptions::default(), &Stop)
-            .unwrap()
-            .is_none()
-    );
+    let stopped = SimulationReport::simulate_program(&machining, &SimulationRunOptions::default(), &Stop);
+    assert!(matches!(stopped, Err(Failure::Interrupted)), "{stopped:?}");
 }

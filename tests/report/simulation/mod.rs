@@ -4,7 +4,7 @@ mod faults;
 mod outputs;
 
 use crate::support::program;
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::program::LengthUnit;
 use clsmith::report::simulation::{MotionRow, SimulationReport};
 use clsmith::setup::Setup;
@@ -50,9 +50,10 @@ pub fn setup(text: &str) -> Setup {
 
 pub fn simulate(text: &str, shop: &str, units: LengthUnit) -> Result<SimulationReport, Vec<Diagnostic>> {
     let (program, setup) = (program(text), setup(shop));
-    let machining = Machining::new(&program, &setup, units, &mut Vec::new())?;
+    let machining =
+        Machining::new(&program, &setup, units, &mut Vec::new()).map_err(Failure::into_findings)?;
     SimulationReport::simulate_program(&machining, &SimulationRunOptions::default(), &SilentWatcher)
-        .map(Option::unwrap)
+        .map_err(Failure::into_findings)
 }
 
 fn row(simulated: &SimulationReport, line: usize) -> MotionRow {

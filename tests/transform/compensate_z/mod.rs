@@ -8,7 +8,7 @@ mod refused;
 mod regrind;
 
 use crate::support;
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::program::Program;
 use clsmith::program::motion::Motion;
 use clsmith::setup::Setup;
@@ -68,9 +68,9 @@ pub fn compensate(parameters: &str, text: &str) -> Result<Done, Vec<Diagnostic>>
 pub fn compensate_beside(path: &str, parameters: &str, text: &str) -> Result<Done, Vec<Diagnostic>> {
     let recipe = format!("version: 1\nunits: mm\nsteps:\n  - compensate_z: {{ {parameters} }}\n");
     let recipe = Source::new(path, recipe.into_bytes()).unwrap();
-    let recipe = Recipe::load(&recipe)?;
+    let recipe = Recipe::load(&recipe).map_err(Failure::into_findings)?;
     let setup = recipe.merge_setups(Setup::default(), Setup::default());
-    let mut outcome = run_recipe(&recipe, &setup, support::program(text))?;
+    let mut outcome = run_recipe(&recipe, &setup, support::program(text)).map_err(Failure::into_findings)?;
     let report = outcome.reports.pop().expect("a report");
     let report = report.downcast_ref::<CompensateZReport>().unwrap().clone();
     let text = String::from_utf8_lossy(&outcome.program.to_bytes()).into_owned();

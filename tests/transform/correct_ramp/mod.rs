@@ -7,7 +7,7 @@ mod refused;
 mod special;
 
 use crate::support;
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::program::Program;
 use clsmith::setup::Setup;
 use clsmith::source::Source;
@@ -45,9 +45,10 @@ pub fn correct_program(parameters: &str, setup: &str, program: Program) -> Resul
     let setup = if setup.is_empty() { String::new() } else { format!("setup: {setup}\n") };
     let recipe = format!("version: 1\nunits: mm\n{setup}steps:\n  - correct_ramp: {{ {parameters} }}\n");
     let recipe = Source::new("recipe.yaml", recipe.into_bytes()).unwrap();
-    let recipe = Recipe::load(&recipe)?;
+    let recipe = Recipe::load(&recipe).map_err(Failure::into_findings)?;
     let setup = recipe.merge_setups(Setup::default(), Setup::default());
-    let Ran { program, findings, mut reports } = run_recipe(&recipe, &setup, program)?;
+    let Ran { program, findings, mut reports } =
+        run_recipe(&recipe, &setup, program).map_err(Failure::into_findings)?;
     let report = reports.pop().expect("a report");
     let report = report.downcast_ref::<CorrectRampReport>().unwrap().clone();
     let text = String::from_utf8_lossy(&program.to_bytes()).into_owned();

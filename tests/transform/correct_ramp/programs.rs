@@ -119,8 +119,9 @@ fn what_a_person_reads() {
             dialect: None,
             watch,
         }
-        .correct_source(&source);
-        let program = done.program.unwrap();
+        .correct_source(&source)
+        .unwrap();
+        let program = done.program;
         assert!(is_program_changed(&program));
         let mut out = Vec::new();
         unified_diff::write_unified_diff(&mut out, &program, &unified_diff::UnifiedDiffOptions::default())

@@ -24,7 +24,7 @@ fn run_on(settings: &str, program: Program) -> Result<Program, String> {
     let recipe = Recipe::load(&recipe).unwrap();
     run_recipe(&recipe, &Setup::default(), program)
         .map(|outcome| outcome.program)
-        .map_err(|found| found.last().unwrap().message.clone())
+        .map_err(|failure| failure.findings().last().unwrap().message.clone())
 }
 
 fn moves() -> Vec<(&'static str, Place)> {

@@ -9,7 +9,7 @@ use clsmith::transform::Recipe;
 fn faults(step: &str) -> String {
     let recipe = format!("version: 1\nsteps:\n{step}");
     let found = Recipe::load(&Source::new("recipe.yaml", recipe.into_bytes()).unwrap()).unwrap_err();
-    found.iter().map(shown).collect()
+    found.findings().iter().map(shown).collect()
 }
 
 #[track_caller]

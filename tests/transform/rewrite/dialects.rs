@@ -86,7 +86,8 @@ fn bytes(rule: &str, text: &[u8]) -> Result<Vec<u8>, Vec<clsmith::diagnostic::Di
     use clsmith::{setup::Setup, source::Source, transform};
     let recipe = format!("version: 1\nsteps:\n{}", rules(&[rule]));
     let recipe = transform::Recipe::load(&Source::new("recipe.yaml", recipe.into_bytes()).unwrap()).unwrap();
-    let done = transform::run_recipe(&recipe, &Setup::default(), crate::support::program(text))?;
+    let done = transform::run_recipe(&recipe, &Setup::default(), crate::support::program(text))
+        .map_err(clsmith::diagnostic::Failure::into_findings)?;
     Ok(done.program.to_bytes())
 }
 
