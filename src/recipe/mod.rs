@@ -7,6 +7,7 @@ mod motion_filter;
 mod provenance;
 mod recipe_fault_wording;
 mod recipe_text;
+mod statement_filter;
 
 pub use crate::parameters;
 pub use crate::yaml::YamlPathSegment;
@@ -14,6 +15,7 @@ pub(crate) use motion_filter::deserialize_not_empty;
 pub use motion_filter::{FeedRange, MotionFacts, MotionFilter};
 pub use provenance::Provenance;
 pub use recipe_text::recipe_schema;
+pub use statement_filter::{OperationFilter, StatementFilter};
 
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::setup::{Setup, YamlLocation};

@@ -55,10 +55,31 @@ pub struct MotionFacts<'a> {
 impl MotionFilter {
     /// Whether a motion is meant. What is asked for but not known does not fit.
     pub fn matches_motion(&self, facts: &MotionFacts<'_>) -> bool {
-        is_unset_or_any(&self.operations, |glob| facts.operation.is_some_and(|name| glob.matches_name(name)))
-            && is_unset_or_any(&self.tools, |tool| tool.matches_tool(facts.tool_number, facts.tool_name))
-            && is_unset_or_any(&self.motions, |&kind| facts.motion == Some(kind))
-            && self.feed.is_none_or(|range| facts.feed.is_some_and(|feed| range.contains(feed)))
+        self.matches_operation(facts.operation)
+            && self.matches_tool(facts.tool_number, facts.tool_name)
+            && self.matches_kind(facts.motion, facts.feed)
+    }
+
+    /// Whether an operation of this name is meant.
+    pub fn matches_operation(&self, name: Option<&str>) -> bool {
+        is_unset_or_any(&self.operations, |glob| name.is_some_and(|name| glob.matches_name(name)))
+    }
+
+    /// Whether a tool is meant, given what the file says about it.
+    pub fn matches_tool(&self, number: Option<u32>, name: Option<&str>) -> bool {
+        is_unset_or_any(&self.tools, |tool| tool.matches_tool(number, name))
+    }
+
+    /// Whether a motion of this class and feed is meant, whatever its operation and tool.
+    pub fn matches_kind(&self, class: Option<MotionClass>, feed: Option<f64>) -> bool {
+        is_unset_or_any(&self.motions, |&wanted| class == Some(wanted))
+            && self.feed.is_none_or(|range| feed.is_some_and(|feed| range.contains(feed)))
+    }
+}
+
+impl From<&MotionFilter> for MotionFilter {
+    fn from(filter: &MotionFilter) -> Self {
+        filter.clone()
     }
 }
 

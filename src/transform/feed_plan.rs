@@ -4,6 +4,7 @@
 //! wants another, a FEDRAT in the form of the governing one goes in front of the first statement of that motion. The next
 //! FEDRAT of the file sets its own feed anyway, so programmed feeds come back by themselves.
 
+use super::motion_insertion::MotionInsertion;
 use super::statement_numbers::{major_word, strip_remark};
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::number;
@@ -43,22 +44,17 @@ impl FeedPlan {
         mut want: impl FnMut(usize, &Motion) -> Option<f64>,
     ) -> Self {
         let mut wishes = Vec::new();
-        let (mut first, mut last) = (0, None);
+        let mut insertion = MotionInsertion::new(program);
         for (number, motion) in program.motions().enumerate() {
-            // Points of one GOTO share what announces the first of them: a RAPID must not be parted from it, nor lines of bare
-            // numbers from their GOTO.
-            let end = motion.last_statement();
-            if last != Some(end) && !is_continuation_line(program, end) {
-                (first, last) = (motion.statements.start, Some(end));
-            }
+            let place = insertion.find_statements(&motion);
             if motion.rapid {
                 continue;
             }
             let (Some(feed), Some(governor)) = (motion.feed, motion.feed_from) else { continue };
             let wanted = want(number, &motion).unwrap_or(feed.value);
             wishes.push(WantedFeed {
-                first: first as u32,
-                last: last.unwrap_or(end) as u32,
+                first: place.first as u32,
+                last: place.last as u32,
                 governor: governor as u32,
                 feed: wanted,
             });
@@ -144,16 +140,6 @@ struct FeedInForce {
 
 fn is_cycle(program: &Program, statement: usize) -> bool {
     program.statement(statement).is_some_and(|found| matches!(found.record(), Record::Cycle(_)))
-}
-
-/// Whether a statement is a line of bare numbers, which goes on with the GOTO before it.
-fn is_continuation_line(program: &Program, statement: usize) -> bool {
-    let points = |found: &&crate::program::Statement| matches!(found.record(), Record::Points(_));
-    let first = program
-        .statement(statement)
-        .filter(points)
-        .and_then(|found| program.statement_text(found).trim_ascii_start().first());
-    first.is_some_and(|byte| !byte.is_ascii_alphabetic())
 }
 
 /// Gives a FEDRAT or CYCLE another feed.

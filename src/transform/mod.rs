@@ -5,10 +5,12 @@
 
 mod affine;
 pub mod feed_plan;
+pub mod motion_insertion;
 mod motion_selection;
 mod recipe_run;
 mod stale_records;
 mod statement_numbers;
+mod statement_selection;
 mod step_context;
 pub mod step_report;
 mod unchanged_statements;
@@ -16,7 +18,8 @@ mod unchanged_statements;
 pub use affine::Affine;
 pub use motion_selection::MotionSelection;
 pub use recipe_run::{RecipeOutcome, run_recipe, run_recipe_watched, run_steps};
-pub use rewrite::{RewriteRegionSpec, RewriteRule};
+pub use rewrite::RewriteRule;
+pub use statement_selection::{SelectedStatements, StatementSelection};
 pub use step_context::StepContext;
 pub use step_report::TransformReport;
 

@@ -1,7 +1,7 @@
 //! `where:` applied to the motions of one program.
 
 use super::StepContext;
-use crate::diagnostic::codes;
+use super::statement_selection::report_nothing_selected;
 use crate::program::motion::Motion;
 use crate::program::{LengthUnit, Program, operation};
 use crate::recipe::{MotionFacts, MotionFilter};
@@ -40,10 +40,7 @@ impl<'w> MotionSelection<'w> {
     /// A warning when nothing was meant.
     pub fn report_if_empty(&self, context: &mut StepContext<'_>) {
         if self.selected == 0 && !self.everything {
-            let message = "`where` selects no motion of this program";
-            let finding =
-                context.step_finding(codes::NOTHING_SELECTED, message, &["where"], "selects nothing");
-            context.findings.push(finding);
+            report_nothing_selected("motion", context);
         }
     }
 

@@ -111,7 +111,12 @@ impl StepContext<'_> {
 
     /// The feed of a motion in the unit of the parameters per minute; `None` when the spindle speed it needs is not known.
     pub fn feed_per_minute(&self, motion: &Motion, file: LengthUnit) -> Option<f64> {
-        let feed = motion.feed?.mm_per_minute(file, motion.spindle_rpm(), Some(motion.length()))?;
-        Some(feed / self.units.mm_per_unit())
+        feed_per_minute(motion, file, self.units)
     }
+}
+
+/// The feed of a motion of a file in `file` units, in `units` per minute; `None` when the spindle speed it needs is not known.
+pub(super) fn feed_per_minute(motion: &Motion, file: LengthUnit, units: LengthUnit) -> Option<f64> {
+    let feed = motion.feed?.mm_per_minute(file, motion.spindle_rpm(), Some(motion.length()))?;
+    Some(feed / units.mm_per_unit())
 }

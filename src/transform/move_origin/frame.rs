@@ -3,12 +3,11 @@
 //! The transform `T` is given in printed coordinates. A frame that maps printed coordinates outside, `F`, becomes `F * T`; one
 //! that has already mapped outside coordinates to the printed ones (Creo), `M`, becomes `T^-1 * M`.
 
-use super::operation_scope::OperationScope;
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::record::{FrameRecord, FrameWord};
 use crate::program::{Dialect, Program, Record};
 use crate::transform::statement_numbers::{MatrixRowCounter, set_matrix_row};
-use crate::transform::{Affine, StepContext};
+use crate::transform::{Affine, SelectedStatements, StepContext};
 use crate::write::ProgramEditor;
 use nalgebra::{Matrix3, Vector3};
 
@@ -19,7 +18,7 @@ use nalgebra::{Matrix3, Vector3};
 pub fn move_frames(
     program: Program,
     place: &Affine,
-    scope: &OperationScope,
+    scope: &SelectedStatements,
     context: &mut StepContext<'_>,
 ) -> Result<Program, Failure> {
     if place.has_mirror() {
@@ -69,7 +68,7 @@ pub fn move_frames(
 fn check_motions_in_frames(
     program: &Program,
     place: &Affine,
-    scope: &OperationScope,
+    scope: &SelectedStatements,
     context: &StepContext<'_>,
 ) -> Result<(), Failure> {
     if program.dialect() == Dialect::SolidWorks {

@@ -6,15 +6,13 @@ mod frame;
 mod handedness_words;
 mod move_parameters;
 mod move_tracker;
-mod operation_scope;
 mod points;
 
-use super::{StepContext, Transform, stale_records, unchanged_statements};
-use crate::diagnostic::{Diagnostic, codes, Failure};
+use super::{SelectedStatements, StepContext, Transform, stale_records, unchanged_statements};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::Program;
+use crate::recipe::OperationFilter;
 pub use move_parameters::{MirrorSpec, RotationSpec};
-pub use operation_scope::MoveScopeSpec;
-use operation_scope::OperationScope;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -47,7 +45,7 @@ pub struct MoveOrigin {
     pub change: MoveOriginTarget,
     /// Which operations; all when it is left out.
     #[serde(default)]
-    pub r#where: MoveScopeSpec,
+    pub r#where: OperationFilter,
 }
 
 /// What `move_origin` changes.
@@ -82,7 +80,7 @@ impl Transform for MoveOrigin {
             context.units,
             file,
         );
-        let scope = OperationScope::select_operations(&self.r#where, &program, context);
+        let scope = SelectedStatements::select(&self.r#where, &program, "operation", context);
         if scope.is_empty() || place.is_identity() {
             return Ok(program);
         }

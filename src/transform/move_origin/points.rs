@@ -1,14 +1,13 @@
 //! `change: points`: every number of the path gets its new value.
 
 use super::move_tracker::{MoveRefusal, MoveTracker};
-use super::operation_scope::OperationScope;
 use super::{axis_notation, handedness_words};
 use crate::diagnostic::Failure;
 use crate::parse;
 use crate::program::record::{ArcSense, CutterCompensation};
 use crate::program::{NumberRole, Program, Record};
 use crate::transform::statement_numbers::{self, major_word};
-use crate::transform::{Affine, StepContext};
+use crate::transform::{Affine, SelectedStatements, StepContext};
 use crate::write::{self, ProgramEditor};
 use nalgebra::Vector3;
 
@@ -19,7 +18,7 @@ use nalgebra::Vector3;
 pub fn move_points(
     program: Program,
     place: &Affine,
-    scope: &OperationScope,
+    scope: &SelectedStatements,
     context: &mut StepContext<'_>,
 ) -> Result<Program, Failure> {
     let mut walk = MoveTracker::new(place, program.dialect());

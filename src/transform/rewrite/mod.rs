@@ -4,7 +4,6 @@ mod bindings;
 mod charset;
 mod expression;
 mod pattern;
-mod region;
 mod reshape;
 mod rewrite_run;
 mod rule;
@@ -15,12 +14,13 @@ mod spacing_style;
 mod template;
 mod wildcards;
 
-pub use region::RewriteRegionSpec;
 pub use rule::RewriteRule;
 
+use super::statement_selection::{StatementSelection, report_nothing_selected};
 use super::{StepContext, Transform};
 use crate::diagnostic::{Failure, codes};
 use crate::program::Program;
+use crate::recipe::StatementFilter;
 use charset::Charset;
 use rewrite_run::RewriteRun;
 use rule_matching::ActiveRule;
@@ -53,9 +53,9 @@ use serde::de::{Deserializer, Error as _};
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Rewrite {
-    /// Which statements; all when it is left out.
+    /// Which statements; all when it is left out. A feed is asked for by `if`.
     #[serde(default)]
-    pub r#where: RewriteRegionSpec,
+    pub r#where: StatementFilter,
     /// The rules, in the order in which they are tried.
     #[serde(deserialize_with = "at_least_one")]
     #[schemars(length(min = 1))]
@@ -67,17 +67,14 @@ impl Transform for Rewrite {
         let is_ascii = self.rules.iter().all(RewriteRule::is_ascii);
         let charset = if is_ascii { Charset::Utf8 } else { Charset::from_program(&program) };
         let mut rules = ActiveRule::activate_rules(self, charset);
-        let hits = match rule_matching::find_rule_matches(self, &mut rules, &program) {
+        let hits = match rule_matching::find_rule_matches(self, &mut rules, &program, context) {
             Ok(hits) => hits,
             Err(stuck) => {
                 return Err(rewrite_run::rule_failure(&stuck.trouble, stuck.hit, "if", &program, context));
             }
         };
-        if hits.is_empty() && self.selects_nothing(&program) {
-            let message = "`where` selects no statement of this program";
-            let finding =
-                context.step_finding(codes::NOTHING_SELECTED, message, &["where"], "selects nothing");
-            context.findings.push(finding);
+        if hits.is_empty() && self.selects_nothing(&program, context) {
+            report_nothing_selected("statement", context);
             return Ok(program);
         }
         report_unused_rules(&rules, context);
@@ -89,9 +86,10 @@ impl Transform for Rewrite {
 }
 
 impl Rewrite {
-    fn selects_nothing(&self, program: &Program) -> bool {
-        let mut region = self.r#where.start_cursor(program);
-        !self.r#where.is_everything() && !program.live_statements().any(|(index, _)| region.contains(index))
+    fn selects_nothing(&self, program: &Program, context: &StepContext<'_>) -> bool {
+        let mut selection = StatementSelection::new(&self.r#where, program, context);
+        !self.r#where.is_everything()
+            && !program.live_statements().any(|(index, _)| selection.contains(index))
     }
 }
 

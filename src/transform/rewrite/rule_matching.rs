@@ -8,6 +8,7 @@ use super::pattern::StatementPattern;
 use super::rule::RewriteRule;
 use super::rule_subject::RuleSubject;
 use crate::program::{Program, Record};
+use crate::transform::{StatementSelection, StepContext};
 
 /// A rule as it is looked for in one file.
 pub(super) struct ActiveRule<'r> {
@@ -72,8 +73,9 @@ pub(super) fn find_rule_matches(
     step: &Rewrite,
     rules: &mut [ActiveRule<'_>],
     program: &Program,
+    context: &StepContext<'_>,
 ) -> Result<Vec<RuleMatch>, RuleFailure> {
-    let mut region = step.r#where.start_cursor(program);
+    let mut selection = StatementSelection::new(&step.r#where, program, context);
     let mut hits = Vec::new();
     for (index, statement) in program.live_statements() {
         if matches!(statement.record(), Record::Blank | Record::ByteOrderMark) {
@@ -82,9 +84,9 @@ pub(super) fn find_rule_matches(
         let text = program.statement_text(statement);
         let may_match =
             |rule: &ActiveRule<'_>| rule.pattern.as_ref().is_some_and(|pattern| pattern.may_match(text));
-        // Most statements of a large file end here, before the grammar or the region costs anything.
+        // Most statements of a large file end here, before the grammar or the selection costs anything.
         let Some(first) = rules.iter().position(may_match) else { continue };
-        if !region.contains(index) {
+        if !selection.contains(index) {
             continue;
         }
         let subject = RuleSubject::from_text(text);

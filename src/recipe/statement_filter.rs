@@ -1,0 +1,51 @@
+//! `where:` of steps that change statements, or whole operations.
+
+use super::motion_filter::{MotionFilter, deserialize_not_empty};
+use super::parameters::{Glob, ToolPattern};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Which statements a step applies to. What is given must all fit; of a list, one has to. Kinds of motion and feeds belong to
+/// motions, not to statements, so they cannot be asked for here.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StatementFilter {
+    /// Names of operations; `*` and `?` are wildcards. What stands before the first operation belongs to it.
+    #[serde(default, deserialize_with = "deserialize_not_empty")]
+    #[schemars(length(min = 1))]
+    pub operations: Option<Vec<Glob>>,
+    /// Numbers or names of tools: the tool in force behind the statement, so a LOAD/TOOL belongs to the tool that it loads.
+    #[serde(default, deserialize_with = "deserialize_not_empty")]
+    #[schemars(length(min = 1))]
+    pub tools: Option<Vec<ToolPattern>>,
+}
+
+impl StatementFilter {
+    /// Whether it leaves anything out.
+    pub fn is_everything(&self) -> bool {
+        self.operations.is_none() && self.tools.is_none()
+    }
+}
+
+impl From<&StatementFilter> for MotionFilter {
+    fn from(filter: &StatementFilter) -> Self {
+        let StatementFilter { operations, tools } = filter.clone();
+        Self { operations, tools, ..Self::default() }
+    }
+}
+
+/// Which operations a step applies to; all of them when nothing is said. A part of an operation cannot move on its own.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OperationFilter {
+    /// Names of operations; `*` and `?` are wildcards.
+    #[serde(default, deserialize_with = "deserialize_not_empty")]
+    #[schemars(length(min = 1))]
+    pub operations: Option<Vec<Glob>>,
+}
+
+impl From<&OperationFilter> for MotionFilter {
+    fn from(filter: &OperationFilter) -> Self {
+        Self { operations: filter.operations.clone(), ..Self::default() }
+    }
+}

@@ -1,0 +1,164 @@
+//! `where:` applied to the statements of one program, also to those that are no motion.
+//!
+//! Every statement stands in an operation, and under the tool that is in force behind it: a LOAD/TOOL belongs to the tool
+//! that it loads. What stands before the first operation belongs to it.
+//!
+//! A statement that makes motions (a GOTO, and the RAPID or CIRCLE that announces it) has their classes and feeds. Any
+//! other (SPINDL, COOLNT, LOAD, CYCLE, FEDRAT) may govern many motions or none, so it has neither: a `where` with
+//! `motions` or `feed` never means it.
+
+use super::StepContext;
+use super::step_context::feed_per_minute;
+use crate::diagnostic::codes;
+use crate::program::motion::{Motion, Motions};
+use crate::program::operation::{self, Operation};
+use crate::program::{LengthUnit, Program};
+use crate::recipe::MotionFilter;
+use std::collections::VecDeque;
+use std::ops::Range;
+
+/// Decides statement by statement, in their order, whether a step means it.
+pub struct StatementSelection<'p> {
+    wanted: MotionFilter,
+    operations: Vec<Operation>,
+    operation: usize,
+    /// The state machine as far as statements were asked for, which knows the tool in force.
+    tools: Motions<'p>,
+    read: usize,
+    motions: StatementMotions<'p>,
+    file: LengthUnit,
+    units: LengthUnit,
+}
+
+impl<'p> StatementSelection<'p> {
+    /// The selection of a step in a program.
+    pub fn new(wanted: impl Into<MotionFilter>, program: &'p Program, context: &StepContext<'_>) -> Self {
+        let wanted = wanted.into();
+        let operations = match wanted.operations {
+            Some(_) => operation::find_operations(program),
+            None => Vec::new(),
+        };
+        Self {
+            wanted,
+            operations,
+            operation: 0,
+            tools: program.motions(),
+            read: 0,
+            motions: StatementMotions { ahead: program.motions(), found: VecDeque::new() },
+            file: context.file_length_unit(program),
+            units: context.units,
+        }
+    }
+
+    /// Whether a statement is meant. Statements are asked for in their order; those that are left out cost little.
+    pub fn contains(&mut self, statement: usize) -> bool {
+        self.is_in_operation(statement) && self.is_under_tool(statement) && self.makes_motion(statement)
+    }
+
+    fn is_in_operation(&mut self, statement: usize) -> bool {
+        if self.wanted.operations.is_none() {
+            return true;
+        }
+        while self.operations.get(self.operation).is_some_and(|found| found.statements.end <= statement) {
+            self.operation += 1;
+        }
+        let found = self.operations.get(self.operation);
+        self.wanted.matches_operation(found.map(|operation| operation.name.as_str()))
+    }
+
+    fn is_under_tool(&mut self, statement: usize) -> bool {
+        if self.wanted.tools.is_none() {
+            return true;
+        }
+        while self.read <= statement && self.tools.read_statement().is_some() {
+            self.read += 1;
+        }
+        let tool = self.tools.state().tool.as_deref();
+        self.wanted
+            .matches_tool(tool.and_then(|tool| tool.number), tool.and_then(|tool| tool.name.as_deref()))
+    }
+
+    fn makes_motion(&mut self, statement: usize) -> bool {
+        if self.wanted.motions.is_none() && self.wanted.feed.is_none() {
+            return true;
+        }
+        let (wanted, file, units) = (&self.wanted, self.file, self.units);
+        self.motions.find_motions(statement).any(|motion| {
+            let feed = if motion.rapid { None } else { feed_per_minute(motion, file, units) };
+            wanted.matches_kind(Some(motion.class), feed)
+        })
+    }
+}
+
+/// The motions of a program, to be asked for by their statements.
+struct StatementMotions<'p> {
+    ahead: Motions<'p>,
+    /// Motions that do not end before the statement asked for last.
+    found: VecDeque<Motion>,
+}
+
+impl StatementMotions<'_> {
+    /// The motions that a statement makes: the points of a GOTO, the moves of a hole. Statements are asked for in their order.
+    fn find_motions(&mut self, statement: usize) -> impl Iterator<Item = &Motion> {
+        while self.found.front().is_some_and(|motion| motion.statements.end <= statement) {
+            self.found.pop_front();
+        }
+        while self.found.back().is_none_or(|motion| motion.statements.start <= statement) {
+            let Some(motion) = self.ahead.next() else { break };
+            if motion.statements.end > statement {
+                self.found.push_back(motion);
+            }
+        }
+        self.found.iter().filter(move |motion| motion.statements.contains(&statement))
+    }
+}
+
+/// The statements that a step means, to be asked for in any order and while the program changes: indices are those of the
+/// program that the selection was made in.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SelectedStatements {
+    /// In order, without gaps between neighbours that are meant.
+    ranges: Vec<Range<usize>>,
+}
+
+impl SelectedStatements {
+    /// The statements of a program that a step means, with a warning when there are none. `kind` is what `where` selects:
+    /// `statement`, `operation`.
+    pub fn select(
+        wanted: impl Into<MotionFilter>,
+        program: &Program,
+        kind: &str,
+        context: &mut StepContext<'_>,
+    ) -> Self {
+        let mut selection = StatementSelection::new(wanted, program, context);
+        let mut ranges: Vec<Range<usize>> = Vec::new();
+        for index in (0..program.statements().len()).filter(|index| selection.contains(*index)) {
+            match ranges.last_mut() {
+                Some(last) if last.end == index => last.end += 1,
+                _ => ranges.push(index..index + 1),
+            }
+        }
+        if ranges.is_empty() && selection.wanted != MotionFilter::default() {
+            report_nothing_selected(kind, context);
+        }
+        Self { ranges }
+    }
+
+    /// Whether a statement is meant.
+    pub fn contains(&self, statement: usize) -> bool {
+        let after = self.ranges.partition_point(|range| range.end <= statement);
+        self.ranges.get(after).is_some_and(|range| range.contains(&statement))
+    }
+
+    /// Whether none is meant.
+    pub fn is_empty(&self) -> bool {
+        self.ranges.is_empty()
+    }
+}
+
+/// The warning that a `where` selects nothing; `kind` is what it selects.
+pub(super) fn report_nothing_selected(kind: &str, context: &mut StepContext<'_>) {
+    let message = format!("`where` selects no {kind} of this program");
+    let finding = context.step_finding(codes::NOTHING_SELECTED, message, &["where"], "selects nothing");
+    context.findings.push(finding);
+}
