@@ -35,3 +35,8 @@ mod yaml;
 #[cfg(test)]
 #[path = "../tests/support/property.rs"]
 mod property;
+
+/// The examples of CONTRIBUTING.md, so that they compile and run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../CONTRIBUTING.md")]
+pub struct ContributingExamples;

@@ -19,7 +19,7 @@ use serde::Deserialize;
 /// and is reported. Without `max`, the machine's `max_feed` from the setup is the highest. Rapids are not touched.
 ///
 /// A changed feed is rounded to the side of the limit that is allowed. Idempotent: a second run changes nothing.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ClampFeed {
     /// Lowest feed, in the recipe's unit per minute.

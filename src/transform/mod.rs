@@ -17,6 +17,7 @@ mod unchanged_statements;
 
 pub use affine::Affine;
 pub use motion_selection::MotionSelection;
+pub use move_origin::{DirectionSpec, MirrorSpec, MoveOriginTarget, RotationSpec, VectorSpec};
 pub use recipe_run::{RecipeOutcome, run_recipe, run_recipe_watched, run_steps};
 pub use rewrite::RewriteRule;
 pub use statement_selection::{SelectedStatements, StatementSelection};
@@ -125,6 +126,7 @@ macro_rules! transforms {
 transforms! {
     mod scale_feed => ScaleFeed,
     mod clamp_feed => ClampFeed,
+    pub mod set_spindle => SetSpindle,
     mod rewrite => Rewrite,
     mod move_origin => MoveOrigin,
     mod convert_units => ConvertUnits,

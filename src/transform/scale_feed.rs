@@ -27,6 +27,13 @@ pub struct ScaleFeed {
     pub r#where: MotionFilter,
 }
 
+impl ScaleFeed {
+    /// The step for all motions.
+    pub fn new(factor: Factor) -> Self {
+        Self { factor, r#where: MotionFilter::default() }
+    }
+}
+
 impl Transform for ScaleFeed {
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
         let factor = self.factor.get();

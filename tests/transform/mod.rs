@@ -10,6 +10,8 @@ mod move_origin;
 mod moved;
 mod optimize_feed;
 mod rewrite;
+mod set_spindle;
+mod without_yaml;
 
 use crate::support;
 use clsmith::diagnostic::{Diagnostic, Failure};

@@ -19,7 +19,7 @@ use serde::Deserialize;
 /// was made, and the step fails when gouge or gap pass the tolerance.
 ///
 /// Not idempotent with `input: contact`: a second run would take tips for contacts.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CompensateZ {
     /// Radius of the ball, in the recipe's unit; else that of the tool in the setup or in the CL file.

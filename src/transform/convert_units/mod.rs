@@ -33,6 +33,13 @@ pub struct ConvertUnits {
     pub from: Option<LengthUnit>,
 }
 
+impl ConvertUnits {
+    /// The step for a file that states its unit.
+    pub fn new(to: LengthUnit) -> Self {
+        Self { to, from: None }
+    }
+}
+
 impl Transform for ConvertUnits {
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
         let stated = self.check_stated_unit(&program, context)?;

@@ -18,7 +18,7 @@ use serde::{Deserialize, Deserializer};
 /// A ramp is a descent at feed that ends where cutting at that level begins: by the file's own marks (PAINT/COLOR engage, leads)
 /// where it has them, else by geometry in operations that mostly cut level. Drilling cycles, turning and surfaces have none. Start (across the
 /// axis) and end of a ramp stay, so does every statement outside. A second run changes nothing.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CorrectRamp {
     /// The cutter; what is left out comes from `setup.tools` (`insert:`) and from the CL file.
@@ -44,7 +44,7 @@ pub struct CorrectRamp {
 }
 
 /// The cutter of a `correct_ramp` step; what is left out comes from the setup and from the CL file.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RampToolSpec {
     /// Diameter D.

@@ -12,7 +12,7 @@ use super::{SelectedStatements, StepContext, Transform, stale_records, unchanged
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::Program;
 use crate::recipe::OperationFilter;
-pub use move_parameters::{MirrorSpec, RotationSpec};
+pub use move_parameters::{DirectionSpec, MirrorSpec, RotationSpec, VectorSpec};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -31,7 +31,7 @@ use serde::Deserialize;
 /// Records that still describe the old place are reported, not guessed.
 ///
 /// Not idempotent: a second run moves again. A transform that moves nothing changes no byte.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MoveOrigin {
     /// The plane to mirror in: `x`, `y` or `z` (the plane normal to it, through the origin), or `{ normal: [1, 1, 0], through: [0, 0, 0] }`.

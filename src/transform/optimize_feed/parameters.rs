@@ -183,6 +183,31 @@ fn default_motions() -> Vec<MotionClass> {
 }
 
 impl OptimizeFeed {
+    /// The step with a target for the chip thickness, in the unit of its parameters; everything else as a recipe leaves it out.
+    pub fn new(target: Positive) -> Self {
+        Self {
+            criterion: LoadCriterion::default(),
+            target,
+            limits: None,
+            window: WindowSpec::default(),
+            min_feed: None,
+            max_feed: None,
+            min_ratio: None,
+            max_ratio: None,
+            air_feed: None,
+            margin: None,
+            max_acceleration: None,
+            split: None,
+            min_change: default_min_change(),
+            round_down_to: default_round_down_to(),
+            engagement: EngagementSpec::default(),
+            cell: None,
+            layer: None,
+            motions: default_motions(),
+            r#where: MotionFilter::default(),
+        }
+    }
+
     /// All limits, the target first, in millimetres.
     pub(super) fn limits_in_mm(&self, mm: f64) -> Vec<(LoadCriterion, f64)> {
         let in_mm = |limit: &LoadLimitSpec| {

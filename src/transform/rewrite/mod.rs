@@ -86,6 +86,11 @@ impl Transform for Rewrite {
 }
 
 impl Rewrite {
+    /// The step with its rules, for the whole program.
+    pub fn new(rules: Vec<RewriteRule>) -> Self {
+        Self { r#where: StatementFilter::default(), rules }
+    }
+
     fn selects_nothing(&self, program: &Program, context: &StepContext<'_>) -> bool {
         let mut selection = StatementSelection::new(&self.r#where, program, context);
         !self.r#where.is_everything()

@@ -36,6 +36,63 @@ pub struct RewriteRule {
 }
 
 impl RewriteRule {
+    /// A rule that writes another statement in place of each that matches.
+    ///
+    /// # Errors
+    /// What is wrong with one of the texts; the same as a recipe is told.
+    pub fn replacing(matched: &str, with: &str) -> Result<Self, String> {
+        let replace = Some(StatementTemplate::new(with)?);
+        Self { replace, ..Self::matching(matched)? }.check_names()
+    }
+
+    /// A rule that takes out each statement that matches.
+    ///
+    /// # Errors
+    /// As [`RewriteRule::replacing`].
+    pub fn deleting(matched: &str) -> Result<Self, String> {
+        Ok(Self { delete: true, ..Self::matching(matched)? })
+    }
+
+    /// A rule that puts a statement in front of each that matches.
+    ///
+    /// # Errors
+    /// As [`RewriteRule::replacing`].
+    pub fn inserting_before(matched: &str, statement: &str) -> Result<Self, String> {
+        let insert_before = vec![StatementTemplate::new(statement)?];
+        Self { insert_before, ..Self::matching(matched)? }.check_names()
+    }
+
+    /// A rule that puts a statement behind each that matches.
+    ///
+    /// # Errors
+    /// As [`RewriteRule::replacing`].
+    pub fn inserting_after(matched: &str, statement: &str) -> Result<Self, String> {
+        let insert_after = vec![StatementTemplate::new(statement)?];
+        Self { insert_after, ..Self::matching(matched)? }.check_names()
+    }
+
+    /// The rule for statements alone for which a condition is true.
+    ///
+    /// # Errors
+    /// As [`RewriteRule::replacing`].
+    pub fn only_if(self, condition: &str) -> Result<Self, String> {
+        let condition = read_condition(condition)?;
+        condition.0.check_names(self.r#match.names())?;
+        Ok(Self { r#if: Some(condition), ..self })
+    }
+
+    fn matching(matched: &str) -> Result<Self, String> {
+        let r#match = StatementPattern::new(matched)?;
+        let (insert_before, insert_after) = (Vec::new(), Vec::new());
+        Ok(Self { r#match, r#if: None, replace: None, delete: false, insert_before, insert_after })
+    }
+
+    fn check_names(self) -> Result<Self, String> {
+        let mut templates = self.replace.iter().chain(&self.insert_before).chain(&self.insert_after);
+        templates.try_for_each(|template| template.check_names(self.r#match.names()))?;
+        Ok(self)
+    }
+
     /// Whether its texts are the same in every character set.
     pub(super) fn is_ascii(&self) -> bool {
         let mut templates = self.replace.iter().chain(&self.insert_before).chain(&self.insert_after);

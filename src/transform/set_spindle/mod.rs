@@ -1,0 +1,177 @@
+//! `set_spindle`: spindle speeds scaled, set or kept within limits, and the feeds that hang on them.
+
+mod speed_plan;
+
+use super::feed_plan::FeedPlan;
+use super::step_report::{TransformReport, to_json_value};
+use super::{SelectedStatements, StepContext, Transform};
+use crate::diagnostic::Diagnostic;
+use crate::parameters::{Factor, Positive};
+use crate::presentation::text_format::{format_count, format_counted};
+use crate::program::{Program, Record};
+use crate::recipe::StatementFilter;
+use crate::write::{ProgramEditor, statement_syntax};
+use schemars::JsonSchema;
+use serde::de::{Deserializer, Error as _};
+use serde::{Deserialize, Serialize};
+use speed_plan::SpeedPlan;
+use std::collections::BTreeSet;
+
+/// Scales, sets or limits programmed spindle speeds.
+///
+/// Speeds are in rev/min. A surface speed (SFM, SMM) can be scaled; where it would have to be set or limited, it stays and is
+/// reported. SPINDL/OFF stays, and SPINDL/ON goes on with the new speed. Where a selected part begins or ends without a SPINDL
+/// of its own, one in the file's form is put in front of the first motion, so the programmed speed comes back behind it.
+///
+/// A feed per revolution keeps its number, so its rate changes with the speed. A feed per minute keeps its number with
+/// `feeds: keep`, so the feed per tooth changes; with `feeds: follow` it changes by the same ratio as the speed, and the feed
+/// per tooth stays. In taps (`CYCLE/TAP`, `RTAP`, `THREAD`) a feed per minute always follows, for it is pitch times speed.
+///
+/// A limit holds as printed. Idempotent with `set` and `clamp`: a second run changes nothing; `scale` multiplies again.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SetSpindle {
+    /// What becomes of a speed: `scale: 0.8`, `set: 6000` or `clamp: { min: 500, max: 8000 }`.
+    pub speed: SpindleSpeedChange,
+    /// What becomes of feeds per minute.
+    pub feeds: SpindleFeedHandling,
+    /// Which statements and motions; all when it is left out.
+    #[serde(default)]
+    pub r#where: StatementFilter,
+}
+
+/// What becomes of a spindle speed.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SpindleSpeedChange {
+    /// It is multiplied by a factor; the result has the decimals of the programmed speed, more only where a thousandth of it
+    /// would be lost.
+    Scale(Factor),
+    /// It becomes this, in rev/min.
+    Set(Positive),
+    /// It is kept within limits, in rev/min.
+    Clamp(#[serde(deserialize_with = "read_speed_range")] SpindleSpeedRange),
+}
+
+/// The lowest and the highest spindle speed, in rev/min; at least one of them.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SpindleSpeedRange {
+    /// Lowest speed, in rev/min.
+    pub min: Option<Positive>,
+    /// Highest speed, in rev/min.
+    pub max: Option<Positive>,
+}
+
+/// What becomes of feeds per minute when the spindle speed changes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SpindleFeedHandling {
+    /// They keep their numbers.
+    Keep,
+    /// They change by the same ratio, so that the feed per tooth stays.
+    Follow,
+}
+
+/// What `set_spindle` did.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct SetSpindleReport {
+    /// SPINDLs given another speed.
+    pub speeds_changed: usize,
+    /// SPINDLs put in.
+    pub speeds_added: usize,
+    /// FEDRATs and CYCLEs whose feed per minute follows the speed.
+    pub feeds_followed: usize,
+    /// Of them, those that feed taps.
+    pub tap_feeds: usize,
+}
+
+fn read_speed_range<'de, D: Deserializer<'de>>(deserializer: D) -> Result<SpindleSpeedRange, D::Error> {
+    let range = SpindleSpeedRange::deserialize(deserializer)?;
+    match (range.min.map(Positive::get), range.max.map(Positive::get)) {
+        (None, None) => Err(D::Error::custom("neither `min` nor `max` is given\nGive one of them, or both.")),
+        (Some(min), Some(max)) if min > max => Err(D::Error::custom(format!(
+            "`min` ({min}) is above `max` ({max})\nNo speed fits such a range."
+        ))),
+        _ => Ok(range),
+    }
+}
+
+impl SetSpindle {
+    /// The step for the whole program.
+    pub fn new(speed: SpindleSpeedChange, feeds: SpindleFeedHandling) -> Self {
+        Self { speed, feeds, r#where: StatementFilter::default() }
+    }
+}
+
+impl Transform for SetSpindle {
+    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>> {
+        let selected = SelectedStatements::select(&self.r#where, &program, "statement", context);
+        report_speeds_of_cycles(&program, &selected, context);
+        let plan = SpeedPlan::new(self.speed, &program, &selected, context);
+        let (mut followed, mut taps) = (BTreeSet::new(), BTreeSet::new());
+        let feeds = FeedPlan::for_numbered_motions(&program, |number, motion| {
+            let speed = plan.find_motion(number).filter(|speed| speed.wanted != speed.programmed)?;
+            let feed = motion.feed.filter(|feed| !feed.unit_or_default().is_per_revolution())?;
+            if self.feeds == SpindleFeedHandling::Keep && !speed.is_tap {
+                return None;
+            }
+            followed.extend(motion.feed_from);
+            taps.extend(motion.feed_from.filter(|_| speed.is_tap));
+            Some(feed.value * speed.wanted / speed.programmed)
+        });
+        let mut editor = ProgramEditor::new(program, context.step);
+        let (speeds_changed, speeds_added) = plan.write_speeds(&mut editor)?;
+        if !followed.is_empty() {
+            feeds.write_feeds(&mut editor, &mut context.findings)?;
+        }
+        let (feeds_followed, tap_feeds) = (followed.len(), taps.len());
+        context.add_report(SetSpindleReport { speeds_changed, speeds_added, feeds_followed, tap_feeds });
+        editor.finish()
+    }
+}
+
+/// Cycles that print a speed of their own, which stays.
+fn report_speeds_of_cycles(program: &Program, selected: &SelectedStatements, context: &mut StepContext<'_>) {
+    let has_speed = |index: usize| {
+        let syntax = statement_syntax(program, index);
+        syntax.is_some_and(|syntax| {
+            (0..syntax.fields.len())
+                .any(|field| matches!(syntax.word_at(field).as_deref(), Some("RPM" | "SPINDL")))
+        })
+    };
+    let cycles = program.live_statements().filter(|(_, found)| matches!(found.record(), Record::Cycle(_)));
+    let mut found =
+        cycles.map(|(index, _)| index).filter(|index| selected.contains(*index) && has_speed(*index));
+    if let Some(first) = found.next() {
+        let message = match found.count() {
+            0 => "this CYCLE has a spindle speed of its own, which is not changed".to_owned(),
+            more => format!("{} CYCLEs have a spindle speed of their own, which is not changed", more + 1),
+        };
+        context.report_unchanged(message, program, first);
+    }
+}
+
+impl TransformReport for SetSpindleReport {
+    fn step_name(&self) -> &'static str {
+        "set_spindle"
+    }
+
+    fn to_text(&self) -> String {
+        let feeds = |count| format_counted(count, "feed per minute follows", "feeds per minute follow");
+        let taps = match self.tap_feeds {
+            0 => String::new(),
+            count => format!(", {} of taps (pitch times speed)", format_count(count as u64)),
+        };
+        format!(
+            "\nset_spindle: {} changed, {} put in; {}{taps}\n",
+            format_counted(self.speeds_changed, "speed", "speeds"),
+            format_count(self.speeds_added as u64),
+            feeds(self.feeds_followed),
+        )
+    }
+
+    fn to_json(&self) -> serde_json::Value {
+        to_json_value(self)
+    }
+}
