@@ -17,7 +17,7 @@ GOTO/8.0000,4.0000,-1.0000
 END-OF-PATH
 ";
 
-fn run(steps: &[&dyn Transform]) -> Result<String, Vec<clsmith::diagnostic::Diagnostic>> {
+fn run(steps: &[&dyn Transform]) -> Result<String, clsmith::diagnostic::Failure> {
     let outcome = run_steps(steps, LengthUnit::Mm, &Setup::default(), support::program(PART))?;
     assert!(outcome.findings.is_empty(), "{:?}", outcome.findings);
     Ok(String::from_utf8(outcome.program.to_bytes()).unwrap())
@@ -52,7 +52,7 @@ fn the_large_steps_can_be_built_too_and_say_what_is_missing_without_a_place() {
     let optimize = OptimizeFeed::new(Positive::new(0.1).unwrap());
     let steps: [&dyn Transform; 2] = [&optimize, &ClampFeed::default()];
     for step in steps {
-        let found = run(&[step]).unwrap_err();
+        let found = run(&[step]).unwrap_err().into_findings();
         assert_eq!(found.last().unwrap().code.id(), "CL0302", "{found:?}");
         assert!(found.last().unwrap().labels.is_empty(), "{found:?}");
         assert!(step.measures());

@@ -2,9 +2,9 @@
 
 use super::block_feeds::FeedLimit;
 use super::parameters::LoadCriterion;
-use crate::program::record::SpindleDirection;
 use crate::cutter::CutterModel;
 use crate::engagement::{CuttingCoefficients, CuttingLoads, Engagement, LoadModel};
+use crate::program::record::SpindleDirection;
 use crate::simulation_run::{StockResolution, Tooling};
 
 /// Removed volume below this share of a cell's cube is rounding, not material.

@@ -5,7 +5,7 @@ use super::block_measurement::{MeasuredBlocks, measure_blocks};
 use super::load_limits::LoadLimits;
 use super::motion_split::{SplitProgram, split_motions};
 use super::parameters::{LoadCriterion, OptimizeFeed};
-use crate::diagnostic::{Diagnostic, codes, Failure};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::parameters::Positive;
 use crate::program::motion::Motion;
 use crate::program::{LengthUnit, Program, Statement};
@@ -72,11 +72,7 @@ pub(super) struct OptimizeFeedJob {
 }
 
 impl OptimizeFeedJob {
-    fn new(
-        step: &OptimizeFeed,
-        program: &Program,
-        context: &StepContext<'_>,
-    ) -> Result<Self, Failure> {
+    fn new(step: &OptimizeFeed, program: &Program, context: &StepContext<'_>) -> Result<Self, Failure> {
         let mm = context.units.mm_per_unit();
         let Some(rules) = step.feed_rules(mm, &context.setup.machine) else {
             let message = "there is no highest feed: neither the step's `max_feed` nor the setup's `machine: { max_feed: ... }`";
@@ -141,8 +137,8 @@ impl OptimizeFeedJob {
             measure_blocks(&machining, (&self.options, self.source), &limits, watch, |motion: &Motion| {
                 !motion.rapid && step.motions.contains(&motion.class) && selection.contains(motion, context)
             });
-        let (mut gathered, ran) =
-            gathered.map_err(|failure| failure.map_findings(|found| self.label_resolution(found, context)))?;
+        let (mut gathered, ran) = gathered
+            .map_err(|failure| failure.map_findings(|found| self.label_resolution(found, context)))?;
         selection.report_if_empty(context);
         if !gathered.errors.is_empty() {
             let mut errors = std::mem::take(&mut gathered.errors);

@@ -5,7 +5,7 @@ use super::block_feeds::{FeedBlock, FeedWindow};
 use super::block_measurement::{BlockMeasurement, MeasuredBlocks};
 use super::report::{OperationFeedReport, OptimizeFeedReport};
 use super::step::OptimizeFeedJob;
-use crate::diagnostic::{Diagnostic, codes, Failure};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::{Program, Record, Statement, StatementChange, StepId, operation};
 use crate::simulation_run::StockResolution;
 use crate::transform::StepContext;

@@ -7,7 +7,7 @@ use super::rule_matching::{ActiveRule, RuleMatch};
 use super::rule_subject::RuleSubject;
 use super::spacing_style::{SpacingStyle, is_same_statement};
 use super::template::{StatementTemplate, TemplateInputs};
-use crate::diagnostic::{Diagnostic, codes, Failure};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::{Program, ProvenanceComment, Record, Statement, StatementChange};
 use crate::transform::StepContext;
 use crate::write::ProgramEditor;
@@ -99,11 +99,7 @@ impl<'w> RewriteRun<'w> {
     }
 
     /// Inserts what does not stand there yet.
-    fn insert_missing(
-        &self,
-        insertion: PendingInsertion,
-        editor: &mut ProgramEditor,
-    ) -> Result<(), Failure> {
+    fn insert_missing(&self, insertion: PendingInsertion, editor: &mut ProgramEditor) -> Result<(), Failure> {
         let PendingInsertion { hit, before, after } = insertion;
         if !is_already_inserted(&before, editor.program(), hit.statement, true) {
             self.insert_texts(&before, hit.statement, hit, "insert_before", editor)?;
@@ -139,12 +135,7 @@ impl<'w> RewriteRun<'w> {
     }
 
     /// Lines of bare numbers go on with the GOTO before them and mean nothing without it.
-    fn check_point_lines(
-        &self,
-        hit: RuleMatch,
-        program: &Program,
-        inserts: bool,
-    ) -> Result<(), Failure> {
+    fn check_point_lines(&self, hit: RuleMatch, program: &Program, inserts: bool) -> Result<(), Failure> {
         let is_points = |record: &Record| matches!(record, Record::Goto(_) | Record::Points(_));
         let kept = program.statement(hit.statement).filter(|kept| kept.is_live());
         if !inserts && kept.is_some_and(|kept| is_points(kept.record())) {

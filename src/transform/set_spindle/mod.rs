@@ -5,7 +5,7 @@ mod speed_plan;
 use super::feed_plan::FeedPlan;
 use super::step_report::{TransformReport, to_json_value};
 use super::{SelectedStatements, StepContext, Transform};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Failure;
 use crate::parameters::{Factor, Positive};
 use crate::presentation::text_format::{format_count, format_counted};
 use crate::program::{Program, Record};
@@ -105,7 +105,7 @@ impl SetSpindle {
 }
 
 impl Transform for SetSpindle {
-    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Box<Diagnostic>> {
+    fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
         let selected = SelectedStatements::select(&self.r#where, &program, "statement", context);
         report_speeds_of_cycles(&program, &selected, context);
         let plan = SpeedPlan::new(self.speed, &program, &selected, context);

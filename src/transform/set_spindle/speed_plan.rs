@@ -4,7 +4,7 @@
 //! goes in front of that motion; so the programmed speed comes back behind the selected part.
 
 use super::SpindleSpeedChange;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Failure;
 use crate::number;
 use crate::parameters::Positive;
 use crate::parse;
@@ -125,7 +125,7 @@ impl SpeedPlan {
     ///
     /// # Errors
     /// When a speed cannot be printed as a record that reads back.
-    pub fn write_speeds(&self, editor: &mut ProgramEditor) -> Result<(usize, usize), Box<Diagnostic>> {
+    pub fn write_speeds(&self, editor: &mut ProgramEditor) -> Result<(usize, usize), Failure> {
         let mut writer = SpeedWriter { editor, in_force: None, direction: None, changed: 0, added: 0 };
         let mut motions = self.motions.iter().peekable();
         for spindle in &self.spindles {
@@ -269,12 +269,7 @@ struct SpeedWriter<'e> {
 
 impl SpeedWriter<'_> {
     /// Gives a SPINDL of the program its speed.
-    fn set_speed(
-        &mut self,
-        statement: usize,
-        speed: PrintedSpeed,
-        wanted: f64,
-    ) -> Result<(), Box<Diagnostic>> {
+    fn set_speed(&mut self, statement: usize, speed: PrintedSpeed, wanted: f64) -> Result<(), Failure> {
         if wanted != speed.programmed {
             self.editor.set_numbers(statement, &[(speed.number, wanted)])?;
             self.changed += 1;
@@ -284,7 +279,7 @@ impl SpeedWriter<'_> {
     }
 
     /// Puts a SPINDL in before a statement where the speed in force is not the one that a motion wants.
-    fn reach_speed(&mut self, motion: &MotionSpeed, before: usize) -> Result<(), Box<Diagnostic>> {
+    fn reach_speed(&mut self, motion: &MotionSpeed, before: usize) -> Result<(), Failure> {
         let Some((governor, number, speed)) = self.in_force else { return Ok(()) };
         if governor != motion.governor || speed == motion.wanted {
             return Ok(());
