@@ -87,7 +87,7 @@ fn measure(stage: &str, path: &Path) -> Duration {
             let source =
                 Source::new("part.cls", std::fs::read(path).expect("the file")).expect("below 4 GiB");
             let parsed = parse(&source, None);
-            clsmith::write::write_atomically(&path.with_extension("out"), |out| {
+            clsmith::output_files::write_atomically(&path.with_extension("out"), |out| {
                 parsed.program.byte_chunks().try_for_each(|piece| out.write_all(piece))
             })
             .expect("the output");

@@ -4,33 +4,62 @@
 //! whose motions are a view; a [`recipe`] lists [`transform`]s; [`mod@write`] copies untouched bytes and patches changed
 //! numbers; [`report`] says what changed. ARCHITECTURE.md follows one GOTO through all of it.
 
-pub mod batch;
+// A room may hold what only rooms of a larger set use; what nobody uses is found with all of them.
+#![cfg_attr(not(feature = "cli"), allow(dead_code))]
+
 pub mod check;
-pub mod cutter;
 pub mod diagnostic;
-pub mod engagement;
-pub mod fingerprint;
-pub mod job;
-pub mod layered_chips;
 pub mod number;
-pub mod parameters;
 pub mod parse;
-pub mod presentation;
 pub mod program;
-pub mod provenance;
-pub mod recipe;
-pub mod recipe_rules;
-pub mod report;
-pub mod setup;
-pub mod simulation_run;
 pub mod source;
-pub mod stock;
-pub mod surface;
-pub mod surface_milling;
-pub mod transform;
-pub mod undo;
 pub mod write;
+
+#[cfg(feature = "files")]
+pub mod output_files;
+
+#[cfg(feature = "simulation")]
+pub mod cutter;
+#[cfg(feature = "simulation")]
+pub mod engagement;
+#[cfg(feature = "simulation")]
+pub mod layered_chips;
+#[cfg(feature = "simulation")]
+pub mod parameters;
+#[cfg(feature = "simulation")]
+pub mod presentation;
+#[cfg(feature = "simulation")]
+pub mod recipe;
+#[cfg(feature = "simulation")]
+pub mod recipe_rules;
+#[cfg(feature = "simulation")]
+pub mod setup;
+#[cfg(feature = "simulation")]
+pub mod simulation_run;
+#[cfg(feature = "simulation")]
+pub mod stock;
+#[cfg(feature = "simulation")]
+pub mod surface;
+#[cfg(feature = "simulation")]
+pub mod surface_milling;
+#[cfg(feature = "simulation")]
+pub mod transform;
+#[cfg(feature = "simulation")]
 mod yaml;
+
+#[cfg(feature = "report")]
+pub mod fingerprint;
+#[cfg(feature = "report")]
+pub mod job;
+#[cfg(feature = "report")]
+pub mod provenance;
+#[cfg(feature = "report")]
+pub mod report;
+#[cfg(feature = "report")]
+pub mod undo;
+
+#[cfg(feature = "cli")]
+pub mod batch;
 
 #[cfg(test)]
 #[path = "../tests/support/property.rs"]

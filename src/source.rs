@@ -59,12 +59,19 @@ pub struct Source {
 }
 
 /// The file is too large for 32-bit spans.
-#[derive(Debug, Clone, Copy, thiserror::Error)]
-#[error("the file has {bytes} bytes; clsmith reads files below 4 GiB")]
+#[derive(Debug, Clone, Copy)]
 pub struct SourceTooLarge {
     /// The size of the refused file.
     pub bytes: usize,
 }
+
+impl fmt::Display for SourceTooLarge {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the file has {} bytes; clsmith reads files below 4 GiB", self.bytes)
+    }
+}
+
+impl std::error::Error for SourceTooLarge {}
 
 impl Source {
     /// Takes the bytes of a file; `name` is its name in diagnostics.

@@ -9,7 +9,6 @@ use crate::program::{Dialect, Program};
 use crate::report::finding_policy::FindingPolicy;
 use crate::simulation_run::RunWatcher;
 use crate::source::Source;
-use crate::write::{Interrupt, is_interrupt};
 use std::fs::{self, Metadata};
 use std::io::{self, Read, Write};
 use std::path::Path;

@@ -2,7 +2,7 @@
 
 use super::{BatchRecord, LockedFolder, PortablePath};
 use crate::fingerprint::Digest;
-use crate::write::Interrupt;
+use crate::output_files::Interrupt;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs::File;

@@ -3,7 +3,7 @@
 use super::{BatchPlan, Shard};
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::fingerprint::Digest;
-use crate::write::TemporaryFiles;
+use crate::output_files::TemporaryFiles;
 use std::collections::BTreeSet;
 use std::fs::{self, File, TryLockError};
 use std::io;

@@ -2,7 +2,7 @@
 
 use super::input_files::STANDARD;
 use clsmith::diagnostic::{Diagnostic, codes};
-use clsmith::write::{Interrupt, is_interrupt, is_same_file, write_atomically_unless};
+use clsmith::output_files::{Interrupt, is_interrupt, is_same_file, write_atomically_unless};
 use std::io::{self, Write};
 use std::path::Path;
 use std::sync::{Arc, LockResult, Mutex, MutexGuard};

@@ -8,10 +8,10 @@ use crate::cli::input_files::STANDARD;
 use crate::cli::progress::CommandProgress;
 use crate::cli::terminal;
 use clsmith::diagnostic::Diagnostic;
+use clsmith::output_files::is_interrupt;
 use clsmith::parse::parse;
 use clsmith::program::{Dialect, Program};
 use clsmith::report::finding_policy::FindingPolicy;
-use clsmith::write::is_interrupt;
 use std::io;
 use std::path::Path;
 

@@ -1,8 +1,8 @@
 //! How far a simulation is, with the time left, on a terminal.
 
 use super::terminal;
+use clsmith::output_files::Interrupt;
 use clsmith::simulation_run::RunWatcher;
-use clsmith::write::Interrupt;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 /// A bar on standard error; nothing is drawn where that is no terminal, or nobody wants it.

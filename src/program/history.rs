@@ -79,7 +79,7 @@ impl Program {
 
     /// Adds a note about a step's edit of a statement. It has no effect if the step did not edit the
     /// statement or no history is kept.
-    pub(crate) fn add_edit_note(&mut self, index: usize, by: StepId, note: String) {
+    pub fn add_edit_note(&mut self, index: usize, by: StepId, note: String) {
         let Some(statement) = self.statements.get(index) else { return };
         let changed = matches!(statement.change, StatementChange::Edited(step) | StatementChange::Inserted(step) if step == by);
         if let Some(history) = self.history.as_mut().filter(|_| changed) {

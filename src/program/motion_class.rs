@@ -1,13 +1,14 @@
 //! This module holds the classes of motions.
 
-use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Class of a motion: told by the file where it marks its motions, else found from rapid, axis and direction.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, schemars::JsonSchema,
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(
+    feature = "simulation",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "snake_case")
 )]
-#[serde(rename_all = "snake_case")]
 pub enum MotionClass {
     /// A rapid through the air.
     Rapid,

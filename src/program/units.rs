@@ -1,13 +1,15 @@
 //! This module holds the units of length, feed and spindle speed.
 
-use serde::{Deserialize, Serialize};
-
 /// The millimetres in an inch.
 pub const MM_PER_INCH: f64 = 25.4;
 
 /// Unit of lengths.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(
+    feature = "simulation",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
+    serde(rename_all = "lowercase")
+)]
 pub enum LengthUnit {
     /// Millimetres.
     #[default]

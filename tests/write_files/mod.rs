@@ -5,7 +5,7 @@ mod same;
 mod unix;
 mod values;
 
-use clsmith::write::{Interrupt, is_interrupt, write_atomically, write_atomically_unless};
+use clsmith::output_files::{Interrupt, is_interrupt, write_atomically, write_atomically_unless};
 use std::fs;
 use std::io;
 use std::path::Path;
@@ -139,7 +139,7 @@ fn a_write_protected_file_is_left_alone() {
 
 #[test]
 fn left_overs_of_killed_runs_go_and_files_being_written_stay() {
-    use clsmith::write::TemporaryFiles;
+    use clsmith::output_files::TemporaryFiles;
     use std::time::{Duration, SystemTime};
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);

@@ -1,6 +1,6 @@
 //! Which paths lead to one file.
 
-use clsmith::write::is_same_file;
+use clsmith::output_files::is_same_file;
 use std::fs;
 
 #[test]

@@ -92,7 +92,7 @@ fn a_secret_file_is_secret_from_the_first_byte() {
     let path = folder.path().join("part.cls");
     fs::write(&path, "old").unwrap();
     fs::set_permissions(&path, Permissions::from_mode(0o600)).unwrap();
-    clsmith::write::write_atomically(&path, |out| {
+    clsmith::output_files::write_atomically(&path, |out| {
         out.write_all(b"new")?;
         let modes: Vec<u32> =
             names(folder.path()).iter().map(|name| mode(&folder.path().join(name))).collect();

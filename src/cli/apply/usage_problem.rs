@@ -2,7 +2,7 @@
 
 use super::ApplyArgs;
 use crate::cli::input_files::STANDARD;
-use clsmith::write::is_same_file;
+use clsmith::output_files::is_same_file;
 use std::path::{Path, PathBuf};
 
 impl ApplyArgs {

@@ -9,7 +9,7 @@ use crate::cli::terminal;
 use clap::Args;
 use clsmith::batch::{batch_results, merge, summary};
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
-use clsmith::write::is_same_file;
+use clsmith::output_files::is_same_file;
 use std::io;
 use std::path::{Path, PathBuf};
 

@@ -19,8 +19,8 @@ use clsmith::batch::{
     summary,
 };
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
+use clsmith::output_files::is_same_file;
 use clsmith::program::Dialect;
-use clsmith::write::is_same_file;
 use progress::BatchProgress;
 use std::io;
 use std::num::NonZeroUsize;

@@ -5,9 +5,9 @@ use crate::cli::command_outputs::{self, CommandOutputs};
 use crate::cli::command_stop::CommandStop;
 use crate::cli::input_files::STANDARD;
 use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::output_files::is_same_file;
 use clsmith::report::layered_chips::{self, ChipReport};
 use clsmith::setup::Setup;
-use clsmith::write::is_same_file;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 

@@ -15,10 +15,10 @@ use crate::cli::unattended::{
 use clsmith::batch;
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::fingerprint::Digest;
+use clsmith::output_files::{is_interrupt, is_same_file};
 use clsmith::report::changes;
 use clsmith::report::finding_policy::FindingPolicy;
 use clsmith::source::Source;
-use clsmith::write::{is_interrupt, is_same_file};
 use serde::Serialize;
 use std::ffi::{OsStr, OsString};
 use std::io::{self, Write};

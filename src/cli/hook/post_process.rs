@@ -1,6 +1,6 @@
 //! The post-processor: an external program that is started, waited for, and stopped with all it started.
 
-use clsmith::write::Interrupt;
+use clsmith::output_files::Interrupt;
 use process_wrap::std::{ChildWrapper, CommandWrap};
 use std::ffi::{OsStr, OsString};
 use std::io;

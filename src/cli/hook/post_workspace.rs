@@ -5,7 +5,7 @@
 
 use crate::cli::command_outputs::report_unwritable;
 use clsmith::diagnostic::{Diagnostic, codes};
-use clsmith::write::{Interrupt, is_same_file, write_atomically_unless};
+use clsmith::output_files::{Interrupt, is_same_file, write_atomically_unless};
 use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::{self, Write};

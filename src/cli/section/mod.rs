@@ -18,7 +18,6 @@ use clsmith::stock::Mesh;
 use clsmith::surface_milling::{
     self, SurfaceMillingOptions, SurfacePart, SurfaceProgram, load_profile, make_surface_program,
 };
-use clsmith::write::is_interrupt;
 use std::io;
 use std::path::{Path, PathBuf};
 

@@ -4,9 +4,9 @@ use super::SectionArgs;
 use crate::cli::command_outputs::{CommandOutputs, print_summary};
 use crate::cli::input_files::STANDARD;
 use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::output_files::is_same_file;
 use clsmith::report::surface_milling as report;
 use clsmith::surface_milling::{SurfaceMillingOptions, SurfaceProgram};
-use clsmith::write::is_same_file;
 use std::io;
 use std::path::Path;
 

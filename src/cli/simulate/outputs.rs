@@ -5,11 +5,11 @@ use crate::cli::command_outputs::{CommandOutputs, find_overwritten_input};
 use crate::cli::command_stop::CommandStop;
 use crate::cli::input_files::STANDARD;
 use clsmith::diagnostic::Diagnostic;
+use clsmith::output_files::is_same_file;
 use clsmith::report::comparison::Comparison;
 use clsmith::report::simulation;
 use clsmith::setup::Setup;
 use clsmith::stock::{stl_export, stock_file};
-use clsmith::write::is_same_file;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 

@@ -11,9 +11,9 @@ use crate::cli::unattended::{LogLine, LoggedInput, LoggedOutput, UnattendedCorre
 use clsmith::batch;
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::fingerprint::Digest;
+use clsmith::output_files::is_same_file;
 use clsmith::report::render::human;
 use clsmith::source::Source;
-use clsmith::write::is_same_file;
 use serde::Serialize;
 use std::fs;
 use std::io;

@@ -7,7 +7,7 @@ use super::folder_scan::{ExportStamp, ExportedFile, report_unreadable};
 use crate::cli::command_outputs::report_unwritable;
 use clsmith::diagnostic::Diagnostic;
 use clsmith::fingerprint::Digest;
-use clsmith::write::write_new_atomically;
+use clsmith::output_files::write_new_atomically;
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, Write};

@@ -6,6 +6,7 @@ use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::program::{Dialect, Program};
 use crate::source::Source;
+use std::fmt;
 
 /// The largest relative difference of coordinates. They are printed exactly as they were rounded, so only the
 /// arithmetic of `f64` may differ.
@@ -16,14 +17,21 @@ const SAME: f64 = 1e-9;
 const ARC_SLACK: f64 = 4.0;
 
 /// A program does not read back as it was intended.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("motion {motion}: {reason}")]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ReadBackError {
     /// The number of the motion, from 1; 0 for the program as a whole.
     pub motion: usize,
     /// The difference.
     pub reason: String,
 }
+
+impl fmt::Display for ReadBackError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "motion {}: {}", self.motion, self.reason)
+    }
+}
+
+impl std::error::Error for ReadBackError {}
 
 /// Checks that a text means what a draft means.
 pub(super) fn check_read_back(

@@ -59,6 +59,6 @@ fn file_inode(path: &Path) -> Option<(u64, u64)> {
 }
 
 #[cfg(not(unix))]
-fn inode(_: &Path) -> Option<(u64, u64)> {
+fn file_inode(_: &Path) -> Option<(u64, u64)> {
     None
 }

@@ -1,0 +1,9 @@
+//! This module writes files that appear whole or not at all, and tells whether two paths lead to one file.
+
+mod atomic_write;
+mod interrupt;
+mod same_file;
+
+pub use atomic_write::{TemporaryFiles, write_atomically, write_atomically_unless, write_new_atomically};
+pub use interrupt::{Interrupt, is_interrupt};
+pub use same_file::{FileSet, is_same_file};
