@@ -2,6 +2,7 @@
 
 use super::path_drawing::{PanelPath, PanelPathStyle, PathPanel, draw_path_panels};
 use crate::diagnostic::{Diagnostic, codes};
+use crate::number::{format_point, format_trimmed_number};
 use crate::program::LengthUnit;
 use crate::surface::profile::{Chain, ChainPiece, Point, check_tip_path};
 use crate::surface_milling::{SurfaceMillingOptions, SurfaceProgram};
@@ -22,13 +23,13 @@ pub fn collect_findings(surfaced: &SurfaceProgram, options: &SurfaceMillingOptio
             format!(
                 "the deepest gouge is {} {units} at {}",
                 format_fine_length(proof.gouge, units),
-                format_point(proof.gouge_at, units)
+                format_point_in_units(proof.gouge_at, units)
             )
         } else {
             format!(
                 "the largest gap is {} {units} at {}",
                 format_fine_length(proof.gap, units),
-                format_point(proof.gap_at, units)
+                format_point_in_units(proof.gap_at, units)
             )
         };
         let tolerance = format_fine_length(options.tolerance, units);
@@ -45,7 +46,8 @@ pub fn collect_findings(surfaced: &SurfaceProgram, options: &SurfaceMillingOptio
         let places = if count == 1 { "one place".to_owned() } else { format!("{count} places") };
         let [u, z, left] = [most.from.u, most.from.z, most.left].map(|mm| mm / units.mm_per_unit());
         let message = format!(
-            "the ball does not touch {places} of the profile; most, {left:.4} {units}, is left at ({u:.4}, {z:.4})"
+            "the ball does not touch {places} of the profile; most, {left:.4} {units}, is left at {}",
+            format_point([u, z], 4)
         );
         found.push(Diagnostic::new(codes::NOT_REACHED, message));
     }
@@ -82,9 +84,9 @@ pub fn to_text(surfaced: &SurfaceProgram, options: &SurfaceMillingOptions, name:
         text,
         "deepest gouge {} {units} at {}, largest gap {} {units} at {}; tolerance {}, the check may miss {}",
         format_fine_length(proof.gouge, units),
-        format_point(proof.gouge_at, units),
+        format_point_in_units(proof.gouge_at, units),
         format_fine_length(proof.gap, units),
-        format_point(proof.gap_at, units),
+        format_point_in_units(proof.gap_at, units),
         format_fine_length(options.tolerance, units),
         format_fine_length(proof.bound, units),
     );
@@ -237,15 +239,11 @@ fn ordinate_title(units: LengthUnit) -> &'static str {
     if units == LengthUnit::Inch { "z, inch" } else { "z, mm" }
 }
 
-/// A small length, to four digits that count, without zeros behind.
-fn format_fine_length(mm: f64, units: LengthUnit) -> String {
-    let value = mm / units.mm_per_unit();
-    let text = format!("{value:.6}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text.is_empty() { "0".to_owned() } else { text.to_owned() }
+/// A small length in the program's unit, without trailing zeros.
+fn format_fine_length(length_mm: f64, units: LengthUnit) -> String {
+    format_trimmed_number(length_mm / units.mm_per_unit(), 6)
 }
 
-fn format_point([x, y, z]: [f64; 3], units: LengthUnit) -> String {
-    let [x, y, z] = [x, y, z].map(|mm| mm / units.mm_per_unit());
-    format!("({x:.3}, {y:.3}, {z:.3})")
+fn format_point_in_units(point_mm: [f64; 3], units: LengthUnit) -> String {
+    format_point(point_mm.map(|length_mm| length_mm / units.mm_per_unit()), 3)
 }

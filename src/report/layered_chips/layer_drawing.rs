@@ -3,13 +3,14 @@
 
 use super::ChipReport;
 use super::move_scene::{MoveScene, MoveSceneLayer};
-use super::panel_sheet::{CHIP, EDGE, LegendSample, PanelArea, WORKPIECE, draw_sheet, drawing_error};
+use super::panel_sheet::{CHIP, EDGE, LegendSample, WORKPIECE, draw_sheet};
 use crate::engagement::PathPiece;
 use crate::layered_chips::area::{AreaGrid, Clipper, GridArea};
 use crate::layered_chips::boundary_diagram::BoundaryDiagram;
 use crate::layered_chips::section_family::SectionFamily;
 use crate::layered_chips::swept_area::{LayerSweptArea, RimDirections};
 use crate::layered_chips::{MillStep, Polygon};
+use crate::report::svg_chart::{ChartFrame, SvgArea, drawing_error};
 use crate::report::text_format::format_short;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
@@ -117,7 +118,7 @@ impl<'r> LayerPanel<'r> {
         self.content_corners().into_iter().flat_map(|([x0, y0], [x1, y1])| [x1 - x0, y1 - y0])
     }
 
-    fn draw_panel(&self, area: &PanelArea<'_>, half: f64, grid: &AreaGrid) -> io::Result<()> {
+    fn draw_panel(&self, area: &SvgArea<'_>, half: f64, grid: &AreaGrid) -> io::Result<()> {
         let Some(([x0, y0], [x1, y1])) = self.content_corners() else { return Ok(()) };
         let (x, y) = (f64::midpoint(x0, x1), f64::midpoint(y0, y1));
         let tall = half * f64::from(PANEL.1 - AROUND.1) / f64::from(PANEL.0 - AROUND.0);
@@ -126,21 +127,17 @@ impl<'r> LayerPanel<'r> {
         if let Some(layer) = self.layer {
             title.push_str(&format!(", z {}", format_short(layer.z)));
         }
-        let mut chart = ChartBuilder::on(area)
-            .caption(title, ("sans-serif", 14))
-            .margin(6)
-            .set_label_area_size(LabelAreaPosition::Left, 48)
-            .set_label_area_size(LabelAreaPosition::Bottom, 24)
-            .build_cartesian_2d(x - wide..x + wide, y - tall..y + tall)
-            .map_err(drawing_error)?;
-        chart
-            .configure_mesh()
-            .disable_mesh()
-            .x_labels(5)
-            .y_labels(5)
-            .label_style(("sans-serif", 11))
-            .draw()
-            .map_err(drawing_error)?;
+        let frame = ChartFrame {
+            title: Some((&title, 14)),
+            margin: 6,
+            left_labels: 48,
+            bottom_labels: 24,
+            grid_lines: false,
+            label_counts: [5, 5],
+            label_font: 11,
+            ..ChartFrame::default()
+        };
+        let mut chart = frame.draw(area, x - wide..x + wide, y - tall..y + tall)?;
         let window = [[x - wide, y - tall], [x + wide, y - tall], [x + wide, y + tall], [x - wide, y + tall]];
         let filled = |polygons: &[Polygon], color: RGBColor| {
             let seen = clip_to_window(polygons, &window, grid);

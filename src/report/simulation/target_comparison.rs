@@ -2,6 +2,7 @@
 
 use super::SimulationReport;
 use crate::diagnostic::{Diagnostic, codes};
+use crate::number::format_named_point;
 use crate::report::rounding::serialize_rounded;
 use crate::stock::{Mesh, TargetDeviation};
 use serde::Serialize;
@@ -68,10 +69,11 @@ impl SimulationReport {
                 thickest: thickest(found.highest_excess),
             },
         };
-        if let Some(ThickestMismatch { mm, at: [x, y, z] }) = compared.gouge.thickest {
+        if let Some(ThickestMismatch { mm, at }) = compared.gouge.thickest {
             let message = format!(
-                "{:.3} mm3 of the target {name} are gone, the thickest piece with {mm:.3} mm along z at x {x:.3}, y {y:.3}, z {z:.3} mm",
+                "{:.3} mm3 of the target {name} are gone, the thickest piece with {mm:.3} mm along z at {} mm",
                 compared.gouge.volume_mm3,
+                format_named_point(at, 3),
             );
             self.findings.push(Diagnostic::new(codes::GOUGE, message));
         }

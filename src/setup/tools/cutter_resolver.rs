@@ -6,6 +6,7 @@ use super::tool_entry::ToolEntry;
 use super::tool_text::SAME;
 use crate::cutter::{CutterModel, Meridian, NonCuttingCylinder, NonCuttingKind};
 use crate::diagnostic::{Diagnostic, codes};
+use crate::number::format_trimmed_number;
 use crate::program::LengthUnit;
 use crate::program::motion::ActiveTool;
 use crate::setup::Setup;
@@ -138,7 +139,7 @@ impl CutterResolver<'_> {
                 (FLUTE_DIAMETERS * diameter + bottom, "neither the CL file nor setup.tools says one")
             }
         };
-        self.assumptions.push(format!("flute length {} mm: {why}", format_short(length)));
+        self.assumptions.push(format!("flute length {} mm: {why}", format_dimension(length)));
         length
     }
 
@@ -156,7 +157,8 @@ impl CutterResolver<'_> {
             }
             (Some(shank), _) => (shank.diameter / 2.0, shank.length),
             (None, Some(length)) if length > flutes + SAME => {
-                let (diameter, length_text) = (format_short(2.0 * profile.radius_mm()), format_short(length));
+                let (diameter, length_text) =
+                    (format_dimension(2.0 * profile.radius_mm()), format_dimension(length));
                 self.assumptions.push(format!(
                     "a shank of {diameter} mm up to {length_text} mm, as thick as the cutter: setup.tools says none"
                 ));
@@ -181,8 +183,7 @@ impl CutterResolver<'_> {
     }
 }
 
-/// A length with at most four decimals.
-pub(super) fn format_short(value: f64) -> String {
-    let text = format!("{value:.4}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+/// A length or an angle of a tool as messages have it.
+pub(super) fn format_dimension(value: f64) -> String {
+    format_trimmed_number(value, 4)
 }

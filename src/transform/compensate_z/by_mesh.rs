@@ -9,6 +9,7 @@ use super::step::CompensateZJob;
 use super::vertical_passes::find_cutting_runs;
 use super::written_passes;
 use crate::diagnostic::{Failure, codes};
+use crate::number::format_point;
 use crate::parameters::FilePath;
 use crate::program::Program;
 use crate::program::motion::Motion;
@@ -213,8 +214,10 @@ fn prove_mesh_passes(
         report.gap_mm = Some(found.gap);
         if found.gouge > job.tolerance + PRINTED * mm {
             let message = format!(
-                "measured again, this pass gouges the model by {:.4} mm at ({:.3}, {:.3}, {:.3}): more than the tolerance of {} mm",
-                found.gouge, found.gouge_at[0], found.gouge_at[1], found.gouge_at[2], job.tolerance
+                "measured again, this pass gouges the model by {:.4} mm at {}: more than the tolerance of {} mm",
+                found.gouge,
+                format_point(found.gouge_at, 3),
+                job.tolerance
             );
             return Err(place.build_failure(message, work.run.start, "the pass", context));
         }

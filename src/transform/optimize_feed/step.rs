@@ -6,6 +6,7 @@ use super::load_limits::LoadLimits;
 use super::motion_split::{SplitProgram, split_motions};
 use super::parameters::{LoadCriterion, OptimizeFeed};
 use crate::diagnostic::{Diagnostic, codes, Failure};
+use crate::number::format_point;
 use crate::parameters::Positive;
 use crate::program::motion::Motion;
 use crate::program::{LengthUnit, Program, Statement};
@@ -274,14 +275,12 @@ impl OptimizeFeedJob {
         let mm = self.units.mm_per_unit();
         let path = path.map(|(low, high)| (low * mm, high * mm));
         let path = path.map_or_else(String::new, |(low, high)| {
-            format!(
-                "; the feed motions end between ({:.1}, {:.1}, {:.1}) and ({:.1}, {:.1}, {:.1})",
-                low.x, low.y, low.z, high.x, high.y, high.z
-            )
+            let [low, high] = [low, high].map(|corner| format_point(corner.coords.into(), 1));
+            format!("; the feed motions end between {low} and {high}")
         });
-        let [x, y, z] = ran.lowest;
+        let lowest = format_point(ran.lowest, 1);
         let message = format!(
-            "no motion of this program cuts the stock: is it in the right place? In mm, the stock's lowest corner is at ({x:.1}, {y:.1}, {z:.1}){path}"
+            "no motion of this program cuts the stock: is it in the right place? In mm, the stock's lowest corner is at {lowest}{path}"
         );
         context.step_failure(message, &[])
     }
