@@ -18,33 +18,34 @@ pub fn collect_findings(surfaced: &SurfaceProgram, options: &SurfaceMillingOptio
     let units = options.words.units;
     let proof = &surfaced.proof;
     let mut found = Vec::new();
-    if !proof.is_within(options.tolerance) {
-        let worse = if proof.gouge >= proof.gap {
+    if !proof.is_within(options.tolerance_mm) {
+        let worse = if proof.gouge_mm >= proof.gap_mm {
             format!(
                 "the deepest gouge is {} {units} at {}",
-                format_fine_length(proof.gouge, units),
-                format_point_in_units(proof.gouge_at, units)
+                format_fine_length(proof.gouge_mm, units),
+                format_point_in_units(proof.gouge_at_mm, units)
             )
         } else {
             format!(
                 "the largest gap is {} {units} at {}",
-                format_fine_length(proof.gap, units),
-                format_point_in_units(proof.gap_at, units)
+                format_fine_length(proof.gap_mm, units),
+                format_point_in_units(proof.gap_at_mm, units)
             )
         };
-        let tolerance = format_fine_length(options.tolerance, units);
+        let tolerance = format_fine_length(options.tolerance_mm, units);
         let message = format!("{worse}, more than the tolerance of {tolerance} {units}");
         found.push(Diagnostic::new(codes::NOT_WITHIN_TOLERANCE, message));
     }
-    if options.words.spindle.is_none() {
+    if options.words.spindle_rpm.is_none() {
         let message = "no `--spindle` is given, so the program says no spindle speed";
         found.push(Diagnostic::new(codes::SECTION_WITHOUT_SPINDLE, message));
     }
-    let left = surfaced.unreached.iter().max_by(|a, b| a.left.total_cmp(&b.left));
+    let left = surfaced.unreached.iter().max_by(|a, b| a.left_mm.total_cmp(&b.left_mm));
     if let Some(most) = left {
         let count = surfaced.unreached.len();
         let places = if count == 1 { "one place".to_owned() } else { format!("{count} places") };
-        let [u, z, left] = [most.from.u, most.from.z, most.left].map(|mm| mm / units.mm_per_unit());
+        let [u, z, left] =
+            [most.from.u, most.from.z, most.left_mm].map(|length_mm| length_mm / units.mm_per_unit());
         let message = format!(
             "the ball does not touch {places} of the profile; most, {left:.4} {units}, is left at {}",
             format_point([u, z], 4)
@@ -57,16 +58,16 @@ pub fn collect_findings(surfaced: &SurfaceProgram, options: &SurfaceMillingOptio
 /// The summary, a few lines.
 pub fn to_text(surfaced: &SurfaceProgram, options: &SurfaceMillingOptions, name: &str) -> String {
     let units = options.words.units;
-    let mm = units.mm_per_unit();
+    let mm_per_unit = units.mm_per_unit();
     let mut text = String::new();
     let (planes, passes) = (surfaced.planes, surfaced.passes);
     let planes = if planes == 1 {
         "1 plane".to_owned()
     } else {
-        format!("{planes} planes {:.4} {units} apart", surfaced.spacing / mm)
+        format!("{planes} planes {:.4} {units} apart", surfaced.spacing_mm / mm_per_unit)
     };
     let passes = if passes == 1 { "1 pass".to_owned() } else { format!("{passes} passes") };
-    let cutting = surfaced.cutting_length_mm() / mm;
+    let cutting = surfaced.cutting_length_mm() / mm_per_unit;
     let _ = writeln!(
         text,
         "{name}: {planes}, {passes}, {cutting:.0} {units} of cutting in {} motions",
@@ -83,17 +84,17 @@ pub fn to_text(surfaced: &SurfaceProgram, options: &SurfaceMillingOptions, name:
     let _ = writeln!(
         text,
         "deepest gouge {} {units} at {}, largest gap {} {units} at {}; tolerance {}, the check may miss {}",
-        format_fine_length(proof.gouge, units),
-        format_point_in_units(proof.gouge_at, units),
-        format_fine_length(proof.gap, units),
-        format_point_in_units(proof.gap_at, units),
-        format_fine_length(options.tolerance, units),
-        format_fine_length(proof.bound, units),
+        format_fine_length(proof.gouge_mm, units),
+        format_point_in_units(proof.gouge_at_mm, units),
+        format_fine_length(proof.gap_mm, units),
+        format_point_in_units(proof.gap_at_mm, units),
+        format_fine_length(options.tolerance_mm, units),
+        format_fine_length(proof.bound_mm, units),
     );
     let _ = writeln!(
         text,
         "left between passes on level ground: {} {units}",
-        format_fine_length(surfaced.scallop_height_mm(options.radius), units)
+        format_fine_length(surfaced.scallop_height_mm(options.radius_mm), units)
     );
     if options.arcs && !can_write_arcs(options.words.dialect) {
         let _ = writeln!(text, "arcs are chords: how {} turns them is not known", options.words.dialect);
@@ -109,13 +110,13 @@ pub fn to_text(surfaced: &SurfaceProgram, options: &SurfaceMillingOptions, name:
 pub fn draw_middle_plane(surfaced: &SurfaceProgram, options: &SurfaceMillingOptions) -> io::Result<String> {
     let Some((offset, line, tips)) = &surfaced.figure else { return Ok(String::new()) };
     let units = options.words.units;
-    let mm = units.mm_per_unit();
-    let radius = options.radius;
+    let mm_per_unit = units.mm_per_unit();
+    let radius = options.radius_mm;
     let shifted = shift_contact_points(line, radius);
     let wrong =
         Chain::from_points(&shifted).ok().map(|naive| check_tip_path(line, &naive, radius, radius / 200.0));
     let scaled = |points: &[Point]| -> Vec<(f64, f64)> {
-        points.iter().map(|point| (point.u / mm, point.z / mm)).collect()
+        points.iter().map(|point| (point.u / mm_per_unit, point.z / mm_per_unit)).collect()
     };
     let path = |name: &str, look, points: &[Point]| PanelPath {
         name: name.to_owned(),
@@ -144,15 +145,20 @@ pub fn draw_middle_plane(surfaced: &SurfaceProgram, options: &SurfaceMillingOpti
         one_scale: true,
         paths,
     };
-    let title =
-        format!("plane at {:.3}, ball of radius {} {units}", offset / mm, format_fine_length(radius, units));
+    let title = format!(
+        "plane at {:.3}, ball of radius {} {units}",
+        offset / mm_per_unit,
+        format_fine_length(radius, units)
+    );
     let mut panels = vec![panel(title, paths(true))];
-    if let Some(wrong) = wrong.filter(|wrong| wrong.gouge > options.tolerance) {
+    if let Some(wrong) = wrong.filter(|wrong| wrong.gouge_mm > options.tolerance_mm) {
         let (at, half) = (wrong.gouge_at, 1.2 * radius);
-        let window = [at.u - half, at.u + half, at.z - half, at.z + half].map(|value| value / mm);
+        let window = [at.u - half, at.u + half, at.z - half, at.z + half].map(|value| value / mm_per_unit);
         let close = paths(true).into_iter().flat_map(|path| clip_path(path, window));
-        let title =
-            format!("where shifted points gouge deepest: {} {units}", format_fine_length(wrong.gouge, units));
+        let title = format!(
+            "where shifted points gouge deepest: {} {units}",
+            format_fine_length(wrong.gouge_mm, units)
+        );
         panels.push(panel(title, close.collect()));
     }
     Ok(draw_path_panels(&panels)?.unwrap_or_default())
@@ -200,7 +206,7 @@ fn shift_contact_points(line: &Chain, radius: f64) -> Vec<Point> {
             ChainPiece::Line(line) => {
                 (line.from.distance(line.to) / radius * CHORDS).ceil().clamp(1.0, 2000.0)
             }
-            ChainPiece::Arc(arc) => (arc.sweep.abs() * CHORDS).ceil().max(1.0),
+            ChainPiece::Arc(arc) => (arc.sweep_rad.abs() * CHORDS).ceil().max(1.0),
         };
         let mut part = 0.0;
         while part <= count {
@@ -220,7 +226,7 @@ fn sample_chain(chain: &Chain) -> Vec<Point> {
     for piece in chain.pieces() {
         let count = match piece {
             ChainPiece::Line(_) => 1.0,
-            ChainPiece::Arc(arc) => (arc.sweep.abs() * CHORDS).ceil().max(1.0),
+            ChainPiece::Arc(arc) => (arc.sweep_rad.abs() * CHORDS).ceil().max(1.0),
         };
         let mut part = 1.0;
         while part <= count {

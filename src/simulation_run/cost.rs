@@ -25,7 +25,7 @@ impl Default for SimulationBudget {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SimulationCost {
     /// The distance of columns, mm.
-    pub cell: f64,
+    pub cell_mm: f64,
     /// The number of columns.
     pub columns: u64,
     /// The memory of the stock in bytes, without overhangs.
@@ -56,12 +56,12 @@ impl Machining<'_> {
             .iter()
             .map(|cutter| 2.0 * cutter.radius_mm())
             .fold(f64::INFINITY, f64::min);
-        let asked = options.cell;
-        let (path_mm, area, pieces) = self.measure_path(options.longest);
+        let asked = options.cell_mm;
+        let (path_mm, area, pieces) = self.measure_path(options.longest_piece_mm);
         // Every column under a piece is examined once for that piece, so the visits are its area divided by
         // that of a cell.
         let at = |cell: f64| SimulationCost {
-            cell,
+            cell_mm: cell,
             columns: self.stock.count_columns(cell) as u64,
             bytes: (self.stock.count_columns(cell) as u64).saturating_mul(Dexels::BYTES_PER_COLUMN as u64),
             visits: area / (cell * cell),
@@ -86,7 +86,7 @@ impl Machining<'_> {
             return Ok(wanted);
         }
         // Grow the cell in steps of 10 % until it fits, and round it up so that the message has few digits.
-        let mut cell = wanted.cell;
+        let mut cell = wanted.cell_mm;
         while !fits(&at(cell)) && cell < 1e4 {
             cell *= 1.1;
         }
@@ -97,7 +97,7 @@ impl Machining<'_> {
         let message = format!(
             "with a cell of {} mm the simulation takes {:.1} GiB and about {:.0e} looks at columns in {pieces} pieces of path, \
              more than the {:.1} GiB and {:.0e} that it may",
-            format_significant_number(wanted.cell, 3, 6),
+            format_significant_number(wanted.cell_mm, 3, 6),
             wanted.bytes as f64 / f64::from(1 << 30),
             wanted.visits,
             options.budget.bytes as f64 / f64::from(1 << 30),

@@ -31,7 +31,7 @@ const STEPS: usize = 32;
 ///
 /// # Errors
 /// What the drawing library returns, which for a drawing in memory is nothing.
-pub fn draw_diagrams(report: &ChipReport, at: Option<f64>) -> io::Result<String> {
+pub fn draw_diagrams(report: &ChipReport, at_z_mm: Option<f64>) -> io::Result<String> {
     let columns = report.scenes.len().clamp(1, IN_A_ROW);
     let rows = report.scenes.len().div_ceil(columns).max(1);
     let legend = [
@@ -43,7 +43,7 @@ pub fn draw_diagrams(report: &ChipReport, at: Option<f64>) -> io::Result<String>
         (LegendSample::Ring(BRANCH), "split"),
     ];
     draw_sheet((columns, rows), PANEL, &legend, |number, area| match report.scenes.get(number) {
-        Some(scene) => draw_diagram(area, scene, at),
+        Some(scene) => draw_diagram(area, scene, at_z_mm),
         None => Ok(()),
     })
 }
@@ -63,8 +63,8 @@ fn draw_diagram(area: &SvgArea<'_>, scene: &MoveScene, at: Option<f64>) -> io::R
         return Ok(());
     };
     let Ok(step) = MillStep::new(scene.mill, piece) else { return Ok(()) };
-    let diagram = BoundaryDiagram::new(&SectionFamily::new(&step, layer.z));
-    let mut title = format!("line {}, z {}", scene.line, format_short(layer.z));
+    let diagram = BoundaryDiagram::new(&SectionFamily::new(&step, layer.z_mm));
+    let mut title = format!("line {}, z {}", scene.line, format_short(layer.z_mm));
     if scene.pieces.len() > 1 {
         title.push_str(&format!(", first of {} pieces", scene.pieces.len()));
     }

@@ -40,11 +40,13 @@ struct LayerPanel<'r> {
 ///
 /// # Errors
 /// What the drawing library returns, which for a drawing in memory is nothing.
-pub fn draw_layers(report: &ChipReport, at: Option<f64>) -> io::Result<String> {
-    let heights = choose_layer_heights(report, at);
+pub fn draw_layers(report: &ChipReport, at_z_mm: Option<f64>) -> io::Result<String> {
+    let heights = choose_layer_heights(report, at_z_mm);
     let panels: Vec<LayerPanel<'_>> = heights
         .iter()
-        .flat_map(|z| report.scenes.iter().map(|scene| LayerPanel::new(scene, *z, report.options.tolerance)))
+        .flat_map(|z| {
+            report.scenes.iter().map(|scene| LayerPanel::new(scene, *z, report.options.tolerance_mm))
+        })
         .collect();
     let one_row = heights.len() == 1 || report.scenes.len() == 1;
     let columns = if one_row { panels.len().min(IN_A_ROW) } else { report.scenes.len() }.max(1);
@@ -67,7 +69,7 @@ pub fn draw_layers(report: &ChipReport, at: Option<f64>) -> io::Result<String> {
 fn choose_layer_heights(report: &ChipReport, at: Option<f64>) -> Vec<f64> {
     let layers = report.scenes.iter().flat_map(|scene| &scene.layers);
     let shown = layers.filter(|layer| at.is_none_or(|z| layer.contains_height(z)));
-    let mut heights: Vec<f64> = shown.map(|layer| layer.z).collect();
+    let mut heights: Vec<f64> = shown.map(|layer| layer.z_mm).collect();
     heights.sort_by(|a, b| b.total_cmp(a));
     heights.dedup();
     // A height on the border of two layers is in both: the upper one.
@@ -97,7 +99,7 @@ impl<'r> LayerPanel<'r> {
         };
         Self {
             scene,
-            layer: scene.layers.iter().find(|layer| layer.z == z),
+            layer: scene.layers.iter().find(|layer| layer.z_mm == z),
             first: cover(scene.pieces.first()).unwrap_or_default().first,
             last: cover(scene.pieces.last()).unwrap_or_default().last,
         }
@@ -125,7 +127,7 @@ impl<'r> LayerPanel<'r> {
         let (wide, tall) = (half * (half / tall).max(1.0), tall.max(half));
         let mut title = format!("line {}", self.scene.line);
         if let Some(layer) = self.layer {
-            title.push_str(&format!(", z {}", format_short(layer.z)));
+            title.push_str(&format!(", z {}", format_short(layer.z_mm)));
         }
         let frame = ChartFrame {
             title: Some((&title, 14)),

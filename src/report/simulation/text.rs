@@ -178,8 +178,8 @@ fn append_target(out: &mut String, simulated: &SimulationReport) {
                     out,
                     "    {what} {} mm3, at most {} mm along z, at {} mm",
                     format_fixed(found.volume_mm3, 1),
-                    format_fixed(thickest.mm, 3),
-                    format_named_point(thickest.at, 3),
+                    format_fixed(thickest.thickness_mm, 3),
+                    format_named_point(thickest.at_mm, 3),
                 )
             }
         };

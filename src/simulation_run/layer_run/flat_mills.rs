@@ -28,5 +28,5 @@ pub fn to_flat_mill(cutter: &CutterModel) -> Result<FlatMill, String> {
     if profile.taper_rad() > NONE {
         return Err(format!("a taper of {:.2} degrees", profile.taper_rad().to_degrees()));
     }
-    Ok(FlatMill { radius: profile.radius_mm(), flutes: profile.height_mm() })
+    Ok(FlatMill { radius_mm: profile.radius_mm(), flute_length_mm: profile.height_mm() })
 }
