@@ -19,7 +19,7 @@ use nalgebra::{Point3, Vector3};
 use std::hint::black_box;
 use std::time::Instant;
 
-const MILL: FlatMill = FlatMill { radius: 5.0, flutes: f64::INFINITY };
+const MILL: FlatMill = FlatMill { radius_mm: 5.0, flute_length_mm: f64::INFINITY };
 const TOLERANCE: f64 = 0.002;
 
 /// Seconds of the processor that this process has used (Linux), else by the clock.

@@ -86,7 +86,7 @@ fn main() {
             let drop = DropCutter::new(&mesh, cutter);
             let rate = |places: &[[f64; 2]]| {
                 let heights =
-                    || places.iter().filter_map(|[x, y]| drop.drop_at(*x, *y)).map(|drop| drop.tip_z);
+                    || places.iter().filter_map(|[x, y]| drop.drop_at(*x, *y)).map(|drop| drop.tip_z_mm);
                 places.len() as f64 / timed(|| heights().sum::<f64>()).max(1e-9)
             };
             let (rows, strewn) = (rate(&rows), rate(&strewn));

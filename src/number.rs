@@ -3,6 +3,13 @@
 //! CAM systems write plain decimals without exponent and `+` (measured over 127 files). Files written by hand
 //! may have both, and the `D` exponent of FORTRAN; all of them are read.
 
+mod readable_number;
+
+pub(crate) use readable_number::{
+    format_fixed_number, format_named_point, format_point, format_significant_number, format_trimmed_number,
+    group_thousands,
+};
+
 /// The powers of ten that `f64` holds exactly.
 const EXACT_POWERS: [f64; 23] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18,
@@ -141,9 +148,15 @@ fn strip_negative_zero(text: String) -> String {
     }
 }
 
+/// Cuts the zeros after the last decimal that counts, and a point that nothing follows. Zeros of whole numbers
+/// stay.
+fn trim_trailing_zeros(text: &str) -> &str {
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
+}
+
 /// Cuts the zeros of a printed number; `point` keeps the point of a whole number.
 fn cut_zeros(text: &str, point: bool) -> String {
-    let cut = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text };
+    let cut = trim_trailing_zeros(text);
     if cut.is_empty() || cut == "0" {
         return "0".to_owned();
     }

@@ -1,6 +1,7 @@
 //! What lints report with: facts about the whole file, and precise places in it.
 
 use crate::diagnostic::{Diagnostic, DiagnosticCode};
+use crate::number::format_trimmed_number;
 use crate::parse;
 use crate::program::geometry::{MotionPath, SAME_POINT};
 use crate::program::motion::Motion;
@@ -204,9 +205,7 @@ impl<'p> LintFindings<'p> {
             Some(LengthUnit::Inch) => " in",
             None => "",
         };
-        let text = format!("{value:.4}");
-        let text = text.trim_end_matches('0').trim_end_matches('.');
-        format!("{}{unit}", if text.is_empty() { "0" } else { text })
+        format!("{}{unit}", format_trimmed_number(value, 4))
     }
 
     /// A length in the file's unit from one in millimetres.

@@ -240,7 +240,7 @@ impl PlotArgs {
                 name: program.source().name(),
                 program,
                 units: ResolvedLengthUnit::from_program(program, self.units).unit,
-                rapid_feed: setup.machine.rapid_feed.map(|feed| feed.get()),
+                rapid_feed_mm_min: setup.machine.rapid_feed.map(|feed| feed.get()),
                 simulated: run.as_ref(),
             }
         };

@@ -23,11 +23,11 @@ pub struct NonCuttingCylinder {
     /// The part of the tool that the cylinder stands for.
     pub kind: NonCuttingKind,
     /// The radius in mm.
-    pub radius: f64,
+    pub radius_mm: f64,
     /// The height above the tip at which the cylinder begins, mm.
-    pub from: f64,
+    pub from_mm: f64,
     /// The height above the tip at which it ends, mm.
-    pub to: f64,
+    pub to_mm: f64,
 }
 
 /// The part of a tool that does not cut.

@@ -65,34 +65,34 @@ pub enum MeridianError {
 impl Meridian {
     /// Makes the meridian of a milling cutter or drill.
     ///
-    /// `diameter` is measured where the lines of bottom and flank meet (APT's `d`). `taper` is the angle
-    /// between flank and axis and `tip` the angle between bottom and plane (31 degrees for a drill of 118
-    /// degrees), both in radians. `flute_length` is the height of the cutting part. A corner radius of half
+    /// `diameter_mm` is measured where the lines of bottom and flank meet (APT's `d`). `taper_rad` is the angle
+    /// between flank and axis and `tip_rad` the angle between bottom and plane (31 degrees for a drill of 118
+    /// degrees), both in radians. `flute_length_mm` is the height of the cutting part. A corner radius of half
     /// the diameter makes a ball, whatever the taper.
     ///
     /// # Errors
     /// Returns a [`MeridianError`] if the numbers do not fit together.
     pub fn new(
-        diameter: f64,
-        corner_radius: f64,
-        taper: f64,
-        tip: f64,
-        flute_length: f64,
+        diameter_mm: f64,
+        corner_radius_mm: f64,
+        taper_rad: f64,
+        tip_rad: f64,
+        flute_length_mm: f64,
     ) -> Result<Self, MeridianError> {
-        if !(diameter > 0.0 && diameter.is_finite()) {
+        if !(diameter_mm > 0.0 && diameter_mm.is_finite()) {
             return Err(MeridianError::Diameter);
         }
         let angle = |angle: f64| (0.0..FRAC_PI_2 - 1e-3).contains(&angle);
-        if !angle(taper) || !angle(tip) || taper + tip > FRAC_PI_2 - 1e-3 {
+        if !angle(taper_rad) || !angle(tip_rad) || taper_rad + tip_rad > FRAC_PI_2 - 1e-3 {
             return Err(MeridianError::Angle);
         }
-        let (radius, rc) = (diameter / 2.0, corner_radius);
+        let (radius, rc) = (diameter_mm / 2.0, corner_radius_mm);
         if !(0.0..=radius + SAME).contains(&rc) {
             return Err(MeridianError::Corner);
         }
-        let (tan_tip, cos_tip) = (tip.tan(), tip.cos());
-        let (sin_taper, cos_taper) = taper.sin_cos();
-        let ball = (radius - rc).abs() <= SAME && tip == 0.0;
+        let (tan_tip, cos_tip) = (tip_rad.tan(), tip_rad.cos());
+        let (sin_taper, cos_taper) = taper_rad.sin_cos();
+        let ball = (radius - rc).abs() <= SAME && tip_rad == 0.0;
         // The centre (e, f) of the arc is one corner radius away from both lines: from the bottom, f cos(tip)
         // - e sin(tip) = rc; from the flank through (radius, radius tan(tip)), the same distance inwards.
         // This is solved for e.
@@ -108,21 +108,21 @@ impl Meridian {
         let e = e.max(0.0);
         // The tangent points: from the centre by rc along the normal of the bottom and of the flank.
         let f = e * tan_tip + rc / cos_tip;
-        let bottom_radius = (e + rc * tip.sin()).max(0.0);
+        let bottom_radius = (e + rc * tip_rad.sin()).max(0.0);
         let flank_start = [e + rc * cos_taper, f - rc * sin_taper];
-        if !(flute_length > flank_start[1] - SAME && flute_length.is_finite()) {
+        if !(flute_length_mm > flank_start[1] - SAME && flute_length_mm.is_finite()) {
             return Err(MeridianError::Height);
         }
         Ok(Self {
             bottom_radius,
-            bottom_angle: tip,
+            bottom_angle: tip_rad,
             corner_radius: rc,
             corner_center: [e, f],
-            taper,
+            taper: taper_rad,
             flank_start,
-            height: flute_length.max(flank_start[1] + SAME),
+            height: flute_length_mm.max(flank_start[1] + SAME),
             bottom_tan: tan_tip,
-            taper_tan: taper.tan(),
+            taper_tan: taper_rad.tan(),
         })
     }
 

@@ -19,7 +19,7 @@ pub struct Teeth {
     /// The radial offset of each tooth in mm, one for each tooth.
     runout: Vec<f64>,
     /// The helix angle in radians. It is positive if the edge lags behind its tip on the way up.
-    pub helix: f64,
+    pub helix_rad: f64,
     /// How irregular spacing and offsets are. It is stored because the chip formula needs it at every point.
     run: ToothRegularity,
     /// The passes before each tooth, for teeth with runout; see [`Teeth::passes_before`].
@@ -39,13 +39,13 @@ pub(crate) enum ToothRegularity {
 
 impl Teeth {
     /// Makes evenly spaced teeth without runout, or `None` for no teeth or more than 1000.
-    pub fn evenly_spaced(count: u32, helix: f64) -> Option<Self> {
+    pub fn evenly_spaced(count: u32, helix_rad: f64) -> Option<Self> {
         let count = usize::try_from(count).ok().filter(|count| (1..=MOST).contains(count))?;
         let pitch = vec![TAU / count as f64; count];
-        helix.is_finite().then(|| Self {
+        helix_rad.is_finite().then(|| Self {
             pitch,
             runout: vec![0.0; count],
-            helix,
+            helix_rad,
             run: ToothRegularity::Even,
             passes: Vec::new(),
         })
@@ -57,14 +57,14 @@ impl Teeth {
     ///
     /// Angles that differ by less than 1e-9 of a pitch, and offsets that differ by less than 1e-9 mm, count
     /// as equal.
-    pub fn unevenly_spaced(pitch: Vec<f64>, runout: Vec<f64>, helix: f64) -> Option<Self> {
+    pub fn unevenly_spaced(pitch: Vec<f64>, runout: Vec<f64>, helix_rad: f64) -> Option<Self> {
         let sum: f64 = pitch.iter().sum();
         let fits = (1..=MOST).contains(&pitch.len())
             && pitch.len() == runout.len()
             && pitch.iter().all(|angle| *angle > 0.0)
             && runout.iter().all(|offset| offset.is_finite())
             && sum.is_finite()
-            && helix.is_finite();
+            && helix_rad.is_finite();
         if !fits {
             return None;
         }
@@ -84,22 +84,30 @@ impl Teeth {
         } else {
             Vec::new()
         };
-        Some(Self { pitch, runout, helix, run, passes })
+        Some(Self { pitch, runout, helix_rad, run, passes })
     }
 
     /// Makes teeth with the pitch angles of [`Teeth::unevenly_spaced`] on a cutter that is ground without
-    /// runout but whose axis is `eccentricity` mm beside the spindle's. Tooth i, at the angle a_i behind the
-    /// first, then has the radial offset `eccentricity * cos(a_i - toward)`, where `toward` (radians) is the
+    /// runout but whose axis is `eccentricity_mm` beside the spindle's. Tooth i, at the angle a_i behind the
+    /// first, then has the radial offset `eccentricity_mm * cos(a_i - toward_rad)`, where `toward_rad` is the
     /// direction of the displacement as an angle behind the first tooth.
     ///
     /// The offsets are of first order in eccentricity / radius (Kline and DeVor 1983, eq. 2). Returns `None`
     /// in the same cases as [`Teeth::unevenly_spaced`].
-    pub fn with_eccentricity(pitch: Vec<f64>, eccentricity: f64, toward: f64, helix: f64) -> Option<Self> {
+    pub fn with_eccentricity(
+        pitch: Vec<f64>,
+        eccentricity_mm: f64,
+        toward_rad: f64,
+        helix_rad: f64,
+    ) -> Option<Self> {
         let true_running = vec![0.0; pitch.len()];
-        let teeth = Self::unevenly_spaced(pitch, true_running, helix)?;
-        let runout =
-            teeth.trail_angles_rad().into_iter().map(|angle| eccentricity * (angle - toward).cos()).collect();
-        Self::unevenly_spaced(teeth.pitch, runout, helix)
+        let teeth = Self::unevenly_spaced(pitch, true_running, helix_rad)?;
+        let runout = teeth
+            .trail_angles_rad()
+            .into_iter()
+            .map(|angle| eccentricity_mm * (angle - toward_rad).cos())
+            .collect();
+        Self::unevenly_spaced(teeth.pitch, runout, helix_rad)
     }
 
     /// Returns the number of teeth.

@@ -44,17 +44,17 @@ impl Engagement {
         self.engaged_bins().map(of).fold(graze, f64::max)
     }
 
-    /// Returns the largest feed in mm/min at which no chip is thicker than `target` (mm), at a spindle speed
+    /// Returns the largest feed in mm/min at which no chip is thicker than `target_mm`, at a spindle speed
     /// in rev/min. This is equation (2) in closed form. It is infinite where nothing limits the feed, as in
     /// air and where all material is thinner than the target; it is 0 for a target of 0 or less.
     ///
     /// It uses the bounds of [`Engagement::chip_thickness_bound_mm`], so the grid's uncertainty lowers the
     /// feed and never raises it.
-    pub fn feed_for_chip_mm_min(&self, teeth: &Teeth, rpm: f64, target: f64) -> f64 {
+    pub fn feed_for_chip_mm_min(&self, teeth: &Teeth, rpm: f64, target_mm: f64) -> f64 {
         // The advance per turn of a bin is F / n times its advance ratio.
         let limit = |share: f64, radial: f64| {
             if share > 0.0 {
-                teeth.max_advance_for_chip_mm(target, radial) * rpm / share
+                teeth.max_advance_for_chip_mm(target_mm, radial) * rpm / share
             } else {
                 f64::INFINITY
             }
@@ -63,7 +63,7 @@ impl Engagement {
         for bin in self.engaged_bins() {
             let feed = limit(f64::from(bin.share_bound), f64::from(bin.radial));
             all = all.min(feed);
-            if f64::from(bin.thickness) > target {
+            if f64::from(bin.thickness) > target_mm {
                 thick = thick.min(feed);
             }
         }
@@ -84,10 +84,10 @@ impl Engagement {
         if self.length_mm > 0.0 { self.removed_mm3 / self.length_mm * feed_mm_min } else { 0.0 }
     }
 
-    /// Returns the feed in mm/min at which the removal rate is `rate` mm3/min; infinite in air.
-    pub fn feed_for_removal_rate_mm_min(&self, rate: f64) -> f64 {
+    /// Returns the feed in mm/min at which the removal rate is `rate_mm3_min`; infinite in air.
+    pub fn feed_for_removal_rate_mm_min(&self, rate_mm3_min: f64) -> f64 {
         if self.has_removed_material() && self.length_mm > 0.0 {
-            rate.max(0.0) * self.length_mm / self.removed_mm3
+            rate_mm3_min.max(0.0) * self.length_mm / self.removed_mm3
         } else {
             f64::INFINITY
         }

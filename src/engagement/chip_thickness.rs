@@ -14,16 +14,16 @@ use crate::cutter::teeth::ToothRegularity;
 impl Teeth {
     /// Returns the largest chip thickness over all edges, mm.
     ///
-    /// `advance` is the distance by which the surface advances along its normal in one turn, mm (`v.n / n`);
+    /// `advance_mm` is the distance by which the surface advances along its normal in one turn, mm (`v.n / n`);
     /// a surface that retreats cuts no chip. `radial` is the part of the normal across the axis, from 0 to 1,
     /// by which radial offsets count. The thickness of the material is not known here and limits the chip in
-    /// addition. Even teeth without runout cut exactly `advance / count`.
-    pub fn max_chip_thickness_mm(&self, advance: f64, radial: f64) -> f64 {
+    /// addition. Even teeth without runout cut exactly `advance_mm / count`.
+    pub fn max_chip_thickness_mm(&self, advance_mm: f64, radial: f64) -> f64 {
         match self.regularity() {
-            ToothRegularity::Even => advance.max(0.0) / self.count() as f64,
-            ToothRegularity::Pitch => advance.max(0.0) * self.widest_pitch_fraction(),
+            ToothRegularity::Even => advance_mm.max(0.0) / self.count() as f64,
+            ToothRegularity::Pitch => advance_mm.max(0.0) * self.widest_pitch_fraction(),
             ToothRegularity::Runout(_) => (0..self.count())
-                .map(|edge| self.edge_chip_thickness_mm(edge, advance, radial))
+                .map(|edge| self.edge_chip_thickness_mm(edge, advance_mm, radial))
                 .fold(0.0, f64::max),
         }
     }
@@ -34,9 +34,9 @@ impl Teeth {
     /// The equation is `h_i = max(0, min over m of advance (p_i + .. m angles) / 2 pi + (rho_i - rho_(i-m))
     /// radial)`, with m from 1 to the number of teeth. With the last m the tooth meets its own cut of the
     /// turn before.
-    pub fn edge_chip_thickness_mm(&self, edge: usize, advance: f64, radial: f64) -> f64 {
+    pub fn edge_chip_thickness_mm(&self, edge: usize, advance_mm: f64, radial: f64) -> f64 {
         let Some(pitch) = self.pitch_angles_rad().get(edge) else { return 0.0 };
-        let advance = advance.max(0.0);
+        let advance = advance_mm.max(0.0);
         let highest = match self.regularity() {
             ToothRegularity::Even => return advance / self.count() as f64,
             ToothRegularity::Pitch => return advance * pitch / TAU,
@@ -55,15 +55,15 @@ impl Teeth {
         thinnest.max(0.0)
     }
 
-    /// Returns the largest advance per turn (mm) at which no chip is thicker than `thickness` (mm). This is
+    /// Returns the largest advance per turn (mm) at which no chip is thicker than `thickness_mm`. This is
     /// the inverse of [`Teeth::max_chip_thickness_mm`], in closed form.
     ///
     /// An edge's chip is the minimum of linear functions of the advance, so it stays within the target as
     /// long as one of them does. Runout alone never exceeds a target, since every tooth follows its own cut
-    /// of the turn before. So the result is between `thickness` and `thickness` times the number of teeth. It
+    /// of the turn before. So the result is between `thickness_mm` and `thickness_mm` times the number of teeth. It
     /// is 0 for a target of 0 or less.
-    pub fn max_advance_for_chip_mm(&self, thickness: f64, radial: f64) -> f64 {
-        let thickness = thickness.max(0.0);
+    pub fn max_advance_for_chip_mm(&self, thickness_mm: f64, radial: f64) -> f64 {
+        let thickness = thickness_mm.max(0.0);
         match self.regularity() {
             ToothRegularity::Even => thickness * self.count() as f64,
             ToothRegularity::Pitch => thickness / self.widest_pitch_fraction(),

@@ -79,7 +79,7 @@ impl LoadModel {
             teeth: teeth.clone(),
             material,
             left,
-            elements: split_edge(profile, teeth.helix, left),
+            elements: split_edge(profile, teeth.helix_rad, left),
             looks: list_tooth_positions(teeth, left),
         }
     }

@@ -93,10 +93,10 @@ pub struct Engagement {
     pub shortest_mm: f64,
     /// The lateral extent of the removed material in mm, positive to the left of the path: the least and the
     /// greatest value.
-    pub lateral: [f64; 2],
+    pub lateral_mm: [f64; 2],
     /// The heights on the cutter at which material was removed, mm above the tip along the axis: the least
     /// and the greatest.
-    pub height: [f64; 2],
+    pub height_mm: [f64; 2],
     /// The bins; empty if nothing was removed. A simulation without detail only keeps the contacts with the
     /// largest advance ratios, which is enough for chip thickness; forces need a simulation with detail,
     /// which fills every direction.
@@ -118,8 +118,8 @@ impl Engagement {
             along,
             length_mm,
             shortest_mm: length_mm,
-            lateral: [f64::INFINITY, f64::NEG_INFINITY],
-            height: [f64::INFINITY, f64::NEG_INFINITY],
+            lateral_mm: [f64::INFINITY, f64::NEG_INFINITY],
+            height_mm: [f64::INFINITY, f64::NEG_INFINITY],
             bins: Vec::new(),
             graze: 0.0,
             contact: None,
@@ -136,11 +136,11 @@ impl Engagement {
     }
 
     /// Adds a contact at an angle in radians from the feed's direction, positive to the left.
-    pub fn add_contact(&mut self, angle: f64, contact: &EngagementBin) {
+    pub fn add_contact(&mut self, angle_rad: f64, contact: &EngagementBin) {
         if self.bins.is_empty() {
             self.bins = vec![EngagementBin::EMPTY; BINS];
         }
-        if let Some(bin) = self.bins.get_mut(bin_index_at(angle)) {
+        if let Some(bin) = self.bins.get_mut(bin_index_at(angle_rad)) {
             bin.merge_bin(contact);
         }
     }
@@ -157,8 +157,8 @@ impl Engagement {
         self.length_mm = whole;
         self.shortest_mm = self.shortest_mm.min(other.shortest_mm);
         self.removed_mm3 += other.removed_mm3;
-        self.lateral = interval_hull(self.lateral, other.lateral);
-        self.height = interval_hull(self.height, other.height);
+        self.lateral_mm = interval_hull(self.lateral_mm, other.lateral_mm);
+        self.height_mm = interval_hull(self.height_mm, other.height_mm);
         self.graze = self.graze.max(other.graze);
         if let Some((_, depth)) = other.contact
             && self.contact.is_none_or(|(_, known)| depth > known)

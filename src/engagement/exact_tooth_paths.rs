@@ -40,18 +40,18 @@ pub struct ToothSampling {
     /// at `height`.
     pub points: u32,
     /// The height above the tip up to which the edges are sampled, mm.
-    pub height: f64,
+    pub height_mm: f64,
     /// The tolerance of a chip's ends along its normal, mm.
-    pub tolerance: f64,
+    pub tolerance_mm: f64,
 }
 
 /// The measured chips.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExactChipThickness {
     /// The thickest chip, mm.
-    pub largest: f64,
+    pub largest_mm: f64,
     /// The thickest chip of each edge, mm.
-    pub by_edge: Vec<f64>,
+    pub by_edge_mm: Vec<f64>,
 }
 
 /// The number of pieces into which the search along a normal is divided. Material and gaps that are thinner
@@ -88,7 +88,7 @@ pub fn measure_exact_chips(
     let mill = TrochoidMotion::new(profile, teeth, motion);
     let mut by_edge = vec![0.0_f64; teeth.count()];
     let looks = f64::from(fineness.looks.max(1));
-    let end = profile.arc_length_at_height_mm(fineness.height);
+    let end = profile.arc_length_at_height_mm(fineness.height_mm);
     let points = fineness.points.max(1);
     for look in 0..=(mill.turns * looks) as u64 {
         let time = look as f64 / looks;
@@ -98,11 +98,11 @@ pub fn measure_exact_chips(
                 let part = if points > 1 { f64::from(point) / f64::from(points - 1) } else { 1.0 };
                 let length = end * part.clamp(1e-6, 1.0 - 1e-6);
                 *largest =
-                    largest.max(mill.chip_thickness_mm(edge, time, length, fineness.tolerance, &material));
+                    largest.max(mill.chip_thickness_mm(edge, time, length, fineness.tolerance_mm, &material));
             }
         }
     }
-    ExactChipThickness { largest: by_edge.iter().copied().fold(0.0, f64::max), by_edge }
+    ExactChipThickness { largest_mm: by_edge.iter().copied().fold(0.0, f64::max), by_edge_mm: by_edge }
 }
 
 /// A motion with the revolution as the unit of time.
@@ -132,7 +132,7 @@ impl<'a> TrochoidMotion<'a> {
             profile,
             teeth,
             trail: teeth.trail_angles_rad(),
-            lag: lag_rad_per_mm(profile, teeth.helix),
+            lag: lag_rad_per_mm(profile, teeth.helix_rad),
             left: if motion.spindle == SpindleDirection::Clockwise { 1.0 } else { -1.0 },
             from: motion.from,
             advance: if turning { way / turns } else { Vector3::zeros() },

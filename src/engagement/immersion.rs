@@ -24,8 +24,8 @@ impl Engagement {
         if self.across < ALONG_AXIS {
             return Some([0.0, 360.0]);
         }
-        let [low, high] = self.height;
-        let [right, left] = self.lateral;
+        let [low, high] = self.height_mm;
+        let [right, left] = self.lateral_mm;
         if low > high || right > left {
             return None;
         }
@@ -43,12 +43,12 @@ impl Engagement {
 
     /// Returns the height of the engaged part of the cutter along its axis, mm; 0 in air.
     pub fn axial_depth_mm(&self) -> f64 {
-        interval_length_mm(self.height)
+        interval_length_mm(self.height_mm)
     }
 
     /// Returns the width of the removed material across the path and the tool axis, mm; 0 in air.
     pub fn radial_depth_mm(&self) -> f64 {
-        interval_length_mm(self.lateral)
+        interval_length_mm(self.lateral_mm)
     }
 }
 

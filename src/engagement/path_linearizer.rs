@@ -23,21 +23,21 @@ pub struct MotionPiece {
 /// Converts motions to pieces.
 ///
 /// Motions in another frame than that of the program's first motion (NX's MSYS, a CSYS) are converted to it.
-/// Arcs and splines become chords that are at most `sagitta` from the curve.
+/// Arcs and splines become chords that are at most `sagitta_mm` from the curve.
 #[derive(Debug, Clone)]
 pub struct PathLinearizer {
-    unit: f64,
+    mm_per_unit: f64,
     home: Option<Option<CoordinateFrame>>,
     /// The largest distance of a chord from its curve, mm.
-    pub sagitta: f64,
+    pub sagitta_mm: f64,
     /// The length of the longest piece, mm.
-    pub longest: f64,
+    pub longest_piece_mm: f64,
 }
 
 impl PathLinearizer {
-    /// Makes a converter for a file whose lengths are in units of `unit` mm.
-    pub fn new(unit: f64, sagitta: f64, longest: f64) -> Self {
-        Self { unit, home: None, sagitta, longest }
+    /// Makes a converter for a file whose lengths are in units of `mm_per_unit` mm.
+    pub fn new(mm_per_unit: f64, sagitta_mm: f64, longest_piece_mm: f64) -> Self {
+        Self { mm_per_unit, home: None, sagitta_mm, longest_piece_mm }
     }
 
     /// Converts a pose of a motion to the workpiece frame, in mm.
@@ -50,7 +50,7 @@ impl PathLinearizer {
         };
         let pose = if same { pose } else { pose_in_frame(home, pose_from_frame(frame, pose)) };
         let axis = pose.axis.try_normalize(1e-9).unwrap_or_else(Vector3::z);
-        Pose { point: pose.point * self.unit, axis }
+        Pose { point: pose.point * self.mm_per_unit, axis }
     }
 
     /// Takes the frame of a motion as the workpiece frame if it is the first motion.
@@ -91,7 +91,7 @@ impl PathLinearizer {
             if let Some(last) = places.last().copied() {
                 // A chord that is longer than the longest piece is divided evenly; its axis turns at a
                 // constant rate.
-                let parts = ((next.point - last.point).norm() / self.longest).ceil().clamp(1.0, 1e6);
+                let parts = ((next.point - last.point).norm() / self.longest_piece_mm).ceil().clamp(1.0, 1e6);
                 let turn = last.axis.angle(&next.axis);
                 for part in 1..parts as usize {
                     let share = part as f64 / parts;
@@ -120,9 +120,9 @@ impl PathLinearizer {
 
     /// Returns the number of chords that keep the sagitta.
     fn count_chords(&self, arc: &CircularArc) -> usize {
-        let radius = arc.radius * self.unit;
+        let radius = arc.radius * self.mm_per_unit;
         // A chord over the angle a is R (1 - cos(a / 2)) from its arc; this is solved for a.
-        let step = 2.0 * (1.0 - (self.sagitta / radius).min(1.0)).acos();
+        let step = 2.0 * (1.0 - (self.sagitta_mm / radius).min(1.0)).acos();
         // The chords of a helix are no further from it than the chords of its circle.
         (arc.sweep / step.max(1e-4)).ceil().clamp(1.0, 1e6) as usize
     }
@@ -146,9 +146,9 @@ impl PathLinearizer {
             let point = spline.point_at(from + (to - from) * share);
             let chord = b - a;
             let along = (point - a).dot(&chord) / chord.norm_squared().max(1e-300);
-            (point - a - chord * along.clamp(0.0, 1.0)).norm() * self.unit
+            (point - a - chord * along.clamp(0.0, 1.0)).norm() * self.mm_per_unit
         };
-        if depth > 0 && [0.25, 0.5, 0.75].into_iter().any(|share| off(share) > self.sagitta) {
+        if depth > 0 && [0.25, 0.5, 0.75].into_iter().any(|share| off(share) > self.sagitta_mm) {
             let middle = (from + to) / 2.0;
             self.bisect_spline(spline, from, middle, depth - 1, shares);
             self.bisect_spline(spline, middle, to, depth - 1, shares);

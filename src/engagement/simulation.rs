@@ -75,7 +75,7 @@ impl Simulation {
             .collect();
         let mut engagements: Vec<Engagement> =
             pieces.iter().map(|piece| empty_engagement(piece, cutters)).collect();
-        let cell = self.stock.grid().cell;
+        let cell = self.stock.grid().cell_mm;
         for (index, partial) in found.iter().flatten() {
             if let Some(engagement) = engagements.get_mut(*index) {
                 partial.add_to_engagement(engagement, cell * cell, cell / 2.0);
@@ -87,7 +87,8 @@ impl Simulation {
                 engagements.iter_mut().zip(pieces).filter(|(found, _)| found.has_removed_material())
             {
                 let profile = cutters.get(piece.cutter).map(|cutter| &cutter.profile);
-                let radius = profile.map_or(0.0, |profile| profile.radius_at_height_mm(engagement.height[1]));
+                let radius =
+                    profile.map_or(0.0, |profile| profile.radius_at_height_mm(engagement.height_mm[1]));
                 engagement.fill_empty_bins(radius, cell);
             }
         }

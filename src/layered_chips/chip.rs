@@ -17,9 +17,9 @@ pub struct LayerChip {
     /// The number of the layer, counted from below.
     pub layer: usize,
     /// The height of the layer's middle, mm.
-    pub z: f64,
+    pub z_mm: f64,
     /// The thickness of the layer, mm.
-    pub thickness: f64,
+    pub thickness_mm: f64,
     /// The area of the chip, mm2.
     pub area_mm2: f64,
     /// The area of material that was inside the cutter before the piece began, mm2. It is removed but does
@@ -48,13 +48,13 @@ pub struct Chip {
 impl Chip {
     /// Returns the volume, mm3: the sum of area times thickness.
     pub fn volume_mm3(&self) -> f64 {
-        self.layers.iter().map(|layer| layer.area_mm2 * layer.thickness).sum()
+        self.layers.iter().map(|layer| layer.area_mm2 * layer.thickness_mm).sum()
     }
 }
 
 /// Removes pieces of path from the workpiece one after another. Returns a chip for each piece, or the reason
 /// why the piece was left out and removed nothing. `PathPiece::cutter` is an index in `mills`. Sections are
-/// polygons whose chords are within `tolerance` (mm).
+/// polygons whose chords are within `tolerance_mm`.
 ///
 /// Layers do not depend on each other and are processed in parallel; the result is the same for any number of
 /// threads.
@@ -62,14 +62,14 @@ pub fn cut_chips(
     stack: &mut LayerStack,
     mills: &[FlatMill],
     pieces: &[PathPiece],
-    tolerance: f64,
+    tolerance_mm: f64,
 ) -> Vec<Result<Chip, MillStepError>> {
     let steps: Vec<Result<(MillStep, RimDirections), MillStepError>> = pieces
         .iter()
         .map(|piece| {
             let mill = mills.get(piece.cutter).ok_or(MillStepError::NoCutter)?;
             let step = MillStep::new(*mill, piece)?;
-            let rim = RimDirections::new(&step, tolerance);
+            let rim = RimDirections::new(&step, tolerance_mm);
             Ok((step, rim))
         })
         .collect();
@@ -109,7 +109,7 @@ fn cut_layer_chip(layer: &mut Layer, step: &MillStep, rim: &RimDirections) -> Op
     }
     let removed = layer.remove_swept_area(&cover);
     // Where chords of two steps' sections meet, a ring that is thinner than the tolerance may be left.
-    let rounding = rim.tolerance_mm().min(COARSEST) * std::f64::consts::TAU * step.mill().radius;
+    let rounding = rim.tolerance_mm().min(COARSEST) * std::f64::consts::TAU * step.mill().radius_mm;
     let inside_mm2 = if removed.inside_mm2 > rounding { removed.inside_mm2 } else { 0.0 };
     if removed.area_mm2 <= 0.0 && inside_mm2 <= 0.0 {
         return None;
@@ -117,8 +117,8 @@ fn cut_layer_chip(layer: &mut Layer, step: &MillStep, rim: &RimDirections) -> Op
     let (arcs_deg, advance_mm) = engaged_arcs::find_engaged_arcs(&diagram, rim, &removed.pieces);
     Some(LayerChip {
         layer: layer.number(),
-        z,
-        thickness: layer.thickness_mm(),
+        z_mm: z,
+        thickness_mm: layer.thickness_mm(),
         area_mm2: removed.area_mm2,
         inside_mm2,
         pieces: removed.pieces,

@@ -16,9 +16,9 @@ use nalgebra::Vector3;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlatMill {
     /// The radius.
-    pub radius: f64,
+    pub radius_mm: f64,
     /// The length of the flutes above the tip. It is infinite if it does not matter.
-    pub flutes: f64,
+    pub flute_length_mm: f64,
 }
 
 /// The reason why a piece of path cannot be modelled.
@@ -85,7 +85,7 @@ impl MillStep {
     /// # Errors
     /// Returns a [`MillStepError`] if the mill or the poses cannot be modelled.
     pub fn new(mill: FlatMill, piece: &PathPiece) -> Result<Self, MillStepError> {
-        if !(mill.radius > 0.0 && mill.radius < FARTHEST && mill.flutes > 0.0) {
+        if !(mill.radius_mm > 0.0 && mill.radius_mm < FARTHEST && mill.flute_length_mm > 0.0) {
             return Err(MillStepError::NoCutter);
         }
         let finite = |place: &Pose| {
@@ -133,7 +133,8 @@ impl MillStep {
     pub fn height_range_mm(&self) -> [f64; 2] {
         let (a, b) = (self.tip.z, self.tip.z + self.way.z);
         // The bottom disc hangs below the tip by at most R sin(tilt), and the upper end rises likewise.
-        let [low, high] = [a.min(b) - self.mill.radius, a.max(b) + self.mill.radius + self.mill.flutes];
+        let [low, high] =
+            [a.min(b) - self.mill.radius_mm, a.max(b) + self.mill.radius_mm + self.mill.flute_length_mm];
         if self.up < 0.0 { [-high, -low] } else { [low, high] }
     }
 
@@ -141,6 +142,6 @@ impl MillStep {
     /// step.
     pub(super) fn max_displacement_mm(&self, z: f64) -> f64 {
         let lever = (self.up * z - self.tip.z).abs().max((self.up * z - self.tip.z - self.way.z).abs());
-        self.way.norm() + self.turn * (self.mill.radius + lever)
+        self.way.norm() + self.turn * (self.mill.radius_mm + lever)
     }
 }

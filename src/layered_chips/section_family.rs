@@ -60,8 +60,8 @@ struct FamilyState<S> {
 
 impl SectionFamily {
     /// Makes the family of a step on the layer at height z, mm.
-    pub fn new(step: &MillStep, z: f64) -> Self {
-        Self { step: *step, z: z * step.up, pace: step.max_displacement_mm(z) }
+    pub fn new(step: &MillStep, z_mm: f64) -> Self {
+        Self { step: *step, z: z_mm * step.up, pace: step.max_displacement_mm(z_mm) }
     }
 
     /// Returns the step.
@@ -72,12 +72,12 @@ impl SectionFamily {
     /// Returns the absolute value of `f` below which it counts as zero: the section then moves by less than a
     /// billionth of the step.
     pub(super) fn zero_threshold(&self) -> f64 {
-        1e-9 * self.step.mill.radius * self.pace
+        1e-9 * self.step.mill.radius_mm * self.pace
     }
 
     /// Returns whether the tip does not move, up to a millionth of the displacement of the rim.
     pub(super) fn pivots_about_tip(&self) -> bool {
-        self.step.way.norm() <= 1e-6 * self.step.mill.radius * self.step.turn
+        self.step.way.norm() <= 1e-6 * self.step.mill.radius_mm * self.step.turn
     }
 
     /// Returns whether a curve exists for this mill.
@@ -87,7 +87,7 @@ impl SectionFamily {
 
     /// Returns whether the flutes have an upper end that may reach the layer.
     pub(super) fn has_top(&self) -> bool {
-        self.step.mill.flutes.is_finite()
+        self.step.mill.flute_length_mm.is_finite()
     }
 
     /// Returns the family at a time, or over an interval of times.
@@ -152,7 +152,7 @@ impl SectionFamily {
     /// Returns the ellipse at a time.
     pub fn ellipse_at(&self, t: f64) -> LayerEllipse {
         let FamilyState { axis, centre: [x, y], shape, .. } = self.exact_state_at(t);
-        let radius = self.step.mill.radius;
+        let radius = self.step.mill.radius_mm;
         LayerEllipse {
             centre: [x.v, y.v],
             velocity: [x.d, y.d],
@@ -163,7 +163,7 @@ impl SectionFamily {
 
     /// Returns the coefficients of a curve and their derivatives with respect to time.
     fn expand_curve<S: Scalar>(&self, curve: DiagramCurve, at: &FamilyState<S>) -> ([S; 5], [S; 5]) {
-        let radius = self.step.mill.radius;
+        let radius = self.step.mill.radius_mm;
         let split = |k: [(S, S); 5]| (k.map(|(v, _)| v), k.map(|(_, d)| d));
         let none = (S::from_f64(0.0), S::from_f64(0.0));
         let pair = |jet: Jet<S>| (jet.v, jet.d);
@@ -201,7 +201,7 @@ impl SectionFamily {
                 split([pair(above), pair(at.axis[0]), pair(at.axis[1]), none, none])
             }
             DiagramCurve::Top => {
-                let end = at.tip[2] + at.axis[2].scaled_by(self.step.mill.flutes);
+                let end = at.tip[2] + at.axis[2].scaled_by(self.step.mill.flute_length_mm);
                 let below = (end - Jet::constant(self.z)).scaled_by(1.0 / radius);
                 let minus = |jet: Jet<S>| (-jet.v, -jet.d);
                 split([pair(below), minus(at.axis[0]), minus(at.axis[1]), none, none])

@@ -66,8 +66,8 @@ impl LayerStack {
     /// # Errors
     /// Returns an error if the thickness is not positive or makes too many layers, if the stock is too large
     /// for exact sections, or if it has no exact sections: a mesh with an allowance, or remains.
-    pub fn new(stock: &Stock, thickness: f64) -> Result<Self, LayerStackError> {
-        Self::with_max_vertices(stock, thickness, layer::MOST_CORNERS)
+    pub fn new(stock: &Stock, thickness_mm: f64) -> Result<Self, LayerStackError> {
+        Self::with_max_vertices(stock, thickness_mm, layer::MOST_CORNERS)
     }
 
     /// Makes the same stack with areas in pieces of at most `corners` vertices. Apart from rounding, the
@@ -75,23 +75,27 @@ impl LayerStack {
     ///
     /// # Errors
     /// Returns the errors of [`LayerStack::new`].
-    pub fn with_max_vertices(stock: &Stock, thickness: f64, corners: usize) -> Result<Self, LayerStackError> {
+    pub fn with_max_vertices(
+        stock: &Stock,
+        thickness_mm: f64,
+        corners: usize,
+    ) -> Result<Self, LayerStackError> {
         let bounds = stock.bounds();
         let ([x0, y0, z0], [x1, y1, z1]) = bounds;
         let height = z1 - z0;
-        if !(thickness > 0.0 && thickness <= height * (1.0 + 1e-9)) {
+        if !(thickness_mm > 0.0 && thickness_mm <= height * (1.0 + 1e-9)) {
             return Err(LayerStackError::Thickness { height });
         }
         // A rest of the height that is only rounding gets no layer.
-        let count = (height / thickness - 1e-9).ceil().max(1.0);
+        let count = (height / thickness_mm - 1e-9).ceil().max(1.0);
         if count > MOST_LAYERS as f64 {
             return Err(LayerStackError::TooMany { layers: count });
         }
         let size = (x1 - x0).max(y1 - y0);
         let grid = AreaGrid::around_box([x0, y0], [x1, y1]).ok_or(LayerStackError::TooLarge { size })?;
         let slabs: Vec<[f64; 2]> = (0..count as usize)
-            .map(|number| z0 + thickness * number as f64)
-            .map(|bottom| [bottom, thickness.min(z1 - bottom)])
+            .map(|number| z0 + thickness_mm * number as f64)
+            .map(|bottom| [bottom, thickness_mm.min(z1 - bottom)])
             .collect();
         let heights: Vec<f64> = slabs.iter().map(|[bottom, thickness]| bottom + thickness / 2.0).collect();
         let shapes =

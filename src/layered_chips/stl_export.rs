@@ -20,7 +20,7 @@ type TriangleVertices = [[f64; 3]; 3];
 pub fn write_chip_stl(chip: &Chip, out: &mut dyn Write) -> io::Result<()> {
     let mut all = Vec::new();
     for layer in &chip.layers {
-        add_prisms(&layer.pieces, layer.z - layer.thickness / 2.0, layer.thickness, &mut all)?;
+        add_prisms(&layer.pieces, layer.z_mm - layer.thickness_mm / 2.0, layer.thickness_mm, &mut all)?;
     }
     write_triangles(all, out)
 }

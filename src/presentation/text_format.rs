@@ -1,5 +1,6 @@
 //! Numbers and tables for people.
 
+use crate::number::{format_fixed_number, format_trimmed_number, group_thousands};
 use crate::program::LengthUnit;
 use std::fmt::Write;
 
@@ -30,31 +31,19 @@ pub(crate) fn format_count(value: u64) -> String {
     group_thousands(&value.to_string())
 }
 
-/// A number with a fixed number of decimals and its thousands apart; never `-0`.
+/// A number with a fixed number of decimals and its thousands set apart; never `-0`.
 pub(crate) fn format_fixed(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    let negative_zero = text.starts_with('-') && text.bytes().all(|byte| matches!(byte, b'-' | b'0' | b'.'));
-    let text = text.strip_prefix('-').filter(|_| negative_zero).unwrap_or(&text);
-    group_thousands(text)
+    group_thousands(&format_fixed_number(value, decimals))
 }
 
-/// A number with at most three decimals and no trailing zeros.
+/// A number without trailing zeros, its thousands set apart.
+pub(crate) fn format_trimmed(value: f64, most_decimals: usize) -> String {
+    group_thousands(&format_trimmed_number(value, most_decimals))
+}
+
+/// A number with at most three decimals and no trailing zeros, its thousands set apart.
 pub(crate) fn format_short(value: f64) -> String {
-    let text = format_fixed(value, 3);
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
-}
-
-fn group_thousands(text: &str) -> String {
-    let digits = text.find('.').unwrap_or(text.len());
-    let mut out = String::with_capacity(text.len() + digits / 3);
-    for (index, c) in text.chars().enumerate() {
-        let after_digit = out.ends_with(|last: char| last.is_ascii_digit());
-        if c.is_ascii_digit() && after_digit && index < digits && (digits - index).is_multiple_of(3) {
-            out.push(',');
-        }
-        out.push(c);
-    }
-    out
+    format_trimmed(value, 3)
 }
 
 /// A length for a sentence: metres from 10 m on in metric files, else the file's unit.

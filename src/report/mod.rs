@@ -20,6 +20,7 @@ pub mod simulation;
 pub mod stats;
 pub mod step_descriptions;
 pub mod surface_milling;
+mod svg_chart;
 pub mod unified_diff;
 
 pub(crate) use crate::presentation::text_format;

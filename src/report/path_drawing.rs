@@ -4,9 +4,8 @@
 
 pub use crate::presentation::path_panel::{PanelPath, PanelPathStyle, PathPanel};
 
-use plotters::coord::Shift;
+use super::svg_chart::{ChartFrame, SvgArea, draw_line, draw_line_names, draw_svg, drawing_error};
 use plotters::prelude::*;
-use std::fmt::Display;
 use std::io;
 
 /// Width and height of a panel in pixels.
@@ -38,45 +37,29 @@ pub fn draw_path_panels(panels: &[PathPanel]) -> io::Result<Option<String>> {
     let columns = panels.len().min(2);
     let rows = panels.len().div_ceil(columns);
     let size = (PANEL.0 * columns as u32, PANEL.1 * u32::try_from(rows).unwrap_or(1));
-    let mut text = String::new();
-    {
-        let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
-        root.fill(&WHITE).map_err(drawing_error)?;
+    let drawing = draw_svg(size, |root| {
         for (area, panel) in root.split_evenly((rows, columns)).iter().zip(panels) {
             draw_path_panel(area, panel)?;
         }
-        root.present().map_err(drawing_error)?;
-    }
-    Ok(Some(text))
+        Ok(())
+    });
+    drawing.map(Some)
 }
 
-fn draw_path_panel(area: &DrawingArea<SVGBackend<'_>, Shift>, panel: &PathPanel) -> io::Result<()> {
+fn draw_path_panel(area: &SvgArea<'_>, panel: &PathPanel) -> io::Result<()> {
     let [right, up] = find_axis_ranges(panel);
-    let mut chart = ChartBuilder::on(area)
-        .caption(panel.title.as_str(), ("sans-serif", 16))
-        .margin(12)
-        .set_label_area_size(LabelAreaPosition::Left, 76)
-        .set_label_area_size(LabelAreaPosition::Bottom, 44)
-        .build_cartesian_2d(right.0..right.1, up.0..up.1)
-        .map_err(drawing_error)?;
-    chart
-        .configure_mesh()
-        .light_line_style(TRANSPARENT)
-        .x_desc(panel.right)
-        .y_desc(panel.up)
-        .label_style(("sans-serif", 13))
-        .axis_desc_style(("sans-serif", 14))
-        .draw()
-        .map_err(drawing_error)?;
+    let frame = ChartFrame {
+        title: Some((&panel.title, 16)),
+        margin: 12,
+        left_labels: 76,
+        label_font: 13,
+        axis_texts: Some(([panel.right, panel.up], 14)),
+        ..ChartFrame::default()
+    };
+    let mut chart = frame.draw(area, right.0..right.1, up.0..up.1)?;
     for path in &panel.paths {
         let style = shape_style(path.look);
-        let line = LineSeries::new(path.points.iter().copied(), style);
-        let drawn = chart.draw_series(line).map_err(drawing_error)?;
-        if !path.name.is_empty() {
-            drawn
-                .label(path.name.as_str())
-                .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + 18, y)], style));
-        }
+        draw_line(&mut chart, path.points.iter().copied(), style, &path.name, style.stroke_width)?;
         if path.look == PanelPathStyle::After && path.points.len() <= 60 {
             let dots = path.points.iter().map(|at| Circle::new(*at, 3, style.filled()));
             chart.draw_series(dots).map_err(drawing_error)?;
@@ -85,14 +68,7 @@ fn draw_path_panel(area: &DrawingArea<SVGBackend<'_>, Shift>, panel: &PathPanel)
     if panel.paths.iter().all(|path| path.name.is_empty()) {
         return Ok(());
     }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperRight)
-        .label_font(("sans-serif", 13))
-        .background_style(WHITE.mix(0.85))
-        .border_style(RGBColor(200, 200, 200))
-        .draw()
-        .map_err(drawing_error)
+    draw_line_names(&mut chart, 13, 0.85)
 }
 
 /// What a panel shows to the right and up: everything, a little room around it, and one scale where that is asked for.
@@ -119,8 +95,4 @@ fn find_axis_ranges(panel: &PathPanel) -> [(f64, f64); 2] {
     let [x, y] = ranges;
     let [wide, tall] = sizes;
     [around((x, wide)), around((y, tall))]
-}
-
-fn drawing_error(error: impl Display) -> io::Error {
-    io::Error::other(format!("the drawing failed: {error}"))
 }

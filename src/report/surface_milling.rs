@@ -2,6 +2,7 @@
 
 use super::path_drawing::{PanelPath, PanelPathStyle, PathPanel, draw_path_panels};
 use crate::diagnostic::{Diagnostic, codes};
+use crate::number::{format_point, format_trimmed_number};
 use crate::program::LengthUnit;
 use crate::surface::profile::{Chain, ChainPiece, Point, check_tip_path};
 use crate::surface_milling::{SurfaceMillingOptions, SurfaceProgram};
@@ -17,35 +18,37 @@ pub fn collect_findings(surfaced: &SurfaceProgram, options: &SurfaceMillingOptio
     let units = options.words.units;
     let proof = &surfaced.proof;
     let mut found = Vec::new();
-    if !proof.is_within(options.tolerance) {
-        let worse = if proof.gouge >= proof.gap {
+    if !proof.is_within(options.tolerance_mm) {
+        let worse = if proof.gouge_mm >= proof.gap_mm {
             format!(
                 "the deepest gouge is {} {units} at {}",
-                format_fine_length(proof.gouge, units),
-                format_point(proof.gouge_at, units)
+                format_fine_length(proof.gouge_mm, units),
+                format_point_in_units(proof.gouge_at_mm, units)
             )
         } else {
             format!(
                 "the largest gap is {} {units} at {}",
-                format_fine_length(proof.gap, units),
-                format_point(proof.gap_at, units)
+                format_fine_length(proof.gap_mm, units),
+                format_point_in_units(proof.gap_at_mm, units)
             )
         };
-        let tolerance = format_fine_length(options.tolerance, units);
+        let tolerance = format_fine_length(options.tolerance_mm, units);
         let message = format!("{worse}, more than the tolerance of {tolerance} {units}");
         found.push(Diagnostic::new(codes::NOT_WITHIN_TOLERANCE, message));
     }
-    if options.words.spindle.is_none() {
+    if options.words.spindle_rpm.is_none() {
         let message = "no `--spindle` is given, so the program says no spindle speed";
         found.push(Diagnostic::new(codes::SECTION_WITHOUT_SPINDLE, message));
     }
-    let left = surfaced.unreached.iter().max_by(|a, b| a.left.total_cmp(&b.left));
+    let left = surfaced.unreached.iter().max_by(|a, b| a.left_mm.total_cmp(&b.left_mm));
     if let Some(most) = left {
         let count = surfaced.unreached.len();
         let places = if count == 1 { "one place".to_owned() } else { format!("{count} places") };
-        let [u, z, left] = [most.from.u, most.from.z, most.left].map(|mm| mm / units.mm_per_unit());
+        let [u, z, left] =
+            [most.from.u, most.from.z, most.left_mm].map(|length_mm| length_mm / units.mm_per_unit());
         let message = format!(
-            "the ball does not touch {places} of the profile; most, {left:.4} {units}, is left at ({u:.4}, {z:.4})"
+            "the ball does not touch {places} of the profile; most, {left:.4} {units}, is left at {}",
+            format_point([u, z], 4)
         );
         found.push(Diagnostic::new(codes::NOT_REACHED, message));
     }
@@ -55,16 +58,16 @@ pub fn collect_findings(surfaced: &SurfaceProgram, options: &SurfaceMillingOptio
 /// The summary, a few lines.
 pub fn to_text(surfaced: &SurfaceProgram, options: &SurfaceMillingOptions, name: &str) -> String {
     let units = options.words.units;
-    let mm = units.mm_per_unit();
+    let mm_per_unit = units.mm_per_unit();
     let mut text = String::new();
     let (planes, passes) = (surfaced.planes, surfaced.passes);
     let planes = if planes == 1 {
         "1 plane".to_owned()
     } else {
-        format!("{planes} planes {:.4} {units} apart", surfaced.spacing / mm)
+        format!("{planes} planes {:.4} {units} apart", surfaced.spacing_mm / mm_per_unit)
     };
     let passes = if passes == 1 { "1 pass".to_owned() } else { format!("{passes} passes") };
-    let cutting = surfaced.cutting_length_mm() / mm;
+    let cutting = surfaced.cutting_length_mm() / mm_per_unit;
     let _ = writeln!(
         text,
         "{name}: {planes}, {passes}, {cutting:.0} {units} of cutting in {} motions",
@@ -81,17 +84,17 @@ pub fn to_text(surfaced: &SurfaceProgram, options: &SurfaceMillingOptions, name:
     let _ = writeln!(
         text,
         "deepest gouge {} {units} at {}, largest gap {} {units} at {}; tolerance {}, the check may miss {}",
-        format_fine_length(proof.gouge, units),
-        format_point(proof.gouge_at, units),
-        format_fine_length(proof.gap, units),
-        format_point(proof.gap_at, units),
-        format_fine_length(options.tolerance, units),
-        format_fine_length(proof.bound, units),
+        format_fine_length(proof.gouge_mm, units),
+        format_point_in_units(proof.gouge_at_mm, units),
+        format_fine_length(proof.gap_mm, units),
+        format_point_in_units(proof.gap_at_mm, units),
+        format_fine_length(options.tolerance_mm, units),
+        format_fine_length(proof.bound_mm, units),
     );
     let _ = writeln!(
         text,
         "left between passes on level ground: {} {units}",
-        format_fine_length(surfaced.scallop_height_mm(options.radius), units)
+        format_fine_length(surfaced.scallop_height_mm(options.radius_mm), units)
     );
     if options.arcs && !can_write_arcs(options.words.dialect) {
         let _ = writeln!(text, "arcs are chords: how {} turns them is not known", options.words.dialect);
@@ -107,13 +110,13 @@ pub fn to_text(surfaced: &SurfaceProgram, options: &SurfaceMillingOptions, name:
 pub fn draw_middle_plane(surfaced: &SurfaceProgram, options: &SurfaceMillingOptions) -> io::Result<String> {
     let Some((offset, line, tips)) = &surfaced.figure else { return Ok(String::new()) };
     let units = options.words.units;
-    let mm = units.mm_per_unit();
-    let radius = options.radius;
+    let mm_per_unit = units.mm_per_unit();
+    let radius = options.radius_mm;
     let shifted = shift_contact_points(line, radius);
     let wrong =
         Chain::from_points(&shifted).ok().map(|naive| check_tip_path(line, &naive, radius, radius / 200.0));
     let scaled = |points: &[Point]| -> Vec<(f64, f64)> {
-        points.iter().map(|point| (point.u / mm, point.z / mm)).collect()
+        points.iter().map(|point| (point.u / mm_per_unit, point.z / mm_per_unit)).collect()
     };
     let path = |name: &str, look, points: &[Point]| PanelPath {
         name: name.to_owned(),
@@ -142,15 +145,20 @@ pub fn draw_middle_plane(surfaced: &SurfaceProgram, options: &SurfaceMillingOpti
         one_scale: true,
         paths,
     };
-    let title =
-        format!("plane at {:.3}, ball of radius {} {units}", offset / mm, format_fine_length(radius, units));
+    let title = format!(
+        "plane at {:.3}, ball of radius {} {units}",
+        offset / mm_per_unit,
+        format_fine_length(radius, units)
+    );
     let mut panels = vec![panel(title, paths(true))];
-    if let Some(wrong) = wrong.filter(|wrong| wrong.gouge > options.tolerance) {
+    if let Some(wrong) = wrong.filter(|wrong| wrong.gouge_mm > options.tolerance_mm) {
         let (at, half) = (wrong.gouge_at, 1.2 * radius);
-        let window = [at.u - half, at.u + half, at.z - half, at.z + half].map(|value| value / mm);
+        let window = [at.u - half, at.u + half, at.z - half, at.z + half].map(|value| value / mm_per_unit);
         let close = paths(true).into_iter().flat_map(|path| clip_path(path, window));
-        let title =
-            format!("where shifted points gouge deepest: {} {units}", format_fine_length(wrong.gouge, units));
+        let title = format!(
+            "where shifted points gouge deepest: {} {units}",
+            format_fine_length(wrong.gouge_mm, units)
+        );
         panels.push(panel(title, close.collect()));
     }
     Ok(draw_path_panels(&panels)?.unwrap_or_default())
@@ -198,7 +206,7 @@ fn shift_contact_points(line: &Chain, radius: f64) -> Vec<Point> {
             ChainPiece::Line(line) => {
                 (line.from.distance(line.to) / radius * CHORDS).ceil().clamp(1.0, 2000.0)
             }
-            ChainPiece::Arc(arc) => (arc.sweep.abs() * CHORDS).ceil().max(1.0),
+            ChainPiece::Arc(arc) => (arc.sweep_rad.abs() * CHORDS).ceil().max(1.0),
         };
         let mut part = 0.0;
         while part <= count {
@@ -218,7 +226,7 @@ fn sample_chain(chain: &Chain) -> Vec<Point> {
     for piece in chain.pieces() {
         let count = match piece {
             ChainPiece::Line(_) => 1.0,
-            ChainPiece::Arc(arc) => (arc.sweep.abs() * CHORDS).ceil().max(1.0),
+            ChainPiece::Arc(arc) => (arc.sweep_rad.abs() * CHORDS).ceil().max(1.0),
         };
         let mut part = 1.0;
         while part <= count {
@@ -237,15 +245,11 @@ fn ordinate_title(units: LengthUnit) -> &'static str {
     if units == LengthUnit::Inch { "z, inch" } else { "z, mm" }
 }
 
-/// A small length, to four digits that count, without zeros behind.
-fn format_fine_length(mm: f64, units: LengthUnit) -> String {
-    let value = mm / units.mm_per_unit();
-    let text = format!("{value:.6}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text.is_empty() { "0".to_owned() } else { text.to_owned() }
+/// A small length in the program's unit, without trailing zeros.
+fn format_fine_length(length_mm: f64, units: LengthUnit) -> String {
+    format_trimmed_number(length_mm / units.mm_per_unit(), 6)
 }
 
-fn format_point([x, y, z]: [f64; 3], units: LengthUnit) -> String {
-    let [x, y, z] = [x, y, z].map(|mm| mm / units.mm_per_unit());
-    format!("({x:.3}, {y:.3}, {z:.3})")
+fn format_point_in_units(point_mm: [f64; 3], units: LengthUnit) -> String {
+    format_point(point_mm.map(|length_mm| length_mm / units.mm_per_unit()), 3)
 }

@@ -43,13 +43,13 @@ pub(super) struct MachineText {
 impl MachineText {
     /// In millimetres. Only numbers near the largest `f64` leave the range when converted; they limit nothing.
     pub(super) fn check_limits(self, units: LengthUnit) -> MachineLimits {
-        let mm = |value: Option<Positive>| {
+        let to_mm = |value: Option<Positive>| {
             value.and_then(|value| Positive::new(value.get() * units.mm_per_unit()))
         };
         MachineLimits {
-            max_feed: mm(self.max_feed),
-            rapid_feed: mm(self.rapid_feed),
-            max_acceleration: mm(self.max_acceleration),
+            max_feed: to_mm(self.max_feed),
+            rapid_feed: to_mm(self.rapid_feed),
+            max_acceleration: to_mm(self.max_acceleration),
         }
     }
 }

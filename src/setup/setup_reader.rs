@@ -26,21 +26,21 @@ impl SetupReader {
 
     /// A length in millimetres.
     pub fn length_mm(&mut self, value: f64, place: impl FnOnce() -> YamlLocation) -> f64 {
-        let mm = value * self.units.mm_per_unit();
-        if mm.abs() <= LARGEST {
-            return mm;
+        let value_mm = value * self.units.mm_per_unit();
+        if value_mm.abs() <= LARGEST {
+            return value_mm;
         }
         self.add_fault(place, "this is more than a kilometre", "too large", "Compare it with `units:`.");
-        LARGEST.copysign(mm)
+        LARGEST.copysign(value_mm)
     }
 
     /// The size of something in millimetres.
     pub fn size_mm(&mut self, value: Positive, place: impl Fn() -> YamlLocation) -> f64 {
-        let mm = self.length_mm(value.get(), &place);
+        let value_mm = self.length_mm(value.get(), &place);
         if value.get() * self.units.mm_per_unit() < SMALLEST {
             self.add_fault(place, "this is less than a micrometre", "too small", "Compare it with `units:`.");
         }
-        mm
+        value_mm
     }
 
     /// A size that may be missing, in millimetres; it stands at `key` of `place`.

@@ -2,6 +2,7 @@
 
 use super::{Machining, SimulationRunOptions};
 use crate::diagnostic::{Diagnostic, Failure, codes};
+use crate::number::format_significant_number;
 use crate::stock::Dexels;
 
 /// The most that a run may cost.
@@ -24,7 +25,7 @@ impl Default for SimulationBudget {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SimulationCost {
     /// The distance of columns, mm.
-    pub cell: f64,
+    pub cell_mm: f64,
     /// The number of columns.
     pub columns: u64,
     /// The memory of the stock in bytes, without overhangs.
@@ -55,12 +56,12 @@ impl Machining<'_> {
             .iter()
             .map(|cutter| 2.0 * cutter.radius_mm())
             .fold(f64::INFINITY, f64::min);
-        let asked = options.cell;
-        let (path_mm, area, pieces) = self.measure_path(options.longest);
+        let asked = options.cell_mm;
+        let (path_mm, area, pieces) = self.measure_path(options.longest_piece_mm);
         // Every column under a piece is examined once for that piece, so the visits are its area divided by
         // that of a cell.
         let at = |cell: f64| SimulationCost {
-            cell,
+            cell_mm: cell,
             columns: self.stock.count_columns(cell) as u64,
             bytes: (self.stock.count_columns(cell) as u64).saturating_mul(Dexels::BYTES_PER_COLUMN as u64),
             visits: area / (cell * cell),
@@ -74,7 +75,10 @@ impl Machining<'_> {
             && cell * FEWEST_ACROSS > smallest
         {
             let message = format!("a cell of {cell} mm is too coarse for a cutter of {smallest:.3} mm");
-            let help = format!("Take a cell of {} mm or less.", format_short(smallest / CELLS_ACROSS));
+            let help = format!(
+                "Take a cell of {} mm or less.",
+                format_significant_number(smallest / CELLS_ACROSS, 3, 6)
+            );
             return Err(Diagnostic::new(codes::CELL_TOO_COARSE, message).with_help(help).into());
         }
         let wanted = at(asked.unwrap_or(if smallest.is_finite() { smallest / CELLS_ACROSS } else { 0.1 }));
@@ -82,7 +86,7 @@ impl Machining<'_> {
             return Ok(wanted);
         }
         // Grow the cell in steps of 10 % until it fits, and round it up so that the message has few digits.
-        let mut cell = wanted.cell;
+        let mut cell = wanted.cell_mm;
         while !fits(&at(cell)) && cell < 1e4 {
             cell *= 1.1;
         }
@@ -93,14 +97,16 @@ impl Machining<'_> {
         let message = format!(
             "with a cell of {} mm the simulation takes {:.1} GiB and about {:.0e} looks at columns in {pieces} pieces of path, \
              more than the {:.1} GiB and {:.0e} that it may",
-            format_short(wanted.cell),
+            format_significant_number(wanted.cell_mm, 3, 6),
             wanted.bytes as f64 / f64::from(1 << 30),
             wanted.visits,
             options.budget.bytes as f64 / f64::from(1 << 30),
             options.budget.visits,
         );
-        let help =
-            format!("A cell of {} mm fits. Or describe the stock no larger than it is.", format_short(cell));
+        let help = format!(
+            "A cell of {} mm fits. Or describe the stock no larger than it is.",
+            format_significant_number(cell, 3, 6)
+        );
         Err(Diagnostic::new(codes::TOO_MUCH, message).with_help(help).into())
     }
 
@@ -126,11 +132,4 @@ impl Machining<'_> {
         }
         (path, area, pieces)
     }
-}
-
-/// Formats a length with three significant digits.
-fn format_short(value: f64) -> String {
-    let digits = (2.0 - value.abs().max(1e-9).log10().floor()).clamp(0.0, 6.0) as usize;
-    let text = format!("{value:.digits$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }

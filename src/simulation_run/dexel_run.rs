@@ -14,10 +14,10 @@ const BATCH: usize = 1024;
 /// The largest distance of a chord from its arc, as a fraction of a cell, and in mm; the smaller one counts.
 const SAGITTA: (f64, f64) = (0.02, 0.002);
 
-/// Returns the largest distance of chords from their arcs and splines, mm, for columns that are `cell` mm
+/// Returns the largest distance of chords from their arcs and splines, mm, for columns that are `cell_mm`
 /// apart.
-pub fn chord_tolerance_mm(cell: f64) -> f64 {
-    (cell * SAGITTA.0).min(SAGITTA.1)
+pub fn chord_tolerance_mm(cell_mm: f64) -> f64 {
+    (cell_mm * SAGITTA.0).min(SAGITTA.1)
 }
 
 /// A motion and its engagement.
@@ -51,7 +51,7 @@ pub struct DexelRunResult {
     /// The volume of the stock before the run, mm3.
     pub before_mm3: f64,
     /// The distance of columns, mm.
-    pub cell: f64,
+    pub cell_mm: f64,
     /// The findings: collisions, and cuts at rapid or with a spindle that does not turn.
     pub findings: Vec<Diagnostic>,
 }
@@ -70,13 +70,16 @@ impl Machining<'_> {
         let plan = self.estimate_cost(options)?;
         // The estimate has already compared the number of columns with the budget, so no limit is needed
         // here.
-        let stock = self.stock.to_dexels(plan.cell, usize::MAX).map_err(|error| {
+        let stock = self.stock.to_dexels(plan.cell_mm, usize::MAX).map_err(|error| {
             Diagnostic::new(codes::TOO_MUCH, format!("the stock cannot be simulated: {error}"))
         })?;
         let before_mm3 = stock.volume_mm3();
         let mut simulation = Simulation::new(stock, options.forces);
-        let mut trace =
-            PathLinearizer::new(self.units.mm_per_unit(), chord_tolerance_mm(plan.cell), options.longest);
+        let mut trace = PathLinearizer::new(
+            self.units.mm_per_unit(),
+            chord_tolerance_mm(plan.cell_mm),
+            options.longest_piece_mm,
+        );
         let mut faults = FaultCollector::default();
         let mut batch = PieceBatch::default();
         let mut done = 0.0;
@@ -96,7 +99,7 @@ impl Machining<'_> {
             }
             // A batch ends with a whole motion, so that every motion has all its pieces.
             if batch.steps.len() >= BATCH || next.is_none() {
-                batch.simulate_batch(self, &mut simulation, plan.cell, &mut faults, sink);
+                batch.simulate_batch(self, &mut simulation, plan.cell_mm, &mut faults, sink);
                 watch.report_progress(done, plan.path_mm);
                 watch.check_stop()?;
             }
@@ -105,7 +108,7 @@ impl Machining<'_> {
             }
         }
         let findings = faults.collect_findings(self.program);
-        Ok(DexelRunResult { left: simulation.into_stock(), before_mm3, cell: plan.cell, findings })
+        Ok(DexelRunResult { left: simulation.into_stock(), before_mm3, cell_mm: plan.cell_mm, findings })
     }
 }
 

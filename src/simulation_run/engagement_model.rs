@@ -36,7 +36,7 @@ pub struct EngagementRunResult {
     /// The resolution of the run.
     pub grain: StockResolution,
     /// The lowest corner of the box around the stock, mm.
-    pub lowest: [f64; 3],
+    pub lowest_mm: [f64; 3],
     /// The findings: collisions, and cuts at rapid or with a spindle that does not turn.
     pub findings: Vec<Diagnostic>,
 }
@@ -59,7 +59,7 @@ impl Machining<'_> {
         source: EngagementModel,
     ) -> Result<StockResolution, Failure> {
         match source {
-            EngagementModel::Dexels => Ok(StockResolution::Cell(self.estimate_cost(options)?.cell)),
+            EngagementModel::Dexels => Ok(StockResolution::Cell(self.estimate_cost(options)?.cell_mm)),
             EngagementModel::Layers { thickness: Some(thickness) } => Ok(StockResolution::Layer(thickness)),
             EngagementModel::Layers { thickness: None } => {
                 let diameters = self.tooling.cutters().iter().map(|cutter| 2.0 * cutter.radius_mm());
@@ -94,7 +94,7 @@ impl Machining<'_> {
             }
         };
         let (lowest, _) = self.stock.bounds();
-        Ok(EngagementRunResult { grain, lowest, findings })
+        Ok(EngagementRunResult { grain, lowest_mm: lowest, findings })
     }
 
     /// Finds engagements in layers; fails if any motion cannot be modelled.
@@ -106,8 +106,11 @@ impl Machining<'_> {
         sink: &mut dyn FnMut(&EngagedMotion<'_>),
     ) -> Result<LayerRunResult, Failure> {
         let mills = self.list_flat_mills()?;
-        let options =
-            LayerRunOptions { tolerance: TOLERANCE, longest: options.longest, ..LayerRunOptions::new(layer) };
+        let options = LayerRunOptions {
+            tolerance_mm: TOLERANCE,
+            longest_piece_mm: options.longest_piece_mm,
+            ..LayerRunOptions::new(layer)
+        };
         // The run cannot be stopped from within the sink, so the first refusal is kept and returned at the
         // end.
         let mut refused = None;
@@ -122,7 +125,7 @@ impl Machining<'_> {
                 .iter()
                 .filter_map(|(step, chip)| {
                     let chip = chip.as_ref().ok()?;
-                    Some((*step, measure_engagement(chip, mill?, &step.piece, options.tolerance)))
+                    Some((*step, measure_engagement(chip, mill?, &step.piece, options.tolerance_mm)))
                 })
                 .collect();
             // Every motion passes here in order, so counting them gives their index.

@@ -20,14 +20,14 @@ pub(super) struct FaultCollector {
 }
 
 impl FaultCollector {
-    /// Checks the engagement of a motion. `cell` is the distance of columns, mm.
+    /// Checks the engagement of a motion. `cell_mm` is the distance of columns, mm.
     pub fn check_engagement(
         &mut self,
         program: &Program,
         motion: &Motion,
         found: &Engagement,
         cutter: &CutterModel,
-        cell: f64,
+        cell_mm: f64,
     ) {
         if let Some((index, depth)) = found.contact {
             let what = match cutter.collars.get(index).map(|collar| collar.kind) {
@@ -38,16 +38,16 @@ impl FaultCollector {
             self.add_finding(program, motion, codes::COLLISION, message, "on this motion");
         }
         // A volume below a cell's cube is rounding, where a rapid touches the stock.
-        if found.has_removed_material() && found.removed_mm3 >= cell.powi(3) {
+        if found.has_removed_material() && found.removed_mm3 >= cell_mm.powi(3) {
             self.check_removal(program, motion, found.removed_mm3);
         }
     }
 
     /// Checks a motion that removed a volume in mm3. No rapid may remove material, and no tool whose spindle
     /// does not turn.
-    pub fn check_removal(&mut self, program: &Program, motion: &Motion, mm3: f64) {
+    pub fn check_removal(&mut self, program: &Program, motion: &Motion, removed_mm3: f64) {
         if motion.rapid {
-            let message = format!("a rapid goes through material and takes {mm3:.3} mm3 of it");
+            let message = format!("a rapid goes through material and takes {removed_mm3:.3} mm3 of it");
             self.add_finding(program, motion, codes::RAPID_THROUGH_STOCK, message, "at rapid");
         } else if motion.spindle.as_deref().is_none_or(|spindle| !spindle.on) {
             let message = "the tool cuts while the spindle stands".to_owned();

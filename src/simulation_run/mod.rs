@@ -33,9 +33,9 @@ use std::sync::Arc;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SimulationRunOptions {
     /// The distance of columns, mm; if not given, a fortieth of the smallest cutter's diameter.
-    pub cell: Option<f64>,
+    pub cell_mm: Option<f64>,
     /// The longest piece of a motion that is simulated on its own, mm; infinite for whole motions.
-    pub longest: f64,
+    pub longest_piece_mm: f64,
     /// Whether the engagement must be fine enough for forces, which takes several times as long.
     pub forces: bool,
     /// The most that a run may cost.
@@ -44,7 +44,12 @@ pub struct SimulationRunOptions {
 
 impl Default for SimulationRunOptions {
     fn default() -> Self {
-        Self { cell: None, longest: f64::INFINITY, forces: false, budget: SimulationBudget::default() }
+        Self {
+            cell_mm: None,
+            longest_piece_mm: f64::INFINITY,
+            forces: false,
+            budget: SimulationBudget::default(),
+        }
     }
 }
 

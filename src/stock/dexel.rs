@@ -21,11 +21,11 @@ pub type DexelSpan = [f32; 2];
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DexelGrid {
     /// The x and y of the first column's centre, mm.
-    pub origin: [f64; 2],
+    pub origin_mm: [f64; 2],
     /// The z from which the heights of intervals count, mm.
-    pub base: f64,
+    pub base_mm: f64,
     /// The distance between neighbouring columns, mm.
-    pub cell: f64,
+    pub cell_mm: f64,
     /// The number of columns along x.
     pub columns: usize,
     /// The number of columns along y.
@@ -35,21 +35,21 @@ pub struct DexelGrid {
 impl DexelGrid {
     /// Makes the grid that covers a box. Its first cell begins at the box's lower corner. An empty box has no
     /// columns.
-    pub fn covering_box(from: [f64; 3], to: [f64; 3], cell: f64) -> Self {
+    pub fn covering_box(from: [f64; 3], to: [f64; 3], cell_mm: f64) -> Self {
         let count = |axis: usize| {
             // A side that is a whole number of cells up to rounding must not get one cell more.
             let size = to.get(axis).zip(from.get(axis)).map_or(0.0, |(to, from)| to - from);
-            ((size / cell - 1e-9).ceil().max(0.0)) as usize
+            ((size / cell_mm - 1e-9).ceil().max(0.0)) as usize
         };
         let [x, y, z] = from;
-        let origin = [x + cell / 2.0, y + cell / 2.0];
-        Self { origin, base: z, cell, columns: count(0), rows: count(1) }
+        let origin = [x + cell_mm / 2.0, y + cell_mm / 2.0];
+        Self { origin_mm: origin, base_mm: z, cell_mm, columns: count(0), rows: count(1) }
     }
 
     /// Returns the x and y of a column's centre, mm.
     pub fn column_center(&self, column: usize, row: usize) -> [f64; 2] {
-        let [x, y] = self.origin;
-        [x + column as f64 * self.cell, y + row as f64 * self.cell]
+        let [x, y] = self.origin_mm;
+        [x + column as f64 * self.cell_mm, y + row as f64 * self.cell_mm]
     }
 
     /// Returns the number of columns.
@@ -227,7 +227,7 @@ impl Dexels {
 
     /// Returns whether the column nearest to a point has material at the point's height.
     pub fn contains(&self, [x, y, z]: [f64; 3]) -> bool {
-        let DexelGrid { origin: [x0, y0], base, cell, .. } = self.layout;
+        let DexelGrid { origin_mm: [x0, y0], base_mm: base, cell_mm: cell, .. } = self.layout;
         let (column, row) = (((x - x0) / cell).round(), ((y - y0) / cell).round());
         if column < 0.0 || row < 0.0 {
             return false;
@@ -245,14 +245,14 @@ impl Dexels {
                 .map(|[low, top]| f64::from(top - low))
                 .sum()
         };
-        self.bands.iter().map(height).sum::<f64>() * self.layout.cell * self.layout.cell
+        self.bands.iter().map(height).sum::<f64>() * self.layout.cell_mm * self.layout.cell_mm
     }
 
     /// Returns the z of the highest material, or `None` if there is none.
     pub fn highest_z_mm(&self) -> Option<f64> {
         let highest =
             self.bands.iter().flat_map(|band| band.top.iter().copied()).fold(f32::NEG_INFINITY, f32::max);
-        (highest > f32::NEG_INFINITY).then(|| self.layout.base + f64::from(highest))
+        (highest > f32::NEG_INFINITY).then(|| self.layout.base_mm + f64::from(highest))
     }
 
     /// Returns the memory in bytes.

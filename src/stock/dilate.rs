@@ -12,12 +12,12 @@ pub(super) fn dilate_by_ball(dexels: &Dexels, radius: f64) -> Dexels {
     let layout = *dexels.grid();
     // The offsets are sorted from the middle outwards, since the column itself covers most of what its
     // neighbours add.
-    let reach = (radius / layout.cell).ceil().min(layout.columns.max(layout.rows) as f64) as i64;
+    let reach = (radius / layout.cell_mm).ceil().min(layout.columns.max(layout.rows) as f64) as i64;
     let mut steps: Vec<(i64, i64, i64, f32)> = Vec::new();
     for up in -reach..=reach {
         for right in -reach..=reach {
             let squared = right * right + up * up;
-            let rest = radius * radius - squared as f64 * layout.cell * layout.cell;
+            let rest = radius * radius - squared as f64 * layout.cell_mm * layout.cell_mm;
             // A radius of a whole number of cells reaches its last column, even if its square is rounded
             // down.
             if rest >= -1e-9 * radius * radius {

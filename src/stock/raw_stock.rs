@@ -14,26 +14,26 @@ pub struct Stock {
 }
 
 impl Stock {
-    /// Makes stock of some bodies, each grown by `allowance` mm. A block grows at its sides and a cylinder in
+    /// Makes stock of some bodies, each grown by `allowance_mm`. A block grows at its sides and a cylinder in
     /// radius and at both ends (both keep their sharp edges); a mesh and remains grow by a ball.
     ///
     /// # Errors
     /// Returns an error if there is no body or no material, or if numbers are not finite, out of order or
     /// without volume.
-    pub fn new(bodies: Vec<SolidBody>, allowance: f64) -> Result<Self, StockError> {
-        if allowance.is_nan() || allowance > FARTHEST {
+    pub fn new(bodies: Vec<SolidBody>, allowance_mm: f64) -> Result<Self, StockError> {
+        if allowance_mm.is_nan() || allowance_mm > FARTHEST {
             return Err(StockError::NotFinite);
         }
-        if allowance < 0.0 {
+        if allowance_mm < 0.0 {
             return Err(StockError::Allowance);
         }
         if bodies.is_empty() {
             return Err(StockError::NoBody);
         }
         bodies.iter().try_for_each(SolidBody::check_volume)?;
-        let bounds = bodies.iter().filter_map(|body| body.grown_bounds(allowance));
+        let bounds = bodies.iter().filter_map(|body| body.grown_bounds(allowance_mm));
         let bounds = bounds.reduce(union_boxes).ok_or(StockError::Empty)?;
-        Ok(Self { bodies, allowance, bounds })
+        Ok(Self { bodies, allowance: allowance_mm, bounds })
     }
 
     /// Returns the bodies.
@@ -54,15 +54,15 @@ impl Stock {
 
     /// Returns the number of columns for a cell in mm, or [`usize::MAX`] if there are more than can be
     /// counted or the cell is not a positive length.
-    pub fn count_columns(&self, cell: f64) -> usize {
-        if !(cell > 0.0 && cell.is_finite()) {
+    pub fn count_columns(&self, cell_mm: f64) -> usize {
+        if !(cell_mm > 0.0 && cell_mm.is_finite()) {
             return usize::MAX;
         }
-        let layout = self.grid_for_cell(cell);
+        let layout = self.grid_for_cell(cell_mm);
         layout.columns.saturating_mul(layout.rows)
     }
 
-    /// Converts the stock to columns that are `cell` mm apart, at most `most` of them.
+    /// Converts the stock to columns that are `cell_mm` apart, at most `most` of them.
     ///
     /// The first cell begins at the lower corner of the box, so a block whose sides are multiples of the cell
     /// is exact. Other bodies are sampled at the centres of cells in x and y and exact in z (to the
@@ -71,18 +71,18 @@ impl Stock {
     ///
     /// # Errors
     /// Returns an error if the cell is not a positive length or makes no columns or too many.
-    pub fn to_dexels(&self, cell: f64, most: usize) -> Result<Dexels, StockError> {
-        if !(cell > 0.0 && cell.is_finite()) {
+    pub fn to_dexels(&self, cell_mm: f64, most: usize) -> Result<Dexels, StockError> {
+        if !(cell_mm > 0.0 && cell_mm.is_finite()) {
             return Err(StockError::Cell);
         }
-        let columns = self.count_columns(cell);
+        let columns = self.count_columns(cell_mm);
         if columns > most {
-            return Err(StockError::TooMany { cell, columns, most });
+            return Err(StockError::TooMany { cell: cell_mm, columns, most });
         }
         if columns == 0 {
             return Err(StockError::Empty);
         }
-        let layout = self.grid_for_cell(cell);
+        let layout = self.grid_for_cell(cell_mm);
         let given: Vec<Dexels> =
             self.bodies.iter().filter_map(|body| self.sample_body(body, layout)).collect();
         // A single sampled body is the result; otherwise the union is made column by column.
@@ -101,7 +101,7 @@ impl Stock {
                 let closed =
                     // Blocks and cylinders have a closed form over each column.
                     self.bodies.iter().filter_map(|body| body.vertical_extent_at(center, self.allowance));
-                intervals.extend(closed.map(|ends| ends.map(|z| (z - layout.base) as f32)));
+                intervals.extend(closed.map(|ends| ends.map(|z| (z - layout.base_mm) as f32)));
                 for band in given.iter().filter_map(|dexels| dexels.bands().get(number)) {
                     intervals.extend(band.column_spans(index));
                 }
@@ -130,14 +130,14 @@ impl Stock {
     /// else a grid over the box.
     fn grid_for_cell(&self, cell: f64) -> DexelGrid {
         match self.only_remains() {
-            Some(remains) if (remains.grid().cell - cell).abs() <= cell * 1e-9 => {
+            Some(remains) if (remains.grid().cell_mm - cell).abs() <= cell * 1e-9 => {
                 let kept = *remains.grid();
                 let more = (self.allowance / cell - 1e-9).ceil().max(0.0);
                 let count = |columns: usize| columns.saturating_add((2.0 * more) as usize);
                 DexelGrid {
-                    origin: kept.origin.map(|at| at - more * kept.cell),
-                    base: kept.base - self.allowance,
-                    cell: kept.cell,
+                    origin_mm: kept.origin_mm.map(|at| at - more * kept.cell_mm),
+                    base_mm: kept.base_mm - self.allowance,
+                    cell_mm: kept.cell_mm,
                     columns: count(kept.columns),
                     rows: count(kept.rows),
                 }
@@ -160,15 +160,15 @@ impl Stock {
 fn resample_nearest(from: &Dexels, layout: DexelGrid) -> Dexels {
     let mut dexels = Dexels::with_empty_columns(layout);
     let old = *from.grid();
-    let rise = (old.base - layout.base) as f32;
+    let rise = (old.base_mm - layout.base_mm) as f32;
     let index = |at: f64, origin: f64, count: usize| {
-        let index = ((at - origin) / old.cell + 0.5).floor();
+        let index = ((at - origin) / old.cell_mm + 0.5).floor();
         (index >= 0.0 && index < count as f64).then_some(index as usize)
     };
     dexels.bands_mut().par_iter_mut().for_each(|band| {
         for at in 0..band.row_count() * band.columns {
             let [x, y] = layout.column_center(at % band.columns, band.first_row + at / band.columns);
-            let [x0, y0] = old.origin;
+            let [x0, y0] = old.origin_mm;
             let place = index(x, x0, old.columns).zip(index(y, y0, old.rows));
             let Some((column, row)) = place else { continue };
             let moved = |interval: DexelSpan| interval.map(|height| height + rise);

@@ -111,10 +111,10 @@ fn remains_bounds(dexels: &Dexels) -> Option<AxisBox> {
         .fold((f32::INFINITY, f32::NEG_INFINITY), |(least, most), [low, top]| {
             (least.min(low), most.max(top))
         });
-    let half = layout.cell / 2.0;
-    let [x0, y0] = layout.origin.map(|at| at - half);
-    let (x1, y1) = (x0 + layout.columns as f64 * layout.cell, y0 + layout.rows as f64 * layout.cell);
-    let (z0, z1) = (layout.base + f64::from(low), layout.base + f64::from(high));
+    let half = layout.cell_mm / 2.0;
+    let [x0, y0] = layout.origin_mm.map(|at| at - half);
+    let (x1, y1) = (x0 + layout.columns as f64 * layout.cell_mm, y0 + layout.rows as f64 * layout.cell_mm);
+    let (z0, z1) = (layout.base_mm + f64::from(low), layout.base_mm + f64::from(high));
     (low < high).then_some(([x0, y0, z0], [x1, y1, z1]))
 }
 

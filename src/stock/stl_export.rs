@@ -104,10 +104,11 @@ impl DexelFace {
 /// row after the last one only has walls to the row before.
 fn find_row_faces(dexels: &Dexels, row: usize) -> Vec<DexelFace> {
     let layout = dexels.grid();
-    let border = |axis_origin: f64, index: usize| (axis_origin + (index as f64 - 0.5) * layout.cell) as f32;
-    let [x0, y0] = layout.origin;
+    let border =
+        |axis_origin: f64, index: usize| (axis_origin + (index as f64 - 0.5) * layout.cell_mm) as f32;
+    let [x0, y0] = layout.origin_mm;
     let (x, y) = (|index| border(x0, index), |index| border(y0, index));
-    let z = |height: f32| (layout.base + f64::from(height)) as f32;
+    let z = |height: f32| (layout.base_mm + f64::from(height)) as f32;
     let (south, north) = (y(row), y(row + 1));
 
     let mut found = Vec::new();

@@ -75,7 +75,7 @@ pub fn write_clstock(dexels: &Dexels, out: &mut dyn Write) -> io::Result<()> {
     buffer.extend(MAGIC);
     buffer.extend(VERSION.to_le_bytes());
     buffer.extend([0; 4]);
-    for value in [layout.cell].into_iter().chain(layout.origin).chain([layout.base]) {
+    for value in [layout.cell_mm].into_iter().chain(layout.origin_mm).chain([layout.base_mm]) {
         buffer.extend(value.to_le_bytes());
     }
     buffer.extend(count(layout.columns)?.to_le_bytes());
@@ -198,7 +198,13 @@ impl StockFileReader<'_> {
             return Err(StockFileError::Damaged { at, reason: "there are rows without columns" });
         }
         self.expect_bytes((u64::from(columns) * u64::from(rows)).saturating_mul(4))?;
-        Ok(DexelGrid { origin, base, cell, columns: columns as usize, rows: rows as usize })
+        Ok(DexelGrid {
+            origin_mm: origin,
+            base_mm: base,
+            cell_mm: cell,
+            columns: columns as usize,
+            rows: rows as usize,
+        })
     }
 
     /// Reads the intervals of one column, which must go from above to below without touching.

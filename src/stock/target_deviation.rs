@@ -35,7 +35,7 @@ pub enum GridMismatch {
 }
 
 impl TargetDeviation {
-    /// Compares remaining stock with a target on the same grid. Pieces that are at most `tolerance` mm thick
+    /// Compares remaining stock with a target on the same grid. Pieces that are at most `tolerance_mm` thick
     /// along a column do not count.
     ///
     /// # Errors
@@ -43,9 +43,9 @@ impl TargetDeviation {
     pub fn measure_by_thickness(
         remains: &Dexels,
         target: &Dexels,
-        tolerance: f64,
+        tolerance_mm: f64,
     ) -> Result<Self, GridMismatch> {
-        let thick = |_, _, [low, top]: DexelSpan, _| f64::from(top) - f64::from(low) > tolerance;
+        let thick = |_, _, [low, top]: DexelSpan, _| f64::from(top) - f64::from(low) > tolerance_mm;
         Self::sum_pieces(remains, target, thick)
     }
 
@@ -60,7 +60,7 @@ impl TargetDeviation {
         if layout != target.grid() {
             return Err(GridMismatch::Layout);
         }
-        let area = layout.cell * layout.cell;
+        let area = layout.cell_mm * layout.cell_mm;
         let bands = remains.bands().par_iter().zip(target.bands()).enumerate();
         let of_band = bands.map(|(number, (left, wanted))| {
             let mut all = Self::default();
@@ -80,7 +80,7 @@ impl TargetDeviation {
                     let thickness = f64::from(top) - f64::from(low);
                     // Excess is reported at its upper end, a gouge at its lower end: both are on the machined
                     // surface.
-                    let end = layout.base + f64::from(if is_left { top } else { low });
+                    let end = layout.base_mm + f64::from(if is_left { top } else { low });
                     let piece = Some((thickness, [x, y, end]));
                     if is_left {
                         in_excess = true;
@@ -104,7 +104,7 @@ impl TargetDeviation {
     }
 
     /// Compares as [`TargetDeviation::measure_by_thickness`] does, but a piece only counts if some of it is
-    /// further than `tolerance` mm from the other solid in every direction. So a wall that is slightly off
+    /// further than `tolerance_mm` from the other solid in every direction. So a wall that is slightly off
     /// does not count over its whole height. Lateral distances count in whole cells, so a tolerance below a
     /// cell only has an effect along z.
     ///
@@ -113,10 +113,10 @@ impl TargetDeviation {
     pub fn measure_by_distance(
         remains: &Dexels,
         target: &Dexels,
-        tolerance: f64,
+        tolerance_mm: f64,
     ) -> Result<Self, GridMismatch> {
         let [near_remains, near_target] =
-            [remains, target].map(|solid| dilate::dilate_by_ball(solid, tolerance));
+            [remains, target].map(|solid| dilate::dilate_by_ball(solid, tolerance_mm));
         // A piece within the other solid grown by the tolerance is nowhere further away than that.
         Self::sum_pieces(remains, target, |band, index, [low, top], is_left| {
             let near = if is_left { &near_target } else { &near_remains };

@@ -63,7 +63,7 @@ fn find_crossing_fractions(
         }
         ChainPiece::Arc(arc) => {
             // The coordinate on the circle is c + R cos(angle - turn), so it has the value at two angles.
-            let cosine = (value - coordinate(arc.centre)) / arc.radius;
+            let cosine = (value - coordinate(arc.centre)) / arc.radius_mm;
             if cosine.abs() > 1.0 {
                 return Vec::new();
             }
@@ -72,8 +72,8 @@ fn find_crossing_fractions(
                 [turn + half, turn - half].into_iter().flat_map(|angle| [angle - TAU, angle, angle + TAU]);
             let share = |angle: f64| {
                 // Both angles count from the start of the arc, and may be up to two turns away from it.
-                let start = arc.start.rem_euclid(TAU);
-                (angle - start) / arc.sweep
+                let start = arc.start_rad.rem_euclid(TAU);
+                (angle - start) / arc.sweep_rad
             };
             angles.map(share).filter(inside).collect()
         }

@@ -48,38 +48,38 @@ pub fn make_surface_program(
 ) -> Result<SurfaceProgram, Failure> {
     let words = &options.words;
     let print = ProgramRounding { dialect: words.dialect, units: words.units };
-    let ball = DropCutterShape::new(2.0 * options.radius, options.radius)
-        .map_err(|error| invalid_option(format!("a ball of radius {} mm: {error}", options.radius)))?;
+    let ball = DropCutterShape::new(2.0 * options.radius_mm, options.radius_mm)
+        .map_err(|error| invalid_option(format!("a ball of radius {} mm: {error}", options.radius_mm)))?;
     // Rounding to the program's decimals moves a point by up to one unit of the last decimal.
-    let tolerance = PATH_SHARE * options.tolerance - print.last_decimal_mm();
+    let tolerance = PATH_SHARE * options.tolerance_mm - print.last_decimal_mm();
     // The tolerance must not be below FINEST, nor so small that rounding to decimals uses most of it.
-    if !(tolerance >= options.tolerance / 4.0 && tolerance >= 10.0 * FINEST) {
+    if !(tolerance >= options.tolerance_mm / 4.0 && tolerance >= 10.0 * FINEST) {
         let message = format!(
             "{} writes {} decimals, too few for a tolerance of {} mm",
             words.dialect,
             new_program::coordinate_decimals(words.dialect),
-            options.tolerance
+            options.tolerance_mm
         );
         return Err(Diagnostic::new(codes::TOLERANCE_TOO_FINE, message).into());
     }
     let arcs = options.arcs && new_program::can_write_arcs(words.dialect);
     let mut making = PassMaker {
         planes: options.planes,
-        radius: options.radius,
-        tolerance,
+        radius_mm: options.radius_mm,
+        tolerance_mm: tolerance,
         arcs,
-        floor: f64::NEG_INFINITY,
+        floor_mm: f64::NEG_INFINITY,
     };
     let (ground, low, high, own) = prepare_ground(part, options, &mut making, ball)?;
-    let range = options.range.or(own).ok_or_else(|| {
+    let range = options.range_mm.or(own).ok_or_else(|| {
         let message = "nothing says over which width the profile is swept".to_owned();
         Diagnostic::new(codes::SURFACE_OPTION, message)
             .with_help("Give --from and --to, or `width:` in the profile file.")
     })?;
-    let places = plane_offsets(range.0, range.1, options.step).ok_or_else(|| {
+    let places = plane_offsets(range.0, range.1, options.step_mm).ok_or_else(|| {
         invalid_option(format!(
             "from {} to {} mm in steps of {} mm are too many planes",
-            range.0, range.1, options.step
+            range.0, range.1, options.step_mm
         ))
     })?;
     // Planes do not depend on each other; only the order of cutting does.
@@ -95,38 +95,38 @@ pub fn make_surface_program(
                 own.map_or(String::new(), |(from, to)| format!(
                     " and from {from} to {to} mm across the planes"
                 )),
-                making.floor
+                making.floor_mm
             ))
             .into());
     }
     let proof = prove_passes(&slices, &tracks, &ground, options, print);
     // The clearance height is rounded up to a round number, as people write heights.
-    let clear = (high.max(making.floor) + options.clearance) / words.units.mm_per_unit();
+    let clear = (high.max(making.floor_mm) + options.clearance_mm) / words.units.mm_per_unit();
     let clear = new_program::round_coordinate((clear * 1e3 - 1e-6).ceil() / 1e3, words.dialect);
     let between = PassLinking {
         pattern: options.pattern,
         clear,
-        approach: options.approach / words.units.mm_per_unit(),
-        feed: print.round_feed(options.feed),
-        plunge: print.round_feed(options.plunge),
-        air: options.air.map(|feed| print.round_feed(feed)),
+        approach: options.approach_mm / words.units.mm_per_unit(),
+        feed: print.round_feed(options.feed_mm_min),
+        plunge: print.round_feed(options.plunge_feed_mm_min),
+        air: options.air_feed_mm_min.map(|feed| print.round_feed(feed)),
     };
     let spacing = match places.as_slice() {
         [first, second, ..] => (second - first).abs(),
         _ => 0.0,
     };
     // A link over the surface is only worth it between neighbouring planes.
-    let near = (3.0 * spacing).max(2.0 * options.radius);
+    let near = (3.0 * spacing).max(2.0 * options.radius_mm);
     let beside = make_height_probe(part, options);
     // The highest point beside a position, above which a rapid must end. A profile is known by its own
     // highest point.
     let top = |at: Point3<f64>| {
-        let mm = words.units.mm_per_unit();
+        let mm_per_unit = words.units.mm_per_unit();
         let height = match &beside {
-            Some(wide) => wide.drop_at(at.x * mm, at.y * mm).map(|drop| drop.tip_z),
+            Some(wide) => wide.drop_at(at.x * mm_per_unit, at.y * mm_per_unit).map(|drop| drop.tip_z_mm),
             None => Some(high),
         };
-        height.map_or(at.z, |height| height / mm)
+        height.map_or(at.z, |height| height / mm_per_unit)
     };
     let moves = link_tracks(
         &tracks,
@@ -142,7 +142,7 @@ pub fn make_surface_program(
     })?;
     let unreached = match &ground {
         PassGround::Profile { dense, .. } => {
-            find_unreachable_parts(dense, options.radius, options.tolerance).unwrap_or_default()
+            find_unreachable_parts(dense, options.radius_mm, options.tolerance_mm).unwrap_or_default()
         }
         PassGround::Mesh { .. } => Vec::new(),
     };
@@ -153,7 +153,7 @@ pub fn make_surface_program(
         planes: tracks.iter().filter(|tracks| !tracks.is_empty()).count(),
         empty: tracks.iter().filter(|tracks| tracks.is_empty()).count(),
         passes,
-        spacing,
+        spacing_mm: spacing,
         unreached,
         figure: figure_of_middle_plane(&slices, &tracks, &ground, &making, print),
     })
@@ -162,7 +162,7 @@ pub fn make_surface_program(
 /// Makes a flat cutter that finds the highest point of a mesh within the ball's radius and the approach;
 /// `None` for a profile.
 fn make_height_probe(part: &SurfacePart, options: &SurfaceMillingOptions) -> Option<DropCutter> {
-    let wide = DropCutterShape::flat(2.0 * (options.radius + options.approach)).ok()?;
+    let wide = DropCutterShape::flat(2.0 * (options.radius_mm + options.approach_mm)).ok()?;
     match part {
         SurfacePart::Mesh(mesh) => Some(DropCutter::new(mesh, wide)),
         SurfacePart::Profile(_) => None,
@@ -184,24 +184,24 @@ fn prepare_ground<'a>(
 ) -> Result<PreparedGround<'a>, Failure> {
     match part {
         SurfacePart::Profile(profile) => {
-            let share = |share: f64| (share * options.tolerance).max(FINEST);
+            let share = |share: f64| (share * options.tolerance_mm).max(FINEST);
             let chain =
                 profile.to_chain(share(CURVE_SHARE)).map_err(|error| invalid_option(error.to_string()))?;
             let dense = profile
                 .to_dense_chain(share(DENSE_SHARE))
                 .map_err(|error| invalid_option(error.to_string()))?;
             let (low, high) = chain_bounds(&dense);
-            making.floor = options.floor.unwrap_or(low.z);
+            making.floor_mm = options.floor_mm.unwrap_or(low.z);
             let tips = making.tips_over_profile(&chain);
-            let own = profile.width.map(|width| (0.0, width));
+            let own = profile.width_mm.map(|width| (0.0, width));
             Ok((PassGround::Profile { dense, tips }, low.z, high.z, own))
         }
         SurfacePart::Mesh(mesh) => {
-            let sections = VerticalMeshSections::new(mesh, options.planes.angle_radians());
+            let sections = VerticalMeshSections::new(mesh, options.planes.angle_rad());
             let (low, high) = sections.offset_range();
             let (one, other) = (options.planes.offset_to_left(low), options.planes.offset_to_left(high));
             let ([.., bottom], [.., top]) = mesh.bounds();
-            making.floor = options.floor.unwrap_or(bottom);
+            making.floor_mm = options.floor_mm.unwrap_or(bottom);
             let cutter = DropCutter::new(mesh, ball);
             Ok((
                 PassGround::Mesh { mesh, sections, cutter },
@@ -222,7 +222,7 @@ fn slice_plane(
 ) -> PlaneSlice {
     match (ground, options.against) {
         (PassGround::Profile { dense, tips }, _) => {
-            PlaneSlice { offset, ground: Some(dense.clone()), tips: tips.clone() }
+            PlaneSlice { offset_mm: offset, ground: Some(dense.clone()), tips: tips.clone() }
         }
         (PassGround::Mesh { sections, .. }, PassHeights::Profile) => making.slice_in_plane(sections, offset),
         (PassGround::Mesh { sections, cutter, .. }, PassHeights::Mesh) => {
@@ -240,8 +240,8 @@ fn make_tracks(
     let mut back = false;
     let mut all = Vec::with_capacity(slices.len());
     for slice in slices {
-        let least = options.tolerance * SHORT_SHARE;
-        let track = |tip: &Chain| PassTrack::new(tip, &options.planes, slice.offset, least, print);
+        let least = options.tolerance_mm * SHORT_SHARE;
+        let track = |tip: &Chain| PassTrack::new(tip, &options.planes, slice.offset_mm, least, print);
         let mut tracks: Vec<PassTrack> = if back {
             slice.tips.iter().rev().filter_map(|tip| track(&tip.reversed())).collect()
         } else {
@@ -264,7 +264,7 @@ fn prove_passes(
     print: ProgramRounding,
 ) -> SurfaceProof {
     let space = match ground {
-        PassGround::Mesh { mesh, .. } => Some(BallClearanceField::new(mesh, options.radius)),
+        PassGround::Mesh { mesh, .. } => Some(BallClearanceField::new(mesh, options.radius_mm)),
         PassGround::Profile { .. } => None,
     };
     let passes: Vec<ProvedPass<'_>> = slices
@@ -272,7 +272,7 @@ fn prove_passes(
         .zip(tracks)
         .flat_map(|(slice, tracks)| {
             tracks.iter().map(|track| ProvedPass {
-                offset: slice.offset,
+                offset_mm: slice.offset_mm,
                 track,
                 ground: slice.ground.as_ref(),
             })
@@ -280,8 +280,8 @@ fn prove_passes(
         .collect();
     let look = PassProver {
         planes: &options.planes,
-        radius: options.radius,
-        tolerance: options.tolerance,
+        radius_mm: options.radius_mm,
+        tolerance_mm: options.tolerance_mm,
         print,
         space: space.as_ref(),
     };
@@ -312,7 +312,7 @@ fn link_over_surface(
             same.then(|| vec![to])
         }
         PassGround::Mesh { cutter, .. } => {
-            let runs = cutter.follow_line(&ends, making.tolerance);
+            let runs = cutter.follow_line(&ends, making.tolerance_mm);
             let [run] = runs.as_slice() else { return None };
             // The path must go from end to end, otherwise there is a hole between them.
             let whole = run
@@ -320,7 +320,7 @@ fn link_over_surface(
                 .zip(run.last())
                 .is_some_and(|([a, b, _], [c, d, _])| ends == [[*a, *b], [*c, *d]]);
             let between = run.get(1..run.len().saturating_sub(1))?;
-            let lifted = |[x, y, z]: &[f64; 3]| print.round_point([*x, *y, z.max(making.floor)]);
+            let lifted = |[x, y, z]: &[f64; 3]| print.round_point([*x, *y, z.max(making.floor_mm)]);
             whole.then(|| between.iter().map(lifted).chain([to]).collect())
         }
     }
@@ -340,8 +340,8 @@ fn figure_of_middle_plane(
     let planes: &PassPlanes = &making.planes;
     let line = match ground {
         PassGround::Profile { dense, .. } => dense.clone(),
-        PassGround::Mesh { sections, .. } => making.slice_in_plane(sections, slice.offset).ground?,
+        PassGround::Mesh { sections, .. } => making.slice_in_plane(sections, slice.offset_mm).ground?,
     };
     let tips = tracks.iter().filter_map(|track| track.to_plane_chain(planes, print)).collect();
-    Some((slice.offset, line, tips))
+    Some((slice.offset_mm, line, tips))
 }

@@ -62,13 +62,13 @@ pub struct SurfaceMillingOptions {
     /// The direction of the planes.
     pub planes: PassPlanes,
     /// The first and the last plane; if not given, a mesh has its own range and a profile its width.
-    pub range: Option<(f64, f64)>,
+    pub range_mm: Option<(f64, f64)>,
     /// The largest distance of planes.
-    pub step: f64,
+    pub step_mm: f64,
     /// The radius of the ball.
-    pub radius: f64,
+    pub radius_mm: f64,
     /// The largest depth of passes in the part, and their largest distance from it.
-    pub tolerance: f64,
+    pub tolerance_mm: f64,
     /// The source of the heights over a mesh.
     pub against: PassHeights,
     /// The pattern in which passes follow each other.
@@ -76,17 +76,17 @@ pub struct SurfaceMillingOptions {
     /// Whether arcs are written, if the dialect has them.
     pub arcs: bool,
     /// The height below which the tip never goes; if not given, the lowest point of the part.
-    pub floor: Option<f64>,
+    pub floor_mm: Option<f64>,
     /// The height above the highest point of the part (or the floor) at which the tool goes across.
-    pub clearance: f64,
+    pub clearance_mm: f64,
     /// The height above a pass at which the plunge feed begins.
-    pub approach: f64,
+    pub approach_mm: f64,
     /// The feed of passes.
-    pub feed: f64,
+    pub feed_mm_min: f64,
     /// The feed down to a pass.
-    pub plunge: f64,
+    pub plunge_feed_mm_min: f64,
     /// The feed between passes; rapid if not given.
-    pub air: Option<f64>,
+    pub air_feed_mm_min: Option<f64>,
     /// The words around the path.
     pub words: SurfaceProgramWords,
 }
@@ -107,7 +107,7 @@ pub struct SurfaceProgramWords {
     /// The name of the tool; if not given, it is named by its diameter.
     pub tool_name: Option<String>,
     /// The spindle speed in revolutions per minute.
-    pub spindle: Option<f64>,
+    pub spindle_rpm: Option<f64>,
     /// Whether coolant is switched on.
     pub coolant: bool,
 }

@@ -24,14 +24,14 @@ impl PassPlanes {
     }
 
     /// Returns the angle from x to u, radians.
-    pub fn angle_radians(&self) -> f64 {
+    pub fn angle_rad(&self) -> f64 {
         self.angle
     }
 
     /// Converts an offset to one that counts to the left of u, as in
     /// [`crate::surface::mesh_section::VerticalMeshSections`]. The inverse conversion is the same.
-    pub fn offset_to_left(&self, offset: f64) -> f64 {
-        if self.to_the_right { -offset } else { offset }
+    pub fn offset_to_left(&self, offset_mm: f64) -> f64 {
+        if self.to_the_right { -offset_mm } else { offset_mm }
     }
 
     /// Returns the direction of u; it is exact along the axes.
@@ -44,8 +44,8 @@ impl PassPlanes {
     }
 
     /// Returns the point in space of (u, z) in the plane at an offset.
-    pub fn point_at(&self, offset: f64, u: f64, z: f64) -> [f64; 3] {
-        let ([cos, sin], left) = (self.direction(), self.offset_to_left(offset));
+    pub fn point_at(&self, offset_mm: f64, u: f64, z: f64) -> [f64; 3] {
+        let ([cos, sin], left) = (self.direction(), self.offset_to_left(offset_mm));
         [u * cos - left * sin, u * sin + left * cos, z]
     }
 

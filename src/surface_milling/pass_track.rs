@@ -41,13 +41,13 @@ impl ProgramRounding {
     }
 
     /// Converts a length from mm to the rounded number of the program.
-    pub fn round_length(&self, mm: f64) -> f64 {
-        round_coordinate(mm / self.units.mm_per_unit(), self.dialect)
+    pub fn round_length(&self, length_mm: f64) -> f64 {
+        round_coordinate(length_mm / self.units.mm_per_unit(), self.dialect)
     }
 
     /// Converts a feed from mm/min to the rounded number of the program.
-    pub fn round_feed(&self, mm: f64) -> f64 {
-        round_feed(mm / self.units.mm_per_unit(), self.dialect)
+    pub fn round_feed(&self, feed_mm_min: f64) -> f64 {
+        round_feed(feed_mm_min / self.units.mm_per_unit(), self.dialect)
     }
 
     /// Returns one unit of the last decimal, mm.
@@ -63,17 +63,17 @@ impl ProgramRounding {
 }
 
 impl PassTrack {
-    /// Converts a tip path in the plane at an offset to a track. Lines of at most `least` mm between other
+    /// Converts a tip path in the plane at an offset to a track. Lines of at most `least_mm` between other
     /// pieces are left out, because a control would stop there. Returns `None` if nothing of the path is left
     /// in the program's decimals.
     pub fn new(
         tip: &Chain,
         planes: &PassPlanes,
-        offset: f64,
-        least: f64,
+        offset_mm: f64,
+        least_mm: f64,
         print: ProgramRounding,
     ) -> Option<Self> {
-        let space = |at: Point| print.round_point(planes.point_at(offset, at.u, at.z));
+        let space = |at: Point| print.round_point(planes.point_at(offset_mm, at.u, at.z));
         let [cos, sin] = planes.direction();
         let mut track = Self { start: space(tip.start()), steps: Vec::new() };
         let last = tip.pieces().len().saturating_sub(1);
@@ -81,13 +81,13 @@ impl PassTrack {
             if matches!(piece, ChainPiece::Line(_))
                 && index != 0
                 && index != last
-                && piece.length_mm() <= least
+                && piece.length_mm() <= least_mm
             {
                 continue;
             }
             let count = match piece {
                 ChainPiece::Line(_) => 1,
-                ChainPiece::Arc(arc) => (arc.sweep.abs() / MOST_SWEEP).ceil().max(1.0) as u32,
+                ChainPiece::Arc(arc) => (arc.sweep_rad.abs() / MOST_SWEEP).ceil().max(1.0) as u32,
             };
             for part in 1..=count {
                 let to = space(piece.point_at(f64::from(part) / f64::from(count)));
@@ -109,7 +109,7 @@ impl PassTrack {
                         };
                         let centre = space(near);
                         // The axis is that of a turn from +u towards +z.
-                        Some((centre, Vector3::new(sin, -cos, 0.0) * arc.sweep.signum()))
+                        Some((centre, Vector3::new(sin, -cos, 0.0) * arc.sweep_rad.signum()))
                     }
                     _ => None,
                 };
@@ -145,13 +145,13 @@ impl PassTrack {
         Chain::new(pieces).ok()
     }
 
-    /// Returns points along the track in mm; arcs become chords that are at most `tolerance` from them.
+    /// Returns points along the track in mm; arcs become chords that are at most `tolerance_mm` from them.
     pub fn sample_points(
         &self,
         planes: &PassPlanes,
         print: ProgramRounding,
-        offset: f64,
-        tolerance: f64,
+        offset_mm: f64,
+        tolerance_mm: f64,
     ) -> Vec<[f64; 3]> {
         let mut points = vec![print.point_in_mm(self.start)];
         let flat = self.to_plane_chain(planes, print);
@@ -159,11 +159,11 @@ impl PassTrack {
         for (step, piece) in self.steps.iter().zip(pieces) {
             if let ChainPiece::Arc(arc) = piece {
                 // The chord whose sagitta is the tolerance: 2 sqrt(2 r tolerance).
-                let chord = 2.0 * (2.0 * arc.radius * tolerance).sqrt();
+                let chord = 2.0 * (2.0 * arc.radius_mm * tolerance_mm).sqrt();
                 let count = (piece.length_mm() / chord).ceil().max(1.0) as u32;
                 points.extend((1..count).map(|part| {
                     let at = piece.point_at(f64::from(part) / f64::from(count));
-                    planes.point_at(offset, at.u, at.z)
+                    planes.point_at(offset_mm, at.u, at.z)
                 }));
             }
             points.push(print.point_in_mm(step.to));

@@ -13,19 +13,19 @@ const LEVEL: f64 = 1e-7;
 /// The data for making paths in planes; lengths are in mm.
 pub(super) struct PassMaker {
     pub planes: PassPlanes,
-    pub radius: f64,
+    pub radius_mm: f64,
     /// The largest distance of a path from the exact one.
-    pub tolerance: f64,
+    pub tolerance_mm: f64,
     pub arcs: bool,
     /// The height below which the tip never goes.
-    pub floor: f64,
+    pub floor_mm: f64,
 }
 
 /// The passes in one plane, from lower to higher u.
 #[derive(Debug, Clone)]
 pub(super) struct PlaneSlice {
     /// The position of the plane, with the user's sign.
-    pub offset: f64,
+    pub offset_mm: f64,
     /// The line that was followed in the plane; `None` if the mesh in space was followed.
     pub ground: Option<Chain>,
     /// The paths of the tip.
@@ -36,29 +36,31 @@ impl PassMaker {
     /// Makes the paths over a profile.
     pub fn tips_over_profile(&self, profile: &Chain) -> Vec<Chain> {
         let upward = if profile.start().u <= profile.end().u { profile.clone() } else { profile.reversed() };
-        let Ok(tip) = compensate_profile(&upward, self.radius) else { return Vec::new() };
-        self.simplify_tips(chain_cutting::cut_chain(&tip, &[], self.floor, |at| at.z >= self.floor - LEVEL))
+        let Ok(tip) = compensate_profile(&upward, self.radius_mm) else { return Vec::new() };
+        self.simplify_tips(chain_cutting::cut_chain(&tip, &[], self.floor_mm, |at| {
+            at.z >= self.floor_mm - LEVEL
+        }))
     }
 
     /// Makes the slice of a mesh from its line in the plane alone.
-    pub fn slice_in_plane(&self, sections: &VerticalMeshSections, offset: f64) -> PlaneSlice {
+    pub fn slice_in_plane(&self, sections: &VerticalMeshSections, offset_mm: f64) -> PlaneSlice {
         // The holes are bridged far below, so that one envelope covers the whole plane.
-        let stretches = self.section_chains(sections, offset);
-        let Some(ground) = bridge_holes(&stretches, self.radius) else {
-            return PlaneSlice { offset, ground: None, tips: Vec::new() };
+        let stretches = self.section_chains(sections, offset_mm);
+        let Some(ground) = bridge_holes(&stretches, self.radius_mm) else {
+            return PlaneSlice { offset_mm, ground: None, tips: Vec::new() };
         };
         let ranges = self.find_tip_ranges(&stretches);
-        let tips = compensate_profile(&ground, self.radius).map_or(Vec::new(), |tip| {
+        let tips = compensate_profile(&ground, self.radius_mm).map_or(Vec::new(), |tip| {
             let ends: Vec<f64> = ranges.iter().flat_map(|(from, to)| [*from, *to]).collect();
             // Between two parts of the line, what is further than the ball goes for each of them is left out.
             let upright = if ranges.len() > 1 { ends.as_slice() } else { &[] };
             let inside =
                 |u: f64| ranges.len() < 2 || ranges.iter().any(|(from, to)| (*from..=*to).contains(&u));
-            chain_cutting::cut_chain(&tip, upright, self.floor, |at| {
-                at.z >= self.floor - LEVEL && inside(at.u)
+            chain_cutting::cut_chain(&tip, upright, self.floor_mm, |at| {
+                at.z >= self.floor_mm - LEVEL && inside(at.u)
             })
         });
-        PlaneSlice { offset, ground: Some(ground), tips: self.simplify_tips(tips) }
+        PlaneSlice { offset_mm, ground: Some(ground), tips: self.simplify_tips(tips) }
     }
 
     /// Makes the slice of a mesh with heights over the whole mesh.
@@ -66,40 +68,44 @@ impl PassMaker {
         &self,
         sections: &VerticalMeshSections,
         cutter: &DropCutter,
-        offset: f64,
+        offset_mm: f64,
     ) -> PlaneSlice {
         let mut tips = Vec::new();
         // Fitting arcs needs most of the tolerance, so the path itself gets a quarter of it.
         let share = if self.arcs { 0.25 } else { 1.0 };
-        for (from, to) in self.find_tip_ranges(&self.section_chains(sections, offset)) {
+        for (from, to) in self.find_tip_ranges(&self.section_chains(sections, offset_mm)) {
             let ends = [from, to].map(|u| {
-                let [x, y, _] = self.planes.point_at(offset, u, 0.0);
+                let [x, y, _] = self.planes.point_at(offset_mm, u, 0.0);
                 [x, y]
             });
             // A path over a mesh stays within three quarters of the tolerance that it is given, so it may get
             // a little more.
-            for run in cutter.follow_line(&ends, self.tolerance * share * 1.25) {
+            for run in cutter.follow_line(&ends, self.tolerance_mm * share * 1.25) {
                 let flat: Vec<Point> = run
                     .iter()
                     .map(|[x, y, z]| Point::new(self.planes.distance_along([*x, *y]), *z))
                     .collect();
                 let Ok(tip) = Chain::from_points(&flat) else { continue };
-                tips.extend(chain_cutting::cut_chain(&tip, &[], self.floor, |at| at.z >= self.floor - LEVEL));
+                tips.extend(chain_cutting::cut_chain(&tip, &[], self.floor_mm, |at| {
+                    at.z >= self.floor_mm - LEVEL
+                }));
             }
         }
         if self.arcs {
             tips = tips
                 .iter()
-                .filter_map(|tip| fit_chords(tip, self.tolerance * (1.0 - share), true, ChordSide::Both).ok())
+                .filter_map(|tip| {
+                    fit_chords(tip, self.tolerance_mm * (1.0 - share), true, ChordSide::Both).ok()
+                })
                 .collect();
         }
-        PlaneSlice { offset, ground: None, tips }
+        PlaneSlice { offset_mm, ground: None, tips }
     }
 
     /// Replaces tip paths by few chords and arcs within the tolerance.
     fn simplify_tips(&self, tips: Vec<Chain>) -> Vec<Chain> {
         tips.iter()
-            .filter_map(|tip| fit_chords(tip, self.tolerance, self.arcs, ChordSide::Both).ok())
+            .filter_map(|tip| fit_chords(tip, self.tolerance_mm, self.arcs, ChordSide::Both).ok())
             .collect()
     }
 
@@ -117,7 +123,7 @@ impl PassMaker {
     fn find_tip_ranges(&self, stretches: &[Chain]) -> Vec<(f64, f64)> {
         let mut ranges: Vec<(f64, f64)> = Vec::new();
         for stretch in stretches {
-            let Ok(tip) = compensate_profile(stretch, self.radius) else { continue };
+            let Ok(tip) = compensate_profile(stretch, self.radius_mm) else { continue };
             let (from, to) = (tip.start().u.min(tip.end().u), tip.start().u.max(tip.end().u));
             match ranges.last_mut().filter(|last| from <= last.1) {
                 Some(last) => last.1 = last.1.max(to),

@@ -21,7 +21,7 @@ pub struct SectionProfile {
     /// The curves; each starts where the one before ends.
     pub curves: Vec<ProfileCurve>,
     /// The width over which the profile is swept, if it is given.
-    pub width: Option<f64>,
+    pub width_mm: Option<f64>,
 }
 
 /// The reason why curves do not make a chain.
@@ -38,19 +38,19 @@ pub enum SectionProfileError {
 impl SectionProfile {
     /// Makes a profile that only has straight pieces and arcs.
     pub fn from_chain(chain: &Chain) -> Self {
-        Self { curves: chain.pieces().iter().copied().map(ProfileCurve::Piece).collect(), width: None }
+        Self { curves: chain.pieces().iter().copied().map(ProfileCurve::Piece).collect(), width_mm: None }
     }
 
     /// Converts the profile to a chain in which ellipses and NURBS curves are arcs and chords at most
-    /// `tolerance` (mm) from them.
+    /// `tolerance_mm` from them.
     ///
     /// # Errors
     /// Returns an error if the pieces do not fit together or the tolerance is too small.
-    pub fn to_chain(&self, tolerance: f64) -> Result<Chain, SectionProfileError> {
+    pub fn to_chain(&self, tolerance_mm: f64) -> Result<Chain, SectionProfileError> {
         self.convert_curves(|curve| match curve {
             ProfileCurve::Piece(piece) => Ok(vec![*piece]),
-            ProfileCurve::Ellipse(ellipse) => Ok(to_arcs(ellipse, tolerance)?.pieces().to_vec()),
-            ProfileCurve::Nurbs(nurbs) => Ok(to_arcs(nurbs, tolerance)?.pieces().to_vec()),
+            ProfileCurve::Ellipse(ellipse) => Ok(to_arcs(ellipse, tolerance_mm)?.pieces().to_vec()),
+            ProfileCurve::Nurbs(nurbs) => Ok(to_arcs(nurbs, tolerance_mm)?.pieces().to_vec()),
         })
     }
 
@@ -58,11 +58,11 @@ impl SectionProfile {
     ///
     /// # Errors
     /// Returns the errors of [`SectionProfile::to_chain`].
-    pub fn to_dense_chain(&self, tolerance: f64) -> Result<Chain, SectionProfileError> {
+    pub fn to_dense_chain(&self, tolerance_mm: f64) -> Result<Chain, SectionProfileError> {
         self.convert_curves(|curve| match curve {
             ProfileCurve::Piece(piece) => Ok(vec![*piece]),
-            ProfileCurve::Ellipse(ellipse) => Ok(to_chords(ellipse, tolerance)?.pieces().to_vec()),
-            ProfileCurve::Nurbs(nurbs) => Ok(to_chords(nurbs, tolerance)?.pieces().to_vec()),
+            ProfileCurve::Ellipse(ellipse) => Ok(to_chords(ellipse, tolerance_mm)?.pieces().to_vec()),
+            ProfileCurve::Nurbs(nurbs) => Ok(to_chords(nurbs, tolerance_mm)?.pieces().to_vec()),
         })
     }
 

@@ -26,7 +26,7 @@ pub struct SurfaceProgram {
     /// The number of passes.
     pub passes: usize,
     /// The distance of neighbouring planes, mm; 0 for a single plane.
-    pub spacing: f64,
+    pub spacing_mm: f64,
     /// The parts of a profile that the ball does not touch.
     pub unreached: Vec<UnreachablePart>,
     /// The middle plane: its offset, the part's line in it, and the tip's.
@@ -47,11 +47,11 @@ impl SurfaceProgram {
     }
 
     /// Returns the height of the scallops between passes on level ground, mm.
-    pub fn scallop_height_mm(&self, radius: f64) -> f64 {
+    pub fn scallop_height_mm(&self, radius_mm: f64) -> f64 {
         // Two circles of radius R at the distance s cross R - sqrt(R^2 - (s / 2)^2) above their lowest
         // points.
-        let half = (self.spacing / 2.0).min(radius);
-        radius - (radius * radius - half * half).sqrt()
+        let half = (self.spacing_mm / 2.0).min(radius_mm);
+        radius_mm - (radius_mm * radius_mm - half * half).sqrt()
     }
 }
 
@@ -62,7 +62,7 @@ pub(super) fn draft_program(
     moves: Vec<DraftMove>,
 ) -> ProgramDraft {
     let words = &options.words;
-    let diameter = print.round_length(2.0 * options.radius);
+    let diameter = print.round_length(2.0 * options.radius_mm);
     let named = words.tool_name.clone();
     ProgramDraft {
         name: words.name.clone(),
@@ -71,13 +71,13 @@ pub(super) fn draft_program(
             number: words.tool,
             name: named.unwrap_or_else(|| format!("BALL_D{diameter}")),
             diameter,
-            corner_radius: print.round_length(options.radius),
-            length: print.round_length(TOOL_LENGTH * 2.0 * options.radius),
+            corner_radius: print.round_length(options.radius_mm),
+            length: print.round_length(TOOL_LENGTH * 2.0 * options.radius_mm),
         },
-        spindle: words.spindle,
+        spindle: words.spindle_rpm,
         coolant: words.coolant,
         units: words.units,
-        tolerance: print.round_length(options.tolerance),
+        tolerance: print.round_length(options.tolerance_mm),
         moves,
     }
 }

@@ -17,40 +17,40 @@ const MOST_SAMPLES: f64 = 2e6;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SurfaceProof {
     /// The largest depth of the ball in the part; 0 if it never enters it.
-    pub gouge: f64,
+    pub gouge_mm: f64,
     /// The tip at which this is so.
-    pub gouge_at: [f64; 3],
+    pub gouge_at_mm: [f64; 3],
     /// The largest distance of the ball from touching the part.
-    pub gap: f64,
+    pub gap_mm: f64,
     /// The tip at which this is so.
-    pub gap_at: [f64; 3],
+    pub gap_at_mm: [f64; 3],
     /// By how much the depth may be larger between samples.
-    pub bound: f64,
+    pub bound_mm: f64,
 }
 
 impl SurfaceProof {
     /// Returns the worse gouge and the worse gap of two proofs.
     fn worse_of(self, other: Self) -> Self {
         let mut worse = self;
-        if other.gouge > worse.gouge {
-            (worse.gouge, worse.gouge_at) = (other.gouge, other.gouge_at);
+        if other.gouge_mm > worse.gouge_mm {
+            (worse.gouge_mm, worse.gouge_at_mm) = (other.gouge_mm, other.gouge_at_mm);
         }
-        if other.gap > worse.gap {
-            (worse.gap, worse.gap_at) = (other.gap, other.gap_at);
+        if other.gap_mm > worse.gap_mm {
+            (worse.gap_mm, worse.gap_at_mm) = (other.gap_mm, other.gap_at_mm);
         }
-        worse.bound = worse.bound.max(other.bound);
+        worse.bound_mm = worse.bound_mm.max(other.bound_mm);
         worse
     }
 
     /// Returns whether gouge and gap are within a tolerance, including what the samples may miss.
-    pub fn is_within(&self, tolerance: f64) -> bool {
-        self.gouge + self.bound <= tolerance && self.gap <= tolerance
+    pub fn is_within(&self, tolerance_mm: f64) -> bool {
+        self.gouge_mm + self.bound_mm <= tolerance_mm && self.gap_mm <= tolerance_mm
     }
 }
 
 /// A pass and the line that it is compared with.
 pub(super) struct ProvedPass<'a> {
-    pub offset: f64,
+    pub offset_mm: f64,
     pub track: &'a PassTrack,
     pub ground: Option<&'a Chain>,
 }
@@ -58,8 +58,8 @@ pub(super) struct ProvedPass<'a> {
 /// The data for proving passes.
 pub(super) struct PassProver<'a> {
     pub planes: &'a PassPlanes,
-    pub radius: f64,
-    pub tolerance: f64,
+    pub radius_mm: f64,
+    pub tolerance_mm: f64,
     pub print: ProgramRounding,
     pub space: Option<&'a BallClearanceField>,
 }
@@ -80,39 +80,39 @@ impl PassProver<'_> {
     /// Compares a pass with the line in its plane, by [`check_tip_path`].
     fn prove_in_plane(&self, pass: &ProvedPass<'_>, ground: &Chain) -> Option<SurfaceProof> {
         let tip = pass.track.to_plane_chain(self.planes, self.print)?;
-        let wanted = SHARE * self.tolerance;
+        let wanted = SHARE * self.tolerance_mm;
         let least = (tip.length_mm() + ground.length_mm()) / MOST_SAMPLES;
         // The first step is that of two balls of this radius, 2 step^2 / (8 R) = wanted; curvatures of the
         // part may need a finer one.
-        let mut step = (4.0 * self.radius * wanted).sqrt().min(self.radius / 4.0).max(least);
-        let mut verdict = check_tip_path(ground, &tip, self.radius, step);
-        if verdict.bound > wanted && step > least {
-            step = (step * (wanted / verdict.bound).sqrt()).max(least);
-            verdict = check_tip_path(ground, &tip, self.radius, step);
+        let mut step = (4.0 * self.radius_mm * wanted).sqrt().min(self.radius_mm / 4.0).max(least);
+        let mut verdict = check_tip_path(ground, &tip, self.radius_mm, step);
+        if verdict.bound_mm > wanted && step > least {
+            step = (step * (wanted / verdict.bound_mm).sqrt()).max(least);
+            verdict = check_tip_path(ground, &tip, self.radius_mm, step);
         }
-        let space = |at: crate::surface::profile::Point| self.planes.point_at(pass.offset, at.u, at.z);
+        let space = |at: crate::surface::profile::Point| self.planes.point_at(pass.offset_mm, at.u, at.z);
         Some(SurfaceProof {
-            gouge: verdict.gouge,
-            gouge_at: space(verdict.gouge_at),
-            gap: verdict.gap,
-            gap_at: space(verdict.gap_at),
-            bound: verdict.bound,
+            gouge_mm: verdict.gouge_mm,
+            gouge_at_mm: space(verdict.gouge_at),
+            gap_mm: verdict.gap_mm,
+            gap_at_mm: space(verdict.gap_at),
+            bound_mm: verdict.bound_mm,
         })
     }
 
     /// Compares a pass with the mesh in space, by [`BallClearanceField::measure_clearance`].
     fn prove_in_space(&self, pass: &ProvedPass<'_>, space: &BallClearanceField) -> Option<SurfaceProof> {
-        let bound = SHARE * self.tolerance / 2.0;
+        let bound = SHARE * self.tolerance_mm / 2.0;
         // Half of the error is for the chords of arcs, the other half for the distance of samples, step^2 /
         // (8 R).
-        let points = pass.track.sample_points(self.planes, self.print, pass.offset, bound);
-        let found = space.measure_clearance(&points, (8.0 * self.radius * bound).sqrt())?;
+        let points = pass.track.sample_points(self.planes, self.print, pass.offset_mm, bound);
+        let found = space.measure_clearance(&points, (8.0 * self.radius_mm * bound).sqrt())?;
         Some(SurfaceProof {
-            gouge: (-found.low).max(0.0),
-            gouge_at: found.low_at,
-            gap: found.high.max(0.0),
-            gap_at: found.high_at,
-            bound: 2.0 * bound,
+            gouge_mm: (-found.low_mm).max(0.0),
+            gouge_at_mm: found.low_at_mm,
+            gap_mm: found.high_mm.max(0.0),
+            gap_at_mm: found.high_at_mm,
+            bound_mm: 2.0 * bound,
         })
     }
 }

@@ -11,7 +11,7 @@ use clsmith::layered_chips::{
 use proptest::prelude::*;
 
 fn mill(radius: f64) -> FlatMill {
-    FlatMill { radius, flutes: f64::INFINITY }
+    FlatMill { radius_mm: radius, flute_length_mm: f64::INFINITY }
 }
 
 fn cover_of(mill: FlatMill, piece: &PathPiece, z: f64, tolerance: f64) -> LayerSweptArea {
@@ -135,13 +135,13 @@ fn steps_agree_with_a_dense_union() {
         ),
         (
             "upper end of short flutes",
-            FlatMill { radius: 4.0, flutes: 6.0 },
+            FlatMill { radius_mm: 4.0, flute_length_mm: 6.0 },
             piece(place([0.0; 3], axis(25.0, 10.0)), place([2.0, 1.0, 1.0], axis(35.0, 30.0))),
             5.5,
         ),
         (
             "both ends at once",
-            FlatMill { radius: 8.0, flutes: 2.0 },
+            FlatMill { radius_mm: 8.0, flute_length_mm: 2.0 },
             piece(place([0.0; 3], axis(40.0, 10.0)), place([3.0, 1.0, 1.0], axis(50.0, 30.0))),
             1.5,
         ),
@@ -168,7 +168,7 @@ fn steps_agree_with_a_dense_union() {
 
 #[test]
 fn the_outlines_are_the_sections() {
-    let m = FlatMill { radius: 5.0, flutes: 8.0 };
+    let m = FlatMill { radius_mm: 5.0, flute_length_mm: 8.0 };
     let p = piece(place([0.0; 3], axis(30.0, 20.0)), place([3.0, 1.0, 1.0], axis(45.0, 100.0)));
     for z in [-1.0, 0.5, 3.0, 6.5, 9.0] {
         let cover = cover_of(m, &p, z, 1e-4);
@@ -194,7 +194,7 @@ proptest! {
         z in -2.0..9.0f64,
     ) {
         let p = piece(place([0.0; 3], axis(tilts[0], towards)), place(way, axis(tilts[1], towards + turn)));
-        let m = FlatMill { radius, flutes };
+        let m = FlatMill { radius_mm: radius, flute_length_mm: flutes };
         let step = MillStep::new(m, &p).unwrap();
         let (family, rim) = (SectionFamily::new(&step, z), RimDirections::new(&step, 0.002));
         let diagram = BoundaryDiagram::new(&family);

@@ -10,7 +10,9 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 
 fn family(radius: f64, from: Pose, to: Pose, z: f64) -> SectionFamily {
-    let step = MillStep::new(FlatMill { radius, flutes: f64::INFINITY }, &piece(from, to)).unwrap();
+    let step =
+        MillStep::new(FlatMill { radius_mm: radius, flute_length_mm: f64::INFINITY }, &piece(from, to))
+            .unwrap();
     SectionFamily::new(&step, z)
 }
 
@@ -105,13 +107,17 @@ fn turning_about_the_tip_from_upright_is_told_apart() {
 #[test]
 fn what_cannot_be_modelled_is_refused() {
     let up = place([0.0; 3], [0.0, 0.0, 1.0]);
-    let mill = FlatMill { radius: 5.0, flutes: 10.0 };
+    let mill = FlatMill { radius_mm: 5.0, flute_length_mm: 10.0 };
     let refuse = |mill: FlatMill, from: Pose, to: Pose| {
         MillStep::new(mill, &PathPiece { from, to, cutter: 0 }).unwrap_err()
     };
     assert_eq!(refuse(mill, up, up), MillStepError::Still);
     assert_eq!(
-        refuse(FlatMill { radius: 0.0, flutes: 1.0 }, up, place([1.0, 0.0, 0.0], [0.0, 0.0, 1.0])),
+        refuse(
+            FlatMill { radius_mm: 0.0, flute_length_mm: 1.0 },
+            up,
+            place([1.0, 0.0, 0.0], [0.0, 0.0, 1.0])
+        ),
         MillStepError::NoCutter
     );
     assert!(matches!(refuse(mill, up, place([1.0, 0.0, 0.0], axis(85.0, 0.0))), MillStepError::Tilt { .. }));

@@ -7,7 +7,7 @@ use clsmith::layered_chips::{FlatMill, LayerStack, cut_chips, measure_engagement
 use clsmith::stock::Stock;
 use proptest::prelude::*;
 
-const MILL: FlatMill = FlatMill { radius: 5.0, flutes: 30.0 };
+const MILL: FlatMill = FlatMill { radius_mm: 5.0, flute_length_mm: 30.0 };
 const TOLERANCE: f64 = 0.001;
 
 fn engaged(stock: &Stock, layer: f64, pieces: &[PathPiece]) -> Vec<Engagement> {
@@ -78,14 +78,14 @@ fn a_side_cut_has_the_share_of_its_entry() {
     assert!(bound(found) >= 0.8 && bound(found) < 0.815, "{}", bound(found));
     let directions = directions(found);
     assert!(directions.iter().all(|at| (36.8 - 1.5..=91.5).contains(at)), "{directions:?}");
-    let [right, left] = found.lateral;
+    let [right, left] = found.lateral_mm;
     near(right, 3.0, 2e-3);
     near(left, 5.0, 2e-3);
     // From the right, the same mirrored.
     let stock = block([0.0, -30.0, -4.0], [60.0, -3.0, 0.0]);
     let mirrored = &engaged(&stock, 1.0, &straight())[1];
     near(mirrored.max_advance_ratio(), 0.8, 2e-3);
-    assert!(mirrored.lateral[1] < -2.9);
+    assert!(mirrored.lateral_mm[1] < -2.9);
 }
 
 #[test]
@@ -124,12 +124,12 @@ fn a_wall_that_is_cut_again_is_air() {
 
 /// A share whose entry is two diagonals of cells of 0.1 mm further out: the cosine of an angle whose sine is so much less.
 fn moved(share: f64) -> f64 {
-    let side = (1.0 - share * share).max(0.0).sqrt() - 0.3 / MILL.radius;
+    let side = (1.0 - share * share).max(0.0).sqrt() - 0.3 / MILL.radius_mm;
     share.max((1.0 - side.max(0.0).powi(2)).sqrt().min(1.0))
 }
 
 fn by_dexels(stock: &Stock, pieces: &[PathPiece], cell: f64) -> Vec<Engagement> {
-    let profile = Meridian::new(2.0 * MILL.radius, 0.0, 0.0, 0.0, MILL.flutes).unwrap();
+    let profile = Meridian::new(2.0 * MILL.radius_mm, 0.0, 0.0, 0.0, MILL.flute_length_mm).unwrap();
     let cutter = CutterModel { profile, collars: Vec::new(), teeth: None };
     Simulation::new(stock.to_dexels(cell, usize::MAX).unwrap(), false).sweep_pieces(pieces, &[cutter])
 }
@@ -191,7 +191,7 @@ fn by_places(stock: ([f64; 3], [f64; 3]), pieces: &[PathPiece; 2], length: f64, 
     let inside = |place: &Vector3<f64>, (tip, axis): &(Vector3<f64>, Vector3<f64>)| {
         let here = place - tip;
         let height = here.dot(axis);
-        (0.0..=MILL.flutes).contains(&height) && (here - axis * height).norm() <= MILL.radius
+        (0.0..=MILL.flute_length_mm).contains(&height) && (here - axis * height).norm() <= MILL.radius_mm
     };
     let [before, now] = [poses(&pieces[0]), poses(&pieces[1])];
     let (low, high) = stock;
@@ -215,7 +215,7 @@ fn by_places(stock: ([f64; 3], [f64; 3]), pieces: &[PathPiece; 2], length: f64, 
         let out = |(tip, axis): (Vector3<f64>, Vector3<f64>)| {
             let here = place - tip;
             let height = here.dot(&axis);
-            ((here - axis * height).norm() - MILL.radius).max(-height)
+            ((here - axis * height).norm() - MILL.radius_mm).max(-height)
         };
         let share = (out(was) - out(is)) * TIMES as f64 / length;
         most = most.max(share);

@@ -44,13 +44,13 @@ pub fn section(mill: &FlatMill, place: &Pose, z: f64) -> Vec<[f64; 2]> {
         // A polygon of the same area as the circle.
         let grown =
             (std::f64::consts::TAU / CORNERS as f64 / (std::f64::consts::TAU / CORNERS as f64).sin()).sqrt();
-        let line = place.point + (u * angle.cos() + v * angle.sin()) * (mill.radius * grown);
+        let line = place.point + (u * angle.cos() + v * angle.sin()) * (mill.radius_mm * grown);
         line + a * ((z - line.z) / a.z)
     };
     let mut corners: Vec<Point3<f64>> = (0..CORNERS).map(corner).collect();
     corners = half_plane(&corners, |p| (p - place.point).dot(&a));
-    if mill.flutes.is_finite() {
-        corners = half_plane(&corners, |p| mill.flutes - (p - place.point).dot(&a));
+    if mill.flute_length_mm.is_finite() {
+        corners = half_plane(&corners, |p| mill.flute_length_mm - (p - place.point).dot(&a));
     }
     corners.into_iter().map(|p| [p.x, p.y]).collect()
 }

@@ -11,8 +11,8 @@ use proptest::prelude::*;
 fn chip(layers: Vec<(f64, f64, Vec<Polygon>)>) -> Chip {
     let layer = |(number, (z, thickness, pieces)): (usize, (f64, f64, Vec<Polygon>))| LayerChip {
         layer: number,
-        z,
-        thickness,
+        z_mm: z,
+        thickness_mm: thickness,
         area_mm2: pieces.iter().map(Polygon::area_mm2).sum(),
         inside_mm2: 0.0,
         pieces,

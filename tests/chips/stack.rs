@@ -79,8 +79,13 @@ fn what_has_no_layers_is_refused_with_the_reason() {
     let part = SolidBody::Mesh(Arc::new(mesh(&cube([0.0; 3], [1.0; 3]))));
     assert_eq!(refused(vec![unit(), part.clone()], 0.5, 1.0), LayerStackError::Allowance { allowance: 0.5 });
     assert!(stack_of(vec![part], 0.0, 1.0).is_ok());
-    let mut dexels =
-        Dexels::with_empty_columns(DexelGrid { origin: [0.0; 2], base: 0.0, cell: 1.0, columns: 1, rows: 1 });
+    let mut dexels = Dexels::with_empty_columns(DexelGrid {
+        origin_mm: [0.0; 2],
+        base_mm: 0.0,
+        cell_mm: 1.0,
+        columns: 1,
+        rows: 1,
+    });
     dexels.set_column(0, 0, &[[0.0, 1.0]]);
     let remains = SolidBody::Remains(Arc::new(dexels));
     assert_eq!(refused(vec![remains], 0.0, 1.0), LayerStackError::Remains);

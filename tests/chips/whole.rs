@@ -7,7 +7,7 @@ use clsmith::layered_chips::{Chip, FlatMill, LayerStack, MillStepError, cut_chip
 use clsmith::stock::{Dexels, Stock};
 use proptest::prelude::*;
 
-const MILL: FlatMill = FlatMill { radius: 5.0, flutes: 30.0 };
+const MILL: FlatMill = FlatMill { radius_mm: 5.0, flute_length_mm: 30.0 };
 
 fn chips(stock: &Stock, layer: f64, pieces: &[PathPiece]) -> (LayerStack, Vec<Result<Chip, MillStepError>>) {
     let mut stack = LayerStack::new(stock, layer).unwrap();
@@ -125,7 +125,7 @@ fn a_wall_between_two_places_of_the_edge_is_not_engaged() {
 #[test]
 fn an_edge_that_has_left_the_layer_is_not_engaged() {
     // Up along a tilted axis, with flutes of 1 mm: at the end they are far above.
-    let mill = FlatMill { radius: 5.0, flutes: 1.0 };
+    let mill = FlatMill { radius_mm: 5.0, flute_length_mm: 1.0 };
     let mut stack = LayerStack::new(&block([-30.0, -30.0, -4.0], [30.0, 30.0, 0.0]), 2.0).unwrap();
     let way = piece(place([0.0, 0.0, -4.0], axis(20.0, 0.0)), place([20.0, 0.0, 50.0], axis(20.0, 0.0)));
     for chip in cut_chips(&mut stack, &[mill], &[way], 0.001) {
@@ -156,7 +156,7 @@ fn a_bottom_at_a_layers_height_leaves_it_alone() {
 
 #[test]
 fn a_thin_disc_that_swings_through_a_layer_is_cut_soon() {
-    let mill = FlatMill { radius: 10.0, flutes: 1.0 };
+    let mill = FlatMill { radius_mm: 10.0, flute_length_mm: 1.0 };
     let mut stack = LayerStack::new(&block([-30.0, -30.0, -4.0], [30.0, 30.0, -3.0]), 1.0).unwrap();
     let from = place([5.3035, -0.1236, -6.8933], [0.3797, -0.0545, 0.9235]);
     let to = place([6.9967, -1.3920, -5.1990], [0.2005, -0.2829, 0.9379]);
@@ -203,7 +203,8 @@ fn results_do_not_depend_on_threads() {
 
 /// Volumes of the same pieces by dexels, and how far half a cell along all borders may make them wrong.
 fn by_dexels(stock: &Stock, pieces: &[PathPiece], cell: f64) -> Vec<f64> {
-    let profile = clsmith::cutter::Meridian::new(2.0 * MILL.radius, 0.0, 0.0, 0.0, MILL.flutes).unwrap();
+    let profile =
+        clsmith::cutter::Meridian::new(2.0 * MILL.radius_mm, 0.0, 0.0, 0.0, MILL.flute_length_mm).unwrap();
     let cutter = clsmith::cutter::CutterModel { profile, collars: Vec::new(), teeth: None };
     let dexels: Dexels = stock.to_dexels(cell, usize::MAX).unwrap();
     let mut simulation = Simulation::new(dexels, false);
@@ -232,7 +233,7 @@ proptest! {
             let volume = chip.as_ref().unwrap().volume_mm3();
             // Columns sample a border to half a cell, layers a slope to half a layer; both errors mostly cancel around the chip. The chip's
             // surface is at most that of both ends' sections and the swept sides.
-            let surface = 2.0 * (2.0 * MILL.radius + 25.0) * 9.0;
+            let surface = 2.0 * (2.0 * MILL.radius_mm + 25.0) * 9.0;
             let bound = 0.05 * 0.5 * (cell + layer) * surface + 0.02 * volume;
             prop_assert!((volume - dexels).abs() <= bound, "{volume} {dexels} bound {bound}");
         }

@@ -24,9 +24,9 @@ fn a_full_slot_has_share_one_over_the_whole_front() {
     let found = pass((2.0 * R, 0.0, 0.0, 0.0), 0.0, -3.0);
     near(found.max_advance_ratio(), 1.0, 1e-6);
     near(found.removed_mm3, 10.0 * 2.0 * R * 3.0, 10.0 * 3.0 * CELL);
-    near(found.lateral[0], -R, CELL);
-    near(found.lateral[1], R, CELL);
-    near(found.height[1], 3.0, 1e-4);
+    near(found.lateral_mm[0], -R, CELL);
+    near(found.lateral_mm[1], R, CELL);
+    near(found.height_mm[1], 3.0, 1e-4);
     let engaged: Vec<usize> = (0..found.bins.len()).filter(|bin| found.bins[*bin].is_engaged()).collect();
     assert!(engaged.iter().all(|bin| (29..=90).contains(bin)), "the front half: {engaged:?}");
     assert!(engaged.len() >= 58, "{engaged:?}");
@@ -51,7 +51,7 @@ fn radial_depths_from_a_twentieth_to_the_whole_diameter() {
             let bound = found.bins.iter().map(|bin| bin.share_bound).fold(0.0, f32::max);
             assert!(f64::from(bound) >= classic(depth) - 1e-6, "the bound holds");
             near(found.removed_mm3, 10.0 * depth * 3.0, 10.0 * 3.0 * CELL);
-            let [right, left] = found.lateral;
+            let [right, left] = found.lateral_mm;
             let wanted = if side > 0.0 { [-R, -R + depth] } else { [R - depth, R] };
             near(right, wanted[0], CELL);
             near(left, wanted[1], CELL);
@@ -65,7 +65,7 @@ fn shallow_bull_and_ball_cut_by_the_axial_immersion() {
         let found = pass((2.0 * R, corner, 0.0, 0.0), 0.0, -depth);
         let kappa = (1.0 - depth / corner).acos();
         near(found.max_advance_ratio(), kappa.sin(), 2e-3);
-        near(found.height[1], depth, 1e-3);
+        near(found.height_mm[1], depth, 1e-3);
     }
 }
 
@@ -285,7 +285,7 @@ fn the_largest_share_is_found_without_detail() {
         for (close, lean) in with(true).iter().zip(with(false)) {
             near(lean.removed_mm3, close.removed_mm3, 1e-6 * close.removed_mm3);
             near(lean.max_advance_ratio(), close.max_advance_ratio(), 0.01);
-            assert_eq!(lean.lateral, close.lateral);
+            assert_eq!(lean.lateral_mm, close.lateral_mm);
         }
     }
 }

@@ -199,9 +199,9 @@ fn hardly_tilted_is_straight() {
             let (two, also) = run(cube(0.25), &tool, &nearly);
             near(also[0].removed_mm3, found[0].removed_mm3, 2e-3 * found[0].removed_mm3);
             near(also[0].max_advance_ratio(), found[0].max_advance_ratio(), 0.02);
-            near(also[0].lateral[0], found[0].lateral[0], 0.13);
-            near(also[0].lateral[1], found[0].lateral[1], 0.13);
-            near(also[0].height[1], found[0].height[1], 0.05);
+            near(also[0].lateral_mm[0], found[0].lateral_mm[0], 0.13);
+            near(also[0].lateral_mm[1], found[0].lateral_mm[1], 0.13);
+            near(also[0].height_mm[1], found[0].height_mm[1], 0.05);
             // Straight also looks ahead of its end, so it knows of a sliver wherever the tilted sweep does.
             assert!(found[0].graze > 0.0 || also[0].graze == 0.0);
             near(one.volume_mm3(), two.volume_mm3(), 2e-3 * found[0].removed_mm3);

@@ -123,8 +123,8 @@ fn collars_in_material_are_told() {
     let mut tool = cutter(6.0, 3.0, 0.0, 0.0);
     tool.profile = Meridian::new(6.0, 3.0, 0.0, 0.0, 12.0).unwrap();
     tool.collars = vec![
-        NonCuttingCylinder { kind: NonCuttingKind::Shank, radius: 2.5, from: 12.0, to: 30.0 },
-        NonCuttingCylinder { kind: NonCuttingKind::Holder, radius: 10.0, from: 30.0, to: 60.0 },
+        NonCuttingCylinder { kind: NonCuttingKind::Shank, radius_mm: 2.5, from_mm: 12.0, to_mm: 30.0 },
+        NonCuttingCylinder { kind: NonCuttingKind::Holder, radius_mm: 10.0, from_mm: 30.0, to_mm: 60.0 },
     ];
     let axis = leaning(60.0, 0.0);
     let piece = |tip: [f64; 3]| PathPiece {

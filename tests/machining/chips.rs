@@ -186,7 +186,8 @@ fn real(end: &str, tool: &str, units: LengthUnit, lines: usize) {
     let setup = Setup::load(&support::text(setup)).unwrap();
     let machining = Machining::new(&parsed.program, &setup, units, &mut Vec::new()).unwrap();
     let height = (bounds[1][2] - bounds[0][2]).max(1.0);
-    let options = LayerRunOptions { lines: 1..=lines, tolerance: 0.02, ..LayerRunOptions::new(height / 4.0) };
+    let options =
+        LayerRunOptions { lines: 1..=lines, tolerance_mm: 0.02, ..LayerRunOptions::new(height / 4.0) };
     let (mut cutting, mut refused, mut removed) = (0, 0, 0.0);
     let ran = machining.simulate_layers(&options, &SilentWatcher, &mut |cut| {
         let volume = cut.volume_mm3();
@@ -196,7 +197,7 @@ fn real(end: &str, tool: &str, units: LengthUnit, lines: usize) {
             let borders =
                 layer.pieces.iter().flat_map(|piece| std::iter::once(&piece.outer).chain(&piece.holes));
             assert!(borders.flatten().flatten().all(|at| at.is_finite()));
-            removed += (layer.area_mm2 + layer.inside_mm2) * layer.thickness;
+            removed += (layer.area_mm2 + layer.inside_mm2) * layer.thickness_mm;
         }
         cutting += usize::from(volume > 0.0);
         refused += usize::from(cut.first_refusal().is_some());
@@ -227,7 +228,7 @@ fn the_options_of_the_simulation_stay_apart() {
     let before = chips();
     machining
         .simulate_program(
-            &SimulationRunOptions { cell: Some(0.5), ..SimulationRunOptions::default() },
+            &SimulationRunOptions { cell_mm: Some(0.5), ..SimulationRunOptions::default() },
             &SilentWatcher,
             &mut |_| {},
         )

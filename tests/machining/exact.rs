@@ -24,7 +24,7 @@ fn compare(corner: f64, y: f64, z: f64, rise: f64, teeth: &Teeth) {
         spindle: SpindleDirection::Clockwise,
     };
     let height = (-z).max(-(z + rise));
-    let fineness = ToothSampling { looks: 60, points: 61, height: height * 0.999, tolerance: 1e-5 };
+    let fineness = ToothSampling { looks: 60, points: 61, height_mm: height * 0.999, tolerance_mm: 1e-5 };
     let inside = |point: Point3<f64>| {
         point.x > 0.0 && point.y.abs() < 30.0 && point.z < 0.0 && {
             // What the way to the start of the motion has already taken.
@@ -34,7 +34,7 @@ fn compare(corner: f64, y: f64, z: f64, rise: f64, teeth: &Teeth) {
             side > 5.0 || point.z < tip + profile.height_at_radius_mm(side)
         }
     };
-    let exact = measure_exact_chips(&profile, teeth, &motion, fineness, inside).largest;
+    let exact = measure_exact_chips(&profile, teeth, &motion, fineness, inside).largest_mm;
     let what =
         format!("corner {corner}, y {y}, z {z}, rise {rise}: exact {exact}, fast {fast}, bound {bound}");
     assert!(exact <= bound * 1.01 + 1e-5, "{what}");

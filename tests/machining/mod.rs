@@ -31,7 +31,7 @@ pub fn machine(text: &str, setup: &str, cell: f64) -> (Vec<Engagement>, DexelRun
     try_machine(
         text,
         setup,
-        SimulationRunOptions { cell: Some(cell), forces: true, ..SimulationRunOptions::default() },
+        SimulationRunOptions { cell_mm: Some(cell), forces: true, ..SimulationRunOptions::default() },
     )
     .unwrap()
 }

@@ -142,7 +142,7 @@ fn too_much_is_refused_before_it_begins() {
         try_machine(
             &text,
             SETUP,
-            SimulationRunOptions { cell: Some(cell), ..SimulationRunOptions::default() },
+            SimulationRunOptions { cell_mm: Some(cell), ..SimulationRunOptions::default() },
         )
     };
     assert_eq!(with(0.0005).unwrap_err()[0].code.id(), "CL0514");

@@ -56,7 +56,7 @@ fn a_slot_has_its_areas_volumes_engagement_and_chip() {
     let found = slot(ChipReportOptions::default());
     // From outside to x 20: a rectangle and half a disc.
     let first = row(&found, 12);
-    assert_eq!(first.layers.iter().map(|layer| layer.z).collect::<Vec<_>>(), [-1.5, -0.5]);
+    assert_eq!(first.layers.iter().map(|layer| layer.z_mm).collect::<Vec<_>>(), [-1.5, -0.5]);
     for layer in &first.layers {
         close(Some(layer.area_mm2), 20.0 * 10.0 + PI * 12.5, 0.05);
         close(layer.chip_thickness_mm, 800.0 / (4000.0 * 4.0), 1e-6);
@@ -183,7 +183,7 @@ fn the_number_of_threads_changes_no_byte() {
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let found = slot(ChipReportOptions { borders: true, scenes: 2, at: None });
+            let found = slot(ChipReportOptions { borders: true, scenes: 2, at_z_mm: None });
             let mut stl = Vec::new();
             write_stl(&found, &mut stl).unwrap();
             (
@@ -219,7 +219,7 @@ fn the_solid_has_the_chip_s_volume() {
 
 #[test]
 fn pictures_show_moves_and_layers() {
-    let found = slot(ChipReportOptions { borders: false, scenes: 3, at: None });
+    let found = slot(ChipReportOptions { borders: false, scenes: 3, at_z_mm: None });
     assert_eq!(found.scenes.iter().map(|scene| scene.line).collect::<Vec<_>>(), [12, 13, 14]);
     let drawn = draw_layers(&found, None).unwrap();
     for title in ["line 12, z -0.5", "line 14, z -1.5", "workpiece after the move"] {
@@ -230,6 +230,6 @@ fn pictures_show_moves_and_layers() {
     let diagrams = draw_diagrams(&found, Some(-1.2)).unwrap();
     assert!(diagrams.contains("line 13, z -1.5") && diagrams.contains("advances"));
     // Nothing is cut at this height.
-    let nothing = slot(ChipReportOptions { borders: false, scenes: 3, at: Some(-5.0) });
+    let nothing = slot(ChipReportOptions { borders: false, scenes: 3, at_z_mm: Some(-5.0) });
     assert!(nothing.scenes.is_empty());
 }

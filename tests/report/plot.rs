@@ -15,7 +15,7 @@ fn drawn(quantities: &[PlotQuantity], along: PlotAbscissa) -> String {
             name,
             program,
             units: LengthUnit::Mm,
-            rapid_feed: Some(10_000.0),
+            rapid_feed_mm_min: Some(10_000.0),
             simulated: Some(simulated),
         })
         .collect();

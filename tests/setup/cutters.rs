@@ -40,7 +40,10 @@ fn a_drill_of_nx_has_a_point_angle_and_flutes_below_a_shank() {
     close(profile.height_at_radius_mm(5.0), 5.0 * 31_f64.to_radians().tan());
     close(profile.height_mm(), 35.0);
     let [shank] = found.cutter.collars.as_slice() else { panic!() };
-    assert_eq!((shank.kind, shank.radius, shank.from, shank.to), (NonCuttingKind::Shank, 5.0, 35.0, 50.0));
+    assert_eq!(
+        (shank.kind, shank.radius_mm, shank.from_mm, shank.to_mm),
+        (NonCuttingKind::Shank, 5.0, 35.0, 50.0)
+    );
     assert_eq!(found.assumptions.len(), 2, "{:?}", found.assumptions);
 }
 
@@ -80,9 +83,9 @@ fn an_entry_overrides_what_the_file_says_and_leaves_the_rest() {
     assert!(found.assumptions.is_empty(), "{:?}", found.assumptions);
     assert_eq!(found.cutter.teeth.as_ref().unwrap().count(), 4);
     let [shank, holder] = found.cutter.collars.as_slice() else { panic!() };
-    assert_eq!((shank.radius, shank.from, shank.to), (5.5, 20.0, 45.0));
+    assert_eq!((shank.radius_mm, shank.from_mm, shank.to_mm), (5.5, 20.0, 45.0));
     assert_eq!(
-        (holder.kind, holder.radius, holder.from, holder.to),
+        (holder.kind, holder.radius_mm, holder.from_mm, holder.to_mm),
         (NonCuttingKind::Holder, 16.0, 45.0, 105.0)
     );
 }
@@ -96,7 +99,7 @@ fn an_entry_is_enough_where_the_file_says_nothing() {
     assert_eq!(found.cutter.profile.bottom_radius_mm(), 0.0);
     close(found.cutter.flute_length_mm(), 24.0);
     let [holder] = found.cutter.collars.as_slice() else { panic!() };
-    close(holder.from, 24.0);
+    close(holder.from_mm, 24.0);
     // A lathe's tool that the setup describes as a cutter is one.
     let lathe = tool("TLDATA/TURN,1.0,0.4\nGOTO/0,0,0\n");
     assert!(setup.resolve_cutter(&lathe, MM).is_ok());
@@ -110,7 +113,7 @@ fn inches_of_the_file_and_millimetres_of_the_setup_meet() {
     close(found.cutter.radius_mm(), 6.35);
     close(found.cutter.profile.corner_radius_mm(), 3.175);
     close(found.cutter.flute_length_mm(), 20.0);
-    close(found.cutter.collars[0].to, 76.2);
+    close(found.cutter.collars[0].to_mm, 76.2);
 }
 
 #[test]

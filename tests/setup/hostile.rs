@@ -134,7 +134,7 @@ fn survive(text: &str) -> Result<(), TestCaseError> {
                 match setup.resolve_cutter(&tool, units) {
                     Ok(found) => {
                         prop_assert!(found.cutter.radius_mm().is_finite() && found.cutter.radius_mm() > 0.0);
-                        prop_assert!(found.cutter.collars.iter().all(|collar| collar.to > collar.from));
+                        prop_assert!(found.cutter.collars.iter().all(|collar| collar.to_mm > collar.from_mm));
                     }
                     Err(gap) => prop_assert!(!gap.diagnostic(&source, Default::default()).message.is_empty()),
                 }

@@ -41,10 +41,10 @@ fn tools_come_one_list_after_the_other_and_the_first_that_fits_counts() {
     let setup = near.override_base(far);
     let number = |number| named_tool(number, None);
     let first = setup.find_tool_entry(&number(Some(1))).unwrap();
-    close(first.diameter.unwrap(), 10.0);
+    close(first.diameter_mm.unwrap(), 10.0);
     assert!(first.teeth.is_none(), "entries are not mixed");
-    close(setup.find_tool_entry(&number(Some(2))).unwrap().diameter.unwrap(), 30.0);
-    close(setup.find_tool_entry(&number(None)).unwrap().diameter.unwrap(), 30.0);
+    close(setup.find_tool_entry(&number(Some(2))).unwrap().diameter_mm.unwrap(), 30.0);
+    close(setup.find_tool_entry(&number(None)).unwrap().diameter_mm.unwrap(), 30.0);
 }
 
 #[test]

@@ -74,14 +74,14 @@ fn a_tool_entry_in_inches_is_in_millimetres_and_radians() {
          0.1\n    taper: 3\n    tip: 10\n    flute_length: 2\n    shank: { diameter: 0.5, length: 3 }\n    holder: { \
          diameter: 2, length: 4 }\n    insert: { height: 0.2, radius: 0.3 }\n";
     let entry = &good(text).tools[0];
-    close(entry.diameter.unwrap(), 25.4);
-    close(entry.corner_radius.unwrap(), 2.54);
-    close(entry.flute_length.unwrap(), 50.8);
-    close(entry.taper.unwrap(), 3_f64.to_radians());
-    close(entry.tip.unwrap(), 10_f64.to_radians());
-    assert_eq!(entry.shank, Some(ToolCylinder { diameter: 12.7, length: 76.19999999999999 }));
-    assert_eq!(entry.holder, Some(ToolCylinder { diameter: 50.8, length: 101.6 }));
-    let Some(CutterInsert { height, radius }) = entry.insert else { panic!() };
+    close(entry.diameter_mm.unwrap(), 25.4);
+    close(entry.corner_radius_mm.unwrap(), 2.54);
+    close(entry.flute_length_mm.unwrap(), 50.8);
+    close(entry.taper_rad.unwrap(), 3_f64.to_radians());
+    close(entry.tip_rad.unwrap(), 10_f64.to_radians());
+    assert_eq!(entry.shank, Some(ToolCylinder { diameter_mm: 12.7, length_mm: 76.19999999999999 }));
+    assert_eq!(entry.holder, Some(ToolCylinder { diameter_mm: 50.8, length_mm: 101.6 }));
+    let Some(CutterInsert { height_mm: height, radius_mm: radius }) = entry.insert else { panic!() };
     close(height, 5.08);
     close(radius, 7.62);
 }
@@ -89,8 +89,8 @@ fn a_tool_entry_in_inches_is_in_millimetres_and_radians() {
 #[test]
 fn a_point_angle_is_the_angle_of_the_bottom_otherwise_said() {
     let entry = &good("tools: [ { match: {}, point: 118 } ]").tools[0];
-    close(entry.tip.unwrap(), 31_f64.to_radians());
-    close(good("tools: [ { match: {}, point: 180 } ]").tools[0].tip.unwrap(), 0.0);
+    close(entry.tip_rad.unwrap(), 31_f64.to_radians());
+    close(good("tools: [ { match: {}, point: 180 } ]").tools[0].tip_rad.unwrap(), 0.0);
 }
 
 #[test]
@@ -98,7 +98,7 @@ fn a_recipe_says_the_same_under_setup() {
     let text = "version: 1\nunits: inch\nsetup: { stock: { stl: part.stl }, tools: [ { match: {}, diameter: 1 } ] }\nsteps: []\n";
     let source = clsmith::source::Source::new("jobs/recipe.yaml", text.as_bytes().to_vec()).unwrap();
     let recipe = clsmith::transform::Recipe::load(&source).unwrap();
-    close(recipe.setup.tools[0].diameter.unwrap(), 25.4);
+    close(recipe.setup.tools[0].diameter_mm.unwrap(), 25.4);
     let StockBodyShape::Stl { file, .. } = &recipe.setup.stock.as_ref().unwrap().bodies[0].shape else {
         panic!()
     };

@@ -51,5 +51,5 @@ fn a_list_of_runout_is_of_each_tooth_and_in_the_files_unit() {
         close(*offset, wanted);
     }
     close(found.pitch_angles_rad()[0], FRAC_PI_2);
-    close(found.helix, -9_f64.to_radians());
+    close(found.helix_rad, -9_f64.to_radians());
 }

@@ -76,7 +76,7 @@ fn cylinders_lie_as_they_like() {
 
 #[test]
 fn remains_alone_keep_their_columns() {
-    let layout = DexelGrid { origin: [0.1, 0.2], base: 0.3, cell: 0.7, columns: 3, rows: 2 };
+    let layout = DexelGrid { origin_mm: [0.1, 0.2], base_mm: 0.3, cell_mm: 0.7, columns: 3, rows: 2 };
     let mut kept = Dexels::with_empty_columns(layout);
     kept.set_column(1, 1, &[[3.0, 4.0], [1.0, 2.0]]);
     let kept = Arc::new(kept);
@@ -174,7 +174,7 @@ proptest! {
                 if dexels.contains([x, y, z]) == any {
                     continue;
                 }
-                let height = z - layout.base;
+                let height = z - layout.base_mm;
                 // Close to an end, `f32` decides.
                 let close = intervals.iter().flatten().any(|end| (f64::from(*end) - height).abs() < 1e-4);
                 // So it does beside a face that stands upright.

@@ -30,7 +30,7 @@ fn measure(bytes: &[u8]) -> (f64, [f64; 3], bool) {
 
 #[test]
 fn a_block_needs_few_triangles() {
-    let layout = DexelGrid { origin: [0.5, 0.5], base: 0.0, cell: 1.0, columns: 100, rows: 40 };
+    let layout = DexelGrid { origin_mm: [0.5, 0.5], base_mm: 0.0, cell_mm: 1.0, columns: 100, rows: 40 };
     let mut dexels = Dexels::with_empty_columns(layout);
     for index in 0..4000 {
         dexels.set_column(index % 100, index / 100, &[[0.0, 10.0]]);
@@ -45,7 +45,7 @@ fn a_block_needs_few_triangles() {
 
 #[test]
 fn nothing_left_is_an_empty_file() {
-    let layout = DexelGrid { origin: [0.5, 0.5], base: 0.0, cell: 1.0, columns: 3, rows: 2 };
+    let layout = DexelGrid { origin_mm: [0.5, 0.5], base_mm: 0.0, cell_mm: 1.0, columns: 3, rows: 2 };
     assert_eq!(surface(&Dexels::with_empty_columns(layout)).len(), 84);
 }
 

@@ -43,7 +43,7 @@ fn columns_of_a_ball_end_on_it() {
 #[test]
 fn faces_and_corners_on_the_centres_count_once() {
     let solid = mesh(&cube([0.0; 3], [4.0, 3.0, 2.0]));
-    let layout = DexelGrid { origin: [-1.0, -1.0], base: 0.0, cell: 0.5, columns: 14, rows: 12 };
+    let layout = DexelGrid { origin_mm: [-1.0, -1.0], base_mm: 0.0, cell_mm: 0.5, columns: 14, rows: 12 };
     let dexels = solid.to_dexels(layout);
     assert_eq!(dexels.volume_mm3(), 24.0);
     assert_eq!(dexels.column_spans(2, 2), [[0.0, 2.0]], "the lower corner is in");
@@ -58,7 +58,7 @@ fn faces_and_corners_on_the_centres_count_once() {
         let b = tips[(i + 1) % 4];
         faces.extend([[a, b, [0.0, 0.0, 3.0]], [b, a, [0.0, 0.0, -3.0]]]);
     }
-    let layout = DexelGrid { origin: [-4.0, -4.0], base: -3.0, cell: 1.0, columns: 9, rows: 9 };
+    let layout = DexelGrid { origin_mm: [-4.0, -4.0], base_mm: -3.0, cell_mm: 1.0, columns: 9, rows: 9 };
     let dexels = mesh(&faces).to_dexels(layout);
     for index in 0..81 {
         let [x, y] = layout.column_center(index % 9, index / 9);
@@ -90,7 +90,7 @@ fn shells_wind() {
 
 #[test]
 fn what_is_beside_the_grid_is_left_out() {
-    let layout = DexelGrid { origin: [2.5, 2.5], base: 0.0, cell: 1.0, columns: 2, rows: 40 };
+    let layout = DexelGrid { origin_mm: [2.5, 2.5], base_mm: 0.0, cell_mm: 1.0, columns: 2, rows: 40 };
     assert_eq!(mesh(&cube([0.0; 3], [8.0; 3])).to_dexels(layout).volume_mm3(), 2.0 * 6.0 * 8.0);
     let none = DexelGrid { columns: 0, ..layout };
     assert_eq!(mesh(&cube([0.0; 3], [8.0; 3])).to_dexels(none).highest_z_mm(), None);
@@ -239,7 +239,7 @@ proptest! {
         prop_assume!(!flat(&points));
         let faces = hull(&points);
         let solid = mesh(&faces);
-        let layout = DexelGrid { origin: [-5.0, -5.0], base: -5.0, cell: 0.5, columns: 21, rows: 21 };
+        let layout = DexelGrid { origin_mm: [-5.0, -5.0], base_mm: -5.0, cell_mm: 0.5, columns: 21, rows: 21 };
         let dexels = solid.to_dexels(layout);
         for index in 0..layout.column_count() {
             let [x, y] = layout.column_center(index % 21, index / 21);

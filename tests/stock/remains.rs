@@ -11,7 +11,7 @@ fn bytes(dexels: &Dexels) -> Vec<u8> {
 }
 
 fn example() -> Dexels {
-    let layout = DexelGrid { origin: [1.0, 2.0], base: -3.0, cell: 0.5, columns: 2, rows: 1 };
+    let layout = DexelGrid { origin_mm: [1.0, 2.0], base_mm: -3.0, cell_mm: 0.5, columns: 2, rows: 1 };
     let mut dexels = Dexels::with_empty_columns(layout);
     dexels.set_column(1, 0, &[[4.0, 5.0], [1.0, 2.5]]);
     dexels

@@ -72,8 +72,13 @@ pub fn columns() -> impl Strategy<Value = Dexels> {
         let column = proptest::collection::btree_set(0..40u8, 0..6);
         proptest::collection::vec(column, columns * rows).prop_map(move |all| {
             let shift = f64::from(shift);
-            let layout =
-                DexelGrid { origin: [shift, 2.0 * shift], base: shift / 2.0, cell: 0.25, columns, rows };
+            let layout = DexelGrid {
+                origin_mm: [shift, 2.0 * shift],
+                base_mm: shift / 2.0,
+                cell_mm: 0.25,
+                columns,
+                rows,
+            };
             let mut dexels = Dexels::with_empty_columns(layout);
             for (index, heights) in all.iter().enumerate() {
                 let heights: Vec<f32> = heights.iter().rev().map(|height| f32::from(*height) / 8.0).collect();

@@ -57,7 +57,7 @@ fn a_flat_block_is_one_line_a_plane() {
                 assert_eq!((from.to.z, to.to.z), (10.0, 10.0));
             }
             assert!(
-                surfaced.proof.gap <= surfaced.proof.bound && surfaced.proof.gouge < 1e-9,
+                surfaced.proof.gap_mm <= surfaced.proof.bound_mm && surfaced.proof.gouge_mm < 1e-9,
                 "{:?}",
                 surfaced.proof
             );
@@ -95,7 +95,7 @@ fn half_a_cylinder_along_any_direction_is_a_larger_one_lowered() {
         let part = mesh(&half_cylinder(degrees));
         let (sin, cos) = f64::to_radians(degrees).sin_cos();
         for arcs in [false, true] {
-            let surfaced = over(&part, &SurfaceMillingOptions { planes, arcs, step: 5.0, ..options() });
+            let surfaced = over(&part, &SurfaceMillingOptions { planes, arcs, step_mm: 5.0, ..options() });
             assert!(surfaced.passes >= 3);
             for (from, to) in of_class(&surfaced, MotionClass::Cut) {
                 for at in [from.to, to.to] {
@@ -115,7 +115,7 @@ fn half_a_cylinder_along_any_direction_is_a_larger_one_lowered() {
 #[test]
 fn a_ball_goes_round_a_sphere_on_a_larger_one_lowered() {
     let part = mesh(&sphere(12.0, 40));
-    let surfaced = over(&part, &SurfaceMillingOptions { floor: Some(0.0), step: 3.0, ..options() });
+    let surfaced = over(&part, &SurfaceMillingOptions { floor_mm: Some(0.0), step_mm: 3.0, ..options() });
     let off_facets = 12.0 * (1.0 - (std::f64::consts::PI / 80.0).cos()) * 2.0;
     for (from, to) in of_class(&surfaced, MotionClass::Cut) {
         for at in [from.to, to.to] {
@@ -136,10 +136,10 @@ fn the_profile_in_the_plane_alone_gouges_beside_it() {
     let surfaced = clsmith::surface_milling::make_surface_program(&part, &options).unwrap();
     let secant = (1.0 + (35.0f64 / 60.0).powi(2)).sqrt();
     // On the level line the centre is R above the slope's line, so R / secant from the slope itself.
-    assert!((surfaced.proof.gouge - (5.0 - 5.0 / secant)).abs() < 0.001, "{:?}", surfaced.proof);
-    assert!(!surfaced.proof.is_within(options.tolerance));
+    assert!((surfaced.proof.gouge_mm - (5.0 - 5.0 / secant)).abs() < 0.001, "{:?}", surfaced.proof);
+    assert!(!surfaced.proof.is_within(options.tolerance_mm));
     assert!(
-        over(&mesh(&slope), &SurfaceMillingOptions { against: PassHeights::Mesh, ..options }).proof.gouge
+        over(&mesh(&slope), &SurfaceMillingOptions { against: PassHeights::Mesh, ..options }).proof.gouge_mm
             < 0.01
     );
 }

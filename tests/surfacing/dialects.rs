@@ -22,7 +22,7 @@ fn in_dialect(dialect: Dialect, options: SurfaceMillingOptions) -> SurfaceMillin
 #[test]
 fn a_small_program_of_each_dialect() {
     for dialect in WRITABLE {
-        let options = in_dialect(dialect, SurfaceMillingOptions { step: 10.0, arcs: true, ..options() });
+        let options = in_dialect(dialect, SurfaceMillingOptions { step_mm: 10.0, arcs: true, ..options() });
         let surfaced = along(&HILL, &options);
         let text = String::from_utf8(surfaced.text).unwrap();
         assert!(text.lines().all(|line| dialect != Dialect::Catia || line.len() <= 72), "{text}");
@@ -38,7 +38,7 @@ fn programs_read_back_as_they_were_meant() {
             [(LengthUnit::Mm, false, 1.0), (LengthUnit::Mm, true, 1.0), (LengthUnit::Inch, true, 25.4)]
         {
             let mut options =
-                in_dialect(dialect, SurfaceMillingOptions { arcs, tolerance: 0.05, ..options() });
+                in_dialect(dialect, SurfaceMillingOptions { arcs, tolerance_mm: 0.05, ..options() });
             options.words.units = units;
             options.words.coolant = true;
             let surfaced = over(&part, &options);

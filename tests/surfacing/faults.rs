@@ -19,33 +19,33 @@ fn corner() -> SurfacePart {
 
 #[test]
 fn what_cannot_be_made_says_why() {
-    let mut fine_inch = SurfaceMillingOptions { tolerance: 2e-3, ..options() };
+    let mut fine_inch = SurfaceMillingOptions { tolerance_mm: 2e-3, ..options() };
     fine_inch.words.units = LengthUnit::Inch;
     let cases = [
         (
             block(),
-            SurfaceMillingOptions { range: Some((30.0, 40.0)), ..options() },
+            SurfaceMillingOptions { range_mm: Some((30.0, 40.0)), ..options() },
             codes::NOTHING_TO_SURFACE,
         ),
-        (block(), SurfaceMillingOptions { floor: Some(10.5), ..options() }, codes::NOTHING_TO_SURFACE),
-        (block(), SurfaceMillingOptions { step: 1e-5, ..options() }, codes::SURFACE_OPTION),
-        (block(), SurfaceMillingOptions { radius: 0.0, ..options() }, codes::SURFACE_OPTION),
+        (block(), SurfaceMillingOptions { floor_mm: Some(10.5), ..options() }, codes::NOTHING_TO_SURFACE),
+        (block(), SurfaceMillingOptions { step_mm: 1e-5, ..options() }, codes::SURFACE_OPTION),
+        (block(), SurfaceMillingOptions { radius_mm: 0.0, ..options() }, codes::SURFACE_OPTION),
         (corner(), options(), codes::SURFACE_OPTION),
-        (block(), SurfaceMillingOptions { tolerance: 1e-4, ..options() }, codes::TOLERANCE_TOO_FINE),
+        (block(), SurfaceMillingOptions { tolerance_mm: 1e-4, ..options() }, codes::TOLERANCE_TOO_FINE),
         (block(), fine_inch, codes::TOLERANCE_TOO_FINE),
     ];
     for (part, options, code) in cases {
         let failure = make_surface_program(&part, &options).unwrap_err();
         assert_eq!(failure.findings()[0].code, code, "{options:?}");
     }
-    let mut creo = SurfaceMillingOptions { tolerance: 1e-4, ..options() };
+    let mut creo = SurfaceMillingOptions { tolerance_mm: 1e-4, ..options() };
     creo.words.dialect = Dialect::Creo;
     assert!(make_surface_program(&block(), &creo).is_ok(), "ten decimals are enough");
 }
 
 #[test]
 fn a_corner_tighter_than_the_ball_is_told() {
-    let options = SurfaceMillingOptions { range: Some((0.0, 4.0)), ..options() };
+    let options = SurfaceMillingOptions { range_mm: Some((0.0, 4.0)), ..options() };
     let surfaced = make_surface_program(&corner(), &options).unwrap();
     let found = collect_findings(&surfaced, &options);
     assert_eq!(found.iter().map(|found| found.code).collect::<Vec<_>>(), [codes::NOT_REACHED]);

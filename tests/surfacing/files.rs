@@ -48,7 +48,7 @@ fn arcs_turn_as_they_say() {
         let [ChainPiece::Arc(arc)] = chain.pieces() else { panic!("{chain:?}") };
         let middle = chain.pieces()[0].point_at(0.5);
         assert!((middle.u - u).hypot(middle.z - z) < 1e-9, "{text}: {middle:?}");
-        assert!((arc.radius - radius).abs() < 1e-9, "{text}");
+        assert!((arc.radius_mm - radius).abs() < 1e-9, "{text}");
         assert!(chain.start().distance(Point::default()) < 1e-9, "{text}");
     }
 }
@@ -87,13 +87,13 @@ fn a_piece_starts_where_the_one_before_ends() {
          - ellipse: { to: [4, 1], centre: [3, 1.00002], semi_axes: [1, 0.5], turn: right }\n  \
          - nurbs: { points: [[4.5, 0], [5, 2], [6, 1]] }\n  - polyline: [[7, 1], [8, 0.5]]\n",
     );
-    assert_eq!(profile.width, Some(50.8));
+    assert_eq!(profile.width_mm, Some(50.8));
     let chain = profile.to_chain(1e-3).unwrap();
     assert!((chain.end().u - 8.0 * 25.4).abs() < 1e-9);
-    let mut options = SurfaceMillingOptions { step: 10.0, ..options() };
+    let mut options = SurfaceMillingOptions { step_mm: 10.0, ..options() };
     options.words.units = LengthUnit::Inch;
     let surfaced = make_surface_program(&SurfacePart::Profile(profile), &options).unwrap();
-    assert!(surfaced.proof.is_within(options.tolerance), "{:?}", surfaced.proof);
+    assert!(surfaced.proof.is_within(options.tolerance_mm), "{:?}", surfaced.proof);
     assert_eq!(surfaced.planes, 7, "50.8 mm in steps of 10 mm and less");
     assert!(surfaced.draft.moves.iter().all(|step| step.to.x < 9.0), "in inches");
 }
@@ -103,7 +103,12 @@ fn few_chords_where_curvature_is_small() {
     // The tip's path over an ellipse of half axes 40 and 10, and a ball of 5: about the offset's length over 2 sqrt(2 rho tolerance).
     let text = "width: 1\nstart: [0, 0]\npieces: [ { ellipse: { to: [80, 0], centre: [40, 0], semi_axes: [40, 10], turn: right } } ]\n";
     let count = |tolerance: f64| {
-        let options = SurfaceMillingOptions { tolerance, floor: Some(-5.0), step: 1.0, ..options() };
+        let options = SurfaceMillingOptions {
+            tolerance_mm: tolerance,
+            floor_mm: Some(-5.0),
+            step_mm: 1.0,
+            ..options()
+        };
         make_surface_program(&SurfacePart::Profile(load(text)), &options).unwrap().cutting_motion_count() / 2
     };
     let ideal = |tolerance: f64| {

@@ -19,19 +19,19 @@ use clsmith::write::new_program::DraftMove;
 fn options() -> SurfaceMillingOptions {
     SurfaceMillingOptions {
         planes: PassPlanes::ZX,
-        range: None,
-        step: 2.0,
-        radius: 5.0,
-        tolerance: 0.01,
+        range_mm: None,
+        step_mm: 2.0,
+        radius_mm: 5.0,
+        tolerance_mm: 0.01,
         against: PassHeights::Mesh,
         pattern: PassPattern::ZigZag,
         arcs: false,
-        floor: None,
-        clearance: 10.0,
-        approach: 2.0,
-        feed: 800.0,
-        plunge: 300.0,
-        air: None,
+        floor_mm: None,
+        clearance_mm: 10.0,
+        approach_mm: 2.0,
+        feed_mm_min: 800.0,
+        plunge_feed_mm_min: 300.0,
+        air_feed_mm_min: None,
         words: SurfaceProgramWords {
             dialect: Dialect::Nx,
             units: LengthUnit::Mm,
@@ -39,7 +39,7 @@ fn options() -> SurfaceMillingOptions {
             operation: "SECTION".to_owned(),
             tool: 3,
             tool_name: None,
-            spindle: Some(6000.0),
+            spindle_rpm: Some(6000.0),
             coolant: false,
         },
     }
@@ -48,7 +48,7 @@ fn options() -> SurfaceMillingOptions {
 /// The program over a mesh; its proof must hold.
 fn over(mesh: &Mesh, options: &SurfaceMillingOptions) -> SurfaceProgram {
     let surfaced = make_surface_program(&SurfacePart::Mesh(mesh.clone()), options).unwrap();
-    assert!(surfaced.proof.is_within(options.tolerance), "{:?}", surfaced.proof);
+    assert!(surfaced.proof.is_within(options.tolerance_mm), "{:?}", surfaced.proof);
     surfaced
 }
 
@@ -56,9 +56,9 @@ fn over(mesh: &Mesh, options: &SurfaceMillingOptions) -> SurfaceProgram {
 fn along(points: &[[f64; 2]], options: &SurfaceMillingOptions) -> SurfaceProgram {
     let points: Vec<Point> = points.iter().map(|[u, z]| Point::new(*u, *z)).collect();
     let profile = SectionProfile::from_chain(&Chain::from_points(&points).unwrap());
-    let options = SurfaceMillingOptions { range: Some((0.0, 10.0)), ..options.clone() };
+    let options = SurfaceMillingOptions { range_mm: Some((0.0, 10.0)), ..options.clone() };
     let surfaced = make_surface_program(&SurfacePart::Profile(profile), &options).unwrap();
-    assert!(surfaced.proof.is_within(options.tolerance), "{:?}", surfaced.proof);
+    assert!(surfaced.proof.is_within(options.tolerance_mm), "{:?}", surfaced.proof);
     surfaced
 }
 

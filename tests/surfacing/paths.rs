@@ -54,7 +54,8 @@ fn zigzag_turns_every_other_plane_and_one_way_does_not() {
 
 #[test]
 fn between_passes_a_feed_may_stand_for_rapid() {
-    let options = SurfaceMillingOptions { pattern: PassPattern::OneWay, air: Some(5000.0), ..options() };
+    let options =
+        SurfaceMillingOptions { pattern: PassPattern::OneWay, air_feed_mm_min: Some(5000.0), ..options() };
     let surfaced = along(&[[0.0, 0.0], [40.0, 0.0]], &options);
     let rapids = surfaced.draft.moves.iter().filter(|step| step.way == DraftMoveKind::Rapid).count();
     assert_eq!(rapids, 1, "only to the first point, from wherever the tool is");
@@ -64,7 +65,7 @@ fn between_passes_a_feed_may_stand_for_rapid() {
 /// No motion, rapid or not, may come into the part: looked at every 0.2 mm.
 fn stays_outside(part: &clsmith::stock::Mesh, options: &SurfaceMillingOptions) -> usize {
     let surfaced = over(part, options);
-    let radius = options.radius;
+    let radius = options.radius_mm;
     let cutter = DropCutter::new(part, DropCutterShape::new(2.0 * radius, radius).unwrap());
     let moves = &surfaced.draft.moves;
     for (from, to) in moves.iter().zip(moves.iter().skip(1)).filter(|(_, to)| to.class != MotionClass::Cut) {
@@ -72,13 +73,13 @@ fn stays_outside(part: &clsmith::stock::Mesh, options: &SurfaceMillingOptions) -
         let mut step = 0.0;
         while step <= count {
             let at = from.to + (to.to - from.to) * (step / count);
-            let least = cutter.drop_at(at.x, at.y).map_or(f64::NEG_INFINITY, |drop| drop.tip_z);
+            let least = cutter.drop_at(at.x, at.y).map_or(f64::NEG_INFINITY, |drop| drop.tip_z_mm);
             assert!(at.z >= least - 0.03, "{:?} to {at}: {least} at least", to.class);
             step += 1.0;
         }
         if to.way == DraftMoveKind::Rapid && from.to.x != to.to.x {
             let (_, [.., top]) = part.bounds();
-            assert!(to.to.z >= top + options.clearance - 1e-9, "across only above everything");
+            assert!(to.to.z >= top + options.clearance_mm - 1e-9, "across only above everything");
         }
     }
     of_class(&surfaced, MotionClass::StepOver).len()
@@ -90,12 +91,12 @@ fn nothing_between_passes_comes_into_the_part() {
     let two: Vec<_> =
         [cube([0.0, 0.0, 0.0], [20.0, 20.0, 20.0]), cube([32.0, 0.0, 0.0], [50.0, 20.0, 8.0])].concat();
     for pattern in [PassPattern::ZigZag, PassPattern::OneWay] {
-        let options = SurfaceMillingOptions { pattern, radius: 3.0, ..options() };
+        let options = SurfaceMillingOptions { pattern, radius_mm: 3.0, ..options() };
         let linked = stays_outside(&wavy, &options);
         assert_eq!(linked > 0, pattern == PassPattern::ZigZag, "zigzag goes over the surface");
         stays_outside(
             &mesh(&sphere(9.0, 16)),
-            &SurfaceMillingOptions { floor: Some(-2.0), ..options.clone() },
+            &SurfaceMillingOptions { floor_mm: Some(-2.0), ..options.clone() },
         );
         let surfaced = over(&mesh(&two), &options);
         assert_eq!(surfaced.passes, 2 * surfaced.planes, "two parts are two passes");
@@ -118,7 +119,7 @@ fn a_gap_that_the_ball_spans_is_not_gone_into() {
 #[test]
 fn a_floor_ends_passes() {
     let valley = [[0.0, 10.0], [20.0, 0.0], [40.0, 10.0]];
-    let surfaced = along(&valley, &SurfaceMillingOptions { floor: Some(4.0), ..options() });
+    let surfaced = along(&valley, &SurfaceMillingOptions { floor_mm: Some(4.0), ..options() });
     assert_eq!(surfaced.passes, 2 * surfaced.planes, "the valley below it is left");
     assert!(surfaced.draft.moves.iter().all(|step| step.to.z >= 4.0 - 1e-4));
 }
@@ -127,7 +128,7 @@ fn a_floor_ends_passes() {
 fn a_rapid_ends_above_the_wall_beside_it() {
     // A boss 20 mm high; with the floor at 5 the passes begin beside it.
     let boss = [[0.0, 0.0], [10.0, 0.0], [10.0, 20.0], [30.0, 20.0], [30.0, 0.0], [40.0, 0.0]];
-    let surfaced = along(&boss, &SurfaceMillingOptions { floor: Some(5.0), ..options() });
+    let surfaced = along(&boss, &SurfaceMillingOptions { floor_mm: Some(5.0), ..options() });
     for (from, to) in of_class(&surfaced, MotionClass::Engage) {
         assert!(from.to.z >= 20.0, "{} {}", from.to, to.to);
     }

@@ -134,13 +134,16 @@ impl ChipsArgs {
         let units = ResolvedLengthUnit::from_program(&program, self.units).unit;
         let machining = Machining::new(&program, &setup, units, under.findings)?;
         let options = LayerRunOptions {
-            tolerance: self.tolerance,
+            tolerance_mm: self.tolerance,
             lines: self.lines.clone(),
             ..LayerRunOptions::new(self.layer)
         };
         let scenes = if self.svg.is_some() || self.diagram.is_some() { usize::from(self.moves) } else { 0 };
-        let keep =
-            ChipReportOptions { borders: self.json.is_some() || self.stl.is_some(), scenes, at: self.at };
+        let keep = ChipReportOptions {
+            borders: self.json.is_some() || self.stl.is_some(),
+            scenes,
+            at_z_mm: self.at,
+        };
         under.progress.begin_bar(program.source().name());
         let mut report = ChipReport::simulate_layers(&machining, &options, keep, under.progress)?;
         under.findings.append(&mut report.findings);

@@ -66,7 +66,7 @@ impl SectionArgs {
     ) -> io::Result<()> {
         let mut text = report::to_text(surfaced, options, &self.input_path().to_string_lossy());
         let written = self.output.as_deref().filter(|_| !self.dry_run);
-        if let Some(path) = written.filter(|_| surfaced.proof.is_within(options.tolerance)) {
+        if let Some(path) = written.filter(|_| surfaced.proof.is_within(options.tolerance_mm)) {
             let lines = surfaced.text.iter().filter(|byte| **byte == b'\n').count();
             let title = options.words.dialect.display_name();
             text.push_str(&format!("-> {}: {title}, {lines} lines\n", path.display()));

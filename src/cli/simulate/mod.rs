@@ -212,7 +212,7 @@ impl SimulateArgs {
         let machining = Machining::new(program, setup, units, findings)?;
         let bytes = (self.budget * f64::from(1 << 30)) as u64;
         let options = SimulationRunOptions {
-            cell: self.cell,
+            cell_mm: self.cell,
             budget: SimulationBudget { bytes, ..SimulationBudget::default() },
             ..SimulationRunOptions::default()
         };

@@ -167,8 +167,8 @@ impl BandEngagement {
         engagement.removed_mm3 += self.removed * area;
         if self.removed > 0.0 {
             let [least, greatest] = self.lateral.map(f64::from);
-            engagement.lateral = interval_hull(engagement.lateral, [least - half, greatest + half]);
-            engagement.height = interval_hull(engagement.height, self.height.map(f64::from));
+            engagement.lateral_mm = interval_hull(engagement.lateral_mm, [least - half, greatest + half]);
+            engagement.height_mm = interval_hull(engagement.height_mm, self.height.map(f64::from));
         }
         engagement.graze = engagement.graze.max(f64::from(self.graze));
         if let Some((_, depth)) = self.contact

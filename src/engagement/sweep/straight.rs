@@ -61,9 +61,9 @@ impl StraightSweep {
         let profile = &cutter.profile;
         let slope = if vertical { 0.0 } else { dz / horizontal };
         let direction = if vertical { [0.0, 0.0] } else { [dx / horizontal, dy / horizontal] };
-        let start = from[2].min(if vertical { to[2] } else { from[2] }) - layout.base;
+        let start = from[2].min(if vertical { to[2] } else { from[2] }) - layout.base_mm;
         let radius = profile.radius_mm();
-        let margin = layout.cell * 1e-2;
+        let margin = layout.cell_mm * 1e-2;
         let descends = dz < 0.0;
         let lowest_tip = from[2].min(to[2]);
         let reaches = |height: f64| around.highest > lowest_tip + height;
@@ -100,14 +100,14 @@ impl StraightSweep {
             cleared_disc,
         };
         let flutes_end = if reaches(cutter.flute_length_mm()) {
-            (from[2].max(if vertical { to[2] } else { from[2] }) + cutter.flute_length_mm() - layout.base)
+            (from[2].max(if vertical { to[2] } else { from[2] }) + cutter.flute_length_mm() - layout.base_mm)
                 as f32
         } else {
             f32::INFINITY
         };
-        let near = cutter.collars.iter().copied().enumerate().filter(|(_, collar)| reaches(collar.from));
+        let near = cutter.collars.iter().copied().enumerate().filter(|(_, collar)| reaches(collar.from_mm));
         let collars = near
-            .map(|(index, collar)| (index, collar, CutterUnderside::flat_disc(collar.radius, slope)))
+            .map(|(index, collar)| (index, collar, CutterUnderside::flat_disc(collar.radius_mm, slope)))
             .collect();
         Self {
             from: [from[0], from[1]],
@@ -124,9 +124,9 @@ impl StraightSweep {
                 across: if length > 0.0 && !vertical { horizontal / length } else { 0.0 },
                 along: if length > 0.0 { dz / length } else { 0.0 },
                 start,
-                first: from[2] - layout.base,
+                first: from[2] - layout.base_mm,
                 length: extent.length,
-                cell: layout.cell,
+                cell: layout.cell_mm,
                 detail: around.detail,
                 fresh: !around.continues,
             },
@@ -149,9 +149,9 @@ impl StraightSweep {
         let reach = self
             .collars
             .iter()
-            .map(|(_, collar, _)| collar.radius - self.extent.radius)
-            .fold(self.layout.cell, f64::max);
-        let row = |y: f64| (self.from[1] + y - self.layout.origin[1]) / self.layout.cell;
+            .map(|(_, collar, _)| collar.radius_mm - self.extent.radius)
+            .fold(self.layout.cell_mm, f64::max);
+        let row = |y: f64| (self.from[1] + y - self.layout.origin_mm[1]) / self.layout.cell_mm;
         let first = row(low - reach).ceil().max(0.0) as usize;
         let end = (row(high + reach).floor() + 1.0).max(0.0) as usize;
         first..end.min(self.layout.rows)
@@ -159,7 +159,7 @@ impl StraightSweep {
 
     /// Returns the columns of a range of x that counts from the start.
     fn column_range(&self, [from, to]: [f64; 2]) -> std::ops::Range<usize> {
-        let DexelGrid { origin: [x0, _], cell, columns, .. } = self.layout;
+        let DexelGrid { origin_mm: [x0, _], cell_mm: cell, columns, .. } = self.layout;
         let column = |x: f64| (self.from[0] + x - x0) / cell;
         // Casts round towards zero and saturate. They are single instructions, whereas `ceil` and `floor` are
         // calls.
@@ -178,7 +178,7 @@ impl StraightSweep {
         let rows = self.row_range();
         let (first, end) = (rows.start.max(band.first_row), rows.end.min(band.first_row + band.row_count()));
         // The rows go from the middle outwards, so that contacts that dominate others come first.
-        let middle = (((self.from[1] - self.layout.origin[1]) / self.layout.cell).max(0.0) as usize)
+        let middle = (((self.from[1] - self.layout.origin_mm[1]) / self.layout.cell_mm).max(0.0) as usize)
             .clamp(first, end.max(first));
         for row in (middle..end).chain((first..middle).rev()) {
             let y = self.layout.column_center(0, row)[1] - self.from[1];
@@ -189,7 +189,7 @@ impl StraightSweep {
                 self.cut_row(band, row, y, self.column_range(stretch), scratch, &mut partial);
             }
             if self.motion.across > 0.0
-                && y.abs() <= self.extent.length + self.extent.radius + self.layout.cell
+                && y.abs() <= self.extent.length + self.extent.radius + self.layout.cell_mm
             {
                 self.add_hidden_slivers(band, row, y, &mut partial);
             }
@@ -213,13 +213,13 @@ impl StraightSweep {
         let x = self.layout.column_center(columns.start, row)[0] - self.from[0];
         let offset = (row - band.first_row) * band.columns;
         scratch.resize(columns.len(), 0.0);
-        let seen = SweepRow { x: x as f32, y: y as f32, cell: self.layout.cell as f32 };
+        let seen = SweepRow { x: x as f32, y: y as f32, cell: self.layout.cell_mm as f32 };
         self.surface.sweep_heights(scratch, seen, self.path);
         let range = offset + columns.start..offset + columns.end;
         let [ux, uy] = [f64::from(self.path.ux), f64::from(self.path.uy)];
         // Coordinates along the path and to its left, for the column `hit` of the range.
         let place = |hit: usize| {
-            let x = x + hit as f64 * self.layout.cell;
+            let x = x + hit as f64 * self.layout.cell_mm;
             (x * ux + y * uy, y * ux - x * uy)
         };
         // A usual cut lowers the top of a column's only interval. All other columns are processed after this
@@ -274,7 +274,7 @@ impl StraightSweep {
     /// of it may be in the cutter's path without any column showing it. Material counts from the height at
     /// which the cutter is thinner by a cell than at its widest.
     fn add_hidden_slivers(&self, band: &DexelBand, row: usize, y: f64, partial: &mut BandEngagement) {
-        let (radius, cell) = (self.widest, self.layout.cell);
+        let (radius, cell) = (self.widest, self.layout.cell_mm);
         let slope = f64::from(self.path.slope);
         let end = self.motion.start + slope * self.extent.length;
         let inner = (radius - cell).max(0.0);
@@ -326,12 +326,12 @@ impl StraightSweep {
         partial: &mut BandEngagement,
     ) {
         let extent = StraightFootprint {
-            radius: collar.radius,
+            radius: collar.radius_mm,
             cleared_before: f64::NEG_INFINITY,
             cleared_disc: 0.0,
             ..self.extent
         };
-        let path = SweepPath { start: self.path.start + collar.from as f32, ..self.path };
+        let path = SweepPath { start: self.path.start + collar.from_mm as f32, ..self.path };
         let offset = (row - band.first_row) * band.columns;
         for stretch in extent.x_ranges(y) {
             let columns = self.column_range(stretch);
@@ -339,14 +339,14 @@ impl StraightSweep {
             scratch.resize(columns.len(), 0.0);
             disc.sweep_heights(
                 scratch,
-                SweepRow { x: x as f32, y: y as f32, cell: self.layout.cell as f32 },
+                SweepRow { x: x as f32, y: y as f32, cell: self.layout.cell_mm as f32 },
                 path,
             );
             let tops = band.top.get(offset + columns.start..offset + columns.end).unwrap_or_default();
             let depth = tops.iter().zip(scratch.iter()).map(|(top, height)| top - height);
             let depth = f64::from(depth.fold(f32::NEG_INFINITY, f32::max));
             // Less depth than this may be the grid's own error.
-            if depth > self.layout.cell.min(0.05) {
+            if depth > self.layout.cell_mm.min(0.05) {
                 partial.record_collision(*index, depth);
             }
         }

@@ -146,7 +146,7 @@ fn isolate_all_roots(
     }
     let (face, _) = window.enclose_curve(DiagramCurve::Face);
     // A disc that moves in its own plane neither advances nor retreats.
-    let slides = face.max_magnitude() <= family.zero_threshold() / family.step().mill().radius;
+    let slides = face.max_magnitude() <= family.zero_threshold() / family.step().mill().radius_mm;
     let face_roots = if slides { nothing } else { isolate_curve_roots(face_cells, &face, finest)? };
     // If the mill turns about its tip, f is zero all along the rim of the bottom disc. The order of two equal
     // curves does not matter.

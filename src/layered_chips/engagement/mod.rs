@@ -21,21 +21,21 @@ use contact_samples::{ContactSample, LayerSlab};
 use moving_cylinder::MovingCylinder;
 
 /// Returns the engagement of a piece of path with its chip, which was cut with this mill and with chords
-/// within `tolerance` (mm).
+/// within `tolerance_mm`.
 ///
 /// Lengths along the meridian are radii on the bottom, and the radius plus the height above the tip on the
 /// flank. Shanks and holders are not examined.
-pub fn measure_engagement(chip: &Chip, mill: &FlatMill, piece: &PathPiece, tolerance: f64) -> Engagement {
-    let mut found = Engagement::empty_for_piece(piece, [mill.radius, mill.flutes]);
+pub fn measure_engagement(chip: &Chip, mill: &FlatMill, piece: &PathPiece, tolerance_mm: f64) -> Engagement {
+    let mut found = Engagement::empty_for_piece(piece, [mill.radius_mm, mill.flute_length_mm]);
     if chip.layers.is_empty() {
         return found;
     }
-    let motion = MovingCylinder::new(mill, piece, found.length_mm, 2.0 * tolerance + 1e-5);
+    let motion = MovingCylinder::new(mill, piece, found.length_mm, 2.0 * tolerance_mm + 1e-5);
     for layer in &chip.layers {
-        let slab = LayerSlab { z: layer.z, thickness: layer.thickness };
+        let slab = LayerSlab { z: layer.z_mm, thickness: layer.thickness_mm };
         if layer.inside_mm2 > 0.0 {
             // How this material was reached is not known, so it gets the largest advance ratio there can be.
-            found.removed_mm3 += layer.inside_mm2 * layer.thickness;
+            found.removed_mm3 += layer.inside_mm2 * layer.thickness_mm;
             let span = motion.meridian_range_at_start(&slab);
             add_bin(
                 &mut found,
@@ -50,7 +50,7 @@ pub fn measure_engagement(chip: &Chip, mill: &FlatMill, piece: &PathPiece, toler
             if samples.is_empty() {
                 continue;
             }
-            found.removed_mm3 += polygon.area_mm2() * layer.thickness;
+            found.removed_mm3 += polygon.area_mm2() * layer.thickness_mm;
             samples.iter().for_each(|sample| add_sample(&mut found, &motion, sample));
         }
     }
@@ -67,11 +67,11 @@ pub fn largest_feed_fraction(
     layer: &LayerChip,
     mill: &FlatMill,
     piece: &PathPiece,
-    tolerance: f64,
+    tolerance_mm: f64,
 ) -> Option<f64> {
-    let length = Engagement::empty_for_piece(piece, [mill.radius, mill.flutes]).length_mm;
-    let motion = MovingCylinder::new(mill, piece, length, 2.0 * tolerance + 1e-5);
-    let slab = LayerSlab { z: layer.z, thickness: layer.thickness };
+    let length = Engagement::empty_for_piece(piece, [mill.radius_mm, mill.flute_length_mm]).length_mm;
+    let motion = MovingCylinder::new(mill, piece, length, 2.0 * tolerance_mm + 1e-5);
+    let slab = LayerSlab { z: layer.z_mm, thickness: layer.thickness_mm };
     let samples =
         layer.pieces.iter().flat_map(|polygon| contact_samples::sample_polygon(&motion, &slab, polygon));
     samples.map(|sample| sample.share).reduce(f64::max)
@@ -100,7 +100,7 @@ fn add_bin(
     let radius = motion.radius_mm();
     found.add_contact(angle, &EngagementBin { low: low as f32, high: high as f32, ..bin });
     let left = angle.sin() * high.min(radius);
-    found.lateral = [found.lateral[0].min(left), found.lateral[1].max(left)];
+    found.lateral_mm = [found.lateral_mm[0].min(left), found.lateral_mm[1].max(left)];
     let heights = [low, high].map(|along| (along - radius).max(0.0));
-    found.height = [found.height[0].min(heights[0]), found.height[1].max(heights[1])];
+    found.height_mm = [found.height_mm[0].min(heights[0]), found.height_mm[1].max(heights[1])];
 }

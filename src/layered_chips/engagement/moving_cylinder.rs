@@ -69,11 +69,11 @@ impl MovingCylinder {
         let axis = cross.try_normalize(1e-12).unwrap_or_default();
         let turn = if axis == Vector3::zeros() { 0.0 } else { turn };
         let way = piece.to.point - piece.from.point;
-        let lever = mill.radius.hypot(mill.flutes.min(1e3));
-        let looks = ((way.norm() + turn * lever) / (BETWEEN * mill.radius)).ceil();
+        let lever = mill.radius_mm.hypot(mill.flute_length_mm.min(1e3));
+        let looks = ((way.norm() + turn * lever) / (BETWEEN * mill.radius_mm)).ceil();
         Self {
-            radius: mill.radius,
-            flutes: mill.flutes,
+            radius: mill.radius_mm,
+            flutes: mill.flute_length_mm,
             tip: piece.from.point.coords,
             way,
             from,

@@ -21,19 +21,19 @@ const MOST: usize = 1 << 14;
 
 impl RimDirections {
     /// Makes as many directions as keep chords within a tolerance (mm) for every section of a step.
-    pub fn new(step: &MillStep, tolerance: f64) -> Self {
+    pub fn new(step: &MillStep, tolerance_mm: f64) -> Self {
         // The lower of the two axes has the longest ellipse; all axes between them are within their cap.
         let end = step.from * step.turn.cos() + step.across * step.turn.sin();
-        let longest = step.mill.radius / step.from.z.min(end.z).max(0.1);
+        let longest = step.mill.radius_mm / step.from.z.min(end.z).max(0.1);
         // A chord of angle d on an ellipse with the long semi-axis a is off by at most a (1 - cos(d / 2)),
         // about a d^2 / 8.
-        let angle = (8.0 * tolerance / longest).sqrt().clamp(1e-9, 1.0);
+        let angle = (8.0 * tolerance_mm / longest).sqrt().clamp(1e-9, 1.0);
         let count = ((TAU / angle / 8.0).ceil() as usize * 8).clamp(FEWEST, MOST);
         let direction = |index: usize| {
             let (sin, cos) = (TAU * index as f64 / count as f64).sin_cos();
             [cos, sin]
         };
-        Self { tolerance, directions: (0..count).map(direction).collect() }
+        Self { tolerance: tolerance_mm, directions: (0..count).map(direction).collect() }
     }
 
     /// Returns the largest distance of a chord from its curve, mm.

@@ -58,7 +58,7 @@ pub struct ComparisonFigures {
     /// Time at rapid, s; `None` when the machine's rapid feed is not known.
     pub rapid_seconds: Option<f64>,
     /// Slowest and fastest feed, mm/min.
-    pub feed: Option<[f64; 2]>,
+    pub feed_range_mm_min: Option<[f64; 2]>,
     /// Thickest chip, mm.
     pub chip_thickness_mm: Option<ComparisonPeak>,
     /// Largest removal rate, mm3/min.
@@ -87,8 +87,8 @@ impl ComparisonFigures {
             self.feed_seconds += moved.seconds.unwrap_or(0.0);
             self.untimed += usize::from(moved.seconds.is_none());
             if let Some(feed) = moved.feed_mm_min {
-                let [low, high] = self.feed.unwrap_or([feed; 2]);
-                self.feed = Some([low.min(feed), high.max(feed)]);
+                let [low, high] = self.feed_range_mm_min.unwrap_or([feed; 2]);
+                self.feed_range_mm_min = Some([low.min(feed), high.max(feed)]);
             }
         }
         let Some(row) = row else { return };

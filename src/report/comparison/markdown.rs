@@ -67,8 +67,8 @@ const WHOLE: &[FigureRow] = &[
     ("time at rapid", |figures| figures.rapid_seconds, format_duration),
     ("length at feed, mm", |figures| Some(figures.feed_mm), |value| format_fixed(value, 1)),
     ("length at rapid, mm", |figures| Some(figures.rapid_mm), |value| format_fixed(value, 1)),
-    ("slowest feed, mm/min", |figures| figures.feed.map(|[low, _]| low), format_short),
-    ("fastest feed, mm/min", |figures| figures.feed.map(|[_, high]| high), format_short),
+    ("slowest feed, mm/min", |figures| figures.feed_range_mm_min.map(|[low, _]| low), format_short),
+    ("fastest feed, mm/min", |figures| figures.feed_range_mm_min.map(|[_, high]| high), format_short),
     ("thickest chip, mm", |figures| peak_value(figures.chip_thickness_mm), |value| format_fixed(value, 4)),
     (
         "largest removal rate, mm³/min",
@@ -169,7 +169,7 @@ fn format_feed_time(figures: &ComparisonFigures) -> String {
 }
 
 fn format_feed_range(figures: &ComparisonFigures) -> String {
-    match figures.feed {
+    match figures.feed_range_mm_min {
         Some([low, high]) if format_short(low) == format_short(high) => format_short(low),
         Some([low, high]) => format!("{} to {}", format_short(low), format_short(high)),
         None => String::new(),

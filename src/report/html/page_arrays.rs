@@ -56,7 +56,7 @@ impl PageArrays {
                  undercuts are not drawn",
                 stock.columns,
                 stock.rows,
-                format_short(stock.cell),
+                format_short(stock.cell_mm),
                 if stock.coarser > 1 {
                     format!(" ({0} x {0} columns of the simulation)", stock.coarser)
                 } else {
@@ -119,7 +119,7 @@ fn build_facts(
         "classes": MotionClass::ALL.map(|class| class.to_string().replace('_', " ")),
         "origin": origin,
         "stock": stock.map(|stock| json!({
-            "first": stock.first, "cell": stock.cell, "columns": stock.columns, "rows": stock.rows, "low": stock.low,
+            "first": stock.first_mm, "cell": stock.cell_mm, "columns": stock.columns, "rows": stock.rows, "low": stock.low_mm,
         })),
     })
 }

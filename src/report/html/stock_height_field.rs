@@ -9,15 +9,15 @@ const MOST: usize = 240;
 #[derive(Debug, Clone, PartialEq)]
 pub struct StockHeightField {
     /// Centre of the first column (x, y), mm.
-    pub first: [f64; 2],
+    pub first_mm: [f64; 2],
     /// Distance of columns, mm.
-    pub cell: f64,
+    pub cell_mm: f64,
     /// Columns in x.
     pub columns: usize,
     /// Columns in y.
     pub rows: usize,
     /// Lowest material, mm.
-    pub low: f64,
+    pub low_mm: f64,
     /// Highest material of each column above `low`, mm, row by row; NaN where there is none.
     pub heights: Vec<f32>,
     /// How many columns of the simulation, each way, make one of the drawing.
@@ -52,14 +52,14 @@ impl StockHeightField {
             return None;
         }
         heights.iter_mut().for_each(|height| *height -= low);
-        let [x, y] = layout.origin;
-        let inward = (coarser as f64 - 1.0) / 2.0 * layout.cell;
+        let [x, y] = layout.origin_mm;
+        let inward = (coarser as f64 - 1.0) / 2.0 * layout.cell_mm;
         Some(Self {
-            first: [x + inward, y + inward],
-            cell: layout.cell * coarser as f64,
+            first_mm: [x + inward, y + inward],
+            cell_mm: layout.cell_mm * coarser as f64,
             columns,
             rows,
-            low: layout.base + f64::from(low),
+            low_mm: layout.base_mm + f64::from(low),
             heights,
             coarser,
         })

@@ -72,7 +72,7 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
         self.totals.motions += 1;
         self.totals.chips_mm3 += cut.volume_mm3();
         let layers = || cut.piece_chips().flat_map(|chip| &chip.layers);
-        let inside_mm3: f64 = layers().map(|layer| layer.inside_mm2 * layer.thickness).sum();
+        let inside_mm3: f64 = layers().map(|layer| layer.inside_mm2 * layer.thickness_mm).sum();
         self.totals.inside_mm3 += inside_mm3;
         let reason = self.find_uncut_reason(cut);
         self.totals.skipped += usize::from(reason.is_some());
@@ -164,7 +164,13 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
         let rpm = cut.motion.spindle_rpm().filter(|rpm| *rpm > 0.0);
         let per_turn = self.motion_feed_mm_min(cut.motion).zip(rpm).map(|(feed, rpm)| feed / rpm);
         let mill = cutter.and_then(|cutter| to_flat_mill(cutter).ok());
-        let mut pace = ChipThicknessModel { cutter, mill, per_turn, tolerance: self.tolerance, known: false };
+        let mut pace = ChipThicknessModel {
+            cutter,
+            mill,
+            feed_per_turn_mm: per_turn,
+            tolerance_mm: self.tolerance,
+            known: false,
+        };
         let cuts = |(step, chip): &(MotionPiece, Result<crate::layered_chips::chip::Chip, _>)| {
             let removes =
                 chip.as_ref().is_ok_and(|chip| chip.layers.iter().any(|layer| layer.area_mm2 > 0.0));
@@ -176,7 +182,7 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
         }
         if cutter.is_some_and(|cutter| cutter.teeth.is_none()) {
             self.toothless.insert(tool.to_owned());
-        } else if pace.per_turn.is_none() {
+        } else if pace.feed_per_turn_mm.is_none() {
             self.unknown += 1;
         } else if ways.iter().any(|way| *way <= STANDS) {
             self.standing += 1;
@@ -189,8 +195,8 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
     /// Whether there is to be a picture of a motion.
     fn is_scene_wanted(&self, cut: &MotionChips<'_>) -> bool {
         let shown = |layer: &LayerChip| {
-            let here = |z: f64| (z - layer.z).abs() <= layer.thickness / 2.0;
-            layer.area_mm2 > 0.0 && self.keep.at.is_none_or(here)
+            let here = |z: f64| (z - layer.z_mm).abs() <= layer.thickness_mm / 2.0;
+            layer.area_mm2 > 0.0 && self.keep.at_z_mm.is_none_or(here)
         };
         self.scenes.len() < self.keep.scenes && cut.piece_chips().flat_map(|chip| &chip.layers).any(shown)
     }

@@ -21,8 +21,8 @@ pub(super) fn merge_piece_chips<'a>(
         let (row, parts) = layers.entry(chip.layer).or_insert_with(|| {
             let row = ChipLayerRow {
                 number: chip.layer,
-                z: chip.z,
-                thickness_mm: chip.thickness,
+                z_mm: chip.z_mm,
+                thickness_mm: chip.thickness_mm,
                 ..ChipLayerRow::default()
             };
             (row, Vec::new())

@@ -43,7 +43,7 @@ pub struct ChipLayerRow {
     /// Number of the layer, from below.
     pub number: usize,
     /// Height of the layer's middle, mm.
-    pub z: f64,
+    pub z_mm: f64,
     /// Its thickness, mm.
     pub thickness_mm: f64,
     /// Area of the chip, mm2.
@@ -103,7 +103,7 @@ impl Serialize for ChipLayerRow {
             pieces.flat_map(|(index, polygon)| polygon.holes.iter().map(move |hole| (index, hole)))
         };
         let layer = ChipLayerJson {
-            z: self.z,
+            z: self.z_mm,
             thickness_mm: self.thickness_mm,
             area_mm2: self.area_mm2,
             inside_mm2: self.inside_mm2,
@@ -142,8 +142,8 @@ pub fn write_json(report: &ChipReport, out: &mut dyn Write) -> io::Result<()> {
     let document = ChipDocument {
         version: 1,
         file: &report.file,
-        layer_mm: report.options.layer,
-        tolerance_mm: report.options.tolerance,
+        layer_mm: report.options.layer_mm,
+        tolerance_mm: report.options.tolerance_mm,
         totals: &report.totals,
         assumptions: &report.assumptions,
         operations: &report.operations,
@@ -223,7 +223,7 @@ pub fn write_csv(report: &ChipReport, out: &mut dyn Write) -> io::Result<()> {
                 tool: &row.tool,
                 length_mm: row.length_mm,
                 feed_mm_min: row.feed_mm_min,
-                z_mm: layer.z,
+                z_mm: layer.z_mm,
                 thickness_mm: layer.thickness_mm,
                 area_mm2: layer.area_mm2,
                 volume_mm3: layer.area_mm2 * layer.thickness_mm,

@@ -18,9 +18,9 @@ pub(super) struct ChipThicknessModel<'m> {
     pub cutter: Option<&'m CutterModel>,
     pub mill: Option<FlatMill>,
     /// Feed of a turn, mm.
-    pub per_turn: Option<f64>,
+    pub feed_per_turn_mm: Option<f64>,
     /// Of the borders' chords, mm.
-    pub tolerance: f64,
+    pub tolerance_mm: f64,
     /// Whether thicknesses are known on the whole motion.
     pub known: bool,
 }
@@ -34,10 +34,10 @@ impl ChipThicknessModel<'_> {
         }
         let teeth = self.cutter?.teeth.as_ref()?;
         let way = Some(tip_travel_mm(step)).filter(|way| *way > STANDS)?;
-        let on_the_way = largest_feed_fraction(layer, self.mill.as_ref()?, &step.piece, self.tolerance);
+        let on_the_way = largest_feed_fraction(layer, self.mill.as_ref()?, &step.piece, self.tolerance_mm);
         // At the end it is known closer than by samples.
         let at_end = Some(layer.advance_mm / way).filter(|share| *share > 0.0);
         let share = [on_the_way, at_end].into_iter().flatten().reduce(f64::max)?;
-        Some(teeth.max_chip_thickness_mm(share * self.per_turn?, 1.0))
+        Some(teeth.max_chip_thickness_mm(share * self.feed_per_turn_mm?, 1.0))
     }
 }

@@ -2,12 +2,11 @@
 
 use super::ChipReport;
 use super::move_scene::{MoveScene, MoveSceneLayer};
-use super::panel_sheet::{
-    ADVANCING, BRANCH, EDGE, LegendSample, OUTSIDE, PanelArea, RETREATING, draw_sheet, drawing_error,
-};
+use super::panel_sheet::{ADVANCING, BRANCH, EDGE, LegendSample, OUTSIDE, RETREATING, draw_sheet};
 use crate::layered_chips::MillStep;
 use crate::layered_chips::boundary_diagram::{BoundaryDiagram, BranchEnd, EdgeState, EnvelopeBranch};
 use crate::layered_chips::section_family::{DiagramCurve, SectionFamily};
+use crate::report::svg_chart::{ChartFrame, SvgArea, draw_line, drawing_error};
 use crate::report::text_format::format_short;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
@@ -32,7 +31,7 @@ const STEPS: usize = 32;
 ///
 /// # Errors
 /// What the drawing library returns, which for a drawing in memory is nothing.
-pub fn draw_diagrams(report: &ChipReport, at: Option<f64>) -> io::Result<String> {
+pub fn draw_diagrams(report: &ChipReport, at_z_mm: Option<f64>) -> io::Result<String> {
     let columns = report.scenes.len().clamp(1, IN_A_ROW);
     let rows = report.scenes.len().div_ceil(columns).max(1);
     let legend = [
@@ -44,7 +43,7 @@ pub fn draw_diagrams(report: &ChipReport, at: Option<f64>) -> io::Result<String>
         (LegendSample::Ring(BRANCH), "split"),
     ];
     draw_sheet((columns, rows), PANEL, &legend, |number, area| match report.scenes.get(number) {
-        Some(scene) => draw_diagram(area, scene, at),
+        Some(scene) => draw_diagram(area, scene, at_z_mm),
         None => Ok(()),
     })
 }
@@ -59,44 +58,35 @@ fn choose_diagram_layer(scene: &MoveScene, at: Option<f64>) -> Option<&MoveScene
     }
 }
 
-fn draw_diagram(area: &PanelArea<'_>, scene: &MoveScene, at: Option<f64>) -> io::Result<()> {
+fn draw_diagram(area: &SvgArea<'_>, scene: &MoveScene, at: Option<f64>) -> io::Result<()> {
     let (Some(layer), Some(piece)) = (choose_diagram_layer(scene, at), scene.pieces.first()) else {
         return Ok(());
     };
     let Ok(step) = MillStep::new(scene.mill, piece) else { return Ok(()) };
-    let diagram = BoundaryDiagram::new(&SectionFamily::new(&step, layer.z));
-    let mut title = format!("line {}, z {}", scene.line, format_short(layer.z));
+    let diagram = BoundaryDiagram::new(&SectionFamily::new(&step, layer.z_mm));
+    let mut title = format!("line {}, z {}", scene.line, format_short(layer.z_mm));
     if scene.pieces.len() > 1 {
         title.push_str(&format!(", first of {} pieces", scene.pieces.len()));
     }
-    let mut chart = ChartBuilder::on(area)
-        .caption(title, ("sans-serif", 14))
-        .margin(10)
-        .set_label_area_size(LabelAreaPosition::Left, 44)
-        .set_label_area_size(LabelAreaPosition::Bottom, 40)
-        .build_cartesian_2d(0.0..360.0, 0.0..1.0)
-        .map_err(drawing_error)?;
-    chart
-        .configure_mesh()
-        .disable_mesh()
-        .x_labels(9)
-        .x_label_formatter(&|theta| format!("{theta:.0}"))
-        .y_labels(6)
-        .x_desc("theta, degrees")
-        .y_desc("t")
-        .label_style(("sans-serif", 11))
-        .axis_desc_style(("sans-serif", 13))
-        .draw()
-        .map_err(drawing_error)?;
+    let frame = ChartFrame {
+        title: Some((&title, 14)),
+        margin: 10,
+        left_labels: 44,
+        bottom_labels: 40,
+        grid_lines: false,
+        label_counts: [9, 6],
+        label_font: 11,
+        whole_right_labels: true,
+        axis_texts: Some((["theta, degrees", "t"], 13)),
+    };
+    let mut chart = frame.draw(area, 0.0..360.0, 0.0..1.0)?;
     chart.draw_series(shade_edge_states(&diagram)).map_err(drawing_error)?;
     for line in trace_flute_ends(&diagram) {
-        chart
-            .draw_series(LineSeries::new(line, RGBColor(90, 90, 90).stroke_width(1)))
-            .map_err(drawing_error)?;
+        draw_line(&mut chart, line, RGBColor(90, 90, 90).stroke_width(1), "", 1)?;
     }
     let branches = diagram.trace_branches(STEPS);
     for line in branches.iter().flat_map(|branch| wrap_angles(&branch.points)) {
-        chart.draw_series(LineSeries::new(line, BRANCH.stroke_width(2))).map_err(drawing_error)?;
+        draw_line(&mut chart, line, BRANCH.stroke_width(2), "", 2)?;
     }
     for (point, end) in branches.iter().flat_map(branch_end_points) {
         let style = match end {
@@ -109,9 +99,7 @@ fn draw_diagram(area: &PanelArea<'_>, scene: &MoveScene, at: Option<f64>) -> io:
     // The first edge and the last, as in the picture of layers.
     let first = DashedPathElement::new(vec![(0.0, 0.0), (360.0, 0.0)], 8, 5, EDGE.stroke_width(3));
     chart.draw_series(std::iter::once(first)).map_err(drawing_error)?;
-    let last = LineSeries::new([(0.0, 1.0), (360.0, 1.0)], EDGE.stroke_width(3));
-    chart.draw_series(last).map_err(drawing_error)?;
-    Ok(())
+    draw_line(&mut chart, [(0.0, 1.0), (360.0, 1.0)], EDGE.stroke_width(3), "", 3)
 }
 
 /// What the edge does, row by row: borders between regions are found to a thousandth of a degree.

@@ -3,13 +3,14 @@
 
 use super::ChipReport;
 use super::move_scene::{MoveScene, MoveSceneLayer};
-use super::panel_sheet::{CHIP, EDGE, LegendSample, PanelArea, WORKPIECE, draw_sheet, drawing_error};
+use super::panel_sheet::{CHIP, EDGE, LegendSample, WORKPIECE, draw_sheet};
 use crate::engagement::PathPiece;
 use crate::layered_chips::area::{AreaGrid, Clipper, GridArea};
 use crate::layered_chips::boundary_diagram::BoundaryDiagram;
 use crate::layered_chips::section_family::SectionFamily;
 use crate::layered_chips::swept_area::{LayerSweptArea, RimDirections};
 use crate::layered_chips::{MillStep, Polygon};
+use crate::report::svg_chart::{ChartFrame, SvgArea, drawing_error};
 use crate::report::text_format::format_short;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
@@ -39,11 +40,13 @@ struct LayerPanel<'r> {
 ///
 /// # Errors
 /// What the drawing library returns, which for a drawing in memory is nothing.
-pub fn draw_layers(report: &ChipReport, at: Option<f64>) -> io::Result<String> {
-    let heights = choose_layer_heights(report, at);
+pub fn draw_layers(report: &ChipReport, at_z_mm: Option<f64>) -> io::Result<String> {
+    let heights = choose_layer_heights(report, at_z_mm);
     let panels: Vec<LayerPanel<'_>> = heights
         .iter()
-        .flat_map(|z| report.scenes.iter().map(|scene| LayerPanel::new(scene, *z, report.options.tolerance)))
+        .flat_map(|z| {
+            report.scenes.iter().map(|scene| LayerPanel::new(scene, *z, report.options.tolerance_mm))
+        })
         .collect();
     let one_row = heights.len() == 1 || report.scenes.len() == 1;
     let columns = if one_row { panels.len().min(IN_A_ROW) } else { report.scenes.len() }.max(1);
@@ -66,7 +69,7 @@ pub fn draw_layers(report: &ChipReport, at: Option<f64>) -> io::Result<String> {
 fn choose_layer_heights(report: &ChipReport, at: Option<f64>) -> Vec<f64> {
     let layers = report.scenes.iter().flat_map(|scene| &scene.layers);
     let shown = layers.filter(|layer| at.is_none_or(|z| layer.contains_height(z)));
-    let mut heights: Vec<f64> = shown.map(|layer| layer.z).collect();
+    let mut heights: Vec<f64> = shown.map(|layer| layer.z_mm).collect();
     heights.sort_by(|a, b| b.total_cmp(a));
     heights.dedup();
     // A height on the border of two layers is in both: the upper one.
@@ -96,7 +99,7 @@ impl<'r> LayerPanel<'r> {
         };
         Self {
             scene,
-            layer: scene.layers.iter().find(|layer| layer.z == z),
+            layer: scene.layers.iter().find(|layer| layer.z_mm == z),
             first: cover(scene.pieces.first()).unwrap_or_default().first,
             last: cover(scene.pieces.last()).unwrap_or_default().last,
         }
@@ -117,30 +120,26 @@ impl<'r> LayerPanel<'r> {
         self.content_corners().into_iter().flat_map(|([x0, y0], [x1, y1])| [x1 - x0, y1 - y0])
     }
 
-    fn draw_panel(&self, area: &PanelArea<'_>, half: f64, grid: &AreaGrid) -> io::Result<()> {
+    fn draw_panel(&self, area: &SvgArea<'_>, half: f64, grid: &AreaGrid) -> io::Result<()> {
         let Some(([x0, y0], [x1, y1])) = self.content_corners() else { return Ok(()) };
         let (x, y) = (f64::midpoint(x0, x1), f64::midpoint(y0, y1));
         let tall = half * f64::from(PANEL.1 - AROUND.1) / f64::from(PANEL.0 - AROUND.0);
         let (wide, tall) = (half * (half / tall).max(1.0), tall.max(half));
         let mut title = format!("line {}", self.scene.line);
         if let Some(layer) = self.layer {
-            title.push_str(&format!(", z {}", format_short(layer.z)));
+            title.push_str(&format!(", z {}", format_short(layer.z_mm)));
         }
-        let mut chart = ChartBuilder::on(area)
-            .caption(title, ("sans-serif", 14))
-            .margin(6)
-            .set_label_area_size(LabelAreaPosition::Left, 48)
-            .set_label_area_size(LabelAreaPosition::Bottom, 24)
-            .build_cartesian_2d(x - wide..x + wide, y - tall..y + tall)
-            .map_err(drawing_error)?;
-        chart
-            .configure_mesh()
-            .disable_mesh()
-            .x_labels(5)
-            .y_labels(5)
-            .label_style(("sans-serif", 11))
-            .draw()
-            .map_err(drawing_error)?;
+        let frame = ChartFrame {
+            title: Some((&title, 14)),
+            margin: 6,
+            left_labels: 48,
+            bottom_labels: 24,
+            grid_lines: false,
+            label_counts: [5, 5],
+            label_font: 11,
+            ..ChartFrame::default()
+        };
+        let mut chart = frame.draw(area, x - wide..x + wide, y - tall..y + tall)?;
         let window = [[x - wide, y - tall], [x + wide, y - tall], [x + wide, y + tall], [x - wide, y + tall]];
         let filled = |polygons: &[Polygon], color: RGBColor| {
             let seen = clip_to_window(polygons, &window, grid);

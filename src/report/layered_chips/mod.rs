@@ -38,7 +38,7 @@ pub struct ChipReportOptions {
     /// The workpiece around so many moves that cut, for pictures; the run is slower then.
     pub scenes: usize,
     /// A height, mm: then only moves that cut on the layer there.
-    pub at: Option<f64>,
+    pub at_z_mm: Option<f64>,
 }
 
 /// The chips of a program.
@@ -92,7 +92,7 @@ impl ChipReport {
     ) -> Result<Self, Failure> {
         let options =
             LayerRunOptions { one_by_one: options.one_by_one || keep.scenes > 0, ..options.clone() };
-        let mut gathering = chip_collector::ChipCollector::new(machining, keep, options.tolerance);
+        let mut gathering = chip_collector::ChipCollector::new(machining, keep, options.tolerance_mm);
         let ran = machining.simulate_layers(&options, watch, &mut |cut| gathering.add_motion(cut))?;
         if gathering.rows.is_empty() && gathering.skipped.is_empty() {
             let (from, to) = (*options.lines.start(), *options.lines.end());

@@ -23,7 +23,7 @@ pub struct MoveScene {
 #[derive(Debug, Clone, PartialEq)]
 pub struct MoveSceneLayer {
     /// Height of its middle, mm.
-    pub z: f64,
+    pub z_mm: f64,
     /// Its thickness, mm.
     pub thickness_mm: f64,
     /// The workpiece after the move.
@@ -34,8 +34,8 @@ pub struct MoveSceneLayer {
 
 impl MoveSceneLayer {
     /// Whether a height is in the layer.
-    pub fn contains_height(&self, z: f64) -> bool {
-        (z - self.z).abs() <= self.thickness_mm / 2.0
+    pub fn contains_height(&self, z_mm: f64) -> bool {
+        (z_mm - self.z_mm).abs() <= self.thickness_mm / 2.0
     }
 }
 
@@ -49,7 +49,7 @@ pub(super) fn build_scene(
     let layer = |row: &ChipLayerRow| {
         let stands = cut.stack.layers().iter().find(|layer| layer.number() == row.number);
         MoveSceneLayer {
-            z: row.z,
+            z_mm: row.z_mm,
             thickness_mm: row.thickness_mm,
             workpiece: stands.map(|layer| layer.remaining_polygons()).unwrap_or_default(),
             chip: row.polygons.clone(),

@@ -2,10 +2,9 @@
 //!
 //! Sizes are fixed and no fonts are measured, so the same chips make the same bytes.
 
-use plotters::coord::Shift;
+use crate::report::svg_chart::{SvgArea, draw_svg, drawing_error};
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
-use std::fmt::Display;
 use std::io;
 
 /// Height of the legend below the panels, pixels.
@@ -22,9 +21,6 @@ pub(super) const RETREATING: RGBColor = RGBColor(214, 228, 244);
 pub(super) const OUTSIDE: RGBColor = RGBColor(190, 190, 190);
 pub(super) const BRANCH: RGBColor = RGBColor(180, 30, 40);
 
-/// A panel's drawing area.
-pub(super) type PanelArea<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-
 /// A sample in the legend.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum LegendSample {
@@ -40,28 +36,23 @@ pub(super) fn draw_sheet(
     (columns, rows): (usize, usize),
     panel: (u32, u32),
     legend: &[(LegendSample, &str)],
-    mut draw: impl FnMut(usize, &PanelArea<'_>) -> io::Result<()>,
+    mut draw: impl FnMut(usize, &SvgArea<'_>) -> io::Result<()>,
 ) -> io::Result<String> {
     let pixels = |count: usize, size: u32| u32::try_from(count).unwrap_or(1) * size;
     let (wide, high) = (pixels(columns, panel.0), pixels(rows, panel.1));
     // A single panel still has room for the legend.
     let size = (wide.max(pixels(legend.len(), 170)), high + LEGEND);
-    let mut text = String::new();
-    {
-        let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
-        root.fill(&WHITE).map_err(drawing_error)?;
+    draw_svg(size, |root| {
         let (panels, below) = root.split_vertically(high);
         let (panels, _) = panels.split_horizontally(wide);
         for (number, area) in panels.split_evenly((rows, columns)).iter().enumerate() {
             draw(number, area)?;
         }
-        draw_legend(&below, legend)?;
-        root.present().map_err(drawing_error)?;
-    }
-    Ok(text)
+        draw_legend(&below, legend)
+    })
 }
 
-fn draw_legend(area: &PanelArea<'_>, legend: &[(LegendSample, &str)]) -> io::Result<()> {
+fn draw_legend(area: &SvgArea<'_>, legend: &[(LegendSample, &str)]) -> io::Result<()> {
     let middle = i32::try_from(LEGEND / 2).unwrap_or_default();
     let mut x = MARGIN;
     for (sample, text) in legend {
@@ -84,8 +75,4 @@ fn draw_legend(area: &PanelArea<'_>, legend: &[(LegendSample, &str)]) -> io::Res
         x += 32 + 7 * i32::try_from(text.len()).unwrap_or_default() + MARGIN;
     }
     Ok(())
-}
-
-pub(super) fn drawing_error(error: impl Display) -> io::Error {
-    io::Error::other(format!("the drawing failed: {error}"))
 }

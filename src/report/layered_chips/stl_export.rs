@@ -18,8 +18,8 @@ pub fn write_stl(report: &ChipReport, out: &mut dyn Write) -> io::Result<()> {
 fn to_layer_chip(row: &ChipLayerRow) -> LayerChip {
     LayerChip {
         layer: row.number,
-        z: row.z,
-        thickness: row.thickness_mm,
+        z_mm: row.z_mm,
+        thickness_mm: row.thickness_mm,
         area_mm2: row.area_mm2,
         inside_mm2: row.inside_mm2,
         pieces: row.polygons.clone(),

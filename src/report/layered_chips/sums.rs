@@ -13,7 +13,8 @@ pub struct ChipPeak {
     /// The line of the motion.
     pub line: usize,
     /// The height of the layer, mm; of a whole motion none.
-    pub z: Option<f64>,
+    #[serde(rename = "z")]
+    pub z_mm: Option<f64>,
 }
 
 /// Sums of everything that ran, also before the lines that are asked for; volumes in mm3.
@@ -72,7 +73,12 @@ impl OperationChips {
         raise_peak(&mut self.chip_mm3, row.volume_mm3, row.line, None);
         for layer in &row.layers {
             let at = |largest: &mut Option<ChipPeak>, value: f64| {
-                raise_peak(largest, value, row.line, Some(crate::report::rounding::round_to_micro(layer.z)));
+                raise_peak(
+                    largest,
+                    value,
+                    row.line,
+                    Some(crate::report::rounding::round_to_micro(layer.z_mm)),
+                );
             };
             let ChipLayerRow { area_mm2, chip_thickness_mm, count, .. } = layer;
             at(&mut self.area_mm2, *area_mm2);
@@ -85,6 +91,6 @@ impl OperationChips {
 
 fn raise_peak(largest: &mut Option<ChipPeak>, value: f64, line: usize, z: Option<f64>) {
     if value > largest.map_or(0.0, |largest| largest.value) {
-        *largest = Some(ChipPeak { value, line, z });
+        *largest = Some(ChipPeak { value, line, z_mm: z });
     }
 }

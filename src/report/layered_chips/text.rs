@@ -18,8 +18,8 @@ pub fn to_text(report: &ChipReport) -> String {
         out,
         "  {} layers of {} mm, borders within {} mm",
         format_count(layers as u64),
-        format_short(options.layer),
-        format_short(options.tolerance),
+        format_short(options.layer_mm),
+        format_short(options.tolerance_mm),
     );
     let (from, to) = (*options.lines.start(), *options.lines.end());
     let _ = match (from, to) {
@@ -104,7 +104,7 @@ fn append_peaks(out: &mut String, report: &ChipReport) {
     ];
     for (what, found, decimals, unit) in all {
         let Some(found) = found else { continue };
-        let at = found.z.map_or_else(String::new, |z| format!(" at z {}", format_short(z)));
+        let at = found.z_mm.map_or_else(String::new, |z| format!(" at z {}", format_short(z)));
         let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
         let _ = writeln!(
             out,

@@ -1,8 +1,7 @@
 //! Panels of curves as SVG.
 
-use plotters::coord::Shift;
+use crate::report::svg_chart::{ChartFrame, SvgArea, draw_line, draw_line_names, draw_svg};
 use plotters::prelude::*;
-use std::fmt::Display;
 use std::io;
 
 /// Width of a drawing, and height of a panel.
@@ -67,17 +66,13 @@ pub fn draw_curve_panels(right: &str, panels: &[CurvePanel]) -> io::Result<Strin
     // An axis without a length would have no marks.
     let end = if end > 0.0 && end.is_finite() { end } else { 1.0 };
     let count = u32::try_from(panels.len()).unwrap_or(1).max(1);
-    let mut text = String::new();
-    {
-        let root = SVGBackend::with_string(&mut text, (WIDTH, HEIGHT * count)).into_drawing_area();
-        root.fill(&WHITE).map_err(drawing_error)?;
+    draw_svg((WIDTH, HEIGHT * count), |root| {
         let areas = root.split_evenly((panels.len().max(1), 1));
         for (index, (area, panel)) in areas.iter().zip(panels).enumerate() {
             draw_curve_panel(area, right, end, panel, index == 0)?;
         }
-        root.present().map_err(drawing_error)?;
-    }
-    Ok(text)
+        Ok(())
+    })
 }
 
 /// The least and the largest value of an axis.
@@ -99,53 +94,26 @@ fn find_axis_range(panel: &CurvePanel, names: bool) -> [f64; 2] {
 }
 
 fn draw_curve_panel(
-    area: &DrawingArea<SVGBackend<'_>, Shift>,
+    area: &SvgArea<'_>,
     right: &str,
     end: f64,
     panel: &CurvePanel,
     names: bool,
 ) -> io::Result<()> {
     let [low, high] = find_axis_range(panel, names);
-    let mut chart = ChartBuilder::on(area)
-        .margin(16)
-        .set_label_area_size(LabelAreaPosition::Left, 80)
-        .set_label_area_size(LabelAreaPosition::Bottom, 44)
-        .build_cartesian_2d(0.0..end, low..high)
-        .map_err(drawing_error)?;
-    chart
-        .configure_mesh()
-        .light_line_style(TRANSPARENT)
-        .x_desc(right)
-        .y_desc(panel.up.as_str())
-        .label_style(("sans-serif", 14))
-        .axis_desc_style(("sans-serif", 16))
-        .draw()
-        .map_err(drawing_error)?;
+    let frame = ChartFrame { axis_texts: Some(([right, &panel.up], 16)), ..ChartFrame::default() };
+    let mut chart = frame.draw(area, 0.0..end, low..high)?;
     let last = panel.curves.len().saturating_sub(1);
     for (index, curve) in panel.curves.iter().enumerate() {
         let color = if index < last { RGBColor(170, 170, 170) } else { RGBColor(0, 90, 181) };
         let mut lines = to_polylines(&curve.stretches, end).into_iter();
         let first = lines.next().unwrap_or_default();
-        let drawn =
-            chart.draw_series(LineSeries::new(first, color.stroke_width(1))).map_err(drawing_error)?;
-        drawn
-            .label(curve.name.as_str())
-            .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + 18, y)], color.stroke_width(3)));
+        draw_line(&mut chart, first, color.stroke_width(1), &curve.name, 3)?;
         for line in lines {
-            chart.draw_series(LineSeries::new(line, color.stroke_width(1))).map_err(drawing_error)?;
+            draw_line(&mut chart, line, color.stroke_width(1), "", 3)?;
         }
     }
-    if !names {
-        return Ok(());
-    }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperRight)
-        .label_font(("sans-serif", 14))
-        .background_style(WHITE)
-        .border_style(RGBColor(200, 200, 200))
-        .draw()
-        .map_err(drawing_error)
+    if names { draw_line_names(&mut chart, 14, 1.0) } else { Ok(()) }
 }
 
 /// A curve as lines, which end where it is not known.
@@ -204,8 +172,4 @@ impl PolylineBuilder {
         self.extend_or_break(None);
         self.done
     }
-}
-
-fn drawing_error(error: impl Display) -> io::Error {
-    io::Error::other(format!("the drawing failed: {error}"))
 }

@@ -107,7 +107,7 @@ pub struct PlottedProgram<'a> {
     /// The unit of its lengths.
     pub units: LengthUnit,
     /// The machine's rapid feed, mm/min.
-    pub rapid_feed: Option<f64>,
+    pub rapid_feed_mm_min: Option<f64>,
     /// Its simulation.
     pub simulated: Option<&'a SimulationReport>,
 }
@@ -148,7 +148,7 @@ fn build_curve(plotted: &PlottedProgram<'_>, quantity: PlotQuantity, along: Plot
         if motion.path == MotionPath::Start {
             continue;
         }
-        let moved = measure_motion(&motion, plotted.units, plotted.rapid_feed);
+        let moved = measure_motion(&motion, plotted.units, plotted.rapid_feed_mm_min);
         let size = match along {
             PlotAbscissa::Time => moved.seconds.unwrap_or(0.0),
             PlotAbscissa::Path => moved.length_mm,

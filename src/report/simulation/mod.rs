@@ -149,7 +149,7 @@ impl SimulationReport {
         let material = machining.setup().require_material().ok();
         let options = SimulationRunOptions { forces: material.is_some(), ..*options };
         let plan = machining.estimate_cost(&options)?;
-        let mut gathering = simulation_collector::SimulationCollector::new(machining, plan.cell);
+        let mut gathering = simulation_collector::SimulationCollector::new(machining, plan.cell_mm);
         let mut sink = |cut: &crate::simulation_run::EngagedMotion<'_>| gathering.add_motion(cut);
         let ran = machining.simulate_program(&options, watch, &mut sink)?;
         let gathered = gathering.into_collected();
@@ -163,9 +163,9 @@ impl SimulationReport {
             material: material.and_then(|material| material.name.clone()),
             cost: plan.into(),
             accuracy: SimulationAccuracy {
-                cell_mm: ran.cell,
-                lateral_mm: ran.cell / 2.0,
-                chord_mm: chord_tolerance_mm(ran.cell),
+                cell_mm: ran.cell_mm,
+                lateral_mm: ran.cell_mm / 2.0,
+                chord_mm: chord_tolerance_mm(ran.cell_mm),
             },
             stock: StockVolumes { before_mm3: ran.before_mm3, removed_mm3, left_mm3 },
             totals: gathered.totals,

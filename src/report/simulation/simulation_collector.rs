@@ -139,7 +139,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         let told = cut.motion.spindle.as_deref().and_then(|spindle| spindle.direction);
         self.senseless += usize::from(told.is_none() && rpm.is_some());
         let sense = told.unwrap_or(SpindleDirection::Clockwise);
-        let [_, high] = whole.height;
+        let [_, high] = whole.height_mm;
         row.axial_depth_mm = Some(whole.axial_depth_mm());
         row.radial_depth_mm =
             Some(whole.radial_depth_mm().min(2.0 * cutter.profile.radius_at_height_mm(high)));

@@ -2,6 +2,7 @@
 
 use super::SimulationReport;
 use crate::diagnostic::{Diagnostic, codes};
+use crate::number::format_named_point;
 use crate::report::rounding::serialize_rounded;
 use crate::stock::{Mesh, TargetDeviation};
 use serde::Serialize;
@@ -36,23 +37,27 @@ pub struct TargetMismatch {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ThickestMismatch {
     /// Its thickness, mm.
-    #[serde(serialize_with = "serialize_rounded")]
-    pub mm: f64,
+    #[serde(rename = "mm", serialize_with = "serialize_rounded")]
+    pub thickness_mm: f64,
     /// Where, in mm: of a gouge the lower end, of excess the upper one.
-    pub at: [f64; 3],
+    #[serde(rename = "at")]
+    pub at_mm: [f64; 3],
 }
 
 impl SimulationReport {
     /// Looks at what is left against a target in mm; a gouge is a finding ([`codes::GOUGE`]), excess is only reported. Without a
     /// tolerance (mm) it is the distance of columns. `name` is what the target is called.
-    pub fn compare_with_target(&mut self, target: &Mesh, name: &str, tolerance: Option<f64>) {
+    pub fn compare_with_target(&mut self, target: &Mesh, name: &str, tolerance_mm: Option<f64>) {
         let layout = *self.left.grid();
-        let tolerance_mm = tolerance.unwrap_or(layout.cell);
+        let tolerance_mm = tolerance_mm.unwrap_or(layout.cell_mm);
         // Both are on one grid, so that they can be compared.
         let found = TargetDeviation::measure_by_distance(&self.left, &target.to_dexels(layout), tolerance_mm)
             .unwrap_or_default();
         let thickest = |piece: Option<(f64, [f64; 3])>| {
-            piece.map(|(mm, at)| ThickestMismatch { mm, at: at.map(crate::report::rounding::round_to_micro) })
+            piece.map(|(mm, at)| ThickestMismatch {
+                thickness_mm: mm,
+                at_mm: at.map(crate::report::rounding::round_to_micro),
+            })
         };
         let compared = TargetComparison {
             file: name.to_owned(),
@@ -68,10 +73,11 @@ impl SimulationReport {
                 thickest: thickest(found.highest_excess),
             },
         };
-        if let Some(ThickestMismatch { mm, at: [x, y, z] }) = compared.gouge.thickest {
+        if let Some(ThickestMismatch { thickness_mm: mm, at_mm: at }) = compared.gouge.thickest {
             let message = format!(
-                "{:.3} mm3 of the target {name} are gone, the thickest piece with {mm:.3} mm along z at x {x:.3}, y {y:.3}, z {z:.3} mm",
+                "{:.3} mm3 of the target {name} are gone, the thickest piece with {mm:.3} mm along z at {} mm",
                 compared.gouge.volume_mm3,
+                format_named_point(at, 3),
             );
             self.findings.push(Diagnostic::new(codes::GOUGE, message));
         }
@@ -83,14 +89,14 @@ impl SimulationReport {
     fn find_target_outside_stock(&self, target: &Mesh, name: &str, tolerance: f64) -> Option<Diagnostic> {
         let layout = self.left.grid();
         let (low, high) = target.bounds();
-        let sizes = [layout.columns, layout.rows].map(|count| count as f64 * layout.cell);
-        let beside = low.into_iter().zip(high).zip(layout.origin).zip(sizes);
+        let sizes = [layout.columns, layout.rows].map(|count| count as f64 * layout.cell_mm);
+        let beside = low.into_iter().zip(high).zip(layout.origin_mm).zip(sizes);
         let out = beside.map(|(((low, high), origin), size)| {
-            let start = origin - layout.cell / 2.0;
+            let start = origin - layout.cell_mm / 2.0;
             (start - low).max(high - start - size)
         });
         let out = out.fold(0.0, f64::max);
-        (out > tolerance.max(layout.cell)).then(|| {
+        (out > tolerance.max(layout.cell_mm)).then(|| {
             let message = format!("the target {name} stands {out:.3} mm out of the stock in x or y");
             let help = "Target and program must stand in the same coordinates and unit.";
             Diagnostic::new(codes::GOUGE, message).with_help(help)

@@ -2,9 +2,10 @@
 
 use super::target_comparison::TargetMismatch;
 use super::{OperationSums, SimulationPeak, SimulationReport, SimulationSums};
+use crate::number::format_named_point;
 use crate::presentation::safe_text::to_safe_line;
 use crate::report::text_format::{
-    format_count, format_counted, format_duration, format_fixed, format_short, format_table,
+    format_count, format_counted, format_duration, format_fixed, format_short, format_table, format_trimmed,
 };
 use std::fmt::Write;
 
@@ -41,8 +42,8 @@ fn append_stock(out: &mut String, simulated: &SimulationReport) {
     let _ = writeln!(
         out,
         "  borders of material are known to {} mm across z, curves to {} mm",
-        format_precise_mm(accuracy.lateral_mm),
-        format_precise_mm(accuracy.chord_mm),
+        format_trimmed(accuracy.lateral_mm, 4),
+        format_trimmed(accuracy.chord_mm, 4),
     );
     let stock = &simulated.stock;
     let _ = writeln!(
@@ -168,27 +169,21 @@ fn append_faults(out: &mut String, simulated: &SimulationReport) {
 fn append_target(out: &mut String, simulated: &SimulationReport) {
     let Some(compared) = &simulated.target else { return };
     let name = to_safe_line(&compared.file);
-    let _ = writeln!(out, "  against {name}, tolerance {} mm:", format_precise_mm(compared.tolerance_mm));
+    let _ = writeln!(out, "  against {name}, tolerance {} mm:", format_trimmed(compared.tolerance_mm, 4));
     let mut side = |what: &str, found: &TargetMismatch| {
         let _ = match &found.thickest {
             None => writeln!(out, "    no {what}"),
             Some(thickest) => {
-                let [x, y, z] = thickest.at.map(|at| format_fixed(at, 3));
                 writeln!(
                     out,
-                    "    {what} {} mm3, at most {} mm along z, at x {x}, y {y}, z {z} mm",
+                    "    {what} {} mm3, at most {} mm along z, at {} mm",
                     format_fixed(found.volume_mm3, 1),
-                    format_fixed(thickest.mm, 3),
+                    format_fixed(thickest.thickness_mm, 3),
+                    format_named_point(thickest.at_mm, 3),
                 )
             }
         };
     };
     side("gouge", &compared.gouge);
     side("excess", &compared.excess);
-}
-
-/// A small length with the digits that it has, to a tenth of a micron.
-fn format_precise_mm(value: f64) -> String {
-    let text = format_fixed(value, 4);
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

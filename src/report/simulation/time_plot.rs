@@ -20,9 +20,9 @@ pub struct ProgramTimeSeries {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlottedMotion {
     /// When it begins, s.
-    pub from: f64,
+    pub from_s: f64,
     /// When it ends, s.
-    pub to: f64,
+    pub to_s: f64,
     /// The thickest chip, mm.
     pub chip_thickness_mm: Option<f64>,
     /// The feed, mm/min; `None` in a rapid.
@@ -39,7 +39,12 @@ impl SimulationReport {
             let from = at;
             at += seconds;
             let feed_mm_min = row.feed_mm_min.filter(|_| !row.rapid);
-            Some(PlottedMotion { from, to: at, chip_thickness_mm: row.chip_thickness_mm, feed_mm_min })
+            Some(PlottedMotion {
+                from_s: from,
+                to_s: at,
+                chip_thickness_mm: row.chip_thickness_mm,
+                feed_mm_min,
+            })
         });
         ProgramTimeSeries { name: name.into(), moments: timed.collect() }
     }
@@ -66,8 +71,8 @@ pub fn draw_time_series(series: &[ProgramTimeSeries]) -> io::Result<String> {
 
 fn build_curve(series: &ProgramTimeSeries, value: fn(&PlottedMotion) -> Option<f64>) -> PlotCurve {
     let stretch = |moment: &PlottedMotion| PlotSegment {
-        from: moment.from,
-        to: moment.to,
+        from: moment.from_s,
+        to: moment.to_s,
         values: value(moment).map(|value| [value; 2]),
     };
     PlotCurve { name: series.name.clone(), stretches: series.moments.iter().map(stretch).collect() }

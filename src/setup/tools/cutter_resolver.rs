@@ -6,6 +6,7 @@ use super::tool_entry::ToolEntry;
 use super::tool_text::SAME;
 use crate::cutter::{CutterModel, Meridian, NonCuttingCylinder, NonCuttingKind};
 use crate::diagnostic::{Diagnostic, codes};
+use crate::number::format_trimmed_number;
 use crate::program::LengthUnit;
 use crate::program::motion::ActiveTool;
 use crate::setup::Setup;
@@ -72,22 +73,24 @@ struct CutterResolver<'a> {
 impl CutterResolver<'_> {
     fn resolve_cutter(mut self) -> Result<ResolvedCutter, ToolDataFault> {
         let own = |field: fn(&ToolEntry) -> Option<f64>| self.entry.and_then(field);
-        let diameter = match (own(|entry| entry.diameter), self.told) {
+        let diameter = match (own(|entry| entry.diameter_mm), self.told) {
             (Some(diameter), _) => diameter,
             (None, FileToolData { other: true, .. }) => {
                 return Err(self.make_gap(ToolDataFaultKind::NoMillingCutter));
             }
-            (None, FileToolData { diameter: Some(diameter), .. }) => diameter,
+            (None, FileToolData { diameter_mm: Some(diameter), .. }) => diameter,
             (None, _) => return Err(self.make_gap(ToolDataFaultKind::Diameter)),
         };
         let (corner, taper, tip) =
-            (own(|entry| entry.corner_radius), own(|entry| entry.taper), own(|entry| entry.tip));
-        let tip =
-            tip.or(self.told.tip).unwrap_or_else(|| self.assume_zero("a flat bottom (tip 0)", "its angle"));
-        let corner =
-            corner.or(self.told.corner_radius).unwrap_or_else(|| self.assume_zero("corner radius 0", "one"));
+            (own(|entry| entry.corner_radius_mm), own(|entry| entry.taper_rad), own(|entry| entry.tip_rad));
+        let tip = tip
+            .or(self.told.tip_rad)
+            .unwrap_or_else(|| self.assume_zero("a flat bottom (tip 0)", "its angle"));
+        let corner = corner
+            .or(self.told.corner_radius_mm)
+            .unwrap_or_else(|| self.assume_zero("corner radius 0", "one"));
         let corner = self.snap_to_ball_mm(diameter, corner);
-        let taper = taper.or(self.told.taper).unwrap_or_else(|| self.assume_zero("taper 0", "one"));
+        let taper = taper.or(self.told.taper_rad).unwrap_or_else(|| self.assume_zero("taper 0", "one"));
         let flute_length = self.resolve_flute_length_mm(diameter, tip);
         let profile = Meridian::new(diameter, corner, taper, tip, flute_length).map_err(|error| {
             let (taper, tip) = (taper.to_degrees(), tip.to_degrees());
@@ -121,15 +124,16 @@ impl CutterResolver<'_> {
     /// The corner radius, without what printing has rounded off that of a ball.
     fn snap_to_ball_mm(&self, diameter: f64, corner: f64) -> f64 {
         let half = diameter / 2.0;
-        if corner > 0.0 && (corner - half).abs() <= self.told.rounding { half } else { corner }
+        if corner > 0.0 && (corner - half).abs() <= self.told.rounding_mm { half } else { corner }
     }
 
     fn resolve_flute_length_mm(&mut self, diameter: f64, tip: f64) -> f64 {
-        if let Some(flutes) = self.entry.and_then(|entry| entry.flute_length).or(self.told.flute_length) {
+        if let Some(flutes) = self.entry.and_then(|entry| entry.flute_length_mm).or(self.told.flute_length_mm)
+        {
             return flutes;
         }
-        let shank_end = self.entry.and_then(|entry| entry.shank).map(|shank| shank.length);
-        let (length, why) = match (self.told.length, shank_end) {
+        let shank_end = self.entry.and_then(|entry| entry.shank).map(|shank| shank.length_mm);
+        let (length, why) = match (self.told.length_mm, shank_end) {
             (Some(length), Some(end)) if length > end => (end, "setup.tools says only where the shank ends"),
             (Some(length), _) => (length, "the CL file says only how long the tool is"),
             (None, Some(end)) => (end, "setup.tools says only where the shank ends"),
@@ -138,7 +142,7 @@ impl CutterResolver<'_> {
                 (FLUTE_DIAMETERS * diameter + bottom, "neither the CL file nor setup.tools says one")
             }
         };
-        self.assumptions.push(format!("flute length {} mm: {why}", format_short(length)));
+        self.assumptions.push(format!("flute length {} mm: {why}", format_dimension(length)));
         length
     }
 
@@ -149,14 +153,15 @@ impl CutterResolver<'_> {
     ) -> Result<Vec<NonCuttingCylinder>, ToolDataFault> {
         let flutes = profile.height_mm();
         let (shank, holder) = self.entry.map_or((None, None), |entry| (entry.shank, entry.holder));
-        let (radius, end) = match (shank, self.told.length) {
-            (Some(shank), _) if shank.length < flutes - SAME => {
-                let (flute_length, length) = (flutes, shank.length);
+        let (radius, end) = match (shank, self.told.length_mm) {
+            (Some(shank), _) if shank.length_mm < flutes - SAME => {
+                let (flute_length, length) = (flutes, shank.length_mm);
                 return Err(self.make_gap(ToolDataFaultKind::Shank { flute_length, length }));
             }
-            (Some(shank), _) => (shank.diameter / 2.0, shank.length),
+            (Some(shank), _) => (shank.diameter_mm / 2.0, shank.length_mm),
             (None, Some(length)) if length > flutes + SAME => {
-                let (diameter, length_text) = (format_short(2.0 * profile.radius_mm()), format_short(length));
+                let (diameter, length_text) =
+                    (format_dimension(2.0 * profile.radius_mm()), format_dimension(length));
                 self.assumptions.push(format!(
                     "a shank of {diameter} mm up to {length_text} mm, as thick as the cutter: setup.tools says none"
                 ));
@@ -166,14 +171,19 @@ impl CutterResolver<'_> {
         };
         let mut collars = Vec::new();
         if end > flutes + SAME {
-            collars.push(NonCuttingCylinder { kind: NonCuttingKind::Shank, radius, from: flutes, to: end });
+            collars.push(NonCuttingCylinder {
+                kind: NonCuttingKind::Shank,
+                radius_mm: radius,
+                from_mm: flutes,
+                to_mm: end,
+            });
         }
         match holder {
             Some(holder) => collars.push(NonCuttingCylinder {
                 kind: NonCuttingKind::Holder,
-                radius: holder.diameter / 2.0,
-                from: end,
-                to: end + holder.length,
+                radius_mm: holder.diameter_mm / 2.0,
+                from_mm: end,
+                to_mm: end + holder.length_mm,
             }),
             None => self.assumptions.push("no holder: setup.tools says none".to_owned()),
         }
@@ -181,8 +191,7 @@ impl CutterResolver<'_> {
     }
 }
 
-/// A length with at most four decimals.
-pub(super) fn format_short(value: f64) -> String {
-    let text = format!("{value:.4}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+/// A length or an angle of a tool as messages have it.
+pub(super) fn format_dimension(value: f64) -> String {
+    format_trimmed_number(value, 4)
 }

@@ -14,25 +14,25 @@ const ROUNDING: f64 = 1e-4;
 pub(super) struct FileToolData {
     /// Whether the file tells of a lathe tool, a wire or the like.
     pub other: bool,
-    pub diameter: Option<f64>,
-    pub corner_radius: Option<f64>,
-    pub taper: Option<f64>,
+    pub diameter_mm: Option<f64>,
+    pub corner_radius_mm: Option<f64>,
+    pub taper_rad: Option<f64>,
     /// Angle of the bottom against the plane.
-    pub tip: Option<f64>,
-    pub flute_length: Option<f64>,
+    pub tip_rad: Option<f64>,
+    pub flute_length_mm: Option<f64>,
     /// Length of the tool below its holder.
-    pub length: Option<f64>,
+    pub length_mm: Option<f64>,
     /// By how much numbers may be off for having been printed, in mm.
-    pub rounding: f64,
+    pub rounding_mm: f64,
 }
 
 impl FileToolData {
     pub fn from_tool_data(data: Option<&ToolData>, units: LengthUnit) -> Self {
         let rounding = ROUNDING * units.mm_per_unit();
-        let Some(data) = data else { return Self { rounding, ..Self::default() } };
-        let mm = |value: Option<f64>| value.map(|value| value * units.mm_per_unit());
+        let Some(data) = data else { return Self { rounding_mm: rounding, ..Self::default() } };
+        let to_mm = |value: Option<f64>| value.map(|value| value * units.mm_per_unit());
         // CAM systems write 0 for a length that nobody has filled in; what is rounded away is as good as 0.
-        let length = |value: Option<f64>| mm(value).filter(|value| *value >= SMALLEST);
+        let length = |value: Option<f64>| to_mm(value).filter(|value| *value >= SMALLEST);
         let drill = data.word == ToolWord::TlDataDrill;
         let tip = match data.tip_degrees {
             // A point angle of 0 is a field that nobody has filled in: reamers, taps.
@@ -41,14 +41,14 @@ impl FileToolData {
         };
         Self {
             other: data.word == ToolWord::TlDataOther,
-            diameter: length(data.diameter),
-            corner_radius: mm(data.corner_radius),
+            diameter_mm: length(data.diameter),
+            corner_radius_mm: to_mm(data.corner_radius),
             // A drill's flank is its bore's: it has no taper to tell.
-            taper: data.taper_degrees.map(f64::to_radians).or(drill.then_some(0.0)),
-            tip,
-            flute_length: length(data.flute_length),
-            length: length(data.length),
-            rounding,
+            taper_rad: data.taper_degrees.map(f64::to_radians).or(drill.then_some(0.0)),
+            tip_rad: tip,
+            flute_length_mm: length(data.flute_length),
+            length_mm: length(data.length),
+            rounding_mm: rounding,
         }
     }
 }

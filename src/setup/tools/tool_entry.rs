@@ -14,15 +14,15 @@ pub struct ToolEntry {
     /// What a tool's name must look like to fit.
     pub name: Option<Glob>,
     /// Diameter, where the lines of bottom and flank meet.
-    pub diameter: Option<f64>,
+    pub diameter_mm: Option<f64>,
     /// Corner radius.
-    pub corner_radius: Option<f64>,
+    pub corner_radius_mm: Option<f64>,
     /// Angle of the flank against the axis.
-    pub taper: Option<f64>,
+    pub taper_rad: Option<f64>,
     /// Angle of the bottom against the plane across the axis.
-    pub tip: Option<f64>,
+    pub tip_rad: Option<f64>,
     /// Length of the flutes from the tip.
-    pub flute_length: Option<f64>,
+    pub flute_length_mm: Option<f64>,
     /// The shank; its length counts from the tip.
     pub shank: Option<ToolCylinder>,
     /// The holder; its length counts from the end of the shank.
@@ -41,9 +41,9 @@ pub struct ToolEntry {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ToolCylinder {
     /// Diameter in mm.
-    pub diameter: f64,
+    pub diameter_mm: f64,
     /// Length in mm.
-    pub length: f64,
+    pub length_mm: f64,
 }
 
 /// The inserts of an indexable cutter, as its ramping limits need them: the cutter does not cut within `diameter - 2
@@ -51,9 +51,9 @@ pub struct ToolCylinder {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CutterInsert {
     /// Cutting height of an insert in mm.
-    pub height: f64,
+    pub height_mm: f64,
     /// Radius of the insert's bottom circle in mm.
-    pub radius: f64,
+    pub radius_mm: f64,
 }
 
 impl ToolEntry {

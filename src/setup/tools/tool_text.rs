@@ -105,27 +105,27 @@ impl ToolText {
         }
         let point = self.point.map(|point| (FRAC_PI_2 - point.radians() / 2.0).max(0.0));
         let mut bar = |diameter: Positive, length: Positive, key: &'static str| ToolCylinder {
-            diameter: reader.size_mm(diameter, || place.at_key(key).at_key("diameter")),
-            length: reader.size_mm(length, || place.at_key(key).at_key("length")),
+            diameter_mm: reader.size_mm(diameter, || place.at_key(key).at_key("diameter")),
+            length_mm: reader.size_mm(length, || place.at_key(key).at_key("length")),
         };
         let shank = self.shank.map(|shank| bar(shank.diameter, shank.length, "shank"));
         let holder = self.holder.map(|holder| bar(holder.diameter, holder.length, "holder"));
         let insert = self.insert.map(|insert| CutterInsert {
-            height: reader.size_mm(insert.height, || place.at_key("insert").at_key("height")),
-            radius: reader.size_mm(insert.radius, || place.at_key("insert").at_key("radius")),
+            height_mm: reader.size_mm(insert.height, || place.at_key("insert").at_key("height")),
+            radius_mm: reader.size_mm(insert.radius, || place.at_key("insert").at_key("radius")),
         });
         let entry = ToolEntry {
             number: self.matches.number,
             name: self.matches.name,
-            diameter: reader.optional_size_mm(self.diameter, &place, "diameter"),
-            corner_radius: reader.optional_length_mm(
+            diameter_mm: reader.optional_size_mm(self.diameter, &place, "diameter"),
+            corner_radius_mm: reader.optional_length_mm(
                 self.corner_radius.map(NonNegative::get),
                 &place,
                 "corner_radius",
             ),
-            taper: self.taper.map(Slope::radians),
-            tip: self.tip.map(Slope::radians).or(point),
-            flute_length: reader.optional_size_mm(self.flute_length, &place, "flute_length"),
+            taper_rad: self.taper.map(Slope::radians),
+            tip_rad: self.tip.map(Slope::radians).or(point),
+            flute_length_mm: reader.optional_size_mm(self.flute_length, &place, "flute_length"),
             shank,
             holder,
             teeth,
@@ -142,15 +142,15 @@ impl ToolEntry {
     /// Reports lengths of one entry that cannot be of one tool. What the CL file adds is looked at when both are known.
     fn check_lengths(&self, reader: &mut SetupReader) {
         let place = &self.place;
-        if let (Some(diameter), Some(corner)) = (self.diameter, self.corner_radius)
+        if let (Some(diameter), Some(corner)) = (self.diameter_mm, self.corner_radius_mm)
             && corner > diameter / 2.0 + SAME
         {
             let help = "A ball-nose cutter has a corner radius of half its diameter; none has a larger one.";
             let message = "the corner radius is larger than half the diameter";
             reader.add_fault(|| place.at_key("corner_radius"), message, "too large", help);
         }
-        if let (Some(flutes), Some(shank)) = (self.flute_length, self.shank)
-            && shank.length < flutes - SAME
+        if let (Some(flutes), Some(shank)) = (self.flute_length_mm, self.shank)
+            && shank.length_mm < flutes - SAME
         {
             let help = "The shank's length counts from the tip of the tool, flutes included.";
             let message = "the shank ends below the end of the flutes";
@@ -161,8 +161,8 @@ impl ToolEntry {
                 help,
             );
         }
-        if let (Some(diameter), Some(insert)) = (self.diameter, self.insert)
-            && insert.radius > diameter / 2.0 + SAME
+        if let (Some(diameter), Some(insert)) = (self.diameter_mm, self.insert)
+            && insert.radius_mm > diameter / 2.0 + SAME
         {
             let help = "The inserts go around inside the cutter's diameter.";
             let message = "the insert's radius is larger than half the diameter";

@@ -41,8 +41,8 @@ impl Machining<'_> {
         watch: &dyn RunWatcher,
         sink: &mut dyn FnMut(&MotionChips<'_>),
     ) -> Result<LayerRunResult, Failure> {
-        let stack = LayerStack::new(&self.stock, options.layer).map_err(|error| {
-            let message = format!("the stock cannot be cut into layers of {} mm: {error}", options.layer);
+        let stack = LayerStack::new(&self.stock, options.layer_mm).map_err(|error| {
+            let message = format!("the stock cannot be cut into layers of {} mm: {error}", options.layer_mm);
             Diagnostic::new(codes::LAYERS, message)
         })?;
         let before_mm3 = stack.volume_mm3();
@@ -120,7 +120,11 @@ impl<'r> LayerRunner<'r> {
             machining,
             options,
             stack,
-            trace: PathLinearizer::new(machining.units.mm_per_unit(), options.tolerance, options.longest),
+            trace: PathLinearizer::new(
+                machining.units.mm_per_unit(),
+                options.tolerance_mm,
+                options.longest_piece_mm,
+            ),
             mills,
             faults: FaultCollector::default(),
             steps: Vec::new(),
@@ -168,11 +172,11 @@ impl<'r> LayerRunner<'r> {
     /// Cuts the waiting pieces and gives each waiting motion to `sink`.
     fn cut_queued(&mut self, sink: &mut dyn FnMut(&MotionChips<'_>)) {
         // A tool that is not a flat end mill has no pieces; an empty mill keeps its index free.
-        let nothing = FlatMill { radius: 0.0, flutes: 0.0 };
+        let nothing = FlatMill { radius_mm: 0.0, flute_length_mm: 0.0 };
         let mills: Vec<FlatMill> =
             self.mills.iter().map(|mill| mill.as_ref().copied().unwrap_or(nothing)).collect();
         let pieces: Vec<PathPiece> = self.steps.iter().map(|step| step.piece).collect();
-        let chips = cut_chips(&mut self.stack, &mills, &pieces, self.options.tolerance);
+        let chips = cut_chips(&mut self.stack, &mills, &pieces, self.options.tolerance_mm);
         let bounds = self.machining.stock.bounds();
         let harmless = |step: &MotionPiece| {
             mills.get(step.piece.cutter).is_some_and(|mill| !can_reach_stock(&step.piece, mill, bounds))
@@ -248,13 +252,13 @@ fn check_layer_motion(
         };
         faults.add_finding(machining.program, cut.motion, codes::CHIP_REFUSED, message, "left out");
     }
-    let radius = cut.cutter.and_then(|index| mills.get(index)).map_or(0.0, |mill| mill.radius);
+    let radius = cut.cutter.and_then(|index| mills.get(index)).map_or(0.0, |mill| mill.radius_mm);
     let length = cut.motion.length() * machining.units.mm_per_unit();
     // Slivers between the chords of two boundaries are not cuts: at most the tolerance times the length of
     // the section's edge and path.
-    let sliver = options.tolerance * (length + TAU * radius);
+    let sliver = options.tolerance_mm * (length + TAU * radius);
     let layers = cut.piece_chips().flat_map(|chip| &chip.layers).filter(|layer| layer.area_mm2 > sliver);
-    let removed: f64 = layers.map(|layer| layer.area_mm2 * layer.thickness).sum();
+    let removed: f64 = layers.map(|layer| layer.area_mm2 * layer.thickness_mm).sum();
     if removed > 0.0 {
         faults.check_removal(machining.program, cut.motion, removed);
     }

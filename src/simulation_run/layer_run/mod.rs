@@ -25,14 +25,14 @@ use std::ops::RangeInclusive;
 #[derive(Debug, Clone, PartialEq)]
 pub struct LayerRunOptions {
     /// The thickness of the layers, mm.
-    pub layer: f64,
+    pub layer_mm: f64,
     /// The largest distance of chords from their curve, for boundaries and for arcs, mm.
-    pub tolerance: f64,
+    pub tolerance_mm: f64,
     /// The lines of the file whose motions are asked for. Motions before them are cut too, motions after them
     /// are not run.
     pub lines: RangeInclusive<usize>,
     /// The longest piece of a motion that is cut on its own, mm; infinite for whole motions.
-    pub longest: f64,
+    pub longest_piece_mm: f64,
     /// Whether the motions that are asked for are cut one by one, so that the sink gets the workpiece right
     /// after each. This takes longer.
     pub one_by_one: bool,
@@ -40,8 +40,14 @@ pub struct LayerRunOptions {
 
 impl LayerRunOptions {
     /// Returns the options for layers of this thickness (mm), the whole program, and chords within 0.002 mm.
-    pub fn new(layer: f64) -> Self {
-        Self { layer, tolerance: 0.002, lines: 1..=usize::MAX, longest: f64::INFINITY, one_by_one: false }
+    pub fn new(layer_mm: f64) -> Self {
+        Self {
+            layer_mm,
+            tolerance_mm: 0.002,
+            lines: 1..=usize::MAX,
+            longest_piece_mm: f64::INFINITY,
+            one_by_one: false,
+        }
     }
 }
 

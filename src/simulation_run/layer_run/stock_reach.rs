@@ -14,12 +14,12 @@ use nalgebra::Point3;
 pub(super) fn can_reach_stock(piece: &PathPiece, mill: &FlatMill, stock: AxisBox) -> bool {
     let turn = piece.from.axis.angle(&piece.to.axis);
     // A point at the length L turns on an arc whose sagitta is L (1 - cos(turn / 2)).
-    let grown = mill.radius + mill.flutes * (1.0 - (turn / 2.0).cos());
+    let grown = mill.radius_mm + mill.flute_length_mm * (1.0 - (turn / 2.0).cos());
     let points: [Point3<f64>; 4] = [
         piece.from.point,
         piece.to.point,
-        piece.from.point + piece.from.axis * mill.flutes,
-        piece.to.point + piece.to.axis * mill.flutes,
+        piece.from.point + piece.from.axis * mill.flute_length_mm,
+        piece.to.point + piece.to.axis * mill.flute_length_mm,
     ];
     let (low, high) = stock;
     low.iter().zip(&high).enumerate().all(|(side, (low, high))| {

@@ -28,7 +28,8 @@ impl Mesh {
         let mut per_band: Vec<Vec<u32>> = vec![Vec::new(); dexels.bands().len()];
         for (index, triangle) in self.triangle_vertices().enumerate() {
             let ys = triangle.map(|[_, y, _]| y);
-            let Some((first, last)) = index_range(ys, layout.origin[1], layout.cell, layout.rows) else {
+            let Some((first, last)) = index_range(ys, layout.origin_mm[1], layout.cell_mm, layout.rows)
+            else {
                 continue;
             };
             for band in per_band.iter_mut().take(last / BAND_ROWS + 1).skip(first / BAND_ROWS) {
@@ -67,7 +68,7 @@ fn collect_crossings(
 ) {
     let [a, b, c] = corners;
     let Some((first, last)) =
-        index_range(corners.map(|[_, y, _]| y), layout.origin[1], layout.cell, layout.rows)
+        index_range(corners.map(|[_, y, _]| y), layout.origin_mm[1], layout.cell_mm, layout.rows)
     else {
         return;
     };
@@ -85,7 +86,8 @@ fn collect_crossings(
         let (Some(up), Some(down)) = (up, down) else { continue };
         // Counter-clockwise from above, the inside is to the left of an edge that goes up in y.
         let ([x0, z0], [x1, z1], sense) = if down[0] < up[0] { (down, up, 1) } else { (up, down, -1) };
-        let Some((first, last)) = index_range([x0, x1, x1], layout.origin[0], layout.cell, layout.columns)
+        let Some((first, last)) =
+            index_range([x0, x1, x1], layout.origin_mm[0], layout.cell_mm, layout.columns)
         else {
             continue;
         };
@@ -95,7 +97,7 @@ fn collect_crossings(
                 // Linear interpolation within the triangle's plane, along the row.
                 let z = z0 + (z1 - z0) * ((x - x0) / (x1 - x0));
                 let index = (row - band.first_row) * band.columns + column;
-                crossings.push((index as u32, (z - layout.base) as f32, sense));
+                crossings.push((index as u32, (z - layout.base_mm) as f32, sense));
             }
         }
     }

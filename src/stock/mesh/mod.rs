@@ -4,6 +4,7 @@ mod closed_check;
 mod mesh_dexels;
 mod stl;
 
+use crate::number::format_point;
 use crate::stock::axis_box::{AxisBox, FARTHEST};
 
 /// A closed triangle mesh in mm. A point is inside where the winding number of the surface is not zero: so
@@ -52,7 +53,7 @@ pub enum MeshError {
     /// The surface has holes, so it has no inside.
     #[error(
         "the surface is not closed: {edges} edges have a triangle on one side only, one of them at {}",
-        format_point(at)
+        format_point(*at, 3)
     )]
     Open {
         /// The number of edges that have a triangle on one side only.
@@ -63,7 +64,7 @@ pub enum MeshError {
     /// Neighbouring triangles disagree about which side is outside.
     #[error(
         "neighbouring triangles face opposite sides at {edges} edges, one of them at {}",
-        format_point(at)
+        format_point(*at, 3)
     )]
     Turned {
         /// The number of edges at which this is so.
@@ -71,11 +72,6 @@ pub enum MeshError {
         /// The middle of one of them, mm.
         at: [f64; 3],
     },
-}
-
-/// Formats a point for an error message, with three decimals.
-fn format_point([x, y, z]: &[f64; 3]) -> String {
-    format!("({x:.3}, {y:.3}, {z:.3})")
 }
 
 impl Mesh {

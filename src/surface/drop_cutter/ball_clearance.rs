@@ -16,13 +16,13 @@ type Triangle = [Vector3<f64>; 3];
 pub struct PathClearance {
     /// The least distance of the mesh from the cutter's ray, minus the radius. It is negative if the mesh is
     /// inside the cutter.
-    pub low: f64,
+    pub low_mm: f64,
     /// The tip at which this is so.
-    pub low_at: [f64; 3],
+    pub low_at_mm: [f64; 3],
     /// The largest distance along the path, minus the radius.
-    pub high: f64,
+    pub high_mm: f64,
     /// The tip at which this is so.
-    pub high_at: [f64; 3],
+    pub high_at_mm: [f64; 3],
 }
 
 /// A mesh that is sorted in square columns for a ball.
@@ -34,44 +34,45 @@ pub struct BallClearanceField {
 }
 
 impl BallClearanceField {
-    /// Sorts a mesh's triangles for a ball of `radius` mm.
-    pub fn new(mesh: &Mesh, radius: f64) -> Self {
+    /// Sorts a mesh's triangles for a ball of `radius_mm`.
+    pub fn new(mesh: &Mesh, radius_mm: f64) -> Self {
         let bounded = |corners: [[f64; 3]; 3]| {
             let [a, b, c] = corners.map(Vector3::from);
             ([a, b, c], a.inf(&b).inf(&c), a.sup(&b).sup(&c))
         };
         Self {
-            radius,
-            columns: TriangleColumns::new(mesh, radius),
+            radius: radius_mm,
+            columns: TriangleColumns::new(mesh, radius_mm),
             triangles: mesh.triangle_vertices().map(bounded).collect(),
         }
     }
 
-    /// Measures the clearance along a path of straight lines, every `step` mm and at its points. Returns
+    /// Measures the clearance along a path of straight lines, every `step_mm` and at its points. Returns
     /// `None` for a path without points or with a number that is not finite.
     ///
     /// The distance of a point of the mesh from a cutter that moves straight is a convex function of the
     /// travel. So between two samples a point gets no deeper into the cutter than a ball's sagitta, `step^2 /
     /// (8 R)`.
-    pub fn measure_clearance(&self, path: &[[f64; 3]], step: f64) -> Option<PathClearance> {
+    pub fn measure_clearance(&self, path: &[[f64; 3]], step_mm: f64) -> Option<PathClearance> {
         let first = path.first().filter(|_| path.iter().flatten().all(|value| value.is_finite()))?;
         let mut distance = self.clearance_at(*first, self.radius);
-        let mut found = PathClearance { low: distance, low_at: *first, high: distance, high_at: *first };
+        let mut found =
+            PathClearance { low_mm: distance, low_at_mm: *first, high_mm: distance, high_at_mm: *first };
         for pair in path.windows(2) {
             let [from, to] = pair else { continue };
             let [from, to] = [*from, *to].map(Vector3::from);
             let length = (to - from).norm();
-            let count = (length / step).ceil().max(1.0);
+            let count = (length / step_mm).ceil().max(1.0);
             let mut index = 1.0;
             while index <= count {
                 let tip: [f64; 3] = from.lerp(&to, index / count).into();
                 // The distance cannot grow by more than the travel since the sample before.
                 distance = self.clearance_at(tip, (distance + length / count + 1e-6).min(self.radius));
-                if distance < found.low {
-                    (found.low, found.low_at) = (distance, tip);
+                if distance < found.low_mm {
+                    (found.low_mm, found.low_at_mm) = (distance, tip);
                 }
-                if distance > found.high {
-                    (found.high, found.high_at) = (distance, tip);
+                if distance > found.high_mm {
+                    (found.high_mm, found.high_at_mm) = (distance, tip);
                 }
                 index += 1.0;
             }

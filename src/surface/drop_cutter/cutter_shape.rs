@@ -35,32 +35,32 @@ impl DropCutterShape {
     /// # Errors
     /// Returns an error if the diameter is not positive, or if the corner radius is negative or more than
     /// half of it.
-    pub fn new(diameter: f64, corner_radius: f64) -> Result<Self, CutterShapeError> {
-        if !(diameter > 0.0 && diameter.is_finite()) {
+    pub fn new(diameter_mm: f64, corner_radius_mm: f64) -> Result<Self, CutterShapeError> {
+        if !(diameter_mm > 0.0 && diameter_mm.is_finite()) {
             return Err(CutterShapeError::Diameter);
         }
-        let radius = diameter / 2.0;
-        if !(0.0..=radius).contains(&corner_radius) {
+        let radius = diameter_mm / 2.0;
+        if !(0.0..=radius).contains(&corner_radius_mm) {
             return Err(CutterShapeError::Corner);
         }
         let reach = radius - SIDE.min(radius * 1e-3);
-        Ok(Self { radius, corner: corner_radius, flat: radius - corner_radius, reach })
+        Ok(Self { radius, corner: corner_radius_mm, flat: radius - corner_radius_mm, reach })
     }
 
     /// Makes a ball-end mill.
     ///
     /// # Errors
     /// Returns an error if the diameter is not positive.
-    pub fn ball(diameter: f64) -> Result<Self, CutterShapeError> {
-        Self::new(diameter, diameter / 2.0)
+    pub fn ball(diameter_mm: f64) -> Result<Self, CutterShapeError> {
+        Self::new(diameter_mm, diameter_mm / 2.0)
     }
 
     /// Makes a flat-end mill with a sharp edge.
     ///
     /// # Errors
     /// Returns an error if the diameter is not positive.
-    pub fn flat(diameter: f64) -> Result<Self, CutterShapeError> {
-        Self::new(diameter, 0.0)
+    pub fn flat(diameter_mm: f64) -> Result<Self, CutterShapeError> {
+        Self::new(diameter_mm, 0.0)
     }
 
     /// Returns half the diameter.

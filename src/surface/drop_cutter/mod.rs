@@ -39,9 +39,9 @@ pub struct DropCutter {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DropPosition {
     /// The height of the cutter's tip, mm.
-    pub tip_z: f64,
+    pub tip_z_mm: f64,
     /// The point of the mesh that it touches, mm; if there are several, one of them.
-    pub contact: [f64; 3],
+    pub contact_mm: [f64; 3],
     /// The unit normal there, which points out of the material and never downwards. On a facet it is the
     /// facet's normal, at an edge or vertex the cutter's.
     pub normal: [f64; 3],
@@ -74,8 +74,8 @@ impl DropCutter {
             self.lower_onto_node(0, [x, y], &mut best);
         }
         (best.tip > f64::NEG_INFINITY).then(|| DropPosition {
-            tip_z: best.tip,
-            contact: best.contact,
+            tip_z_mm: best.tip,
+            contact_mm: best.contact,
             normal: best.unit_normal(&self.cutter, [x, y]),
         })
     }

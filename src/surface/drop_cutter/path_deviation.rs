@@ -17,27 +17,27 @@ type Triangle = [Vector3<f64>; 3];
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathDeviation {
     /// The largest depth of the mesh in the cutter's solid, mm; 0 if it never enters it.
-    pub gouge: f64,
+    pub gouge_mm: f64,
     /// The tip at which this is so.
-    pub gouge_at: [f64; 3],
+    pub gouge_at_mm: [f64; 3],
     /// The largest distance between the cutter and the mesh along the path, mm, up to the cutter's radius.
-    pub gap: f64,
+    pub gap_mm: f64,
     /// The tip at which this is so.
-    pub gap_at: [f64; 3],
+    pub gap_at_mm: [f64; 3],
     /// By how much either value may be larger in truth, mm, because of the distance of samples.
-    pub error: f64,
+    pub error_mm: f64,
 }
 
 /// Measures gouge and gap of a cutter whose tip moves along a path of straight lines, as distances in space.
-/// This is an independent check that takes time. `resolution` (mm, at least 1e-6) is the allowed error.
+/// This is an independent check that takes time. `resolution_mm` (at least 1e-6) is the allowed error.
 /// Returns `None` for a path without points or with a number that is not finite.
 pub fn measure_deviation(
     mesh: &Mesh,
     cutter: DropCutterShape,
     path: &[[f64; 3]],
-    resolution: f64,
+    resolution_mm: f64,
 ) -> Option<PathDeviation> {
-    let resolution = resolution.max(1e-6);
+    let resolution = resolution_mm.max(1e-6);
     let first = path.first().filter(|_| path.iter().flatten().all(|value| value.is_finite()))?;
     let error = resolution / 2.0;
     let field = TriangleField::new(mesh, &cutter);
@@ -64,11 +64,11 @@ pub fn measure_deviation(
         }
     }
     Some(PathDeviation {
-        gouge: (-low).max(0.0),
-        gouge_at: low_at,
-        gap: high.max(0.0),
-        gap_at: high_at,
-        error: resolution,
+        gouge_mm: (-low).max(0.0),
+        gouge_at_mm: low_at,
+        gap_mm: high.max(0.0),
+        gap_at_mm: high_at,
+        error_mm: resolution,
     })
 }
 

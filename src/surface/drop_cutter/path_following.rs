@@ -44,15 +44,15 @@ impl DropCutter {
     /// Returns the tip's path over the mesh along a line of (x, y), as chords: lists of points (x, y, tip z)
     /// in mm, one list for each part with triangles under the cutter.
     ///
-    /// Chords are as long as `tolerance` (mm, at least 1e-6) allows. The heights at samples, which are at
+    /// Chords are as long as `tolerance_mm` (at least 1e-6) allows. The heights at samples, which are at
     /// most [`DropCutter::largest_step_mm`] apart, are met to half of it. Material between samples is cut
     /// into by at most a quarter of it, measured along its normal. Where the height jumps, at vertical walls,
     /// the path goes straight up or down beside the wall, with an error of at most the tolerance. The ends at
     /// the mesh's boundary are found with the same error. Points of the line stay points of the path. Legs
     /// without length or with infinite length are left out. Parts with material may be missed if they are
     /// shorter than two of the largest steps.
-    pub fn follow_line(&self, line: &[[f64; 2]], tolerance: f64) -> Vec<Vec<[f64; 3]>> {
-        let tolerance = tolerance.max(FINEST);
+    pub fn follow_line(&self, line: &[[f64; 2]], tolerance_mm: f64) -> Vec<Vec<[f64; 3]>> {
+        let tolerance = tolerance_mm.max(FINEST);
         let mut runs: Vec<Vec<[f64; 3]>> = Vec::new();
         let mut open: Vec<[f64; 3]> = Vec::new();
         let legs = line.windows(2).filter_map(|pair| match pair {
@@ -78,12 +78,12 @@ impl DropCutter {
     /// Returns the largest distance between samples in the view from above, mm, for a tolerance. It is a
     /// quarter of the radius, or less if a ball with the corner radius (with a flat end, the cutter's radius)
     /// would otherwise be off by more than a quarter of the tolerance.
-    pub fn largest_step_mm(&self, tolerance: f64) -> f64 {
+    pub fn largest_step_mm(&self, tolerance_mm: f64) -> f64 {
         let corner = self.cutter().corner_radius_mm();
         let round = if corner > 0.0 { corner } else { self.cutter().radius_mm() };
         // The sagitta of a chord s on radius R is about s^2 / (8 R); it equals tolerance / 4 at s = sqrt(2 R
         // tolerance).
-        let step = (2.0 * round * tolerance.max(FINEST)).sqrt();
+        let step = (2.0 * round * tolerance_mm.max(FINEST)).sqrt();
         step.min(self.cutter().radius_mm() / 4.0)
     }
 
@@ -132,7 +132,7 @@ impl<'a> DropLeg<'a> {
 
     fn sample_at(&self, along: f64) -> DropSample {
         let [x, y] = self.point_at(along);
-        DropSample { along, tip: self.cutter.drop_at(x, y).map(|DropPosition { tip_z, .. }| tip_z) }
+        DropSample { along, tip: self.cutter.drop_at(x, y).map(|DropPosition { tip_z_mm: tip_z, .. }| tip_z) }
     }
 
     fn sample_leg(&self, step: f64) -> Vec<DropSample> {

@@ -15,10 +15,10 @@ pub(super) struct TriangleColumns {
 }
 
 impl TriangleColumns {
-    /// Sorts a mesh's triangles for a cutter of `radius` mm.
-    pub fn new(mesh: &Mesh, radius: f64) -> Self {
+    /// Sorts a mesh's triangles for a cutter of `radius_mm`.
+    pub fn new(mesh: &Mesh, radius_mm: f64) -> Self {
         let ([x0, y0, _], [x1, y1, _]) = mesh.bounds();
-        let cell = (radius / 2.0).max((x1 - x0).max(y1 - y0) / MOST_COLUMNS);
+        let cell = (radius_mm / 2.0).max((x1 - x0).max(y1 - y0) / MOST_COLUMNS);
         let size = [x1 - x0, y1 - y0].map(|width| (width / cell) as usize + 1);
         let [across, deep] = size;
         let mut all = Self { origin: [x0, y0], cell, size, columns: vec![Vec::new(); across * deep] };

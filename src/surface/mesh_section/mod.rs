@@ -34,8 +34,8 @@ pub struct VerticalMeshSections {
 impl VerticalMeshSections {
     /// Sorts a mesh's triangles for planes at an angle from x, radians. Time and memory grow in proportion to
     /// their number.
-    pub fn new(mesh: &Mesh, angle: f64) -> Self {
-        let (sin, cos) = angle.sin_cos();
+    pub fn new(mesh: &Mesh, angle_rad: f64) -> Self {
+        let (sin, cos) = angle_rad.sin_cos();
         let turned = |[x, y, z]: [f64; 3]| [x * cos + y * sin, y * cos - x * sin, z];
         let triangles: Vec<[[f64; 3]; 3]> =
             mesh.triangle_vertices().map(|corners| corners.map(turned)).collect();
@@ -64,9 +64,9 @@ impl VerticalMeshSections {
     }
 
     /// Returns the point in space of a point (u, z) in the plane at an offset.
-    pub fn point_at(&self, offset: f64, [u, z]: [f64; 2]) -> [f64; 3] {
+    pub fn point_at(&self, offset_mm: f64, [u, z]: [f64; 2]) -> [f64; 3] {
         let [cos, sin] = self.direction;
-        [u * cos - offset * sin, u * sin + offset * cos, z]
+        [u * cos - offset_mm * sin, u * sin + offset_mm * cos, z]
     }
 
     /// Returns the least and the largest offset of the mesh.
@@ -80,8 +80,8 @@ impl VerticalMeshSections {
     /// Returns the topmost line of the mesh in the plane at an offset, mm: chains of (u, z) whose u never
     /// falls, one for each part with material, in order. Steps are vertical segments. A mesh that only
     /// touches the plane with a vertex or a level edge across it has none.
-    pub fn section_at(&self, offset: f64) -> Vec<Vec<[f64; 2]>> {
-        let slab = (offset - self.low) / self.width;
+    pub fn section_at(&self, offset_mm: f64) -> Vec<Vec<[f64; 2]>> {
+        let slab = (offset_mm - self.low) / self.width;
         // The condition is also false if the offset is not a number. An offset slightly beyond the last slab
         // belongs to it.
         if !(slab >= -1.0 && slab <= self.slabs.len() as f64 + 1.0) {
@@ -91,8 +91,8 @@ impl VerticalMeshSections {
         let mut pieces: Vec<SectionSegment> = Vec::new();
         let indices = self.slabs.get(slab).into_iter().flatten();
         for triangle in indices.filter_map(|index| self.triangles.get(*index as usize)) {
-            let before = cut_triangle(triangle, offset, |v| v >= offset - IN_PLANE);
-            let behind = cut_triangle(triangle, offset, |v| v > offset + IN_PLANE);
+            let before = cut_triangle(triangle, offset_mm, |v| v >= offset_mm - IN_PLANE);
+            let behind = cut_triangle(triangle, offset_mm, |v| v > offset_mm + IN_PLANE);
             pieces.extend(before);
             // Both are the same if no vertex is in the plane.
             pieces.extend(behind.filter(|_| before != behind));
@@ -103,8 +103,8 @@ impl VerticalMeshSections {
 
 /// Returns the topmost line of a mesh in one vertical plane; see [`VerticalMeshSections::section_at`], which
 /// is faster for several planes.
-pub fn section_mesh(mesh: &Mesh, angle: f64, offset: f64) -> Vec<Vec<[f64; 2]>> {
-    VerticalMeshSections::new(mesh, angle).section_at(offset)
+pub fn section_mesh(mesh: &Mesh, angle_rad: f64, offset_mm: f64) -> Vec<Vec<[f64; 2]>> {
+    VerticalMeshSections::new(mesh, angle_rad).section_at(offset_mm)
 }
 
 /// Returns the least and the largest offset of a triangle.

@@ -69,24 +69,24 @@ fn fit_arc(run: &[ChordVertex], at: usize, anchor: Point, end: usize, tolerance:
     let arc = arc_through_points(anchor, middle, stop)?;
     let mut before = anchor;
     let mut turned = 0.0;
-    let sense = arc.sweep.signum();
+    let sense = arc.sweep_rad.signum();
     for place in places {
         let half = before.lerp(place.point, 0.5);
         for point in [half, place.point] {
-            if (arc.centre.distance(point) - arc.radius).abs() > tolerance * (1.0 + 1e-9) {
+            if (arc.centre.distance(point) - arc.radius_mm).abs() > tolerance * (1.0 + 1e-9) {
                 return None;
             }
         }
         // The run must go around in the direction of the arc, never back, and not past the arc's end.
         let (a, b) = (vector_from_centre(&arc, before), vector_from_centre(&arc, place.point));
         let step = (a.0 * b.1 - a.1 * b.0).atan2(a.0 * b.0 + a.1 * b.1) * sense;
-        if step * arc.radius < -tolerance {
+        if step * arc.radius_mm < -tolerance {
             return None;
         }
         turned += step;
         before = place.point;
     }
-    ((turned - arc.sweep.abs()).abs() < 1e-6).then_some(arc)
+    ((turned - arc.sweep_rad.abs()).abs() < 1e-6).then_some(arc)
 }
 
 fn vector_from_centre(arc: &ArcPiece, point: Point) -> (f64, f64) {
@@ -110,5 +110,5 @@ fn arc_through_points(a: Point, b: Point, c: Point) -> Option<ArcPiece> {
     // The arc is counter-clockwise if the middle point is to the right of the chord.
     let left = (angle(c) - start).rem_euclid(TAU);
     let sweep = if double > 0.0 { left } else { left - TAU };
-    Some(ArcPiece { centre, radius, start, sweep })
+    Some(ArcPiece { centre, radius_mm: radius, start_rad: start, sweep_rad: sweep })
 }

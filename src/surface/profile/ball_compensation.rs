@@ -24,7 +24,7 @@ pub enum BallCompensationError {
     Radius(f64),
 }
 
-/// Returns the path of the tip (the south pole) of a ball of `radius` mm that touches `profile` from above
+/// Returns the path of the tip (the south pole) of a ball of `radius_mm` that touches `profile` from above
 /// wherever it can: `z(u) = max over q with |u - q_u| <= R of q_z + sqrt(R^2 - (u - q_u)^2) - R`.
 ///
 /// The path is exact. It consists of lines, of offsets of arcs (larger by R where the profile is convex,
@@ -48,19 +48,19 @@ pub enum BallCompensationError {
 ///
 /// # Errors
 /// Returns a [`BallCompensationError`] if the radius is not from [`SMALLEST_BALL`] to [`LARGEST`].
-pub fn compensate_profile(profile: &Chain, radius: f64) -> Result<Chain, BallCompensationError> {
-    check_radius(radius)?;
-    Ok(make_centre_path(profile, radius).centre_to_tip(radius))
+pub fn compensate_profile(profile: &Chain, radius_mm: f64) -> Result<Chain, BallCompensationError> {
+    check_radius(radius_mm)?;
+    Ok(make_centre_path(profile, radius_mm).centre_to_tip(radius_mm))
 }
 
-/// Returns the contact profile that a ball of `was_radius` mm leaves if its tip follows `tip`. This is the
+/// Returns the contact profile that a ball of `was_radius_mm` leaves if its tip follows `tip`. This is the
 /// inverse of [`compensate_profile`], and the same computation with z mirrored. If the path gouges, the
 /// result is lower than what was intended.
 ///
 /// # Errors
 /// Returns a [`BallCompensationError`] if the radius is not from [`SMALLEST_BALL`] to [`LARGEST`].
-pub fn recover_profile(tip: &Chain, was_radius: f64) -> Result<Chain, BallCompensationError> {
-    Ok(compensate_profile(&tip.flipped(), was_radius)?.flipped())
+pub fn recover_profile(tip: &Chain, was_radius_mm: f64) -> Result<Chain, BallCompensationError> {
+    Ok(compensate_profile(&tip.flipped(), was_radius_mm)?.flipped())
 }
 
 /// Checks that the ball's radius can be used.

@@ -130,14 +130,14 @@ impl Chain {
 
     /// Returns the path of the ball's centre for this path of its tip (the south pole).
     #[must_use]
-    pub fn tip_to_centre(&self, radius: f64) -> Self {
-        self.shifted(0.0, radius)
+    pub fn tip_to_centre(&self, radius_mm: f64) -> Self {
+        self.shifted(0.0, radius_mm)
     }
 
     /// Returns the path of the ball's tip for this path of its centre.
     #[must_use]
-    pub fn centre_to_tip(&self, radius: f64) -> Self {
-        self.shifted(0.0, -radius)
+    pub fn centre_to_tip(&self, radius_mm: f64) -> Self {
+        self.shifted(0.0, -radius_mm)
     }
 }
 
@@ -151,11 +151,14 @@ fn check_piece(index: usize, piece: &ChainPiece) -> Result<(), ChainError> {
             }
         }
         ChainPiece::Arc(arc) => {
-            if ![arc.centre.u, arc.centre.z, arc.radius, arc.start, arc.sweep].into_iter().all(fine) {
+            if ![arc.centre.u, arc.centre.z, arc.radius_mm, arc.start_rad, arc.sweep_rad]
+                .into_iter()
+                .all(fine)
+            {
                 return Err(ChainError::Number { piece: index });
             }
             // The computed sweep of a full turn may be slightly more than one turn.
-            if arc.radius <= 0.0 || arc.sweep.abs() > TAU + 1e-9 {
+            if arc.radius_mm <= 0.0 || arc.sweep_rad.abs() > TAU + 1e-9 {
                 return Err(ChainError::Arc { piece: index });
             }
         }

@@ -43,11 +43,11 @@ pub struct ArcPiece {
     /// The centre.
     pub centre: Point,
     /// The radius, mm.
-    pub radius: f64,
+    pub radius_mm: f64,
     /// The angle of the start, seen from the centre.
-    pub start: f64,
+    pub start_rad: f64,
     /// The angle from start to end: positive from +u towards +z, negative in the other direction.
-    pub sweep: f64,
+    pub sweep_rad: f64,
 }
 
 /// A line or an arc.
@@ -61,15 +61,15 @@ pub enum ChainPiece {
 
 impl ArcPiece {
     /// Returns the point at an angle.
-    pub fn point_at_angle(&self, angle: f64) -> Point {
-        let (sin, cos) = angle.sin_cos();
-        Point::new(self.centre.u + self.radius * cos, self.centre.z + self.radius * sin)
+    pub fn point_at_angle(&self, angle_rad: f64) -> Point {
+        let (sin, cos) = angle_rad.sin_cos();
+        Point::new(self.centre.u + self.radius_mm * cos, self.centre.z + self.radius_mm * sin)
     }
 
     /// Returns the height of the arc over its chord (its sagitta), mm. For more than half a turn it is the
     /// distance of the furthest point.
     pub fn sagitta_mm(&self) -> f64 {
-        self.radius * (1.0 - (self.sweep.abs() / 2.0).min(std::f64::consts::PI).cos())
+        self.radius_mm * (1.0 - (self.sweep_rad.abs() / 2.0).min(std::f64::consts::PI).cos())
     }
 }
 
@@ -81,14 +81,14 @@ impl ChainPiece {
 
     /// Makes an arc.
     pub const fn arc(centre: Point, radius: f64, start: f64, sweep: f64) -> Self {
-        Self::Arc(ArcPiece { centre, radius, start, sweep })
+        Self::Arc(ArcPiece { centre, radius_mm: radius, start_rad: start, sweep_rad: sweep })
     }
 
     /// Returns the start.
     pub fn start(&self) -> Point {
         match self {
             Self::Line(line) => line.from,
-            Self::Arc(arc) => arc.point_at_angle(arc.start),
+            Self::Arc(arc) => arc.point_at_angle(arc.start_rad),
         }
     }
 
@@ -96,7 +96,7 @@ impl ChainPiece {
     pub fn end(&self) -> Point {
         match self {
             Self::Line(line) => line.to,
-            Self::Arc(arc) => arc.point_at_angle(arc.start + arc.sweep),
+            Self::Arc(arc) => arc.point_at_angle(arc.start_rad + arc.sweep_rad),
         }
     }
 
@@ -104,7 +104,7 @@ impl ChainPiece {
     pub fn point_at(&self, t: f64) -> Point {
         match self {
             Self::Line(line) => line.from.lerp(line.to, t),
-            Self::Arc(arc) => arc.point_at_angle(arc.start + arc.sweep * t),
+            Self::Arc(arc) => arc.point_at_angle(arc.start_rad + arc.sweep_rad * t),
         }
     }
 
@@ -121,8 +121,8 @@ impl ChainPiece {
                 }
             }
             Self::Arc(arc) => {
-                let (sin, cos) = (arc.start + arc.sweep * t).sin_cos();
-                let sense = if arc.sweep == 0.0 { 0.0 } else { arc.sweep.signum() };
+                let (sin, cos) = (arc.start_rad + arc.sweep_rad * t).sin_cos();
+                let sense = if arc.sweep_rad == 0.0 { 0.0 } else { arc.sweep_rad.signum() };
                 Point::new(-sin * sense, cos * sense)
             }
         }
@@ -132,7 +132,7 @@ impl ChainPiece {
     pub fn length_mm(&self) -> f64 {
         match self {
             Self::Line(line) => line.from.distance(line.to),
-            Self::Arc(arc) => arc.radius * arc.sweep.abs(),
+            Self::Arc(arc) => arc.radius_mm * arc.sweep_rad.abs(),
         }
     }
 
@@ -140,7 +140,11 @@ impl ChainPiece {
     pub fn reversed(&self) -> Self {
         match self {
             Self::Line(line) => Self::line(line.to, line.from),
-            Self::Arc(arc) => Self::Arc(ArcPiece { start: arc.start + arc.sweep, sweep: -arc.sweep, ..*arc }),
+            Self::Arc(arc) => Self::Arc(ArcPiece {
+                start_rad: arc.start_rad + arc.sweep_rad,
+                sweep_rad: -arc.sweep_rad,
+                ..*arc
+            }),
         }
     }
 
@@ -158,7 +162,7 @@ impl ChainPiece {
         let over = |point: Point| Point::new(point.u, -point.z);
         match self {
             Self::Line(line) => Self::line(over(line.from), over(line.to)),
-            Self::Arc(arc) => Self::arc(over(arc.centre), arc.radius, -arc.start, -arc.sweep),
+            Self::Arc(arc) => Self::arc(over(arc.centre), arc.radius_mm, -arc.start_rad, -arc.sweep_rad),
         }
     }
 
@@ -167,8 +171,8 @@ impl ChainPiece {
         match self {
             Self::Line(_) => Self::line(self.point_at(from), self.point_at(to)),
             Self::Arc(arc) => Self::Arc(ArcPiece {
-                start: arc.start + arc.sweep * from,
-                sweep: arc.sweep * (to - from),
+                start_rad: arc.start_rad + arc.sweep_rad * from,
+                sweep_rad: arc.sweep_rad * (to - from),
                 ..*arc
             }),
         }

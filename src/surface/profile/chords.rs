@@ -44,12 +44,12 @@ pub enum ChordError {
     Chain(#[from] ChainError),
 }
 
-/// Returns a chain of few long chords that is nowhere further than `tolerance` mm from `chain`, and of which
+/// Returns a chain of few long chords that is nowhere further than `tolerance_mm` from `chain`, and of which
 /// `chain` is nowhere further.
 ///
 /// Each chord is the longest that the tolerance allows from the end of the one before. The method is that of
 /// wedges of directions (Sklansky and Gonzalez 1980), with chord ends on the chain. On a curve with the
-/// radius of curvature rho, a chord is close to `2 sqrt(2 rho tolerance)` long. Corners are kept: bends of
+/// radius of curvature rho, a chord is close to `2 sqrt(2 rho tolerance_mm)` long. Corners are kept: bends of
 /// more than 20 degrees between straight sides of two tolerances. Vertices of lines stay where they are or
 /// are removed; on arcs, vertices are anywhere.
 ///
@@ -67,17 +67,17 @@ pub enum ChordError {
 /// Returns a [`ChordError`] if the tolerance is not from 1e-6 to [`LARGEST`] mm.
 pub fn fit_chords(
     chain: &Chain,
-    tolerance: f64,
+    tolerance_mm: f64,
     keep_arcs: bool,
     side: ChordSide,
 ) -> Result<Chain, ChordError> {
-    if !(1e-6..=LARGEST).contains(&tolerance) {
-        return Err(ChordError::Tolerance(tolerance));
+    if !(1e-6..=LARGEST).contains(&tolerance_mm) {
+        return Err(ChordError::Tolerance(tolerance_mm));
     }
     Ok(match side {
-        ChordSide::Both => follow_chain(chain, tolerance, keep_arcs),
-        ChordSide::Above => fit_chords_above(chain, tolerance, keep_arcs),
-        ChordSide::Below => fit_chords_above(&chain.flipped(), tolerance, keep_arcs).flipped(),
+        ChordSide::Both => follow_chain(chain, tolerance_mm, keep_arcs),
+        ChordSide::Above => fit_chords_above(chain, tolerance_mm, keep_arcs),
+        ChordSide::Below => fit_chords_above(&chain.flipped(), tolerance_mm, keep_arcs).flipped(),
     })
 }
 
@@ -125,13 +125,13 @@ fn follow_chain(chain: &Chain, tolerance: f64, keep_arcs: bool) -> Chain {
             ChainPiece::Arc(arc) => {
                 // The sagitta is r (1 - cos(sweep / 2)) = 2 r sin^2(sweep / 4), which is solved for the
                 // sweep.
-                let most = 4.0 * (SHARE * tolerance / (2.0 * arc.radius)).min(1.0).sqrt().asin();
+                let most = 4.0 * (SHARE * tolerance / (2.0 * arc.radius_mm)).min(1.0).sqrt().asin();
                 // The limit of a million only bounds the memory: an arc of 100 m within 1e-6 mm needs fewer.
-                let count = (arc.sweep.abs() / most).ceil().clamp(1.0, 1e6);
+                let count = (arc.sweep_rad.abs() / most).ceil().clamp(1.0, 1e6);
                 for index in 0..count as usize {
                     let part = ArcPiece {
-                        start: arc.start + arc.sweep * (index as f64 / count),
-                        sweep: arc.sweep / count,
+                        start_rad: arc.start_rad + arc.sweep_rad * (index as f64 / count),
+                        sweep_rad: arc.sweep_rad / count,
                         ..*arc
                     };
                     let point = ChainPiece::Arc(part).end();
@@ -154,12 +154,12 @@ fn append_arc(pieces: &mut Vec<ChainPiece>, arc: ArcPiece, tolerance: f64) {
     let close = tolerance / 10.0;
     if let Some(ChainPiece::Arc(last)) = pieces.last_mut()
         && last.centre.distance(arc.centre) <= close.min(1e-6)
-        && (last.radius - arc.radius).abs() <= close.min(1e-6)
-        && last.sweep.signum() == arc.sweep.signum()
-        && (last.sweep + arc.sweep).abs() < std::f64::consts::TAU
+        && (last.radius_mm - arc.radius_mm).abs() <= close.min(1e-6)
+        && last.sweep_rad.signum() == arc.sweep_rad.signum()
+        && (last.sweep_rad + arc.sweep_rad).abs() < std::f64::consts::TAU
         && ChainPiece::Arc(*last).end().distance(ChainPiece::Arc(arc).start()) <= close.min(1e-6)
     {
-        last.sweep += arc.sweep;
+        last.sweep_rad += arc.sweep_rad;
         return;
     }
     pieces.push(ChainPiece::Arc(arc));

@@ -185,7 +185,7 @@ pub(super) fn split_into_graphs(
                 let upper = (0.5 * (from + to)).sin() > 0.0;
                 let (left, right) = if a.u <= b.u { (a, b) } else { (b, a) };
                 if right.u - left.u > UPRIGHT {
-                    let graph = HeightGraph::Round { centre: arc.centre, radius: arc.radius, upper };
+                    let graph = HeightGraph::Round { centre: arc.centre, radius: arc.radius_mm, upper };
                     take(GraphSegment { left, right, graph, piece: index, part }, a.u <= b.u);
                 } else {
                     top(left, index);
@@ -198,7 +198,7 @@ pub(super) fn split_into_graphs(
 
 /// Returns the angles (from, to) of the parts of an arc between its vertical tangents.
 fn split_at_vertical_tangents(arc: &ArcPiece) -> impl Iterator<Item = (f64, f64)> {
-    let (start, end) = (arc.start, arc.start + arc.sweep);
+    let (start, end) = (arc.start_rad, arc.start_rad + arc.sweep_rad);
     let (low, high) = (start.min(end), start.max(end));
     let first = (low / PI).floor() as i64 + 1;
     // An arc has at most one turn, so there are at most three parts.

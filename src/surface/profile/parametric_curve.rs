@@ -20,14 +20,14 @@ pub trait ParametricCurve {
     fn knots(&self) -> Vec<f64>;
 }
 
-/// Converts a curve to chords that are at most `tolerance` mm from it. Their number is near the least
-/// possible: with the radius of curvature rho, a chord is about `2 sqrt(2 rho tolerance)` long (Dragoi 2009,
+/// Converts a curve to chords that are at most `tolerance_mm` from it. Their number is near the least
+/// possible: with the radius of curvature rho, a chord is about `2 sqrt(2 rho tolerance_mm)` long (Dragoi 2009,
 /// section 3, fig. 7). Chord ends are on the curve.
 ///
 /// # Errors
 /// Returns a [`ChordError`] if the tolerance is below 2e-6 mm or the curve exceeds [`LARGEST`].
-pub fn to_chords(curve: &impl ParametricCurve, tolerance: f64) -> Result<Chain, ChordError> {
-    to_chain(curve, tolerance, false)
+pub fn to_chords(curve: &impl ParametricCurve, tolerance_mm: f64) -> Result<Chain, ChordError> {
+    to_chain(curve, tolerance_mm, false)
 }
 
 /// Converts a curve to arcs and chords that are at most `tolerance` mm from it, as [`fit_chords`] makes them
@@ -35,8 +35,8 @@ pub fn to_chords(curve: &impl ParametricCurve, tolerance: f64) -> Result<Chain, 
 ///
 /// # Errors
 /// Returns a [`ChordError`] if the tolerance is below 2e-6 mm or the curve exceeds [`LARGEST`].
-pub fn to_arcs(curve: &impl ParametricCurve, tolerance: f64) -> Result<Chain, ChordError> {
-    to_chain(curve, tolerance, true)
+pub fn to_arcs(curve: &impl ParametricCurve, tolerance_mm: f64) -> Result<Chain, ChordError> {
+    to_chain(curve, tolerance_mm, true)
 }
 
 fn to_chain(curve: &impl ParametricCurve, tolerance: f64, arcs: bool) -> Result<Chain, ChordError> {

@@ -11,49 +11,50 @@ const BLOCK: usize = 64;
 pub struct ProfileDeviation {
     /// The largest depth of the ball (or of the shank above it, as wide as the ball) in the profile, mm; 0 if
     /// there is none.
-    pub gouge: f64,
+    pub gouge_mm: f64,
     /// The position of the tip at which this is so.
     pub gouge_at: Point,
     /// The largest distance of the ball from touching the profile, mm; 0 if it touches everywhere.
-    pub gap: f64,
+    pub gap_mm: f64,
     /// The position of the tip at which this is so.
     pub gap_at: Point,
     /// By how much both may differ from the truth because of the distance of samples, mm.
-    pub bound: f64,
+    pub bound_mm: f64,
 }
 
-/// Samples a tip path and a profile every `step` mm and at vertices and ends, and measures how far the ball
-/// of `radius` mm is from the profile at every sample of the path. Where the path goes straight up or down
+/// Samples a tip path and a profile every `step_mm` and at vertices and ends, and measures how far the ball
+/// of `radius_mm` is from the profile at every sample of the path. Where the path goes straight up or down
 /// the ball need not touch anything, so gaps are not measured there.
 ///
 /// Of the profile's samples, the one nearest to the ball counts; samples above its centre count with their
 /// horizontal distance, for the shank. So the check does not use envelopes, offsets or contact points.
-/// Between two samples, a line or an arc of curvature k is at most `step^2/8 (1/R + k)` nearer than the
-/// samples, and the same holds along the path; the bound is the sum of both. If `step` is small against the
+/// Between two samples, a line or an arc of curvature k is at most `step_mm^2/8 (1/R + k)` nearer than the
+/// samples, and the same holds along the path; the bound is the sum of both. If `step_mm` is small against the
 /// radii, both results are within the bound: gouges are measured too small, gaps too large. Whether all of
 /// the profile was reached is not checked here: see
 /// [`find_unreachable_parts`](super::find_unreachable_parts).
-pub fn check_tip_path(profile: &Chain, tip: &Chain, radius: f64, step: f64) -> ProfileDeviation {
+pub fn check_tip_path(profile: &Chain, tip: &Chain, radius_mm: f64, step_mm: f64) -> ProfileDeviation {
     let mut samples = Vec::new();
-    sample_chain(profile, step, |point, _| samples.push(point));
+    sample_chain(profile, step_mm, |point, _| samples.push(point));
     samples.sort_by(|a, b| a.u.total_cmp(&b.u));
     let mut field = SampleBlocks::new(samples);
     let start = tip.start();
     let mut verdict = ProfileDeviation {
-        gouge: 0.0,
+        gouge_mm: 0.0,
         gouge_at: start,
-        gap: 0.0,
+        gap_mm: 0.0,
         gap_at: start,
-        bound: step * step / 8.0 * (2.0 / radius + largest_curvature(profile) + largest_curvature(tip)),
+        bound_mm: step_mm * step_mm / 8.0
+            * (2.0 / radius_mm + largest_curvature(profile) + largest_curvature(tip)),
     };
-    sample_chain(tip, step, |point, upright| {
-        let centre = Point::new(point.u, point.z + radius);
+    sample_chain(tip, step_mm, |point, upright| {
+        let centre = Point::new(point.u, point.z + radius_mm);
         let distance = field.distance_to_nearest(centre);
-        if radius - distance > verdict.gouge {
-            (verdict.gouge, verdict.gouge_at) = (radius - distance, point);
+        if radius_mm - distance > verdict.gouge_mm {
+            (verdict.gouge_mm, verdict.gouge_at) = (radius_mm - distance, point);
         }
-        if !upright && distance - radius > verdict.gap {
-            (verdict.gap, verdict.gap_at) = (distance - radius, point);
+        if !upright && distance - radius_mm > verdict.gap_mm {
+            (verdict.gap_mm, verdict.gap_at) = (distance - radius_mm, point);
         }
     });
     verdict
@@ -62,7 +63,7 @@ pub fn check_tip_path(profile: &Chain, tip: &Chain, radius: f64, step: f64) -> P
 /// Returns the largest curvature of a chain's arcs, 1/mm.
 fn largest_curvature(chain: &Chain) -> f64 {
     let of = |piece: &ChainPiece| match piece {
-        ChainPiece::Arc(arc) => 1.0 / arc.radius,
+        ChainPiece::Arc(arc) => 1.0 / arc.radius_mm,
         ChainPiece::Line(_) => 0.0,
     };
     chain.pieces().iter().map(of).fold(0.0, f64::max)

@@ -20,7 +20,7 @@ pub struct UnreachablePart {
     pub to: Point,
     /// The thickness of the material that is left, mm: the distance of the part's furthest point from the
     /// ball in its positions beside the part.
-    pub left: f64,
+    pub left_mm: f64,
 }
 
 /// A part of a piece that the ball touches, with the fraction of the piece's length and the ball's centre at
@@ -31,7 +31,7 @@ struct TouchedPart {
     to: (f64, Point),
 }
 
-/// Finds the parts of `profile` that a ball of `radius` mm does not touch and where more than `tolerance` mm
+/// Finds the parts of `profile` that a ball of `radius_mm` does not touch and where more than `tolerance_mm`
 /// is left, in the order of the profile.
 ///
 /// Walls are touched by the side of the ball where it goes up or down beside them. The remaining thickness is
@@ -42,11 +42,11 @@ struct TouchedPart {
 /// [`compensate_profile`](super::compensate_profile).
 pub fn find_unreachable_parts(
     profile: &Chain,
-    radius: f64,
-    tolerance: f64,
+    radius_mm: f64,
+    tolerance_mm: f64,
 ) -> Result<Vec<UnreachablePart>, BallCompensationError> {
-    check_radius(radius)?;
-    let mut touches = find_touched_parts(profile, radius);
+    check_radius(radius_mm)?;
+    let mut touches = find_touched_parts(profile, radius_mm);
     touches.sort_by(|a, b| a.piece.cmp(&b.piece).then(a.from.0.total_cmp(&b.from.0)));
     let mut found = Vec::new();
     // An unreachable part goes from the furthest end of all touched parts so far (or the chain's start) to
@@ -60,8 +60,8 @@ pub fn find_unreachable_parts(
         let balls = [reached.2, stop.2];
         if (stop.0, stop.1) > (reached.0, reached.1) {
             found.extend(
-                measure_unreachable_part(profile, (reached.0, reached.1), (stop.0, stop.1), balls, radius)
-                    .filter(|part| part.left > tolerance),
+                measure_unreachable_part(profile, (reached.0, reached.1), (stop.0, stop.1), balls, radius_mm)
+                    .filter(|part| part.left_mm > tolerance_mm),
             );
         }
         if let Some(next) = next
@@ -115,7 +115,7 @@ fn measure_unreachable_part(
             Some((first, at, ..)) => (first, at, index, stop),
         });
     }
-    bounds.map(|(first, from, last, to)| UnreachablePart { first, last, from, to, left })
+    bounds.map(|(first, from, last, to)| UnreachablePart { first, last, from, to, left_mm: left })
 }
 
 /// Finds the parts that the ball touches.
@@ -224,8 +224,8 @@ fn fraction_along(piece: &ChainPiece, point: Point) -> f64 {
         }
         ChainPiece::Arc(arc) => {
             let angle = (point.z - arc.centre.z).atan2(point.u - arc.centre.u);
-            let along = ((angle - arc.start) * arc.sweep.signum()).rem_euclid(TAU);
-            let sweep = arc.sweep.abs();
+            let along = ((angle - arc.start_rad) * arc.sweep_rad.signum()).rem_euclid(TAU);
+            let sweep = arc.sweep_rad.abs();
             if sweep <= 0.0 {
                 return 0.0;
             }

@@ -162,7 +162,7 @@ fn build_ellipse(text: &EllipseText, start: Point, scale: f64) -> Result<Profile
     let centre = build_point(text.centre, scale).map_err(|fault| fault.at_key("centre"))?;
     let [a, b] = text.semi_axes.map(|axis| axis.get() * scale);
     let tilt = text.tilt.map_or(0.0, |tilt| tilt.radians());
-    let whole = EllipseArc { centre, a, b, tilt, start: 0.0, sweep: TAU };
+    let whole = EllipseArc { centre, a, b, tilt_rad: tilt, start_rad: 0.0, sweep_rad: TAU };
     let from = ellipse_parameter(&whole, start);
     let until = ellipse_parameter(&whole, to);
     for (at, parameter, key) in [(start, from, "centre"), (to, until, "to")] {
@@ -183,7 +183,7 @@ fn build_ellipse(text: &EllipseText, start: Point, scale: f64) -> Result<Profile
         CurveTurnText::Left => TAU,
         CurveTurnText::Right => -TAU,
     };
-    let mut ellipse = EllipseArc { start: from, sweep, ..whole };
+    let mut ellipse = EllipseArc { start_rad: from, sweep_rad: sweep, ..whole };
     let first = ellipse.point_at(0.0);
     ellipse.centre = Point::new(centre.u + start.u - first.u, centre.z + start.z - first.z);
     Ok(ProfileCurve::Ellipse(ellipse))
@@ -191,7 +191,7 @@ fn build_ellipse(text: &EllipseText, start: Point, scale: f64) -> Result<Profile
 
 /// Returns the parameter of an ellipse in the direction of a point, after scaling the ellipse to a circle.
 fn ellipse_parameter(ellipse: &EllipseArc, at: Point) -> f64 {
-    let (sin, cos) = ellipse.tilt.sin_cos();
+    let (sin, cos) = ellipse.tilt_rad.sin_cos();
     let (u, z) = (at.u - ellipse.centre.u, at.z - ellipse.centre.z);
     let angle = ((z * cos - u * sin) / ellipse.b).atan2((u * cos + z * sin) / ellipse.a);
     // The result is from 0 to a turn, so that it can be taken as a fraction of the whole ellipse.

@@ -122,7 +122,7 @@ pub(super) fn read_profile(source: &Arc<Source>) -> Result<SectionProfile, Failu
     let mut at = Point::new(u, z);
     let mut found = Vec::new();
     let mut profile =
-        SectionProfile { curves: Vec::new(), width: file.width.map(|width| width.get() * scale) };
+        SectionProfile { curves: Vec::new(), width_mm: file.width.map(|width| width.get() * scale) };
     if file.pieces.is_empty() {
         found.push(locate_fault(
             &document,

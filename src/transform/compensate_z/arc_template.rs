@@ -68,21 +68,21 @@ impl ArcTemplate {
         editor: &mut ProgramEditor,
         arc: &ArcPiece,
         plane: &ProfilePlane,
-        mm: f64,
+        mm_per_unit: f64,
         before: usize,
     ) -> Result<bool, Failure> {
         let space = |point: Point| plane.to_space(point);
         let way = |u: f64, z: f64| (space(Point::new(u, z)) - space(Point::default())).map(zero_out_rounding);
-        let place = |point: Point3<f64>| -> [f64; 3] { (point / mm).coords.into() };
+        let place = |point: Point3<f64>| -> [f64; 3] { (point / mm_per_unit).coords.into() };
         let centre = place(space(arc.centre));
         match *self {
             Self::Circle { statement, has_radius, hand } => {
                 // From +u towards +z is right-hand about u x z.
-                let axis = way(1.0, 0.0).cross(&way(0.0, 1.0)) * (arc.sweep.signum() * hand);
+                let axis = way(1.0, 0.0).cross(&way(0.0, 1.0)) * (arc.sweep_rad.signum() * hand);
                 let mut numbers = pair_with_indices(0, centre);
                 numbers.extend(pair_with_indices(3, <[f64; 3]>::from(axis.map(zero_out_rounding))));
                 if has_radius {
-                    numbers.push((6, arc.radius / mm));
+                    numbers.push((6, arc.radius_mm / mm_per_unit));
                 }
                 editor.insert_before(before, &copy_statement(editor, statement, &numbers))?;
                 Ok(true)
@@ -91,7 +91,7 @@ impl ArcTemplate {
                 let tangent = ChainPiece::Arc(*arc).direction_at(0.0);
                 let tangent: Vector3<f64> = way(tangent.u, tangent.z).normalize();
                 let mut numbers = pair_with_indices(0, centre);
-                numbers.push((3, arc.radius / mm));
+                numbers.push((3, arc.radius_mm / mm_per_unit));
                 numbers.extend(pair_with_indices(4, centre));
                 numbers.extend(pair_with_indices(7, place(space(ChainPiece::Arc(*arc).end()))));
                 if let Some(auto) = auto {

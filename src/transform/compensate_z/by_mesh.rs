@@ -9,6 +9,7 @@ use super::step::CompensateZJob;
 use super::vertical_passes::find_cutting_runs;
 use super::written_passes;
 use crate::diagnostic::{Failure, codes};
+use crate::number::format_point;
 use crate::parameters::FilePath;
 use crate::program::Program;
 use crate::program::motion::Motion;
@@ -47,19 +48,19 @@ pub(super) fn compensate_by_mesh(
     meant: &[bool],
     context: &mut StepContext<'_>,
 ) -> Result<(Program, CompensateZReport), Failure> {
-    let mm = job.file.mm_per_unit();
+    let mm_per_unit = job.file.mm_per_unit();
     let place = MotionFindings { program: &program, motions };
     let tilted = |(motion, meant): (&Motion, &bool)| *meant && (motion.to.axis - Vector3::z()).amax() > 1e-6;
     if let Some(at) = motions.iter().zip(meant).position(tilted) {
         let message = "the cutter is lowered along z, and here the tool axis is another";
         return Err(place.build_failure(message.to_owned(), at, "tilted", context));
     }
-    let mesh = read_mesh(path, mm, context)?;
+    let mesh = read_mesh(path, mm_per_unit, context)?;
     let cutter = DropCutterShape::new(2.0 * job.radius, job.corner)
         .map_err(|why| context.step_failure(why.to_string(), &["radius"]))?;
     let dropped = DropCutter::new(&mesh, cutter);
     let near = find_contact_motions(job, motions, meant, &dropped);
-    let runs = find_cutting_runs(motions, &near, mm);
+    let runs = find_cutting_runs(motions, &near, mm_per_unit);
     let count = runs.len();
     let made: Vec<Option<MeshPass>> =
         runs.into_par_iter().map(|run| make_mesh_pass(job, motions, run, &dropped)).collect();
@@ -71,14 +72,14 @@ pub(super) fn compensate_by_mesh(
     }
     let lift = Vector3::z() * if job.centre { job.radius } else { 0.0 };
     let moved: Vec<MovedPass> = all.iter().filter_map(|work| work.moved_pass(lift)).collect();
-    let height = |at: Point3<f64>| dropped.drop_at(at.x, at.y).map(|drop| drop.tip_z + lift.z);
+    let height = |at: Point3<f64>| dropped.drop_at(at.x, at.y).map(|drop| drop.tip_z_mm + lift.z);
     let ends = leads::move_surroundings(
-        &PassSurroundings::new(&program, motions, meant, mm, job.lift_mm()),
+        &PassSurroundings::new(&program, motions, meant, mm_per_unit, job.lift_mm()),
         &moved,
         &height,
     )
     .map_err(|why| place.describe_lead_conflict(why, context))?;
-    let writer = PassWriter::new(&program, motions, mm);
+    let writer = PassWriter::new(&program, motions, mm_per_unit);
     for index in ends.keys().copied().chain(all.iter().flat_map(|work| work.run.clone())) {
         writer
             .check_writable(&program, index)
@@ -98,7 +99,7 @@ pub(super) fn compensate_by_mesh(
         let place = MotionFindings { program: &original, motions };
         written.map_err(|why| place.describe_unwritable_motion(why, work.run.start, context))?;
     }
-    write_leads(&writer, &mut editor, motions, &ends, &moved, mm, &original, context)?;
+    write_leads(&writer, &mut editor, motions, &ends, &moved, mm_per_unit, &original, context)?;
     let program = editor.finish()?;
     let after: Vec<Motion> = program.motions().collect();
     let place = MotionFindings { program: &original, motions };
@@ -122,26 +123,26 @@ fn find_contact_motions(
     meant: &[bool],
     cutter: &DropCutter,
 ) -> Vec<bool> {
-    let mm = job.file.mm_per_unit();
+    let mm_per_unit = job.file.mm_per_unit();
     // A larger ball than this one stood higher on slopes.
     let room = AIR + 2.0 * job.was.map_or(0.0, |was| (was - job.radius).abs());
     let lift = if job.was_centre { job.was.unwrap_or(0.0) } else { 0.0 };
     let above = |point: Point3<f64>| {
-        let at = point * mm;
-        cutter.drop_at(at.x, at.y).is_some_and(|drop| at.z - lift > drop.tip_z + room)
+        let at = point * mm_per_unit;
+        cutter.drop_at(at.x, at.y).is_some_and(|drop| at.z - lift > drop.tip_z_mm + room)
     };
     let touches =
         |(motion, meant): (&Motion, &bool)| *meant && !above(motion.from.point) && !above(motion.to.point);
     motions.iter().zip(meant).map(touches).collect()
 }
 
-fn read_mesh(path: &FilePath, mm: f64, context: &StepContext<'_>) -> Result<Mesh, Failure> {
+fn read_mesh(path: &FilePath, mm_per_unit: f64, context: &StepContext<'_>) -> Result<Mesh, Failure> {
     let fail = |why: String| {
         context.step_failure(format!("{} cannot be used: {why}", path.as_str()), &["against", "mesh"])
     };
     let bytes = std::fs::read(context.resolve_file(path)).map_err(|error| fail(error.to_string()))?;
     let mesh = Mesh::from_stl(&bytes).map_err(|error| fail(error.to_string()))?;
-    if mm == 1.0 { Ok(mesh) } else { mesh.scaled(mm).map_err(|error| fail(error.to_string())) }
+    if mm_per_unit == 1.0 { Ok(mesh) } else { mesh.scaled(mm_per_unit).map_err(|error| fail(error.to_string())) }
 }
 
 fn make_mesh_pass(
@@ -198,23 +199,25 @@ fn prove_mesh_passes(
     place: &MotionFindings<'_>,
     context: &StepContext<'_>,
 ) -> Result<(), Failure> {
-    let mm = job.file.mm_per_unit();
+    let mm_per_unit = job.file.mm_per_unit();
     let path = |range: &Range<usize>| -> Vec<[f64; 3]> {
         let written = after.get(range.clone()).unwrap_or_default();
         let start = written.first().map(|motion| motion.from.point);
         let points = start.into_iter().chain(written.iter().map(|motion| motion.to.point));
-        points.map(|point| (point * mm - lift).coords.into()).collect()
+        points.map(|point| (point * mm_per_unit - lift).coords.into()).collect()
     };
     let paths: Vec<Vec<[f64; 3]>> = ranges.iter().map(path).collect();
     let found = measure_tip_paths(job, mesh, cutter, &paths);
     for ((work, found), report) in all.iter().zip(found).zip(reports) {
         let Some(found) = found else { continue };
-        report.gouge_mm = found.gouge;
-        report.gap_mm = Some(found.gap);
-        if found.gouge > job.tolerance + PRINTED * mm {
+        report.gouge_mm = found.gouge_mm;
+        report.gap_mm = Some(found.gap_mm);
+        if found.gouge_mm > job.tolerance + PRINTED * mm_per_unit {
             let message = format!(
-                "measured again, this pass gouges the model by {:.4} mm at ({:.3}, {:.3}, {:.3}): more than the tolerance of {} mm",
-                found.gouge, found.gouge_at[0], found.gouge_at[1], found.gouge_at[2], job.tolerance
+                "measured again, this pass gouges the model by {:.4} mm at {}: more than the tolerance of {} mm",
+                found.gouge_mm,
+                format_point(found.gouge_at_mm, 3),
+                job.tolerance
             );
             return Err(place.build_failure(message, work.run.start, "the pass", context));
         }
@@ -236,8 +239,8 @@ fn measure_tip_paths(
         let space = BallClearanceField::new(mesh, job.radius);
         let one = |path: &Vec<[f64; 3]>| {
             let seen = space.measure_clearance(path, step)?;
-            let (gouge, gap) = ((-seen.low).max(0.0), seen.high.max(0.0));
-            Some(PathDeviation { gouge, gouge_at: seen.low_at, gap, gap_at: seen.high_at, error })
+            let (gouge, gap) = ((-seen.low_mm).max(0.0), seen.high_mm.max(0.0));
+            Some(PathDeviation { gouge_mm: gouge, gouge_at_mm: seen.low_at_mm, gap_mm: gap, gap_at_mm: seen.high_at_mm, error_mm: error })
         };
         return paths.par_iter().map(one).collect();
     }
@@ -263,7 +266,7 @@ fn report_gouging_links(
     program: &Program,
     context: &mut StepContext<'_>,
 ) {
-    let mm = job.file.mm_per_unit();
+    let mm_per_unit = job.file.mm_per_unit();
     let place = MotionFindings { program, motions: after };
     let operations: Vec<usize> =
         ranges.iter().filter_map(|range| after.get(range.start)).map(|motion| motion.operation).collect();
@@ -273,8 +276,8 @@ fn report_gouging_links(
         }
         let points = motion.path.sample_points(motion.from.point, motion.to.point);
         let deepest =
-            points.windows(2).map(|pair| deepest_gouge_mm(job, cutter, pair, mm, lift.z)).fold(0.0, f64::max);
-        if deepest > job.tolerance + PRINTED * mm {
+            points.windows(2).map(|pair| deepest_gouge_mm(job, cutter, pair, mm_per_unit, lift.z)).fold(0.0, f64::max);
+        if deepest > job.tolerance + PRINTED * mm_per_unit {
             let message = format!("between passes, the tool goes {deepest:.3} mm into the model here");
             context.findings.push(place.build_finding(
                 codes::BALL_GOUGES,
@@ -292,15 +295,15 @@ fn deepest_gouge_mm(
     job: &CompensateZJob,
     cutter: &DropCutter,
     pair: &[Point3<f64>],
-    mm: f64,
+    mm_per_unit: f64,
     lift: f64,
 ) -> f64 {
     let [from, to] = pair else { return 0.0 };
-    let (from, to) = (from * mm, to * mm);
+    let (from, to) = (from * mm_per_unit, to * mm_per_unit);
     let count = ((to - from).xy().norm() / (job.radius / 8.0)).ceil().clamp(1.0, 1e5) as usize;
     let below = |part: usize| {
         let at = from + (to - from) * (part as f64 / count as f64);
-        cutter.drop_at(at.x, at.y).map_or(0.0, |drop| drop.tip_z + lift - at.z)
+        cutter.drop_at(at.x, at.y).map_or(0.0, |drop| drop.tip_z_mm + lift - at.z)
     };
     (0..=count).map(below).fold(0.0, f64::max)
 }

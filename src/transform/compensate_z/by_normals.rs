@@ -27,9 +27,9 @@ pub(super) fn compensate_by_normals(
     meant: &[bool],
     context: &mut StepContext<'_>,
 ) -> Result<(Program, CompensateZReport), Failure> {
-    let mm = job.file.mm_per_unit();
+    let mm_per_unit = job.file.mm_per_unit();
     let place = MotionFindings { program: &program, motions };
-    let runs = find_cutting_runs(motions, meant, mm);
+    let runs = find_cutting_runs(motions, meant, mm_per_unit);
     let mut contacts: Vec<BallContact> = Vec::new();
     let mut owners: Vec<usize> = Vec::new();
     for index in runs.iter().cloned().flatten() {
@@ -38,7 +38,7 @@ pub(super) fn compensate_by_normals(
             let message = "an arc or spline has no contact normal at each of its points; compensate it `against: profile`";
             return Err(place.build_failure(message.to_owned(), index, "no straight motion", context));
         }
-        let contact = job.find_contact(motion, mm).ok_or_else(|| {
+        let contact = job.find_contact(motion, mm_per_unit).ok_or_else(|| {
             let message =
                 "this point has no contact normal (GOTO with nine values), which `against: normals` needs";
             place.build_failure(message.to_owned(), index, "no normal", context)
@@ -57,15 +57,15 @@ pub(super) fn compensate_by_normals(
     };
     let moved: Vec<MovedPass> = runs
         .iter()
-        .filter_map(|run| move_run_ends(job, motions, run, &contacts, &owners, mm, &new))
+        .filter_map(|run| move_run_ends(job, motions, run, &contacts, &owners, mm_per_unit, &new))
         .collect();
     let ends = leads::move_surroundings(
-        &PassSurroundings::new(&program, motions, meant, mm, job.lift_mm()),
+        &PassSurroundings::new(&program, motions, meant, mm_per_unit, job.lift_mm()),
         &moved,
         &|_| None,
     )
     .map_err(|why| place.describe_lead_conflict(why, context))?;
-    let writer = PassWriter::new(&program, motions, mm);
+    let writer = PassWriter::new(&program, motions, mm_per_unit);
     for index in ends.keys().copied().chain(owners.iter().copied()) {
         writer
             .check_writable(&program, index)
@@ -79,7 +79,7 @@ pub(super) fn compensate_by_normals(
         let Some(motion) = motions.get(*index) else { continue };
         editor.set_numbers(motion.last_statement(), &writer.point_numbers(new(contact)))?;
     }
-    write_leads(&writer, &mut editor, motions, &ends, &moved, mm, &original, context)?;
+    write_leads(&writer, &mut editor, motions, &ends, &moved, mm_per_unit, &original, context)?;
     let program = editor.finish()?;
     let after: Vec<Motion> = program.motions().collect();
     let counts = runs.iter().map(|run| (run, run.len()));
@@ -88,9 +88,9 @@ pub(super) fn compensate_by_normals(
     let ranges = written_passes::find_written_passes(motions, &after, counts)
         .map_err(|motion| place.build_failure(wrong.to_owned(), motion, "from here on", context))?;
     for (index, contact) in ranges.into_iter().flatten().zip(&contacts) {
-        let read = after.get(index).map(|motion| motion.to.point * mm);
+        let read = after.get(index).map(|motion| motion.to.point * mm_per_unit);
         // Half of the fourth decimal in each direction.
-        if read.is_none_or(|read| (read - new(contact)).amax() > 1e-4 * mm) {
+        if read.is_none_or(|read| (read - new(contact)).amax() > 1e-4 * mm_per_unit) {
             return Err(place.build_failure(
                 wrong.to_owned(),
                 index.min(motions.len().saturating_sub(1)),
@@ -106,10 +106,10 @@ pub(super) fn compensate_by_normals(
 
 impl CompensateZJob {
     /// The contact that a motion ends at; `None` without a normal.
-    fn find_contact(&self, motion: &Motion, mm: f64) -> Option<BallContact> {
+    fn find_contact(&self, motion: &Motion, mm_per_unit: f64) -> Option<BallContact> {
         let normal = Unit::try_new(motion.normal?, 1e-9)?;
         let axis = Unit::try_new(motion.to.axis, 1e-9)?;
-        let at = motion.to.point * mm;
+        let at = motion.to.point * mm_per_unit;
         let was = self.was.unwrap_or(0.0);
         let back: Vector3<f64> = match (self.was, self.was_centre) {
             (None, _) => Vector3::zeros(),
@@ -127,17 +127,17 @@ fn move_run_ends(
     run: &Range<usize>,
     contacts: &[BallContact],
     owners: &[usize],
-    mm: f64,
+    mm_per_unit: f64,
     new: &impl Fn(&BallContact) -> Point3<f64>,
 ) -> Option<MovedPass> {
     let at = |index: usize| owners.binary_search(&index).ok().and_then(|place| contacts.get(place));
     let (first, last) = (at(run.start)?, at(run.end.checked_sub(1)?)?);
     let before = run.start.checked_sub(1).and_then(|before| motions.get(before));
     // The point before the first contact moves by its own normal, if it has one, and else not at all.
-    let own = before.and_then(|motion| job.find_contact(motion, mm));
+    let own = before.and_then(|motion| job.find_contact(motion, mm_per_unit));
     let start = match (own, before) {
         (Some(own), _) => new(&own),
-        (None, Some(motion)) => motion.to.point * mm + motion.to.axis * job.lift_mm(),
+        (None, Some(motion)) => motion.to.point * mm_per_unit + motion.to.axis * job.lift_mm(),
         (None, None) => new(first),
     };
     Some(MovedPass { motions: run.clone(), start, end: new(last) })
@@ -157,7 +157,7 @@ fn report_gouges(
         };
         let message = format!(
             "the ball that touches here cuts {:.4} mm into another contact point of the path",
-            gouge.depth
+            gouge.depth_mm
         );
         let mut finding = place.build_finding(codes::BALL_GOUGES, message, *motion, "touches here", context);
         let statement =
@@ -184,7 +184,7 @@ fn build_reports(
     let deepest = |run: &Range<usize>| {
         let own =
             all.iter().filter(|gouge| owners.get(gouge.contact).is_some_and(|owner| run.contains(owner)));
-        own.map(|gouge| gouge.depth).fold(0.0, f64::max)
+        own.map(|gouge| gouge.depth_mm).fold(0.0, f64::max)
     };
     runs.iter()
         .map(|run| PassReport { gouge_mm: deepest(run), ..names.start_report(run, run.len()) })

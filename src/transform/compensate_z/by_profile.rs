@@ -39,9 +39,9 @@ pub(super) fn compensate_by_profile(
     meant: &[bool],
     context: &mut StepContext<'_>,
 ) -> Result<(Program, CompensateZReport), Failure> {
-    let mm = job.file.mm_per_unit();
+    let mm_per_unit = job.file.mm_per_unit();
     let place = MotionFindings { program: &program, motions };
-    let writer = PassWriter::new(&program, motions, mm);
+    let writer = PassWriter::new(&program, motions, mm_per_unit);
     let ball = CompensatingBall {
         radius: job.radius,
         was: job.was,
@@ -51,9 +51,9 @@ pub(super) fn compensate_by_profile(
         arcs: job.arcs && writer.has_arcs(),
     };
     let found =
-        find_vertical_passes(motions, meant, mm).map_err(|why| place.describe_no_pass(why, context))?;
+        find_vertical_passes(motions, meant, mm_per_unit).map_err(|why| place.describe_no_pass(why, context))?;
     let made: Vec<_> =
-        found.into_par_iter().map(|pass| make_profile_pass(pass, motions, mm, &ball)).collect();
+        found.into_par_iter().map(|pass| make_profile_pass(pass, motions, mm_per_unit, &ball)).collect();
     let mut all: Vec<ProfilePass> = Vec::with_capacity(made.len());
     for made in made {
         all.push(made.map_err(|(motion, why)| place.describe_pass_fault(&why, motion, context))?);
@@ -65,7 +65,7 @@ pub(super) fn compensate_by_profile(
         lowest_tip_height_mm(exact, if ball.centre { ball.radius } else { 0.0 }, at)
     };
     let ends = leads::move_surroundings(
-        &PassSurroundings::new(&program, motions, meant, mm, job.lift_mm()),
+        &PassSurroundings::new(&program, motions, meant, mm_per_unit, job.lift_mm()),
         &moved,
         &over,
     )
@@ -85,9 +85,9 @@ pub(super) fn compensate_by_profile(
         let place = MotionFindings { program: &original, motions };
         written.map_err(|why| place.describe_unwritable_motion(why, work.pass.motions.start, context))?;
     }
-    write_leads(&writer, &mut editor, motions, &ends, &moved, mm, &original, context)?;
+    write_leads(&writer, &mut editor, motions, &ends, &moved, mm_per_unit, &original, context)?;
     let program = editor.finish()?;
-    prove_profile_passes(&program, &original, motions, &all, &ball, mm, &mut reports, context)?;
+    prove_profile_passes(&program, &original, motions, &all, &ball, mm_per_unit, &mut reports, context)?;
     let report = CompensateZReport::new("profile", (job.radius, job.corner), job.tolerance);
     let report = CompensateZReport { passes: reports, ..report };
     Ok((program, report))
@@ -96,12 +96,12 @@ pub(super) fn compensate_by_profile(
 fn make_profile_pass(
     pass: VerticalPass,
     motions: &[Motion],
-    mm: f64,
+    mm_per_unit: f64,
     ball: &CompensatingBall,
 ) -> Result<ProfilePass, (usize, pass_profile::PassFault)> {
     let first = pass.motions.start;
     let (path, owners) =
-        pass_profile::build_chain(motions, &pass, mm, ball.tolerance).map_err(|why| (first, why))?;
+        pass_profile::build_chain(motions, &pass, mm_per_unit, ball.tolerance).map_err(|why| (first, why))?;
     let done = pass_profile::compensate_pass(&path, ball).map_err(|why| (first, why))?;
     let path = if ball.centre { done.path.tip_to_centre(ball.radius) } else { done.path.clone() };
     Ok(ProfilePass { pass, owners, done, path })
@@ -119,7 +119,7 @@ impl ProfilePass {
 
     fn build_report(&self, names: &PassReporter<'_>) -> PassReport {
         PassReport {
-            left_mm: self.done.unreachable.iter().map(|part| part.left).fold(0.0, f64::max),
+            left_mm: self.done.unreachable.iter().map(|part| part.left_mm).fold(0.0, f64::max),
             profile: to_drawing_points(&self.done.contact),
             ..names.start_report(&self.pass.motions, self.path.pieces().len())
         }
@@ -133,7 +133,7 @@ pub(super) fn to_drawing_points(chain: &Chain) -> Vec<(f64, f64)> {
     for piece in chain.pieces() {
         let count = match piece {
             ChainPiece::Line(_) => 1,
-            ChainPiece::Arc(arc) => (arc.sweep.abs() / 0.05).ceil().max(1.0) as usize,
+            ChainPiece::Arc(arc) => (arc.sweep_rad.abs() / 0.05).ceil().max(1.0) as usize,
         };
         points.extend((1..=count).map(|part| {
             let at = piece.point_at(part as f64 / count as f64);
@@ -160,7 +160,7 @@ fn report_unreachable(all: &[ProfilePass], place: &MotionFindings<'_>, context: 
             let motion = owner.unwrap_or(work.pass.motions.start);
             let message = format!(
                 "the ball does not reach the profile from u = {:.3} to {:.3} mm along this pass: up to {:.3} mm are left",
-                part.from.u, part.to.u, part.left
+                part.from.u, part.to.u, part.left_mm
             );
             context.findings.push(place.build_finding(
                 codes::UNREACHABLE,
@@ -185,7 +185,7 @@ fn prove_profile_passes(
     before: &[Motion],
     all: &[ProfilePass],
     ball: &CompensatingBall,
-    mm: f64,
+    mm_per_unit: f64,
     reports: &mut [PassReport],
     context: &StepContext<'_>,
 ) -> Result<(), Failure> {
@@ -209,7 +209,7 @@ fn prove_profile_passes(
         .zip(&ranges)
         .map(|(work, range)| {
             let written = VerticalPass { motions: range.clone(), plane: work.pass.plane };
-            let (path, _) = pass_profile::build_chain(&after, &written, mm, ball.tolerance)?;
+            let (path, _) = pass_profile::build_chain(&after, &written, mm_per_unit, ball.tolerance)?;
             let tip = pass_profile::tip_chain(&path, ball);
             Ok((pass_profile::measure_tip_chain(&work.done.contact, &tip, ball), to_drawing_points(&tip)))
         })
@@ -217,15 +217,15 @@ fn prove_profile_passes(
     for ((work, measured), report) in all.iter().zip(measured).zip(reports) {
         let first = work.pass.motions.start;
         let (verdict, path) = measured.map_err(|why| place.describe_pass_fault(&why, first, context))?;
-        report.gouge_mm = verdict.gouge;
-        report.gap_mm = Some(verdict.gap);
+        report.gouge_mm = verdict.gouge_mm;
+        report.gap_mm = Some(verdict.gap_mm);
         report.path = path;
         report.naive = naive_offset_points(&work.done.contact, ball.radius);
-        let allowed = ball.tolerance + PRINTED * mm + verdict.bound;
-        if verdict.gouge > allowed || verdict.gap > allowed {
+        let allowed = ball.tolerance + PRINTED * mm_per_unit + verdict.bound_mm;
+        if verdict.gouge_mm > allowed || verdict.gap_mm > allowed {
             let message = format!(
                 "measured again, this pass gouges by {:.4} mm and leaves a gap of {:.4} mm: more than the tolerance of {} mm",
-                verdict.gouge, verdict.gap, ball.tolerance
+                verdict.gouge_mm, verdict.gap_mm, ball.tolerance
             );
             return Err(place.build_failure(message, first, "the pass", context));
         }

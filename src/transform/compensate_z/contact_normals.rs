@@ -23,7 +23,7 @@ pub struct BallGouge {
     /// The contact that it cuts into.
     pub neighbour: usize,
     /// How deep, mm.
-    pub depth: f64,
+    pub depth_mm: f64,
 }
 
 impl BallContact {
@@ -49,7 +49,7 @@ pub fn find_gouges(contacts: &[BallContact], radius: f64, tolerance: f64) -> Vec
         let near = tree.nearest_neighbor(&tree_coordinates(centre))?;
         let neighbour = near.data;
         let depth = radius - (contacts.get(neighbour)?.point - centre).norm();
-        (depth > tolerance).then_some(BallGouge { contact: index, neighbour, depth })
+        (depth > tolerance).then_some(BallGouge { contact: index, neighbour, depth_mm: depth })
     };
     contacts.iter().enumerate().filter_map(deepest).collect()
 }

@@ -9,16 +9,16 @@ use std::ops::Range;
 pub(super) fn project_from_above(
     motions: &[Motion],
     pass: &Range<usize>,
-    mm: f64,
+    mm_per_unit: f64,
     tolerance: f64,
 ) -> Vec<(usize, Vec<[f64; 2]>)> {
-    let flat = |point: nalgebra::Point3<f64>| [point.x * mm, point.y * mm];
+    let flat = |point: nalgebra::Point3<f64>| [point.x * mm_per_unit, point.y * mm_per_unit];
     let one = |index: usize| {
         let motion = motions.get(index)?;
         let points = match &motion.path {
             MotionPath::Line | MotionPath::Start => vec![motion.from.point, motion.to.point],
             MotionPath::Arc(arc) => {
-                let least = (tolerance / (arc.radius * mm)).clamp(1e-12, 0.5);
+                let least = (tolerance / (arc.radius * mm_per_unit)).clamp(1e-12, 0.5);
                 let count = (arc.sweep / (2.0 * (2.0 * least).sqrt())).ceil().clamp(1.0, 1e6) as usize;
                 (0..=count).map(|part| arc.point_at(part as f64 / count as f64)).collect()
             }

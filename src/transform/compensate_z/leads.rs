@@ -28,9 +28,9 @@ pub(super) struct MovedPass {
 pub(super) struct PassSurroundings<'a> {
     pub motions: &'a [Motion],
     /// Length of the file's unit, mm.
-    pub mm: f64,
+    pub mm_per_unit: f64,
     /// How much higher (mm, along the axis) everything around passes goes: the ball's radius where tips become centres.
-    pub lift: f64,
+    pub lift_mm: f64,
     /// Which motions cannot end elsewhere: FROM and GOHOME.
     pub fixed: Vec<bool>,
     /// Which motions cut, but are not meant.
@@ -49,20 +49,20 @@ pub(super) enum LeadConflict {
 }
 
 impl<'a> PassSurroundings<'a> {
-    pub fn new(program: &Program, motions: &'a [Motion], meant: &[bool], mm: f64, lift: f64) -> Self {
+    pub fn new(program: &Program, motions: &'a [Motion], meant: &[bool], mm_per_unit: f64, lift: f64) -> Self {
         let fixed = |motion: &Motion| {
             let record = program.statement(motion.last_statement()).map(Statement::record);
             matches!(record, Some(Record::From(_) | Record::GoHome(_)))
         };
         let excluded = |(motion, meant): (&Motion, &bool)| {
             let way = motion.to.point - motion.from.point;
-            let upright = (way - motion.to.axis * way.dot(&motion.to.axis)).norm() * mm <= UPRIGHT;
+            let upright = (way - motion.to.axis * way.dot(&motion.to.axis)).norm() * mm_per_unit <= UPRIGHT;
             !*meant && is_cutting(motion) && (motion.class_is_told || !upright)
         };
         Self {
             motions,
-            mm,
-            lift,
+            mm_per_unit,
+            lift_mm: lift,
             fixed: motions.iter().map(fixed).collect(),
             excluded: motions.iter().zip(meant).map(excluded).collect(),
         }
@@ -77,7 +77,7 @@ impl<'a> PassSurroundings<'a> {
     }
 
     fn end_point_mm(&self, index: usize) -> Option<Point3<f64>> {
-        self.motions.get(index).map(|motion| motion.to.point * self.mm)
+        self.motions.get(index).map(|motion| motion.to.point * self.mm_per_unit)
     }
 
     fn tool_axis(&self, index: usize) -> Vector3<f64> {
@@ -158,7 +158,7 @@ pub(super) fn move_surroundings(
         }
         let up = around.tool_axis(*index);
         let rapid = around.motions.get(*index).is_some_and(|motion| motion.rapid);
-        let old = around.end_point_mm(*index).filter(|_| rapid).map(|old| old.coords.dot(&up) + around.lift);
+        let old = around.end_point_mm(*index).filter(|_| rapid).map(|old| old.coords.dot(&up) + around.lift_mm);
         let least = height(*end).into_iter().chain(old).fold(f64::NEG_INFINITY, f64::max);
         let low = least - end.coords.dot(&up);
         // Rounding of the path itself is no reason to leave it.
@@ -178,11 +178,11 @@ fn move_between_passes(
 ) {
     let own = left.or(reached).and_then(|pass| around.operation_index(pass.motions.start));
     let next = reached.and_then(|pass| around.operation_index(pass.motions.start));
-    if around.lift > 0.0 {
+    if around.lift_mm > 0.0 {
         for index in range.clone().filter(|index| !around.is_immovable(*index)) {
             let operation = around.operation_index(index);
             if let Some(at) = around.end_point_mm(index).filter(|_| operation == own || operation == next) {
-                ends.insert(index, at + around.tool_axis(index) * around.lift);
+                ends.insert(index, at + around.tool_axis(index) * around.lift_mm);
             }
         }
     }
@@ -202,7 +202,7 @@ fn move_between_passes(
             }
             ends.insert(
                 index,
-                shift_with_pass(at, (old, left.end), around.tool_axis(index), above, around.lift),
+                shift_with_pass(at, (old, left.end), around.tool_axis(index), above, around.lift_mm),
             );
             behind.insert(index, above);
         }
@@ -218,7 +218,7 @@ fn move_between_passes(
         if around.operation_index(index) != next || around.is_immovable(index) || !lead && !above {
             break;
         }
-        let wanted = shift_with_pass(at, (old, ahead.start), around.tool_axis(index), above, around.lift);
+        let wanted = shift_with_pass(at, (old, ahead.start), around.tool_axis(index), above, around.lift_mm);
         let share = (index + 1 - range.start) as f64 / range.len() as f64;
         let link = !motion.rapid && !above && index + 1 < ahead.motions.start;
         let new = match (ends.get(&index), behind.get(&index)) {
@@ -264,7 +264,7 @@ pub(super) fn write_leads(
     motions: &[Motion],
     ends: &BTreeMap<usize, Point3<f64>>,
     moved: &[MovedPass],
-    mm: f64,
+    mm_per_unit: f64,
     original: &Program,
     context: &StepContext<'_>,
 ) -> Result<(), Failure> {
@@ -273,7 +273,7 @@ pub(super) fn write_leads(
         let of_pass = moved.iter().find(|pass| pass.motions.end == index).map(|pass| pass.end);
         of_pass
             .or_else(|| before.and_then(|before| ends.get(&before).copied()))
-            .or_else(|| motions.get(index).map(|motion| motion.from.point * mm))
+            .or_else(|| motions.get(index).map(|motion| motion.from.point * mm_per_unit))
             .unwrap_or_else(Point3::origin)
     };
     let within = |index: usize| moved.iter().any(|pass: &MovedPass| contains(&pass.motions, index));
@@ -286,7 +286,7 @@ pub(super) fn write_leads(
     touched.sort_unstable();
     touched.dedup();
     for index in touched {
-        let old = motions.get(index).map_or_else(Point3::origin, |motion| motion.to.point * mm);
+        let old = motions.get(index).map_or_else(Point3::origin, |motion| motion.to.point * mm_per_unit);
         let end = ends.get(&index).copied().unwrap_or(old);
         let written = writer.move_end(editor, index, end, start_of(index))?;
         let place = MotionFindings { program: original, motions };

@@ -23,7 +23,7 @@ impl PassWriter<'_> {
         start: Point3<f64>,
     ) -> Result<Result<(), UnwritableMotion>, Failure> {
         let Some(motion) = self.motions.get(index) else { return Ok(Ok(())) };
-        let (by, from) = (end - motion.to.point * self.mm, start - motion.from.point * self.mm);
+        let (by, from) = (end - motion.to.point * self.mm_per_unit, start - motion.from.point * self.mm_per_unit);
         let last = motion.last_statement();
         let moves = |by: Vector3<f64>| by.amax() > 1e-9;
         let record = editor.program().statement(last).map(Statement::record);
@@ -80,7 +80,7 @@ impl PassWriter<'_> {
                 parse::statement_numbers(text).into_iter().map(|(_, value)| value).collect();
             let roles = parse::number_roles(found.record(), text);
             let edits = map_triples(&values, &roles, |role, point| {
-                matches!(role, NumberRole::Point(0)).then(|| point + by / self.mm)
+                matches!(role, NumberRole::Point(0)).then(|| point + by / self.mm_per_unit)
             });
             editor.set_numbers(statement, &edits)?;
         }

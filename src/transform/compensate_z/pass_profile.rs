@@ -72,7 +72,7 @@ impl fmt::Display for PassFault {
 pub(super) fn build_chain(
     motions: &[Motion],
     pass: &VerticalPass,
-    mm: f64,
+    mm_per_unit: f64,
     tolerance: f64,
 ) -> Result<(Chain, Vec<usize>), PassFault> {
     let mut pieces: Vec<ChainPiece> = Vec::new();
@@ -80,7 +80,7 @@ pub(super) fn build_chain(
     let mut reached: Option<Point> = None;
     for index in pass.motions.clone() {
         let Some(motion) = motions.get(index) else { continue };
-        let flat = |point: nalgebra::Point3<f64>| pass.plane.to_plane(point * mm);
+        let flat = |point: nalgebra::Point3<f64>| pass.plane.to_plane(point * mm_per_unit);
         // Each piece begins exactly where the one before ends: printing puts them up to a last digit apart.
         let from = reached.unwrap_or_else(|| flat(motion.from.point));
         let mut to = flat(motion.to.point);
@@ -93,13 +93,13 @@ pub(super) fn build_chain(
                 pieces.push(ChainPiece::line(from, to));
             }
             MotionPath::Arc(arc) => {
-                let round = project_arc(arc, &pass.plane, mm)
+                let round = project_arc(arc, &pass.plane, mm_per_unit)
                     .ok_or(PassFault::Pass(NoPassReason::LeavesPlane(index)))?;
                 pieces.push(ChainPiece::Arc(fit_arc_to_ends(&round, from, to)));
             }
             MotionPath::Spline(spline) => {
                 let mut scaled = spline.as_ref().clone();
-                scaled.controls.iter_mut().for_each(|point| *point *= mm);
+                scaled.controls.iter_mut().for_each(|point| *point *= mm_per_unit);
                 let curve = NurbsCurve::from_spline(&scaled, &pass.plane)
                     .map_err(|why| PassFault::Geometry(why.to_string()))?;
                 let made = to_chords(&curve, tolerance * CURVES)
@@ -133,28 +133,28 @@ fn fit_arc_to_ends(arc: &ArcPiece, from: Point, to: Point) -> ArcPiece {
     let angle = |at: Point| (at.z - centre.z).atan2(at.u - centre.u);
     let start = angle(from);
     let turn = (angle(to) - start).rem_euclid(std::f64::consts::TAU);
-    let sweep = if arc.sweep > 0.0 { turn } else { turn - std::f64::consts::TAU };
-    ArcPiece { centre, radius: from.distance(centre), start, sweep }
+    let sweep = if arc.sweep_rad > 0.0 { turn } else { turn - std::f64::consts::TAU };
+    ArcPiece { centre, radius_mm: from.distance(centre), start_rad: start, sweep_rad: sweep }
 }
 
 /// An arc of space as one of the plane; `None` when its axis is not the plane's normal, or it climbs along it.
 fn project_arc(
     arc: &crate::program::geometry::CircularArc,
     plane: &ProfilePlane,
-    mm: f64,
+    mm_per_unit: f64,
 ) -> Option<ArcPiece> {
-    let (start, centre) = (plane.to_plane(arc.start * mm), plane.to_plane(arc.center * mm));
-    let ahead = plane.to_plane((arc.start + arc.axis.cross(&(arc.start - arc.center))) * mm);
+    let (start, centre) = (plane.to_plane(arc.start * mm_per_unit), plane.to_plane(arc.center * mm_per_unit));
+    let ahead = plane.to_plane((arc.start + arc.axis.cross(&(arc.start - arc.center))) * mm_per_unit);
     let (spoke, tangent) = ((start.u - centre.u, start.z - centre.z), (ahead.u - start.u, ahead.z - start.z));
     let turn = spoke.0 * tangent.1 - spoke.1 * tangent.0;
     let radius = start.distance(centre);
     // In its own plane the tangent is square to the spoke and as long.
     let lies = (turn.abs() - radius * radius).abs() <= 1e-4 * radius * radius;
-    (lies && arc.rise.abs() * mm <= 1e-3).then(|| ArcPiece {
+    (lies && arc.rise.abs() * mm_per_unit <= 1e-3).then(|| ArcPiece {
         centre,
-        radius,
-        start: spoke.1.atan2(spoke.0),
-        sweep: arc.sweep * turn.signum(),
+        radius_mm: radius,
+        start_rad: spoke.1.atan2(spoke.0),
+        sweep_rad: arc.sweep * turn.signum(),
     })
 }
 

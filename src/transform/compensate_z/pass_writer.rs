@@ -28,16 +28,16 @@ pub(super) enum UnwritableMotion {
 /// Writes points for one program.
 pub(super) struct PassWriter<'a> {
     pub(super) motions: &'a [Motion],
-    pub(super) mm: f64,
+    pub(super) mm_per_unit: f64,
     /// Decimals of the file's coordinates, four at least.
     decimals: usize,
     arc: Option<ArcTemplate>,
 }
 
 impl<'a> PassWriter<'a> {
-    pub fn new(program: &Program, motions: &'a [Motion], mm: f64) -> Self {
+    pub fn new(program: &Program, motions: &'a [Motion], mm_per_unit: f64) -> Self {
         let decimals = FileStyle::from_program(program).length_decimals.max(4);
-        Self { motions, mm, decimals, arc: find_arc_template(program) }
+        Self { motions, mm_per_unit, decimals, arc: find_arc_template(program) }
     }
 
     /// Whether arcs can be said.
@@ -72,7 +72,7 @@ impl<'a> PassWriter<'a> {
     pub(super) fn point_numbers(&self, point: Point3<f64>) -> Vec<(usize, f64)> {
         pair_with_indices(
             0,
-            <[f64; 3]>::from((point / self.mm).coords.map(|value| round_to_decimals(value, self.decimals))),
+            <[f64; 3]>::from((point / self.mm_per_unit).coords.map(|value| round_to_decimals(value, self.decimals))),
         )
     }
 
@@ -173,7 +173,7 @@ impl<'a> PassWriter<'a> {
     /// How far along the pass the tip has come (in the path's direction) when the contact reaches the end of each motion.
     fn find_motion_breaks(&self, pass: &VerticalPass, path: &Chain, radius: f64) -> Vec<f64> {
         let forward = if path.end().u >= path.start().u { 1.0 } else { -1.0 };
-        let flat = |point: Point3<f64>| pass.plane.to_plane(point * self.mm);
+        let flat = |point: Point3<f64>| pass.plane.to_plane(point * self.mm_per_unit);
         let all = self.motions.get(pass.motions.clone()).unwrap_or_default();
         let mut reached = f64::NEG_INFINITY;
         let mut breaks = Vec::with_capacity(all.len());
@@ -216,7 +216,7 @@ impl<'a> PassWriter<'a> {
         before: usize,
     ) -> Result<(), Failure> {
         if let (ChainPiece::Arc(arc), Some(template)) = (piece, &self.arc)
-            && !template.insert_arc(editor, arc, plane, self.mm, before)?
+            && !template.insert_arc(editor, arc, plane, self.mm_per_unit, before)?
         {
             return Ok(());
         }
@@ -234,7 +234,7 @@ fn is_line(program: &Program, motion: &Motion) -> bool {
 /// The pieces, arcs of more than half a turn in two.
 pub(super) fn split_long_arcs(path: &Chain) -> Vec<ChainPiece> {
     let halve = |piece: &ChainPiece| match piece {
-        ChainPiece::Arc(arc) if arc.sweep.abs() > PI => {
+        ChainPiece::Arc(arc) if arc.sweep_rad.abs() > PI => {
             vec![piece.sub_piece(0.0, 0.5), piece.sub_piece(0.5, 1.0)]
         }
         _ => vec![*piece],

@@ -72,8 +72,8 @@ pub(super) struct CompensateZJob {
 impl CompensateZJob {
     fn new(step: &CompensateZ, file: LengthUnit, context: &StepContext<'_>) -> Result<Self, Failure> {
         let recipe = context.units.mm_per_unit();
-        let mm = |value: Option<Positive>| value.map(|value| value.get() * recipe);
-        let was = mm(step.was_radius);
+        let to_mm = |value: Option<Positive>| value.map(|value| value.get() * recipe);
+        let was = to_mm(step.was_radius);
         match (step.input, was) {
             (InputPointKind::Contact, Some(_)) => {
                 let message =
@@ -88,14 +88,14 @@ impl CompensateZJob {
         }
         let needs_ball =
             !matches!(step.against, CompensationReference::Mesh(_)) || step.output == OutputPointKind::Centre;
-        let radius = mm(step.radius);
+        let radius = to_mm(step.radius);
         Ok(Self {
             radius: radius.unwrap_or(0.0),
             corner: radius.unwrap_or(0.0),
             was,
             was_centre: step.input == InputPointKind::Centre,
             centre: step.output == OutputPointKind::Centre,
-            tolerance: mm(step.tolerance).unwrap_or(TOLERANCE),
+            tolerance: to_mm(step.tolerance).unwrap_or(TOLERANCE),
             arcs: step.arcs == ArcOutput::Keep,
             file,
             needs_ball,
@@ -138,9 +138,9 @@ impl CompensateZJob {
         let scale = self.file.mm_per_unit();
         let told =
             |of_setup: Option<f64>, of_file: Option<f64>| of_setup.or(of_file.map(|value| value * scale));
-        let diameter = told(entry.and_then(|entry| entry.diameter), data.and_then(|data| data.diameter));
+        let diameter = told(entry.and_then(|entry| entry.diameter_mm), data.and_then(|data| data.diameter));
         let corner =
-            told(entry.and_then(|entry| entry.corner_radius), data.and_then(|data| data.corner_radius));
+            told(entry.and_then(|entry| entry.corner_radius_mm), data.and_then(|data| data.corner_radius));
         let called = used.display_name();
         let Some(diameter) = diameter.filter(|diameter| *diameter > 0.0) else {
             let message = format!(

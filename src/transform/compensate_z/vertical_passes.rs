@@ -43,18 +43,18 @@ pub(super) enum NoPassReason {
 pub(super) fn find_vertical_passes(
     motions: &[Motion],
     meant: &[bool],
-    mm: f64,
+    mm_per_unit: f64,
 ) -> Result<Vec<VerticalPass>, NoPassReason> {
     let mut found = Vec::new();
-    for run in find_cutting_runs(motions, meant, mm) {
-        found.extend(passes_of_run(motions, run, mm)?);
+    for run in find_cutting_runs(motions, meant, mm_per_unit) {
+        found.extend(passes_of_run(motions, run, mm_per_unit)?);
     }
     Ok(found)
 }
 
 /// Runs of motions that cut one after the other, without the straight way down to them and up from them where the file does not mark
 /// what motions are for.
-pub(super) fn find_cutting_runs(motions: &[Motion], meant: &[bool], mm: f64) -> Vec<Range<usize>> {
+pub(super) fn find_cutting_runs(motions: &[Motion], meant: &[bool], mm_per_unit: f64) -> Vec<Range<usize>> {
     let mut found = Vec::new();
     let mut index = 0;
     let means = |index: usize| meant.get(index).copied().unwrap_or(false);
@@ -68,7 +68,7 @@ pub(super) fn find_cutting_runs(motions: &[Motion], meant: &[bool], mm: f64) -> 
         while means(end) && motions.get(end).map(|motion| motion.operation) == operation {
             end += 1;
         }
-        let run = trim_plunge_and_retract(motions, index..end, mm);
+        let run = trim_plunge_and_retract(motions, index..end, mm_per_unit);
         if !run.is_empty() {
             found.push(run);
         }
@@ -79,7 +79,7 @@ pub(super) fn find_cutting_runs(motions: &[Motion], meant: &[bool], mm: f64) -> 
 
 /// A run without the straight way down to it and up from it, where the file does not mark them as cuts, or where it comes from a rapid
 /// or goes on as one.
-fn trim_plunge_and_retract(motions: &[Motion], mut run: Range<usize>, mm: f64) -> Range<usize> {
+fn trim_plunge_and_retract(motions: &[Motion], mut run: Range<usize>, mm_per_unit: f64) -> Range<usize> {
     let rapid = |index: Option<usize>| {
         index
             .and_then(|index| motions.get(index))
@@ -87,7 +87,7 @@ fn trim_plunge_and_retract(motions: &[Motion], mut run: Range<usize>, mm: f64) -
     };
     let upright = |index: usize, up: bool, beside_rapid: bool| {
         motions.get(index).is_some_and(|motion| {
-            let way = (motion.to.point - motion.from.point) * mm;
+            let way = (motion.to.point - motion.from.point) * mm_per_unit;
             let along = way.dot(&motion.to.axis);
             (!motion.class_is_told || beside_rapid)
                 && matches!(motion.path, MotionPath::Line)
@@ -111,7 +111,7 @@ struct PlanarRun {
     length: f64,
 }
 
-fn passes_of_run(motions: &[Motion], run: Range<usize>, mm: f64) -> Result<Vec<VerticalPass>, NoPassReason> {
+fn passes_of_run(motions: &[Motion], run: Range<usize>, mm_per_unit: f64) -> Result<Vec<VerticalPass>, NoPassReason> {
     let first = motions.get(run.start);
     let turns = |motion: &&Motion| {
         first.is_some_and(|first| {
@@ -123,7 +123,7 @@ fn passes_of_run(motions: &[Motion], run: Range<usize>, mm: f64) -> Result<Vec<V
     if let Some(at) = all.iter().position(|motion| turns(&motion)) {
         return Err(NoPassReason::AxisTurns(run.start + at));
     }
-    let stretches = split_into_planar_runs(motions, run, mm);
+    let stretches = split_into_planar_runs(motions, run, mm_per_unit);
     let main = find_main_direction(&stretches);
     let along =
         |stretch: &PlanarRun| stretch.plane.is_some_and(|(_, direction)| is_parallel(direction, main));
@@ -139,8 +139,8 @@ fn passes_of_run(motions: &[Motion], run: Range<usize>, mm: f64) -> Result<Vec<V
     let mut found = Vec::new();
     for stretch in passes {
         let Some((plane, _)) = stretch.plane else { continue };
-        let motions_of = trim_plunge_and_retract(motions, stretch.motions.clone(), mm);
-        if let Some(back) = find_turn_back(motions, &motions_of, &plane, mm) {
+        let motions_of = trim_plunge_and_retract(motions, stretch.motions.clone(), mm_per_unit);
+        if let Some(back) = find_turn_back(motions, &motions_of, &plane, mm_per_unit) {
             return Err(NoPassReason::TurnsBack(back));
         }
         if !motions_of.is_empty() {
@@ -151,8 +151,8 @@ fn passes_of_run(motions: &[Motion], run: Range<usize>, mm: f64) -> Result<Vec<V
 }
 
 /// Where a pass goes back over more than a quarter of its width; less is an overhang of its profile.
-fn find_turn_back(motions: &[Motion], range: &Range<usize>, plane: &ProfilePlane, mm: f64) -> Option<usize> {
-    let ends = |motion: &Motion| [motion.from, motion.to].map(|pose| plane.to_plane(pose.point * mm).u);
+fn find_turn_back(motions: &[Motion], range: &Range<usize>, plane: &ProfilePlane, mm_per_unit: f64) -> Option<usize> {
+    let ends = |motion: &Motion| [motion.from, motion.to].map(|pose| plane.to_plane(pose.point * mm_per_unit).u);
     let all = motions.get(range.clone())?;
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     let (mut forward, mut back) = (0.0, 0.0);
@@ -196,13 +196,13 @@ fn is_parallel(one: Vector3<f64>, other: Vector3<f64>) -> bool {
     one.cross(&other).norm() <= PARALLEL
 }
 
-fn split_into_planar_runs(motions: &[Motion], run: Range<usize>, mm: f64) -> Vec<PlanarRun> {
+fn split_into_planar_runs(motions: &[Motion], run: Range<usize>, mm_per_unit: f64) -> Vec<PlanarRun> {
     let mut found = Vec::new();
     let mut start = run.start;
     while start < run.end {
-        let (end, plane) = find_planar_run(motions, start, run.end, mm);
+        let (end, plane) = find_planar_run(motions, start, run.end, mm_per_unit);
         let part = motions.get(start..end).unwrap_or_default();
-        let length = part.iter().map(|motion| motion.length() * mm).sum();
+        let length = part.iter().map(|motion| motion.length() * mm_per_unit).sum();
         found.push(PlanarRun { motions: start..end, plane, length });
         start = end;
     }
@@ -214,10 +214,10 @@ fn find_planar_run(
     motions: &[Motion],
     start: usize,
     end: usize,
-    mm: f64,
+    mm_per_unit: f64,
 ) -> (usize, Option<(ProfilePlane, Vector3<f64>)>) {
     let Some(first) = motions.get(start) else { return (start + 1, None) };
-    let (origin, up) = (first.from.point * mm, first.from.axis);
+    let (origin, up) = (first.from.point * mm_per_unit, first.from.axis);
     let mut seen: Vec<Point3<f64>> = Vec::new();
     let mut plane: Option<(ProfilePlane, Vector3<f64>)> = None;
     let mut index = start;
@@ -226,7 +226,7 @@ fn find_planar_run(
             .path
             .sample_points(motion.from.point, motion.to.point)
             .iter()
-            .map(|point| point * mm)
+            .map(|point| point * mm_per_unit)
             .collect();
         if !is_in_plane(&plane, &points) {
             // A short beginning tells the direction badly, a farther point better.

@@ -13,13 +13,13 @@ type LevelKey = (usize, [i64; 3]);
 /// The level motions of operations, found once for each operation and tool axis.
 pub(super) struct LevelMotions<'m> {
     motions: &'m [Motion],
-    mm: f64,
+    mm_per_unit: f64,
     known: HashMap<LevelKey, Vec<(f64, usize)>>,
 }
 
 impl<'m> LevelMotions<'m> {
-    pub fn new(motions: &'m [Motion], mm: f64) -> Self {
-        Self { motions, mm, known: HashMap::new() }
+    pub fn new(motions: &'m [Motion], mm_per_unit: f64) -> Self {
+        Self { motions, mm_per_unit, known: HashMap::new() }
     }
 
     /// The hull of what a ramp's operation cuts at the level of its end, and of the ramp itself.
@@ -41,7 +41,7 @@ impl<'m> LevelMotions<'m> {
     /// The paths of what is cut at the level of a ramp's end, motions that go on from each other joined, and the ramp's own.
     fn level_paths(&mut self, found: &FoundRamp) -> Vec<Vec<Point2<f64>>> {
         let end = found.ramp.end_point().z;
-        let (motions, mm, frame) = (self.motions, self.mm, found.frame);
+        let (motions, mm, frame) = (self.motions, self.mm_per_unit, found.frame);
         let heights = self.level_heights(found);
         let start = heights.partition_point(|(z, _)| *z < end - LEVEL);
         let level = heights.iter().skip(start).take_while(|(z, _)| *z <= end + LEVEL);
@@ -67,7 +67,7 @@ impl<'m> LevelMotions<'m> {
     fn level_heights(&mut self, found: &FoundRamp) -> &[(f64, usize)] {
         let axis = (found.frame.inverse() * nalgebra::Vector3::z()).map(|part| (part * 1e6).round() as i64);
         let key = (found.operation, axis.into());
-        let (motions, mm, frame) = (self.motions, self.mm, &found.frame);
+        let (motions, mm, frame) = (self.motions, self.mm_per_unit, &found.frame);
         self.known.entry(key).or_insert_with(|| find_level_heights(motions, found.operation, frame, mm))
     }
 }
@@ -76,7 +76,7 @@ fn find_level_heights(
     motions: &[Motion],
     operation: usize,
     frame: &Rotation3<f64>,
-    mm: f64,
+    mm_per_unit: f64,
 ) -> Vec<(f64, usize)> {
     let all = motions.iter().enumerate().filter(|(_, motion)| motion.operation == operation);
     let upright = |motion: &Motion| (frame * motion.from.axis).xy().amax() <= 1e-6;
@@ -85,10 +85,10 @@ fn find_level_heights(
             && motion.hole.is_none()
             && upright(motion)
             && motion.length() > 0.0
-            && is_level(motion, mm)
+            && is_level(motion, mm_per_unit)
     });
     let mut found: Vec<(f64, usize)> =
-        level.map(|(index, motion)| (to_tool_frame_mm(motion.to, frame, mm).z, index)).collect();
+        level.map(|(index, motion)| (to_tool_frame_mm(motion.to, frame, mm_per_unit).z, index)).collect();
     found.sort_by(|one, other| one.0.total_cmp(&other.0));
     found
 }

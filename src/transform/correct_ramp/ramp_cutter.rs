@@ -32,14 +32,14 @@ pub(super) fn resolve_ramp_cutter(
     let data = tool.data.as_ref();
     let of_file =
         |value: Option<f64>| value.map(|value| value * file.mm_per_unit()).filter(|value| *value > 0.0);
-    let height = told.and_then(|tool| own(tool.insert_height)).or(insert.map(|insert| insert.height));
+    let height = told.and_then(|tool| own(tool.insert_height)).or(insert.map(|insert| insert.height_mm));
     let diameter = told
         .and_then(|tool| own(tool.diameter))
-        .or(entry.and_then(|entry| entry.diameter))
+        .or(entry.and_then(|entry| entry.diameter_mm))
         .or(of_file(data.and_then(|data| data.diameter)));
     let radius = told
         .and_then(|tool| own(tool.insert_radius))
-        .or(insert.map(|insert| insert.radius))
+        .or(insert.map(|insert| insert.radius_mm))
         .or(of_file(data.and_then(|data| data.corner_radius)));
     if height.is_none() && told.is_none() {
         return RampCutter::Solid;

@@ -36,7 +36,7 @@ pub(super) fn prove_ramps(
     (file, rounding): (LengthUnit, f64),
     reports: &mut [RampReport],
 ) -> Result<(), (usize, RampProofError)> {
-    let mm = file.mm_per_unit();
+    let mm_per_unit = file.mm_per_unit();
     let after: Vec<Motion> = program.motions().collect();
     let (mut old, mut new) = (0, 0);
     for (index, (plan, written)) in plans.iter().zip(written).enumerate() {
@@ -49,7 +49,7 @@ pub(super) fn prove_ramps(
         let start = new + gap + usize::from(written.lead);
         let end = start + written.ramp.steps.len();
         let motions = after.get(start..end).ok_or(fault(RampProofError::Count))?;
-        let ramp = read_ramp(motions, &plan.found.frame, mm).ok_or(fault(RampProofError::Points))?;
+        let ramp = read_ramp(motions, &plan.found.frame, mm_per_unit).ok_or(fault(RampProofError::Points))?;
         check_ramp(&ramp, written, plan, rounding).map_err(fault)?;
         let (first, last) = (before.get(range.start), before.get(range.end.saturating_sub(1)));
         // The slowest feed is the last one, or the only one.

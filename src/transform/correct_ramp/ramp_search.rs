@@ -46,13 +46,13 @@ pub(super) struct FoundRamp {
 
 /// Looks for ramps; `mm` is one unit of the file. `begin` is the height above its end from which a descent may be in material,
 /// where that is known.
-pub(super) fn find_ramps(motions: &[Motion], mm: f64, begin: Option<f64>) -> Vec<FoundRamp> {
-    let operations = survey_operations(motions, mm);
+pub(super) fn find_ramps(motions: &[Motion], mm_per_unit: f64, begin: Option<f64>) -> Vec<FoundRamp> {
+    let operations = survey_operations(motions, mm_per_unit);
     let mut found = Vec::new();
     let mut index = 0;
     while let Some(motion) = motions.get(index) {
         let may = |motion: &Motion| {
-            is_candidate(motion, mm)
+            is_candidate(motion, mm_per_unit)
                 && operations.get(motion.operation).is_some_and(|operation| operation.can_have_ramps(motion))
         };
         if !may(motion) {
@@ -68,7 +68,7 @@ pub(super) fn find_ramps(motions: &[Motion], mm: f64, begin: Option<f64>) -> Vec
         };
         let count = run.iter().take_while(|next| goes_on(next)).count().max(1);
         let end = index + count;
-        found.extend(find_ramp_in_run(motions, index..end, mm, begin));
+        found.extend(find_ramp_in_run(motions, index..end, mm_per_unit, begin));
         index = end;
     }
     found
@@ -78,15 +78,15 @@ pub(super) fn find_ramps(motions: &[Motion], mm: f64, begin: Option<f64>) -> Vec
 fn find_ramp_in_run(
     motions: &[Motion],
     mut run: Range<usize>,
-    mm: f64,
+    mm_per_unit: f64,
     begin: Option<f64>,
 ) -> Option<FoundRamp> {
     let all = motions.get(run.clone())?;
     let first = all.first()?;
     let frame = tool_frame_rotation(first.from.axis)?;
     let mut ramp = Ramp {
-        start: to_tool_frame_mm(first.from, &frame, mm),
-        steps: all.iter().flat_map(|motion| read_steps(motion, &frame, mm)).collect(),
+        start: to_tool_frame_mm(first.from, &frame, mm_per_unit),
+        steps: all.iter().flat_map(|motion| read_steps(motion, &frame, mm_per_unit)).collect(),
     };
     // A straight way down before the slope begins is the approach, as far as it stays above the material.
     let end = ramp.end_point().z;
@@ -101,11 +101,11 @@ fn find_ramp_in_run(
         ramp.steps.drain(..lead);
         run.start += lead;
     }
-    let passes = find_pass_directions(motions, run.end, first, &frame, mm);
+    let passes = find_pass_directions(motions, run.end, first, &frame, mm_per_unit);
     let has_level = !passes.is_empty();
     // A marked engage that leads onto a surface is no ramp either.
     let next =
-        motions.get(run.end..).unwrap_or_default().iter().find(|motion| motion.length() * mm > NOTHING);
+        motions.get(run.end..).unwrap_or_default().iter().find(|motion| motion.length() * mm_per_unit > NOTHING);
     let surface = next.is_some_and(|next| {
         !next.rapid && next.class == MotionClass::Cut && next.operation == first.operation
     });
@@ -116,7 +116,7 @@ fn find_ramp_in_run(
 }
 
 /// Whether a motion may be part of a ramp: a descent at feed, with the axis at rest, that is no drilling and no turning.
-fn is_candidate(motion: &Motion, mm: f64) -> bool {
+fn is_candidate(motion: &Motion, mm_per_unit: f64) -> bool {
     let told_otherwise = motion.class_is_told && motion.class != MotionClass::Engage;
     !motion.rapid
         && !told_otherwise
@@ -125,7 +125,7 @@ fn is_candidate(motion: &Motion, mm: f64) -> bool {
         && !matches!(motion.path, MotionPath::Start)
         && (motion.from.axis - motion.to.axis).amax() <= SAME_AXIS
         && !is_turning(motion)
-        && rise_along_axis(motion) * mm < -FALLS
+        && rise_along_axis(motion) * mm_per_unit < -FALLS
 }
 
 /// A lathe: the spindle keeps a surface speed, or the tool is none that mills.
@@ -157,20 +157,20 @@ pub(super) fn tool_frame_rotation(axis: Vector3<f64>) -> Option<Rotation3<f64>> 
 }
 
 /// A point in the tool's frame, mm.
-pub(super) fn to_tool_frame_mm(pose: Pose, frame: &Rotation3<f64>, mm: f64) -> Point3<f64> {
-    frame * (pose.point * mm)
+pub(super) fn to_tool_frame_mm(pose: Pose, frame: &Rotation3<f64>, mm_per_unit: f64) -> Point3<f64> {
+    frame * (pose.point * mm_per_unit)
 }
 
 /// Motions as a ramp in the tool's frame, whatever their slope; `None` where one of them is no line or arc about the tool axis.
-pub(super) fn read_ramp(motions: &[Motion], frame: &Rotation3<f64>, mm: f64) -> Option<Ramp> {
-    let start = to_tool_frame_mm(motions.first()?.from, frame, mm);
-    let steps: Vec<RampStep> = motions.iter().filter_map(|motion| read_step(motion, frame, mm)).collect();
+pub(super) fn read_ramp(motions: &[Motion], frame: &Rotation3<f64>, mm_per_unit: f64) -> Option<Ramp> {
+    let start = to_tool_frame_mm(motions.first()?.from, frame, mm_per_unit);
+    let steps: Vec<RampStep> = motions.iter().filter_map(|motion| read_step(motion, frame, mm_per_unit)).collect();
     (steps.len() == motions.len()).then_some(Ramp { start, steps })
 }
 
 /// A motion as a step in the tool's frame; `None` for an arc about another axis and for a spline.
-fn read_step(motion: &Motion, frame: &Rotation3<f64>, mm: f64) -> Option<RampStep> {
-    let to = to_tool_frame_mm(motion.to, frame, mm);
+fn read_step(motion: &Motion, frame: &Rotation3<f64>, mm_per_unit: f64) -> Option<RampStep> {
+    let to = to_tool_frame_mm(motion.to, frame, mm_per_unit);
     match &motion.path {
         MotionPath::Line => Some(RampStep::straight_to(to)),
         MotionPath::Arc(arc) => {
@@ -178,7 +178,7 @@ fn read_step(motion: &Motion, frame: &Rotation3<f64>, mm: f64) -> Option<RampSte
             if axis.xy().norm() > SAME_AXIS.sqrt() {
                 return None;
             }
-            let centre = (frame * (arc.center * mm)).xy();
+            let centre = (frame * (arc.center * mm_per_unit)).xy();
             Some(RampStep { to, bend: Some(RampArc { centre, sweep: arc.sweep * axis.z.signum() }) })
         }
         MotionPath::Start | MotionPath::Spline(_) => None,
@@ -186,12 +186,12 @@ fn read_step(motion: &Motion, frame: &Rotation3<f64>, mm: f64) -> Option<RampSte
 }
 
 /// A motion as steps: what is no line or arc about the tool axis in chords.
-fn read_steps(motion: &Motion, frame: &Rotation3<f64>, mm: f64) -> Vec<RampStep> {
-    match read_step(motion, frame, mm) {
+fn read_steps(motion: &Motion, frame: &Rotation3<f64>, mm_per_unit: f64) -> Vec<RampStep> {
+    match read_step(motion, frame, mm_per_unit) {
         Some(step) => vec![step],
         None => {
             let points = motion.path.sample_points(motion.from.point, motion.to.point);
-            points.iter().skip(1).map(|point| RampStep::straight_to(frame * (point * mm))).collect()
+            points.iter().skip(1).map(|point| RampStep::straight_to(frame * (point * mm_per_unit))).collect()
         }
     }
 }
@@ -203,11 +203,11 @@ fn find_pass_directions(
     end: usize,
     first: &Motion,
     frame: &Rotation3<f64>,
-    mm: f64,
+    mm_per_unit: f64,
 ) -> Vec<Vector2<f64>> {
-    let rest = motions.get(end..).unwrap_or_default().iter().filter(|motion| motion.length() * mm > NOTHING);
+    let rest = motions.get(end..).unwrap_or_default().iter().filter(|motion| motion.length() * mm_per_unit > NOTHING);
     let level: Vec<&Motion> =
-        rest.take_while(|motion| continues_at_level(motion, first, mm)).take(LOOKED_AT).collect();
+        rest.take_while(|motion| continues_at_level(motion, first, mm_per_unit)).take(LOOKED_AT).collect();
     let told = level.iter().find(|motion| motion.class_is_told && motion.class == MotionClass::Cut);
     let longest =
         level.iter().copied().reduce(|one, next| if next.length() > one.length() { next } else { one });
@@ -219,13 +219,13 @@ fn find_pass_directions(
 /// Motions after a ramp among which its first pass is looked for: leads and corners come before it.
 const LOOKED_AT: usize = 8;
 
-fn continues_at_level(motion: &Motion, first: &Motion, mm: f64) -> bool {
+fn continues_at_level(motion: &Motion, first: &Motion, mm_per_unit: f64) -> bool {
     !motion.rapid
         && motion.hole.is_none()
         && motion.operation == first.operation
         && has_same_axis(motion, first)
         && (motion.from.axis - motion.to.axis).amax() <= SAME_AXIS
-        && is_level(motion, mm)
+        && is_level(motion, mm_per_unit)
         && !matches!(motion.class, MotionClass::Retract | MotionClass::Approach)
 }
 
@@ -239,9 +239,9 @@ fn find_start_direction(motion: &Motion, frame: &Rotation3<f64>) -> Option<Vecto
 }
 
 /// Whether a motion stays at one level.
-pub(super) fn is_level(motion: &Motion, mm: f64) -> bool {
+pub(super) fn is_level(motion: &Motion, mm_per_unit: f64) -> bool {
     let inside = motion.path.sample_points(motion.from.point, motion.to.point);
-    inside.iter().all(|point| ((point - motion.from.point).dot(&motion.from.axis) * mm).abs() <= LEVEL)
+    inside.iter().all(|point| ((point - motion.from.point).dot(&motion.from.axis) * mm_per_unit).abs() <= LEVEL)
 }
 
 /// What an operation is like.
@@ -271,23 +271,23 @@ impl OperationSurvey {
     }
 }
 
-fn survey_operations(motions: &[Motion], mm: f64) -> Vec<OperationSurvey> {
+fn survey_operations(motions: &[Motion], mm_per_unit: f64) -> Vec<OperationSurvey> {
     let mut found: Vec<OperationSurvey> = Vec::new();
     for motion in motions {
         if found.len() <= motion.operation {
             found.resize(motion.operation + 1, OperationSurvey::NOTHING);
         }
         let Some(survey) = found.get_mut(motion.operation) else { continue };
-        let y = motion.to.point.y * mm;
+        let y = motion.to.point.y * mm_per_unit;
         let [low, high] = survey.y;
         survey.y = [low.min(y), high.max(y)];
         let up = rise_along_axis(motion);
-        if motion.rapid || motion.hole.is_some() || motion.class_is_told || up * mm < -LEVEL {
+        if motion.rapid || motion.hole.is_some() || motion.class_is_told || up * mm_per_unit < -LEVEL {
             continue;
         }
-        let across = (motion.length().powi(2) - up * up).max(0.0).sqrt() * mm;
+        let across = (motion.length().powi(2) - up * up).max(0.0).sqrt() * mm_per_unit;
         survey.level_or_rising += across;
-        survey.level += if is_level(motion, mm) { across } else { 0.0 };
+        survey.level += if is_level(motion, mm_per_unit) { across } else { 0.0 };
     }
     found
 }

@@ -136,7 +136,7 @@ pub(super) fn write_ramp(
     motions: &[Motion],
     found: &FoundRamp,
     new: &Ramp,
-    mm: f64,
+    mm_per_unit: f64,
 ) -> Result<Result<WrittenRamp, UnwritableRamp>, Failure> {
     let every = find_motion_statements(editor.program(), motions, &found.motions);
     let (mut forms, one_feed) =
@@ -150,7 +150,7 @@ pub(super) fn write_ramp(
     let arc = forms.iter().find_map(|form| form.arc);
     let writer = RampWriter {
         found,
-        mm,
+        mm_per_unit,
         goto: first.goto,
         circle: arc.and_then(|arc| find_circle(editor.program(), arc)),
     };
@@ -186,7 +186,7 @@ pub(super) fn write_ramp(
 
 struct RampWriter<'a> {
     found: &'a FoundRamp,
-    mm: f64,
+    mm_per_unit: f64,
     /// The GOTO that new ones are modelled on.
     goto: usize,
     /// The CIRCLE that new ones are modelled on.
@@ -195,7 +195,7 @@ struct RampWriter<'a> {
 
 impl RampWriter<'_> {
     fn to_file_point(&self, point: Point3<f64>) -> [f64; 3] {
-        ((self.found.frame.inverse() * point) / self.mm).coords.into()
+        ((self.found.frame.inverse() * point) / self.mm_per_unit).coords.into()
     }
 
     /// The ramp with arcs only where the file has a CIRCLE to say them by.
@@ -256,7 +256,7 @@ impl RampWriter<'_> {
         let index = self.found.motions.start.checked_sub(1);
         let above = index.and_then(|index| motions.get(index).map(|motion| (index, motion)));
         let straight = above.filter(|(index, motion)| {
-            let way = self.found.frame * (motion.to.point - motion.from.point) * self.mm;
+            let way = self.found.frame * (motion.to.point - motion.from.point) * self.mm_per_unit;
             let down = way.z < 0.0 && way.xy().norm() <= NOTHING;
             let alike = self.found.frame * motion.from.axis - Vector3::z();
             down && !motion.rapid
@@ -319,7 +319,7 @@ impl RampWriter<'_> {
         let mut numbers = pair_with_indices(0, centre);
         numbers.extend(pair_with_indices(3, <[f64; 3]>::from(circle.axis * sense)));
         if circle.radius.is_some() {
-            numbers.push((6, (step.to.xy() - bend.centre).norm() / self.mm));
+            numbers.push((6, (step.to.xy() - bend.centre).norm() / self.mm_per_unit));
         }
         if circle.times > 1 {
             let turns = (bend.sweep.abs() / TAU - 1e-6).ceil().max(1.0);

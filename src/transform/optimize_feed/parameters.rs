@@ -209,11 +209,11 @@ impl OptimizeFeed {
     }
 
     /// All limits, the target first, in millimetres.
-    pub(super) fn limits_in_mm(&self, mm: f64) -> Vec<(LoadCriterion, f64)> {
+    pub(super) fn limits_in_mm(&self, mm_per_unit: f64) -> Vec<(LoadCriterion, f64)> {
         let in_mm = |limit: &LoadLimitSpec| {
             let unit = match limit.criterion {
-                LoadCriterion::ChipThickness => mm,
-                LoadCriterion::RemovalRate => mm * mm * mm,
+                LoadCriterion::ChipThickness => mm_per_unit,
+                LoadCriterion::RemovalRate => mm_per_unit * mm_per_unit * mm_per_unit,
                 LoadCriterion::Force | LoadCriterion::Torque | LoadCriterion::Power => 1.0,
             };
             (limit.criterion, limit.target.get() * unit)
@@ -223,20 +223,20 @@ impl OptimizeFeed {
     }
 
     /// What engagement is found with, in millimetres; the parameter that has no meaning with it, if one is given.
-    pub(super) fn engagement_model(&self, mm: f64) -> Result<EngagementModel, &'static str> {
+    pub(super) fn engagement_model(&self, mm_per_unit: f64) -> Result<EngagementModel, &'static str> {
         match self.engagement {
             EngagementSpec::Dexels if self.layer.is_some() => Err("layer"),
             EngagementSpec::Dexels => Ok(EngagementModel::Dexels),
             EngagementSpec::Layers if self.cell.is_some() => Err("cell"),
             EngagementSpec::Layers => {
-                Ok(EngagementModel::Layers { thickness: self.layer.map(|layer| layer.get() * mm) })
+                Ok(EngagementModel::Layers { thickness: self.layer.map(|layer| layer.get() * mm_per_unit) })
             }
         }
     }
 
     /// The rules for feeds, in millimetres; `None` when neither step nor machine says a highest feed.
-    pub(super) fn feed_rules(&self, mm: f64, machine: &crate::setup::MachineLimits) -> Option<FeedRules> {
-        let feed = |feed: Option<Positive>| feed.map(|feed| feed.get() * mm);
+    pub(super) fn feed_rules(&self, mm_per_unit: f64, machine: &crate::setup::MachineLimits) -> Option<FeedRules> {
+        let feed = |feed: Option<Positive>| feed.map(|feed| feed.get() * mm_per_unit);
         let highest = [feed(self.max_feed), machine.max_feed.map(Positive::get)];
         let max_feed = highest.into_iter().flatten().reduce(f64::min)?;
         Some(FeedRules {
@@ -249,15 +249,15 @@ impl OptimizeFeed {
             min_ratio: self.min_ratio.map(Factor::get),
             max_ratio: self.max_ratio.map(Factor::get),
             air_feed: feed(self.air_feed).map(|air| air.min(max_feed)),
-            margin: self.margin.map_or(0.5, |margin| margin.get() * mm),
+            margin: self.margin.map_or(0.5, |margin| margin.get() * mm_per_unit),
             max_acceleration: feed(self.max_acceleration).or(machine.max_acceleration.map(Positive::get)),
             split: self.split.map(|split| SplitRule {
-                above: split.above.get() * mm,
-                shortest: split.shortest.get() * mm,
+                above: split.above.get() * mm_per_unit,
+                shortest: split.shortest.get() * mm_per_unit,
                 at_most: split.at_most.get() as usize,
             }),
             min_change: self.min_change.get(),
-            round_down_to: self.round_down_to.get() * mm,
+            round_down_to: self.round_down_to.get() * mm_per_unit,
         })
     }
 }

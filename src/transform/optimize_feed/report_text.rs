@@ -1,6 +1,7 @@
 //! What `optimize_feed` did, as a table.
 
 use super::report::{OperationFeedReport, OptimizeFeedReport};
+use crate::number::format_significant_number;
 use crate::presentation::safe_text::to_safe_line;
 use crate::presentation::text_format::{format_count, format_duration, format_fixed, format_table};
 use crate::transform::step_report::{TransformReport, to_json_value};
@@ -77,12 +78,7 @@ fn operation_cells(name: &str, figures: &OperationFeedReport) -> Vec<String> {
     ]
 }
 
-/// A number with four significant digits.
+/// A load or a feed with four significant digits.
 fn format_significant(value: f64) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    let decimals = (3.0 - value.abs().log10().floor()).clamp(0.0, 9.0) as usize;
-    let text = format!("{value:.decimals$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    format_significant_number(value, 4, 9)
 }

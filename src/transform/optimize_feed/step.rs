@@ -5,7 +5,8 @@ use super::block_measurement::{MeasuredBlocks, measure_blocks};
 use super::load_limits::LoadLimits;
 use super::motion_split::{SplitProgram, split_motions};
 use super::parameters::{LoadCriterion, OptimizeFeed};
-use crate::diagnostic::{Diagnostic, Failure, codes};
+use crate::diagnostic::{Diagnostic, codes, Failure};
+use crate::number::format_point;
 use crate::parameters::Positive;
 use crate::program::motion::Motion;
 use crate::program::{LengthUnit, Program, Statement};
@@ -72,26 +73,30 @@ pub(super) struct OptimizeFeedJob {
 }
 
 impl OptimizeFeedJob {
-    fn new(step: &OptimizeFeed, program: &Program, context: &StepContext<'_>) -> Result<Self, Failure> {
-        let mm = context.units.mm_per_unit();
-        let Some(rules) = step.feed_rules(mm, &context.setup.machine) else {
+    fn new(
+        step: &OptimizeFeed,
+        program: &Program,
+        context: &StepContext<'_>,
+    ) -> Result<Self, Failure> {
+        let mm_per_unit = context.units.mm_per_unit();
+        let Some(rules) = step.feed_rules(mm_per_unit, &context.setup.machine) else {
             let message = "there is no highest feed: neither the step's `max_feed` nor the setup's `machine: { max_feed: ... }`";
             return Err(context.step_failure(message, &[]));
         };
         if rules.min_feed > rules.max_feed {
-            let (low, high) = (rules.min_feed / mm, rules.max_feed / mm);
+            let (low, high) = (rules.min_feed / mm_per_unit, rules.max_feed / mm_per_unit);
             return Err(context
                 .step_failure(format!("the lowest feed {low} is above the highest {high}"), &["min_feed"]));
         }
-        let source = step.engagement_model(mm).map_err(|key| {
+        let source = step.engagement_model(mm_per_unit).map_err(|key| {
             let other = if key == "cell" { "dexels" } else { "layers" };
             context.step_failure(format!("`{key}` has a meaning with `engagement: {other}` only"), &[key])
         })?;
         let longest = rules.split.map_or(PIECE, |split| split.shortest.min(PIECE));
-        let limits = step.limits_in_mm(mm);
+        let limits = step.limits_in_mm(mm_per_unit);
         let options = SimulationRunOptions {
-            cell: step.cell.map(Positive::get).map(|cell| cell * mm),
-            longest,
+            cell_mm: step.cell.map(Positive::get).map(|cell| cell * mm_per_unit),
+            longest_piece_mm: longest,
             forces: limits.iter().any(|(criterion, _)| criterion.needs_material()),
             ..SimulationRunOptions::default()
         };
@@ -267,17 +272,15 @@ impl OptimizeFeedJob {
     ) -> Failure {
         let mut points = program.motions().filter(|motion| !motion.rapid).map(|motion| motion.to.point);
         let path = points.next().map(|first| points.fold((first, first), |(a, b), p| (a.inf(&p), b.sup(&p))));
-        let mm = self.units.mm_per_unit();
-        let path = path.map(|(low, high)| (low * mm, high * mm));
+        let mm_per_unit = self.units.mm_per_unit();
+        let path = path.map(|(low, high)| (low * mm_per_unit, high * mm_per_unit));
         let path = path.map_or_else(String::new, |(low, high)| {
-            format!(
-                "; the feed motions end between ({:.1}, {:.1}, {:.1}) and ({:.1}, {:.1}, {:.1})",
-                low.x, low.y, low.z, high.x, high.y, high.z
-            )
+            let [low, high] = [low, high].map(|corner| format_point(corner.coords.into(), 1));
+            format!("; the feed motions end between {low} and {high}")
         });
-        let [x, y, z] = ran.lowest;
+        let lowest = format_point(ran.lowest_mm, 1);
         let message = format!(
-            "no motion of this program cuts the stock: is it in the right place? In mm, the stock's lowest corner is at ({x:.1}, {y:.1}, {z:.1}){path}"
+            "no motion of this program cuts the stock: is it in the right place? In mm, the stock's lowest corner is at {lowest}{path}"
         );
         context.step_failure(message, &[])
     }

@@ -31,7 +31,7 @@ fn cut(
 
 /// Looks every degree, a few points up to a height, 1e-5 mm.
 fn degrees(looks: u32, points: u32, height: f64) -> ToothSampling {
-    ToothSampling { looks, points, height, tolerance: 1e-5 }
+    ToothSampling { looks, points, height_mm: height, tolerance_mm: 1e-5 }
 }
 
 #[test]
@@ -41,8 +41,8 @@ fn a_slot_has_the_feed_per_tooth() {
         let teeth = Teeth::evenly_spaced(count, helix).unwrap();
         let way = (Vector3::x(), 0.1 * f64::from(count), 4.0);
         let found = cut(&profile, &teeth, spindle, way, degrees(360, 3, 2.0), |_| true);
-        close(found.largest, 0.1, 0.01);
-        for chip in &found.by_edge {
+        close(found.largest_mm, 0.1, 0.01);
+        for chip in &found.by_edge_mm {
             close(*chip, 0.1, 0.01);
         }
     }
@@ -59,7 +59,7 @@ fn side_milling_stays_below_the_classic_thickness() {
             let wall = 5.0 - part * 10.0;
             let found =
                 cut(&profile, &teeth, Clockwise, way, degrees(1440, 1, 2.0), |place| place.y * side > wall);
-            let ratio = found.largest / classic;
+            let ratio = found.largest_mm / classic;
             println!("a_e/D {part}, side {side}: {ratio:.4} of the classic thickness");
             assert!((0.90..=1.002).contains(&ratio), "a_e/D {part}: {ratio}");
         }
@@ -73,7 +73,7 @@ fn a_ball_stays_below_the_classic_thickness() {
         let classic = 0.1 * (1.0 - (1.0 - depth / 5.0_f64).powi(2)).sqrt();
         let way = (Vector3::x(), 0.2, 2.5);
         let found = cut(&profile, &teeth, Clockwise, way, degrees(120, 120, depth), |place| place.z < depth);
-        let ratio = found.largest / classic;
+        let ratio = found.largest_mm / classic;
         println!("ball, depth {depth}: {ratio:.4} of the classic thickness");
         assert!((0.88..=1.002).contains(&ratio), "depth {depth}: {ratio}");
     }
@@ -88,18 +88,18 @@ fn going_down_the_bottom_cuts() {
         let (sin, cos) = slope.to_radians().sin_cos();
         let way = (Vector3::new(cos, 0.0, -sin), 0.2, 3.0);
         let found = cut(&profile, &teeth, Clockwise, way, degrees(180, 9, 0.0), |_| true);
-        close(found.largest, 0.1 * sin, tolerance);
+        close(found.largest_mm, 0.1 * sin, tolerance);
     }
     // A ramp of 10 degrees: its flank.
     let (sin, cos) = 10_f64.to_radians().sin_cos();
     let way = (Vector3::new(cos, 0.0, -sin), 0.2, 3.0);
     let found = cut(&profile, &teeth, Clockwise, way, degrees(360, 5, 2.0), |_| true);
-    close(found.largest, 0.1 * cos, 0.01);
+    close(found.largest_mm, 0.1 * cos, 0.01);
     // A ball going down 30 degrees is fullest where its normal follows the motion.
     let ball = cutter(10.0, 5.0);
     let way = (Vector3::new(3_f64.sqrt() / 2.0, 0.0, -0.5), 0.2, 3.0);
     let found = cut(&ball, &teeth, Clockwise, way, degrees(180, 25, 5.0), |_| true);
-    close(found.largest, 0.1, 0.01);
+    close(found.largest_mm, 0.1, 0.01);
 }
 
 #[test]
@@ -108,8 +108,8 @@ fn variable_pitch_in_a_slot() {
     let teeth = Teeth::unevenly_spaced(vec![70.0, 110.0, 80.0, 100.0], vec![0.0; 4], 0.5).unwrap();
     let way = (Vector3::x(), 0.4, 4.0);
     let found = cut(&profile, &teeth, Clockwise, way, degrees(360, 1, 2.0), |_| true);
-    close(found.largest, teeth.max_chip_thickness_mm(0.4, 1.0), 0.01);
-    for (edge, chip) in found.by_edge.iter().enumerate() {
+    close(found.largest_mm, teeth.max_chip_thickness_mm(0.4, 1.0), 0.01);
+    for (edge, chip) in found.by_edge_mm.iter().enumerate() {
         close(*chip, teeth.edge_chip_thickness_mm(edge, 0.4, 1.0), 0.01);
     }
 }
@@ -124,8 +124,8 @@ fn runout_in_a_slot() {
         for spindle in [Clockwise, CounterClockwise] {
             let way = (Vector3::x(), per_turn, 5.0);
             let found = cut(&profile, &teeth, spindle, way, degrees(360, 1, 2.0), |_| true);
-            close(found.largest, teeth.max_chip_thickness_mm(per_turn, 1.0), 0.01);
-            for (edge, chip) in found.by_edge.iter().enumerate() {
+            close(found.largest_mm, teeth.max_chip_thickness_mm(per_turn, 1.0), 0.01);
+            for (edge, chip) in found.by_edge_mm.iter().enumerate() {
                 let expected = teeth.edge_chip_thickness_mm(edge, per_turn, 1.0);
                 assert!((chip - expected).abs() < 0.01 * per_turn, "edge {edge}: {chip} is not {expected}");
             }
@@ -147,7 +147,7 @@ fn runout_counts_with_the_radial_part_of_the_normal() {
             teeth.max_chip_thickness_mm(0.2 * (psi - PI / 4.0).cos(), psi.sin())
         })
         .fold(0.0, f64::max);
-    close(found.largest, expected, 0.01);
+    close(found.largest_mm, expected, 0.01);
 }
 
 #[test]
@@ -156,14 +156,14 @@ fn a_skin_thinner_than_the_chip() {
     // A post of 0.02 x 1 mm ahead in the way.
     let skin = |place: Point3<f64>| (5.3..5.32).contains(&place.x) && place.y.abs() < 0.5;
     let found = cut(&profile, &teeth, Clockwise, (Vector3::x(), 0.2, 4.0), degrees(720, 1, 2.0), skin);
-    assert!(found.largest > 0.0199 && found.largest < 0.0202, "{}", found.largest);
+    assert!(found.largest_mm > 0.0199 && found.largest_mm < 0.0202, "{}", found.largest_mm);
     let air = cut(&profile, &teeth, Clockwise, (Vector3::x(), 0.2, 2.0), degrees(90, 1, 2.0), |_| false);
-    assert_eq!((air.largest, air.by_edge), (0.0, vec![0.0, 0.0]));
+    assert_eq!((air.largest_mm, air.by_edge_mm), (0.0, vec![0.0, 0.0]));
 }
 
 #[test]
 fn standing_still_cuts_nothing() {
     let (profile, teeth) = (cutter(10.0, 0.0), Teeth::evenly_spaced(2, 0.5).unwrap());
     let way = (Vector3::x(), 0.2, 0.0);
-    assert_eq!(cut(&profile, &teeth, Clockwise, way, degrees(90, 3, 2.0), |_| true).largest, 0.0);
+    assert_eq!(cut(&profile, &teeth, Clockwise, way, degrees(90, 3, 2.0), |_| true).largest_mm, 0.0);
 }

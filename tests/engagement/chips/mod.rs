@@ -45,8 +45,8 @@ fn milling(profile: &Meridian, depth: f64, from: f64, to: f64) -> Engagement {
         }
     }
     let radius = profile.radius_at_height_mm(depth);
-    engagement.height = [0.0, depth];
-    engagement.lateral = [radius * from.to_radians().sin(), radius * to.to_radians().sin()];
+    engagement.height_mm = [0.0, depth];
+    engagement.lateral_mm = [radius * from.to_radians().sin(), radius * to.to_radians().sin()];
     let steps = 20_000;
     let area: f64 = (0..steps)
         .map(|step| {
@@ -70,8 +70,8 @@ fn plunge(profile: &Meridian) -> Engagement {
         thickness: THICK,
     };
     engagement.bins = vec![bin; BINS];
-    engagement.height = [0.0, 2.0];
-    engagement.lateral = [-profile.radius_mm(), profile.radius_mm()];
+    engagement.height_mm = [0.0, 2.0];
+    engagement.lateral_mm = [-profile.radius_mm(), profile.radius_mm()];
     engagement.removed_mm3 = PI * profile.radius_mm().powi(2) * engagement.length_mm;
     engagement
 }

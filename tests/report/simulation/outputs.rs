@@ -82,7 +82,10 @@ fn what_is_left_is_compared_with_a_target() {
     deep.compare_with_target(&target, "part.stl", Some(0.3));
     let compared = deep.target.clone().unwrap();
     let thickest = compared.gouge.thickest.unwrap();
-    assert!((thickest.mm - 1.0).abs() < 1e-4 && (thickest.at[2] + 3.0).abs() < 1e-4, "{thickest:?}");
+    assert!(
+        (thickest.thickness_mm - 1.0).abs() < 1e-4 && (thickest.at_mm[2] + 3.0).abs() < 1e-4,
+        "{thickest:?}"
+    );
     // Beside walls a column is near enough to what is left.
     let wanted = 60.0 * (15.0 - 2.0 * 0.25);
     assert!((compared.gouge.volume_mm3 - wanted).abs() < 1e-2, "{}", compared.gouge.volume_mm3);
@@ -93,7 +96,7 @@ fn what_is_left_is_compared_with_a_target() {
     let mut shallow = simulate(&SLOT.replace(",-2.0000", ",-1.0000"), SHOP, LengthUnit::Mm).unwrap();
     shallow.compare_with_target(&target, "part.stl", None);
     let compared = shallow.target.clone().unwrap();
-    assert!((compared.excess.thickest.unwrap().mm - 1.0).abs() < 1e-4);
+    assert!((compared.excess.thickest.unwrap().thickness_mm - 1.0).abs() < 1e-4);
     assert!(shallow.findings.is_empty(), "excess is only reported");
 }
 
@@ -124,8 +127,8 @@ fn programs_are_drawn_over_each_other() {
     // Nothing to draw is no error, and very long programs stay small.
     assert!(draw_time_series(&[]).is_ok() && draw_time_series(&[ProgramTimeSeries::default()]).is_ok());
     let moment = |index: u32| PlottedMotion {
-        from: f64::from(index),
-        to: f64::from(index + 1),
+        from_s: f64::from(index),
+        to_s: f64::from(index + 1),
         chip_thickness_mm: Some(0.01 * f64::from(index % 7)),
         feed_mm_min: (!index.is_multiple_of(1000)).then_some(500.0),
     };

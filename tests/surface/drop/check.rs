@@ -10,12 +10,12 @@ fn depth_and_height_over_a_plane() {
     for cutter in cutters() {
         let path = [[-10.0, 0.0, 0.2], [0.0, 0.0, -0.3], [10.0, 0.0, 1.0]];
         let found = measure_deviation(&block, cutter, &path, 0.01).unwrap();
-        assert!((found.gouge - 0.3).abs() <= 0.01, "{found:?}");
-        assert_eq!(found.gouge_at, [0.0, 0.0, -0.3]);
-        assert!((found.gap - 1.0).abs() <= 0.01, "{found:?}");
-        assert_eq!(found.gap_at, [10.0, 0.0, 1.0]);
+        assert!((found.gouge_mm - 0.3).abs() <= 0.01, "{found:?}");
+        assert_eq!(found.gouge_at_mm, [0.0, 0.0, -0.3]);
+        assert!((found.gap_mm - 1.0).abs() <= 0.01, "{found:?}");
+        assert_eq!(found.gap_at_mm, [10.0, 0.0, 1.0]);
         let far = measure_deviation(&block, cutter, &[[0.0, 0.0, 20.0]], 0.01).unwrap();
-        assert_eq!((far.gouge, far.gap), (0.0, 5.0), "a gap is told up to the radius");
+        assert_eq!((far.gouge_mm, far.gap_mm), (0.0, 5.0), "a gap is told up to the radius");
     }
     let ball = DropCutterShape::ball(1.0).unwrap();
     assert_eq!(measure_deviation(&block, ball, &[], 0.01), None);
@@ -27,9 +27,9 @@ fn a_wall_is_cut_from_the_side() {
     let block = mesh(&cube([0.0, -50.0, -30.0], [50.0, 50.0, 30.0]));
     for cutter in cutters() {
         let found = measure_deviation(&block, cutter, &[[-4.6, 0.0, 0.0], [-4.6, 9.0, 0.0]], 0.01).unwrap();
-        assert!((found.gouge - 0.4).abs() <= 0.01, "{found:?}");
+        assert!((found.gouge_mm - 0.4).abs() <= 0.01, "{found:?}");
         let found = measure_deviation(&block, cutter, &[[-5.6, 0.0, 0.0], [-5.3, 9.0, 0.0]], 0.01).unwrap();
-        assert!(found.gouge == 0.0 && (found.gap - 0.6).abs() <= 0.01, "{found:?}");
+        assert!(found.gouge_mm == 0.0 && (found.gap_mm - 0.6).abs() <= 0.01, "{found:?}");
     }
 }
 
@@ -40,6 +40,6 @@ fn a_ball_beside_a_ball() {
     let cutter = DropCutterShape::ball(6.0).unwrap();
     for (at, distance) in [([8.0, 0.0, 7.0], f64::hypot(8.0, 10.0) - 13.0), ([3.0, 4.0, 9.0], 13.0 - 13.0)] {
         let found = measure_deviation(&ball, cutter, &[at], 1e-3).unwrap();
-        assert!((found.gap - found.gouge - distance).abs() <= sagitta + 1e-3, "{found:?} {distance}");
+        assert!((found.gap_mm - found.gouge_mm - distance).abs() <= sagitta + 1e-3, "{found:?} {distance}");
     }
 }

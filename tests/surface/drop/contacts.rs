@@ -19,16 +19,16 @@ fn planes_level_and_tilted() {
                 steep * cutter.flat_radius_mm() + cutter.corner_radius_mm() * (steep.hypot(1.0) - 1.0);
             for (x, y) in [(0.0, 0.0), (1.3, -4.1), (-10.0, 9.0), (17.123, 3.3)] {
                 let found = drop.drop_at(x, y).unwrap();
-                near(found.tip_z, 2.0 + a * x + b * y + above, 1e-5);
+                near(found.tip_z_mm, 2.0 + a * x + b * y + above, 1e-5);
                 // A flat end's touch is 1e-6 inside its radius, which a slope makes as much higher.
                 if cutter.corner_radius_mm() > 0.0 {
-                    near(found.tip_z, 2.0 + a * x + b * y + above, 1e-9);
+                    near(found.tip_z_mm, 2.0 + a * x + b * y + above, 1e-9);
                 }
                 let length = steep.hypot(1.0);
                 for (n, expected) in found.normal.into_iter().zip([-a / length, -b / length, 1.0 / length]) {
                     near(n, expected, 1e-9);
                 }
-                let [cx, cy, cz] = found.contact;
+                let [cx, cy, cz] = found.contact_mm;
                 near(cz, 2.0 + a * cx + b * cy, 1e-9);
             }
         }
@@ -47,13 +47,13 @@ fn a_ball_on_a_ball_is_as_near_as_facets_are() {
         let found = drop.drop_at(r * angle.cos(), r * angle.sin()).unwrap();
         let exact = ((large + 5.0_f64).powi(2) - r * r).sqrt() - 5.0;
         let upright = (exact + 5.0) / (large + 5.0);
-        assert!(found.tip_z <= exact + 1e-9, "{} > {exact}", found.tip_z);
-        assert!(found.tip_z >= exact - 1.05 * sagitta / upright, "{} < {exact}", found.tip_z);
+        assert!(found.tip_z_mm <= exact + 1e-9, "{} > {exact}", found.tip_z_mm);
+        assert!(found.tip_z_mm >= exact - 1.05 * sagitta / upright, "{} < {exact}", found.tip_z_mm);
         // The contact is a radius away from the ball's centre along the normal.
-        let [x, y, z] = [0, 1, 2].map(|axis| found.contact[axis] + 5.0 * found.normal[axis]);
+        let [x, y, z] = [0, 1, 2].map(|axis| found.contact_mm[axis] + 5.0 * found.normal[axis]);
         near(x, r * angle.cos(), 1e-9);
         near(y, r * angle.sin(), 1e-9);
-        near(z, found.tip_z + 5.0, 1e-9);
+        near(z, found.tip_z_mm + 5.0, 1e-9);
     }
     assert_eq!(drop.drop_at(25.0, 0.0), None);
     assert_eq!(drop.drop_at(0.0, f64::NAN), None);
@@ -153,9 +153,9 @@ fn more_material_never_lowers_and_sides_do_not_matter() {
         let inside_out = DropCutter::new(&inside_out, cutter);
         for i in 0..400 {
             let [x, y] = [0.61803, 0.41421].map(|step| 50.0 * (f64::from(i) * step).fract() - 25.0);
-            let [a, b] = [&alone, &joined].map(|drop| drop.drop_at(x, y).map(|drop| drop.tip_z));
+            let [a, b] = [&alone, &joined].map(|drop| drop.drop_at(x, y).map(|drop| drop.tip_z_mm));
             assert!(b.is_some() >= a.is_some() && b.unwrap_or(0.0) >= a.unwrap_or(-99.0) - 1e-12, "{x} {y}");
-            let turned = inside_out.drop_at(x, y).map(|drop| drop.tip_z);
+            let turned = inside_out.drop_at(x, y).map(|drop| drop.tip_z_mm);
             assert_eq!(a.is_some(), turned.is_some());
             near(a.unwrap_or(0.0), turned.unwrap_or(0.0), 1e-12);
         }

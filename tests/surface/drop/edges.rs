@@ -12,8 +12,8 @@ fn a_needle_is_a_vertex() {
         let drop = over(&solid, cutter);
         for r in [0.0, 1.0, 3.4, 3.6, 4.99] {
             let found = drop.drop_at(1.0 + r * 0.6, 2.0 - r * 0.8).unwrap();
-            assert!((found.tip_z - (3.0 - cutter.height_at(r))).abs() < 1e-9);
-            assert!((found.contact[2] - 3.0).abs() < 1e-9);
+            assert!((found.tip_z_mm - (3.0 - cutter.height_at(r))).abs() < 1e-9);
+            assert!((found.contact_mm[2] - 3.0).abs() < 1e-9);
             // The normal is the cutter's.
             let across = (r - cutter.flat_radius_mm()).max(0.0);
             let sine = if cutter.corner_radius_mm() > 0.0 { across / cutter.corner_radius_mm() } else { 0.0 };
@@ -69,9 +69,9 @@ proptest! {
         let cutter = DropCutterShape::new(10.0, 5.0 * corner).unwrap();
         let solid = blade([from, 0.0, 3.0], [from + length, 0.0, 3.0 + rise]);
         let found = over(&solid, cutter).drop_at(0.3, off).unwrap();
-        let place = [0.3, off, found.tip_z];
+        let place = [0.3, off, found.tip_z_mm];
         let looked = measure_deviation(&mesh(&solid), cutter, &[place], 2e-6).unwrap();
-        prop_assert!(looked.gouge <= 5e-6, "{looked:?}");
-        prop_assert!(looked.gap <= 5e-6, "{looked:?}");
+        prop_assert!(looked.gouge_mm <= 5e-6, "{looked:?}");
+        prop_assert!(looked.gap_mm <= 5e-6, "{looked:?}");
     }
 }

@@ -68,8 +68,8 @@ fn needles_between_samples_are_found() {
         let drop = DropCutter::new(&mesh, cutter);
         let paths = drop.follow_line(&[[-24.0, 0.3], [24.0, 0.7]], 0.02);
         let looked = measure_deviation(&mesh, cutter, &paths[0], 0.005).unwrap();
-        assert!(looked.gouge <= 0.02, "{looked:?}");
-        assert!(looked.gap <= 0.05, "{looked:?}");
+        assert!(looked.gouge_mm <= 0.02, "{looked:?}");
+        assert!(looked.gap_mm <= 0.05, "{looked:?}");
     }
 }
 
@@ -85,7 +85,7 @@ fn steps_go_up_beside_the_wall() {
     assert!((path[1][0] - 0.0).abs() <= 0.01 && path[1][0] == path[2][0], "{path:?}");
     assert!((path[3][0] - 10.0).abs() <= 0.01 && path[3][0] == path[4][0], "{path:?}");
     let looked = measure_deviation(&mesh(&solid), flat, &path, 0.002).unwrap();
-    assert!(looked.gouge <= 0.002, "{looked:?}");
+    assert!(looked.gouge_mm <= 0.002, "{looked:?}");
 }
 
 #[test]

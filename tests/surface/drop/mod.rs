@@ -19,7 +19,7 @@ fn over(solid: &Triangles, cutter: DropCutterShape) -> DropCutter {
 }
 
 fn tip(drop: &DropCutter, x: f64, y: f64) -> f64 {
-    drop.drop_at(x, y).unwrap().tip_z
+    drop.drop_at(x, y).unwrap().tip_z_mm
 }
 
 /// The largest value of a function that rises and then falls, between two places.

@@ -38,7 +38,7 @@ proptest! {
 
     #[test]
     fn heights_are_those_of_a_search(solid in soup(), cutter in cutter(), place in place()) {
-        let found = over(&solid, cutter).drop_at(place[0], place[1]).map(|drop| drop.tip_z);
+        let found = over(&solid, cutter).drop_at(place[0], place[1]).map(|drop| drop.tip_z_mm);
         let expected = searched_all(&cutter, place, &solid);
         match (found, expected) {
             (Some(found), Some(expected)) => {
@@ -55,11 +55,11 @@ proptest! {
     fn nothing_is_cut_into_and_more_never_lowers(one in soup(), other in soup(), cutter in cutter(), place in place()) {
         let both: Triangles = one.iter().chain(&other).copied().collect();
         let [alone, joined] = [&one, &both].map(|solid| over(solid, cutter).drop_at(place[0], place[1]));
-        let [low, high] = [alone, joined].map(|drop| drop.map_or(-99.0, |drop| drop.tip_z));
+        let [low, high] = [alone, joined].map(|drop| drop.map_or(-99.0, |drop| drop.tip_z_mm));
         prop_assert!(high >= low - 1e-12);
         if let Some(found) = joined {
-            let looked = measure_deviation(&mesh(&both), cutter, &[[place[0], place[1], found.tip_z]], 1e-4).unwrap();
-            prop_assert!(looked.gouge <= 1.1e-4 && looked.gap <= 1.1e-4, "{looked:?}");
+            let looked = measure_deviation(&mesh(&both), cutter, &[[place[0], place[1], found.tip_z_mm]], 1e-4).unwrap();
+            prop_assert!(looked.gouge_mm <= 1.1e-4 && looked.gap_mm <= 1.1e-4, "{looked:?}");
         }
     }
 }
@@ -76,7 +76,7 @@ proptest! {
         let mesh = mesh(&solid);
         for run in drop.follow_line(&[from, to], tolerance) {
             let looked = measure_deviation(&mesh, cutter, &run, 0.01).unwrap();
-            prop_assert!(looked.gouge <= tolerance + looked.error, "{looked:?}");
+            prop_assert!(looked.gouge_mm <= tolerance + looked.error_mm, "{looked:?}");
         }
     }
 }

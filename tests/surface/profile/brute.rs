@@ -36,11 +36,12 @@ fn from_piece(piece: &ChainPiece, centre: Point) -> f64 {
         }
         ChainPiece::Arc(arc) => {
             let towards = (centre.z - arc.centre.z).atan2(centre.u - arc.centre.u);
-            let level = ((centre.z - arc.centre.z) / arc.radius).asin();
-            let over = ((centre.u - arc.centre.u) / arc.radius).acos();
+            let level = ((centre.z - arc.centre.z) / arc.radius_mm).asin();
+            let over = ((centre.u - arc.centre.u) / arc.radius_mm).acos();
             let pi = std::f64::consts::PI;
             for angle in [towards, towards + pi, level, pi - level, over, -over, 0.0, pi] {
-                let share = ((angle - arc.start) * arc.sweep.signum()).rem_euclid(2.0 * pi) / arc.sweep.abs();
+                let share = ((angle - arc.start_rad) * arc.sweep_rad.signum()).rem_euclid(2.0 * pi)
+                    / arc.sweep_rad.abs();
                 if (0.0..=1.0).contains(&share) {
                     best = best.min(from_point(piece.point_at(share), centre));
                 }
@@ -72,8 +73,8 @@ pub fn height(chain: &Chain, u: f64) -> Option<f64> {
                     continue;
                 }
                 let across = u - arc.centre.u;
-                let root = (arc.radius * arc.radius - across * across).max(0.0).sqrt();
-                let upper = (arc.start + arc.sweep / 2.0).sin() > 0.0;
+                let root = (arc.radius_mm * arc.radius_mm - across * across).max(0.0).sqrt();
+                let upper = (arc.start_rad + arc.sweep_rad / 2.0).sin() > 0.0;
                 arc.centre.z + if upper { root } else { -root }
             }
         };

@@ -40,9 +40,10 @@ fn signed(piece: &ChainPiece, point: Point) -> f64 {
         }
         ChainPiece::Arc(arc) => {
             let angle = (point.z - arc.centre.z).atan2(point.u - arc.centre.u);
-            let along = ((angle - arc.start) * arc.sweep.signum()).rem_euclid(2.0 * PI) / arc.sweep.abs();
+            let along =
+                ((angle - arc.start_rad) * arc.sweep_rad.signum()).rem_euclid(2.0 * PI) / arc.sweep_rad.abs();
             if along <= 1.0 {
-                ((arc.centre.distance(point) - arc.radius).abs(), along)
+                ((arc.centre.distance(point) - arc.radius_mm).abs(), along)
             } else {
                 let (start, end) = (piece.start().distance(point), piece.end().distance(point));
                 if start < end { (start, 0.0) } else { (end, 1.0) }
@@ -109,7 +110,7 @@ fn chords_of_one_circle_become_one_arc() {
     let few = fit_chords(&polyline(&points), 0.01, true, ChordSide::Both).unwrap();
     assert_eq!(few.pieces().len(), 3, "{few:?}");
     let ChainPiece::Arc(arc) = few.pieces()[1] else { panic!("{few:?}") };
-    assert!((arc.radius - 20.0).abs() < 0.01 && (arc.sweep + PI).abs() < 0.01);
+    assert!((arc.radius_mm - 20.0).abs() < 0.01 && (arc.sweep_rad + PI).abs() < 0.01);
     assert_within(&polyline(&points), &few, 0.01, ChordSide::Both);
     // Arcs that go on in one circle are one.
     let quarter = |start: f64| ChainPiece::arc(Point::new(0.0, 0.0), 10.0, start, -PI / 4.0);

@@ -72,7 +72,7 @@ fn off(curve: &impl ParametricCurve, chain: &Chain) -> f64 {
 }
 
 fn dome(a: f64, b: f64, tilt: f64) -> EllipseArc {
-    EllipseArc { centre: Point::new(1.0, 2.0), a, b, tilt, start: PI, sweep: -PI }
+    EllipseArc { centre: Point::new(1.0, 2.0), a, b, tilt_rad: tilt, start_rad: PI, sweep_rad: -PI }
 }
 
 #[test]
@@ -122,7 +122,7 @@ fn the_tip_path_of_a_semi_ellipse_keeps_the_papers_equations() {
     }
     assert!((path.start().u + a + radius).abs() < 0.05);
     let verdict = check_tip_path(&profile, &path, radius, 0.002);
-    assert!(verdict.gouge <= verdict.bound && verdict.gap <= verdict.bound, "{verdict:?}");
+    assert!(verdict.gouge_mm <= verdict.bound_mm && verdict.gap_mm <= verdict.bound_mm, "{verdict:?}");
 }
 
 #[test]

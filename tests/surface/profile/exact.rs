@@ -53,7 +53,7 @@ fn a_hollow_arc_wider_than_the_ball_shrinks_by_its_radius() {
     let path = tip(&profile);
     let ChainPiece::Arc(arc) = path.pieces()[1] else { panic!("{path:?}") };
     near(arc.centre, 0.0, 7.0);
-    assert!((arc.radius - 7.0).abs() < 1e-9);
+    assert!((arc.radius_mm - 7.0).abs() < 1e-9);
     near(path.pieces()[1].end(), 7.0, 7.0);
     // The wall is followed to its top by the ball's side.
     near(path.end(), 7.0, 25.0);
@@ -104,8 +104,8 @@ fn a_bulging_corner_gets_an_arc_of_the_balls_radius() {
     assert_eq!(path.pieces().len(), 3);
     let ChainPiece::Arc(arc) = path.pieces()[1] else { panic!("{path:?}") };
     near(arc.centre, 0.0, -R);
-    assert!((arc.radius - R).abs() < 1e-12);
-    assert!((arc.sweep + 2.0 * 0.5_f64.atan()).abs() < 1e-9);
+    assert!((arc.radius_mm - R).abs() < 1e-12);
+    assert!((arc.sweep_rad + 2.0 * 0.5_f64.atan()).abs() < 1e-9);
 }
 
 #[test]
@@ -115,7 +115,7 @@ fn a_bulging_arc_grows_by_the_radius() {
     near(path.start(), 3.0 - 25.0, 2.0 - R);
     near(path.end(), 3.0 + 25.0, 2.0 - R);
     let ChainPiece::Arc(arc) = path.pieces()[0] else { panic!("{path:?}") };
-    assert!((arc.radius - 25.0).abs() < 1e-12 && path.pieces().len() == 1);
+    assert!((arc.radius_mm - 25.0).abs() < 1e-12 && path.pieces().len() == 1);
 }
 
 #[test]
@@ -165,15 +165,15 @@ fn the_check_by_samples_sees_what_is_wrong() {
     let profile = polyline(&[[0.0, 0.0], [20.0, 0.0], [40.0, 20.0], [60.0, 20.0]]);
     let path = tip(&profile);
     let verdict = check_tip_path(&profile, &path, R, 0.001);
-    assert!(verdict.gouge <= verdict.bound && verdict.gap <= verdict.bound, "{verdict:?}");
-    assert!(verdict.bound < 1e-6);
+    assert!(verdict.gouge_mm <= verdict.bound_mm && verdict.gap_mm <= verdict.bound_mm, "{verdict:?}");
+    assert!(verdict.bound_mm < 1e-6);
     // Pointwise compensation of the corner's two sides, or none at all, gouges.
     let verdict = check_tip_path(&profile, &profile, R, 0.01);
-    assert!(verdict.gouge > 1.0 && (20.0..40.0).contains(&verdict.gouge_at.u), "{verdict:?}");
+    assert!(verdict.gouge_mm > 1.0 && (20.0..40.0).contains(&verdict.gouge_at.u), "{verdict:?}");
     let verdict = check_tip_path(&profile, &path.shifted(0.0, 0.25), R, 0.01);
-    assert!(verdict.gouge == 0.0 && (verdict.gap - 0.25).abs() < 1e-4, "{verdict:?}");
+    assert!(verdict.gouge_mm == 0.0 && (verdict.gap_mm - 0.25).abs() < 1e-4, "{verdict:?}");
     let verdict = check_tip_path(&profile, &path.shifted(0.0, -0.25), R, 0.01);
-    assert!((verdict.gouge - 0.25).abs() < 1e-4, "{verdict:?}");
+    assert!((verdict.gouge_mm - 0.25).abs() < 1e-4, "{verdict:?}");
 }
 
 #[test]
@@ -185,7 +185,7 @@ fn a_hundred_thousand_samples_are_checked_quickly() {
     let start = std::time::Instant::now();
     let verdict = check_tip_path(&profile, &path, R, 0.001);
     assert!(start.elapsed().as_secs_f64() < 5.0, "{:?}", start.elapsed());
-    assert!(verdict.gouge <= verdict.bound && verdict.gap <= verdict.bound, "{verdict:?}");
+    assert!(verdict.gouge_mm <= verdict.bound_mm && verdict.gap_mm <= verdict.bound_mm, "{verdict:?}");
 }
 
 #[test]

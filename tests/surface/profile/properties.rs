@@ -90,7 +90,7 @@ proptest! {
         prop_assert!(tip.start().u >= low - 2.0 * 12.0 - radius && tip.end().u <= high + 2.0 * 12.0 + radius);
         for part in find_unreachable_parts(&profile, radius, 1e-6).unwrap() {
             prop_assert!(part.first <= part.last && part.last < profile.pieces().len());
-            prop_assert!(part.left.is_finite());
+            prop_assert!(part.left_mm.is_finite());
         }
         // Where a recovered profile lies above the profile, the ball cannot have touched; it never lies below what it touched.
         let contact = recover_profile(&tip, radius).unwrap();
@@ -192,8 +192,12 @@ fn from(piece: &ChainPiece, point: Point) -> f64 {
         }
         ChainPiece::Arc(arc) => {
             let angle = (point.z - arc.centre.z).atan2(point.u - arc.centre.u);
-            let along = ((angle - arc.start) * arc.sweep.signum()).rem_euclid(std::f64::consts::TAU);
-            if along <= arc.sweep.abs() { (arc.centre.distance(point) - arc.radius).abs() } else { ends }
+            let along = ((angle - arc.start_rad) * arc.sweep_rad.signum()).rem_euclid(std::f64::consts::TAU);
+            if along <= arc.sweep_rad.abs() {
+                (arc.centre.distance(point) - arc.radius_mm).abs()
+            } else {
+                ends
+            }
         }
     }
 }

@@ -43,7 +43,7 @@ fn a_corner_at_a_wall_keeps_the_balls_rounding() {
     assert_eq!((found[0].first, found[0].last), (0, 1));
     near(found[0].from, 15.0, 0.0);
     near(found[0].to, 20.0, 5.0);
-    assert!((found[0].left - R * (2.0_f64.sqrt() - 1.0)).abs() < 1e-9);
+    assert!((found[0].left_mm - R * (2.0_f64.sqrt() - 1.0)).abs() < 1e-9);
     let back = find_unreachable_parts(&profile.reversed(), R, 1e-6).unwrap();
     assert_eq!((back.len(), back[0].first, back[0].last), (1, 1, 2));
 }
@@ -60,12 +60,12 @@ fn a_tight_fillet_and_an_overhang_are_told() {
     assert_eq!((found.len(), found[0].first, found[0].last), (1, 0, 2), "{found:?}");
     near(found[0].from, -2.0, 0.0);
     near(found[0].to, 3.0, 5.0);
-    assert!((found[0].left - 2.0 * (2.0_f64.sqrt() - 1.0)).abs() < 1e-9);
+    assert!((found[0].left_mm - 2.0 * (2.0_f64.sqrt() - 1.0)).abs() < 1e-9);
     let overhang =
         polyline(&[[0.0, 20.0], [30.0, 20.0], [30.0, 15.0], [10.0, 15.0], [10.0, 0.0], [60.0, 0.0]]);
     let found = find_unreachable_parts(&overhang, R, 1e-6).unwrap();
     assert_eq!((found.len(), found[0].first, found[0].last), (1, 2, 4), "{found:?}");
     near(found[0].from, 30.0, 15.0);
     near(found[0].to, 35.0, 0.0);
-    assert!(found[0].left > 10.0);
+    assert!(found[0].left_mm > 10.0);
 }

@@ -29,9 +29,9 @@ fn apart(a: &Chain, b: &Chain) -> f64 {
             }
             ChainPiece::Arc(arc) => {
                 let angle = (point.z - arc.centre.z).atan2(point.u - arc.centre.u);
-                let along = ((angle - arc.start) * arc.sweep.signum()).rem_euclid(2.0 * PI);
-                if along <= arc.sweep.abs() {
-                    (arc.centre.distance(point) - arc.radius).abs()
+                let along = ((angle - arc.start_rad) * arc.sweep_rad.signum()).rem_euclid(2.0 * PI);
+                if along <= arc.sweep_rad.abs() {
+                    (arc.centre.distance(point) - arc.radius_mm).abs()
                 } else {
                     piece.start().distance(point).min(piece.end().distance(point))
                 }
@@ -46,7 +46,7 @@ fn apart(a: &Chain, b: &Chain) -> f64 {
             };
             let reach = match piece {
                 ChainPiece::Line(_) => piece.length_mm(),
-                ChainPiece::Arc(arc) => arc.radius,
+                ChainPiece::Arc(arc) => arc.radius_mm,
             };
             if start.distance(point) - reach < best {
                 best = best.min(of(piece));
@@ -89,7 +89,7 @@ fn to_a_smaller_ball_and_back() {
         assert!(apart(&first, &again) < 1e-6, "{}", apart(&first, &again));
         let smaller = compensate_profile(&contact, 4.8).unwrap();
         let verdict = check_tip_path(&contact, &smaller, 4.8, 0.01);
-        assert!(verdict.gouge <= verdict.bound.max(1e-7), "{verdict:?}");
+        assert!(verdict.gouge_mm <= verdict.bound_mm.max(1e-7), "{verdict:?}");
         let back = compensate_profile(&recover_profile(&smaller, 4.8).unwrap(), 5.0).unwrap();
         assert!(apart(&first, &back) < 1e-6, "{}", apart(&first, &back));
     }

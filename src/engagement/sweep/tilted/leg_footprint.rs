@@ -36,14 +36,14 @@ impl LegFootprint {
     pub fn row_range(&self, layout: &DexelGrid) -> Range<usize> {
         let low = self.centers.iter().fold(f64::INFINITY, |least, [_, y]| least.min(*y)) - self.radius;
         let high = self.centers.iter().fold(f64::NEG_INFINITY, |most, [_, y]| most.max(*y)) + self.radius;
-        center_index_range([low, high], layout.origin[1], layout.cell, layout.rows)
+        center_index_range([low, high], layout.origin_mm[1], layout.cell_mm, layout.rows)
     }
 
     /// Returns the columns of a row of a grid that the ground touches.
     pub fn column_range(&self, row: usize, layout: &DexelGrid) -> Range<usize> {
         let y = layout.column_center(0, row)[1];
         match self.x_range_at(y) {
-            Some(stretch) => center_index_range(stretch, layout.origin[0], layout.cell, layout.columns),
+            Some(stretch) => center_index_range(stretch, layout.origin_mm[0], layout.cell_mm, layout.columns),
             None => 0..0,
         }
     }

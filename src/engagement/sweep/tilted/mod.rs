@@ -67,15 +67,15 @@ pub(in crate::engagement) struct TiltedSweep {
 impl TiltedSweep {
     /// Prepares a piece between two poses.
     pub fn new(piece: &PathPiece, cutter: &CutterModel, layout: &DexelGrid, around: SweepContext) -> Self {
-        let base = Vector3::new(0.0, 0.0, layout.base);
+        let base = Vector3::new(0.0, 0.0, layout.base_mm);
         let [from, to] = [piece.from, piece.to].map(|place| GridPose {
             tip: place.point.coords - base,
             axis: place.axis.try_normalize(1e-12).unwrap_or_else(Vector3::z),
         });
         let turn = TurningMotion::new(from, to);
         let travel = to.tip - from.tip;
-        let highest = around.highest - layout.base;
-        let tolerance = (0.02 * layout.cell).min(0.002);
+        let highest = around.highest - layout.base_mm;
+        let tolerance = (0.02 * layout.cell_mm).min(0.002);
         let solid = RevolvedSolid::from_meridian(
             &cutter.profile,
             reachable_height_mm(&from, &to, cutter.radius_mm(), highest),
@@ -132,7 +132,7 @@ impl TiltedSweep {
                 pace: (piece.reference_length_mm([cutter.radius_mm(), cutter.flute_length_mm()]) / count)
                     .max(1e-12),
                 direction,
-                cell: layout.cell,
+                cell: layout.cell_mm,
                 detail: around.detail,
                 continues: around.continues,
             },
@@ -168,7 +168,7 @@ impl TiltedSweep {
             for guard in &self.guards {
                 for (leg, _) in &self.legs {
                     let depth = guard.collision_depth_mm(leg, band, &self.layout, row, self.tolerance);
-                    if depth > self.layout.cell.min(0.05) {
+                    if depth > self.layout.cell_mm.min(0.05) {
                         partial.record_collision(guard.index, depth);
                     }
                 }

@@ -33,7 +33,7 @@ impl FlankSilhouette {
         layout: &DexelGrid,
         known: f64,
     ) -> f64 {
-        let cell = layout.cell;
+        let cell = layout.cell_mm;
         let (from, to) = (self.heights[0], self.heights[1]);
         let axis = leg.pose_at(0.5).axis;
         let direction = self.direction.unwrap_or_else(|| leg.spin.cross(&axis));
@@ -89,8 +89,8 @@ fn has_material_between(
     [x, y]: [f64; 2],
     [low, high]: [f64; 2],
 ) -> bool {
-    let [x0, y0] = layout.origin;
-    let (column, row) = (((x - x0) / layout.cell).round(), ((y - y0) / layout.cell).round());
+    let [x0, y0] = layout.origin_mm;
+    let (column, row) = (((x - x0) / layout.cell_mm).round(), ((y - y0) / layout.cell_mm).round());
     let first = band.first_row as f64;
     if column < 0.0 || column >= band.columns as f64 || row < first || row >= first + band.row_count() as f64
     {

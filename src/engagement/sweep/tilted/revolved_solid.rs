@@ -174,7 +174,7 @@ impl RevolvedSolid {
 
     /// Makes the solid of a shank or holder.
     pub fn from_non_cutting(collar: &NonCuttingCylinder) -> Self {
-        let NonCuttingCylinder { radius, from, to, .. } = *collar;
+        let NonCuttingCylinder { radius_mm: radius, from_mm: from, to_mm: to, .. } = *collar;
         Self {
             cone: None,
             corner: None,
