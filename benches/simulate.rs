@@ -1,8 +1,8 @@
 //! How many moves a second the simulation does: `cargo bench --bench simulate`.
 //!
 //! A block of 100 x 100 x 25, a cutter of 10 mm, moves of 0.5 mm in a zigzag 1 mm apart, depth sinusoidal from 2 to 8 mm, chip
-//! thickness computed. Single thread, by time of the processor, so that what else runs does not count; then all threads, by the
-//! clock. `CLSMITH_BENCH_CELLS=0.25` limits the cells.
+//! thickness computed. Single thread, by time of the processor, so that what else runs does not count, and once more with the details that
+//! forces need; then all threads, by the clock. `CLSMITH_BENCH_CELLS=0.25` limits the cells.
 
 // A benchmark that cannot make its cutter has nothing to measure.
 #![allow(clippy::expect_used, clippy::indexing_slicing)]
@@ -14,6 +14,9 @@ use clsmith::stock::{DexelGrid, Dexels};
 use nalgebra::{Point3, Vector3};
 use std::hint::black_box;
 use std::time::Instant;
+
+/// The best of so many runs counts.
+const RUNS: u32 = 2;
 
 fn block(cell: f64) -> Dexels {
     let layout = DexelGrid::covering_box([0.0, 0.0, -25.0], [100.0, 100.0, 0.0], cell);
@@ -61,10 +64,10 @@ fn processor_seconds() -> Option<f64> {
 }
 
 /// Moves per second; the best of some runs.
-fn rate(cutter: &CutterModel, pieces: &[PathPiece], cell: f64, runs: u32, by_processor: bool) -> f64 {
+fn rate(cutter: &CutterModel, pieces: &[PathPiece], cell: f64, detail: bool, by_processor: bool) -> f64 {
     let mut best = 0.0_f64;
-    for _ in 0..runs {
-        let mut simulation = Simulation::new(block(cell), false);
+    for _ in 0..RUNS {
+        let mut simulation = Simulation::new(block(cell), detail);
         let teeth = Teeth::evenly_spaced(4, 0.0).expect("four teeth");
         let (start, used) = (Instant::now(), processor_seconds());
         let mut largest = 0.0_f64;
@@ -92,16 +95,22 @@ fn main() {
         teeth: None,
     };
     let single = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
-    println!("{:<16}{:>6}{:>16}{:>16}", "cutter", "cell", "1 thread /s", "all threads /s");
-    for (name, corner, lean) in
-        [("flat", 0.0, 0.0), ("ball", 5.0, 0.0), ("bull R1", 1.0, 0.0), ("five-axis ball", 5.0, 0.2)]
+    println!(
+        "{:<18}{:>6}{:>16}{:>16}{:>16}",
+        "cutter", "cell", "1 thread /s", "for forces /s", "all threads /s"
+    );
+    let cutters = [("flat", 0.0), ("ball", 5.0), ("bull R1", 1.0)];
+    let leans = [("", 0.0), ("five-axis ", 0.2)];
+    for (kind, lean, (name, corner)) in
+        leans.into_iter().flat_map(|(kind, lean)| cutters.map(|cutter| (kind, lean, cutter)))
     {
         let pieces = zigzag(lean);
         for cell in &cells {
             let cutter = cutter(corner);
-            let one = single.install(|| rate(&cutter, &pieces, *cell, 2, true));
-            let all = rate(&cutter, &pieces, *cell, 2, false);
-            println!("{name:<16}{cell:>6}{one:>16.0}{all:>16.0}");
+            let [one, forces] =
+                [false, true].map(|detail| single.install(|| rate(&cutter, &pieces, *cell, detail, true)));
+            let all = rate(&cutter, &pieces, *cell, false, false);
+            println!("{:<18}{cell:>6}{one:>16.0}{forces:>16.0}{all:>16.0}", format!("{kind}{name}"));
         }
     }
 }

@@ -8,6 +8,7 @@ mod browser;
 mod check;
 mod chips;
 mod cli;
+mod documents;
 mod engagement;
 mod examples;
 mod fingerprint;

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 use std::io::{BufRead, BufReader, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
@@ -12,7 +12,22 @@ use tempfile::TempDir;
 const PATIENCE: Duration = Duration::from_secs(90);
 
 /// Names under which distributions install it.
-const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
+pub const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
+
+/// How many pixels of the 3D are not its background; drawn and read in one go, since the browser keeps no drawing.
+pub const DRAWN: &str = "(() => {
+  clsmith.view.scene.draw();
+  const from = clsmith.view.scene.renderer.domElement, to = document.createElement('canvas');
+  [to.width, to.height] = [from.width, from.height];
+  const context = to.getContext('2d');
+  context.drawImage(from, 0, 0);
+  const { data } = context.getImageData(0, 0, to.width, to.height);
+  let count = 0;
+  for (let i = 0; i < data.length; i += 4) {
+    if (Math.abs(data[i] - data[0]) + Math.abs(data[i + 1] - data[1]) + Math.abs(data[i + 2] - data[2]) > 12) count++;
+  }
+  return count;
+})()";
 
 /// A page in a browser.
 pub struct Browser {
@@ -23,11 +38,6 @@ pub struct Browser {
     last: u64,
     session: Option<String>,
     _profile: TempDir,
-}
-
-/// Where Chromium is; `None` where it is not installed.
-pub fn find() -> Option<PathBuf> {
-    crate::support::require_program(&NAMES)
 }
 
 impl Browser {

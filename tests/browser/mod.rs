@@ -1,11 +1,11 @@
 //! The report's page in a real browser.
 
 mod chromium;
-mod million;
 
 use crate::cli::clsmith;
 use crate::report::simulation::{SHOP, SLOT};
-use chromium::Browser;
+use crate::support::require_program;
+use chromium::{Browser, DRAWN};
 use std::path::{Path, PathBuf};
 
 /// The feed of the slot in one operation, and a comment that tries to be markup.
@@ -48,21 +48,6 @@ fn middle(browser: &mut Browser, selector: &str) -> [f64; 2] {
     [browser.number(&part("box.left + box.width / 2")), browser.number(&part("box.top + box.height / 2"))]
 }
 
-/// How many pixels of the 3D are not its background; drawn and read in one go, since the browser keeps no drawing.
-const DRAWN: &str = "(() => {
-  clsmith.view.scene.draw();
-  const from = clsmith.view.scene.renderer.domElement, to = document.createElement('canvas');
-  [to.width, to.height] = [from.width, from.height];
-  const context = to.getContext('2d');
-  context.drawImage(from, 0, 0);
-  const { data } = context.getImageData(0, 0, to.width, to.height);
-  let count = 0;
-  for (let i = 0; i < data.length; i += 4) {
-    if (Math.abs(data[i] - data[0]) + Math.abs(data[i + 1] - data[1]) + Math.abs(data[i + 2] - data[2]) > 12) count++;
-  }
-  return count;
-})()";
-
 /// How many pixels of a chart are drawn upon.
 const CHARTED: &str = "[...document.querySelectorAll('.chart canvas')].map((canvas) => {
   const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
@@ -84,7 +69,7 @@ fn place(browser: &mut Browser) -> (f64, String, String, String, String) {
 
 #[test]
 fn the_page_draws_and_its_parts_follow_one_place() {
-    let Some(chromium) = chromium::find() else { return };
+    let Some(chromium) = require_program(&chromium::NAMES) else { return };
     let folder = tempfile::tempdir().unwrap();
     let page = report(folder.path(), Some(SHOP));
     let mut browser = Browser::start(&chromium);
@@ -179,7 +164,7 @@ fn the_page_draws_and_its_parts_follow_one_place() {
 
 #[test]
 fn without_a_setup_the_page_shows_feed_and_z() {
-    let Some(chromium) = chromium::find() else { return };
+    let Some(chromium) = require_program(&chromium::NAMES) else { return };
     let folder = tempfile::tempdir().unwrap();
     let page = report(folder.path(), None);
     let mut browser = Browser::start(&chromium);

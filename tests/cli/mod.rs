@@ -24,6 +24,18 @@ pub fn clsmith(folder: &Path) -> Command {
     command
 }
 
+/// The command as somebody who is not root, to whom nothing is forbidden.
+#[cfg(unix)]
+pub fn as_anybody(folder: &Path) -> std::process::Command {
+    use std::os::unix::{fs::MetadataExt, process::CommandExt};
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_clsmith"));
+    command.current_dir(folder);
+    if std::fs::metadata("/proc/self").is_ok_and(|own| own.uid() == 0) {
+        command.uid(65534).gid(65534);
+    }
+    command
+}
+
 /// A folder with an example's recipe and program.
 pub fn example(name: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();

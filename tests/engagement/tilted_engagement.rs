@@ -1,9 +1,9 @@
-//! What tilted tools engage: shares, contacts, material beside the flank, collars; and how fast it goes.
+//! What tilted tools engage: shares, contacts, material beside the flank, collars.
 
 use super::tilted::{V, leaning, near, place, run};
 use super::{block, cutter};
 use clsmith::cutter::{Meridian, NonCuttingCylinder, NonCuttingKind};
-use clsmith::engagement::{PathPiece, Simulation};
+use clsmith::engagement::PathPiece;
 
 /// A long flat cutter at 60 degrees passes through a block: the slot's cross-section is a parallelogram.
 #[test]
@@ -141,38 +141,4 @@ fn collars_in_material_are_told() {
     near(depth, 2.5 * 60f64.to_radians().sin() - 1.0, 0.15);
     let (_, found) = run(super::tilted::cube(0.25), &tool, &[piece([-14.0, 0.0, -2.0])]);
     assert_eq!(found[0].contact, None);
-}
-
-/// Speed of a ball of 10 mm with a turning axis: `cargo test --release --test all engagement::tilted_engagement::speed -- --ignored --nocapture`.
-#[test]
-#[ignore = "a measurement"]
-fn speed() {
-    for (d, r) in [(10.0, 5.0), (10.0, 1.0), (10.0, 0.0)] {
-        for detail in [false, true] {
-            let tool = cutter(d, r, 0.0, 0.0);
-            let stock = block([0.0, 0.0, -20.0], [100.0, 30.0, 0.0], 0.25);
-            let mut moves = Vec::new();
-            for pass in 0..25 {
-                let y = f64::from(pass);
-                let point = |step: u32| {
-                    let x = if pass % 2 == 0 { f64::from(step) * 0.5 } else { 100.0 - f64::from(step) * 0.5 };
-                    let turned = 15.0 + 10.0 * (x * 0.05).sin();
-                    place(
-                        [x, y, -2.0 + 0.5 * (x * 0.2).sin()],
-                        leaning(turned, 30.0 + 20.0 * (x * 0.03).cos()),
-                    )
-                };
-                for step in 0..200 {
-                    moves.push(PathPiece { from: point(step), to: point(step + 1), cutter: 0 });
-                }
-            }
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-            let mut simulation = Simulation::new(stock, detail);
-            let begun = std::time::Instant::now();
-            let found = pool.install(|| simulation.sweep_pieces(&moves, std::slice::from_ref(&tool)));
-            let rate = moves.len() as f64 / begun.elapsed().as_secs_f64();
-            let volume: f64 = found.iter().map(|found| found.removed_mm3).sum();
-            println!("d {d} r {r} detail {detail}: {rate:.0} moves/s, {volume:.0} mm3");
-        }
-    }
 }

@@ -157,32 +157,6 @@ fn what_is_no_solid_is_refused() {
     assert_eq!(mesh(&faces).scaled(25.4).unwrap().bounds(), ([0.0; 3], [50.8; 3]));
 }
 
-/// A large one for a look at the time: `cargo test --test all stock -- --ignored --nocapture`.
-#[test]
-#[ignore = "a measurement"]
-fn time_of_a_large_mesh() {
-    let bytes = stl(&sphere([0.0; 3], 50.0, 224));
-    let start = std::time::Instant::now();
-    let ball = Mesh::from_stl(&bytes).unwrap();
-    let read = start.elapsed();
-    let dexels = columns(&ball, 0.1);
-    println!(
-        "{} triangles read {read:?}, {} columns {:?}",
-        ball.triangle_count(),
-        dexels.grid().column_count(),
-        start.elapsed()
-    );
-    let start = std::time::Instant::now();
-    let mut surface = Vec::new();
-    clsmith::stock::stl_export::write_stl(&dexels, &mut surface).unwrap();
-    println!("surface of {} triangles {:?}", (surface.len() - 84) / 50, start.elapsed());
-    let start = std::time::Instant::now();
-    let stock =
-        clsmith::stock::Stock::new(vec![clsmith::stock::SolidBody::Remains(dexels.into())], 1.0).unwrap();
-    stock.to_dexels(0.1, usize::MAX).unwrap();
-    println!("grown by ten cells {:?}", start.elapsed());
-}
-
 /// The hull of points in general position, by brute force: the triangles that leave all others on one side, and their planes.
 fn hull(points: &[[f64; 3]]) -> Triangles {
     let minus = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];

@@ -2,6 +2,7 @@
 
 mod property;
 mod requirement;
+mod timing;
 
 pub use property::property;
 #[cfg(unix)]
@@ -10,32 +11,13 @@ pub use requirement::{
     require_corpus, require_corpus_file, require_corpus_with_part_programs, require_program,
     require_shared_folder,
 };
+pub use timing::{try_until_met, wait_for, within_seconds};
 
 use clsmith::program::geometry::{CircularArc, MotionPath as ClPath};
 use clsmith::program::motion::{ActiveTool, Motion, MotionProblemKind};
 use clsmith::program::{Dialect, Program};
 use clsmith::source::Source;
 use std::path::{Path, PathBuf};
-use std::process::{Child, ExitStatus};
-use std::time::Duration;
-
-/// Waits for a process; how it ended, and the peak of its memory in bytes as Linux keeps it, 0 elsewhere.
-pub fn wait_with_peak(mut child: Child) -> (ExitStatus, u64) {
-    let file = format!("/proc/{}/status", child.id());
-    let peak = || {
-        let text = std::fs::read_to_string(&file).ok()?;
-        let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-        Some(line.split_whitespace().next()?.parse::<u64>().ok()? * 1024)
-    };
-    let mut most = 0;
-    loop {
-        most = peak().unwrap_or(0).max(most);
-        if let Some(status) = child.try_wait().unwrap() {
-            return (status, most);
-        }
-        std::thread::sleep(Duration::from_millis(5));
-    }
-}
 
 /// A source read from a file.
 pub fn source(path: &Path) -> std::sync::Arc<Source> {

@@ -7,6 +7,11 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// more.
 pub(super) const UPRIGHT: f64 = 1e-9;
 
+/// A graph is steep where its slope is larger than this: a rounding of u (1e-13 mm at a metre) then moves its
+/// height by more than 1e-10 mm. So u does not tell where it crosses another graph, and its upper end may be
+/// above the height that is found there.
+const STEEP: f64 = 1e3;
+
 /// The graph of a straight line or of half a circle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum HeightGraph {
@@ -159,38 +164,40 @@ impl GraphSegment {
 }
 
 /// Gives the parts of a piece that are graphs to `take`, in the order of the piece. A vertical part gives its
-/// ends to `top`.
+/// ends to `top`, and a part that is steep at its upper end gives this end to `top` as well.
 pub(super) fn split_into_graphs(
     index: usize,
     piece: &ChainPiece,
     mut take: impl FnMut(GraphSegment, bool),
     mut top: impl FnMut(Point, usize),
 ) {
-    let part = PiecePart::Body;
+    let mut give = |from: Point, to: Point, graph_between: &dyn Fn(Point, Point) -> HeightGraph| {
+        let forward = from.u <= to.u;
+        let (left, right) = if forward { (from, to) } else { (to, from) };
+        if right.u - left.u <= UPRIGHT {
+            top(left, index);
+            top(right, index);
+            return;
+        }
+        let graph = graph_between(left, right);
+        take(GraphSegment { left, right, graph, piece: index, part: PiecePart::Body }, forward);
+        let upper = if left.z > right.z { left } else { right };
+        if graph.steepness_at(upper.u) > STEEP {
+            top(upper, index);
+        }
+    };
     match piece {
         ChainPiece::Line(line) => {
-            let forward = line.to.u >= line.from.u;
-            let (left, right) = if forward { (line.from, line.to) } else { (line.to, line.from) };
-            if right.u - left.u > UPRIGHT {
-                let graph = HeightGraph::Line { left, right };
-                take(GraphSegment { left, right, graph, piece: index, part }, forward);
-            } else {
-                top(left, index);
-                top(right, index);
-            }
+            give(line.from, line.to, &|left, right| HeightGraph::Line { left, right });
         }
         ChainPiece::Arc(arc) => {
             for (from, to) in split_at_vertical_tangents(arc) {
-                let (a, b) = (arc.point_at_angle(from), arc.point_at_angle(to));
                 let upper = (0.5 * (from + to)).sin() > 0.0;
-                let (left, right) = if a.u <= b.u { (a, b) } else { (b, a) };
-                if right.u - left.u > UPRIGHT {
-                    let graph = HeightGraph::Round { centre: arc.centre, radius: arc.radius_mm, upper };
-                    take(GraphSegment { left, right, graph, piece: index, part }, a.u <= b.u);
-                } else {
-                    top(left, index);
-                    top(right, index);
-                }
+                give(arc.point_at_angle(from), arc.point_at_angle(to), &|_, _| HeightGraph::Round {
+                    centre: arc.centre,
+                    radius: arc.radius_mm,
+                    upper,
+                });
             }
         }
     }

@@ -12,7 +12,8 @@ const ROUNDING: f64 = 1e-12;
 /// them.
 pub(super) struct UpperEnvelope {
     pub stretches: Vec<GraphSegment>,
-    /// The ends of vertical pieces, with u ascending. Some of them may be below the envelope.
+    /// The ends of vertical pieces and the upper ends of steep ones, with u ascending. Some of them may be below
+    /// the envelope.
     pub tops: Vec<(Point, usize)>,
 }
 

@@ -85,14 +85,3 @@ fn the_condor_file_names_options_that_exist() {
     clsmith(shop.path()).args(arguments.split(' ')).assert().success();
     assert!(shop.path().join("done/results-8-of-8.jsonl").exists());
 }
-
-/// Needs root and Debian's packages slurm-wlm and munge.
-#[test]
-#[ignore = "soak: starts a Slurm of one node"]
-fn soak_slurm_one_node() {
-    let script = cluster().join("slurm/try-one-node.sh");
-    let done = Command::new("bash").arg(script).arg(env!("CARGO_BIN_EXE_clsmith")).output().unwrap();
-    let text = String::from_utf8_lossy(&done.stdout);
-    assert!(done.status.success(), "{text}{}", String::from_utf8_lossy(&done.stderr));
-    assert!(text.contains("merged, are one run"), "{text}");
-}

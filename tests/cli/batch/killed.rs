@@ -1,9 +1,11 @@
 //! A batch that is killed at any moment goes on to the same result.
 
 use super::{ALL, batch, everything, long_part, shop, tree, write};
+use crate::support::{self, try_until_met, wait_for};
+use proptest::test_runner::RngSeed;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant, SystemTime};
+use std::time::{Duration, SystemTime};
 
 fn start(folder: &Path, out: &str) -> Child {
     Command::new(env!("CARGO_BIN_EXE_clsmith"))
@@ -18,10 +20,15 @@ fn start(folder: &Path, out: &str) -> Child {
         .unwrap()
 }
 
-/// Numbers from 0 to 1, other ones every day.
-fn random() -> (u128, impl FnMut() -> f64) {
-    let seed = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap().as_nanos();
-    let mut state = seed as u64;
+/// Numbers from 0 to 1: other ones in every run, but under `CI`.
+fn random() -> (u64, impl FnMut() -> f64) {
+    let seed = match support::property(1).rng_seed {
+        RngSeed::Fixed(seed) => seed,
+        RngSeed::Random => {
+            SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap().as_nanos() as u64
+        }
+    };
+    let mut state = seed;
     let next = move || {
         // Marsaglia's xorshift.
         state ^= state << 13;
@@ -48,8 +55,12 @@ fn twenty_kills_change_nothing() {
     assert_eq!(whole.len(), 37);
     let (seed, mut random) = random();
     let mut killed = 0;
-    // Killed four times over, then left in peace; five times.
-    for round in 0..5 {
+    // Killed four times over, then left in peace; five times, or more often where a busy machine lets most runs end before they are killed.
+    for round in 0.. {
+        if round >= 5 && killed >= 10 {
+            break;
+        }
+        assert!(round < 40, "{killed} were still running, seed {seed}");
         let out = format!("killed{round}");
         let folder = shop.path().join(&out);
         for _ in 0..4 {
@@ -78,26 +89,30 @@ fn twenty_kills_change_nothing() {
         );
         assert!(tree(&folder) == whole, "seed {seed}");
     }
-    assert!(killed >= 10, "{killed} were still running, seed {seed}");
 }
 
 #[cfg(unix)]
 #[test]
 fn ctrl_c_ends_it_gently() {
-    let shop = shop(3);
-    (0..30).for_each(|number| write(shop.path(), &format!("programs/long{number}.cls"), &long_part(2000)));
-    let mut run = start(shop.path(), "done");
-    let journal = shop.path().join("done/.clsmith-batch.journal");
-    let wait = Instant::now();
-    while std::fs::read(&journal).map_or(0, |text| text.iter().filter(|&&byte| byte == b'\n').count()) < 3 {
-        assert!(wait.elapsed() < Duration::from_secs(20), "nothing was done");
-        std::thread::sleep(Duration::from_millis(2));
-    }
-    Command::new("kill").args(["-INT", &run.id().to_string()]).status().unwrap();
-    assert_eq!(run.wait().unwrap().code(), Some(130));
-    let left = everything(&shop.path().join("done"));
-    assert!(left.keys().all(|name| !name.to_string_lossy().ends_with(".tmp")), "{:?}", left.keys());
-    assert!(!shop.path().join("done/results.jsonl").exists());
-    let resumed = batch(shop.path(), "done", &["--resume"]).success();
-    assert!(super::stdout(&resumed).contains("done before"));
+    try_until_met(|size| {
+        let shop = shop(3);
+        (0..30 * size)
+            .for_each(|number| write(shop.path(), &format!("programs/long{number}.cls"), &long_part(2000)));
+        let mut run = start(shop.path(), "done");
+        let done = shop.path().join("done");
+        wait_for("two files that are done", || journalled(&done) >= 2);
+        Command::new("kill").args(["-INT", &run.id().to_string()]).status().unwrap();
+        let code = run.wait().unwrap().code();
+        if code == Some(0) {
+            // It was done before.
+            return false;
+        }
+        assert_eq!(code, Some(130));
+        let left = everything(&done);
+        assert!(left.keys().all(|name| !name.to_string_lossy().ends_with(".tmp")), "{:?}", left.keys());
+        assert!(!done.join("results.jsonl").exists());
+        let resumed = batch(shop.path(), "done", &["--resume"]).success();
+        assert!(super::stdout(&resumed).contains("done before"));
+        true
+    });
 }

@@ -2,7 +2,6 @@
 
 mod cluster;
 mod killed;
-mod load;
 mod refused;
 mod resume;
 mod shards;

@@ -3,11 +3,11 @@
 use super::{
     ALL, RECIPE, batch, clsmith, everything, lines, long_part, part, shop, stderr, stdout, tree, write,
 };
+use crate::cli::as_anybody;
 use std::ffi::OsStr;
 use std::fs;
 use std::os::unix::ffi::OsStrExt;
 use std::os::unix::fs::{PermissionsExt, symlink};
-use std::os::unix::process::CommandExt;
 use std::path::Path;
 use std::process::Command;
 
@@ -110,16 +110,6 @@ fn what_is_no_file_is_not_read() {
     assert!(
         stderr(&run).contains("programs/pipe.cls: CL0401: programs/pipe.cls cannot be read: it is no file")
     );
-}
-
-/// The command as somebody who is not root, whom nothing is forbidden.
-fn as_anybody(folder: &Path) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_clsmith"));
-    command.current_dir(folder);
-    if fs::metadata("/proc/self").is_ok_and(|own| std::os::unix::fs::MetadataExt::uid(&own) == 0) {
-        command.uid(65534).gid(65534);
-    }
-    command
 }
 
 #[test]

@@ -151,22 +151,3 @@ fn material_thinner_than_the_chip_holds_the_force() {
     let found = loads(&profile, &teeth, STEEL, &slot, 0.1);
     close(found.torque_nm, (STEEL.k_tc * 0.02 + STEEL.k_te) * 3.0 * 5.0 * 1e-3, 1e-6);
 }
-
-/// `cargo test --release --test all engagement::chips::force::speed -- --ignored --nocapture`
-#[test]
-#[ignore = "a measurement"]
-fn speed() {
-    let profile = cutter(10.0, 2.0);
-    let eccentric = Teeth::with_eccentricity(vec![1.0; 4], 0.01, 0.0, 0.6).unwrap();
-    for teeth in [Teeth::evenly_spaced(4, 0.6).unwrap(), eccentric] {
-        for depth in [1.0, 10.0] {
-            let slot = milling(&profile, depth, -90.0, 90.0);
-            let model = LoadModel::new(&profile, &teeth, STEEL, Clockwise);
-            let start = std::time::Instant::now();
-            for turn in 0..1000 {
-                std::hint::black_box(model.cutting_loads(&slot, 900.0 + f64::from(turn), RPM));
-            }
-            println!("even {}, {depth} mm: {:?} per engagement", teeth.is_even(), start.elapsed() / 1000);
-        }
-    }
-}
