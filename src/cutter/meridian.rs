@@ -173,6 +173,7 @@ impl Meridian {
             return r * self.bottom_tan;
         }
         if r <= self.flank_start[0] {
+            // The lower half of the arc's circle: z = f - sqrt(rc^2 - (r - e)^2).
             let across = (r - self.corner_center[0]).min(self.corner_radius);
             return self.corner_center[1]
                 - (self.corner_radius * self.corner_radius - across * across).max(0.0).sqrt();
@@ -193,6 +194,7 @@ impl Meridian {
         if z < bottom_height {
             return (z / self.bottom_tan).max(0.0);
         }
+        // The outer half of the same circle: r = e + sqrt(rc^2 - (f - z)^2).
         let down = self.corner_center[1] - z;
         self.corner_center[0] + (self.corner_radius * self.corner_radius - down * down).max(0.0).sqrt()
     }

@@ -1,7 +1,7 @@
-//! One mill: its meridian, its teeth, and what stands above its flutes.
+//! This module describes one mill: its meridian, its teeth, and the shank and holder above its flutes.
 //!
-//! Lengths are in millimetres from the tip up the axis, angles in radians. [`crate::setup`] makes cutters; [`crate::engagement`]
-//! moves them through stock.
+//! Lengths are in mm from the tip up the axis, angles in radians. [`crate::setup`] makes cutters, and
+//! [`crate::engagement`] moves them through stock.
 
 mod cutter_model;
 pub mod meridian;

@@ -68,6 +68,7 @@ impl Teeth {
         if !fits {
             return None;
         }
+        // Printed angles are rounded, so they are scaled to close the circle exactly.
         let pitch: Vec<f64> = pitch.iter().map(|angle| angle * TAU / sum).collect();
         let highest = runout.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let lowest = runout.iter().copied().fold(f64::INFINITY, f64::min);

@@ -1,8 +1,9 @@
-//! What a cutter engages on its path through stock: sweeps that remove material, chip thickness, forces.
+//! This module simulates milling: sweeps that remove material, and from them chip thickness and forces.
 //!
-//! Everything is in millimetres, radians and the workpiece frame. A motion becomes straight pieces ([`path_linearizer`]), a
-//! [`Simulation`] sweeps the cutter along them, and each piece gets an [`Engagement`], from which chip thickness, removal
-//! rate and forces follow for any feed and any teeth. [`crate::simulation_run`] runs whole programs with it.
+//! Lengths are in mm, angles in radians, and points in the workpiece frame. A motion becomes straight pieces
+//! ([`path_linearizer`]). A [`Simulation`] sweeps the cutter along them, and each piece gets an
+//! [`Engagement`]. From that, chip thickness, removal rate and forces follow for any feed and any teeth.
+//! [`crate::simulation_run`] runs whole programs.
 
 mod bin_filling;
 pub mod chip_load;

@@ -1,4 +1,4 @@
-//! A straight piece of a cutter's path.
+//! This module holds a straight piece of a cutter's path.
 
 use crate::program::geometry::Pose;
 
@@ -19,8 +19,8 @@ pub struct PathPiece {
 }
 
 impl PathPiece {
-    /// Returns the length of path that advance ratios refer to, mm: the tip's path or, if the tip stands still,
-    /// the path of the outermost point of flutes with a radius and a length.
+    /// Returns the length of path that advance ratios refer to, mm: the tip's path or, if the tip stands
+    /// still, the path of the outermost point of flutes with a radius and a length.
     pub(super) fn reference_length_mm(&self, [radius, flutes]: [f64; 2]) -> f64 {
         let travel = (self.to.point - self.from.point).norm();
         if travel > STILL {

@@ -1,8 +1,8 @@
 //! This module moves cutters along pieces of path through the stock.
 //!
-//! Columns do not depend on each other. So bands of 32 rows ([`crate::stock::dexel::BAND_ROWS`]) are processed in
-//! parallel, each by all pieces of a batch in their order, and the results of the bands are added up in the
-//! order of the bands. The result is therefore the same for any number of threads.
+//! Columns do not depend on each other. So bands of 32 rows ([`crate::stock::dexel::BAND_ROWS`]) are
+//! processed in parallel, each by all pieces of a batch in their order, and the results of the bands are
+//! added up in the order of the bands. The result is therefore the same for any number of threads.
 
 use crate::cutter::CutterModel;
 use crate::engagement::engagement_bins::Engagement;

@@ -39,6 +39,7 @@ pub fn parse_statement(window: &[u8]) -> StatementSyntax<'_> {
     let Some(form) = statement.into_inner().next() else {
         return bare_syntax(window, StatementKind::Refused);
     };
+    // The statement's text ends where the form ends; the rest of the window belongs to the next statements.
     let text = window.get(..form.as_span().end()).unwrap_or(window);
     let mut syntax = bare_syntax(text, statement_kind(form.as_rule()));
     syntax.open = form.clone().into_inner().flatten().any(|part| part.as_rule() == Rule::open);

@@ -55,6 +55,8 @@ pub fn parse(source: &Arc<Source>, dialect: Option<Dialect>) -> ParsedProgram {
         reader.program.push(Record::ByteOrderMark, Span::new(0, 3));
         at = 3;
     }
+    // A plain GOTO is no mark of any dialect and neither are our own comments, so the detector need not see
+    // them.
     while let Some(rest) = bytes.get(at..).filter(|rest| !rest.is_empty()) {
         if let Some((goto, length)) = shortcut::read_plain_goto(rest) {
             reader.program.push(Record::Goto(goto), Span::new(at, at + length));
@@ -148,6 +150,7 @@ impl StatementReader<'_> {
         let (syntax, length) = split_statement(rest);
         let span = Span::new(at, at + length);
         let record = self.interpret_syntax(&syntax, span);
+        // One definition is enough: no CL file has any, and an APT part program has no tool path to correct.
         if record == Record::Definition {
             let text = rest.get(..length).unwrap_or_default();
             let shown = span.sub_span(length - text.trim_ascii_start().len(), trimmed_length(text));
@@ -165,6 +168,7 @@ impl StatementReader<'_> {
             );
         }
         self.detector.observe_statement(&syntax, &record);
+        // A line of bare numbers may only follow points, which it continues.
         self.last_was_points = matches!(record, Record::Goto(_) | Record::Points(_));
         self.program.push(record, span);
         Ok(length)

@@ -1,9 +1,9 @@
-//! Kinds of statements, coarser than records, as changes and differences are counted.
+//! This module holds kinds of statements, coarser than records, by which changes and differences are counted.
 
 use super::Record;
 use serde::Serialize;
 
-/// What a statement is about; coarser than [`Record`], the same in every dialect.
+/// The kind of a statement. It is coarser than [`Record`] and the same in every dialect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RecordKind {
@@ -40,7 +40,7 @@ pub enum RecordKind {
 }
 
 impl RecordKind {
-    /// The kind of a record.
+    /// Returns the kind of a record.
     pub fn from_record(record: &Record) -> Self {
         match record {
             Record::Goto(_)
@@ -69,7 +69,7 @@ impl RecordKind {
         }
     }
 
-    /// The name in reports, of one (`point`) or of several (`points`).
+    /// Returns the name in reports for one (`point`) or for several (`points`).
     pub fn display_name(self, count: usize) -> &'static str {
         let (one, many) = match self {
             Self::Point => ("point", "points"),

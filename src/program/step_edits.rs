@@ -1,7 +1,8 @@
-//! What each step of a recipe changed, counted when the step ends.
+//! This module counts the changes of each recipe step when the step ends.
 //!
-//! A statement carries the signature of the last step that changed it. A step that is followed by another one on the same
-//! statements would lose its changes to that one, so each step's are counted before the next one begins.
+//! A statement carries the signature of the last step that changed it. If a later step changes the same
+//! statements, the earlier one would lose its changes. So the changes of each step are counted before the
+//! next one begins.
 
 use super::{Program, Record, RecordKind, StatementChange, StepId};
 use std::collections::BTreeMap;
@@ -11,15 +12,15 @@ use std::collections::BTreeMap;
 pub struct StepEdits {
     /// The step.
     pub step: StepId,
-    /// Statements that it gave a new text.
+    /// The statements to which it gave a new text.
     pub edited: BTreeMap<RecordKind, usize>,
-    /// Statements that it put in.
+    /// The statements that it inserted.
     pub inserted: BTreeMap<RecordKind, usize>,
-    /// Statements that it took out: those of the file, and those that an earlier step had put in.
+    /// The statements that it deleted: those of the file, and those that an earlier step had inserted.
     pub deleted: BTreeMap<RecordKind, usize>,
 }
 
-/// The edits of the steps that are done, and what is known of the one that runs.
+/// The edits of the finished steps, and the state of the running one.
 #[derive(Debug, Clone, Default)]
 pub(super) struct StepEditCounts {
     closed: Vec<StepEdits>,
@@ -28,12 +29,12 @@ pub(super) struct StepEditCounts {
 }
 
 impl StepEditCounts {
-    /// Takes notice of a statement that the running step puts in.
+    /// Records that the running step inserts a statement.
     pub(super) fn record_insertion(&mut self, record: &Record) {
         *self.inserted.entry(RecordKind::from_record(record)).or_default() += 1;
     }
 
-    /// Takes notice of a statement that the running step takes out. What it had put in itself was never there.
+    /// Records that the running step deletes a statement. One that it had inserted itself does not count.
     pub(super) fn record_deletion(&mut self, record: &Record, before: StatementChange, step: StepId) {
         let kind = RecordKind::from_record(record);
         match before {
@@ -49,7 +50,8 @@ impl StepEditCounts {
 }
 
 impl Program {
-    /// Counts what a step changed, once it is done and before the next one begins. Takes one pass over the statements.
+    /// Counts the changes of a step when it is finished and before the next one begins. It takes one pass
+    /// over the statements.
     pub(crate) fn close_step(&mut self, step: StepId) {
         let inserted = std::mem::take(&mut self.step_edits.inserted);
         let deleted = std::mem::take(&mut self.step_edits.deleted);
@@ -57,8 +59,8 @@ impl Program {
         self.step_edits.closed.push(edits);
     }
 
-    /// What each step changed, in the order in which the steps ran. Edits after the last step that was closed are counted for
-    /// the step that signed them.
+    /// Returns the changes of each step, in the order in which the steps ran. Edits after the last counted
+    /// step count for the step that signed them.
     pub fn step_edits(&self) -> Vec<StepEdits> {
         let mut all = self.step_edits.closed.clone();
         let signed = self.statements.iter().filter_map(|statement| statement.edited_by()).max();
@@ -83,7 +85,8 @@ impl Program {
                 StatementChange::Edited(by) if by == step => *edited.entry(kind).or_default() += 1,
                 StatementChange::Inserted(by) if by == step => match put_in_before.get_mut(&kind) {
                     Some(count) if *count > 0 => *count -= 1,
-                    // An earlier step put it in; this one gave it another text and signed it anew.
+                    // An earlier step inserted the statement, and this one gave it another text and its
+                    // signature.
                     _ => *edited.entry(kind).or_default() += 1,
                 },
                 _ => {}

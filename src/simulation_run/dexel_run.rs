@@ -60,7 +60,8 @@ impl Machining<'_> {
     /// Runs the whole program. `sink` gets every motion in order with its engagement.
     ///
     /// # Errors
-    /// Returns the errors of [`Machining::estimate_cost`], and [`Failure::Interrupted`] if `watch` stopped the run.
+    /// Returns the errors of [`Machining::estimate_cost`], and [`Failure::Interrupted`] if `watch` stopped
+    /// the run.
     pub fn simulate_program(
         &self,
         options: &SimulationRunOptions,

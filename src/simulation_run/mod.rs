@@ -79,7 +79,7 @@ impl<'p> Machining<'p> {
         // reported at once.
         let mut errors = Vec::new();
         let tooling = Tooling::from_program(program, setup, units, findings, &mut errors);
-        // What is wrong with the tools and with the stock is told at once.
+        // The faults of the tools and of the stock are reported at once.
         let stock =
             setup_stock::build_stock(setup).map_err(|failure| failure.after(std::mem::take(&mut errors)))?;
         if !errors.is_empty() {

@@ -12,7 +12,7 @@ pub trait RunWatcher: Sync {
         false
     }
 
-    /// Ends work that takes long; it is called between two parts of the work.
+    /// Stops long work if the run must stop; it is called between two parts of the work.
     ///
     /// # Errors
     /// Returns [`Failure::Interrupted`] if the run must stop.

@@ -1,4 +1,4 @@
-//! Boxes along the axes, and the largest coordinate that anything of the stock may have.
+//! This module holds boxes along the axes, and the largest coordinate that any part of the stock may have.
 
 /// A box along the axes: its lower and its upper corner.
 pub type AxisBox = ([f64; 3], [f64; 3]);

@@ -132,6 +132,7 @@ impl DexelBand {
             *top = from;
             return;
         }
+        // Any other cut may split an interval, so the column is rebuilt from above to below.
         let before: Vec<DexelSpan> = self.column_spans(index).collect();
         let mut after = Vec::with_capacity(before.len() + 1);
         for [low, top] in before {

@@ -17,6 +17,7 @@ pub(super) fn dilate_by_ball(dexels: &Dexels, radius: f64) -> Dexels {
     for up in -reach..=reach {
         for right in -reach..=reach {
             let squared = right * right + up * up;
+            // On the sphere at the lateral distance d, the height is sqrt(radius^2 - d^2).
             let rest = radius * radius - squared as f64 * layout.cell_mm * layout.cell_mm;
             // A radius of a whole number of cells reaches its last column, even if its square is rounded
             // down.

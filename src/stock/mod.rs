@@ -1,7 +1,8 @@
-//! The workpiece: bodies and meshes that it is made of, and the columns (dexels) that are cut.
+//! This module holds the workpiece: the bodies and meshes that it is made of, and the columns (dexels) that
+//! are cut.
 //!
-//! Everything is in millimetres in the workpiece frame, in which dexels stand along z. What is left can be kept in a file
-//! ([`stock_file`]), written as a surface ([`stl_export`]) and compared with the part that it should become
+//! Lengths are in mm in the workpiece frame, in which dexels stand along z. The stock that is left can be
+//! kept in a file ([`stock_file`]), written as a surface ([`stl_export`]) and compared with the target part
 //! ([`target_deviation`]).
 
 mod axis_box;

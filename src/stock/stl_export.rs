@@ -39,6 +39,7 @@ impl Iterator for StockTriangles<'_> {
     type Item = Triangle;
 
     fn next(&mut self) -> Option<Triangle> {
+        // A row without faces must not end the iteration.
         while self.ready.len() == 0 && self.row <= self.dexels.grid().rows {
             let faces = find_row_faces(self.dexels, self.row);
             self.ready = faces.iter().flat_map(DexelFace::split_triangles).collect::<Vec<_>>().into_iter();

@@ -1,4 +1,4 @@
-//! The reasons why bodies make no stock.
+//! This module holds the reasons why bodies do not make stock.
 
 use crate::stock::axis_box::FARTHEST;
 

@@ -80,6 +80,7 @@ pub fn write_clstock(dexels: &Dexels, out: &mut dyn Write) -> io::Result<()> {
     }
     buffer.extend(count(layout.columns)?.to_le_bytes());
     buffer.extend(count(layout.rows)?.to_le_bytes());
+    // Band by band, so that the memory does not grow with the stock.
     for band in dexels.bands() {
         for index in 0..band.row_count() * band.columns {
             buffer.extend(count(band.column_spans(index).count())?.to_le_bytes());
@@ -134,6 +135,7 @@ pub fn read_clstock(bytes: &[u8]) -> Result<Dexels, StockFileError> {
         }
     }
     let at = reader.at;
+    // The checksum is compared last, so that a file that is cut short or from another version says so.
     let sum = reader.read_u32()?;
     if reader.at < bytes.len() {
         return Err(StockFileError::Damaged { at: reader.at, reason: "it goes on after its end" });

@@ -79,11 +79,11 @@ fn reprint_numbers(
     let roles = parse::number_roles(record, text);
     let mut out = Vec::with_capacity(text.len() + 16);
     let mut copied = 0;
-    // One way through both lists: a statement may have hundreds of thousands of numbers.
+    // One pass goes through both lists, because a statement may have hundreds of thousands of numbers.
     let mut edits = in_number_order(edits);
     for (index, (at, old)) in places.iter().enumerate() {
         let Some((_, wanted)) = edits.next_if(|(edited, _)| *edited == index) else { continue };
-        // Of two values for one number the first counts.
+        // If a number has two new values, the first one counts.
         while edits.next_if(|(edited, _)| *edited == index).is_some() {}
         if !wanted.is_finite() || (wanted - old).abs() <= NOISE * old.abs().max(1.0) {
             continue;
