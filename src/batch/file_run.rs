@@ -5,6 +5,7 @@ use super::{BatchRecord, FileOutcome, JournalEntry, LockedFolder, StatementChang
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::fingerprint::Digest;
 use crate::job::{self, CorrectionJob, JobOutcome};
+use crate::output_files::{Interrupt, is_interrupt};
 use crate::program::{Dialect, Program};
 use crate::report::finding_policy::FindingPolicy;
 use crate::simulation_run::RunWatcher;

@@ -1,11 +1,10 @@
 //! This module holds kinds of statements, coarser than records, by which changes and differences are counted.
 
 use super::Record;
-use serde::Serialize;
 
 /// The kind of a statement. It is coarser than [`Record`] and the same in every dialect.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "simulation", derive(serde::Serialize), serde(rename_all = "snake_case"))]
 pub enum RecordKind {
     /// A point: `GOTO`, `FROM`, `GOHOME`, `GODLTA`.
     Point,

@@ -163,15 +163,15 @@ impl ShareError {
     fn upward(&self, direction: f64, bin: &EngagementBin, height: f64) -> f64 {
         // The place in the bin of 3 degrees that is furthest aside.
         let side = ((90.0 - direction.abs()).abs() - 1.5).max(0.0).to_radians().cos();
-        let turned = |by: f64| side.asin() - (side - by / MILL.radius).max(0.0).asin();
+        let turned = |by: f64| side.asin() - (side - by / MILL.radius_mm).max(0.0).asin();
         let [least, most] = self.lean;
         if bin.radial > 0.5 {
             let speed = 1.0 + self.turn_per_mm * height;
             speed * turned(0.5 * self.cell + self.layer * most.tan())
                 + self.turn_per_mm * self.layer / most.cos()
         } else {
-            let away = (self.layer / least.sin()).min(2.0 * MILL.radius);
-            self.turn_per_mm * (MILL.radius * turned(0.5 * self.cell) + away)
+            let away = (self.layer / least.sin()).min(2.0 * MILL.radius_mm);
+            self.turn_per_mm * (MILL.radius_mm * turned(0.5 * self.cell) + away)
         }
     }
 }
@@ -216,7 +216,7 @@ proptest! {
         let error = ShareError::new(0.1, 0.1, &pieces[1]);
         for (index, bin) in dexels.bins.iter().enumerate().filter(|(_, bin)| bin.is_engaged() && bin.thickness >= 0.1) {
             let direction = 3.0 * index as f64 - 178.5;
-            let least = f64::from(bin.share) - error.upward(direction, bin, dexels.height[1]);
+            let least = f64::from(bin.share) - error.upward(direction, bin, dexels.height_mm[1]);
             prop_assert!(least <= bound(layers), "{direction}: dexels {}, at least {least}; layers {}..{}", bin.share, layers.max_advance_ratio(), bound(layers));
         }
         // A bound holds what the turn does over the arc of a sample and half a layer.

@@ -11,6 +11,7 @@ use super::input_files;
 use super::terminal;
 use clap::{Args, ValueEnum};
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
+use clsmith::output_files::is_interrupt;
 use clsmith::program::{Dialect, LengthUnit};
 use clsmith::report::finding_policy::FindingPolicy;
 use clsmith::report::surface_milling as report;

@@ -142,7 +142,11 @@ fn read_mesh(path: &FilePath, mm_per_unit: f64, context: &StepContext<'_>) -> Re
     };
     let bytes = std::fs::read(context.resolve_file(path)).map_err(|error| fail(error.to_string()))?;
     let mesh = Mesh::from_stl(&bytes).map_err(|error| fail(error.to_string()))?;
-    if mm_per_unit == 1.0 { Ok(mesh) } else { mesh.scaled(mm_per_unit).map_err(|error| fail(error.to_string())) }
+    if mm_per_unit == 1.0 {
+        Ok(mesh)
+    } else {
+        mesh.scaled(mm_per_unit).map_err(|error| fail(error.to_string()))
+    }
 }
 
 fn make_mesh_pass(
@@ -240,7 +244,13 @@ fn measure_tip_paths(
         let one = |path: &Vec<[f64; 3]>| {
             let seen = space.measure_clearance(path, step)?;
             let (gouge, gap) = ((-seen.low_mm).max(0.0), seen.high_mm.max(0.0));
-            Some(PathDeviation { gouge_mm: gouge, gouge_at_mm: seen.low_at_mm, gap_mm: gap, gap_at_mm: seen.high_at_mm, error_mm: error })
+            Some(PathDeviation {
+                gouge_mm: gouge,
+                gouge_at_mm: seen.low_at_mm,
+                gap_mm: gap,
+                gap_at_mm: seen.high_at_mm,
+                error_mm: error,
+            })
         };
         return paths.par_iter().map(one).collect();
     }
@@ -275,8 +285,10 @@ fn report_gouging_links(
             continue;
         }
         let points = motion.path.sample_points(motion.from.point, motion.to.point);
-        let deepest =
-            points.windows(2).map(|pair| deepest_gouge_mm(job, cutter, pair, mm_per_unit, lift.z)).fold(0.0, f64::max);
+        let deepest = points
+            .windows(2)
+            .map(|pair| deepest_gouge_mm(job, cutter, pair, mm_per_unit, lift.z))
+            .fold(0.0, f64::max);
         if deepest > job.tolerance + PRINTED * mm_per_unit {
             let message = format!("between passes, the tool goes {deepest:.3} mm into the model here");
             context.findings.push(place.build_finding(

@@ -50,8 +50,8 @@ pub(super) fn compensate_by_profile(
         tolerance: job.tolerance,
         arcs: job.arcs && writer.has_arcs(),
     };
-    let found =
-        find_vertical_passes(motions, meant, mm_per_unit).map_err(|why| place.describe_no_pass(why, context))?;
+    let found = find_vertical_passes(motions, meant, mm_per_unit)
+        .map_err(|why| place.describe_no_pass(why, context))?;
     let made: Vec<_> =
         found.into_par_iter().map(|pass| make_profile_pass(pass, motions, mm_per_unit, &ball)).collect();
     let mut all: Vec<ProfilePass> = Vec::with_capacity(made.len());

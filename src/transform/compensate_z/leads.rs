@@ -49,7 +49,13 @@ pub(super) enum LeadConflict {
 }
 
 impl<'a> PassSurroundings<'a> {
-    pub fn new(program: &Program, motions: &'a [Motion], meant: &[bool], mm_per_unit: f64, lift: f64) -> Self {
+    pub fn new(
+        program: &Program,
+        motions: &'a [Motion],
+        meant: &[bool],
+        mm_per_unit: f64,
+        lift: f64,
+    ) -> Self {
         let fixed = |motion: &Motion| {
             let record = program.statement(motion.last_statement()).map(Statement::record);
             matches!(record, Some(Record::From(_) | Record::GoHome(_)))
@@ -158,7 +164,8 @@ pub(super) fn move_surroundings(
         }
         let up = around.tool_axis(*index);
         let rapid = around.motions.get(*index).is_some_and(|motion| motion.rapid);
-        let old = around.end_point_mm(*index).filter(|_| rapid).map(|old| old.coords.dot(&up) + around.lift_mm);
+        let old =
+            around.end_point_mm(*index).filter(|_| rapid).map(|old| old.coords.dot(&up) + around.lift_mm);
         let least = height(*end).into_iter().chain(old).fold(f64::NEG_INFINITY, f64::max);
         let low = least - end.coords.dot(&up);
         // Rounding of the path itself is no reason to leave it.

@@ -23,7 +23,8 @@ impl PassWriter<'_> {
         start: Point3<f64>,
     ) -> Result<Result<(), UnwritableMotion>, Failure> {
         let Some(motion) = self.motions.get(index) else { return Ok(Ok(())) };
-        let (by, from) = (end - motion.to.point * self.mm_per_unit, start - motion.from.point * self.mm_per_unit);
+        let (by, from) =
+            (end - motion.to.point * self.mm_per_unit, start - motion.from.point * self.mm_per_unit);
         let last = motion.last_statement();
         let moves = |by: Vector3<f64>| by.amax() > 1e-9;
         let record = editor.program().statement(last).map(Statement::record);

@@ -72,7 +72,9 @@ impl<'a> PassWriter<'a> {
     pub(super) fn point_numbers(&self, point: Point3<f64>) -> Vec<(usize, f64)> {
         pair_with_indices(
             0,
-            <[f64; 3]>::from((point / self.mm_per_unit).coords.map(|value| round_to_decimals(value, self.decimals))),
+            <[f64; 3]>::from(
+                (point / self.mm_per_unit).coords.map(|value| round_to_decimals(value, self.decimals)),
+            ),
         )
     }
 

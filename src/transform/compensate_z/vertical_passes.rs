@@ -111,7 +111,11 @@ struct PlanarRun {
     length: f64,
 }
 
-fn passes_of_run(motions: &[Motion], run: Range<usize>, mm_per_unit: f64) -> Result<Vec<VerticalPass>, NoPassReason> {
+fn passes_of_run(
+    motions: &[Motion],
+    run: Range<usize>,
+    mm_per_unit: f64,
+) -> Result<Vec<VerticalPass>, NoPassReason> {
     let first = motions.get(run.start);
     let turns = |motion: &&Motion| {
         first.is_some_and(|first| {
@@ -151,8 +155,14 @@ fn passes_of_run(motions: &[Motion], run: Range<usize>, mm_per_unit: f64) -> Res
 }
 
 /// Where a pass goes back over more than a quarter of its width; less is an overhang of its profile.
-fn find_turn_back(motions: &[Motion], range: &Range<usize>, plane: &ProfilePlane, mm_per_unit: f64) -> Option<usize> {
-    let ends = |motion: &Motion| [motion.from, motion.to].map(|pose| plane.to_plane(pose.point * mm_per_unit).u);
+fn find_turn_back(
+    motions: &[Motion],
+    range: &Range<usize>,
+    plane: &ProfilePlane,
+    mm_per_unit: f64,
+) -> Option<usize> {
+    let ends =
+        |motion: &Motion| [motion.from, motion.to].map(|pose| plane.to_plane(pose.point * mm_per_unit).u);
     let all = motions.get(range.clone())?;
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     let (mut forward, mut back) = (0.0, 0.0);

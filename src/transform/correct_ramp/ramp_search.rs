@@ -104,8 +104,11 @@ fn find_ramp_in_run(
     let passes = find_pass_directions(motions, run.end, first, &frame, mm_per_unit);
     let has_level = !passes.is_empty();
     // A marked engage that leads onto a surface is no ramp either.
-    let next =
-        motions.get(run.end..).unwrap_or_default().iter().find(|motion| motion.length() * mm_per_unit > NOTHING);
+    let next = motions
+        .get(run.end..)
+        .unwrap_or_default()
+        .iter()
+        .find(|motion| motion.length() * mm_per_unit > NOTHING);
     let surface = next.is_some_and(|next| {
         !next.rapid && next.class == MotionClass::Cut && next.operation == first.operation
     });
@@ -164,7 +167,8 @@ pub(super) fn to_tool_frame_mm(pose: Pose, frame: &Rotation3<f64>, mm_per_unit: 
 /// Motions as a ramp in the tool's frame, whatever their slope; `None` where one of them is no line or arc about the tool axis.
 pub(super) fn read_ramp(motions: &[Motion], frame: &Rotation3<f64>, mm_per_unit: f64) -> Option<Ramp> {
     let start = to_tool_frame_mm(motions.first()?.from, frame, mm_per_unit);
-    let steps: Vec<RampStep> = motions.iter().filter_map(|motion| read_step(motion, frame, mm_per_unit)).collect();
+    let steps: Vec<RampStep> =
+        motions.iter().filter_map(|motion| read_step(motion, frame, mm_per_unit)).collect();
     (steps.len() == motions.len()).then_some(Ramp { start, steps })
 }
 
@@ -205,7 +209,11 @@ fn find_pass_directions(
     frame: &Rotation3<f64>,
     mm_per_unit: f64,
 ) -> Vec<Vector2<f64>> {
-    let rest = motions.get(end..).unwrap_or_default().iter().filter(|motion| motion.length() * mm_per_unit > NOTHING);
+    let rest = motions
+        .get(end..)
+        .unwrap_or_default()
+        .iter()
+        .filter(|motion| motion.length() * mm_per_unit > NOTHING);
     let level: Vec<&Motion> =
         rest.take_while(|motion| continues_at_level(motion, first, mm_per_unit)).take(LOOKED_AT).collect();
     let told = level.iter().find(|motion| motion.class_is_told && motion.class == MotionClass::Cut);
@@ -241,7 +249,9 @@ fn find_start_direction(motion: &Motion, frame: &Rotation3<f64>) -> Option<Vecto
 /// Whether a motion stays at one level.
 pub(super) fn is_level(motion: &Motion, mm_per_unit: f64) -> bool {
     let inside = motion.path.sample_points(motion.from.point, motion.to.point);
-    inside.iter().all(|point| ((point - motion.from.point).dot(&motion.from.axis) * mm_per_unit).abs() <= LEVEL)
+    inside
+        .iter()
+        .all(|point| ((point - motion.from.point).dot(&motion.from.axis) * mm_per_unit).abs() <= LEVEL)
 }
 
 /// What an operation is like.

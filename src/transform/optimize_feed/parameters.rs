@@ -235,7 +235,11 @@ impl OptimizeFeed {
     }
 
     /// The rules for feeds, in millimetres; `None` when neither step nor machine says a highest feed.
-    pub(super) fn feed_rules(&self, mm_per_unit: f64, machine: &crate::setup::MachineLimits) -> Option<FeedRules> {
+    pub(super) fn feed_rules(
+        &self,
+        mm_per_unit: f64,
+        machine: &crate::setup::MachineLimits,
+    ) -> Option<FeedRules> {
         let feed = |feed: Option<Positive>| feed.map(|feed| feed.get() * mm_per_unit);
         let highest = [feed(self.max_feed), machine.max_feed.map(Positive::get)];
         let max_feed = highest.into_iter().flatten().reduce(f64::min)?;

@@ -5,7 +5,7 @@ use super::block_measurement::{MeasuredBlocks, measure_blocks};
 use super::load_limits::LoadLimits;
 use super::motion_split::{SplitProgram, split_motions};
 use super::parameters::{LoadCriterion, OptimizeFeed};
-use crate::diagnostic::{Diagnostic, codes, Failure};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::number::format_point;
 use crate::parameters::Positive;
 use crate::program::motion::Motion;
@@ -73,11 +73,7 @@ pub(super) struct OptimizeFeedJob {
 }
 
 impl OptimizeFeedJob {
-    fn new(
-        step: &OptimizeFeed,
-        program: &Program,
-        context: &StepContext<'_>,
-    ) -> Result<Self, Failure> {
+    fn new(step: &OptimizeFeed, program: &Program, context: &StepContext<'_>) -> Result<Self, Failure> {
         let mm_per_unit = context.units.mm_per_unit();
         let Some(rules) = step.feed_rules(mm_per_unit, &context.setup.machine) else {
             let message = "there is no highest feed: neither the step's `max_feed` nor the setup's `machine: { max_feed: ... }`";
