@@ -146,6 +146,10 @@ fn read_spindle(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
                 "SMM" => spindle.unit = SpindleUnit::SurfaceMetres,
                 "CLW" => spindle.direction = Some(SpindleDirection::Clockwise),
                 "CCLW" => spindle.direction = Some(SpindleDirection::CounterClockwise),
+                // The number of SPINDL/ORIENT,90 is an angle, and one behind MAXRPM only limits what a surface
+                // speed makes; read as speeds, both would be changed as speeds.
+                "ORIENT" => return Ok(Record::Known),
+                "MAXRPM" if spindle.speed.is_none() => return Ok(Record::Known),
                 word if looks_numeric(word) => {
                     return Err(BadRecord {
                         at: field.at.clone(),
