@@ -3,7 +3,7 @@
 #![no_main]
 
 use clsmith::parse::{parse, syntax};
-use clsmith::program::operation::operations;
+use clsmith::program::operation::find_operations;
 use clsmith::source::Source;
 use libfuzzer_sys::fuzz_target;
 
@@ -15,13 +15,13 @@ fuzz_target!(|bytes: &[u8]| {
     for statement in parsed.program.statements() {
         assert_eq!(statement.origin().start, end, "the spans do not tile the file");
         end = statement.origin().end;
-        let syntax = syntax(parsed.program.text(statement));
-        assert_eq!(statement.record().roles(&syntax).len(), syntax.numbers().len());
+        let syntax = syntax(parsed.program.statement_text(statement));
+        assert_eq!(statement.record().number_roles(&syntax).len(), syntax.numbers().len());
     }
     assert_eq!(end as usize, bytes.len());
-    let operations = operations(&parsed.program).len();
+    let operations = find_operations(&parsed.program).len();
     for motion in parsed.program.motions() {
         assert!(motion.operation < operations);
-        let _ = (motion.length(), motion.path.samples(motion.from.point, motion.to.point).len());
+        let _ = (motion.length(), motion.path.sample_points(motion.from.point, motion.to.point).len());
     }
 });

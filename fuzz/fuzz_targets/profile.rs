@@ -3,20 +3,21 @@
 #![no_main]
 
 use clsmith::source::Source;
-use clsmith::surface::profile::{Side, chords, compensate};
-use clsmith::surfacing::load_profile;
+use clsmith::surface::profile::{ChordSide, compensate_profile, fit_chords};
+use clsmith::surface_milling::load_profile;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
     let Ok(source) = Source::new("profile.yaml", bytes.to_vec()) else { return };
     match load_profile(&source) {
         Ok(profile) => {
-            let chain = profile.chain(0.01);
+            let chain = profile.to_chain(0.01);
             let Ok(chain) = chain else { return };
-            let tip = compensate(&chain, 5.0).expect("a sensible ball");
-            chords(&tip, 0.01, true, Side::Both).expect("a sensible tolerance");
+            let tip = compensate_profile(&chain, 5.0).expect("a sensible ball");
+            fit_chords(&tip, 0.01, true, ChordSide::Both).expect("a sensible tolerance");
         }
-        Err(found) => {
+        Err(failure) => {
+            let found = failure.findings();
             assert!(!found.is_empty(), "refused without a word");
             for label in found.iter().flat_map(|found| &found.labels) {
                 assert!(label.span.end as usize <= bytes.len(), "a place outside the profile");

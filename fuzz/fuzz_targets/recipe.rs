@@ -2,10 +2,11 @@
 
 #![no_main]
 
-use clsmith::job::Job;
+use clsmith::job::CorrectionJob;
 use clsmith::parse::parse;
-use clsmith::report::policy::Policy;
+use clsmith::report::finding_policy::FindingPolicy;
 use clsmith::setup::Setup;
+use clsmith::simulation_run::SilentWatcher;
 use clsmith::source::Source;
 use clsmith::transform::Recipe;
 use libfuzzer_sys::fuzz_target;
@@ -16,7 +17,8 @@ fuzz_target!(|bytes: &[u8]| {
     let Ok(source) = Source::new("recipe.yaml", bytes.to_vec()) else { return };
     let recipe = match Recipe::load(&source) {
         Ok(recipe) => recipe,
-        Err(found) => {
+        Err(failure) => {
+            let found = failure.findings();
             assert!(!found.is_empty(), "refused without a word");
             for label in found.iter().flat_map(|found| &found.labels) {
                 assert!(label.span.end as usize <= bytes.len(), "a place outside the recipe");
@@ -25,12 +27,12 @@ fuzz_target!(|bytes: &[u8]| {
         }
     };
     let part = Source::new("part.cls", PART.to_vec()).expect("a small file");
-    let (setup, policy) = (Setup::default(), Policy::default());
-    let watch = &clsmith::machining::Unwatched;
-    let job = Job { recipe: &recipe, setup: &setup, print: None, policy: &policy, dialect: None, watch };
-    let Some(program) = job.run(&part).program else { return };
+    let (setup, policy) = (Setup::default(), FindingPolicy::default());
+    let watch = &SilentWatcher;
+    let job = CorrectionJob { recipe: &recipe, setup: &setup, print: None, policy: &policy, dialect: None, watch };
+    let Ok(program) = job.correct_source(&part).map(|outcome| outcome.program) else { return };
     let again = Source::new("again.cls", program.to_bytes()).expect("a small file");
     let read = parse(&again, Some(program.dialect()));
     assert!(read.diagnostics.iter().all(|found| !found.is_error()), "{:?}", read.diagnostics);
-    assert_eq!(read.program.statements().len(), program.live().count(), "the output reads as other statements");
+    assert_eq!(read.program.statements().len(), program.live_statements().count(), "the output reads as other statements");
 });

@@ -1,7 +1,7 @@
 //! This module simulates milling: sweeps that remove material, and from them chip thickness and forces.
 //!
 //! Lengths are in mm, angles in radians, and points in the workpiece frame. A motion becomes straight pieces
-//! ([`path_linearizer`]). A [`Simulation`] sweeps the cutter along them, and each piece gets an
+//! (`path_linearizer`). A [`Simulation`] sweeps the cutter along them, and each piece gets an
 //! [`Engagement`]. From that, chip thickness, removal rate and forces follow for any feed and any teeth.
 //! [`crate::simulation_run`] runs whole programs.
 
