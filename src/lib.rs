@@ -5,7 +5,7 @@
 //! numbers; [`report`] says what changed. ARCHITECTURE.md follows one GOTO through all of it.
 
 // A room may hold what only rooms of a larger set use; what nobody uses is found with all of them.
-#![cfg_attr(not(feature = "cli"), allow(dead_code))]
+#![cfg_attr(not(feature = "cli"), allow(dead_code, unused_imports))]
 
 pub mod check;
 pub mod diagnostic;
@@ -66,6 +66,6 @@ pub mod batch;
 mod property;
 
 /// The examples of CONTRIBUTING.md, so that they compile and run as tests.
-#[cfg(doctest)]
+#[cfg(all(doctest, feature = "simulation"))]
 #[doc = include_str!("../CONTRIBUTING.md")]
 pub struct ContributingExamples;
