@@ -1,7 +1,8 @@
 //! A batch for people.
 
 use super::{BatchRecord, FileOutcome};
-use crate::report::text_format::{format_count, format_counted, format_duration, format_table};
+use crate::report::table::{Column, ColumnUnit, DisplayUnits, PrintedTable, TableLooks, TableValue};
+use crate::report::text_format::{format_count, format_counted, format_duration};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -19,11 +20,12 @@ pub fn summary_to_text(records: &[BatchRecord], before: usize, seconds: Option<f
         let _ = write!(text, ", {} done before", format_count(before as u64));
     }
     text.push_str("\n\n");
-    text.push_str(&format_table(&recipe_rows(records)));
-    let found = finding_rows(records);
-    if found.len() > 1 {
-        text.push('\n');
-        text.push_str(&format_table(&found));
+    let looks = TableLooks::plain(DisplayUnits::MM);
+    let recipes = PrintedTable::from_rows(&recipe_columns(), &recipe_rows(records), looks);
+    text.push_str(&recipes.to_text());
+    let found = PrintedTable::from_rows(&finding_columns(), &finding_rows(records), looks);
+    if !found.is_empty() {
+        let _ = write!(text, "\n{}", found.to_text());
     }
     let failed: Vec<&BatchRecord> =
         records.iter().filter(|record| record.outcome == FileOutcome::Failed).collect();
@@ -44,55 +46,88 @@ pub fn summary_to_text(records: &[BatchRecord], before: usize, seconds: Option<f
     text
 }
 
-fn recipe_rows(records: &[BatchRecord]) -> Vec<Vec<String>> {
+/// The files of one recipe, or all of them.
+struct RecipeRow<'a> {
+    name: String,
+    records: Vec<&'a BatchRecord>,
+}
+
+impl RecipeRow<'_> {
+    fn count_outcome(&self, outcome: FileOutcome) -> TableValue<'static> {
+        self.records.iter().filter(|record| record.outcome == outcome).count().into()
+    }
+
+    fn sum(&self, of: fn(&BatchRecord) -> usize) -> TableValue<'static> {
+        self.records.iter().map(|record| of(record)).sum::<usize>().into()
+    }
+}
+
+fn recipe_columns<'a>() -> [Column<RecipeRow<'a>>; 8] {
+    type Row<'a> = RecipeRow<'a>;
+    let unit = ColumnUnit::None;
+    [
+        Column::new("recipe", unit, |row: &Row<'a>| TableValue::text(&row.name)),
+        Column::new("files", unit, |row: &Row<'a>| row.records.len().into()),
+        Column::new("corrected", unit, |row: &Row<'a>| row.count_outcome(FileOutcome::Corrected)),
+        Column::new("unchanged", unit, |row: &Row<'a>| row.count_outcome(FileOutcome::Unchanged)),
+        Column::new("failed", unit, |row: &Row<'a>| row.count_outcome(FileOutcome::Failed)),
+        Column::new("not_run", unit, |row: &Row<'a>| row.count_outcome(FileOutcome::NotRun))
+            .titled("not run"),
+        Column::new("statements_changed", unit, |row: &Row<'a>| {
+            row.sum(|record| record.changed.edited + record.changed.inserted + record.changed.deleted)
+        })
+        .titled("statements changed"),
+        Column::new("warnings", unit, |row: &Row<'a>| row.sum(|record| record.counts.warnings)),
+    ]
+}
+
+fn recipe_rows(records: &[BatchRecord]) -> Vec<RecipeRow<'_>> {
     let mut by_recipe: BTreeMap<String, Vec<&BatchRecord>> = BTreeMap::new();
     for record in records {
         by_recipe.entry(record.recipe.to_string()).or_default().push(record);
     }
-    let head =
-        ["recipe", "files", "corrected", "unchanged", "failed", "not run", "statements changed", "warnings"];
-    let mut rows = vec![head.map(str::to_owned).to_vec()];
-    let row = |name: String, records: &[&BatchRecord]| {
-        let ended = |outcome| records.iter().filter(|record| record.outcome == outcome).count();
-        let sum = |of: fn(&BatchRecord) -> usize| records.iter().map(|record| of(record)).sum::<usize>();
-        let numbers = [
-            records.len(),
-            ended(FileOutcome::Corrected),
-            ended(FileOutcome::Unchanged),
-            ended(FileOutcome::Failed),
-            ended(FileOutcome::NotRun),
-            sum(|record| record.changed.edited + record.changed.inserted + record.changed.deleted),
-            sum(|record| record.counts.warnings),
-        ];
-        [name].into_iter().chain(numbers.map(|number| format_count(number as u64))).collect::<Vec<_>>()
-    };
-    if by_recipe.len() > 1 {
-        let all: Vec<&BatchRecord> = records.iter().collect();
-        rows.extend(by_recipe.into_iter().map(|(name, records)| row(name, &records)));
-        rows.push(row("all".to_owned(), &all));
-    } else {
-        rows.extend(by_recipe.into_iter().map(|(name, records)| row(name, &records)));
+    let mut rows: Vec<RecipeRow<'_>> =
+        by_recipe.into_iter().map(|(name, records)| RecipeRow { name, records }).collect();
+    if rows.len() > 1 {
+        rows.push(RecipeRow { name: "all".to_owned(), records: records.iter().collect() });
     }
     rows
 }
 
-/// Codes, how often, in how many files, and where first.
-fn finding_rows(records: &[BatchRecord]) -> Vec<Vec<String>> {
-    let mut by_code: BTreeMap<(&str, &str), (usize, usize, String)> = BTreeMap::new();
+/// A code, how often it was found, in how many files, and where first.
+struct FindingRow<'a> {
+    code: &'a str,
+    severity: &'a str,
+    times: usize,
+    files: usize,
+    first: String,
+}
+
+fn finding_columns<'a>() -> [Column<FindingRow<'a>>; 4] {
+    type Row<'a> = FindingRow<'a>;
+    let unit = ColumnUnit::None;
+    [
+        Column::new("finding", unit, |row: &Row<'a>| {
+            TableValue::Text(format!("{} {}", row.code, row.severity).into())
+        }),
+        Column::new("times", unit, |row: &Row<'a>| row.times.into()),
+        Column::new("files", unit, |row: &Row<'a>| row.files.into()),
+        Column::new("first_in", unit, |row: &Row<'a>| TableValue::text(&row.first)).titled("first in"),
+    ]
+}
+
+fn finding_rows(records: &[BatchRecord]) -> Vec<FindingRow<'_>> {
+    let mut by_code: BTreeMap<(&str, &str), FindingRow<'_>> = BTreeMap::new();
     for record in records {
         for found in &record.findings {
-            let line = found.line.map_or(String::new(), |line| format!(":{line}"));
-            let entry = by_code.entry((&found.code, &found.severity)).or_insert((0, 0, String::new()));
-            entry.0 += found.count;
-            entry.1 += 1;
-            if entry.2.is_empty() {
-                entry.2 = format!("{}{line}", record.input);
-            }
+            let (code, severity) = (found.code.as_str(), found.severity.as_str());
+            let row = by_code.entry((code, severity)).or_insert_with(|| {
+                let line = found.line.map_or(String::new(), |line| format!(":{line}"));
+                FindingRow { code, severity, times: 0, files: 0, first: format!("{}{line}", record.input) }
+            });
+            row.times += found.count;
+            row.files += 1;
         }
     }
-    let mut rows = vec![["finding", "times", "files", "first in"].map(str::to_owned).to_vec()];
-    rows.extend(by_code.into_iter().map(|((code, severity), (times, files, first))| {
-        vec![format!("{code} {severity}"), format_count(times as u64), format_count(files as u64), first]
-    }));
-    rows
+    by_code.into_values().collect()
 }

@@ -14,8 +14,8 @@ pub(crate) fn format_trimmed_number(value: f64, most_decimals: usize) -> String 
     trim_trailing_zeros(&text).to_owned()
 }
 
-/// Prints a number with so many significant digits, at most so many of them decimals, and without trailing zeros. Digits before
-/// the point are all printed: 12,345 with three significant digits is `12345`.
+/// Prints a number with so many significant digits, at most so many of them decimals, and without trailing
+/// zeros. Digits before the point are all printed: 12,345 with three significant digits is `12345`.
 pub(crate) fn format_significant_number(value: f64, digits: u8, most_decimals: u8) -> String {
     if value == 0.0 {
         return "0".to_owned();

@@ -8,6 +8,7 @@
 pub mod changes;
 pub mod comparison;
 pub mod diff;
+mod escaping;
 pub mod explain;
 pub mod finding_policy;
 pub mod html;
@@ -21,6 +22,7 @@ pub mod stats;
 pub mod step_descriptions;
 pub mod surface_milling;
 mod svg_chart;
+pub mod table;
 pub mod unified_diff;
 
 pub(crate) use crate::presentation::text_format;

@@ -1,4 +1,5 @@
-//! The set-up that all drawings share: an SVG of a fixed size, a chart with axes in a part of it, and the names of its lines.
+//! The set-up that all drawings share: an SVG of a fixed size, a chart with axes in a part of it, and the
+//! names of its lines.
 //!
 //! Sizes are fixed and no fonts are measured, so the same data make the same bytes.
 

@@ -3,8 +3,9 @@
 use super::{RecipeChanges, StepChanges};
 use crate::presentation::safe_text::to_safe_line;
 use crate::program::RecordKind;
-use crate::report::stats::MotionTotals;
-use crate::report::text_format::{format_counted, format_duration, format_fixed, format_table, unit_name};
+use crate::report::stats::totals_columns;
+use crate::report::table::{DisplayUnits, TableLooks, compare_figures, pick_columns};
+use crate::report::text_format::format_counted;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -42,23 +43,7 @@ fn format_kind_counts(map: &BTreeMap<RecordKind, usize>, verb: &str) -> Vec<Stri
 }
 
 fn format_totals(changes: &RecipeChanges) -> String {
-    let unit = unit_name(changes.units.unit);
-    let (before, after) = (&changes.before, &changes.after);
-    let time = |totals: &MotionTotals| {
-        let more = if totals.unknown_time.motions > 0 { "> " } else { "" };
-        format!("{more}{}", format_duration(totals.feed_seconds))
-    };
-    let row = |name: &str, old: String, new: String, from: f64, to: f64| {
-        let change = (to / from - 1.0) * 100.0;
-        let change = if change.is_finite() && old != new { format!("{change:+.1} %") } else { String::new() };
-        vec![name.to_owned(), old, new, change]
-    };
-    let length =
-        |name: &str, from: f64, to: f64| row(name, format_fixed(from, 1), format_fixed(to, 1), from, to);
-    format_table(&[
-        ["", "before", "after", "change"].map(str::to_owned).into(),
-        length(&format!("at feed, {unit}"), before.feed_length, after.feed_length),
-        length(&format!("at rapid, {unit}"), before.rapid_length, after.rapid_length),
-        row("time at feed", time(before), time(after), before.feed_seconds, after.feed_seconds),
-    ])
+    let columns = pick_columns(&totals_columns(), &["feed_length", "rapid_length", "feed_time"]);
+    let looks = TableLooks::plain(DisplayUnits::unconverted(changes.units.unit));
+    compare_figures(&columns, Some(&changes.before), Some(&changes.after), looks).to_text()
 }

@@ -4,6 +4,7 @@
 //! whatever the file's unit, as in a simulation. Without `before` one program is told of.
 
 mod compared_files;
+mod figure_columns;
 mod figures;
 mod markdown;
 mod simulation_runs;
@@ -13,8 +14,9 @@ pub use figures::{ComparisonFigures, ComparisonPeak};
 pub use markdown::to_markdown;
 pub use simulation_runs::ComparisonRuns;
 
+pub(in crate::report) use figure_columns::{build_operation_table, build_whole_table};
 pub(in crate::report) use figures::measure_motion;
-pub(in crate::report) use markdown::{build_operation_rows, build_step_row, build_whole_rows};
+pub(in crate::report) use markdown::build_step_table;
 
 use super::changes::RecipeChanges;
 use super::simulation::SimulationReport;

@@ -1,11 +1,14 @@
 //! The parts of the page that are plain text and tables.
 
-use super::markup::{escape_html, write_table};
 use crate::diagnostic::Diagnostic;
 use crate::presentation::safe_text::to_safe_line;
-use crate::report::comparison::{Comparison, build_operation_rows, build_step_row, build_whole_rows};
+use crate::report::comparison::{
+    ComparedFile, Comparison, build_operation_table, build_step_table, build_whole_table,
+};
+use crate::report::escaping::escape_html;
 use crate::report::render::SeverityCounts;
 use crate::report::render::human::{self, HumanRenderOptions};
+use crate::report::table::{Column, ColumnUnit, DisplayUnits, PrintedTable, TableLooks, TableValue};
 use crate::report::text_format::format_count;
 use crate::source::Source;
 use std::collections::BTreeMap;
@@ -25,9 +28,9 @@ pub fn write_section(
     match section {
         "lead" => write_lead(comparison, out),
         "parts" => write_compared_files(comparison, out),
-        "whole" => write_whole_program(comparison, out),
+        "whole" => build_whole_table(comparison).write_html(out),
         "steps" => write_steps(comparison, out),
-        "operations" => write_operations(comparison, out),
+        "operations" => build_operation_table(comparison).write_html(out),
         "findings" => write_findings(comparison, out),
         "assumptions" => write_assumptions(comparison, drawing, out),
         "texts" => write_source_texts(comparison, out),
@@ -55,49 +58,30 @@ fn write_compared_files(comparison: &Comparison<'_>, out: &mut dyn Write) -> io:
     if let Some(print) = comparison.subject.print {
         writeln!(out, "<p>Recipe and files: SHA-256 {}</p>", escape_html(print))?;
     }
-    let row = |part: &crate::report::comparison::ComparedFile| {
-        vec![
-            part.what.display_name().to_owned(),
-            to_safe_line(&part.name),
-            format_count(part.bytes),
-            part.sha256.clone(),
-        ]
-    };
-    let rows: Vec<_> = comparison.parts.iter().map(row).collect();
-    write_table(out, &["", "file", "bytes", "SHA-256"], 2, &rows)
+    PrintedTable::from_rows(&file_columns(), &comparison.parts, TableLooks::markup(DisplayUnits::MM))
+        .write_html(out)
 }
 
-fn write_whole_program(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
-    let rows = build_whole_rows(comparison);
-    if comparison.subject.before.is_some() {
-        let rows: Vec<Vec<String>> = rows.into_iter().map(Vec::from).collect();
-        return write_table(out, &["", "before", "after", "change"], 1, &rows);
-    }
-    let rows: Vec<Vec<String>> = rows.into_iter().map(|[name, _, after, _]| vec![name, after]).collect();
-    write_table(out, &["", ""], 1, &rows)
+fn file_columns() -> [Column<ComparedFile>; 4] {
+    let unit = ColumnUnit::None;
+    [
+        Column::new("what", unit, |part: &ComparedFile| TableValue::text(part.what.display_name()))
+            .titled("")
+            .left_aligned(),
+        Column::new("file", unit, |part: &ComparedFile| TableValue::text(&part.name)).left_aligned(),
+        Column::new("bytes", unit, |part: &ComparedFile| TableValue::Count(part.bytes as usize)),
+        Column::new("sha256", unit, |part: &ComparedFile| TableValue::text(&part.sha256)).titled("SHA-256"),
+    ]
 }
 
 fn write_steps(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
-    let Some(changes) = comparison.changes.as_ref().filter(|changes| !changes.steps.is_empty()) else {
-        return Ok(());
-    };
+    let Some(table) = build_step_table(comparison) else { return Ok(()) };
     out.write_all(b"<h2>Steps</h2>\n")?;
-    let row = |(index, step): (usize, _)| {
-        let [edited, inserted, deleted] = build_step_row(step);
-        vec![format!("{}. {}", index + 1, step.name), edited, inserted, deleted]
-    };
-    let rows: Vec<Vec<String>> = changes.steps.iter().enumerate().map(row).collect();
-    write_table(out, &["step", "edited", "inserted", "deleted"], 4, &rows)?;
+    table.write_html(out)?;
     for report in comparison.subject.reports {
         writeln!(out, "<pre>{}</pre>", escape_html(report.to_text().trim_matches('\n')))?;
     }
     Ok(())
-}
-
-fn write_operations(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
-    let (head, rows) = build_operation_rows(comparison);
-    let head: Vec<&str> = head.iter().map(String::as_str).collect();
-    write_table(out, &head, 2, &rows)
 }
 
 fn write_findings(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {

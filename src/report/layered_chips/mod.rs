@@ -5,6 +5,8 @@
 //! one of the assumptions says why.
 
 mod chip_collector;
+mod chip_columns;
+mod chip_document;
 mod chip_merging;
 mod chip_row;
 mod chip_thickness;
@@ -14,10 +16,12 @@ mod layer_drawing;
 mod move_scene;
 mod panel_sheet;
 mod stl_export;
+mod sum_columns;
 mod sums;
 mod text;
 
-pub use chip_row::{ChipLayerRow, ChipRow, write_csv, write_json};
+pub use chip_document::{write_csv, write_json};
+pub use chip_row::{ChipLayerRow, ChipRow};
 pub use diagram_drawing::draw_diagrams;
 pub use layer_drawing::draw_layers;
 pub use move_scene::{MoveScene, MoveSceneLayer};

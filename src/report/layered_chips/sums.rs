@@ -1,36 +1,28 @@
 //! Sums and largest values.
 
 use super::{ChipLayerRow, ChipRow};
-use crate::report::rounding::serialize_rounded;
-use serde::Serialize;
 
 /// A largest value and where it is.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChipPeak {
     /// The value.
-    #[serde(serialize_with = "serialize_rounded")]
     pub value: f64,
     /// The line of the motion.
     pub line: usize,
     /// The height of the layer, mm; of a whole motion none.
-    #[serde(rename = "z")]
     pub z_mm: Option<f64>,
 }
 
 /// Sums of everything that ran, also before the lines that are asked for; volumes in mm3.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ChipTotals {
     /// The workpiece before.
-    #[serde(serialize_with = "serialize_rounded")]
     pub stock_mm3: f64,
     /// All chips.
-    #[serde(serialize_with = "serialize_rounded")]
     pub chips_mm3: f64,
     /// What stood inside the cutter where a motion began, and is part of no chip.
-    #[serde(serialize_with = "serialize_rounded")]
     pub inside_mm3: f64,
     /// The workpiece after.
-    #[serde(serialize_with = "serialize_rounded")]
     pub left_mm3: f64,
     /// Motions that ran.
     pub motions: usize,
@@ -39,7 +31,7 @@ pub struct ChipTotals {
 }
 
 /// The motions of an operation that are asked for.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct OperationChips {
     /// Its name; empty where the file has none.
     pub name: String,
@@ -50,7 +42,6 @@ pub struct OperationChips {
     /// Motions with a chip.
     pub cutting: usize,
     /// Volume of the chips, mm3.
-    #[serde(serialize_with = "serialize_rounded")]
     pub volume_mm3: f64,
     /// The largest chip of a motion, mm3.
     pub chip_mm3: Option<ChipPeak>,
@@ -85,6 +76,25 @@ impl OperationChips {
             at(&mut self.chip_thickness_mm, chip_thickness_mm.unwrap_or(0.0));
             at(&mut self.engaged_deg, layer.engaged_deg());
             at(&mut self.pieces, *count as f64);
+        }
+    }
+}
+
+impl OperationChips {
+    /// Returns the largest values of several operations, of equal ones the first in the order of the file. A
+    /// largest number of pieces that is 1 is left out, because it says nothing.
+    pub(super) fn largest_of(operations: &[Self]) -> Self {
+        let most = |of: fn(&Self) -> Option<ChipPeak>| {
+            let all = operations.iter().filter_map(of);
+            all.reduce(|a, b| if b.value > a.value { b } else { a })
+        };
+        Self {
+            chip_mm3: most(|sums| sums.chip_mm3),
+            area_mm2: most(|sums| sums.area_mm2),
+            chip_thickness_mm: most(|sums| sums.chip_thickness_mm),
+            engaged_deg: most(|sums| sums.engaged_deg),
+            pieces: most(|sums| sums.pieces).filter(|most| most.value > 1.0),
+            ..Self::default()
         }
     }
 }

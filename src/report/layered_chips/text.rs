@@ -1,12 +1,17 @@
 //! Chips as text for people.
 
-use super::{ChipPeak, ChipReport, OperationChips};
+use super::sum_columns::operation_columns;
+use super::{ChipReport, OperationChips};
 use crate::presentation::safe_text::to_safe_line;
-use crate::report::text_format::{format_count, format_counted, format_fixed, format_short, format_table};
+use crate::report::table::{DisplayUnits, PrintedTable, TableLooks};
+use crate::report::text_format::{format_count, format_counted, format_fixed, format_short};
 use std::fmt::Write;
 
 /// Rows of a table that are shown; the JSON has all.
 const MOST_ROWS: usize = 24;
+
+/// Chips are told in mm, whatever the program's unit.
+const LOOKS: TableLooks = TableLooks::plain(DisplayUnits::MM);
 
 /// The chips as tables.
 pub fn to_text(report: &ChipReport) -> String {
@@ -58,60 +63,14 @@ fn append_operations(out: &mut String, report: &ChipReport) {
     if report.operations.is_empty() {
         return;
     }
-    let head =
-        ["operation", "tool", "motions", "cutting", "mm3", "largest", "mm2", "chip, mm", "engaged", "pieces"];
-    let mut rows: Vec<Vec<String>> = vec![head.map(str::to_owned).to_vec()];
-    rows.extend(report.operations.iter().take(MOST_ROWS).map(operation_cells));
-    out.push('\n');
-    out.push_str(&format_table(&rows));
-    let more = report.operations.len().saturating_sub(MOST_ROWS);
-    if more > 0 {
-        let _ = writeln!(out, "  and {} more", format_count(more as u64));
-    }
-    out.push('\n');
-}
-
-fn operation_cells(operation: &OperationChips) -> Vec<String> {
-    let peak = |largest: Option<ChipPeak>, decimals: usize| {
-        largest.map_or_else(|| "-".to_owned(), |largest| format_fixed(largest.value, decimals))
-    };
-    vec![
-        to_safe_line(&operation.name),
-        to_safe_line(&operation.tool),
-        format_count(operation.motions as u64),
-        format_count(operation.cutting as u64),
-        format_fixed(operation.volume_mm3, 1),
-        peak(operation.chip_mm3, 3),
-        peak(operation.area_mm2, 3),
-        peak(operation.chip_thickness_mm, 4),
-        peak(operation.engaged_deg, 1),
-        peak(operation.pieces, 0),
-    ]
+    let table = PrintedTable::from_rows(&operation_columns(), &report.operations, LOOKS).keep_rows(MOST_ROWS);
+    let _ = writeln!(out, "\n{}", table.to_text());
 }
 
 fn append_peaks(out: &mut String, report: &ChipReport) {
-    let most = |of: fn(&OperationChips) -> Option<ChipPeak>| {
-        let all = report.operations.iter().filter_map(of);
-        // The first of equals, in the order of the file.
-        all.reduce(|a, b| if b.value > a.value { b } else { a })
-    };
-    let all = [
-        ("largest chip", most(|sums| sums.chip_mm3), 4, "mm3"),
-        ("largest area on a layer", most(|sums| sums.area_mm2), 4, "mm2"),
-        ("thickest chip of a tooth", most(|sums| sums.chip_thickness_mm), 4, "mm"),
-        ("largest engagement", most(|sums| sums.engaged_deg), 1, "degrees"),
-        ("most separate pieces", most(|sums| sums.pieces).filter(|most| most.value > 1.0), 0, ""),
-    ];
-    for (what, found, decimals, unit) in all {
-        let Some(found) = found else { continue };
-        let at = found.z_mm.map_or_else(String::new, |z| format!(" at z {}", format_short(z)));
-        let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-        let _ = writeln!(
-            out,
-            "  {what}: {}{unit} on line {}{at}",
-            format_fixed(found.value, decimals),
-            found.line
-        );
+    let peaks = OperationChips::largest_of(&report.operations);
+    for sentence in operation_columns().iter().filter_map(|column| LOOKS.tell_peak(column, &peaks)) {
+        let _ = writeln!(out, "  {sentence}");
     }
     if report.rows.iter().all(|row| row.volume_mm3 <= 0.0) {
         let _ = writeln!(out, "  nothing is cut");

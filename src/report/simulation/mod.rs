@@ -9,6 +9,7 @@
 
 mod motion_row;
 mod simulation_collector;
+mod sum_columns;
 mod sums;
 mod target_comparison;
 mod text;
@@ -22,11 +23,12 @@ pub use text::to_text;
 
 use crate::diagnostic::{Diagnostic, Failure};
 use crate::report::rounding::{serialize_rounded, serialize_rounded_option};
+use crate::report::table::{DisplayUnits, JsonColumns, RecordNumbers};
 use crate::simulation_run::{
     Machining, RunWatcher, SimulationCost, SimulationRunOptions, chord_tolerance_mm,
 };
 use crate::stock::Dexels;
-use motion_row::PrintedMotionRow;
+use motion_row::motion_columns;
 use serde::{Serialize, Serializer};
 
 /// A program that was simulated.
@@ -187,15 +189,9 @@ impl From<SimulationCost> for ReportedCost {
     }
 }
 
-impl MotionRows {
-    /// The rows as they are printed.
-    fn printed_rows(&self) -> impl Iterator<Item = PrintedMotionRow<'_>> {
-        self.rows.iter().map(|row| PrintedMotionRow::from_row(row, self))
-    }
-}
-
 fn serialize_motion_rows<S: Serializer>(motions: &MotionRows, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_seq(motions.printed_rows())
+    let columns = JsonColumns::new(&motion_columns(), DisplayUnits::MM, RecordNumbers::Rounded);
+    columns.serialize_rows(motions.named_rows(), serializer)
 }
 
 /// The simulation as one JSON document, indented and with a line end.

@@ -1,8 +1,7 @@
 //! One motion, and the table of them all.
 
 use super::{MotionRows, SimulationReport};
-use crate::report::rounding::{serialize_rounded, serialize_rounded_option};
-use serde::Serialize;
+use crate::report::table::{Column, ColumnUnit, CsvTable, DisplayUnits, TableValue};
 use std::io::{self, Write};
 
 /// What a motion engaged and what the tool had to bear. `None` is not known.
@@ -42,74 +41,47 @@ pub struct MotionRow {
     pub power_kw: Option<f64>,
 }
 
-/// A row as it is printed: the columns of the CSV and the keys of the JSON.
-#[derive(Debug, Serialize)]
-pub(super) struct PrintedMotionRow<'a> {
-    line: Option<usize>,
-    operation: &'a str,
-    tool: &'a str,
-    #[serde(serialize_with = "serialize_rounded")]
-    length_mm: f64,
-    #[serde(serialize_with = "serialize_rounded_option")]
-    feed_mm_min: Option<f64>,
-    #[serde(serialize_with = "serialize_rounded_option")]
-    chip_thickness_mm: Option<f64>,
-    #[serde(serialize_with = "serialize_rounded_option")]
-    removal_rate_mm3_min: Option<f64>,
-    #[serde(serialize_with = "serialize_rounded_option")]
-    axial_depth_mm: Option<f64>,
-    #[serde(serialize_with = "serialize_rounded_option")]
-    radial_depth_mm: Option<f64>,
-    #[serde(serialize_with = "serialize_rounded_option")]
-    engagement_start_deg: Option<f64>,
-    #[serde(serialize_with = "serialize_rounded_option")]
-    engagement_end_deg: Option<f64>,
-    #[serde(serialize_with = "serialize_rounded_option")]
-    force_n: Option<f64>,
-    #[serde(serialize_with = "serialize_rounded_option")]
-    torque_nm: Option<f64>,
-    #[serde(serialize_with = "serialize_rounded_option")]
-    power_kw: Option<f64>,
+/// A row with the names that it shares with others.
+pub(super) struct NamedMotionRow<'a> {
+    row: &'a MotionRow,
+    motions: &'a MotionRows,
 }
 
-/// The columns, for a table without rows.
-const COLUMNS: [&str; 14] = [
-    "line",
-    "operation",
-    "tool",
-    "length_mm",
-    "feed_mm_min",
-    "chip_thickness_mm",
-    "removal_rate_mm3_min",
-    "axial_depth_mm",
-    "radial_depth_mm",
-    "engagement_start_deg",
-    "engagement_end_deg",
-    "force_n",
-    "torque_nm",
-    "power_kw",
-];
-
-impl<'a> PrintedMotionRow<'a> {
-    pub(super) fn from_row(row: &MotionRow, motions: &'a MotionRows) -> Self {
-        let name = |names: &'a [String], index: usize| names.get(index).map_or("", String::as_str);
-        Self {
-            line: row.line,
-            operation: name(&motions.operations, row.operation),
-            tool: name(&motions.tools, row.tool),
-            length_mm: row.length_mm,
-            feed_mm_min: row.feed_mm_min,
-            chip_thickness_mm: row.chip_thickness_mm,
-            removal_rate_mm3_min: row.removal_rate_mm3_min,
-            axial_depth_mm: row.axial_depth_mm,
-            radial_depth_mm: row.radial_depth_mm,
-            engagement_start_deg: row.engagement_start_deg,
-            engagement_end_deg: row.engagement_end_deg,
-            force_n: row.force_n,
-            torque_nm: row.torque_nm,
-            power_kw: row.power_kw,
-        }
+impl MotionRows {
+    /// Gives every row with its names.
+    pub(super) fn named_rows(&self) -> impl Iterator<Item = NamedMotionRow<'_>> {
+        self.rows.iter().map(|row| NamedMotionRow { row, motions: self })
     }
+}
+
+/// Returns the columns of the CSV, which are the keys of the JSON as well.
+pub(super) fn motion_columns<'a>() -> [Column<NamedMotionRow<'a>>; 14] {
+    use ColumnUnit as Unit;
+    type Row<'a> = NamedMotionRow<'a>;
+    [
+        Column::new("line", Unit::None, |named: &Row<'a>| named.row.line.into()),
+        Column::new("operation", Unit::None, |named: &Row<'a>| {
+            name_at(&named.motions.operations, named.row.operation)
+        }),
+        Column::new("tool", Unit::None, |named: &Row<'a>| name_at(&named.motions.tools, named.row.tool)),
+        Column::new("length", Unit::Length, |named: &Row<'a>| named.row.length_mm.into()),
+        Column::new("feed", Unit::FeedPerMinute, |named: &Row<'a>| named.row.feed_mm_min.into()),
+        Column::new("chip_thickness", Unit::Length, |named: &Row<'a>| named.row.chip_thickness_mm.into()),
+        Column::new("removal_rate", Unit::RemovalRate, |named: &Row<'a>| {
+            named.row.removal_rate_mm3_min.into()
+        }),
+        Column::new("axial_depth", Unit::Length, |named: &Row<'a>| named.row.axial_depth_mm.into()),
+        Column::new("radial_depth", Unit::Length, |named: &Row<'a>| named.row.radial_depth_mm.into()),
+        Column::new("engagement_start", Unit::Angle, |named: &Row<'a>| named.row.engagement_start_deg.into()),
+        Column::new("engagement_end", Unit::Angle, |named: &Row<'a>| named.row.engagement_end_deg.into()),
+        Column::new("force", Unit::Force, |named: &Row<'a>| named.row.force_n.into()),
+        Column::new("torque", Unit::Torque, |named: &Row<'a>| named.row.torque_nm.into()),
+        Column::new("power", Unit::Power, |named: &Row<'a>| named.row.power_kw.into()),
+    ]
+}
+
+fn name_at(names: &[String], index: usize) -> TableValue<'_> {
+    TableValue::text(names.get(index).map_or("", String::as_str))
 }
 
 /// The motions as a table: comma-separated, a head line, numbers with a decimal point, empty cells for what is not known.
@@ -117,18 +89,9 @@ impl<'a> PrintedMotionRow<'a> {
 /// # Errors
 /// What `out` returns.
 pub fn write_csv(simulated: &SimulationReport, out: &mut dyn Write) -> io::Result<()> {
-    let mut writer = csv::WriterBuilder::new().has_headers(false).from_writer(out);
-    writer.write_record(COLUMNS).map_err(to_io_error)?;
-    for cells in simulated.motions.printed_rows() {
-        writer.serialize(cells).map_err(to_io_error)?;
+    let mut table = CsvTable::begin(&motion_columns(), DisplayUnits::MM, out)?;
+    for named in simulated.motions.named_rows() {
+        table.write_row(&named)?;
     }
-    writer.flush()
-}
-
-/// The writer's own error, so that a stopped run is known as one.
-fn to_io_error(error: csv::Error) -> io::Error {
-    match error.into_kind() {
-        csv::ErrorKind::Io(error) => error,
-        other => io::Error::other(format!("{other:?}")),
-    }
+    table.finish()
 }

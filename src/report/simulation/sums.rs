@@ -1,42 +1,35 @@
 //! Sums and peaks over motions.
 
 use super::MotionRow;
-use crate::report::rounding::{serialize_rounded, serialize_rounded_option};
 use serde::Serialize;
 
 /// A largest value, and the line of the motion that has it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SimulationPeak {
     /// The value.
-    #[serde(serialize_with = "serialize_rounded")]
     pub value: f64,
     /// The line; `null` for a motion that a step put in.
     pub line: Option<usize>,
 }
 
 /// Sums and peaks over motions; a peak is `null` where nothing is cut, or its value is not known.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SimulationSums {
     /// Motions.
     pub motions: usize,
     /// Motions that remove material.
     pub cutting: usize,
     /// Length at feed, mm.
-    #[serde(serialize_with = "serialize_rounded")]
     pub feed_mm: f64,
     /// Length at rapid, mm.
-    #[serde(serialize_with = "serialize_rounded")]
     pub rapid_mm: f64,
     /// Time at feed where the feed is known, without acceleration and dwells, s.
-    #[serde(serialize_with = "serialize_rounded")]
     pub feed_seconds: f64,
     /// Motions at feed whose time is not known.
     pub untimed: usize,
     /// Time at rapid, s; `null` when the machine's rapid feed is not known.
-    #[serde(serialize_with = "serialize_rounded_option")]
     pub rapid_seconds: Option<f64>,
     /// Removed volume, mm3.
-    #[serde(serialize_with = "serialize_rounded")]
     pub removed_mm3: f64,
     /// Thickest chip, mm.
     pub chip_thickness_mm: Option<SimulationPeak>,

@@ -1,16 +1,21 @@
 //! A simulation as text for people.
 
+use super::sum_columns::{operation_columns, sum_columns};
 use super::target_comparison::TargetMismatch;
-use super::{OperationSums, SimulationPeak, SimulationReport, SimulationSums};
+use super::{SimulationReport, SimulationSums};
 use crate::number::format_named_point;
 use crate::presentation::safe_text::to_safe_line;
+use crate::report::table::{DisplayUnits, PrintedTable, TableLooks, pick_columns};
 use crate::report::text_format::{
-    format_count, format_counted, format_duration, format_fixed, format_short, format_table, format_trimmed,
+    format_count, format_counted, format_duration, format_fixed, format_short, format_trimmed,
 };
 use std::fmt::Write;
 
 /// Rows of a table that are shown; the JSON has all.
 const MOST_ROWS: usize = 24;
+
+/// Simulations are told in mm, whatever the program's unit.
+const LOOKS: TableLooks = TableLooks::plain(DisplayUnits::MM);
 
 /// The simulation as tables.
 pub fn to_text(simulated: &SimulationReport) -> String {
@@ -76,71 +81,31 @@ fn format_feed_time(sums: &SimulationSums) -> String {
     format!("{}{}", if sums.untimed > 0 { "> " } else { "" }, format_duration(sums.feed_seconds))
 }
 
-fn append_operations(out: &mut String, simulated: &SimulationReport) {
-    let forces = simulated.motions.rows.iter().any(|row| row.force_n.is_some());
-    let mut head = vec![
-        "operation",
-        "tool",
-        "motions",
-        "at feed, mm",
-        "time",
-        "mm3",
-        "chip, mm",
-        "mm3/min",
-        "deep",
-        "wide",
-    ];
-    if forces {
-        head.extend(["N", "kW"]);
-    }
-    let mut rows: Vec<Vec<String>> = vec![head.into_iter().map(str::to_owned).collect()];
-    rows.extend(
-        simulated.operations.iter().take(MOST_ROWS).map(|operation| operation_cells(operation, forces)),
-    );
-    out.push('\n');
-    out.push_str(&format_table(&rows));
-    let more = simulated.operations.len().saturating_sub(MOST_ROWS);
-    if more > 0 {
-        let _ = writeln!(out, "  and {} more", format_count(more as u64));
-    }
-    out.push('\n');
-}
+/// The sums of an operation in its table, in this order.
+const SUMS: [&str; 8] = [
+    "motions",
+    "feed",
+    "feed_time",
+    "removed",
+    "chip_thickness",
+    "removal_rate",
+    "axial_depth",
+    "radial_depth",
+];
 
-fn operation_cells(operation: &OperationSums, forces: bool) -> Vec<String> {
-    let sums = &operation.sums;
-    let peak = |peak: Option<SimulationPeak>, decimals: usize| {
-        peak.map_or_else(|| "-".to_owned(), |peak| format_fixed(peak.value, decimals))
-    };
-    let mut row = vec![
-        to_safe_line(&operation.name),
-        to_safe_line(&operation.tool),
-        format_count(sums.motions as u64),
-        format_fixed(sums.feed_mm, 1),
-        format_feed_time(sums),
-        format_fixed(sums.removed_mm3, 1),
-        peak(sums.chip_thickness_mm, 4),
-        peak(sums.removal_rate_mm3_min, 0),
-        peak(sums.axial_depth_mm, 2),
-        peak(sums.radial_depth_mm, 2),
-    ];
-    if forces {
-        row.extend([peak(sums.force_n, 0), peak(sums.power_kw, 3)]);
+fn append_operations(out: &mut String, simulated: &SimulationReport) {
+    let mut columns = operation_columns().to_vec();
+    columns.extend(pick_columns(&sum_columns(), &SUMS));
+    if simulated.motions.rows.iter().any(|row| row.force_n.is_some()) {
+        columns.extend(pick_columns(&sum_columns(), &["force", "power"]));
     }
-    row
+    let table = PrintedTable::from_rows(&columns, &simulated.operations, LOOKS).keep_rows(MOST_ROWS);
+    let _ = writeln!(out, "\n{}", table.to_text());
 }
 
 fn append_peaks(out: &mut String, totals: &SimulationSums) {
-    let all = [
-        ("thickest chip", totals.chip_thickness_mm, 4, "mm"),
-        ("largest removal rate", totals.removal_rate_mm3_min, 0, "mm3/min"),
-        ("largest force", totals.force_n, 0, "N"),
-        ("largest torque", totals.torque_nm, 2, "N m"),
-        ("largest power", totals.power_kw, 3, "kW"),
-    ];
-    for (what, peak, decimals, unit) in all {
-        let Some(peak) = peak else { continue };
-        let line = peak.line.map_or_else(String::new, |line| format!(" on line {line}"));
-        let _ = writeln!(out, "  {what}: {} {unit}{line}", format_fixed(peak.value, decimals));
+    for sentence in sum_columns().iter().filter_map(|column| LOOKS.tell_peak(column, totals)) {
+        let _ = writeln!(out, "  {sentence}");
     }
     if totals.cutting == 0 {
         let _ = writeln!(out, "  nothing is cut");

@@ -2,7 +2,6 @@
 
 use super::totals::MotionLengthAndTime;
 use crate::program::{Feed, FeedUnit};
-use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// From this many feeds on, feeds within a step of 5 % share a row: an optimized program has a feed for every move.
@@ -12,7 +11,7 @@ const MOST_ROWS: usize = 200;
 const STEP: f64 = 1.05;
 
 /// The motions at one programmed feed, or at feeds within 5 % when there are more than 200.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeedRow {
     /// The word of the unit (`MMPM`, `IPR`, ...); `null` where the file names none (units per minute).
     pub unit: Option<&'static str>,

@@ -7,11 +7,14 @@
 mod bounding_box;
 mod feed_rows;
 mod stats_collector;
+mod stats_columns;
+mod stats_json;
 mod text;
 mod totals;
 
 pub use bounding_box::MotionBoundingBox;
 pub use feed_rows::FeedRow;
+pub(in crate::report) use stats_columns::totals_columns;
 pub use text::to_text;
 pub(crate) use totals::MotionLengthAndTime;
 pub use totals::{MotionTotals, UntimedMotions};
@@ -156,7 +159,7 @@ pub struct FrameStats {
 }
 
 /// A tool, as far as the file says.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ToolStats {
     /// Number.
     pub number: Option<u32>,
@@ -179,7 +182,7 @@ pub struct ToolStats {
 }
 
 /// An operation.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct OperationStats {
     /// Name; empty where the file has none.
     pub name: String,

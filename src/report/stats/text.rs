@@ -1,12 +1,13 @@
 //! Statistics as text for people.
 
-use super::{
-    FeedRow, LengthUnitOrigin, MotionBoundingBox, MotionTotals, ProgramStats, ReportedRange, ToolStats,
+use super::stats_columns::{
+    NamedBox, NamedOperation, NamedTotals, box_columns, feed_columns, name_column, operation_columns,
+    tool_columns, totals_columns,
 };
+use super::{FeedRow, LengthUnitOrigin, ProgramStats, ReportedRange};
 use crate::presentation::safe_text::to_safe_line;
-use crate::report::text_format::{
-    format_count, format_counted, format_duration, format_fixed, format_short, format_table, unit_name,
-};
+use crate::report::table::{DisplayUnits, PrintedTable, TableLooks, pick_columns};
+use crate::report::text_format::{format_count, format_counted, format_short, unit_name};
 use std::fmt::Write;
 
 /// Rows of a table that are shown; the JSON has all.
@@ -73,38 +74,27 @@ fn append_path_shapes(out: &mut String, stats: &ProgramStats) {
     }
 }
 
-fn head_cells(first: &str, rest: &[&str]) -> Vec<String> {
-    std::iter::once(first).chain(rest.iter().copied()).map(str::to_owned).collect()
-}
+/// The sums in tables, in this order.
+const TOTALS: [&str; 5] = ["motions", "feed_length", "feed_time", "rapid_length", "rapid_time"];
 
-const SUMS: [&str; 5] = ["motions", "at feed", "time", "at rapid", "time"];
-
-fn totals_cells(totals: &MotionTotals) -> [String; 5] {
-    // A time that leaves motions out is a lower bound, and says so.
-    let more = if totals.unknown_time.motions > 0 { "> " } else { "" };
-    [
-        format_count(totals.motions as u64),
-        format_fixed(totals.feed_length, 1),
-        format!("{more}{}", format_duration(totals.feed_seconds)),
-        format_fixed(totals.rapid_length, 1),
-        totals.rapid_seconds.map_or_else(|| "-".to_owned(), format_duration),
-    ]
-}
-
-fn named_totals_cells(name: &str, totals: &MotionTotals) -> Vec<String> {
-    std::iter::once(name.to_owned()).chain(totals_cells(totals)).collect()
+/// A line above the tables says the units.
+fn table_looks(stats: &ProgramStats) -> TableLooks {
+    TableLooks::plain(DisplayUnits::unconverted(stats.units.unit)).without_units_in_heads()
 }
 
 fn append_classes(out: &mut String, stats: &ProgramStats) {
     if stats.totals.motions == 0 {
         return;
     }
-    let mut rows = vec![head_cells("class", &SUMS)];
-    rows.extend(
-        stats.classes.iter().map(|class| named_totals_cells(&class.class.to_string(), &class.totals)),
-    );
-    rows.push(named_totals_cells("total", &stats.totals));
-    let _ = write!(out, "\n{}", format_table(&rows));
+    let mut rows: Vec<NamedTotals<'_>> = stats
+        .classes
+        .iter()
+        .map(|class| NamedTotals { name: class.class.to_string(), totals: &class.totals })
+        .collect();
+    rows.push(NamedTotals { name: "total".to_owned(), totals: &stats.totals });
+    let mut columns = vec![name_column()];
+    columns.extend(pick_columns(&totals_columns(), &TOTALS));
+    let _ = write!(out, "\n{}", PrintedTable::from_rows(&columns, &rows, table_looks(stats)).to_text());
     let unknown = stats.totals.unknown_time;
     let reasons = [
         (unknown.no_feed, "no feed is programmed"),
@@ -120,53 +110,29 @@ fn append_classes(out: &mut String, stats: &ProgramStats) {
     }
 }
 
-fn append_hidden_row_count(out: &mut String, rows: usize) {
-    if let Some(left) = rows.checked_sub(MOST_ROWS).filter(|left| *left > 0) {
-        let _ = writeln!(out, "  and {} more", format_count(left as u64));
-    }
-}
-
 fn append_operations(out: &mut String, stats: &ProgramStats) {
     if stats.operations.len() < 2 && stats.operations.iter().all(|operation| operation.name.is_empty()) {
         return;
     }
-    let mut rows =
-        vec![head_cells("operation", &["tool", "motions", "at feed", "time", "at rapid", "time", "feed"])];
-    for operation in stats.operations.iter().take(MOST_ROWS) {
-        let tool = operation.tool.and_then(|tool| stats.tools.get(tool));
-        let mut cells = vec![to_safe_line(&operation.name), tool.map(format_tool).unwrap_or_default()];
-        cells.extend(totals_cells(&operation.totals));
-        cells.push(format_range(operation.feed));
-        rows.push(cells);
-    }
-    let _ = write!(out, "\n{}", format_table(&rows));
-    append_hidden_row_count(out, stats.operations.len());
-}
-
-fn format_tool(tool: &ToolStats) -> String {
-    let number = tool.number.map(|number| number.to_string());
-    let name = tool.name.as_deref().map(to_safe_line);
-    match (number, name) {
-        (Some(number), Some(name)) => format!("{number} {name}"),
-        (one, other) => one.or(other).unwrap_or_else(|| "-".to_owned()),
-    }
+    let [name, tool, feed] = operation_columns();
+    let mut columns = vec![name, tool];
+    columns.extend(pick_columns(&totals_columns(), &TOTALS));
+    columns.push(feed);
+    let named = |operation| NamedOperation { operation, tools: &stats.tools };
+    let rows: Vec<NamedOperation<'_>> = stats.operations.iter().map(named).collect();
+    let table = PrintedTable::from_rows(&columns, &rows, table_looks(stats)).keep_rows(MOST_ROWS);
+    let _ = write!(out, "\n{}", table.to_text());
 }
 
 fn append_tools(out: &mut String, stats: &ProgramStats) {
     if stats.tools.is_empty() {
         return;
     }
-    let rest = ["diameter", "corner", "length", "flutes", "motions", "at feed", "time"];
-    let mut rows = vec![head_cells("tool", &rest)];
-    for tool in stats.tools.iter().take(MOST_ROWS) {
-        let shape = [tool.diameter, tool.corner_radius, tool.length, tool.flute_length];
-        let mut cells = vec![format_tool(tool)];
-        cells.extend(shape.map(|value| value.map_or_else(|| "-".to_owned(), format_short)));
-        cells.extend(totals_cells(&tool.totals).into_iter().take(3));
-        rows.push(cells);
-    }
-    let _ = write!(out, "\n{}", format_table(&rows));
-    append_hidden_row_count(out, stats.tools.len());
+    let shape = ["tool", "diameter", "corner_radius", "length", "flute_length"];
+    let mut columns = pick_columns(&tool_columns(), &shape);
+    columns.extend(pick_columns(&totals_columns(), &["motions", "feed_length", "feed_time"]));
+    let table = PrintedTable::from_rows(&columns, &stats.tools, table_looks(stats)).keep_rows(MOST_ROWS);
+    let _ = write!(out, "\n{}", table.to_text());
 }
 
 fn append_feeds(out: &mut String, stats: &ProgramStats) {
@@ -182,18 +148,10 @@ fn append_feeds(out: &mut String, stats: &ProgramStats) {
         shown.retain(|row| row.length >= least);
         shown.truncate(MOST_ROWS);
     }
-    let mut rows = vec![head_cells("programmed feed", &["motions", "length", "time"])];
-    for row in shown {
-        let unit = row.unit.unwrap_or("(no unit)");
-        rows.push(vec![
-            format!("{} {unit}", format_range(Some(ReportedRange { min: row.min, max: row.max }))),
-            format_count(row.motions as u64),
-            format_fixed(row.length, 1),
-            row.seconds.map_or_else(|| "?".to_owned(), format_duration),
-        ]);
-    }
-    let _ = write!(out, "\n{}", format_table(&rows));
-    append_hidden_row_count(out, stats.feeds.len());
+    let columns = pick_columns(&feed_columns(), &["programmed_feed", "motions", "length", "time"]);
+    let left_out = stats.feeds.len() - shown.len();
+    let table = PrintedTable::from_rows(&columns, shown, table_looks(stats)).leave_out(left_out);
+    let _ = write!(out, "\n{}", table.to_text());
 }
 
 fn format_range(range: Option<ReportedRange>) -> String {
@@ -206,16 +164,10 @@ fn format_range(range: Option<ReportedRange>) -> String {
 
 fn append_bounding_boxes(out: &mut String, stats: &ProgramStats) {
     let boxes = [("box at feed", stats.box_of_feed), ("box of all", stats.box_of_all)];
-    let mut rows = vec![head_cells("", &["x", "y", "z"])];
-    for (name, bounds) in boxes {
-        let Some(MotionBoundingBox { min, max }) = bounds else { continue };
-        let sides = min
-            .iter()
-            .zip(max)
-            .map(|(low, high)| format!("{} .. {}", format_short(*low), format_short(high)));
-        rows.push(std::iter::once(name.to_owned()).chain(sides).collect());
-    }
-    if rows.len() > 1 {
-        let _ = write!(out, "\n{}", format_table(&rows));
+    let known = boxes.into_iter().filter_map(|(name, bounds)| bounds.map(|bounds| NamedBox { name, bounds }));
+    let rows: Vec<NamedBox> = known.collect();
+    let table = PrintedTable::from_rows(&box_columns(), &rows, table_looks(stats));
+    if !table.is_empty() {
+        let _ = write!(out, "\n{}", table.to_text());
     }
 }

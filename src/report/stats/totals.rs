@@ -6,7 +6,7 @@ use crate::program::{FeedUnit, LengthUnit};
 use serde::Serialize;
 
 /// Sums over motions. Lengths in the file's unit, times in seconds.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionTotals {
     /// Motions; a first point, which comes from nowhere, is none.
     pub motions: usize,

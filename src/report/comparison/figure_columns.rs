@@ -1,0 +1,172 @@
+//! The figures of a program by name, unit and printing, and the tables made of them.
+
+use super::{Comparison, ComparisonFigures, ComparisonPeak, ComparisonRow};
+use crate::presentation::safe_text::to_safe_line;
+use crate::report::table::{
+    Column, ColumnUnit, DisplayUnits, PeakPlace, PrintedTable, TableLooks, TableValue, compare_figures,
+    list_figures, pick_columns, print_change,
+};
+use crate::report::text_format::format_count;
+
+/// The figures in the table of the whole program, in this order.
+const WHOLE: [&str; 11] = [
+    "feed_time",
+    "rapid_time",
+    "feed_length",
+    "rapid_length",
+    "slowest_feed",
+    "fastest_feed",
+    "chip_thickness",
+    "removal_rate",
+    "force",
+    "torque",
+    "power",
+];
+
+/// Figures are in mm, whatever the program's unit.
+const LOOKS: TableLooks = TableLooks::markup(DisplayUnits::MM);
+
+fn figure_columns() -> Vec<Column<ComparisonFigures>> {
+    let mut columns = path_columns();
+    columns.extend(load_columns());
+    columns
+}
+
+/// Returns what the program alone tells.
+fn path_columns() -> Vec<Column<ComparisonFigures>> {
+    use ColumnUnit as Unit;
+    vec![
+        Column::new("feed_time", Unit::Duration, |figures: &ComparisonFigures| TableValue::Duration {
+            seconds: figures.feed_seconds,
+            // A time that leaves motions out is a lower bound.
+            is_lower_bound: figures.untimed > 0,
+        })
+        .titled("time")
+        .told_as("time at feed", 1),
+        Column::new("rapid_time", Unit::Duration, |figures: &ComparisonFigures| {
+            TableValue::duration(figures.rapid_seconds)
+        })
+        .titled("time at rapid"),
+        Column::new("feed_length", Unit::Length, |figures: &ComparisonFigures| figures.feed_mm.into())
+            .titled("length at feed")
+            .decimals(1),
+        Column::new("rapid_length", Unit::Length, |figures: &ComparisonFigures| figures.rapid_mm.into())
+            .titled("length at rapid")
+            .decimals(1),
+        Column::new("feed", Unit::FeedPerMinute, |figures: &ComparisonFigures| {
+            figures.feed_range_mm_min.map_or(TableValue::Missing, TableValue::Range)
+        }),
+        Column::new("slowest_feed", Unit::FeedPerMinute, |figures: &ComparisonFigures| {
+            figures.feed_range_mm_min.map(|[low, _]| low).into()
+        })
+        .titled("slowest feed"),
+        Column::new("fastest_feed", Unit::FeedPerMinute, |figures: &ComparisonFigures| {
+            figures.feed_range_mm_min.map(|[_, high]| high).into()
+        })
+        .titled("fastest feed"),
+    ]
+}
+
+/// Returns what a simulation tells.
+fn load_columns() -> Vec<Column<ComparisonFigures>> {
+    use ColumnUnit as Unit;
+    vec![
+        Column::new("chip_thickness", Unit::Length, |figures: &ComparisonFigures| {
+            peak_value(figures.chip_thickness_mm)
+        })
+        .titled("thickest chip")
+        .decimals(4),
+        Column::new("removal_rate", Unit::RemovalRate, |figures: &ComparisonFigures| {
+            peak_value(figures.removal_rate_mm3_min)
+        })
+        .titled("largest removal rate")
+        .decimals(0),
+        Column::new("force", Unit::Force, |figures: &ComparisonFigures| peak_value(figures.force_n))
+            .titled("largest force")
+            .decimals(0),
+        Column::new("torque", Unit::Torque, |figures: &ComparisonFigures| peak_value(figures.torque_nm))
+            .titled("largest torque")
+            .decimals(2),
+        Column::new("power", Unit::Power, |figures: &ComparisonFigures| peak_value(figures.power_kw))
+            .titled("power")
+            .told_as("largest power", 3)
+            .decimals(3),
+    ]
+}
+
+/// The line of a peak is not told in these tables.
+fn peak_value(peak: Option<ComparisonPeak>) -> TableValue<'static> {
+    let value = |peak: ComparisonPeak| TableValue::Peak { value: peak.value, place: PeakPlace::Line(None) };
+    peak.map_or(TableValue::Missing, value)
+}
+
+/// Makes the table of the whole program: its figures before, after and their change, or those of one program
+/// alone. Figures that are not known of any program are left out.
+pub(in crate::report) fn build_whole_table(comparison: &Comparison<'_>) -> PrintedTable {
+    let columns = pick_columns(&figure_columns(), &WHOLE);
+    let ComparisonRow { before, after, .. } = &comparison.whole;
+    match comparison.subject.before {
+        Some(_) => compare_figures(&columns, before.as_ref(), after.as_ref(), LOOKS),
+        None => list_figures(&columns, after.as_ref(), LOOKS),
+    }
+}
+
+/// Makes the table of operations. With a program before, each figure takes two columns, and the time has its
+/// change.
+pub(in crate::report) fn build_operation_table(comparison: &Comparison<'_>) -> PrintedTable {
+    let both = comparison.subject.before.is_some();
+    let columns = pick_operation_figures(comparison);
+    let mut table = PrintedTable::default();
+    for (head, is_left_aligned) in [("operation", true), ("tool", true), ("motions", false)] {
+        table.push_column(head, is_left_aligned);
+    }
+    for (index, column) in columns.iter().enumerate() {
+        table.push_column(column.head(LOOKS), false);
+        if both {
+            table.push_column("after", false);
+        }
+        if both && index == 0 {
+            table.push_column("change", false);
+        }
+    }
+    for row in &comparison.operations {
+        table.push_row(print_operation(&row.name, row, &columns, both));
+    }
+    if comparison.operations.len() > 1 {
+        table.push_row(print_operation("all", &comparison.whole, &columns, both));
+    }
+    table
+}
+
+fn print_operation(
+    name: &str,
+    row: &ComparisonRow,
+    columns: &[Column<ComparisonFigures>],
+    both: bool,
+) -> Vec<String> {
+    let (before, after) = (row.before.as_ref(), row.after.as_ref());
+    let motions = after.or(before).map_or(0, |figures| figures.motions);
+    let mut cells =
+        vec![to_safe_line(name), to_safe_line(&row.tools.join(", ")), format_count(motions as u64)];
+    for (index, column) in columns.iter().enumerate() {
+        let print = |figures: Option<&ComparisonFigures>| {
+            figures.map(|figures| LOOKS.print_cell(column, figures)).unwrap_or_default()
+        };
+        cells.extend(both.then(|| print(before)));
+        cells.push(print(after));
+        cells.extend((both && index == 0).then(|| print_change(column, before, after)));
+    }
+    cells
+}
+
+/// Returns time and feed, and what a simulation tells where there was one.
+fn pick_operation_figures(comparison: &Comparison<'_>) -> Vec<Column<ComparisonFigures>> {
+    let ComparisonRow { before, after, .. } = &comparison.whole;
+    let is_known = |column: &Column<ComparisonFigures>| {
+        [before, after].into_iter().flatten().any(|figures| !column.value(figures).is_missing())
+    };
+    let mut columns = pick_columns(&figure_columns(), &["feed_time", "feed"]);
+    let loads = pick_columns(&figure_columns(), &["chip_thickness", "power"]);
+    columns.extend(loads.into_iter().filter(is_known));
+    columns
+}

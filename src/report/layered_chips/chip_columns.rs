@@ -1,0 +1,74 @@
+//! Motions and layers by name, unit and printing.
+
+use super::{ChipLayerRow, ChipRow};
+use crate::report::table::{Column, ColumnUnit, TableValue};
+
+/// A layer of a motion: a row of the CSV.
+pub(super) struct ChipLayerOfMotion<'a> {
+    pub motion: &'a ChipRow,
+    pub layer: &'a ChipLayerRow,
+}
+
+impl AsRef<ChipRow> for ChipRow {
+    fn as_ref(&self) -> &ChipRow {
+        self
+    }
+}
+
+impl AsRef<ChipRow> for ChipLayerOfMotion<'_> {
+    fn as_ref(&self) -> &ChipRow {
+        self.motion
+    }
+}
+
+impl AsRef<ChipLayerRow> for ChipLayerRow {
+    fn as_ref(&self) -> &ChipLayerRow {
+        self
+    }
+}
+
+impl AsRef<ChipLayerRow> for ChipLayerOfMotion<'_> {
+    fn as_ref(&self) -> &ChipLayerRow {
+        self.layer
+    }
+}
+
+/// Returns the columns of a motion, in the order of the JSON. Sums over its layers are in JSON alone, because
+/// a row of the CSV is one layer.
+pub(super) fn motion_columns<R: AsRef<ChipRow>>() -> [Column<R>; 9] {
+    use ColumnUnit as Unit;
+    [
+        Column::new("line", Unit::None, |row: &R| row.as_ref().line.into()),
+        Column::new("operation", Unit::None, |row: &R| TableValue::text(&row.as_ref().operation)),
+        Column::new("tool", Unit::None, |row: &R| TableValue::text(&row.as_ref().tool)),
+        Column::new("rapid", Unit::None, |row: &R| TableValue::Flag(row.as_ref().rapid)).only_in_json(),
+        Column::new("length", Unit::Length, |row: &R| row.as_ref().length_mm.into()),
+        Column::new("feed", Unit::FeedPerMinute, |row: &R| row.as_ref().feed_mm_min.into()),
+        Column::new("volume", Unit::Volume, |row: &R| row.as_ref().volume_mm3.into()).only_in_json(),
+        Column::new("inside", Unit::Volume, |row: &R| row.as_ref().inside_mm3.into()).only_in_json(),
+        Column::new("chip_thickness", Unit::Length, |row: &R| row.as_ref().chip_thickness_mm.into())
+            .only_in_json(),
+    ]
+}
+
+/// Returns the columns of a layer, in the order of the CSV and the JSON. What follows from other keys is in
+/// CSV alone.
+pub(super) fn layer_columns<R: AsRef<ChipLayerRow>>() -> [Column<R>; 9] {
+    use ColumnUnit as Unit;
+    [
+        Column::new("z", Unit::Length, |row: &R| row.as_ref().z_mm.into()).old_json_key("z"),
+        Column::new("thickness", Unit::Length, |row: &R| row.as_ref().thickness_mm.into()),
+        Column::new("area", Unit::Area, |row: &R| row.as_ref().area_mm2.into()),
+        Column::new("volume", Unit::Volume, |row: &R| {
+            let layer = row.as_ref();
+            (layer.area_mm2 * layer.thickness_mm).into()
+        })
+        .only_in_csv(),
+        Column::new("inside", Unit::Area, |row: &R| row.as_ref().inside_mm2.into()),
+        Column::new("pieces", Unit::None, |row: &R| row.as_ref().count.into()).only_in_csv(),
+        Column::new("chip_thickness", Unit::Length, |row: &R| row.as_ref().chip_thickness_mm.into()),
+        Column::new("engaged", Unit::Angle, |row: &R| row.as_ref().known_engagement_deg().into())
+            .only_in_csv(),
+        Column::new("arcs", Unit::Angle, |row: &R| TableValue::Intervals(&row.as_ref().arcs_deg)),
+    ]
+}

@@ -1,0 +1,110 @@
+//! Sums of simulations by name, unit and printing.
+
+use super::{OperationSums, SimulationPeak, SimulationSums};
+use crate::report::table::{
+    Column, ColumnUnit, DisplayUnits, JsonColumns, PeakPlace, RecordNumbers, TableValue,
+};
+use serde::{Serialize, Serializer};
+
+impl AsRef<SimulationSums> for SimulationSums {
+    fn as_ref(&self) -> &SimulationSums {
+        self
+    }
+}
+
+impl AsRef<SimulationSums> for OperationSums {
+    fn as_ref(&self) -> &SimulationSums {
+        &self.sums
+    }
+}
+
+impl Serialize for SimulationSums {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let columns = JsonColumns::new(&sum_columns(), DisplayUnits::MM, RecordNumbers::Rounded);
+        columns.object(self).serialize(serializer)
+    }
+}
+
+/// Returns the columns that say of which operation the sums are.
+pub(super) fn operation_columns() -> [Column<OperationSums>; 2] {
+    [
+        Column::new("operation", ColumnUnit::None, |row: &OperationSums| TableValue::text(&row.name))
+            .left_aligned(),
+        Column::new("tool", ColumnUnit::None, |row: &OperationSums| TableValue::text(&row.tool))
+            .left_aligned(),
+    ]
+}
+
+/// Returns the sums as columns, in the order of the JSON.
+pub(super) fn sum_columns<R: AsRef<SimulationSums>>() -> Vec<Column<R>> {
+    let mut columns = path_columns().to_vec();
+    columns.extend(load_columns());
+    columns
+}
+
+fn path_columns<R: AsRef<SimulationSums>>() -> [Column<R>; 8] {
+    use ColumnUnit as Unit;
+    [
+        Column::new("motions", Unit::None, |row: &R| row.as_ref().motions.into()),
+        Column::new("cutting", Unit::None, |row: &R| row.as_ref().cutting.into()),
+        Column::new("feed", Unit::Length, |row: &R| row.as_ref().feed_mm.into())
+            .titled("at feed")
+            .decimals(1),
+        Column::new("rapid", Unit::Length, |row: &R| row.as_ref().rapid_mm.into())
+            .titled("at rapid")
+            .decimals(1),
+        Column::new("feed_time", Unit::Duration, |row: &R| TableValue::Duration {
+            seconds: row.as_ref().feed_seconds,
+            // A time that leaves motions out is a lower bound.
+            is_lower_bound: row.as_ref().untimed > 0,
+        })
+        .titled("time")
+        .old_json_key("feed_seconds"),
+        Column::new("untimed", Unit::None, |row: &R| row.as_ref().untimed.into()),
+        Column::new("rapid_time", Unit::Duration, |row: &R| TableValue::duration(row.as_ref().rapid_seconds))
+            .titled("time")
+            .old_json_key("rapid_seconds"),
+        Column::new("removed", Unit::Volume, |row: &R| row.as_ref().removed_mm3.into())
+            .titled("")
+            .decimals(1),
+    ]
+}
+
+fn load_columns<R: AsRef<SimulationSums>>() -> [Column<R>; 7] {
+    use ColumnUnit as Unit;
+    [
+        Column::new("chip_thickness", Unit::Length, |row: &R| peak(row.as_ref().chip_thickness_mm))
+            .titled("chip")
+            .told_as("thickest chip", 4)
+            .decimals(4),
+        Column::new("removal_rate", Unit::RemovalRate, |row: &R| peak(row.as_ref().removal_rate_mm3_min))
+            .titled("")
+            .told_as("largest removal rate", 0)
+            .decimals(0),
+        Column::new("axial_depth", Unit::Length, |row: &R| peak(row.as_ref().axial_depth_mm))
+            .titled("deep")
+            .decimals(2),
+        Column::new("radial_depth", Unit::Length, |row: &R| peak(row.as_ref().radial_depth_mm))
+            .titled("wide")
+            .decimals(2),
+        Column::new("force", Unit::Force, |row: &R| peak(row.as_ref().force_n))
+            .titled("")
+            .told_as("largest force", 0)
+            .decimals(0),
+        Column::new("torque", Unit::Torque, |row: &R| peak(row.as_ref().torque_nm))
+            .titled("")
+            .told_as("largest torque", 2)
+            .decimals(2),
+        Column::new("power", Unit::Power, |row: &R| peak(row.as_ref().power_kw))
+            .titled("")
+            .told_as("largest power", 3)
+            .decimals(3),
+    ]
+}
+
+fn peak(peak: Option<SimulationPeak>) -> TableValue<'static> {
+    peak.map_or(TableValue::Missing, |peak| TableValue::Peak {
+        value: peak.value,
+        place: PeakPlace::Line(peak.line),
+    })
+}

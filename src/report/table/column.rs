@@ -1,0 +1,211 @@
+//! Columns: a name, a unit, the value of a row and how it is printed, all said in one place.
+
+use super::column_unit::{ColumnUnit, DisplayUnits};
+use super::printed_cell::TableLooks;
+use super::table_value::TableValue;
+use std::borrow::Cow;
+
+/// One column of a table whose rows are of type `R`.
+pub(crate) struct Column<R> {
+    key: &'static str,
+    json_key: Option<&'static str>,
+    medium: ColumnMedium,
+    title: Option<&'static str>,
+    sentence: Option<ColumnSentence>,
+    unit: ColumnUnit,
+    decimals: ColumnDecimals,
+    is_left_aligned: bool,
+    missing: &'static str,
+    value: for<'r> fn(&'r R) -> TableValue<'r>,
+}
+
+/// How a value is told in a sentence.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct ColumnSentence {
+    /// The words before the value.
+    pub words: &'static str,
+    /// The decimals of the value.
+    pub decimals: usize,
+}
+
+/// How numbers of a column are printed for people. Machines get all digits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ColumnDecimals {
+    /// Always so many decimals.
+    Fixed(usize),
+    /// At most so many decimals, without trailing zeros.
+    Trimmed(usize),
+}
+
+/// The outputs for machines that a column is in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum ColumnMedium {
+    Csv,
+    Json,
+    Both,
+}
+
+impl<R> Column<R> {
+    /// Makes a column. `key` is its name for machines, to which the unit is added.
+    pub fn new(key: &'static str, unit: ColumnUnit, value: for<'r> fn(&'r R) -> TableValue<'r>) -> Self {
+        Self {
+            key,
+            json_key: None,
+            medium: ColumnMedium::Both,
+            title: None,
+            sentence: None,
+            unit,
+            decimals: ColumnDecimals::Trimmed(3),
+            is_left_aligned: false,
+            missing: "-",
+            value,
+        }
+    }
+
+    /// Sets the head of the column in tables for people, without unit. An empty one leaves the unit alone as
+    /// the head.
+    pub fn titled(mut self, title: &'static str) -> Self {
+        self.title = Some(title);
+        self
+    }
+
+    /// Sets how the value is told in a sentence: `thickest chip: 0.0512 mm`.
+    pub fn told_as(mut self, words: &'static str, decimals: usize) -> Self {
+        self.sentence = Some(ColumnSentence { words, decimals });
+        self
+    }
+
+    /// Prints numbers for people with a fixed number of decimals.
+    pub fn decimals(mut self, decimals: usize) -> Self {
+        self.decimals = ColumnDecimals::Fixed(decimals);
+        self
+    }
+
+    /// Aligns the column to the left in HTML. In plain text and Markdown the first column alone is to the
+    /// left.
+    pub fn left_aligned(mut self) -> Self {
+        self.is_left_aligned = true;
+        self
+    }
+
+    /// Sets what stands for a value that is not known, in plain text. CSV has an empty cell, JSON `null`.
+    pub fn missing(mut self, text: &'static str) -> Self {
+        self.missing = text;
+        self
+    }
+
+    /// Keeps a JSON key that is older than this model and does not end with the column's unit.
+    pub fn old_json_key(mut self, key: &'static str) -> Self {
+        self.json_key = Some(key);
+        self
+    }
+
+    /// Leaves the column out of JSON.
+    pub fn only_in_csv(mut self) -> Self {
+        self.medium = ColumnMedium::Csv;
+        self
+    }
+
+    /// Leaves the column out of CSV.
+    pub fn only_in_json(mut self) -> Self {
+        self.medium = ColumnMedium::Json;
+        self
+    }
+
+    /// Returns the unit.
+    pub fn unit(&self) -> ColumnUnit {
+        self.unit
+    }
+
+    /// Returns how numbers are printed for people, once they are converted.
+    pub fn shown_decimals(&self, units: DisplayUnits) -> ColumnDecimals {
+        match self.decimals {
+            ColumnDecimals::Fixed(decimals) => ColumnDecimals::Fixed(units.decimals(self.unit, decimals)),
+            ColumnDecimals::Trimmed(most) => ColumnDecimals::Trimmed(units.decimals(self.unit, most)),
+        }
+    }
+
+    /// Returns what stands for a value that is not known, in plain text.
+    pub fn missing_text(&self) -> &'static str {
+        self.missing
+    }
+
+    /// Returns how the value is told in a sentence, if it ever is.
+    pub fn sentence(&self) -> Option<ColumnSentence> {
+        self.sentence
+    }
+
+    /// Returns whether the column stands to the left in HTML.
+    pub fn is_left_aligned(&self) -> bool {
+        self.is_left_aligned
+    }
+
+    /// Returns whether the column is one of a CSV table.
+    pub fn is_in_csv(&self) -> bool {
+        self.medium != ColumnMedium::Json
+    }
+
+    /// Returns whether the column is a key of JSON objects.
+    pub fn is_in_json(&self) -> bool {
+        self.medium != ColumnMedium::Csv
+    }
+
+    /// Returns the value of a row.
+    pub fn value<'r>(&self, row: &'r R) -> TableValue<'r> {
+        (self.value)(row)
+    }
+
+    /// Returns the head of the column in CSV: its key and its unit.
+    pub fn csv_head(&self, units: DisplayUnits) -> String {
+        format!("{}{}", self.key, self.unit.key_suffix(units.shown_in))
+    }
+
+    /// Returns the key of the column in JSON.
+    pub fn json_key(&self, units: DisplayUnits) -> Cow<'static, str> {
+        match (self.json_key, self.unit.key_suffix(units.shown_in)) {
+            (Some(key), _) => Cow::Borrowed(key),
+            (None, "") => Cow::Borrowed(self.key),
+            (None, suffix) => Cow::Owned(format!("{}{suffix}", self.key)),
+        }
+    }
+
+    /// Returns the head of the column in tables for people: its title and its unit, `at feed, mm`.
+    pub fn head(&self, looks: TableLooks) -> String {
+        join_unit(self.title.unwrap_or(self.key), self.unit, looks)
+    }
+
+    /// Returns the head of a row that tells the column's values, where rows and columns are swapped: the
+    /// words of the sentence and the unit.
+    pub fn row_head(&self, looks: TableLooks) -> String {
+        let words = self.sentence.map(|sentence| sentence.words);
+        join_unit(words.or(self.title).unwrap_or(self.key), self.unit, looks)
+    }
+}
+
+fn join_unit(words: &str, unit: ColumnUnit, looks: TableLooks) -> String {
+    let symbol = if looks.has_units_in_heads { looks.unit_symbol(unit) } else { "" };
+    match (words, symbol) {
+        (words, "") => words.to_owned(),
+        ("", symbol) => symbol.to_owned(),
+        (words, symbol) => format!("{words}, {symbol}"),
+    }
+}
+
+/// Returns the columns of these names, in this order. A name that no column has is a mistake in the program.
+pub(crate) fn pick_columns<R>(columns: &[Column<R>], keys: &[&str]) -> Vec<Column<R>> {
+    let find = |key: &&str| {
+        let found = columns.iter().find(|column| column.key == *key).copied();
+        debug_assert!(found.is_some(), "no column is called {key}");
+        found
+    };
+    keys.iter().filter_map(find).collect()
+}
+
+// Derived, both would ask that rows can be copied.
+impl<R> Clone for Column<R> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<R> Copy for Column<R> {}

@@ -1,0 +1,184 @@
+//! Units of columns, and the one place where values are converted for the reader.
+
+use crate::program::LengthUnit;
+
+/// The unit of a column. It is a type and not a text, so that a table can be shown in another unit of length.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ColumnUnit {
+    /// A count, a text, or a value that says its unit itself.
+    None,
+    /// mm or inch.
+    Length,
+    /// mm2 or square inches.
+    Area,
+    /// mm3 or cubic inches.
+    Volume,
+    /// mm/min or inch/min.
+    FeedPerMinute,
+    /// mm3/min or cubic inches per minute.
+    RemovalRate,
+    /// Degrees.
+    Angle,
+    /// Seconds.
+    Duration,
+    /// Newtons.
+    Force,
+    /// Newton metres.
+    Torque,
+    /// Kilowatts.
+    Power,
+    /// Revolutions per minute.
+    SpindleSpeed,
+}
+
+/// The unit of length that the values of a table are in, and the one that they are shown in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DisplayUnits {
+    /// The unit of the values as they are computed.
+    pub values_in: LengthUnit,
+    /// The unit that a reader sees.
+    pub shown_in: LengthUnit,
+}
+
+impl DisplayUnits {
+    /// Values in mm that are shown in mm.
+    pub const MM: Self = Self { values_in: LengthUnit::Mm, shown_in: LengthUnit::Mm };
+
+    /// Values in a unit that are shown in the same unit.
+    pub fn unconverted(unit: LengthUnit) -> Self {
+        Self { values_in: unit, shown_in: unit }
+    }
+
+    /// Values in mm that are shown in a unit.
+    pub fn from_mm(shown_in: LengthUnit) -> Self {
+        Self { values_in: LengthUnit::Mm, shown_in }
+    }
+
+    /// Converts a value of a column to what the reader sees. A value that is not converted keeps every bit.
+    pub fn convert(self, unit: ColumnUnit, value: f64) -> f64 {
+        if self.values_in == self.shown_in {
+            return value;
+        }
+        let factor = self.values_in.mm_per_unit() / self.shown_in.mm_per_unit();
+        value * factor.powi(unit.length_exponent())
+    }
+
+    /// Returns how many decimals a converted value needs where the unconverted one has `decimals`: an inch is
+    /// 10^1.4 mm, so a length gains one decimal and a volume four on the way to inches, and loses them on the
+    /// way back.
+    pub fn decimals(self, unit: ColumnUnit, decimals: usize) -> usize {
+        let more = match unit.length_exponent() {
+            1 => 1,
+            2 => 3,
+            3 => 4,
+            _ => 0,
+        };
+        match (self.values_in, self.shown_in) {
+            (LengthUnit::Mm, LengthUnit::Inch) => decimals + more,
+            (LengthUnit::Inch, LengthUnit::Mm) => decimals.saturating_sub(more),
+            _ => decimals,
+        }
+    }
+}
+
+impl ColumnUnit {
+    /// Returns the power of a length in the unit: 3 for a volume, 0 for a force.
+    fn length_exponent(self) -> i32 {
+        match self {
+            Self::Length | Self::FeedPerMinute => 1,
+            Self::Area => 2,
+            Self::Volume | Self::RemovalRate => 3,
+            Self::None
+            | Self::Angle
+            | Self::Duration
+            | Self::Force
+            | Self::Torque
+            | Self::Power
+            | Self::SpindleSpeed => 0,
+        }
+    }
+
+    /// Returns what the name of a column ends with in CSV heads and JSON keys: `_mm`.
+    pub fn key_suffix(self, shown_in: LengthUnit) -> &'static str {
+        use LengthUnit::{Inch, Mm};
+        match (self, shown_in) {
+            (Self::None, _) => "",
+            (Self::Length, Mm) => "_mm",
+            (Self::Length, Inch) => "_in",
+            (Self::Area, Mm) => "_mm2",
+            (Self::Area, Inch) => "_in2",
+            (Self::Volume, Mm) => "_mm3",
+            (Self::Volume, Inch) => "_in3",
+            (Self::FeedPerMinute, Mm) => "_mm_min",
+            (Self::FeedPerMinute, Inch) => "_in_min",
+            (Self::RemovalRate, Mm) => "_mm3_min",
+            (Self::RemovalRate, Inch) => "_in3_min",
+            (Self::Angle, _) => "_deg",
+            (Self::Duration, _) => "_s",
+            (Self::Force, _) => "_n",
+            (Self::Torque, _) => "_nm",
+            (Self::Power, _) => "_kw",
+            (Self::SpindleSpeed, _) => "_rpm",
+        }
+    }
+
+    /// Returns the unit as people write it in plain text: `mm3/min`. Durations print their unit beside each
+    /// value.
+    pub fn symbol(self, shown_in: LengthUnit) -> &'static str {
+        use LengthUnit::{Inch, Mm};
+        match (self, shown_in) {
+            (Self::None | Self::Duration, _) => "",
+            (Self::Length, Mm) => "mm",
+            (Self::Length, Inch) => "in",
+            (Self::Area, Mm) => "mm2",
+            (Self::Area, Inch) => "in2",
+            (Self::Volume, Mm) => "mm3",
+            (Self::Volume, Inch) => "in3",
+            (Self::FeedPerMinute, Mm) => "mm/min",
+            (Self::FeedPerMinute, Inch) => "in/min",
+            (Self::RemovalRate, Mm) => "mm3/min",
+            (Self::RemovalRate, Inch) => "in3/min",
+            (Self::Angle, _) => "degrees",
+            (Self::Force, _) => "N",
+            (Self::Torque, _) => "N m",
+            (Self::Power, _) => "kW",
+            (Self::SpindleSpeed, _) => "rev/min",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_in_mm_are_shown_in_inches() {
+        let units = DisplayUnits::from_mm(LengthUnit::Inch);
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-12;
+        assert!(near(units.convert(ColumnUnit::Length, 25.4), 1.0));
+        assert!(near(units.convert(ColumnUnit::FeedPerMinute, 508.0), 20.0));
+        assert!(near(units.convert(ColumnUnit::Area, 645.16), 1.0));
+        assert!(near(units.convert(ColumnUnit::RemovalRate, 16_387.064), 1.0));
+        assert!(near(units.convert(ColumnUnit::Power, 2.5), 2.5), "not a length");
+        assert_eq!(units.decimals(ColumnUnit::Length, 3), 4);
+        assert_eq!(units.decimals(ColumnUnit::Volume, 1), 5);
+        assert_eq!(units.decimals(ColumnUnit::Force, 1), 1);
+    }
+
+    #[test]
+    fn values_in_inches_are_shown_in_mm() {
+        let units = DisplayUnits { values_in: LengthUnit::Inch, shown_in: LengthUnit::Mm };
+        assert!((units.convert(ColumnUnit::Length, 2.0) - 50.8).abs() < 1e-12);
+        assert_eq!(units.decimals(ColumnUnit::Length, 4), 3);
+        assert_eq!(units.decimals(ColumnUnit::Volume, 1), 0);
+    }
+
+    #[test]
+    fn what_is_not_converted_keeps_every_bit() {
+        for unit in [LengthUnit::Mm, LengthUnit::Inch] {
+            let units = DisplayUnits::unconverted(unit);
+            assert_eq!(units.convert(ColumnUnit::Volume, 0.1 + 0.2).to_bits(), (0.1f64 + 0.2).to_bits());
+            assert_eq!(units.decimals(ColumnUnit::Volume, 1), 1);
+        }
+    }
+}

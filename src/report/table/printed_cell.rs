@@ -1,0 +1,123 @@
+//! Cells as text for people.
+
+use super::column::{Column, ColumnDecimals};
+use super::column_unit::{ColumnUnit, DisplayUnits};
+use super::table_value::{PeakPlace, TableValue};
+use crate::presentation::safe_text::to_safe_line;
+use crate::report::text_format::{format_count, format_duration, format_fixed, format_short, format_trimmed};
+
+/// How a table looks: its units, and whether it is plain text or marked up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct TableLooks {
+    /// The units that the reader sees.
+    pub units: DisplayUnits,
+    /// The kind of text.
+    pub style: TableStyle,
+    /// Whether heads say the units of their columns.
+    pub has_units_in_heads: bool,
+}
+
+/// The kind of text that a table becomes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum TableStyle {
+    /// Plain text in a terminal, where a cell without a value has a dash.
+    Plain,
+    /// Markdown or HTML, where such a cell is empty and units have raised exponents.
+    Markup,
+}
+
+impl TableLooks {
+    /// Makes the looks of plain text.
+    pub const fn plain(units: DisplayUnits) -> Self {
+        Self { units, style: TableStyle::Plain, has_units_in_heads: true }
+    }
+
+    /// Makes the looks of Markdown and HTML.
+    pub const fn markup(units: DisplayUnits) -> Self {
+        Self { units, style: TableStyle::Markup, has_units_in_heads: true }
+    }
+
+    /// Leaves the units out of the heads, because a line above the table says them.
+    pub fn without_units_in_heads(self) -> Self {
+        Self { has_units_in_heads: false, ..self }
+    }
+
+    /// Returns a unit as people write it.
+    pub fn unit_symbol(self, unit: ColumnUnit) -> &'static str {
+        let symbol = unit.symbol(self.units.shown_in);
+        match (self.style, symbol) {
+            (TableStyle::Markup, "mm2") => "mm²",
+            (TableStyle::Markup, "mm3") => "mm³",
+            (TableStyle::Markup, "mm3/min") => "mm³/min",
+            (TableStyle::Markup, "in2") => "in²",
+            (TableStyle::Markup, "in3") => "in³",
+            (TableStyle::Markup, "in3/min") => "in³/min",
+            _ => symbol,
+        }
+    }
+
+    /// Prints the cell of a row.
+    pub fn print_cell<R>(self, column: &Column<R>, row: &R) -> String {
+        let number = |value: f64| self.print_number(column, value);
+        match column.value(row) {
+            TableValue::Missing => self.missing_text(column),
+            TableValue::Text(text) | TableValue::Reference { name: text, .. } => to_safe_line(&text),
+            TableValue::Flag(flag) => if flag { "yes" } else { "no" }.to_owned(),
+            TableValue::Count(count) => format_count(count as u64),
+            TableValue::Number(value) | TableValue::Peak { value, .. } => number(value),
+            TableValue::Range([low, high]) => self.join_range(number(low), number(high)),
+            TableValue::Duration { seconds, is_lower_bound } => {
+                format!("{}{}", if is_lower_bound { "> " } else { "" }, format_duration(seconds))
+            }
+            TableValue::Intervals(intervals) => {
+                let print = |[from, to]: &[f64; 2]| format!("{} {}", number(*from), number(*to));
+                intervals.iter().map(print).collect::<Vec<_>>().join("; ")
+            }
+        }
+    }
+
+    /// Prints a number of a column in the reader's unit.
+    pub fn print_number<R>(self, column: &Column<R>, value: f64) -> String {
+        let value = self.units.convert(column.unit(), value);
+        match column.shown_decimals(self.units) {
+            ColumnDecimals::Fixed(decimals) => format_fixed(value, decimals),
+            ColumnDecimals::Trimmed(most) => format_trimmed(value, most),
+        }
+    }
+
+    /// Tells a largest value in a sentence: `thickest chip: 0.0512 mm on line 17`. Returns `None` if it is
+    /// not known, or if the column is not for sentences.
+    pub fn tell_peak<R>(self, column: &Column<R>, row: &R) -> Option<String> {
+        let sentence = column.sentence()?;
+        let TableValue::Peak { value, place } = column.value(row) else { return None };
+        let value = self.units.convert(column.unit(), value);
+        let number = format_fixed(value, self.units.decimals(column.unit(), sentence.decimals));
+        let unit = match self.unit_symbol(column.unit()) {
+            "" => String::new(),
+            symbol => format!(" {symbol}"),
+        };
+        let place = match place {
+            PeakPlace::Line(line) => line.map_or_else(String::new, |line| format!(" on line {line}")),
+            PeakPlace::Layer { line, z_mm: None } => format!(" on line {line}"),
+            PeakPlace::Layer { line, z_mm: Some(z) } => {
+                format!(" on line {line} at z {}", format_short(self.units.convert(ColumnUnit::Length, z)))
+            }
+        };
+        Some(format!("{}: {number}{unit}{place}", sentence.words))
+    }
+
+    fn missing_text<R>(self, column: &Column<R>) -> String {
+        match self.style {
+            TableStyle::Plain => column.missing_text().to_owned(),
+            TableStyle::Markup => String::new(),
+        }
+    }
+
+    fn join_range(self, low: String, high: String) -> String {
+        match self.style {
+            _ if low == high => low,
+            TableStyle::Plain => format!("{low} .. {high}"),
+            TableStyle::Markup => format!("{low} to {high}"),
+        }
+    }
+}
