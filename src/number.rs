@@ -133,6 +133,12 @@ impl NumberFormat {
     }
 }
 
+/// Prints a value with at most `decimals` decimals and no trailing zeros: `12.5`, `3`.
+pub fn format_short_decimal(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
 /// Removes the sign of a number that is printed as zero.
 fn strip_negative_zero(text: String) -> String {
     match text.strip_prefix('-') {

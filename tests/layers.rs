@@ -19,13 +19,17 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("engagement", &["program", "cutter", "stock"]),
     ("layered_chips", &["program", "cutter", "stock", "engagement"]),
     ("surface", &["program", "stock"]),
-    ("setup", &["source", "diagnostic", "program", "parameters", "yaml", "cutter", "stock", "engagement"]),
+    (
+        "setup",
+        &["source", "number", "diagnostic", "program", "parameters", "yaml", "cutter", "stock", "engagement"],
+    ),
     ("recipe", &["source", "diagnostic", "program", "parameters", "yaml", "setup"]),
     ("recipe_rules", &["source", "diagnostic", "program", "parse", "parameters", "yaml"]),
     (
         "simulation_run",
         &[
             "source",
+            "number",
             "diagnostic",
             "program",
             "parameters",

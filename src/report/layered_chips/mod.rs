@@ -7,6 +7,7 @@
 mod chip_collector;
 mod chip_merging;
 mod chip_row;
+mod chip_tables;
 mod chip_thickness;
 mod diagram_drawing;
 mod json_formatter;
@@ -17,7 +18,8 @@ mod stl_export;
 mod sums;
 mod text;
 
-pub use chip_row::{ChipLayerRow, ChipRow, write_csv, write_json};
+pub use chip_row::{ChipLayerRow, ChipRow};
+pub use chip_tables::{write_csv, write_json};
 pub use diagram_drawing::draw_diagrams;
 pub use layer_drawing::draw_layers;
 pub use move_scene::{MoveScene, MoveSceneLayer};

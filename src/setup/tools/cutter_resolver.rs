@@ -1,7 +1,7 @@
 //! A cutter for the simulation: what the CL file tells, completed and overridden by the setup.
 
 use super::file_tool_data::FileToolData;
-use super::tool_data_fault::{ToolDataFault, ToolDataFaultKind};
+use super::tool_data_fault::{ToolDataFault, ToolDataFaultKind, format_dimension};
 use super::tool_entry::ToolEntry;
 use super::tool_text::SAME;
 use crate::cutter::{CutterModel, Meridian, NonCuttingCylinder, NonCuttingKind};
@@ -138,7 +138,7 @@ impl CutterResolver<'_> {
                 (FLUTE_DIAMETERS * diameter + bottom, "neither the CL file nor setup.tools says one")
             }
         };
-        self.assumptions.push(format!("flute length {} mm: {why}", format_short(length)));
+        self.assumptions.push(format!("flute length {} mm: {why}", format_dimension(length)));
         length
     }
 
@@ -156,7 +156,8 @@ impl CutterResolver<'_> {
             }
             (Some(shank), _) => (shank.diameter / 2.0, shank.length),
             (None, Some(length)) if length > flutes + SAME => {
-                let (diameter, length_text) = (format_short(2.0 * profile.radius_mm()), format_short(length));
+                let (diameter, length_text) =
+                    (format_dimension(2.0 * profile.radius_mm()), format_dimension(length));
                 self.assumptions.push(format!(
                     "a shank of {diameter} mm up to {length_text} mm, as thick as the cutter: setup.tools says none"
                 ));
@@ -179,10 +180,4 @@ impl CutterResolver<'_> {
         }
         Ok(collars)
     }
-}
-
-/// A length with at most four decimals.
-pub(super) fn format_short(value: f64) -> String {
-    let text = format!("{value:.4}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

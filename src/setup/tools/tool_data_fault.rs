@@ -1,9 +1,9 @@
 //! What is missing before a tool can be simulated, and what to write where to fill it.
 
-use super::cutter_resolver::format_short;
 use super::tool_entry::ToolEntry;
 use crate::cutter::MeridianError;
 use crate::diagnostic::{Diagnostic, codes};
+use crate::number::format_short_decimal;
 use crate::program::motion::ActiveTool;
 use crate::setup::{Setup, YamlLocation};
 use crate::source::{Source, Span};
@@ -80,26 +80,26 @@ impl ToolDataFault {
             ToolDataFaultKind::Shape { error, diameter, corner_radius, flute_length, taper, tip } => {
                 let (key, numbers) = match error {
                     MeridianError::Diameter => {
-                        ("diameter: …", format!("diameter {} mm", format_short(diameter)))
+                        ("diameter: …", format!("diameter {} mm", format_dimension(diameter)))
                     }
                     MeridianError::Corner => (
                         "corner_radius: …",
                         format!(
                             "corner radius {} mm, diameter {} mm",
-                            format_short(corner_radius),
-                            format_short(diameter)
+                            format_dimension(corner_radius),
+                            format_dimension(diameter)
                         ),
                     ),
                     MeridianError::Angle => (
                         "taper: …, tip: …",
-                        format!("taper {}, tip {} degrees", format_short(taper), format_short(tip)),
+                        format!("taper {}, tip {} degrees", format_dimension(taper), format_dimension(tip)),
                     ),
                     MeridianError::Height => (
                         "flute_length: …",
                         format!(
                             "flutes {} mm, diameter {} mm",
-                            format_short(flute_length),
-                            format_short(diameter)
+                            format_dimension(flute_length),
+                            format_dimension(diameter)
                         ),
                     ),
                 };
@@ -108,11 +108,13 @@ impl ToolDataFault {
             ToolDataFaultKind::Shank { flute_length, length } => {
                 let message = format!(
                     "the shank of {called} ends {} mm above its tip, below the end of its flutes at {} mm",
-                    format_short(length),
-                    format_short(flute_length)
+                    format_dimension(length),
+                    format_dimension(flute_length)
                 );
-                let keys =
-                    format!("shank: {{ diameter: …, length: … }}, flute_length: {}", format_short(length));
+                let keys = format!(
+                    "shank: {{ diameter: …, length: … }}, flute_length: {}",
+                    format_dimension(length)
+                );
                 (message, keys)
             }
         };
@@ -195,4 +197,9 @@ fn exact_tool_match(tool: &ActiveTool) -> String {
         }
         (None, None) => "{}".to_owned(),
     }
+}
+
+/// A length or an angle of a tool with at most four decimals.
+pub(super) fn format_dimension(value: f64) -> String {
+    format_short_decimal(value, 4)
 }

@@ -2,6 +2,7 @@
 
 use crate::cutter::CutterModel;
 use crate::layered_chips::FlatMill;
+use crate::number::format_short_decimal;
 
 /// The length in mm and the angle in radians below which a corner radius, a taper or a tip angle counts as
 /// none. No grinder could make it.
@@ -22,15 +23,10 @@ pub fn to_flat_mill(cutter: &CutterModel) -> Result<FlatMill, String> {
     if profile.corner_radius_mm() > NONE {
         let ball = profile.bottom_radius_mm() <= NONE;
         let what = if ball { "a ball of radius" } else { "a corner radius of" };
-        return Err(format!("{what} {} mm", format_short(profile.corner_radius_mm())));
+        return Err(format!("{what} {} mm", format_short_decimal(profile.corner_radius_mm(), 4)));
     }
     if profile.taper_rad() > NONE {
         return Err(format!("a taper of {:.2} degrees", profile.taper_rad().to_degrees()));
     }
     Ok(FlatMill { radius: profile.radius_mm(), flutes: profile.height_mm() })
-}
-
-fn format_short(value: f64) -> String {
-    let text = format!("{value:.4}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

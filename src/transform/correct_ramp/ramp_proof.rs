@@ -5,7 +5,7 @@ use super::ramp_limits::{RampMeasurement, is_within_limits};
 use super::ramp_search::read_ramp;
 use super::ramp_writer::WrittenRamp;
 use super::report::RampReport;
-use super::step::PlannedRamp;
+use super::planned_ramp::PlannedRamp;
 use crate::program::motion::Motion;
 use crate::program::{LengthUnit, Program};
 

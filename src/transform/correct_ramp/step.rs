@@ -1,5 +1,6 @@
 //! The step: find, judge, correct, write, measure again.
 
+use super::planned_ramp::PlannedRamp;
 use super::findings;
 use super::level_motions::LevelMotions;
 use super::parameters::{CorrectRamp, ImpossibleRampHandling, PlungeHandling, RampRegionSpec};
@@ -26,15 +27,6 @@ const ROUNDING: f64 = 2e-4;
 
 /// Where a ramp may begin above the depth of cut, mm (Zhou 2020: 2 to 3 mm).
 const CLEARANCE: f64 = 2.5;
-
-/// A ramp that is to be written anew.
-pub(super) struct PlannedRamp {
-    pub found: FoundRamp,
-    pub limits: RampLimits,
-    pub corrected: CorrectedRamp,
-    /// Its place among the reports.
-    pub report: usize,
-}
 
 impl Transform for CorrectRamp {
     fn measures(&self) -> bool {
