@@ -182,6 +182,36 @@ fn imports_run_one_way() {
     assert!(imports.len() > 8, "the sources were found");
 }
 
+/// The stages of `optimize_feed` in the order of their data.
+const FEED_STAGES: &[&str] = &["measure", "limit", "plan", "write", "prove"];
+
+#[test]
+fn stages_of_optimize_feed_import_only_earlier_ones() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/transform/optimize_feed");
+    let mut seen = BTreeSet::new();
+    for path in library_files(&root) {
+        let stage = module(&root, &path);
+        // The door (mod, parameters, step) stands above all stages.
+        let Some(place) = FEED_STAGES.iter().position(|name| *name == stage) else { continue };
+        seen.insert(place);
+        let text = std::fs::read_to_string(&path).unwrap();
+        let depth = path.strip_prefix(&root).unwrap().components().count();
+        for line in text.lines().filter(|line| !line.trim_start().starts_with("//")) {
+            for part in line.split("crate::transform::optimize_feed::").skip(1) {
+                let imported: String =
+                    part.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+                let Some(other) = FEED_STAGES.iter().position(|name| *name == imported) else {
+                    assert!(line.contains("pub(in "), "{stage} must not import the door: {line}");
+                    continue;
+                };
+                assert!(other <= place, "{stage} must not import {imported}: {line}");
+            }
+            assert!(depth > 1 && !line.contains("super::super"), "stages name each other in full: {line}");
+        }
+    }
+    assert_eq!(seen.len(), FEED_STAGES.len(), "all stages were found");
+}
+
 #[test]
 fn the_library_knows_no_terminal() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");

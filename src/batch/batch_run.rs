@@ -72,7 +72,7 @@ impl BatchRun<'_> {
         let id = self.plan.batch_id(self.works, self.options);
         let mine = self.plan.files_of_shard(self.folder.folder().shard());
         self.folder.check_same_batch(id)?;
-        self.folder.remove_leftovers(self.plan);
+        self.folder.remove_leftovers(self.plan.files.iter().map(|file| file.output.as_path()));
         let known = if self.resume { self.find_finished_files(&mine) } else { BTreeMap::new() };
         let unwritable = |error: io::Error| {
             let journal = self.folder.folder().journal_path();

@@ -1,6 +1,7 @@
 //! What a batch has done, written down as it goes, so that one that was killed can go on.
 
 use super::{BatchRecord, LockedFolder, PortablePath};
+use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::fingerprint::Digest;
 use crate::output_files::Interrupt;
 use serde::{Deserialize, Serialize};
@@ -84,8 +85,28 @@ impl BatchJournal {
     }
 }
 
+impl LockedFolder {
+    /// Whether other shards that run now are of the same batch; each says in its journal which it is of.
+    ///
+    /// # Errors
+    /// [`codes::OUTPUT_IN_USE`] if one is of another.
+    pub fn check_same_batch(&self, id: Digest) -> Result<(), Failure> {
+        for journal in self.list_running_journals() {
+            if read_batch_id(&journal).is_some_and(|other| other != id) {
+                let message = format!(
+                    "shards of another batch are writing to {} at this moment ({})",
+                    self.folder().root().display(),
+                    journal.display()
+                );
+                return Err(Diagnostic::new(codes::OUTPUT_IN_USE, message).into());
+            }
+        }
+        Ok(())
+    }
+}
+
 /// The batch that a journal is of.
-pub(super) fn read_batch_id(path: &Path) -> Option<Digest> {
+fn read_batch_id(path: &Path) -> Option<Digest> {
     let first = BufReader::new(File::open(path).ok()?).split(b'\n').next()?.ok()?;
     serde_json::from_slice::<JournalHead>(&first).ok().map(|head| head.batch)
 }

@@ -1,8 +1,7 @@
 //! The output folder: what the batch keeps there for itself, and that nobody else writes to it meanwhile.
 
-use super::{BatchPlan, Shard};
+use super::Shard;
 use crate::diagnostic::{Diagnostic, Failure, codes};
-use crate::fingerprint::Digest;
 use crate::output_files::TemporaryFiles;
 use std::collections::BTreeSet;
 use std::fs::{self, File, TryLockError};
@@ -168,38 +167,25 @@ impl LockedFolder {
         &self.folder
     }
 
-    /// Whether other shards that run now are of the same batch; each says in its journal which it is of.
-    ///
-    /// # Errors
-    /// [`codes::OUTPUT_IN_USE`] if one is of another.
-    pub fn check_same_batch(&self, id: Digest) -> Result<(), Failure> {
-        for journal in self.folder.list_journals() {
+    /// Journals of other shards that run now.
+    pub(super) fn list_running_journals(&self) -> Vec<PathBuf> {
+        let whole = OutputFolder::new(self.folder.root.clone(), None).lock_path();
+        let runs = |journal: &PathBuf| {
             let lock = journal.with_extension("lock");
-            let runs = || {
-                let file = File::open(&lock).ok()?;
-                matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)).then_some(())
-            };
-            let whole = OutputFolder::new(self.folder.root.clone(), None).lock_path();
-            if journal == self.folder.journal_path() || lock == whole || runs().is_none() {
-                continue;
+            if *journal == self.folder.journal_path() || lock == whole {
+                return false;
             }
-            if super::journal::read_batch_id(&journal).is_some_and(|other| other != id) {
-                let message = format!(
-                    "shards of another batch are writing to {} at this moment ({})",
-                    self.folder.root.display(),
-                    journal.display()
-                );
-                return Err(Diagnostic::new(codes::OUTPUT_IN_USE, message).into());
-            }
-        }
-        Ok(())
+            File::open(&lock)
+                .is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
+        };
+        self.folder.list_journals().into_iter().filter(runs).collect()
     }
 
-    /// Removes temporary files that this batch left when it was killed; how many. Those of other shards stay: they may be in
+    /// Removes temporary files that this batch left beside its outputs (below the folder) when it was killed; how many. Those of other shards stay: they may be in
     /// use.
-    pub fn remove_leftovers(&self, plan: &BatchPlan) -> usize {
+    pub fn remove_leftovers<'o>(&self, outputs: impl Iterator<Item = &'o Path>) -> usize {
         let temporaries = self.folder.temporary_files();
-        let below = plan.files.iter().filter_map(|file| file.output.parent());
+        let below = outputs.filter_map(Path::parent);
         let folders: BTreeSet<&Path> = below.chain([Path::new("")]).collect();
         let entries = folders.iter().filter_map(|below| fs::read_dir(self.folder.root.join(below)).ok());
         let stale = entries.flatten().flatten().filter(|entry| {

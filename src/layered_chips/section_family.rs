@@ -19,6 +19,10 @@ use super::layer_ellipse::LayerEllipse;
 use super::mill_step::MillStep;
 use super::trig_polynomial::{AngleSinCos, TrigPolynomial};
 
+/// The height, as a fraction of the radius, below which the end of a vertical mill counts as being at the
+/// layer's height. The layer is then outside of it.
+pub(super) const GRAZES: f64 = 1e-9;
+
 /// The functions of angle and time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum DiagramCurve {

@@ -34,7 +34,7 @@ pub enum StockResolution {
 #[derive(Debug)]
 pub struct EngagementRunResult {
     /// The resolution of the run.
-    pub grain: StockResolution,
+    pub resolution: StockResolution,
     /// The lowest corner of the box around the stock, mm.
     pub lowest_mm: [f64; 3],
     /// The findings: collisions, and cuts at rapid or with a spindle that does not turn.
@@ -86,15 +86,15 @@ impl Machining<'_> {
         watch: &dyn RunWatcher,
         sink: &mut dyn FnMut(&EngagedMotion<'_>),
     ) -> Result<EngagementRunResult, Failure> {
-        let grain = self.choose_resolution(options, source)?;
-        let findings = match grain {
+        let resolution = self.choose_resolution(options, source)?;
+        let findings = match resolution {
             StockResolution::Cell(_) => self.simulate_program(options, watch, sink)?.findings,
             StockResolution::Layer(layer) => {
                 self.find_layer_engagements(options, layer, watch, sink)?.findings
             }
         };
         let (lowest, _) = self.stock.bounds();
-        Ok(EngagementRunResult { grain, lowest_mm: lowest, findings })
+        Ok(EngagementRunResult { resolution, lowest_mm: lowest, findings })
     }
 
     /// Finds engagements in layers; fails if any motion cannot be modelled.

@@ -17,6 +17,19 @@ pub(super) fn join_spans(intervals: &mut Vec<DexelSpan>) {
     intervals.retain(|[low, top]| top - low > THINNEST);
 }
 
+/// Merges an interval into a list of intervals that do not touch and have no order.
+pub(crate) fn merge_span<T: PartialOrd + Copy>(spans: &mut Vec<[T; 2]>, [mut low, mut high]: [T; 2]) {
+    spans.retain(|[from, to]| {
+        let apart = *to < low || *from > high;
+        if !apart {
+            low = if *from < low { *from } else { low };
+            high = if *to > high { *to } else { high };
+        }
+        apart
+    });
+    spans.push([low, high]);
+}
+
 /// Finds where two columns differ, from above to below. The second argument of `found` is true where only
 /// column `a` has material.
 pub(super) fn find_span_differences(

@@ -41,7 +41,11 @@ pub(super) fn dilate_by_ball(dexels: &Dexels, radius: f64) -> Dexels {
                 };
                 let Some(from) = dexels.bands().get(row / BAND_ROWS) else { continue };
                 for [low, top] in from.column_spans((row - from.first_row) * layout.columns + column) {
-                    merge_span(&mut intervals, [low - growth, top + growth]);
+                    let grown = [low - growth, top + growth];
+                    // Most intervals lie within one that is already there, which costs less to see than to merge.
+                    if !intervals.iter().any(|[low, top]| *low <= grown[0] && grown[1] <= *top) {
+                        dexel_spans::merge_span(&mut intervals, grown);
+                    }
                 }
             }
             dexel_spans::join_spans(&mut intervals);
@@ -51,19 +55,4 @@ pub(super) fn dilate_by_ball(dexels: &Dexels, radius: f64) -> Dexels {
         }
     });
     grown
-}
-
-/// Merges an interval into a list of intervals that do not overlap and have no order.
-fn merge_span(intervals: &mut Vec<DexelSpan>, [mut low, mut top]: DexelSpan) {
-    if intervals.iter().any(|[a, b]| *a <= low && top <= *b) {
-        return;
-    }
-    intervals.retain(|[a, b]| {
-        let overlaps = *a <= top && low <= *b;
-        if overlaps {
-            (low, top) = (low.min(*a), top.max(*b));
-        }
-        !overlaps
-    });
-    intervals.push([low, top]);
 }

@@ -19,6 +19,7 @@ pub mod target_deviation;
 
 pub use axis_box::AxisBox;
 pub use dexel::{DexelBand, DexelGrid, DexelSpan, Dexels};
+pub(crate) use dexel_spans::merge_span;
 pub use mesh::{Mesh, MeshError};
 pub use raw_stock::Stock;
 pub use solid_body::SolidBody;

@@ -1,9 +1,9 @@
 //! The log: one line of JSON a run, whole or not at all.
 
-use super::{UnattendedCorrection, UnattendedOutcome};
+use super::unattended_correction::{LoggedRecipe, UnattendedCorrection, UnattendedOutcome};
 use crate::cli::command_outputs::report_unwritable;
 use clsmith::diagnostic::{Diagnostic, codes};
-use clsmith::fingerprint::{Digest, RecipeFingerprint, VERSION};
+use clsmith::fingerprint::{Digest, VERSION};
 use clsmith::output_files::is_same_file;
 use clsmith::report::changes::StepChanges;
 use clsmith::report::render::line;
@@ -55,16 +55,6 @@ pub struct LoggedInput {
     pub path: String,
     /// `null` where it could not be read.
     pub sha256: Option<Digest>,
-}
-
-/// A recipe with all that it depends on.
-#[derive(Debug, Clone, Serialize)]
-pub struct LoggedRecipe {
-    pub path: String,
-    /// `--recipe`, `rule 2`, `otherwise`.
-    pub chosen_by: String,
-    #[serde(flatten)]
-    pub print: RecipeFingerprint,
 }
 
 /// The program as it went on.

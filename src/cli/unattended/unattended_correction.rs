@@ -1,6 +1,5 @@
 //! One program through the recipe that is chosen for it.
 
-use super::run_log::LoggedRecipe;
 use super::{RecipeArgs, RecipeChooser};
 use crate::cli::input_files::{self, LoadedRecipe};
 use clsmith::diagnostic::{Diagnostic, Failure};
@@ -33,6 +32,16 @@ pub enum UnattendedOutcome {
     Refused,
     /// Ctrl-C came first.
     Stopped,
+}
+
+/// A recipe with all that it depends on.
+#[derive(Debug, Clone, Serialize)]
+pub struct LoggedRecipe {
+    pub path: String,
+    /// `--recipe`, `rule 2`, `otherwise`.
+    pub chosen_by: String,
+    #[serde(flatten)]
+    pub print: RecipeFingerprint,
 }
 
 /// A program after its recipe, or why not.

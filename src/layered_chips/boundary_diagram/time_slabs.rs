@@ -13,8 +13,7 @@
 use super::circle_cells::{CircleCells, CurveRoots, RootBracket};
 use super::moving_roots;
 use crate::layered_chips::interval::IntervalF64;
-use crate::layered_chips::section_family::{DiagramCurve, FamilyWindow, SectionFamily};
-use crate::layered_chips::swept_area::GRAZES;
+use crate::layered_chips::section_family::{DiagramCurve, FamilyWindow, GRAZES, SectionFamily};
 use crate::layered_chips::trig_polynomial::{AngleSinCos, TrigPolynomial};
 
 /// The shortest interval of time that is bisected: an eight-millionth of the step.

@@ -1,5 +1,6 @@
 //! This module samples a piece of a chip: its boundary closely, its interior coarsely.
 
+use super::layer_slab::LayerSlab;
 use super::moving_cylinder::{CylinderContact, CylinderFace, MovingCylinder};
 use crate::layered_chips::Polygon;
 use nalgebra::Vector3;
@@ -21,13 +22,6 @@ const JUMP: f64 = 0.5;
 /// The least component of the normal in the layer. Below it, a width in the layer says nothing about the
 /// thickness along the normal.
 const LEVEL: f64 = 0.05;
-
-/// A layer: the height of its middle and its thickness, mm.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct LayerSlab {
-    pub z: f64,
-    pub thickness: f64,
-}
 
 /// A contact as a bin needs it.
 #[derive(Debug, Clone, Copy)]

@@ -12,12 +12,14 @@
 //! left by chords of an earlier pass and is not a contact.
 
 mod contact_samples;
+mod layer_slab;
 mod moving_cylinder;
 
 use super::chip::{Chip, LayerChip};
 use super::mill_step::FlatMill;
 use crate::engagement::{Engagement, EngagementBin, PathPiece};
-use contact_samples::{ContactSample, LayerSlab};
+use contact_samples::ContactSample;
+use layer_slab::LayerSlab;
 use moving_cylinder::MovingCylinder;
 
 /// Returns the engagement of a piece of path with its chip, which was cut with this mill and with chords

@@ -1,6 +1,6 @@
 //! This module moves a cylinder along a piece of path and finds the time at which it reaches a point.
 
-use super::contact_samples::LayerSlab;
+use super::layer_slab::LayerSlab;
 use crate::engagement::PathPiece;
 use crate::layered_chips::mill_step::FlatMill;
 use nalgebra::Vector3;

@@ -14,7 +14,6 @@ mod time_slices;
 
 pub use rim_directions::RimDirections;
 pub use section_outline::FluteEndCut;
-pub(super) use section_outline::GRAZES;
 
 use super::boundary_diagram::BoundaryDiagram;
 use super::boundary_diagram::time_segments::TimeSegment;

@@ -3,13 +3,9 @@
 
 use super::rim_directions::RimDirections;
 use crate::layered_chips::boundary_diagram::time_segments::TimeSegment;
-use crate::layered_chips::section_family::{DiagramCurve, SectionFamily};
+use crate::layered_chips::section_family::{DiagramCurve, GRAZES, SectionFamily};
 use crate::layered_chips::trig_polynomial::TrigPolynomial;
 use std::f64::consts::TAU;
-
-/// The height, as a fraction of the radius, below which the end of a vertical mill counts as being at the
-/// layer's height. The layer is then outside of it.
-pub(in crate::layered_chips) const GRAZES: f64 = 1e-9;
 
 /// The relation of an end of the flutes to the ellipse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -11,7 +11,7 @@ use crate::program::operation;
 use crate::program::record::SpindleDirection;
 use crate::report::{statement_line, tool_name};
 use crate::simulation_run::{EngagedMotion, Machining};
-use crate::transform::optimize_feed::acceleration::{self, TimedSegment};
+use crate::transform::optimize_feed::{TimedSegment, path_time_s};
 use std::sync::Arc;
 
 /// What grows while motions go by.
@@ -243,7 +243,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         CollectedSimulation {
             totals: self.totals,
             operations,
-            accelerated_seconds: acceleration.map(|most| acceleration::path_time_s(&self.path, Some(most))),
+            accelerated_seconds: acceleration.map(|most| path_time_s(&self.path, Some(most))),
             faults: self.faults,
             assumptions,
             findings,

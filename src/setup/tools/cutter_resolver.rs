@@ -1,12 +1,11 @@
 //! A cutter for the simulation: what the CL file tells, completed and overridden by the setup.
 
 use super::file_tool_data::FileToolData;
-use super::tool_data_fault::{ToolDataFault, ToolDataFaultKind};
+use super::tool_data_fault::{ToolDataFault, ToolDataFaultKind, format_dimension};
 use super::tool_entry::ToolEntry;
 use super::tool_text::SAME;
 use crate::cutter::{CutterModel, Meridian, NonCuttingCylinder, NonCuttingKind};
 use crate::diagnostic::{Diagnostic, codes};
-use crate::number::format_trimmed_number;
 use crate::program::LengthUnit;
 use crate::program::motion::ActiveTool;
 use crate::setup::Setup;
@@ -189,9 +188,4 @@ impl CutterResolver<'_> {
         }
         Ok(collars)
     }
-}
-
-/// A length or an angle of a tool as messages have it.
-pub(super) fn format_dimension(value: f64) -> String {
-    format_trimmed_number(value, 4)
 }

@@ -1,8 +1,7 @@
 //! Teeth as they are written: how many, how far apart, how true they run.
 
-use super::tool_text::ToolText;
 use crate::cutter::Teeth;
-use crate::parameters::{Finite, NonNegative, Positive};
+use crate::parameters::{Finite, HelixAngle, NonNegative, Positive, PositiveCount};
 use crate::setup::YamlLocation;
 use crate::setup::setup_reader::SetupReader;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -119,15 +118,27 @@ impl JsonSchema for RunoutText {
     }
 }
 
+/// What an entry says about its teeth.
+pub(super) struct TeethText<'a> {
+    pub teeth: Option<PositiveCount>,
+    pub pitch: Option<&'a PitchText>,
+    pub helix: Option<HelixAngle>,
+    pub runout: Option<&'a RunoutText>,
+}
+
 /// The teeth of an entry; `None` when it does not say how many, or says it wrongly, which the reader then knows.
-pub(super) fn check_teeth(text: &ToolText, reader: &mut SetupReader, place: &YamlLocation) -> Option<Teeth> {
-    let offsets = match &text.runout {
+pub(super) fn check_teeth(
+    text: &TeethText<'_>,
+    reader: &mut SetupReader,
+    place: &YamlLocation,
+) -> Option<Teeth> {
+    let offsets = match text.runout {
         Some(RunoutText::EachTooth(offsets)) => Some(offsets),
         _ => None,
     };
     let said = [
         (text.teeth.and_then(|count| usize::try_from(count.get()).ok()), "teeth"),
-        (text.pitch.as_ref().map(|pitch| pitch.0.len()), "pitch"),
+        (text.pitch.map(|pitch| pitch.0.len()), "pitch"),
         (offsets.map(Vec::len), "runout"),
     ];
     let mut said = said.into_iter().filter_map(|(count, key)| count.map(|count| (count, key)));
@@ -148,7 +159,7 @@ pub(super) fn check_teeth(text: &ToolText, reader: &mut SetupReader, place: &Yam
         reader.add_fault(|| place.at_key(key), message, &format!("{other} here"), help);
         return None;
     }
-    let pitch = match &text.pitch {
+    let pitch = match text.pitch {
         Some(pitch) => {
             // Written from each tooth to the next; the simulation counts from each to the one before.
             let mut angles: Vec<f64> = pitch.0.iter().map(|angle| angle.to_radians()).collect();
@@ -157,7 +168,7 @@ pub(super) fn check_teeth(text: &ToolText, reader: &mut SetupReader, place: &Yam
         }
         None => Teeth::evenly_spaced(u32::try_from(count).ok()?, 0.0)?.pitch_angles_rad().to_vec(),
     };
-    let runout = match &text.runout {
+    let runout = match text.runout {
         None => vec![0.0; count],
         Some(RunoutText::EachTooth(offsets)) => offsets
             .iter()

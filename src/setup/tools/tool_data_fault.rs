@@ -1,9 +1,9 @@
 //! What is missing before a tool can be simulated, and what to write where to fill it.
 
-use super::cutter_resolver::format_dimension;
 use super::tool_entry::ToolEntry;
 use crate::cutter::MeridianError;
 use crate::diagnostic::{Diagnostic, codes};
+use crate::number::format_trimmed_number;
 use crate::program::motion::ActiveTool;
 use crate::setup::{Setup, YamlLocation};
 use crate::source::{Source, Span};
@@ -197,4 +197,9 @@ fn exact_tool_match(tool: &ActiveTool) -> String {
         }
         (None, None) => "{}".to_owned(),
     }
+}
+
+/// A length or an angle of a tool with at most four decimals.
+pub(super) fn format_dimension(value: f64) -> String {
+    format_trimmed_number(value, 4)
 }

@@ -1,6 +1,6 @@
 //! An entry of `tools:` as it is written.
 
-use super::teeth::{self, PitchText, RunoutText};
+use super::teeth::{PitchText, RunoutText, TeethText, check_teeth};
 use super::tool_entry::{CutterInsert, ToolCylinder, ToolEntry};
 use crate::diagnostic::codes;
 use crate::parameters::{Glob, HelixAngle, NonNegative, PointAngle, Positive, PositiveCount, Slope};
@@ -38,13 +38,13 @@ pub(crate) struct ToolText {
     /// The holder above the shank; it must not touch material.
     holder: Option<HolderText>,
     /// How many teeth.
-    pub(super) teeth: Option<PositiveCount>,
+    teeth: Option<PositiveCount>,
     /// Angles in degrees from each tooth to the next, the last to the first; they make 360. Even if not given.
-    pub(super) pitch: Option<PitchText>,
+    pitch: Option<PitchText>,
     /// Helix angle of the teeth in degrees; negative for a left-hand helix.
-    pub(super) helix: Option<HelixAngle>,
+    helix: Option<HelixAngle>,
     /// How far the whole cutter runs off its axis, towards the first tooth; or a list: how far each tooth stands out.
-    pub(super) runout: Option<RunoutText>,
+    runout: Option<RunoutText>,
     /// The inserts of an indexable cutter, for its ramping limits.
     insert: Option<InsertText>,
 }
@@ -96,7 +96,13 @@ struct InsertText {
 impl ToolText {
     /// The entry in millimetres and radians.
     pub(crate) fn check_tool(self, reader: &mut SetupReader, place: YamlLocation) -> ToolEntry {
-        let teeth = teeth::check_teeth(&self, reader, &place);
+        let teeth = TeethText {
+            teeth: self.teeth,
+            pitch: self.pitch.as_ref(),
+            helix: self.helix,
+            runout: self.runout.as_ref(),
+        };
+        let teeth = check_teeth(&teeth, reader, &place);
         if self.tip.is_some() && self.point.is_some() {
             let message = "the bottom's angle is given twice, by `tip` and by `point`".to_owned();
             let help = "Keep one: a point angle of 118 is a `tip` of 31, half of what is missing to 180.";

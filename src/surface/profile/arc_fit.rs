@@ -1,7 +1,7 @@
 //! This module fits arcs through runs of short chords.
 
 use super::chain_piece::{ArcPiece, Point};
-use super::chords::ChordVertex;
+use super::chord_vertex::ChordVertex;
 use std::f64::consts::TAU;
 
 /// An arc whose sagitta is less than this many tolerances stays chords, since two chords would be enough.
@@ -24,12 +24,8 @@ pub(super) fn fit_longest_arc(
     tolerance: f64,
 ) -> Option<(usize, ArcPiece)> {
     let last = run.len().checked_sub(1)?;
-    let bound = run
-        .iter()
-        .enumerate()
-        .skip(at + 1)
-        .find(|(_, place)| place.is_corner())
-        .map_or(last, |(index, _)| index);
+    let bound =
+        run.iter().enumerate().skip(at + 1).find(|(_, place)| place.corner).map_or(last, |(index, _)| index);
     let fit = |end: usize| fit_arc(run, at, anchor, end, tolerance);
     // No arc worth it fits within a chord's reach, so the first trial goes twice as far.
     let mut good: Option<(usize, ArcPiece)> = None;

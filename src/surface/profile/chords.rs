@@ -4,6 +4,7 @@ use super::arc_fit::fit_longest_arc;
 use super::ball_compensation::make_centre_path;
 use super::chain::{Chain, ChainError, LARGEST};
 use super::chain_piece::{ArcPiece, ChainPiece, Point};
+use super::chord_vertex::ChordVertex;
 use super::direction_wedge::find_longest_chord;
 use std::f64::consts::FRAC_PI_2;
 
@@ -101,15 +102,6 @@ fn fit_chords_above(chain: &Chain, tolerance: f64, keep_arcs: bool) -> Chain {
     follow_chain(&make_centre_path(chain, height), height, keep_arcs)
 }
 
-/// A vertex of the chain at which a chord may end.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct ChordVertex {
-    pub point: Point,
-    /// The arc that leads here from the vertex before; `None` for a line.
-    arc: Option<ArcPiece>,
-    corner: bool,
-}
-
 /// Follows a chain with chords and, if asked for, arcs within a tolerance.
 fn follow_chain(chain: &Chain, tolerance: f64, keep_arcs: bool) -> Chain {
     let mut run = vec![ChordVertex { point: chain.start(), arc: None, corner: false }];
@@ -187,18 +179,6 @@ fn append_run_chords(run: &[ChordVertex], tolerance: f64, keep_arcs: bool, piece
             pieces.push(ChainPiece::line(anchor, next.1));
         }
         (at, anchor) = next;
-    }
-}
-
-impl ChordVertex {
-    /// Returns the arc that leads here, or `None` for a line.
-    pub fn incoming_arc(&self) -> Option<ArcPiece> {
-        self.arc
-    }
-
-    /// Returns whether a chord or an arc must end here.
-    pub fn is_corner(&self) -> bool {
-        self.corner
     }
 }
 

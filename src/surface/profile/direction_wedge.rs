@@ -2,7 +2,7 @@
 //! them.
 
 use super::chain_piece::{ChainPiece, Point};
-use super::chords::ChordVertex;
+use super::chord_vertex::ChordVertex;
 
 /// The search continues by this many vertices beyond the last one that a chord reaches, and by twice as many
 /// as the chord has.
@@ -83,7 +83,7 @@ pub(super) fn find_longest_chord(
             best = (index, place.point);
             best_wedge = wedge;
         }
-        if place.is_corner() || index > best.0 + LOOK_AHEAD + 2 * (best.0 - at) {
+        if place.corner || index > best.0 + LOOK_AHEAD + 2 * (best.0 - at) {
             break;
         }
         far = far.max(distance);
@@ -108,8 +108,8 @@ fn extend_along_arc(
     tolerance: f64,
 ) -> (usize, Point) {
     let stop = (best.0, best.1);
-    let Some(last) = run.get(best.0).filter(|place| !place.is_corner()) else { return stop };
-    let Some(arc) = run.get(best.0 + 1).and_then(ChordVertex::incoming_arc) else { return stop };
+    let Some(last) = run.get(best.0).filter(|place| !place.corner) else { return stop };
+    let Some(arc) = run.get(best.0 + 1).and_then(|vertex| vertex.arc) else { return stop };
     let to = (last.point.u - anchor.u, last.point.z - anchor.z);
     let distance = dot(to, to).sqrt();
     let wedge = if distance > tolerance {

@@ -20,6 +20,7 @@ mod arc_fit;
 mod ball_compensation;
 mod chain;
 mod chain_piece;
+mod chord_vertex;
 mod chords;
 mod direction_wedge;
 mod ellipse_arc;

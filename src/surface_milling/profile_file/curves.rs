@@ -4,6 +4,7 @@
 //! is moved by as much. A curve always starts exactly at the end of the one before, and the next one starts
 //! where it really ends.
 
+use super::piece_fault::PieceFault;
 use super::text::{ArcText, CurveTurnText, EllipseText, NurbsText, PieceText};
 use crate::parameters::Finite;
 use crate::surface::profile::{ChainPiece, EllipseArc, LARGEST, NurbsCurve, ParametricCurve, Point};
@@ -15,31 +16,6 @@ const ROUNDED: f64 = 2e-3;
 
 /// The length below which there is no curve, mm.
 const SHORTEST: f64 = 1e-6;
-
-/// A fault of a piece, at one of its keys and at an element of that key's list.
-pub(super) struct PieceFault {
-    pub message: String,
-    pub label: &'static str,
-    pub help: Option<String>,
-    pub key: Option<&'static str>,
-    pub index: Option<usize>,
-}
-
-impl PieceFault {
-    pub fn new(message: impl Into<String>, label: &'static str) -> Self {
-        Self { message: message.into(), label, help: None, key: None, index: None }
-    }
-
-    fn at_key(mut self, key: &'static str) -> Self {
-        self.key = Some(key);
-        self
-    }
-
-    fn with_help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
-        self
-    }
-}
 
 /// Builds the curves of a piece that starts at a point. `scale` converts the file's unit to mm.
 pub(super) fn build_curves(

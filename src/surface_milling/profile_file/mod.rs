@@ -2,6 +2,8 @@
 //! the one before.
 
 mod curves;
+mod piece_fault;
+mod profile_reader;
 mod text;
 
 use super::SectionProfile;
@@ -14,7 +16,7 @@ use std::sync::Arc;
 /// # Errors
 /// Returns a finding for every fault of the file, at its place.
 pub fn load_profile(source: &Arc<Source>) -> Result<SectionProfile, Failure> {
-    text::read_profile(source)
+    profile_reader::read_profile(source)
 }
 
 /// Returns the JSON schema of a profile file, for editors.

@@ -1,35 +1,25 @@
-//! This module reads the text of a profile file with serde, and makes the JSON schema that editors use.
+//! This module holds what a profile file says, as serde reads it, and makes the JSON schema that editors use.
 
-use super::curves::{self, PieceFault};
-use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::parameters::{Degrees, Finite, LengthUnit, Positive};
-use crate::source::Source;
-use crate::surface::profile::Point;
-use crate::surface_milling::SectionProfile;
-use crate::yaml::{YamlDocument, YamlPathSegment};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use std::sync::Arc;
-
-/// The most faults that are reported. Whoever has more fixes the first ones first.
-const MOST: usize = 20;
 
 /// A profile in a vertical plane, for `clsmith section --profile`. Points are [u, z], with u along the pass
 /// and z up.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "clsmith profile file")]
-struct ProfileFileText {
+pub(super) struct ProfileFileText {
     /// The unit of every length in this file.
     #[serde(default)]
-    units: LengthUnit,
+    pub units: LengthUnit,
     /// The width over which the profile is swept, from 0; `--from` and `--to` override it.
-    width: Option<Positive>,
+    pub width: Option<Positive>,
     /// The point at which the profile starts.
-    start: [Finite; 2],
+    pub start: [Finite; 2],
     /// The pieces of the profile; each starts where the one before ends.
     #[schemars(length(min = 1))]
-    pieces: Vec<PieceText>,
+    pub pieces: Vec<PieceText>,
 }
 
 /// A piece of a profile.
@@ -114,68 +104,8 @@ pub(super) fn make_profile_schema() -> serde_json::Value {
     schemars::schema_for!(ProfileFileText).to_value()
 }
 
-pub(super) fn read_profile(source: &Arc<Source>) -> Result<SectionProfile, Failure> {
-    let document = YamlDocument::parse(source)?;
-    let file: ProfileFileText = document.deserialize_checked(|_| None)?;
-    let scale = file.units.mm_per_unit();
-    let [u, z] = file.start.map(|value| value.get() * scale);
-    let mut at = Point::new(u, z);
-    let mut found = Vec::new();
-    let mut profile =
-        SectionProfile { curves: Vec::new(), width_mm: file.width.map(|width| width.get() * scale) };
-    if file.pieces.is_empty() {
-        found.push(locate_fault(
-            &document,
-            &[YamlPathSegment::Key("pieces")],
-            &PieceFault::new("the profile has no piece", "empty"),
-        ));
-    }
-    for (index, piece) in file.pieces.iter().enumerate() {
-        match curves::build_curves(piece, at, scale) {
-            Ok(curves) => {
-                if let Some(end) = curves.last().map(curves::curve_end) {
-                    at = end;
-                }
-                profile.curves.extend(curves);
-            }
-            Err(wrong) => {
-                let kind = piece.yaml_key();
-                let mut path = vec![
-                    YamlPathSegment::Key("pieces"),
-                    YamlPathSegment::Index(index),
-                    YamlPathSegment::Key(kind),
-                ];
-                path.extend(wrong.key.map(YamlPathSegment::Key));
-                path.extend(wrong.index.map(YamlPathSegment::Index));
-                found.push(locate_fault(&document, &path, &wrong));
-                // The next piece starts where this one was intended to end.
-                at = curves::meant_end(piece, scale).unwrap_or(at);
-            }
-        }
-        if found.len() >= MOST {
-            break;
-        }
-    }
-    if found.is_empty() { Ok(profile) } else { Err(found.into()) }
-}
-
-fn locate_fault(document: &YamlDocument, path: &[YamlPathSegment<'_>], wrong: &PieceFault) -> Diagnostic {
-    // The place is that of the innermost key that exists in the file.
-    let paths = (0..=path.len()).rev().filter_map(|count| path.get(..count));
-    let span = paths.filter_map(|path| document.value_span(path)).next().unwrap_or_default();
-    let found = Diagnostic::new(codes::BAD_VALUE, wrong.message.clone()).with_label(
-        document.source(),
-        span,
-        wrong.label,
-    );
-    match &wrong.help {
-        Some(help) => found.with_help(help.clone()),
-        None => found,
-    }
-}
-
 impl PieceText {
-    fn yaml_key(&self) -> &'static str {
+    pub fn yaml_key(&self) -> &'static str {
         match self {
             Self::Line(_) => "line",
             Self::Polyline(_) => "polyline",

@@ -1,11 +1,11 @@
 //! Compensation against a model: the cutter lowered onto it along each pass.
 
+use super::compensation_job::CompensateZJob;
 use super::cutter_lowering::{lower_cutter, project_from_above};
 use super::findings::MotionFindings;
 use super::leads::{self, MovedPass, PassSurroundings, write_leads};
 use super::pass_writer::PassWriter;
 use super::report::{CompensateZReport, PassReport, PassReporter};
-use super::step::CompensateZJob;
 use super::vertical_passes::find_cutting_runs;
 use super::written_passes;
 use crate::diagnostic::{Failure, codes};

@@ -1,11 +1,11 @@
 //! Compensation by contact normals: each point moves by its own.
 
+use super::compensation_job::CompensateZJob;
 use super::contact_normals::{BallContact, find_gouges};
 use super::findings::MotionFindings;
 use super::leads::{self, MovedPass, PassSurroundings, write_leads};
 use super::pass_writer::PassWriter;
 use super::report::{CompensateZReport, PassReport, PassReporter};
-use super::step::CompensateZJob;
 use super::vertical_passes::find_cutting_runs;
 use super::written_passes;
 use crate::diagnostic::{Diagnostic, Failure, codes};

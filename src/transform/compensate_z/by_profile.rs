@@ -1,11 +1,11 @@
 //! Compensation against the passes themselves.
 
+use super::compensation_job::CompensateZJob;
 use super::findings::MotionFindings;
 use super::leads::{self, MovedPass, PassSurroundings, write_leads};
 use super::pass_profile::{self, CompensatedPass, CompensatingBall};
 use super::pass_writer::PassWriter;
 use super::report::{CompensateZReport, PassReport, PassReporter};
-use super::step::CompensateZJob;
 use super::tip_clearance::lowest_tip_height_mm;
 use super::vertical_passes::{VerticalPass, find_vertical_passes};
 use crate::diagnostic::{Diagnostic, Failure, codes};

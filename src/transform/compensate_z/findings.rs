@@ -1,6 +1,6 @@
 //! What the step says.
 
-use super::leads::LeadConflict;
+use super::lead_conflict::LeadConflict;
 use super::pass_profile::PassFault;
 use super::pass_writer::UnwritableMotion;
 use super::vertical_passes::NoPassReason;

@@ -1,6 +1,7 @@
 //! Leads, links and rapids around passes: they move with the ends of their passes, and never below them.
 
 use super::findings::MotionFindings;
+use super::lead_conflict::LeadConflict;
 use super::pass_writer::PassWriter;
 use super::vertical_passes::{UPRIGHT, is_cutting};
 use crate::diagnostic::Failure;
@@ -35,17 +36,6 @@ pub(super) struct PassSurroundings<'a> {
     pub fixed: Vec<bool>,
     /// Which motions cut, but are not meant.
     pub excluded: Vec<bool>,
-}
-
-/// Why what is around a pass cannot go with it; the motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum LeadConflict {
-    /// The pass begins where a rapid ends.
-    Rapid(usize),
-    /// The pass goes on from, or into, a cut that is not meant.
-    Excluded(usize),
-    /// The pass begins at a place that is not its operation's to move.
-    Fixed(usize),
 }
 
 impl<'a> PassSurroundings<'a> {

@@ -1,6 +1,6 @@
 //! Where an operation's own cutting reaches: the tool's centre may go wherever its disc covers nothing that the operation leaves.
 
-use super::tool_region::contains_line;
+use super::polygon_containment::contains_line;
 use geo::buffer::{BufferStyle, LineCap, LineJoin};
 use geo::{
     BoundingRect, Buffer, Coord, Intersects, Line, LineString, MultiLineString, MultiPolygon, Rect, Simplify,

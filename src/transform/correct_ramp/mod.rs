@@ -23,6 +23,8 @@ mod findings;
 mod level_motions;
 pub mod milled_area;
 mod parameters;
+mod planned_ramp;
+mod polygon_containment;
 pub mod ramp;
 mod ramp_correction;
 mod ramp_cutter;

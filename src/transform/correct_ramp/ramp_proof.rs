@@ -1,11 +1,11 @@
 //! Whether the corrected ramps read back as they were meant, and keep the limits as written.
 
+use super::planned_ramp::PlannedRamp;
 use super::ramp::Ramp;
 use super::ramp_limits::{RampMeasurement, is_within_limits};
 use super::ramp_search::read_ramp;
 use super::ramp_writer::WrittenRamp;
 use super::report::RampReport;
-use super::step::PlannedRamp;
 use crate::program::motion::Motion;
 use crate::program::{LengthUnit, Program};
 

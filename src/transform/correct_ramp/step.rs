@@ -3,7 +3,8 @@
 use super::findings;
 use super::level_motions::LevelMotions;
 use super::parameters::{CorrectRamp, ImpossibleRampHandling, PlungeHandling, RampRegionSpec};
-use super::ramp_correction::{CorrectedRamp, LengtheningMethod, RampTask, correct_ramp};
+use super::planned_ramp::PlannedRamp;
+use super::ramp_correction::{LengtheningMethod, RampTask, correct_ramp};
 use super::ramp_cutter::{self, RampCutter};
 use super::ramp_kind::RampKind;
 use super::ramp_limits::{IndexableCutter, RampLimits, RampMeasurement, is_within_limits};
@@ -26,15 +27,6 @@ const ROUNDING: f64 = 2e-4;
 
 /// Where a ramp may begin above the depth of cut, mm (Zhou 2020: 2 to 3 mm).
 const CLEARANCE: f64 = 2.5;
-
-/// A ramp that is to be written anew.
-pub(super) struct PlannedRamp {
-    pub found: FoundRamp,
-    pub limits: RampLimits,
-    pub corrected: CorrectedRamp,
-    /// Its place among the reports.
-    pub report: usize,
-}
 
 impl Transform for CorrectRamp {
     fn measures(&self) -> bool {

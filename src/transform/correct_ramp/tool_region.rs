@@ -1,15 +1,10 @@
 //! Where the tool's centre may go across its axis.
 
 use super::milled_area::MilledArea;
+use super::polygon_containment::contains_line;
 use super::ramp::is_sensible;
-use geo::line_intersection::{LineIntersection, line_intersection};
-use geo::{
-    Area, Contains, ConvexHull, Distance, Euclidean, Line, LineString, MultiPoint, Polygon, Validation,
-};
+use geo::{Area, ConvexHull, Line, LineString, MultiPoint, Polygon, Validation};
 use nalgebra::Point2;
-
-/// Points this far outside (mm) are on the border: below what any dialect prints.
-const BORDER: f64 = 1e-5;
 
 /// A region across the tool axis, mm.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,40 +72,4 @@ impl ToolRegion {
             _ => true,
         })
     }
-}
-
-/// Between its crossings with the border a line is inside or outside as a whole, so the middles tell.
-pub(super) fn contains_line(polygon: &Polygon, line: Line) -> bool {
-    let delta = line.delta();
-    let length_squared = delta.x * delta.x + delta.y * delta.y;
-    let share =
-        |at: geo::Coord| ((at.x - line.start.x) * delta.x + (at.y - line.start.y) * delta.y) / length_squared;
-    let mut cuts = vec![0.0, 1.0];
-    if length_squared > 0.0 {
-        for edge in boundary_rings(polygon).flat_map(LineString::lines) {
-            match line_intersection(line, edge) {
-                Some(LineIntersection::SinglePoint { intersection, .. }) => cuts.push(share(intersection)),
-                Some(LineIntersection::Collinear { intersection }) => {
-                    cuts.extend([share(intersection.start), share(intersection.end)]);
-                }
-                None => {}
-            }
-        }
-    }
-    cuts.sort_by(f64::total_cmp);
-    let middle = |low: f64, high: f64| line.start + delta * (0.5 * (low + high));
-    let inside = |at: geo::Coord| {
-        let point = geo::Point::from(at);
-        polygon.contains(&point)
-            || boundary_rings(polygon).any(|ring| Euclidean.distance(&point, ring) <= BORDER)
-    };
-    let ends = [line.start, line.end].into_iter().all(inside);
-    ends && cuts.windows(2).all(|pair| match pair {
-        [low, high] => inside(middle(*low, *high)),
-        _ => true,
-    })
-}
-
-fn boundary_rings(polygon: &Polygon) -> impl Iterator<Item = &LineString> {
-    std::iter::once(polygon.exterior()).chain(polygon.interiors())
 }

@@ -1,6 +1,5 @@
 //! Writing out a tool axis that the file leaves unsaid, in the way that its dialect states axes.
 
-use super::move_tracker::RequiredAxis;
 use crate::diagnostic::Failure;
 use crate::parse;
 use crate::program::{Dialect, NumberRole, Record};
@@ -33,6 +32,15 @@ impl AxisNotation {
             Dialect::Creo | Dialect::CreoGpost | Dialect::SolidWorks | Dialect::Iso => Self::EveryLine,
         }
     }
+}
+
+/// An axis that a motion has to state.
+#[derive(Debug, Clone, Copy)]
+pub struct RequiredAxis {
+    /// The axis.
+    pub axis: Vector3<f64>,
+    /// The first statement that belongs to the motion alone (its RAPID, CIRCLE, INDIRV).
+    pub first: usize,
 }
 
 /// What became of a wish for an axis.

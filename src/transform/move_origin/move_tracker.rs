@@ -3,21 +3,12 @@
 //! `old` is the axis that the file has in force; `new` is the one that the changed file would have if only numbers changed.
 //! Where a motion states no axis and the two do not map onto each other, the motion needs its axis written out.
 
-use super::axis_notation::AxisNotation;
+use super::axis_notation::{AxisNotation, RequiredAxis};
 use crate::program::record::{CutterCompensation, FrameWord, has_contact_normal, has_tool_axes};
 use crate::program::{Dialect, Record};
 use crate::transform::Affine;
 use crate::transform::affine::is_same_vector;
 use nalgebra::Vector3;
-
-/// An axis that a motion has to state.
-#[derive(Debug, Clone, Copy)]
-pub struct RequiredAxis {
-    /// The axis.
-    pub axis: Vector3<f64>,
-    /// The first statement that belongs to the motion alone (its RAPID, CIRCLE, INDIRV).
-    pub first: usize,
-}
 
 /// Why a program cannot be moved.
 #[derive(Debug)]

@@ -1,27 +1,27 @@
 //! `optimize_feed`: block by block, the feed at which the load of the cutter stays within its targets.
 //!
-//! `gather` simulates the program and gives each block the largest feeds of its pieces (`limits`). [`block_feeds`] decides, and knows nothing of text: blocks with the largest feeds of their pieces go in, feeds of blocks and of
-//! parts of blocks come out. [`motion_split`] breaks motions of a program into parts, so that each can have the feed of its part.
+//! Five stages in the order of their data: [`measure`] simulates the program and makes blocks of it, whose pieces have their
+//! largest feeds; [`limit`] joins pieces to segments; [`plan`] sees to acceleration and rounding; [`write`](mod@write) splits
+//! motions and puts in FEDRATs; [`prove`] simulates again. A stage imports only those before it. `step` calls them in a row.
+//!
+//! Six nouns name a bit of path. A motion is what the CL file programs from one point to the next. A piece is a length of path on
+//! which the load is constant. A block is a feed motion with its pieces. A segment is a part of a block that gets one feed. A chain
+//! is a run of blocks with no rapid, stop or tool change between them. A motion part is one of the motions that a motion becomes in
+//! the CL text where its block has several segments.
 
-pub mod acceleration;
-pub mod block_feeds;
-mod block_measurement;
-mod classed_pieces;
-mod feed_rounding;
-mod feed_segments;
-mod load_limits;
-mod load_notes;
-mod motion_pose;
-pub mod motion_split;
+mod limit;
+mod measure;
 mod parameters;
-mod report;
-mod report_text;
-mod segment_merge;
-mod short_pieces;
-mod split_read_back;
-mod split_statements;
+mod plan;
+mod prove;
 mod step;
-mod target_proof;
+mod write;
 
-pub use parameters::{EngagementSpec, LoadCriterion, LoadLimitSpec, OptimizeFeed, SplitSpec, WindowSpec};
-pub use report::{OperationFeedReport, OptimizeFeedReport};
+pub use limit::{FeedRules, FeedWindow, SplitRule};
+pub use measure::{FeedBlock, FeedLimit, LimitedPiece, LoadCriterion};
+pub use parameters::{EngagementSpec, LoadLimitSpec, OptimizeFeed, SplitSpec, WindowSpec};
+pub use plan::{
+    BlockFeeds, PlannedSegment, TimedSegment, path_time_s, plan_block_feeds, speed_change_distance_mm,
+};
+pub use prove::{OperationFeedReport, OptimizeFeedReport};
+pub use write::{SplitProgram, UnsplitReason, split_motions};

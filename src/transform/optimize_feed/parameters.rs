@@ -1,6 +1,7 @@
 //! The parameters of `optimize_feed`.
 
-use super::block_feeds::{FeedRules, FeedWindow, SplitRule};
+use super::limit::{FeedRules, FeedWindow, SplitRule};
+use super::measure::LoadCriterion;
 use crate::parameters::{Factor, Fraction, NonNegative, Positive, PositiveCount};
 use crate::program::MotionClass;
 use crate::recipe::{MotionFilter, deserialize_not_empty};
@@ -81,57 +82,6 @@ pub struct LoadLimitSpec {
     pub criterion: LoadCriterion,
     /// The load that is allowed, in the criterion's unit.
     pub target: Positive,
-}
-
-/// What loads the cutter.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum LoadCriterion {
-    /// Largest local uncut chip thickness, in the recipe's unit.
-    #[default]
-    ChipThickness,
-    /// Volume removed per minute, in the recipe's unit cubed.
-    RemovalRate,
-    /// Largest resultant cutting force over a revolution, in N.
-    Force,
-    /// Largest torque over a revolution, in Nm.
-    Torque,
-    /// Mean power, in kW.
-    Power,
-}
-
-impl LoadCriterion {
-    /// Its unit, in millimetres.
-    pub fn unit(self) -> &'static str {
-        match self {
-            Self::ChipThickness => "mm",
-            Self::RemovalRate => "mm3/min",
-            Self::Force => "N",
-            Self::Torque => "Nm",
-            Self::Power => "kW",
-        }
-    }
-
-    /// Its name for people.
-    pub fn display_name(self) -> &'static str {
-        match self {
-            Self::ChipThickness => "chip thickness",
-            Self::RemovalRate => "removal rate",
-            Self::Force => "force",
-            Self::Torque => "torque",
-            Self::Power => "power",
-        }
-    }
-
-    /// Whether it needs the material's coefficients.
-    pub fn needs_material(self) -> bool {
-        matches!(self, Self::Force | Self::Torque | Self::Power)
-    }
-
-    /// Whether it needs the teeth.
-    pub fn needs_teeth(self) -> bool {
-        self != Self::RemovalRate
-    }
 }
 
 /// Which part of the path counts for a block.

@@ -1,32 +1,22 @@
 //! The step: simulate, decide, write, simulate again.
 
-use super::block_feeds::{BlockFeeds, FeedRules, plan_block_feeds};
-use super::block_measurement::{MeasuredBlocks, measure_blocks};
-use super::load_limits::LoadLimits;
-use super::motion_split::{SplitProgram, split_motions};
-use super::parameters::{LoadCriterion, OptimizeFeed};
+use super::limit::FeedGoals;
+use super::measure::{LoadCriterion, LoadLimits, MeasuredBlocks, measure_blocks};
+use super::parameters::OptimizeFeed;
+use super::prove::{build_report, prove_targets};
+use super::write::{MOST_TOLD, OptimizedProgram, add_load_notes, plan_and_write_feeds};
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::number::format_point;
 use crate::parameters::Positive;
+use crate::program::Program;
 use crate::program::motion::Motion;
-use crate::program::{LengthUnit, Program, Statement};
 use crate::setup::Setup;
 use crate::simulation_run::{EngagementModel, EngagementRunResult, Machining, SimulationRunOptions};
-use crate::transform::feed_plan::{FeedPlan, decimals_of_feed, round_feed_down};
 use crate::transform::{MotionSelection, StepContext, Transform};
-use crate::write::ProgramEditor;
-use std::collections::BTreeSet;
-use std::ops::Range;
 
 /// Longest piece of path that is looked at on its own where blocks may not be split, mm: margins and half blocks need to know
 /// where in a block the material is.
 const PIECE: f64 = 1.0;
-
-/// What arithmetic makes of equal loads.
-const NOISE: f64 = 1e-6;
-
-/// Findings of one kind that are told one by one.
-const TOLD: usize = 10;
 
 impl Transform for OptimizeFeed {
     fn measures(&self) -> bool {
@@ -36,40 +26,29 @@ impl Transform for OptimizeFeed {
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
         let job = OptimizeFeedJob::new(self, &program, context)?;
         let (before, ran) = job.simulate_blocks(self, &program, context)?;
-        if !before.marks.iter().any(|mark| mark.cuts) {
+        if !before.measurements.iter().any(|measurement| measurement.cuts) {
             return Err(job.describe_nothing_cut(&program, &ran, context));
         }
         // Assumptions and crashes are told once, of the program as it came.
         context.findings.extend(ran.findings);
         let OptimizedProgram { mut program, excused, parts } =
-            job.plan_and_write_feeds(program, &before, context)?;
+            plan_and_write_feeds(&job.goals, program, &before, context)?;
         let told = std::mem::take(&mut context.findings);
         let proof = job.simulate_blocks(self, &program, context);
         context.findings = told;
         let (after, _) = proof?;
-        job.prove_targets(&program, &after, &excused, context)?;
-        job.add_load_notes((&mut program, context.step), &before, &after, &parts);
-        context.add_report(job.build_report(&program, &before, &after, ran.grain, context.step));
+        prove_targets(&job.goals, &program, &after, &excused, context)?;
+        add_load_notes(&job.goals, (&mut program, context.step), &before, &after, &parts);
+        context.add_report(build_report(&job.goals, &program, &before, &after, ran.resolution, context.step));
         Ok(program)
     }
 }
 
-/// The corrected program.
-struct OptimizedProgram {
-    program: Program,
-    /// Numbers of the motions that pass a target at the lowest feed allowed.
-    excused: BTreeSet<usize>,
-    /// For each motion before, its motions now.
-    parts: Vec<Range<usize>>,
-}
-
 /// The parameters in millimetres.
-pub(super) struct OptimizeFeedJob {
-    pub(super) limits: Vec<(LoadCriterion, f64)>,
-    pub(super) rules: FeedRules,
+struct OptimizeFeedJob {
+    goals: FeedGoals,
     options: SimulationRunOptions,
-    source: EngagementModel,
-    pub(super) units: LengthUnit,
+    engagement: EngagementModel,
 }
 
 impl OptimizeFeedJob {
@@ -84,7 +63,7 @@ impl OptimizeFeedJob {
             return Err(context
                 .step_failure(format!("the lowest feed {low} is above the highest {high}"), &["min_feed"]));
         }
-        let source = step.engagement_model(mm_per_unit).map_err(|key| {
+        let engagement = step.engagement_model(mm_per_unit).map_err(|key| {
             let other = if key == "cell" { "dexels" } else { "layers" };
             context.step_failure(format!("`{key}` has a meaning with `engagement: {other}` only"), &[key])
         })?;
@@ -96,7 +75,8 @@ impl OptimizeFeedJob {
             forces: limits.iter().any(|(criterion, _)| criterion.needs_material()),
             ..SimulationRunOptions::default()
         };
-        Ok(Self { limits, rules, options, source, units: context.file_length_unit(program) })
+        let goals = FeedGoals { limits, rules, units: context.file_length_unit(program) };
+        Ok(Self { goals, options, engagement })
     }
 
     /// Simulates a program.
@@ -108,14 +88,14 @@ impl OptimizeFeedJob {
     ) -> Result<(MeasuredBlocks, EngagementRunResult), Failure> {
         let setup: &Setup = context.setup;
         let mut notes = Vec::new();
-        let machining = Machining::new(program, setup, self.units, &mut notes).map_err(|failure| {
+        let machining = Machining::new(program, setup, self.goals.units, &mut notes).map_err(|failure| {
             failure.map_findings(|found| {
                 if found.labels.is_empty() { self.label_step(found, context) } else { found }
             })
         })?;
         context.findings.extend(notes);
         let needs =
-            |need: fn(LoadCriterion) -> bool| self.limits.iter().any(|(criterion, _)| need(*criterion));
+            |need: fn(LoadCriterion) -> bool| self.goals.limits.iter().any(|(criterion, _)| need(*criterion));
         if needs(LoadCriterion::needs_teeth) {
             let gaps = machining.tooling().find_missing_teeth(program, setup);
             if !gaps.is_empty() {
@@ -128,30 +108,35 @@ impl OptimizeFeedJob {
         } else {
             None
         };
-        let grain = machining
-            .choose_resolution(&self.options, self.source)
+        let resolution = machining
+            .choose_resolution(&self.options, self.engagement)
             .map_err(|failure| failure.map_findings(|found| self.label_resolution(found, context)))?;
-        let limits = LoadLimits::new(self.limits.clone(), machining.tooling(), material, grain);
+        let limits = LoadLimits::new(self.goals.limits.clone(), machining.tooling(), material, resolution);
         let mut selection = MotionSelection::new(&step.r#where, program, context);
         let watch = context.watch;
-        let gathered =
-            measure_blocks(&machining, (&self.options, self.source), &limits, watch, |motion: &Motion| {
+        let measured = measure_blocks(
+            &machining,
+            (&self.options, self.engagement),
+            &limits,
+            watch,
+            |motion: &Motion| {
                 !motion.rapid && step.motions.contains(&motion.class) && selection.contains(motion, context)
-            });
-        let (mut gathered, ran) = gathered
+            },
+        );
+        let (mut measured, ran) = measured
             .map_err(|failure| failure.map_findings(|found| self.label_resolution(found, context)))?;
         selection.report_if_empty(context);
-        if !gathered.errors.is_empty() {
-            let mut errors = std::mem::take(&mut gathered.errors);
-            let more = errors.len().saturating_sub(TOLD);
-            errors.truncate(TOLD);
+        if !measured.errors.is_empty() {
+            let mut errors = std::mem::take(&mut measured.errors);
+            let more = errors.len().saturating_sub(MOST_TOLD);
+            errors.truncate(MOST_TOLD);
             if more > 0 {
                 let message = format!("{more} more motions cut with a feed or a speed that cannot be known");
                 errors.push(Diagnostic::new(codes::FEED_UNKNOWN, message));
             }
             return Err(errors.into());
         }
-        Ok((gathered, ran))
+        Ok((measured, ran))
     }
 
     fn label_step(&self, found: Diagnostic, context: &StepContext<'_>) -> Diagnostic {
@@ -159,102 +144,12 @@ impl OptimizeFeedJob {
     }
 
     fn label_resolution(&self, found: Diagnostic, context: &StepContext<'_>) -> Diagnostic {
-        let keys = match self.source {
+        let keys = match self.engagement {
             EngagementModel::Dexels => ["cell"],
             EngagementModel::Layers { .. } if found.code == codes::LAYERS => ["layer"],
             EngagementModel::Layers { .. } => ["engagement"],
         };
         context.label_parameter(found, &keys, "asked for here")
-    }
-
-    /// Decides the feeds and writes them.
-    fn plan_and_write_feeds(
-        &self,
-        program: Program,
-        before: &MeasuredBlocks,
-        context: &mut StepContext<'_>,
-    ) -> Result<OptimizedProgram, Failure> {
-        let mut blocks = before.blocks.clone();
-        let step = context.step;
-        let (splits, found) = loop {
-            let found = plan_block_feeds(&blocks, &self.rules);
-            let wanted: Vec<(usize, Vec<f64>)> = before
-                .marks
-                .iter()
-                .zip(&found.parts)
-                .filter_map(|(mark, parts)| {
-                    let ends: Vec<f64> =
-                        parts.split_last().map(|(_, rest)| rest.iter().map(|part| part.end).collect())?;
-                    (!ends.is_empty()).then_some((mark.motion, ends))
-                })
-                .collect();
-            let mut findings = Vec::new();
-            let splits = split_motions(program.clone(), step, &wanted, &mut findings)?;
-            let kept: BTreeSet<usize> = splits.kept.iter().map(|(motion, _)| *motion).collect();
-            let whole = blocks
-                .iter_mut()
-                .zip(&before.marks)
-                .filter(|(block, mark)| block.splittable && kept.contains(&mark.motion));
-            let mut again = false;
-            for (block, _) in whole {
-                block.splittable = false;
-                again = true;
-            }
-            if !again {
-                context.findings.extend(findings);
-                break (splits, found);
-            }
-        };
-        self.report_below_minimum(&program, before, &found, context);
-        let SplitProgram { program, parts, .. } = splits;
-        let slowest = found.below_minimum.iter().filter_map(|block| before.marks.get(*block));
-        let excused = slowest.filter_map(|mark| parts.get(mark.motion).cloned()).flatten().collect();
-        let mut wanted = std::collections::BTreeMap::new();
-        for ((mark, feeds), _) in
-            before.marks.iter().zip(&found.parts).zip(&blocks).filter(|(_, block)| block.touched)
-        {
-            let Some(range) = parts.get(mark.motion) else { continue };
-            wanted.extend(range.clone().zip(feeds.iter().map(|part| part.feed)));
-        }
-        let plan = FeedPlan::for_numbered_motions(&program, |number, motion| {
-            let wanted = wanted.get(&number)?;
-            let value = motion.feed?.value;
-            let actual =
-                motion.feed?.mm_per_minute(self.units, motion.spindle_rpm(), Some(motion.length()))?;
-            if (wanted - actual).abs() <= NOISE * actual {
-                return None;
-            }
-            let decimals = motion.feed_from.map_or(0, |statement| decimals_of_feed(&program, statement));
-            Some(round_feed_down(value * wanted / actual, decimals))
-        });
-        let mut editor = ProgramEditor::new(program, step);
-        plan.write_feeds(&mut editor, &mut context.findings)?;
-        Ok(OptimizedProgram { program: editor.finish()?, excused, parts })
-    }
-
-    /// Blocks that pass the target at the lowest feed allowed.
-    fn report_below_minimum(
-        &self,
-        program: &Program,
-        before: &MeasuredBlocks,
-        found: &BlockFeeds,
-        context: &mut StepContext<'_>,
-    ) {
-        for block in found.below_minimum.iter().take(TOLD) {
-            let Some(mark) = before.marks.get(*block) else { continue };
-            let span = program.statement(mark.statement).map(Statement::origin).unwrap_or_default();
-            let message = "the target is passed here at the lowest feed allowed";
-            let finding = Diagnostic::new(codes::BELOW_MINIMUM, message).with_label(
-                program.source(),
-                span,
-                "more than the target",
-            );
-            context.findings.push(context.label_parameter(finding, &["min_feed"], "the lowest feed"));
-        }
-        if let Some(more) = found.below_minimum.len().checked_sub(TOLD).filter(|more| *more > 0) {
-            let message = format!("the target is passed at the lowest feed allowed on {more} more motions");
-            context.findings.push(Diagnostic::new(codes::BELOW_MINIMUM, message));
-        }
     }
 }
 
@@ -268,7 +163,7 @@ impl OptimizeFeedJob {
     ) -> Failure {
         let mut points = program.motions().filter(|motion| !motion.rapid).map(|motion| motion.to.point);
         let path = points.next().map(|first| points.fold((first, first), |(a, b), p| (a.inf(&p), b.sup(&p))));
-        let mm_per_unit = self.units.mm_per_unit();
+        let mm_per_unit = self.goals.units.mm_per_unit();
         let path = path.map(|(low, high)| (low * mm_per_unit, high * mm_per_unit));
         let path = path.map_or_else(String::new, |(low, high)| {
             let [low, high] = [low, high].map(|corner| format_point(corner.coords.into(), 1));

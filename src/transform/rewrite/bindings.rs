@@ -1,8 +1,6 @@
 //! What a pattern bound in a statement.
 
-use super::expression::ExpressionValue;
-use crate::number;
-use crate::program::operation;
+use super::expression_value::{ExpressionValue, parse_value};
 use std::ops::Range;
 
 /// A name that a pattern binds.
@@ -61,20 +59,6 @@ impl<'t> Bindings<'t> {
     fn bytes_at(&self, at: &Range<usize>) -> &'t [u8] {
         self.text.get(at.clone()).unwrap_or_default()
     }
-}
-
-fn parse_value(bytes: &[u8]) -> ExpressionValue {
-    if let Some(number) = number::parse_number(bytes) {
-        return ExpressionValue::Number(number);
-    }
-    let inner = bytes.strip_prefix(b"'").and_then(|bytes| bytes.strip_suffix(b"'")).unwrap_or(bytes);
-    ExpressionValue::Word(fold_word(&operation::decode_text(inner)))
-}
-
-/// A word as words are compared: in upper case, runs of blanks as one.
-pub(super) fn fold_word(word: &str) -> String {
-    let words: Vec<String> = word.split_whitespace().map(str::to_ascii_uppercase).collect();
-    words.join(" ")
 }
 
 /// What is said about a name that no argument is bound to.

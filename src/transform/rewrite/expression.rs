@@ -1,6 +1,7 @@
 //! Expressions of `if` and `${...}`: their types, checked when the recipe is read, and their values.
 
-use super::bindings::{self, Bindings, BoundName};
+use super::bindings::{Bindings, BoundName, unbound_message};
+use super::expression_value::{ExpressionValue, fold_word};
 use std::ops::Range;
 
 /// An expression on bound numbers and words.
@@ -45,15 +46,6 @@ pub(super) enum ExpressionKind {
     Truth,
     /// A bound argument: a number or a word.
     Argument,
-}
-
-/// What an expression gave.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum ExpressionValue {
-    Number(f64),
-    /// In upper case.
-    Word(String),
-    Truth(bool),
 }
 
 /// Why an expression has no value for a statement.
@@ -116,11 +108,7 @@ impl Expression {
     /// A message, with help after a line break.
     pub fn check_names(&self, names: &[BoundName]) -> Result<(), String> {
         self.names().into_iter().try_for_each(|name| match names.iter().find(|known| known.text == *name) {
-            None => Err(bindings::unbound_message(
-                name,
-                names,
-                "A word to compare with stands in quotes: 'MMPM'.",
-            )),
+            None => Err(unbound_message(name, names, "A word to compare with stands in quotes: 'MMPM'.")),
             Some(known) if known.rest => Err(format!(
                 "`$...{name}` is not one value but several arguments\nBind the one that is meant: $NAME."
             )),
@@ -145,7 +133,7 @@ impl Expression {
     pub fn evaluate(&self, bindings: &Bindings<'_>) -> Result<ExpressionValue, EvaluationError> {
         match self {
             Self::Number(value) => Ok(ExpressionValue::Number(*value)),
-            Self::Word(word) => Ok(ExpressionValue::Word(bindings::fold_word(word))),
+            Self::Word(word) => Ok(ExpressionValue::Word(fold_word(word))),
             Self::Name(name) => Ok(bindings.argument_value(name)),
             Self::Not(value) => Ok(ExpressionValue::Truth(!value.evaluate_truth(bindings)?)),
             Self::Minus(value) => Ok(ExpressionValue::Number(-value.evaluate_number(bindings)?)),

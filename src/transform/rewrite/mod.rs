@@ -3,6 +3,7 @@
 mod bindings;
 mod charset;
 mod expression;
+mod expression_value;
 mod pattern;
 mod reshape;
 mod rewrite_run;

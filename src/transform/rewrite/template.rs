@@ -2,7 +2,8 @@
 
 use super::bindings::{Bindings, BoundName, unbound_message};
 use super::charset::Charset;
-use super::expression::{EvaluationError, Expression, ExpressionKind, ExpressionValue};
+use super::expression::{EvaluationError, Expression, ExpressionKind};
+use super::expression_value::ExpressionValue;
 use super::rule_subject::{RuleSubject, SubjectClass};
 use super::rule_text::{RuleTextPart, parse_rule_text, quote_text};
 use crate::parse;

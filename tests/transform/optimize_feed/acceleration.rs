@@ -1,21 +1,19 @@
 //! Time and feeds under an acceleration limit, against closed forms and a brute force.
 
-use clsmith::transform::optimize_feed::acceleration::{TimedSegment, path_time_s, speed_change_distance_mm};
-use clsmith::transform::optimize_feed::block_feeds::{
-    FeedBlock, FeedLimit, FeedRules, LimitedPiece, plan_block_feeds,
-};
+use clsmith::transform::optimize_feed::{FeedBlock, FeedLimit, FeedRules, LimitedPiece, plan_block_feeds};
+use clsmith::transform::optimize_feed::{TimedSegment, path_time_s, speed_change_distance_mm};
 
 fn stretch(length: f64, feed: f64) -> TimedSegment {
     TimedSegment { length, feed, breaks_chain: false }
 }
 
 fn block(length: f64, limit: f64) -> FeedBlock {
-    let pieces = vec![LimitedPiece { length, load: FeedLimit::Limit(limit) }];
+    let pieces = vec![LimitedPiece { length, limit: FeedLimit::Limit(limit) }];
     FeedBlock { length, programmed: 50.0, touched: true, splittable: true, breaks_chain: false, pieces }
 }
 
 fn only_feeds(blocks: &[FeedBlock], rules: &FeedRules) -> Vec<f64> {
-    plan_block_feeds(blocks, rules).parts.iter().map(|parts| parts[0].feed).collect()
+    plan_block_feeds(blocks, rules).segments.iter().map(|parts| parts[0].feed).collect()
 }
 
 #[test]

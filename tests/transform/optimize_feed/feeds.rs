@@ -1,6 +1,6 @@
 //! Feeds from loads, rule by rule.
 
-use clsmith::transform::optimize_feed::block_feeds::{
+use clsmith::transform::optimize_feed::{
     BlockFeeds, FeedBlock, FeedLimit, FeedRules, FeedWindow, LimitedPiece, SplitRule, plan_block_feeds,
 };
 
@@ -10,7 +10,7 @@ const AIR: f64 = -1.0;
 fn block(piece: f64, limits: &[f64]) -> FeedBlock {
     let load = |limit: f64| if limit < 0.0 { FeedLimit::Air } else { FeedLimit::Limit(limit) };
     let pieces: Vec<_> =
-        limits.iter().map(|limit| LimitedPiece { length: piece, load: load(*limit) }).collect();
+        limits.iter().map(|limit| LimitedPiece { length: piece, limit: load(*limit) }).collect();
     let length = piece * limits.len() as f64;
     FeedBlock { length, programmed: 1000.0, touched: true, splittable: true, breaks_chain: false, pieces }
 }
@@ -28,12 +28,12 @@ fn splitting() -> FeedRules {
 /// Ends in mm and feeds of one block's parts.
 fn parts(found: &BlockFeeds, blocks: &[FeedBlock], index: usize) -> Vec<(f64, f64)> {
     let round = |end: f64| (end * blocks[index].length * 1e6).round() / 1e6;
-    found.parts[index].iter().map(|part| (round(part.end), part.feed)).collect()
+    found.segments[index].iter().map(|part| (round(part.end), part.feed)).collect()
 }
 
 fn one_feed_each(found: &BlockFeeds) -> Vec<f64> {
-    assert!(found.parts.iter().all(|parts| parts.len() == 1), "{found:?}");
-    found.parts.iter().map(|parts| parts[0].feed).collect()
+    assert!(found.segments.iter().all(|parts| parts.len() == 1), "{found:?}");
+    found.segments.iter().map(|parts| parts[0].feed).collect()
 }
 
 #[test]
@@ -139,7 +139,7 @@ fn there_are_no_more_parts_than_allowed() {
             &blocks,
             &FeedRules { split: Some(SplitRule { at_most, ..SPLIT }), ..splitting() },
         );
-        assert_eq!(found.parts[0].len(), at_most);
+        assert_eq!(found.segments[0].len(), at_most);
     }
 }
 

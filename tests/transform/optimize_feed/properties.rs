@@ -1,7 +1,7 @@
 //! What holds for every path.
 
-use clsmith::transform::optimize_feed::acceleration::path_time_s;
-use clsmith::transform::optimize_feed::block_feeds::{
+use clsmith::transform::optimize_feed::path_time_s;
+use clsmith::transform::optimize_feed::{
     BlockFeeds, FeedBlock, FeedLimit, FeedRules, FeedWindow, LimitedPiece, SplitRule, plan_block_feeds,
 };
 use proptest::prelude::*;
@@ -15,7 +15,7 @@ fn load() -> impl Strategy<Value = FeedLimit> {
 }
 
 fn blocks() -> impl Strategy<Value = Vec<FeedBlock>> {
-    let piece = (0.05..3.0f64, load()).prop_map(|(length, load)| LimitedPiece { length, load });
+    let piece = (0.05..3.0f64, load()).prop_map(|(length, limit)| LimitedPiece { length, limit });
     let block = (
         prop::collection::vec(piece, 1..8),
         prop_oneof![Just(1000.0), 100.0..3000.0f64],
@@ -61,7 +61,7 @@ fn places(block: &FeedBlock) -> Vec<(f64, f64, FeedLimit)> {
     let place = |piece: &LimitedPiece| {
         let from = start;
         start += piece.length;
-        (from, start, piece.load)
+        (from, start, piece.limit)
     };
     block.pieces.iter().map(place).collect()
 }
@@ -69,12 +69,12 @@ fn places(block: &FeedBlock) -> Vec<(f64, f64, FeedLimit)> {
 /// Parts of a block with their places in it, in mm, and feeds.
 fn parts(block: &FeedBlock, found: &BlockFeeds, index: usize) -> Vec<(f64, f64, f64)> {
     let mut start = 0.0;
-    let part = |part: &clsmith::transform::optimize_feed::block_feeds::PlannedSegment| {
+    let part = |part: &clsmith::transform::optimize_feed::PlannedSegment| {
         let from = start;
         start = part.end * block.length;
         (from, start, part.feed)
     };
-    found.parts[index].iter().map(part).collect()
+    found.segments[index].iter().map(part).collect()
 }
 
 /// Feeds that are what they were, whether or not a block was without any say in them.
@@ -111,7 +111,7 @@ proptest! {
             }
         }
         let least = |index: &usize| {
-            let limits = blocks[*index].pieces.iter().map(|piece| piece.load);
+            let limits = blocks[*index].pieces.iter().map(|piece| piece.limit);
             limits.filter_map(|load| match load { FeedLimit::Limit(limit) => Some(limit), FeedLimit::Air => None }).fold(f64::INFINITY, f64::min)
         };
         prop_assert!(found.below_minimum.iter().all(|index| least(index) < rules.min_feed));
@@ -120,10 +120,10 @@ proptest! {
     #[test]
     fn parts_are_long_enough_and_not_too_many(blocks in blocks(), rules in rules()) {
         let found = plan_block_feeds(&blocks, &rules);
-        prop_assert_eq!(found.parts.len(), blocks.len());
+        prop_assert_eq!(found.segments.len(), blocks.len());
         for (index, block) in blocks.iter().enumerate() {
             let parts = parts(block, &found, index);
-            prop_assert_eq!(found.parts[index].last().map(|part| part.end), Some(1.0));
+            prop_assert_eq!(found.segments[index].last().map(|part| part.end), Some(1.0));
             match rules.split.filter(|rule| block.touched && block.splittable && block.length > rule.above) {
                 None => prop_assert_eq!(parts.len(), 1),
                 Some(rule) => {
@@ -178,11 +178,11 @@ proptest! {
         let rules = FeedRules { split: None, ..rules };
         let once = plan_block_feeds(&blocks, &rules);
         let mut again = blocks.clone();
-        for (block, parts) in again.iter_mut().zip(&once.parts) {
+        for (block, parts) in again.iter_mut().zip(&once.segments) {
             block.programmed = parts[0].feed;
         }
         let twice = plan_block_feeds(&again, &rules);
-        prop_assert_eq!(&once.parts, &twice.parts);
+        prop_assert_eq!(&once.segments, &twice.segments);
         prop_assert_eq!(&once, &plan_block_feeds(&blocks, &rules));
     }
 
@@ -195,7 +195,7 @@ proptest! {
         let mut again = Vec::new();
         for (index, block) in blocks.iter().enumerate() {
             for (number, (from, to, feed)) in parts(block, &once, index).into_iter().enumerate() {
-                let inside = |(start, end, load): (f64, f64, FeedLimit)| LimitedPiece { length: end.min(to) - start.max(from), load };
+                let inside = |(start, end, limit): (f64, f64, FeedLimit)| LimitedPiece { length: end.min(to) - start.max(from), limit };
                 let pieces = places(block).into_iter().map(inside).filter(|piece| piece.length > 1e-9).collect();
                 let breaks_chain = block.breaks_chain && number == 0;
                 again.push((feed, FeedBlock { length: to - from, programmed: feed, breaks_chain, pieces, ..block.clone() }));
@@ -203,7 +203,7 @@ proptest! {
         }
         let (before, again): (Vec<f64>, Vec<FeedBlock>) = again.into_iter().unzip();
         let twice = plan_block_feeds(&again, &rules);
-        for ((feed, parts), block) in before.iter().zip(&twice.parts).zip(&again) {
+        for ((feed, parts), block) in before.iter().zip(&twice.segments).zip(&again) {
             let known = block.length == 0.0 || parts.iter().all(|part| (part.feed - feed).abs() < 1e-6);
             prop_assert!(known, "{feed} became {parts:?} {block:?}");
         }
@@ -244,7 +244,7 @@ proptest! {
                     let count = ((end - start) / 0.03).ceil() as usize;
                     for step in 0..count {
                         let at = travelled + start + (end - start) * (step as f64 + 0.5) / count as f64;
-                        let has_air = block.pieces.iter().any(|piece| piece.load == FeedLimit::Air);
+                        let has_air = block.pieces.iter().any(|piece| piece.limit == FeedLimit::Air);
                         let beside = match load {
                             FeedLimit::Limit(limit) if block.touched && has_air => limit.min(rules.max_feed).max(feed),
                             _ => feed,

@@ -31,6 +31,7 @@ use super::straight::SweepContext;
 use crate::cutter::CutterModel;
 use crate::engagement::path_piece::{PathPiece, STILL};
 use crate::stock::dexel::{DexelBand, DexelGrid};
+use crate::stock::merge_span;
 use leg::{GridPose, SolidSpanEnd, SweepLeg, TurningMotion};
 use leg_extremum::{LegExtremumQuery, PassingTime, find_leg_extremum};
 use leg_footprint::LegFootprint;
@@ -274,16 +275,4 @@ fn reachable_height_mm(from: &GridPose, to: &GridPose, radius: f64, highest: f64
         return f64::INFINITY;
     }
     ((highest - from.tip.z.min(to.tip.z) + radius) / rise).max(0.0)
-}
-
-/// Merges an interval into a list of intervals that do not touch.
-fn merge_span(spans: &mut Vec<[f64; 2]>, [mut low, mut high]: [f64; 2]) {
-    spans.retain(|[from, to]| {
-        let apart = *to < low || *from > high;
-        if !apart {
-            (low, high) = (low.min(*from), high.max(*to));
-        }
-        apart
-    });
-    spans.push([low, high]);
 }

@@ -27,20 +27,20 @@ pub(super) enum SplitForm {
     Drive(usize),
 }
 
-/// A motion with the places where it is split: shares of its length, and the poses there.
+/// A motion with the places where it is split: fractions of its length, and the poses there.
 #[derive(Debug, Clone)]
 pub(super) struct SplitMotion {
-    pub(super) motion: usize,
-    pub(super) written: SplitForm,
-    pub(super) shares: Vec<f64>,
-    pub(super) poses: Vec<Pose>,
+    pub motion: usize,
+    pub written: SplitForm,
+    pub fractions: Vec<f64>,
+    pub poses: Vec<Pose>,
 }
 
 impl SplitMotion {
-    /// Start and end of each part as shares, in order.
-    pub(super) fn part_fractions(&self) -> impl Iterator<Item = (f64, f64)> {
-        let starts = std::iter::once(0.0).chain(self.shares.iter().copied());
-        starts.zip(self.shares.iter().copied().chain([1.0]))
+    /// Start and end of each part as fractions, in order.
+    pub fn part_fractions(&self) -> impl Iterator<Item = (f64, f64)> {
+        let starts = std::iter::once(0.0).chain(self.fractions.iter().copied());
+        starts.zip(self.fractions.iter().copied().chain([1.0]))
     }
 }
 
@@ -48,11 +48,11 @@ impl SplitMotion {
 pub(super) fn write_split_motion(
     editor: &mut ProgramEditor,
     motion: &Motion,
-    cut: &SplitMotion,
+    split: &SplitMotion,
 ) -> Result<(), Failure> {
-    match cut.written {
+    match split.written {
         SplitForm::Line => {
-            for pose in &cut.poses {
+            for pose in &split.poses {
                 let goto = render_goto(editor, motion, pose);
                 editor.insert_before(motion.last_statement(), &goto)?;
             }
@@ -60,15 +60,15 @@ pub(super) fn write_split_motion(
         }
         SplitForm::Circle(circle) => {
             let again = text_without_remark(editor.program(), circle);
-            for pose in &cut.poses {
+            for pose in &split.poses {
                 let goto = render_goto(editor, motion, pose);
                 editor.insert_before(motion.last_statement(), &goto)?;
                 editor.insert_before(motion.last_statement(), &again)?;
             }
             Ok(())
         }
-        SplitForm::MoveArc(record) => write_move_arcs(editor, motion, cut, record),
-        SplitForm::Drive(direction) => write_drive_arcs(editor, motion, cut, direction),
+        SplitForm::MoveArc(record) => write_move_arcs(editor, motion, split, record),
+        SplitForm::Drive(direction) => write_drive_arcs(editor, motion, split, direction),
     }
 }
 
@@ -79,16 +79,16 @@ fn render_goto(editor: &ProgramEditor, motion: &Motion, pose: &Pose) -> Vec<u8> 
     copy_with_numbers(editor, motion.last_statement(), 0, &[x, y, z, i, j, k])
 }
 
-/// MOVARC says its own angle, so the whole one's is cut down to its first part's.
+/// MOVARC says its own angle, so the whole one's is split down to its first part's.
 fn write_move_arcs(
     editor: &mut ProgramEditor,
     motion: &Motion,
-    cut: &SplitMotion,
+    split: &SplitMotion,
     statement: usize,
 ) -> Result<(), Failure> {
     let angle = find_move_arc_angle(editor.program(), statement);
     let degrees = |(start, end): (f64, f64)| angle.map(|(number, whole)| (number, whole * (end - start)));
-    for (pose, part) in cut.poses.iter().zip(cut.part_fractions().skip(1)) {
+    for (pose, part) in split.poses.iter().zip(split.part_fractions().skip(1)) {
         let goto = render_goto(editor, motion, pose);
         let again = match degrees(part) {
             Some((number, degrees)) => copy_with_numbers(editor, statement, number, &[degrees]),
@@ -97,7 +97,7 @@ fn write_move_arcs(
         editor.insert_before(motion.last_statement(), &goto)?;
         editor.insert_before(motion.last_statement(), &again)?;
     }
-    match cut.part_fractions().next().and_then(degrees) {
+    match split.part_fractions().next().and_then(degrees) {
         Some(first) => editor.set_numbers(statement, &[first]),
         None => Ok(()),
     }
@@ -117,7 +117,7 @@ fn find_move_arc_angle(program: &Program, statement: usize) -> Option<(usize, f6
 fn write_drive_arcs(
     editor: &mut ProgramEditor,
     motion: &Motion,
-    cut: &SplitMotion,
+    split: &SplitMotion,
     direction: usize,
 ) -> Result<(), Failure> {
     let MotionPath::Arc(arc) = &motion.path else { return Ok(()) };
@@ -127,13 +127,13 @@ fn write_drive_arcs(
         .program()
         .statement(last)
         .map_or(0, |found| parse::statement_numbers(editor.program().statement_text(found)).len());
-    for ((pose, share), part) in cut.poses.iter().zip(&cut.shares).zip(cut.part_fractions()) {
+    for ((pose, fraction), part) in split.poses.iter().zip(&split.fractions).zip(split.part_fractions()) {
         let [x, y, z]: [f64; 3] = pose.point.coords.into();
         let mut drive = copy_with_numbers(editor, last, numbers.saturating_sub(3), &[x, y, z]);
         if let Some(intof) = find_intof_range(&drive).filter(|_| short(part)) {
             drive.drain(intof);
         }
-        let tangent: [f64; 3] = start_tangent(arc, *share).into();
+        let tangent: [f64; 3] = start_tangent(arc, *fraction).into();
         let indirv = copy_with_numbers(editor, direction, 0, &tangent);
         editor.insert_before(last, &drive)?;
         editor.insert_before(last, &indirv)?;
@@ -142,15 +142,15 @@ fn write_drive_arcs(
         .program()
         .statement(last)
         .and_then(|found| find_intof_range(editor.program().statement_text(found)));
-    match whole.filter(|_| cut.part_fractions().last().is_some_and(short)) {
+    match whole.filter(|_| split.part_fractions().last().is_some_and(short)) {
         Some(intof) => editor.replace_parts(last, &[(intof, b"")]),
         None => Ok(()),
     }
 }
 
-fn start_tangent(arc: &crate::program::geometry::CircularArc, share: f64) -> Vector3<f64> {
+fn start_tangent(arc: &crate::program::geometry::CircularArc, fraction: f64) -> Vector3<f64> {
     // A tangent of 1e-17 in x would be printed as zero, but with a sign.
-    arc.tangent_at(share).map(|part| if part.abs() < 1e-9 { 0.0 } else { part })
+    arc.tangent_at(fraction).map(|part| if part.abs() < 1e-9 { 0.0 } else { part })
 }
 
 /// Where `2,INTOF,` and what follows it up to the LINE stand.

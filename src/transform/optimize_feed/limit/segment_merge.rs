@@ -1,39 +1,40 @@
 //! Where a block is split: its pieces merged from the bottom up, the pair that costs least time first.
 
-use super::block_feeds::{FeedBlock, FeedRules};
 use super::classed_pieces::ClassedPiece;
-use super::feed_segments::{FeedBounds, WindowContent};
+use super::feed_rules::FeedRules;
+use super::window_content::{FeedBounds, WindowContent};
+use crate::transform::optimize_feed::measure::FeedBlock;
 use std::ops::Range;
 
-/// What lengths may differ by, as a share, and be equal.
+/// What lengths may differ by, as a fraction, and be equal.
 const NOISE: f64 = 1e-9;
 
-/// A run of atoms that has one feed.
+/// A run of pieces that has one feed.
 #[derive(Debug, Clone)]
 struct CandidateSegment {
-    atoms: Range<usize>,
+    pieces: Range<usize>,
     length: f64,
     content: WindowContent,
     /// Time at its own feed.
     time: f64,
-    /// Time of its atoms, each at its own feed: what splitting could reach.
+    /// Time of its pieces, each at its own feed: what splitting could reach.
     least_time: f64,
 }
 
-/// The parts of a block as ranges of atoms, in order.
+/// The parts of a block as ranges of pieces, in order.
 ///
 /// Neighbours are merged while that loses no more than `min_change` of the time that their pieces need one by one. What is too
 /// short then grows into the neighbour where that costs less; what is too many is merged on at the least cost.
 pub(super) fn merge_into_segments(
     block: &FeedBlock,
     bounds: &FeedBounds,
-    atoms: &[ClassedPiece],
+    pieces: &[ClassedPiece],
     range: Range<usize>,
     rules: &FeedRules,
 ) -> Vec<Range<usize>> {
     let rule = rules.split.filter(|rule| rule.applies_to(block));
     let Some(rule) = rule else { return vec![range] };
-    let path = SegmentMerger { atoms, bounds, programmed: block.programmed };
+    let path = SegmentMerger { pieces, bounds, programmed: block.programmed };
     let mut segments: Vec<CandidateSegment> = Vec::new();
     for index in range {
         let one = path.build_segment(index..index + 1);
@@ -65,7 +66,7 @@ pub(super) fn merge_into_segments(
             None => break,
         }
     }
-    segments.into_iter().map(|segment| segment.atoms).collect()
+    segments.into_iter().map(|segment| segment.pieces).collect()
 }
 
 fn has_same_limits(a: WindowContent, b: WindowContent) -> bool {
@@ -79,9 +80,9 @@ fn find_too_short(segments: &[CandidateSegment], enough: f64) -> Option<usize> {
     found.map(|(at, _)| at).filter(|_| segments.len() > 1)
 }
 
-/// The atoms of a block, and what feed they get.
+/// The pieces of a block, and what feed they get.
 struct SegmentMerger<'a> {
-    atoms: &'a [ClassedPiece],
+    pieces: &'a [ClassedPiece],
     bounds: &'a FeedBounds,
     programmed: f64,
 }
@@ -93,20 +94,20 @@ impl SegmentMerger<'_> {
 
     fn build_segment(&self, range: Range<usize>) -> CandidateSegment {
         let (mut content, mut length, mut least_time) = (WindowContent::NOTHING, 0.0, 0.0);
-        for atom in self.atoms.get(range.clone()).unwrap_or_default() {
-            let own = WindowContent::from_piece(atom, self.atoms);
+        for piece in self.pieces.get(range.clone()).unwrap_or_default() {
+            let own = WindowContent::from_piece(piece, self.pieces);
             content = content.combined_with(own);
-            length += atom.length;
-            least_time += self.time_min(own, atom.length);
+            length += piece.length;
+            least_time += self.time_min(own, piece.length);
         }
-        CandidateSegment { atoms: range, length, content, time: self.time_min(content, length), least_time }
+        CandidateSegment { pieces: range, length, content, time: self.time_min(content, length), least_time }
     }
 
     fn join_segments(&self, a: &CandidateSegment, b: &CandidateSegment) -> CandidateSegment {
         let (content, length) = (a.content.combined_with(b.content), a.length + b.length);
         let least_time = a.least_time + b.least_time;
         CandidateSegment {
-            atoms: a.atoms.start..b.atoms.end,
+            pieces: a.pieces.start..b.pieces.end,
             length,
             content,
             time: self.time_min(content, length),
@@ -144,14 +145,14 @@ impl SegmentMerger<'_> {
         }
     }
 
-    /// Gives a too short segment an atom of a neighbour, or all of a neighbour that would itself be too short without it.
+    /// Gives a too short segment an piece of a neighbour, or all of a neighbour that would itself be too short without it.
     fn grow_segment(&self, segments: &mut Vec<CandidateSegment>, at: usize, enough: f64) {
         let options = [at.checked_sub(1), Some(at)].into_iter().flatten();
         let options = options.filter_map(|first| {
             let (a, b) = (segments.get(first)?, segments.get(first + 1)?);
-            let border = if first == at { b.atoms.start + 1 } else { a.atoms.end - 1 };
+            let boundary = if first == at { b.pieces.start + 1 } else { a.pieces.end - 1 };
             let (left, right) =
-                (self.build_segment(a.atoms.start..border), self.build_segment(border..b.atoms.end));
+                (self.build_segment(a.pieces.start..boundary), self.build_segment(boundary..b.pieces.end));
             let giver = if first == at { &right } else { &left };
             let new = if giver.length < enough { vec![self.join_segments(a, b)] } else { vec![left, right] };
             Some((self.added_time_min([a, b], &new), first, new))

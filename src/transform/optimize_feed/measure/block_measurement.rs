@@ -1,8 +1,8 @@
 //! The program as blocks with loads, from a simulation of it.
 
-use super::block_feeds::{FeedBlock, FeedLimit, LimitedPiece};
+use super::feed_block::{FeedBlock, FeedLimit, LimitedPiece};
 use super::load_limits::{LoadLimits, SpindleRotation};
-use super::short_pieces;
+use super::short_pieces::lower_short_pieces;
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
@@ -16,18 +16,18 @@ use crate::transform::statement_numbers::major_word;
 
 /// The path as blocks, and what the targets are there.
 #[derive(Debug, Default)]
-pub(super) struct MeasuredBlocks {
+pub(in crate::transform::optimize_feed) struct MeasuredBlocks {
     /// Feed motions in order.
     pub blocks: Vec<FeedBlock>,
     /// For each block, what it is beside its loads.
-    pub marks: Vec<BlockMeasurement>,
+    pub measurements: Vec<BlockMeasurement>,
     /// Cuts whose feed or speed is not known, and what stands in the way of simulating.
     pub errors: Vec<Diagnostic>,
 }
 
 /// A block among the motions.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct BlockMeasurement {
+pub(in crate::transform::optimize_feed) struct BlockMeasurement {
     /// Number of the motion.
     pub motion: usize,
     /// Its last statement.
@@ -41,7 +41,7 @@ pub(super) struct BlockMeasurement {
 }
 
 /// Simulates a program and gathers its blocks. `touches` says which motions may get another feed.
-pub(super) fn measure_blocks(
+pub(in crate::transform::optimize_feed) fn measure_blocks(
     machining: &Machining<'_>,
     (options, source): (&SimulationRunOptions, EngagementModel),
     limits: &LoadLimits,
@@ -50,15 +50,15 @@ pub(super) fn measure_blocks(
 ) -> Result<(MeasuredBlocks, EngagementRunResult), Failure> {
     let mut gathered = MeasuredBlocks::default();
     let mut before = PreviousMotion::default();
-    let ran = machining.find_engagements(options, source, watch, &mut |cut| {
-        let touched = touches(cut.motion);
-        gathered.add_motion(machining, limits, cut, touched, &mut before);
+    let ran = machining.find_engagements(options, source, watch, &mut |engaged| {
+        let touched = touches(engaged.motion);
+        gathered.add_motion(machining, limits, engaged, touched, &mut before);
     })?;
-    let reach = match ran.grain {
+    let reach = match ran.resolution {
         StockResolution::Cell(cell) => AROUND * cell,
         StockResolution::Layer(_) => SHORT,
     };
-    short_pieces::lower_short_pieces(&mut gathered.blocks, reach);
+    lower_short_pieces(&mut gathered.blocks, reach);
     Ok((gathered, ran))
 }
 
@@ -82,18 +82,18 @@ impl MeasuredBlocks {
         &mut self,
         machining: &Machining<'_>,
         limits: &LoadLimits,
-        cut: &EngagedMotion<'_>,
+        engaged: &EngagedMotion<'_>,
         touched: bool,
         before: &mut PreviousMotion,
     ) {
-        let motion = cut.motion;
+        let motion = engaged.motion;
         let program = machining.program();
         let at_feed = !motion.rapid && !matches!(motion.path, MotionPath::Start);
         let goes_on = before.moves_at_feed
             && at_feed
-            && before.tool == cut.cutter
+            && before.tool == engaged.cutter
             && !has_machine_stop(program, before.end..motion.statements.end);
-        *before = PreviousMotion { end: motion.statements.end, tool: cut.cutter, moves_at_feed: at_feed };
+        *before = PreviousMotion { end: motion.statements.end, tool: engaged.cutter, moves_at_feed: at_feed };
         if !at_feed {
             return;
         }
@@ -102,8 +102,9 @@ impl MeasuredBlocks {
         let rpm = motion.spindle_rpm();
         let feed = motion.feed.and_then(|feed| feed.mm_per_minute(unit, rpm, Some(motion.length())));
         let feed = feed.filter(|feed| *feed > 0.0);
-        let cutter = cut.cutter.and_then(|index| Some((machining.tooling().cutters().get(index)?, index)));
-        let cuts = cut.pieces.iter().any(|(_, found)| limits.is_cutting(found));
+        let cutter =
+            engaged.cutter.and_then(|index| Some((machining.tooling().cutters().get(index)?, index)));
+        let cuts = engaged.pieces.iter().any(|(_, found)| limits.is_cutting(found));
         let spindle = motion.spindle.as_deref();
         let turning = rpm.filter(|rpm| *rpm > 0.0).map(|rpm| SpindleRotation {
             rpm,
@@ -112,16 +113,16 @@ impl MeasuredBlocks {
         if cuts && touched && (feed.is_none() || turning.is_none()) {
             self.errors.push(describe_unknown_feed(program, motion, feed.is_none()));
         }
-        let mut pieces = Vec::with_capacity(cut.pieces.len());
+        let mut pieces = Vec::with_capacity(engaged.pieces.len());
         let mut measured: Vec<[f64; 2]> = vec![[0.0; 2]; limits.criterion_limits().len()];
         if let (Some((cutter, index)), Some(turning)) = (cutter, turning) {
-            for (step, found) in cut.pieces {
-                let mut load = limits.find_feed_limit(found, cutter, index, turning);
-                if load == FeedLimit::Limit(f64::INFINITY) && !cuts {
+            for (piece, found) in engaged.pieces {
+                let mut limit = limits.find_feed_limit(found, cutter, index, turning);
+                if limit == FeedLimit::Limit(f64::INFINITY) && !cuts {
                     // A sliver that may be there, that no limit knows how to judge, and nothing else to go by.
-                    load = feed.map_or(FeedLimit::Air, FeedLimit::Limit);
+                    limit = feed.map_or(FeedLimit::Air, FeedLimit::Limit);
                 }
-                pieces.push(LimitedPiece { length: (step.to - step.from) * length, load });
+                pieces.push(LimitedPiece { length: (piece.to - piece.from) * length, limit });
                 let Some(feed) = feed.filter(|_| limits.is_cutting(found)) else { continue };
                 for (measured, (criterion, _)) in measured.iter_mut().zip(limits.criterion_limits()) {
                     let [estimate, bound] =
@@ -139,8 +140,8 @@ impl MeasuredBlocks {
             breaks_chain: !goes_on,
             pieces,
         });
-        self.marks.push(BlockMeasurement {
-            motion: cut.number,
+        self.measurements.push(BlockMeasurement {
+            motion: engaged.number,
             statement: motion.last_statement(),
             operation: motion.operation,
             cuts,

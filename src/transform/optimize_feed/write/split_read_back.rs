@@ -15,12 +15,12 @@ const AXIS_ROUNDING: f64 = 5e-6 * (1.0 + 1e-6);
 
 /// A program's motions, and the statements that have problems, once for each.
 pub(super) struct ReadMotions {
-    pub(super) motions: Vec<Motion>,
+    pub motions: Vec<Motion>,
     problems: Vec<usize>,
 }
 
 impl ReadMotions {
-    pub(super) fn from_program(program: &Program) -> Self {
+    pub fn from_program(program: &Program) -> Self {
         let mut all = program.motions();
         let motions = all.by_ref().collect();
         let mut problems: Vec<usize> = all.take_problems().iter().map(|problem| problem.statement).collect();
@@ -38,29 +38,29 @@ impl ReadMotions {
 pub(super) fn find_faulty_splits(
     before: &ReadMotions,
     after: &ReadMotions,
-    cuts: &[SplitMotion],
+    splits: &[SplitMotion],
     parts: &[Range<usize>],
 ) -> BTreeSet<usize> {
-    let everything = || cuts.iter().map(|cut| cut.motion).collect();
+    let everything = || splits.iter().map(|split| split.motion).collect();
     if parts.last().map_or(0, |range| range.end) != after.motions.len() {
         return everything();
     }
-    let mut cuts_left = cuts.iter().peekable();
-    let mut last_cut = None;
+    let mut splits_left = splits.iter().peekable();
+    let mut last_split = None;
     let mut found = BTreeSet::new();
     for (index, (old, range)) in before.motions.iter().zip(parts).enumerate() {
         let new = after.motions.get(range.clone()).unwrap_or_default();
-        let cut = cuts_left.next_if(|cut| cut.motion == index);
-        last_cut = cut.map(|cut| cut.motion).or(last_cut);
+        let split = splits_left.next_if(|split| split.motion == index);
+        last_split = split.map(|split| split.motion).or(last_split);
         let worse = after.count_problems(new) > before.count_problems(std::slice::from_ref(old));
-        let same = match (cut, new) {
-            (Some(cut), parts) => is_split_as_planned(old, parts, cut),
+        let same = match (split, new) {
+            (Some(split), parts) => is_split_as_planned(old, parts, split),
             (None, [new]) => has_same_attributes(old, new) && old.to == new.to && old.path == new.path,
             _ => false,
         };
         if !same || worse {
-            match last_cut {
-                Some(cut) => found.insert(cut),
+            match last_split {
+                Some(split) => found.insert(split),
                 None => return everything(),
             };
         }
@@ -68,7 +68,7 @@ pub(super) fn find_faulty_splits(
     found
 }
 
-/// Everything about a motion that its parts share with it.
+/// Everything about a motion that its parts fraction with it.
 fn has_same_attributes(old: &Motion, new: &Motion) -> bool {
     old.feed == new.feed
         && old.rapid == new.rapid
@@ -79,8 +79,8 @@ fn has_same_attributes(old: &Motion, new: &Motion) -> bool {
         && old.hole.is_some() == new.hole.is_some()
 }
 
-fn is_split_as_planned(old: &Motion, parts: &[Motion], cut: &SplitMotion) -> bool {
-    let ends = cut.poses.iter().copied().chain([old.to]);
+fn is_split_as_planned(old: &Motion, parts: &[Motion], split: &SplitMotion) -> bool {
+    let ends = split.poses.iter().copied().chain([old.to]);
     let poses = parts.iter().zip(ends).all(|(part, end)| {
         (part.to.point - end.point).amax() <= ROUNDING && (part.to.axis - end.axis).amax() <= AXIS_ROUNDING
     });
@@ -92,17 +92,17 @@ fn is_split_as_planned(old: &Motion, parts: &[Motion], cut: &SplitMotion) -> boo
         .all(|part| has_same_attributes(old, part) && (part.to.point - part.from.point).norm() > SAME_POINT);
     let path = match &old.path {
         MotionPath::Line => parts.iter().all(|part| part.path == MotionPath::Line),
-        MotionPath::Arc(arc) => are_arc_parts(arc, parts, cut),
+        MotionPath::Arc(arc) => are_arc_parts(arc, parts, split),
         MotionPath::Spline(_) | MotionPath::Start => false,
     };
     poses && from_end_to_end && alike && path
 }
 
-/// Arcs about the same centre and axis, each with its share of the sweep. Rounded ends turn a spoke by their rounding over the
+/// Arcs about the same centre and axis, each with its fraction of the sweep. Rounded ends turn a spoke by their rounding over the
 /// radius, and a plane that is read from them (CATIA) by that over the sine of the sweep.
-fn are_arc_parts(whole: &CircularArc, parts: &[Motion], cut: &SplitMotion) -> bool {
+fn are_arc_parts(whole: &CircularArc, parts: &[Motion], split: &SplitMotion) -> bool {
     let turned = 4.0 * ROUNDING / whole.radius.max(SAME_POINT);
-    parts.iter().zip(cut.part_fractions()).all(|(part, (start, end))| {
+    parts.iter().zip(split.part_fractions()).all(|(part, (start, end))| {
         let MotionPath::Arc(arc) = &part.path else { return false };
         let sweep = whole.sweep * (end - start);
         let tilt = turned / sweep.sin().abs().max(0.01) + 1e-5;

@@ -1,7 +1,7 @@
 //! From what a piece of path engages to the largest feed that keeps every limit there, and to the loads at a feed.
 
-use super::block_feeds::FeedLimit;
-use super::parameters::LoadCriterion;
+use super::feed_block::FeedLimit;
+use super::load_criterion::LoadCriterion;
 use crate::cutter::CutterModel;
 use crate::engagement::{CuttingCoefficients, CuttingLoads, Engagement, LoadModel};
 use crate::program::record::SpindleDirection;
@@ -12,15 +12,15 @@ const SPECK: f64 = 1e-3;
 
 /// Limits, and what is needed to see whether they hold.
 #[derive(Debug)]
-pub(super) struct LoadLimits {
+pub(in crate::transform::optimize_feed) struct LoadLimits {
     limits: Vec<(LoadCriterion, f64)>,
     models: Vec<Option<[LoadModel; 2]>>,
-    grain: StockResolution,
+    resolution: StockResolution,
 }
 
 /// The spindle while a piece is cut.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct SpindleRotation {
+pub(in crate::transform::optimize_feed) struct SpindleRotation {
     /// rev/min, above 0.
     pub rpm: f64,
     pub direction: SpindleDirection,
@@ -32,10 +32,10 @@ impl LoadLimits {
         limits: Vec<(LoadCriterion, f64)>,
         tooling: &Tooling,
         material: Option<CuttingCoefficients>,
-        grain: StockResolution,
+        resolution: StockResolution,
     ) -> Self {
         let models = material.map(|material| tooling.build_load_models(material)).unwrap_or_default();
-        Self { limits, models, grain }
+        Self { limits, models, resolution }
     }
 
     /// The limits.
@@ -45,7 +45,7 @@ impl LoadLimits {
 
     /// Whether a piece cuts more than rounding leaves.
     pub fn is_cutting(&self, found: &Engagement) -> bool {
-        let speck = match self.grain {
+        let speck = match self.resolution {
             StockResolution::Cell(cell) => SPECK * cell.powi(3),
             // Films are none of a chip's pieces.
             StockResolution::Layer(_) => 0.0,
@@ -119,8 +119,10 @@ impl LoadLimits {
     fn bound_engagement(&self, found: &Engagement) -> Engagement {
         let mut bounded = found.clone();
         bounded.bins.iter_mut().for_each(|bin| bin.share = bin.share_bound);
-        let more = |extent: f64, grain: f64| if extent > 0.0 { grain / extent.max(grain) } else { 0.0 };
-        match self.grain {
+        let more = |extent: f64, resolution: f64| {
+            if extent > 0.0 { resolution / extent.max(resolution) } else { 0.0 }
+        };
+        match self.resolution {
             StockResolution::Cell(cell) => bounded.removed_mm3 *= 1.0 + more(found.radial_depth_mm(), cell),
             StockResolution::Layer(layer) => {
                 bounded.removed_mm3 *= 1.0 + more(found.axial_depth_mm(), layer);

@@ -3,9 +3,9 @@
 //! A line becomes GOTOs in the form of its own; an arc becomes arcs, each announced by the record that announced the whole. The
 //! result is read back and compared with the old path: a motion whose parts do not read as it did stays whole and is reported.
 
-use super::motion_pose;
-use super::split_read_back;
-use super::split_statements::{self, SplitForm, SplitMotion};
+use super::motion_pose::{has_turning_axis, interpolate_pose};
+use super::split_read_back::{ReadMotions, find_faulty_splits};
+use super::split_statements::{SplitForm, SplitMotion, write_split_motion};
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
@@ -80,7 +80,7 @@ impl fmt::Display for UnsplitReason {
     }
 }
 
-/// Splits motions: pairs of a motion's index and the shares of its length (between 0 and 1, ascending) where it is split.
+/// Splits motions: pairs of a motion's index and the fractions of its length (between 0 and 1, ascending) where it is split.
 ///
 /// Coordinates of the new points are rounded to the file's decimals, so a point is off its path by half of the last one at
 /// most. The statement that ends the motion stays byte for byte, except that a CATIA arc whose last part has half a turn or
@@ -97,27 +97,27 @@ pub fn split_motions(
     wanted: &[(usize, Vec<f64>)],
     findings: &mut Vec<Diagnostic>,
 ) -> Result<SplitProgram, Failure> {
-    let before = split_read_back::ReadMotions::from_program(&program);
-    let (mut cuts, mut kept) = choose_splits(&program, &before.motions, wanted);
-    let (split, parts) = loop {
-        if cuts.is_empty() {
+    let before = ReadMotions::from_program(&program);
+    let (mut splits, mut kept) = choose_splits(&program, &before.motions, wanted);
+    let (written, parts) = loop {
+        if splits.is_empty() {
             break (program.clone(), (0..before.motions.len()).map(|index| index..index + 1).collect());
         }
         let mut editor = ProgramEditor::new(program.clone(), step);
-        for cut in &cuts {
-            if let Some(motion) = before.motions.get(cut.motion) {
-                split_statements::write_split_motion(&mut editor, motion, cut)?;
+        for split in &splits {
+            if let Some(motion) = before.motions.get(split.motion) {
+                write_split_motion(&mut editor, motion, split)?;
             }
         }
         let written = editor.finish()?;
-        let after = split_read_back::ReadMotions::from_program(&written);
-        let parts = part_ranges(before.motions.len(), &cuts);
-        let faults = split_read_back::find_faulty_splits(&before, &after, &cuts, &parts);
+        let after = ReadMotions::from_program(&written);
+        let parts = part_ranges(before.motions.len(), &splits);
+        let faults = find_faulty_splits(&before, &after, &splits, &parts);
         if faults.is_empty() {
             break (written, parts);
         }
         kept.extend(faults.iter().map(|motion| (*motion, UnsplitReason::NotReadBack)));
-        cuts.retain(|cut| !faults.contains(&cut.motion));
+        splits.retain(|split| !faults.contains(&split.motion));
     };
     kept.sort_unstable();
     for (motion, why) in kept.iter().filter(|(_, why)| why.is_surprise()) {
@@ -125,7 +125,7 @@ pub fn split_motions(
             before.motions.get(*motion).map(|motion| describe_unsplit_motion(&program, motion, *why)),
         );
     }
-    Ok(SplitProgram { program: split, parts, kept })
+    Ok(SplitProgram { program: written, parts, kept })
 }
 
 /// The motions that can be split, with the poses of their parts, and those that cannot.
@@ -134,41 +134,41 @@ fn choose_splits(
     motions: &[Motion],
     wanted: &[(usize, Vec<f64>)],
 ) -> (Vec<SplitMotion>, Vec<(usize, UnsplitReason)>) {
-    let (mut cuts, mut kept): (Vec<SplitMotion>, _) = (Vec::new(), Vec::new());
+    let (mut splits, mut kept): (Vec<SplitMotion>, _) = (Vec::new(), Vec::new());
     let mut wanted: Vec<&(usize, Vec<f64>)> = wanted.iter().collect();
     wanted.sort_by_key(|(index, _)| *index);
     wanted.dedup_by_key(|(index, _)| *index);
-    for (index, shares) in wanted {
+    for (index, fractions) in wanted {
         let Some(motion) = motions.get(*index) else { continue };
         let mut last = 0.0;
-        let inside = |share: &f64| {
-            let fits = *share > last && *share < 1.0;
-            last = if fits { *share } else { last };
+        let inside = |fraction: &f64| {
+            let fits = *fraction > last && *fraction < 1.0;
+            last = if fits { *fraction } else { last };
             fits
         };
-        let shares: Vec<f64> = shares.iter().copied().filter(inside).collect();
-        if shares.is_empty() {
+        let fractions: Vec<f64> = fractions.iter().copied().filter(inside).collect();
+        if fractions.is_empty() {
             continue;
         }
         let beside = [index.wrapping_sub(1), index + 1];
         let shared = beside.into_iter().filter_map(|other| motions.get(other));
         let shared = shared.map(Motion::last_statement).any(|last| last == motion.last_statement());
-        let cut = find_split_form(program, motion, shared).and_then(|written| {
+        let split = find_split_form(program, motion, shared).and_then(|written| {
             let poses: Option<Vec<_>> =
-                shares.iter().map(|share| motion_pose::interpolate_pose(motion, *share)).collect();
+                fractions.iter().map(|fraction| interpolate_pose(motion, *fraction)).collect();
             Ok(SplitMotion {
                 motion: *index,
                 written,
-                shares,
+                fractions,
                 poses: poses.ok_or(UnsplitReason::OppositeAxis)?,
             })
         });
-        match cut {
-            Ok(cut) => cuts.push(cut),
+        match split {
+            Ok(split) => splits.push(split),
             Err(why) => kept.push((*index, why)),
         }
     }
-    (cuts, kept)
+    (splits, kept)
 }
 
 /// How a motion is written, if its parts can be written alike.
@@ -184,10 +184,10 @@ fn find_split_form(program: &Program, motion: &Motion, shared: bool) -> Result<S
         (Record::Points(_), _) => return Err(UnsplitReason::SharedStatement),
         (Record::Control(_), _) => return Err(UnsplitReason::UnreadArc),
         _ if shared => return Err(UnsplitReason::SharedStatement),
-        (Record::Goto(goto), _) if goto.axis.is_none() && motion_pose::has_turning_axis(motion) => {
+        (Record::Goto(goto), _) if goto.axis.is_none() && has_turning_axis(motion) => {
             return Err(UnsplitReason::UnsaidAxis);
         }
-        (Record::DriveArc(_), _) if motion_pose::has_turning_axis(motion) => {
+        (Record::DriveArc(_), _) if has_turning_axis(motion) => {
             return Err(UnsplitReason::UnsaidAxis);
         }
         (Record::Goto(_) | Record::DriveArc(_), _) => {}
@@ -225,12 +225,13 @@ fn has_goback(program: &Program, statement: usize) -> bool {
         .is_some_and(|syntax| syntax.major_word() == "TLON,GOBACK")
 }
 
-fn part_ranges(count: usize, cuts: &[SplitMotion]) -> Vec<Range<usize>> {
-    let mut cuts = cuts.iter().peekable();
+fn part_ranges(count: usize, splits: &[SplitMotion]) -> Vec<Range<usize>> {
+    let mut splits = splits.iter().peekable();
     let mut start = 0;
     (0..count)
         .map(|index| {
-            let parts = cuts.next_if(|cut| cut.motion == index).map_or(1, |cut| cut.poses.len() + 1);
+            let parts =
+                splits.next_if(|split| split.motion == index).map_or(1, |split| split.poses.len() + 1);
             start += parts;
             start - parts..start
         })

@@ -10,15 +10,15 @@ const SAME_AXIS: f64 = 1e-9;
 /// Axes nearer to opposite than this (radians) turn about no axis that anyone could tell.
 const OPPOSITE: f64 = 1e-3;
 
-/// Where the tool is at a share (0..=1) of a line's or an arc's length, its axis turning evenly. `None` on other paths, and where the
+/// Where the tool is at a fraction (0..=1) of a line's or an arc's length, its axis turning evenly. `None` on other paths, and where the
 /// axis turns right over.
-pub(super) fn interpolate_pose(motion: &Motion, share: f64) -> Option<Pose> {
+pub(super) fn interpolate_pose(motion: &Motion, fraction: f64) -> Option<Pose> {
     let point = match &motion.path {
-        MotionPath::Line => motion.from.point + (motion.to.point - motion.from.point) * share,
-        MotionPath::Arc(arc) => arc.point_at(share),
+        MotionPath::Line => motion.from.point + (motion.to.point - motion.from.point) * fraction,
+        MotionPath::Arc(arc) => arc.point_at(fraction),
         MotionPath::Spline(_) | MotionPath::Start => return None,
     };
-    Some(Pose { point, axis: interpolate_axis(motion.from.axis, motion.to.axis, share)? })
+    Some(Pose { point, axis: interpolate_axis(motion.from.axis, motion.to.axis, fraction)? })
 }
 
 /// Whether the tool axis turns during a motion.
@@ -26,7 +26,7 @@ pub(super) fn has_turning_axis(motion: &Motion) -> bool {
     (motion.to.axis - motion.from.axis).amax() > SAME_AXIS
 }
 
-fn interpolate_axis(from: Vector3<f64>, to: Vector3<f64>, share: f64) -> Option<Vector3<f64>> {
+fn interpolate_axis(from: Vector3<f64>, to: Vector3<f64>, fraction: f64) -> Option<Vector3<f64>> {
     if (to - from).amax() <= SAME_AXIS {
         return Some(to);
     }
@@ -35,6 +35,6 @@ fn interpolate_axis(from: Vector3<f64>, to: Vector3<f64>, share: f64) -> Option<
         return None;
     }
     let sine = angle.sin();
-    let turned = from * (((1.0 - share) * angle).sin() / sine) + to * ((share * angle).sin() / sine);
+    let turned = from * (((1.0 - fraction) * angle).sin() / sine) + to * ((fraction * angle).sin() / sine);
     turned.try_normalize(0.5)
 }

@@ -1,53 +1,53 @@
 //! Loads of pieces so short that a column of the grid may lie before or behind them and none in them.
 
-use super::block_feeds::{FeedBlock, FeedLimit};
+use super::feed_block::{FeedBlock, FeedLimit};
 
 /// Gives every piece shorter than `reach` (mm) the lowest limit of all pieces no further than `reach` before or behind it in its chain
 /// of blocks. Longer pieces hold columns of their own.
 pub(super) fn lower_short_pieces(blocks: &mut [FeedBlock], reach: f64) {
-    let mut places: Vec<PlacedPiece> = Vec::new();
+    let mut pieces: Vec<PlacedPiece> = Vec::new();
     let (mut at, mut chain) = (0.0, 0);
     for (index, block) in blocks.iter().enumerate() {
         chain += usize::from(block.breaks_chain);
         for (number, piece) in block.pieces.iter().enumerate() {
-            let limit = match piece.load {
+            let limit = match piece.limit {
                 FeedLimit::Air => f64::INFINITY,
                 FeedLimit::Limit(limit) => limit,
             };
             let end = at + piece.length;
-            places.push(PlacedPiece {
+            pieces.push(PlacedPiece {
                 block: index,
                 piece: number,
                 chain,
                 from: at,
                 to: end,
                 limit,
-                air: piece.load == FeedLimit::Air,
+                air: piece.limit == FeedLimit::Air,
             });
             at = end;
         }
     }
     let mut first = 0;
-    for place in &places {
-        while places
+    for placed in &pieces {
+        while pieces
             .get(first)
-            .is_some_and(|other| other.chain != place.chain || other.to < place.from - reach)
+            .is_some_and(|other| other.chain != placed.chain || other.to < placed.from - reach)
         {
             first += 1;
         }
-        if place.to - place.from >= reach {
+        if placed.to - placed.from >= reach {
             continue;
         }
-        let near = places.get(first..).unwrap_or_default().iter();
-        let near = near.take_while(|other| other.chain == place.chain && other.from <= place.to + reach);
+        let near = pieces.get(first..).unwrap_or_default().iter();
+        let near = near.take_while(|other| other.chain == placed.chain && other.from <= placed.to + reach);
         let (mut limit, mut air) = (f64::INFINITY, true);
         for other in near {
             limit = limit.min(other.limit);
             air &= other.air;
         }
-        let piece = blocks.get_mut(place.block).and_then(|block| block.pieces.get_mut(place.piece));
+        let piece = blocks.get_mut(placed.block).and_then(|block| block.pieces.get_mut(placed.piece));
         if let Some(piece) = piece.filter(|_| !air) {
-            piece.load = FeedLimit::Limit(limit);
+            piece.limit = FeedLimit::Limit(limit);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What `optimize_feed` did, in numbers.
 
-use super::parameters::LoadCriterion;
+use crate::transform::optimize_feed::measure::LoadCriterion;
 use serde::Serialize;
 
 /// What the step did.

@@ -1,49 +1,50 @@
 //! Pieces on one line: each block's pieces scaled to its length, and air cut where the margin around material ends.
 
-use super::block_feeds::{FeedBlock, FeedLimit, FeedRules, has_known_feed, has_length};
+use super::feed_rules::FeedRules;
+use crate::transform::optimize_feed::measure::{FeedBlock, FeedLimit};
 use std::ops::Range;
 
-/// A border this close to another (mm) is the same border.
+/// A boundary this close to another (mm) is the same boundary.
 const SAME_PLACE: f64 = 1e-9;
 
-/// Most bits that one atom is cut into.
-const MOST_BITS: f64 = 1000.0;
+/// Most parts that one piece is cut into.
+const MOST_PARTS: f64 = 1000.0;
 
-/// A stretch of constant load.
+/// A length of path on which the load is taken as constant, with its class.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct ClassedPiece {
-    pub(super) block: usize,
-    pub(super) length: f64,
-    pub(super) kind: PieceClass,
+pub(in crate::transform::optimize_feed) struct ClassedPiece {
+    pub block: usize,
+    pub length: f64,
+    pub kind: PieceClass,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum PieceClass {
+pub(in crate::transform::optimize_feed) enum PieceClass {
     /// Air farther from material than the margin.
     Air,
-    /// Air within the margin of the cutting atoms before and after it (their indices).
+    /// Air within the margin of the cutting pieces before and after it (their indices).
     Margin(Option<usize>, Option<usize>),
     /// Material, with its limit; in a block that is not touched, the feed at which it is cut.
     Cut(f64),
 }
 
-/// All atoms, in order. A block with a length and a known feed has at least one.
-pub(super) fn classify_pieces(
+/// All pieces, in order. A block with a length and a known feed has at least one.
+pub(in crate::transform::optimize_feed) fn classify_pieces(
     blocks: &[FeedBlock],
     chains: &[usize],
     rules: &FeedRules,
 ) -> Vec<ClassedPiece> {
     let mut plain = Vec::new();
     for (index, block) in blocks.iter().enumerate() {
-        if has_length(block) && has_known_feed(block) {
+        if block.has_length() && block.has_known_feed() {
             plain.extend(classify_block(index, block));
         }
     }
     let cut = if rules.margin > 0.0 { cut_at_margins(&plain, blocks, chains, rules.margin) } else { plain };
     match rules.split {
         Some(rule) if rule.shortest > 0.0 => {
-            let longest = |atom: &ClassedPiece| {
-                let splits = blocks.get(atom.block).is_some_and(|block| rule.applies_to(block));
+            let longest = |piece: &ClassedPiece| {
+                let splits = blocks.get(piece.block).is_some_and(|block| rule.applies_to(block));
                 if splits { rule.shortest / 2.0 } else { f64::INFINITY }
             };
             subdivide_pieces(cut, longest)
@@ -52,26 +53,26 @@ pub(super) fn classify_pieces(
     }
 }
 
-/// Long atoms of one load cut into equal bits, so that a too short neighbour can grow by as little as it needs.
-fn subdivide_pieces(atoms: Vec<ClassedPiece>, longest: impl Fn(&ClassedPiece) -> f64) -> Vec<ClassedPiece> {
-    let bits = |atom: &ClassedPiece| (atom.length / longest(atom)).ceil().clamp(1.0, MOST_BITS) as usize;
-    let mut new_index = Vec::with_capacity(atoms.len());
-    let mut found: Vec<ClassedPiece> = Vec::with_capacity(atoms.len());
-    for atom in &atoms {
+/// Long pieces of one load cut into equal parts, so that a too short neighbour can grow by as little as it needs.
+fn subdivide_pieces(pieces: Vec<ClassedPiece>, longest: impl Fn(&ClassedPiece) -> f64) -> Vec<ClassedPiece> {
+    let parts = |piece: &ClassedPiece| (piece.length / longest(piece)).ceil().clamp(1.0, MOST_PARTS) as usize;
+    let mut new_index = Vec::with_capacity(pieces.len());
+    let mut found: Vec<ClassedPiece> = Vec::with_capacity(pieces.len());
+    for piece in &pieces {
         new_index.push(found.len());
-        let count = bits(atom);
-        let bit = ClassedPiece { length: atom.length / count as f64, ..*atom };
-        found.extend(std::iter::repeat_n(bit, count));
+        let count = parts(piece);
+        let part = ClassedPiece { length: piece.length / count as f64, ..*piece };
+        found.extend(std::iter::repeat_n(part, count));
     }
     renumber_margins(&mut found, &new_index);
     found
 }
 
-/// The range of atoms of each block that has any, in order.
-pub(super) fn group_by_block(atoms: &[ClassedPiece]) -> Vec<Range<usize>> {
+/// The range of pieces of each block that has any, in order.
+pub(super) fn group_by_block(pieces: &[ClassedPiece]) -> Vec<Range<usize>> {
     let mut found = Vec::new();
     let mut start = 0;
-    for group in atoms.chunk_by(|a, b| a.block == b.block) {
+    for group in pieces.chunk_by(|a, b| a.block == b.block) {
         found.push(start..start + group.len());
         start += group.len();
     }
@@ -83,7 +84,7 @@ fn classify_block(index: usize, block: &FeedBlock) -> Vec<ClassedPiece> {
     let sum: f64 = pieces.clone().map(|piece| piece.length).sum();
     let mut found: Vec<ClassedPiece> = pieces
         .map(|piece| {
-            let kind = match piece.load {
+            let kind = match piece.limit {
                 FeedLimit::Air => PieceClass::Air,
                 FeedLimit::Limit(_) if !block.touched => PieceClass::Cut(block.programmed),
                 FeedLimit::Limit(limit) => PieceClass::Cut(limit),
@@ -103,30 +104,30 @@ fn cut_at_margins(
     chains: &[usize],
     margin: f64,
 ) -> Vec<ClassedPiece> {
-    let chain = |atom: &ClassedPiece| chains.get(atom.block).copied();
+    let chain = |piece: &ClassedPiece| chains.get(piece.block).copied();
     let before = find_nearest_cuts(plain.iter().enumerate(), chain);
     let mut after = find_nearest_cuts(plain.iter().enumerate().rev(), chain);
     after.reverse();
     let mut found: Vec<ClassedPiece> = Vec::with_capacity(plain.len());
     let mut new_index = Vec::with_capacity(plain.len());
-    for ((atom, before), after) in plain.iter().zip(before).zip(after) {
+    for ((piece, before), after) in plain.iter().zip(before).zip(after) {
         new_index.push(found.len());
-        let touched = blocks.get(atom.block).is_some_and(|block| block.touched);
-        if atom.kind != PieceClass::Air || !touched {
-            found.push(*atom);
+        let touched = blocks.get(piece.block).is_some_and(|block| block.touched);
+        if piece.kind != PieceClass::Air || !touched {
+            found.push(*piece);
             continue;
         }
-        // How much of the atom's start and end lies within the margin.
+        // How much of the piece's start and end lies within the margin.
         let reach = |near: Option<(usize, f64)>| near.map_or(0.0, |(_, distance)| margin - distance);
-        let (head, tail) = (reach(before), atom.length - reach(after));
-        let mut borders = vec![0.0, head, tail, atom.length];
-        borders.retain(|border| (0.0..=atom.length).contains(border));
-        borders.sort_by(f64::total_cmp);
-        borders.dedup_by(|a, b| (*a - *b).abs() <= SAME_PLACE);
-        if let [only] = borders.as_slice() {
-            borders = vec![*only, atom.length];
+        let (head, tail) = (reach(before), piece.length - reach(after));
+        let mut boundaries = vec![0.0, head, tail, piece.length];
+        boundaries.retain(|boundary| (0.0..=piece.length).contains(boundary));
+        boundaries.sort_by(f64::total_cmp);
+        boundaries.dedup_by(|a, b| (*a - *b).abs() <= SAME_PLACE);
+        if let [only] = boundaries.as_slice() {
+            boundaries = vec![*only, piece.length];
         }
-        for pair in borders.windows(2) {
+        for pair in boundaries.windows(2) {
             let [start, end] = pair else { continue };
             let middle = (start + end) / 2.0;
             let left = before.filter(|_| middle < head).map(|(cut, _)| cut);
@@ -135,41 +136,41 @@ fn cut_at_margins(
                 (None, None) => PieceClass::Air,
                 (left, right) => PieceClass::Margin(left, right),
             };
-            found.push(ClassedPiece { length: end - start, kind, ..*atom });
+            found.push(ClassedPiece { length: end - start, kind, ..*piece });
         }
     }
     renumber_margins(&mut found, &new_index);
     found
 }
 
-/// Lets margins name the atoms that they lie beside by their new indices: of a cut in bits the nearest.
-fn renumber_margins(atoms: &mut [ClassedPiece], new_index: &[usize]) {
-    let count = atoms.len();
+/// Lets margins name the pieces that they lie beside by their new indices: of a cut in parts the nearest.
+fn renumber_margins(pieces: &mut [ClassedPiece], new_index: &[usize]) {
+    let count = pieces.len();
     let first = |cut: usize| new_index.get(cut).copied();
     let last = |cut: usize| Some(first(cut + 1).unwrap_or(count).saturating_sub(1));
-    for atom in atoms {
-        if let PieceClass::Margin(left, right) = &mut atom.kind {
+    for piece in pieces {
+        if let PieceClass::Margin(left, right) = &mut piece.kind {
             (*left, *right) = (left.and_then(last), right.and_then(first));
         }
     }
 }
 
-/// For each atom in the order given: the nearest cutting atom met before it in the same chain, and the path between them.
+/// For each piece in the order given: the nearest cutting piece met before it in the same chain, and the path between them.
 fn find_nearest_cuts<'a>(
-    atoms: impl Iterator<Item = (usize, &'a ClassedPiece)>,
+    pieces: impl Iterator<Item = (usize, &'a ClassedPiece)>,
     chain: impl Fn(&ClassedPiece) -> Option<usize>,
 ) -> Vec<Option<(usize, f64)>> {
     let mut last: Option<(usize, f64)> = None;
     let mut last_chain = None;
     let mut found = Vec::new();
-    for (index, atom) in atoms {
-        if chain(atom) != last_chain {
-            (last, last_chain) = (None, chain(atom));
+    for (index, piece) in pieces {
+        if chain(piece) != last_chain {
+            (last, last_chain) = (None, chain(piece));
         }
         found.push(last);
-        match atom.kind {
+        match piece.kind {
             PieceClass::Cut(_) => last = Some((index, 0.0)),
-            _ => last = last.map(|(cut, distance)| (cut, distance + atom.length)),
+            _ => last = last.map(|(cut, distance)| (cut, distance + piece.length)),
         }
     }
     found

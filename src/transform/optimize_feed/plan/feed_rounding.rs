@@ -1,7 +1,7 @@
 //! Rounding down, and feeds so close together that one FEDRAT does for them.
 
-use super::block_feeds::{FeedBlock, FeedRules};
-use super::feed_segments::FeedSegment;
+use crate::transform::optimize_feed::limit::{FeedRules, FeedSegment};
+use crate::transform::optimize_feed::measure::FeedBlock;
 
 /// What arithmetic makes of equal numbers.
 const NOISE: f64 = 1e-12;
@@ -10,14 +10,14 @@ const NOISE: f64 = 1e-12;
 ///
 /// Consecutive parts whose feeds differ by less than `min_change` take the lowest of them; where programmed feeds are within the same share
 /// below that, they stay. A rapid between parts does not part them: the feed comes back after it.
-pub(super) fn round_and_even_out(spans: &mut [FeedSegment], blocks: &[FeedBlock], rules: &FeedRules) {
-    for span in spans.iter_mut().filter(|span| !span.fixed) {
-        span.feed = round_to_step(span.feed, span.least, rules.round_down_to);
+pub(super) fn round_and_even_out(segments: &mut [FeedSegment], blocks: &[FeedBlock], rules: &FeedRules) {
+    for segment in segments.iter_mut().filter(|segment| !segment.fixed) {
+        segment.feed = round_to_step(segment.feed, segment.least, rules.round_down_to);
     }
-    let programmed = |span: &FeedSegment| blocks.get(span.block).map_or(0.0, |block| block.programmed);
+    let programmed = |segment: &FeedSegment| blocks.get(segment.block).map_or(0.0, |block| block.programmed);
     let keeps = 1.0 - rules.min_change.clamp(0.0, 1.0);
     let mut start = 0;
-    while let Some(rest) = spans.get_mut(start..).filter(|rest| !rest.is_empty()) {
+    while let Some(rest) = segments.get_mut(start..).filter(|rest| !rest.is_empty()) {
         let count = count_sharing_segments(rest, keeps);
         let run = rest.get_mut(..count).unwrap_or_default();
         even_out(run, &programmed, keeps);
@@ -36,12 +36,12 @@ fn round_to_step(feed: f64, least: f64, step: f64) -> f64 {
 }
 
 /// How many parts from the first on can share a feed; a fixed part is alone.
-fn count_sharing_segments(spans: &[FeedSegment], keeps: f64) -> usize {
+fn count_sharing_segments(segments: &[FeedSegment], keeps: f64) -> usize {
     let (mut lowest, mut highest) = (f64::INFINITY, 0.0f64);
     let mut count = 0;
-    for span in spans {
-        (lowest, highest) = (lowest.min(span.feed), highest.max(span.feed));
-        if span.fixed || lowest < keeps * highest {
+    for segment in segments {
+        (lowest, highest) = (lowest.min(segment.feed), highest.max(segment.feed));
+        if segment.fixed || lowest < keeps * highest {
             break;
         }
         count += 1;
@@ -50,14 +50,14 @@ fn count_sharing_segments(spans: &[FeedSegment], keeps: f64) -> usize {
 }
 
 fn even_out(run: &mut [FeedSegment], programmed: &impl Fn(&FeedSegment) -> f64, keeps: f64) {
-    if run.iter().any(|span| span.fixed) {
+    if run.iter().any(|segment| segment.fixed) {
         return;
     }
-    let lowest = run.iter().map(|span| span.feed).fold(f64::INFINITY, f64::min);
+    let lowest = run.iter().map(|segment| segment.feed).fold(f64::INFINITY, f64::min);
     let stays = |feed: f64| (keeps * lowest * (1.0 - NOISE)..=lowest).contains(&feed);
     let kept = run.iter().map(programmed).filter(|feed| stays(*feed)).reduce(f64::max);
     let all_stay = run.iter().map(programmed).all(stays);
-    for span in run {
-        span.feed = if all_stay { programmed(span) } else { kept.unwrap_or(lowest) };
+    for segment in run {
+        segment.feed = if all_stay { programmed(segment) } else { kept.unwrap_or(lowest) };
     }
 }

@@ -1,0 +1,127 @@
+//! The parameters of the step in millimetres, with the cutter that the passes are for.
+
+use super::findings::MotionFindings;
+use super::parameters::{ArcOutput, CompensateZ, CompensationReference, InputPointKind, OutputPointKind};
+use crate::diagnostic::Failure;
+use crate::parameters::Positive;
+use crate::program::motion::{ActiveTool, Motion};
+use crate::program::{LengthUnit, Program};
+use crate::transform::StepContext;
+use std::sync::Arc;
+
+/// Allowed gouge and gap where the recipe says none, mm.
+const TOLERANCE: f64 = 0.005;
+
+/// The parameters in millimetres.
+pub(super) struct CompensateZJob {
+    /// Half the cutter's diameter.
+    pub radius: f64,
+    /// Its corner radius.
+    pub corner: f64,
+    /// Radius of the ball that the path was made for.
+    pub was: Option<f64>,
+    pub was_centre: bool,
+    pub centre: bool,
+    pub tolerance: f64,
+    pub arcs: bool,
+    pub file: LengthUnit,
+    needs_ball: bool,
+    told: bool,
+}
+
+impl CompensateZJob {
+    pub fn new(step: &CompensateZ, file: LengthUnit, context: &StepContext<'_>) -> Result<Self, Failure> {
+        let recipe = context.units.mm_per_unit();
+        let mm = |value: Option<Positive>| value.map(|value| value.get() * recipe);
+        let was = mm(step.was_radius);
+        match (step.input, was) {
+            (InputPointKind::Contact, Some(_)) => {
+                let message =
+                    "`was_radius` belongs to a path made for a ball: `input: tip` or `input: centre`";
+                return Err(context.step_failure(message, &["was_radius"]));
+            }
+            (InputPointKind::Tip | InputPointKind::Centre, None) => {
+                let message = "the path was made for a ball, and `was_radius` does not say for which";
+                return Err(context.step_failure(message, &["input"]));
+            }
+            _ => {}
+        }
+        let needs_ball =
+            !matches!(step.against, CompensationReference::Mesh(_)) || step.output == OutputPointKind::Centre;
+        let radius = mm(step.radius);
+        Ok(Self {
+            radius: radius.unwrap_or(0.0),
+            corner: radius.unwrap_or(0.0),
+            was,
+            was_centre: step.input == InputPointKind::Centre,
+            centre: step.output == OutputPointKind::Centre,
+            tolerance: mm(step.tolerance).unwrap_or(TOLERANCE),
+            arcs: step.arcs == ArcOutput::Keep,
+            file,
+            needs_ball,
+            told: radius.is_some(),
+        })
+    }
+
+    /// How much higher what lies around passes goes, mm: tips that become centres rise by the radius.
+    pub fn lift_mm(&self) -> f64 {
+        let was = if self.was_centre { self.was.unwrap_or(0.0) } else { 0.0 };
+        if self.centre { (self.radius - was).max(0.0) } else { 0.0 }
+    }
+
+    /// Takes the cutter from the tool of the motions, which must be one, unless the step says the radius.
+    pub fn take_tool_cutter(
+        &mut self,
+        program: &Program,
+        motions: &[Motion],
+        meant: &[bool],
+        first: usize,
+        context: &StepContext<'_>,
+    ) -> Result<(), Failure> {
+        if self.told {
+            return Ok(());
+        }
+        let place = MotionFindings { program, motions };
+        let tool = motions.get(first).and_then(|motion| motion.tool.clone());
+        let other = motions
+            .iter()
+            .zip(meant)
+            .position(|(motion, meant)| *meant && !is_same_tool(&motion.tool, &tool));
+        if let Some(other) = other {
+            let message = "the step means passes of several tools; say `radius`, or name one tool by `where`";
+            return Err(place.build_failure(message.to_owned(), other, "another tool", context));
+        }
+        let none = ActiveTool::default();
+        let used = tool.as_deref().unwrap_or(&none);
+        let entry = context.setup.find_tool_entry(used);
+        let data = used.data.as_ref();
+        let scale = self.file.mm_per_unit();
+        let told =
+            |of_setup: Option<f64>, of_file: Option<f64>| of_setup.or(of_file.map(|value| value * scale));
+        let diameter = told(entry.and_then(|entry| entry.diameter_mm), data.and_then(|data| data.diameter));
+        let corner =
+            told(entry.and_then(|entry| entry.corner_radius_mm), data.and_then(|data| data.corner_radius));
+        let called = used.display_name();
+        let Some(diameter) = diameter.filter(|diameter| *diameter > 0.0) else {
+            let message = format!(
+                "the radius is not known: neither the step nor the setup nor the CL file says that of {called}"
+            );
+            return Err(place.build_failure(message, first, "its first cut", context));
+        };
+        let (radius, corner) = (diameter / 2.0, corner.unwrap_or(0.0));
+        // Files print four decimals, so a ball's corner may miss half its diameter by that.
+        let ball = (corner - radius).abs() <= 1e-4 * scale;
+        if self.needs_ball && !ball {
+            let message = format!(
+                "{called} is no ball: its diameter is {diameter} mm and its corner radius {corner} mm; say `radius` if it is one"
+            );
+            return Err(place.build_failure(message, first, "its first cut", context));
+        }
+        (self.radius, self.corner) = (radius, if ball { radius } else { corner });
+        Ok(())
+    }
+}
+
+fn is_same_tool(one: &Option<Arc<ActiveTool>>, other: &Option<Arc<ActiveTool>>) -> bool {
+    one == other
+}

@@ -1,0 +1,74 @@
+//! What a window over pieces holds, and the feed that follows from it.
+
+use super::classed_pieces::{ClassedPiece, PieceClass};
+use super::feed_rules::FeedRules;
+use crate::transform::optimize_feed::measure::FeedBlock;
+
+/// What a window holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct WindowContent {
+    /// Lowest limit; infinite without material.
+    pub lowest: f64,
+    /// Lowest limit of material itself, without the margins of other material.
+    pub lowest_cut: f64,
+    pub air: bool,
+    pub cutting: bool,
+}
+
+impl WindowContent {
+    pub const NOTHING: Self =
+        Self { lowest: f64::INFINITY, lowest_cut: f64::INFINITY, air: false, cutting: false };
+
+    pub fn from_piece(piece: &ClassedPiece, all: &[ClassedPiece]) -> Self {
+        match piece.kind {
+            PieceClass::Air => Self { air: true, ..Self::NOTHING },
+            PieceClass::Cut(limit) => Self { lowest: limit, lowest_cut: limit, cutting: true, air: false },
+            PieceClass::Margin(left, right) => {
+                let limit =
+                    |cut: Option<usize>| match cut.and_then(|cut| all.get(cut)).map(|piece| piece.kind) {
+                        Some(PieceClass::Cut(limit)) => limit,
+                        _ => f64::INFINITY,
+                    };
+                let lowest = limit(left).min(limit(right));
+                Self { lowest, cutting: true, ..Self::NOTHING }
+            }
+        }
+    }
+
+    pub fn combined_with(self, other: Self) -> Self {
+        Self {
+            lowest: self.lowest.min(other.lowest),
+            lowest_cut: self.lowest_cut.min(other.lowest_cut),
+            air: self.air || other.air,
+            cutting: self.cutting || other.cutting,
+        }
+    }
+}
+
+/// Lowest and highest feed of a block.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct FeedBounds {
+    pub least: f64,
+    most: f64,
+    air: Option<f64>,
+}
+
+impl FeedBounds {
+    pub fn from_rules(block: &FeedBlock, rules: &FeedRules) -> Self {
+        let feed_at = |ratio: Option<f64>| ratio.map(|ratio| ratio * block.programmed);
+        let most = rules.max_feed.min(feed_at(rules.max_ratio).unwrap_or(f64::INFINITY));
+        let least = rules.min_feed.max(feed_at(rules.min_ratio).unwrap_or(0.0)).min(most);
+        Self { least, most, air: rules.air_feed }
+    }
+
+    /// The feed of a window; `None` where nothing limits it and the programmed feed stays.
+    pub fn window_feed_mm_min(&self, content: WindowContent) -> Option<f64> {
+        let air = if content.air { self.air } else { None };
+        let wanted = match (content.cutting, air) {
+            (false, air) => air?,
+            (true, air) => content.lowest.min(air.unwrap_or(f64::INFINITY)),
+        };
+        let feed = wanted.max(self.least).min(self.most);
+        feed.is_finite().then_some(feed)
+    }
+}

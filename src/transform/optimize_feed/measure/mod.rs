@@ -1,0 +1,12 @@
+//! Stage 1 of 5, measure: the program is simulated and becomes blocks, whose pieces have their largest feeds.
+
+mod block_measurement;
+mod feed_block;
+mod load_criterion;
+mod load_limits;
+mod short_pieces;
+
+pub(super) use block_measurement::{BlockMeasurement, MeasuredBlocks, measure_blocks};
+pub use feed_block::{FeedBlock, FeedLimit, LimitedPiece};
+pub use load_criterion::LoadCriterion;
+pub(super) use load_limits::LoadLimits;

@@ -1,0 +1,128 @@
+//! Feeds of blocks from the loads of their pieces (Kiselev, block-by-block feed, eqs. 1 and 2, and what it leaves open).
+//!
+//! In this order: windows over the pieces give each segment its limit, blocks are split where that saves time, air near material
+//! keeps the cutting feed, acceleration lowers what cannot be reached, feeds are rounded down, and changes too small for a
+//! FEDRAT of their own are left out. Every stage after the first only lowers.
+
+use super::acceleration::limit_feed_changes;
+use super::feed_rounding::round_and_even_out;
+use super::path_time::TimedSegment;
+use crate::transform::optimize_feed::limit::{FeedRules, FeedSegment, build_feed_segments, classify_pieces};
+use crate::transform::optimize_feed::measure::{FeedBlock, FeedLimit};
+
+/// A segment of a block.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlannedSegment {
+    /// Where it ends, as a share of the block's length; 1 for the last.
+    pub end: f64,
+    /// Its feed in mm/min.
+    pub feed: f64,
+}
+
+/// The feeds of all blocks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BlockFeeds {
+    /// Parts of each block, one at least.
+    pub segments: Vec<Vec<PlannedSegment>>,
+    /// Blocks with a piece whose limit is below the lowest feed allowed; they run at that feed and pass the target.
+    pub below_minimum: Vec<usize>,
+}
+
+impl BlockFeeds {
+    /// The path at these feeds, for [`path_time_s`].
+    pub fn timed_segments(&self, blocks: &[FeedBlock]) -> Vec<TimedSegment> {
+        let mut found = Vec::with_capacity(blocks.len());
+        for (block, segments) in blocks.iter().zip(&self.segments) {
+            let mut start = 0.0;
+            for (index, segment) in segments.iter().enumerate() {
+                found.push(TimedSegment {
+                    length: (segment.end - start) * block.length,
+                    feed: segment.feed,
+                    breaks_chain: block.breaks_chain && index == 0,
+                });
+                start = segment.end;
+            }
+        }
+        found
+    }
+}
+
+/// The feeds of a path.
+///
+/// What holds afterwards, for touched blocks:
+/// - no segment is faster than its limit (its window's lowest), nor than the highest feed, nor slower than the lowest feed unless
+///   acceleration asks for it; a limit below the lowest feed takes the lowest feed and is reported;
+/// - before rounding, `F_k^2 <= F_{k-1}^2 + 120 a L_k` and `F_k^2 <= F_{k+1}^2 + 120 a L_k` in each chain. Rounding and
+///   `min_change` lower single segments afterwards, so in the result a feed may be above what its neighbour allows by one
+///   rounding step and twice the share `min_change` of that neighbour. (Lowering on until it held again would creep through chains of
+///   short blocks, where no step up is as large as a rounding step.) The machine, which changes feed no faster than `a`, stays
+///   below the unrounded feeds all the same;
+/// - the result fed back as programmed feeds comes out unchanged, unless ratios of the programmed feed are limits. Parts
+///   that are blocks the second time may fall apart further where `shortest` or `at_most` had held them together.
+///
+/// A segment that nothing limits (no material, no air feed; or an infinite limit and no highest feed) keeps its programmed feed
+/// whatever it is, and is a wall for acceleration like a block that is not touched.
+pub fn plan_block_feeds(blocks: &[FeedBlock], rules: &FeedRules) -> BlockFeeds {
+    let chains = number_chains(blocks);
+    let pieces = classify_pieces(blocks, &chains, rules);
+    let mut segments = build_feed_segments(blocks, &chains, &pieces, rules);
+    let mut below_minimum: Vec<usize> =
+        segments.iter().filter(|segment| segment.below).map(|segment| segment.block).collect();
+    below_minimum.dedup();
+    if let Some(acceleration) = rules.max_acceleration {
+        limit_feed_changes(&mut segments, acceleration);
+    }
+    round_and_even_out(&mut segments, blocks, rules);
+    BlockFeeds { segments: collect_planned_segments(blocks, &segments), below_minimum }
+}
+
+/// The number of the chain that each block belongs to. Blocks of unknown feed have one of their own.
+fn number_chains(blocks: &[FeedBlock]) -> Vec<usize> {
+    let mut chain = 0;
+    let mut last_known = true;
+    let mut found = Vec::with_capacity(blocks.len());
+    for block in blocks {
+        let known = block.has_known_feed();
+        chain += usize::from(block.breaks_chain || !known || !last_known);
+        last_known = known;
+        found.push(chain);
+    }
+    found
+}
+
+/// Spans as segments of their blocks; neighbours of equal feed are one segment.
+fn collect_planned_segments(blocks: &[FeedBlock], segments: &[FeedSegment]) -> Vec<Vec<PlannedSegment>> {
+    let mut found: Vec<Vec<PlannedSegment>> = vec![Vec::new(); blocks.len()];
+    for segment in segments {
+        let Some(block) = found.get_mut(segment.block) else { continue };
+        match block.last_mut() {
+            Some(last) if last.feed == segment.feed => last.end = segment.end,
+            _ => block.push(PlannedSegment { end: segment.end, feed: segment.feed }),
+        }
+    }
+    let mut before = None;
+    for (segments, block) in found.iter_mut().zip(blocks) {
+        match segments.last_mut() {
+            Some(last) => last.end = 1.0,
+            None => segments.push(PlannedSegment { end: 1.0, feed: inherit_feed(block, before) }),
+        }
+        before = segments.last().map(|segment| segment.feed).or(before);
+    }
+    found
+}
+
+/// The feed of a block that takes no segment: without length, it goes along with the block before it and needs no FEDRAT.
+fn inherit_feed(block: &FeedBlock, before: Option<f64>) -> f64 {
+    let limits = block.pieces.iter().filter_map(|piece| match piece.limit {
+        FeedLimit::Limit(limit) => Some(limit),
+        FeedLimit::Air => None,
+    });
+    match before {
+        Some(before)
+            if block.touched && block.has_known_feed() && limits.clone().all(|limit| limit >= before) =>
+        {
+            before
+        }
+        _ => block.programmed,
+    }
+}

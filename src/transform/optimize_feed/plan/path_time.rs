@@ -1,0 +1,100 @@
+//! The time that a path takes, with feeds that change no faster than an acceleration.
+
+/// A part of the path at one feed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimedSegment {
+    /// Length in mm.
+    pub length: f64,
+    /// Feed in mm/min.
+    pub feed: f64,
+    /// Whether a rapid, a stop or a tool change stands before it.
+    pub breaks_chain: bool,
+}
+
+/// The path in mm that a change between two feeds (mm/min) needs at an acceleration ((mm/min)/s).
+pub fn speed_change_distance_mm(from: f64, to: f64, acceleration: f64) -> f64 {
+    (to * to - from * from).abs() / (120.0 * acceleration)
+}
+
+pub(super) fn reachable_feed_mm_min(from: f64, acceleration: f64, length: f64) -> f64 {
+    (from * from + 120.0 * acceleration * length).sqrt()
+}
+
+/// The time in seconds that a path takes.
+///
+/// With an acceleration ((mm/min)/s) the feed changes no faster than that: a segment is entered at the lower of its own and the feed
+/// before it, speeds up inside itself and slows down inside itself towards a lower one after it. Where feeds cannot be reached in time,
+/// the machine is taken to look ahead, as every control does. Ends of chains are passed at feed. Segments without length or feed
+/// take no time.
+pub fn path_time_s(path: &[TimedSegment], acceleration: Option<f64>) -> f64 {
+    let Some(acceleration) = acceleration.filter(|acceleration| *acceleration > 0.0) else {
+        return path
+            .iter()
+            .filter(|segment| is_moving(segment))
+            .map(|segment| time_at_feed_s(segment.length, segment.feed))
+            .sum();
+    };
+    let mut total = 0.0;
+    let mut chain: Vec<TimedSegment> = Vec::new();
+    for segment in path {
+        if segment.breaks_chain {
+            total += chain_time_s(&chain, acceleration);
+            chain.clear();
+        }
+        if is_moving(segment) {
+            chain.push(*segment);
+        }
+    }
+    total + chain_time_s(&chain, acceleration)
+}
+
+fn is_moving(segment: &TimedSegment) -> bool {
+    segment.length > 0.0 && segment.feed > 0.0
+}
+
+fn time_at_feed_s(length: f64, feed: f64) -> f64 {
+    60.0 * length / feed
+}
+
+fn chain_time_s(chain: &[TimedSegment], acceleration: f64) -> f64 {
+    // Speeds at the boundaries: the lower of both feeds, and what can be reached from either side.
+    let first = chain.first().map(|segment| segment.feed);
+    let last = chain.last().map(|segment| segment.feed);
+    let inner = chain.windows(2).filter_map(|pair| match pair {
+        [a, b] => Some(a.feed.min(b.feed)),
+        _ => None,
+    });
+    let mut speeds: Vec<f64> = first.into_iter().chain(inner).chain(last).collect();
+    let mut before = f64::INFINITY;
+    for (speed, length) in speeds.iter_mut().zip(std::iter::once(0.0).chain(segment_lengths_mm(chain))) {
+        *speed = speed.min(reachable_feed_mm_min(before, acceleration, length));
+        before = *speed;
+    }
+    let mut after = f64::INFINITY;
+    for (speed, length) in
+        speeds.iter_mut().rev().zip(std::iter::once(0.0).chain(segment_lengths_mm(chain).rev()))
+    {
+        *speed = speed.min(reachable_feed_mm_min(after, acceleration, length));
+        after = *speed;
+    }
+    let boundaries = speeds.windows(2);
+    let segments = chain.iter().zip(boundaries).map(|(segment, speeds)| match speeds {
+        [entry, exit] => trapezoid_time_s(segment, *entry, *exit, acceleration),
+        _ => 0.0,
+    });
+    segments.sum()
+}
+
+fn segment_lengths_mm(chain: &[TimedSegment]) -> impl DoubleEndedIterator<Item = f64> {
+    chain.iter().map(|segment| segment.length)
+}
+
+/// Up from the entry speed to the feed, or as far as the length allows, and down to the exit speed.
+fn trapezoid_time_s(segment: &TimedSegment, entry: f64, exit: f64, acceleration: f64) -> f64 {
+    let crossing = ((entry * entry + exit * exit) / 2.0 + 60.0 * acceleration * segment.length).sqrt();
+    let peak = segment.feed.min(crossing).max(entry).max(exit);
+    let ramps = speed_change_distance_mm(entry, peak, acceleration)
+        + speed_change_distance_mm(exit, peak, acceleration);
+    let flat = (segment.length - ramps).max(0.0);
+    (peak - entry + peak - exit) / acceleration + time_at_feed_s(flat, peak)
+}

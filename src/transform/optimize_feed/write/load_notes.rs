@@ -1,0 +1,73 @@
+//! What is said of each FEDRAT that the step wrote, for the comments of `provenance:`: the largest load of the motions that it
+//! governs, before and after. The load of a motion that was split is none of its parts' own, so these have only the one after.
+
+use crate::program::{LengthUnit, Program, StepId};
+use crate::transform::optimize_feed::limit::FeedGoals;
+use crate::transform::optimize_feed::measure::{BlockMeasurement, LoadCriterion, MeasuredBlocks};
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// The largest loads that a FEDRAT governs.
+#[derive(Default)]
+struct GovernedLoads {
+    before: f64,
+    after: f64,
+    /// It governs a part of a motion that was split.
+    split: bool,
+}
+
+/// Adds the notes; nothing for a program that keeps no history. `parts` are the motions that each motion of `before` is now.
+pub(in crate::transform::optimize_feed) fn add_load_notes(
+    goals: &FeedGoals,
+    (program, step): (&mut Program, StepId),
+    before: &MeasuredBlocks,
+    after: &MeasuredBlocks,
+    parts: &[Range<usize>],
+) {
+    let Some((criterion, _)) = goals.limits.first().copied().filter(|_| program.has_history()) else {
+        return;
+    };
+    let governors: Vec<Option<usize>> = program.motions().map(|motion| motion.feed_from).collect();
+    let governor = |motion: usize| governors.get(motion).copied().flatten();
+    let mut loads: BTreeMap<usize, GovernedLoads> = BTreeMap::new();
+    let estimate =
+        |measurement: &BlockMeasurement| measurement.measured.first().map_or(0.0, |[estimate, _]| *estimate);
+    for measurement in &before.measurements {
+        let parts = parts.get(measurement.motion).cloned().unwrap_or_default();
+        let split = parts.len() > 1;
+        for governor in parts.filter_map(governor) {
+            let loads = loads.entry(governor).or_default();
+            loads.before = loads.before.max(estimate(measurement));
+            loads.split |= split;
+        }
+    }
+    for measurement in &after.measurements {
+        if let Some(governor) = governor(measurement.motion) {
+            let loads = loads.entry(governor).or_default();
+            loads.after = loads.after.max(estimate(measurement));
+        }
+    }
+    for (statement, loads) in loads {
+        if let Some(text) = render_load_note(criterion, goals.units, &loads) {
+            program.add_edit_note(statement, step, text);
+        }
+    }
+}
+
+/// `h 0.040 -> 0.065`, of split motions `h 0.065`; the unit where it is not the file's. `None` where no load would be told.
+fn render_load_note(criterion: LoadCriterion, file: LengthUnit, loads: &GovernedLoads) -> Option<String> {
+    let (symbol, decimals) = match criterion {
+        LoadCriterion::ChipThickness => ("h", 3),
+        LoadCriterion::RemovalRate => ("Q", 0),
+        LoadCriterion::Force => ("F", 0),
+        LoadCriterion::Torque => ("M", 2),
+        LoadCriterion::Power => ("P", 2),
+    };
+    let told = criterion == LoadCriterion::ChipThickness && file == LengthUnit::Mm;
+    let unit = if told { String::new() } else { format!(" {}", criterion.unit()) };
+    let [none, old, new] = [0.0, loads.before, loads.after].map(|load| format!("{load:.decimals$}"));
+    match loads.split {
+        true => (new != none).then(|| format!("{symbol} {new}{unit}")),
+        false => (old != none || new != none).then(|| format!("{symbol} {old} -> {new}{unit}")),
+    }
+}
