@@ -66,6 +66,22 @@ pub struct SourceTooLarge {
     pub bytes: usize,
 }
 
+/// A file cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum SourceReadError {
+    /// The system gives no bytes.
+    #[error("{name} cannot be read: {error}")]
+    Unreadable {
+        /// The name of the file.
+        name: String,
+        /// What the system says.
+        error: std::io::Error,
+    },
+    /// The file is too large.
+    #[error(transparent)]
+    TooLarge(#[from] SourceTooLarge),
+}
+
 impl Source {
     /// Takes the bytes of a file; `name` is its name in diagnostics.
     ///

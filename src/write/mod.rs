@@ -12,6 +12,6 @@ mod same_file;
 pub use atomic_write::{TemporaryFiles, write_atomically, write_atomically_unless, write_new_atomically};
 pub use editor::{ProgramEditor, statement_syntax};
 pub use file_style::FileStyle;
-pub use interrupt::{Interrupt, is_interrupt};
+pub use interrupt::{Interrupt, WriteError};
 pub use number_patch::{FEED_SHARE, copy_with_numbers, patch_numbers};
 pub use same_file::{FileSet, is_same_file};

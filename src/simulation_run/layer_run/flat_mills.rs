@@ -7,25 +7,51 @@ use crate::layered_chips::FlatMill;
 /// none. No grinder could make it.
 const NONE: f64 = 1e-6;
 
+/// The property that makes a cutter no flat end mill, to be read after "tool 3 has".
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum NotFlat {
+    /// The bottom is a cone.
+    #[error("a bottom that is {degrees:.1} degrees from flat")]
+    Bottom {
+        /// The angle between the bottom and a flat one.
+        degrees: f64,
+    },
+    /// The bottom is a ball.
+    #[error("a ball of radius {} mm", format_short(*radius_mm))]
+    Ball {
+        /// The radius of the ball, mm.
+        radius_mm: f64,
+    },
+    /// The corner is round.
+    #[error("a corner radius of {} mm", format_short(*radius_mm))]
+    Corner {
+        /// The radius of the corner, mm.
+        radius_mm: f64,
+    },
+    /// The flank is a cone.
+    #[error("a taper of {degrees:.2} degrees")]
+    Taper {
+        /// The angle between the flank and the axis.
+        degrees: f64,
+    },
+}
+
 /// Converts a cutter to a flat end mill.
 ///
 /// # Errors
-/// Returns the property that makes it no flat end mill, to be read after "tool 3 has".
-pub fn to_flat_mill(cutter: &CutterModel) -> Result<FlatMill, String> {
+/// Returns the property that makes it no flat end mill.
+pub fn to_flat_mill(cutter: &CutterModel) -> Result<FlatMill, NotFlat> {
     let profile = &cutter.profile;
     if profile.bottom_angle_rad() > NONE {
-        return Err(format!(
-            "a bottom that is {:.1} degrees from flat",
-            profile.bottom_angle_rad().to_degrees()
-        ));
+        return Err(NotFlat::Bottom { degrees: profile.bottom_angle_rad().to_degrees() });
     }
     if profile.corner_radius_mm() > NONE {
         let ball = profile.bottom_radius_mm() <= NONE;
-        let what = if ball { "a ball of radius" } else { "a corner radius of" };
-        return Err(format!("{what} {} mm", format_short(profile.corner_radius_mm())));
+        let radius_mm = profile.corner_radius_mm();
+        return Err(if ball { NotFlat::Ball { radius_mm } } else { NotFlat::Corner { radius_mm } });
     }
     if profile.taper_rad() > NONE {
-        return Err(format!("a taper of {:.2} degrees", profile.taper_rad().to_degrees()));
+        return Err(NotFlat::Taper { degrees: profile.taper_rad().to_degrees() });
     }
     Ok(FlatMill { radius: profile.radius_mm(), flutes: profile.height_mm() })
 }

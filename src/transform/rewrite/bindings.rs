@@ -3,6 +3,7 @@
 use super::expression::ExpressionValue;
 use crate::number;
 use crate::program::operation;
+use super::rule_fault::RuleFault;
 use std::ops::Range;
 
 /// A name that a pattern binds.
@@ -77,8 +78,8 @@ pub(super) fn fold_word(word: &str) -> String {
     words.join(" ")
 }
 
-/// What is said about a name that no argument is bound to.
-pub(super) fn unbound_message(name: &str, names: &[BoundName], usual: &str) -> String {
+/// Tells that no argument is bound to a name.
+pub(super) fn unbound_name(name: &str, names: &[BoundName], usual: &str) -> RuleFault {
     let known: Vec<String> = names
         .iter()
         .map(|name| if name.rest { format!("$...{}", name.text) } else { format!("${}", name.text) })
@@ -93,5 +94,5 @@ pub(super) fn unbound_message(name: &str, names: &[BoundName], usual: &str) -> S
         Some(known) => format!("Where letters follow a name, write ${{{}}}.", known.text),
         None => usual.to_owned(),
     };
-    format!("`{name}` is not bound by `match`\n{}", format!("{bound} {help}").trim_end())
+    RuleFault::new(format!("`{name}` is not bound by `match`"), format!("{bound} {help}").trim_end())
 }

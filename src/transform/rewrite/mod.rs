@@ -8,6 +8,7 @@ mod region;
 mod reshape;
 mod rewrite_run;
 mod rule;
+mod rule_fault;
 mod rule_matching;
 mod rule_subject;
 mod rule_text;

@@ -3,6 +3,7 @@
 use super::bindings::BoundName;
 use super::expression::{Expression, ExpressionKind};
 use super::pattern::StatementPattern;
+use super::rule_fault::RuleFault;
 use super::rule_text::parse_condition;
 use super::template::StatementTemplate;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -77,22 +78,22 @@ struct RuleDraft {
 }
 
 impl RuleDraft {
-    fn check_condition(&self, condition: &RuleCondition) -> Result<(), String> {
+    fn check_condition(&self, condition: &RuleCondition) -> Result<(), RuleFault> {
         self.pattern_names().map_or(Ok(()), |names| condition.0.check_names(names))
     }
 
-    fn check_template(&self, template: &StatementTemplate) -> Result<(), String> {
+    fn check_template(&self, template: &StatementTemplate) -> Result<(), RuleFault> {
         self.pattern_names().map_or(Ok(()), |names| template.check_names(names))
     }
 
-    fn check_replace(&self, template: &StatementTemplate) -> Result<(), String> {
+    fn check_replace(&self, template: &StatementTemplate) -> Result<(), RuleFault> {
         match self.delete {
-            true => Err(BOTH.to_owned()),
+            true => Err(replaced_and_deleted()),
             false => self.check_template(template),
         }
     }
 
-    fn check_pattern(&self, pattern: &StatementPattern) -> Result<(), String> {
+    fn check_pattern(&self, pattern: &StatementPattern) -> Result<(), RuleFault> {
         let mut templates = self.replace.iter().chain(&self.before).chain(&self.after);
         templates.try_for_each(|template| template.check_names(pattern.names()))?;
         self.condition.iter().try_for_each(|condition| condition.0.check_names(pattern.names()))
@@ -103,9 +104,9 @@ impl RuleDraft {
     }
 }
 
-const BOTH: &str = "a statement cannot be replaced and deleted\nKeep one of the two.";
-const NO_ACTION: &str =
-    "the rule does nothing\nAdd `replace: …`, `delete: true`, `insert_before: …` or `insert_after: …`.";
+fn replaced_and_deleted() -> RuleFault {
+    RuleFault::new("a statement cannot be replaced and deleted", "Keep one of the two.")
+}
 
 struct RuleVisitor;
 
@@ -159,7 +160,8 @@ impl<'de> Visitor<'de> for RuleVisitor {
         }
         let pattern = draft.pattern.ok_or_else(|| A::Error::missing_field("match"))?;
         if !acts {
-            return Err(A::Error::custom(NO_ACTION));
+            let help = "Add `replace: …`, `delete: true`, `insert_before: …` or `insert_after: …`.";
+            return Err(A::Error::custom(RuleFault::new("the rule does nothing", help)));
         }
         Ok(RewriteRule {
             r#match: pattern,
@@ -172,11 +174,14 @@ impl<'de> Visitor<'de> for RuleVisitor {
     }
 }
 
-fn read_condition(text: &str) -> Result<RuleCondition, String> {
+fn read_condition(text: &str) -> Result<RuleCondition, RuleFault> {
     let expression = parse_condition(text)?;
     match expression.kind()? {
         ExpressionKind::Truth => Ok(RuleCondition(expression)),
-        _ => Err(format!("`{text}` is neither true nor false\nCompare it: {text} > 0.")),
+        _ => Err(RuleFault::new(
+            format!("`{text}` is neither true nor false"),
+            format!("Compare it: {text} > 0."),
+        )),
     }
 }
 
@@ -188,8 +193,8 @@ struct CheckedTextSeed<R, C> {
 
 impl<'de, T, R, C> DeserializeSeed<'de> for CheckedTextSeed<R, C>
 where
-    R: Fn(&str) -> Result<T, String>,
-    C: Fn(&T) -> Result<(), String>,
+    R: Fn(&str) -> Result<T, RuleFault>,
+    C: Fn(&T) -> Result<(), RuleFault>,
 {
     type Value = T;
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<T, D::Error> {
@@ -208,7 +213,7 @@ impl<'de> DeserializeSeed<'de> for DeleteSeed {
     type Value = bool;
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<bool, D::Error> {
         match bool::deserialize(deserializer)? {
-            true if self.replaces => Err(D::Error::custom(BOTH)),
+            true if self.replaces => Err(D::Error::custom(replaced_and_deleted())),
             delete => Ok(delete),
         }
     }
@@ -247,7 +252,7 @@ impl<'de> Visitor<'de> for TemplateListSeed<'_> {
             templates.push(template);
         }
         if templates.is_empty() {
-            return Err(A::Error::custom("an empty list inserts nothing\nRemove the key."));
+            return Err(A::Error::custom(RuleFault::new("an empty list inserts nothing", "Remove the key.")));
         }
         Ok(templates)
     }
