@@ -59,19 +59,28 @@ pub struct Source {
 }
 
 /// The file is too large for 32-bit spans.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, thiserror::Error)]
+#[error("the file has {bytes} bytes; clsmith reads files below 4 GiB")]
 pub struct SourceTooLarge {
     /// The size of the refused file.
     pub bytes: usize,
 }
 
-impl fmt::Display for SourceTooLarge {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the file has {} bytes; clsmith reads files below 4 GiB", self.bytes)
-    }
+/// A file cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum SourceReadError {
+    /// The system gives no bytes.
+    #[error("{name} cannot be read: {error}")]
+    Unreadable {
+        /// The name of the file.
+        name: String,
+        /// What the system says.
+        error: std::io::Error,
+    },
+    /// The file is too large.
+    #[error(transparent)]
+    TooLarge(#[from] SourceTooLarge),
 }
-
-impl std::error::Error for SourceTooLarge {}
 
 impl Source {
     /// Takes the bytes of a file; `name` is its name in diagnostics.

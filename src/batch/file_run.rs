@@ -5,7 +5,7 @@ use super::{BatchRecord, FileOutcome, JournalEntry, LockedFolder, StatementChang
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::fingerprint::Digest;
 use crate::job::{self, CorrectionJob, JobOutcome};
-use crate::output_files::{Interrupt, is_interrupt};
+use crate::output_files::{Interrupt, WriteError};
 use crate::program::{Dialect, Program};
 use crate::report::finding_policy::FindingPolicy;
 use crate::simulation_run::RunWatcher;
@@ -179,10 +179,10 @@ fn write_corrected(
         return Err(report_outside_link(link).into());
     }
     let all = |out: &mut dyn Write| program.byte_chunks().try_for_each(|piece| out.write_all(piece));
-    folder
-        .temporary_files()
-        .write_file(&target, settings.interrupt, all)
-        .map_err(|error| if is_interrupt(&error) { Failure::Interrupted } else { unwritable(error).into() })
+    folder.temporary_files().write_file(&target, settings.interrupt, all).map_err(|error| match error {
+        WriteError::Interrupted => Failure::Interrupted,
+        WriteError::Io(error) => unwritable(error).into(),
+    })
 }
 
 /// Slices one after the other, to be read.

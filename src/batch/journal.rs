@@ -3,7 +3,6 @@
 use super::{BatchRecord, LockedFolder, PortablePath};
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::fingerprint::Digest;
-use crate::output_files::Interrupt;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -66,7 +65,7 @@ impl BatchJournal {
             text.extend(json_line(done)?);
         }
         // At once: whoever is killed here has the old journal or the new one.
-        folder.folder().temporary_files().write_file(&path, &Interrupt::new(), |out| out.write_all(&text))?;
+        folder.folder().temporary_files().write_file_to_end(&path, |out| out.write_all(&text))?;
         Ok(Self { file: Mutex::new(Some(File::options().append(true).open(path)?)) })
     }
 

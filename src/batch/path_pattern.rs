@@ -29,14 +29,25 @@ pub(super) struct MatchedFile {
 /// Why a pattern leads to nothing.
 #[derive(Debug)]
 pub(super) enum NoMatchReason {
-    /// It is no pattern: why.
-    Bad(String),
+    /// It is no pattern.
+    Bad(PathPatternError),
     /// Nothing fits it.
     Nothing,
     /// It is a folder.
     Folder,
     /// A folder cannot be looked into.
     Unreadable(PathBuf, io::Error),
+}
+
+/// Why a text is no pattern.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum PathPatternError {
+    /// The path goes back behind a wildcard.
+    #[error("`.` and `..` may only stand in front of the first wildcard")]
+    DotsAfterWildcard,
+    /// The wildcards are written wrongly.
+    #[error("{}", .0.kind())]
+    Glob(#[from] globset::Error),
 }
 
 /// The files that a pattern fits, seen from the folder `base`; the folder `not_in` is not looked into.
@@ -88,15 +99,15 @@ struct PathPattern {
 }
 
 impl PathPattern {
-    fn new(text: &str) -> Result<Self, String> {
+    fn new(text: &str) -> Result<Self, PathPatternError> {
         let glob = |text: &str| {
             GlobBuilder::new(text).literal_separator(true).build().map(|glob| glob.compile_matcher())
         };
         let parts: Vec<&str> = text.split(std::path::is_separator).collect();
         if parts.contains(&"..") || parts.contains(&".") {
-            return Err("`.` and `..` may only stand in front of the first wildcard".into());
+            return Err(PathPatternError::DotsAfterWildcard);
         }
-        let whole = glob(text).map_err(|error| error.kind().to_string())?;
+        let whole = glob(text)?;
         let hidden =
             parts.iter().filter(|part| part.starts_with('.')).filter_map(|part| glob(part).ok()).collect();
         let depth = if text.contains("**") { usize::MAX } else { parts.len() };

@@ -47,20 +47,39 @@ impl fmt::Display for Shard {
     }
 }
 
+/// Why a text names no shard.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum BadShard {
+    /// It is not two numbers with a slash between them.
+    #[error("a shard is written I/N: 1/8 to 8/8")]
+    NotTwoNumbers,
+    /// The first shard has the number 1.
+    #[error("shards count from 1: 1/{count} to {count}/{count}; where the scheduler counts from 0, add 1")]
+    CountedFromZero {
+        /// The number of shards that the text asks for.
+        count: u32,
+    },
+    /// The number is larger than the count, or the count is too large.
+    #[error("there is no shard {index} of {count}; shards count from 1")]
+    OutOfRange {
+        /// The number of the shard.
+        index: u32,
+        /// The number of shards.
+        count: u32,
+    },
+}
+
 impl FromStr for Shard {
-    type Err = String;
-    fn from_str(text: &str) -> Result<Self, String> {
+    type Err = BadShard;
+    fn from_str(text: &str) -> Result<Self, BadShard> {
         let numbers = text.split_once('/').and_then(|(index, count)| {
             let number = |text: &str| text.trim().parse::<u32>().ok();
             Some((number(index)?, number(count)?))
         });
         match numbers {
-            None => Err("a shard is written I/N: 1/8 to 8/8".into()),
-            Some((0, count)) => Err(format!(
-                "shards count from 1: 1/{count} to {count}/{count}; where the scheduler counts from 0, add 1"
-            )),
-            Some((index, count)) => Self::new(index, count)
-                .ok_or_else(|| format!("there is no shard {index} of {count}; shards count from 1")),
+            None => Err(BadShard::NotTwoNumbers),
+            Some((0, count)) => Err(BadShard::CountedFromZero { count }),
+            Some((index, count)) => Self::new(index, count).ok_or(BadShard::OutOfRange { index, count }),
         }
     }
 }

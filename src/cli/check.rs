@@ -4,6 +4,7 @@ use super::command_exit::CommandExit;
 use super::finding_args::{FindingArgs, FindingFormat};
 use super::input_files;
 use super::terminal;
+use crate::cli::stop::Stop;
 use clap::Args;
 use clsmith::check::read_and_check;
 use clsmith::diagnostic::Diagnostic;
@@ -30,18 +31,12 @@ pub struct CheckArgs {
     #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
     dialect: Option<Dialect>,
     #[command(flatten)]
-    findings: FindingArgs,
+    pub(in crate::cli) findings: FindingArgs,
 }
 
 impl CheckArgs {
-    pub fn run(&self) -> io::Result<CommandExit> {
-        let policy = match self.findings.build_policy() {
-            Ok(policy) => policy,
-            Err(problem) => {
-                eprintln!("clsmith check: {problem}");
-                return Ok(CommandExit::Usage);
-            }
-        };
+    pub fn run(&self) -> Result<CommandExit, Stop> {
+        let policy = self.findings.build_policy()?;
         let mut out = io::stdout().lock();
         let mut all = Vec::new();
         let mut worst = CommandExit::Done;
@@ -51,7 +46,7 @@ impl CheckArgs {
                     let (_, found) = read_and_check(&source, self.dialect);
                     (source.name().to_owned(), found)
                 }
-                Err(found) => (path.to_string_lossy().into_owned(), vec![*found]),
+                Err(failure) => (path.to_string_lossy().into_owned(), failure.into_findings()),
             };
             let found = policy.apply(found);
             if found.iter().any(Diagnostic::is_error) {

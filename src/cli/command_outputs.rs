@@ -1,8 +1,9 @@
 //! Writing outputs, and Ctrl-C.
 
 use super::input_files::STANDARD;
+use crate::cli::stop::Stop;
 use clsmith::diagnostic::{Diagnostic, codes};
-use clsmith::output_files::{Interrupt, is_interrupt, is_same_file, write_atomically_unless};
+use clsmith::output_files::{Interrupt, WriteError, is_same_file, write_atomically_unless};
 use std::io::{self, Write};
 use std::path::Path;
 use std::sync::{Arc, LockResult, Mutex, MutexGuard};
@@ -51,12 +52,15 @@ impl CommandOutputs {
         .map_err(io::Error::other)
     }
 
-    /// Writes an output; a finding when that fails for another reason than Ctrl-C or a reader that went away.
+    /// Writes an output.
+    ///
+    /// # Errors
+    /// Returns a finding where the file cannot be written, Ctrl-C, or that the reader of standard output went away.
     pub fn write_output(
         &self,
         target: &Path,
         write_all: impl Fn(&mut dyn Write) -> io::Result<()>,
-    ) -> io::Result<Option<Diagnostic>> {
+    ) -> Result<(), Stop> {
         let _held = self.hold_ctrl_c();
         self.write_held_output(target, write_all)
     }
@@ -71,33 +75,38 @@ impl CommandOutputs {
         &self,
         target: &Path,
         write_all: impl Fn(&mut dyn Write) -> io::Result<()>,
-    ) -> io::Result<Option<Diagnostic>> {
+    ) -> Result<(), Stop> {
         let done = if target == Path::new(STANDARD) {
             let mut out = io::BufWriter::new(io::stdout().lock());
-            write_all(&mut out).and_then(|()| out.flush())
+            write_all(&mut out).and_then(|()| out.flush()).map_err(WriteError::from)
         } else {
             write_atomically_unless(target, &self.interrupt, write_all)
         };
         match done {
-            Ok(()) => Ok(None),
-            Err(error) if is_interrupt(&error) || error.kind() == io::ErrorKind::BrokenPipe => Err(error),
-            Err(error) => Ok(Some(report_unwritable(target, &error))),
+            Ok(()) => Ok(()),
+            Err(WriteError::Interrupted) => Err(Stop::Interrupted),
+            Err(WriteError::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => Err(error.into()),
+            Err(WriteError::Io(error)) => Err(report_unwritable(target, &error).into()),
         }
     }
 }
 
-/// A finding when an output would go over an input; standard input and output are no files.
-pub fn find_overwritten_input<'a>(
+/// Refuses outputs that would go over an input; standard input and output are no files.
+///
+/// # Errors
+/// Returns a finding about the first such output.
+pub fn refuse_overwritten_input<'a>(
     mut outputs: impl Iterator<Item = &'a Path>,
     inputs: &[&Path],
-) -> Option<Diagnostic> {
-    outputs.find_map(|target| {
+) -> Result<(), Stop> {
+    let found = outputs.find_map(|target| {
         let files = inputs.iter().filter(|path| **path != Path::new(STANDARD));
         let mut files = files.filter(|_| target != Path::new(STANDARD));
         let hit = files.find(|path| is_same_file(path, target))?;
         let message = format!("writing {} would overwrite the input {}", target.display(), hit.display());
         Some(Diagnostic::new(codes::OUTPUT_IS_INPUT, message))
-    })
+    });
+    found.map_or(Ok(()), |found| Err(found.into()))
 }
 
 /// An output that cannot be written.

@@ -4,6 +4,7 @@ use super::command_exit::CommandExit;
 use super::finding_args::FindingArgs;
 use super::input_files;
 use super::terminal;
+use crate::cli::stop::Stop;
 use clap::Args;
 use clsmith::diagnostic::Diagnostic;
 use clsmith::parse::parse;
@@ -42,21 +43,14 @@ pub struct DiffArgs {
     #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
     dialect: Option<Dialect>,
     #[command(flatten)]
-    findings: FindingArgs,
+    pub(in crate::cli) findings: FindingArgs,
 }
 
 impl DiffArgs {
-    pub fn run(&self) -> io::Result<CommandExit> {
-        let policy = match self.findings.build_policy() {
-            Ok(policy) => policy,
-            Err(problem) => {
-                eprintln!("clsmith diff: {problem}");
-                return Ok(CommandExit::Usage);
-            }
-        };
+    pub fn run(&self) -> Result<CommandExit, Stop> {
+        let policy = self.findings.build_policy()?;
         if self.a == self.b && self.a == Path::new(input_files::STANDARD) {
-            eprintln!("clsmith diff: standard input can be read only once");
-            return Ok(CommandExit::Usage);
+            return Err(Stop::Usage("standard input can be read only once".to_owned()));
         }
         let mut programs = Vec::new();
         for path in [&self.a, &self.b] {
@@ -97,7 +91,7 @@ impl DiffArgs {
                 let parsed = parse(&source, self.dialect);
                 (Some(parsed.program), parsed.diagnostics)
             }
-            Err(found) => (None, vec![*found]),
+            Err(failure) => (None, failure.into_findings()),
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::terminal::{self, ColorMode};
 use clap::{Args, ValueEnum};
 use clsmith::diagnostic::Diagnostic;
-use clsmith::report::finding_policy::FindingPolicy;
+use clsmith::report::finding_policy::{FindingPolicy, FindingPolicyError};
 use clsmith::report::render::{human, json, line, sarif};
 use std::io::{self, Write};
 
@@ -45,7 +45,7 @@ pub struct FindingArgs {
 
 impl FindingArgs {
     /// The policy that the options ask for.
-    pub fn build_policy(&self) -> Result<FindingPolicy, String> {
+    pub fn build_policy(&self) -> Result<FindingPolicy, FindingPolicyError> {
         FindingPolicy::from_code_lists(
             self.deny.iter().map(String::as_str),
             self.allow.iter().map(String::as_str),

@@ -1,10 +1,11 @@
 //! Reading inputs: CL files, recipes and setups, from files and from standard input.
 
+use crate::cli::bad_argument::BadArgument;
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::program::{Dialect, LengthUnit};
 use clsmith::recipe::Provenance;
 use clsmith::setup::Setup;
-use clsmith::source::Source;
+use clsmith::source::{Source, SourceReadError};
 use clsmith::transform::Recipe;
 use std::cell::RefCell;
 use std::io::Read;
@@ -16,7 +17,18 @@ use std::time::Duration;
 pub const STANDARD: &str = "-";
 
 /// Reads a file; `-` is standard input.
-pub fn read_source(path: &Path) -> Result<Arc<Source>, Box<Diagnostic>> {
+pub fn read_source(path: &Path) -> Result<Arc<Source>, Failure> {
+    Ok(read_bytes(path).map_err(|error| {
+        let code = match error {
+            SourceReadError::Unreadable { .. } => codes::UNREADABLE,
+            SourceReadError::TooLarge(_) => codes::TOO_LARGE,
+        };
+        Diagnostic::new(code, error.to_string())
+    })?)
+}
+
+/// Reads a file that another file names, which knows where; `-` is standard input.
+pub fn read_bytes(path: &Path) -> Result<Arc<Source>, SourceReadError> {
     let standard = path == Path::new(STANDARD);
     let name = if standard { "standard input".to_owned() } else { path.to_string_lossy().into_owned() };
     let bytes = if standard {
@@ -25,15 +37,13 @@ pub fn read_source(path: &Path) -> Result<Arc<Source>, Box<Diagnostic>> {
     } else {
         std::fs::read(path)
     };
-    let bytes = bytes.map_err(|error| {
-        Box::new(Diagnostic::new(codes::UNREADABLE, format!("{name} cannot be read: {error}")))
-    })?;
-    Source::new(name, bytes).map_err(|error| Box::new(Diagnostic::new(codes::TOO_LARGE, error.to_string())))
+    let bytes = bytes.map_err(|error| SourceReadError::Unreadable { name: name.clone(), error })?;
+    Ok(Source::new(name, bytes)?)
 }
 
 /// Reads a setup file.
-pub fn read_setup(path: &Path) -> Result<Setup, Vec<Diagnostic>> {
-    Setup::load(&read_source(path).map_err(|found| vec![*found])?).map_err(Failure::into_findings)
+pub fn read_setup(path: &Path) -> Result<Setup, Failure> {
+    Setup::load(&read_source(path)?)
 }
 
 /// A recipe and the setup that counts for it.
@@ -45,28 +55,18 @@ pub struct LoadedRecipe {
 }
 
 /// Reads a recipe, the setup file it names (beside it), and the one of the command line.
-pub fn read_recipe(path: &Path, setup: Option<&Path>) -> Result<LoadedRecipe, Vec<Diagnostic>> {
+pub fn read_recipe(path: &Path, setup: Option<&Path>) -> Result<LoadedRecipe, Failure> {
     let texts = RefCell::new(Vec::new());
-    let read = |path: &Path| {
-        let source = read_source(path)?;
-        texts.borrow_mut().push(Arc::clone(&source));
-        Ok(source)
-    };
-    let message = |found: Box<Diagnostic>| found.message;
-    let source = read(path).map_err(|found: Box<Diagnostic>| vec![*found])?;
-    let recipe = Recipe::load(&source).map_err(Failure::into_findings)?;
-    let named = recipe
-        .load_setup_file(|name| read(&path_beside_recipe(path, name)).map_err(message))
-        .map_err(Failure::into_findings)?;
+    let keep = |source: &Arc<Source>| texts.borrow_mut().push(Arc::clone(source));
+    let read = |path: &Path| read_bytes(path).inspect(keep);
+    let source = read_source(path).inspect(keep)?;
+    let recipe = Recipe::load(&source)?;
+    let named = recipe.load_setup_file(|name| read(&path_beside_recipe(path, name)))?;
     let given = match setup {
-        Some(path) => {
-            Setup::load(&read(path).map_err(|found| vec![*found])?).map_err(Failure::into_findings)?
-        }
+        Some(path) => Setup::load(&read_source(path).inspect(keep)?)?,
         None => Setup::default(),
     };
-    let setup = recipe.merge_setups(named, given);
-    let setup =
-        setup.read_material_file(|path| read(path).map_err(message)).map_err(Failure::into_findings)?;
+    let setup = recipe.merge_setups(named, given).read_material_file(read)?;
     Ok(LoadedRecipe { recipe, setup, texts: texts.into_inner() })
 }
 
@@ -76,32 +76,32 @@ pub fn path_beside_recipe(recipe: &Path, name: &str) -> PathBuf {
 }
 
 /// Reads `--dialect`.
-pub fn parse_dialect(name: &str) -> Result<Dialect, String> {
+pub fn parse_dialect(name: &str) -> Result<Dialect, BadArgument> {
     Dialect::from_name(name).ok_or_else(|| {
         let names: Vec<&str> = Dialect::ALL.iter().map(|dialect| dialect.name()).collect();
-        format!("the dialects are {}", names.join(", "))
+        BadArgument::new(format!("the dialects are {}", names.join(", ")))
     })
 }
 
 /// Reads `--provenance`.
-pub fn parse_provenance(name: &str) -> Result<Provenance, String> {
+pub fn parse_provenance(name: &str) -> Result<Provenance, BadArgument> {
     let found = Provenance::ALL.into_iter().find(|provenance| provenance.name() == name);
-    found.ok_or_else(|| "this is none, header or comments".into())
+    found.ok_or(BadArgument::new("this is none, header or comments"))
 }
 
 /// Reads `--units`.
-pub fn parse_length_unit(text: &str) -> Result<LengthUnit, String> {
+pub fn parse_length_unit(text: &str) -> Result<LengthUnit, BadArgument> {
     match text {
         "mm" => Ok(LengthUnit::Mm),
         "inch" => Ok(LengthUnit::Inch),
-        _ => Err("the units are mm and inch".into()),
+        _ => Err(BadArgument::new("the units are mm and inch")),
     }
 }
 
 /// Reads a time in seconds, more than none.
-pub fn parse_seconds(text: &str) -> Result<Duration, String> {
+pub fn parse_seconds(text: &str) -> Result<Duration, BadArgument> {
     let seconds = text.parse().ok().filter(|&seconds: &f64| seconds > 0.0);
     seconds
         .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
-        .ok_or_else(|| "a time is a number of seconds above 0".into())
+        .ok_or(BadArgument::new("a time is a number of seconds above 0"))
 }

@@ -2,13 +2,12 @@
 
 use crate::cli::command_exit::CommandExit;
 use crate::cli::command_outputs::{CommandOutputs, ignore_closed_pipe, print_summary};
-use crate::cli::command_stop::CommandStop;
 use crate::cli::finding_args::FindingArgs;
 use crate::cli::input_files::STANDARD;
 use crate::cli::progress::CommandProgress;
+use crate::cli::stop::Stop;
 use crate::cli::terminal;
 use clsmith::diagnostic::Diagnostic;
-use clsmith::output_files::is_interrupt;
 use clsmith::parse::parse;
 use clsmith::program::{Dialect, Program};
 use clsmith::report::finding_policy::FindingPolicy;
@@ -17,8 +16,6 @@ use std::path::Path;
 
 /// What every such command is given.
 pub struct MeasuringCommand<'a> {
-    /// The subcommand.
-    pub command: &'static str,
     /// The program.
     pub program: &'a Path,
     /// Where outputs go.
@@ -43,12 +40,13 @@ pub struct MeasuringContext<'r> {
 
 impl MeasuringContext<'_> {
     /// Reads a program; errors in its text stop the run.
-    pub fn read_program(&mut self, path: &Path, dialect: Option<Dialect>) -> Result<Program, CommandStop> {
-        let source = crate::cli::input_files::read_source(path).map_err(|found| *found)?;
+    pub fn read_program(&mut self, path: &Path, dialect: Option<Dialect>) -> Result<Program, Stop> {
+        let source = crate::cli::input_files::read_source(path)?;
         let parsed = parse(&source, dialect);
         self.findings.extend(parsed.diagnostics);
         if self.policy.apply(self.findings.clone()).iter().any(Diagnostic::is_error) {
-            return Err(CommandStop::Found(Vec::new()));
+            // They are among the findings already.
+            return Err(Vec::new().into());
         }
         Ok(parsed.program)
     }
@@ -56,21 +54,16 @@ impl MeasuringContext<'_> {
 
 impl MeasuringCommand<'_> {
     /// Measures, tells, and writes: nothing is written while an error stands. `problem` is what is wrong with the command line; `measure`
-    /// makes everything but the outputs; `write` returns what kept an output from being written.
+    /// makes everything but the outputs; `write` writes the outputs.
     pub fn run_measurement<T>(
         &self,
         problem: Option<String>,
-        measure: impl FnOnce(&mut MeasuringContext<'_>) -> Result<T, CommandStop>,
+        measure: impl FnOnce(&mut MeasuringContext<'_>) -> Result<T, Stop>,
         summary: impl FnOnce(&T) -> String,
-        write: impl FnOnce(&T, &[Diagnostic], &CommandOutputs) -> io::Result<Option<Diagnostic>>,
-    ) -> io::Result<CommandExit> {
-        let policy = match problem.map_or_else(|| self.findings.build_policy(), Err) {
-            Ok(policy) => policy,
-            Err(problem) => {
-                eprintln!("clsmith {}: {problem}", self.command);
-                return Ok(CommandExit::Usage);
-            }
-        };
+        write: impl FnOnce(&T, &[Diagnostic], &CommandOutputs) -> Result<(), Stop>,
+    ) -> Result<CommandExit, Stop> {
+        problem.map_or(Ok(()), |problem| Err(Stop::Usage(problem)))?;
+        let policy = self.findings.build_policy()?;
         if let Some(threads) = self.threads {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into());
             pool.build_global().map_err(io::Error::other)?;
@@ -84,12 +77,12 @@ impl MeasuringCommand<'_> {
         progress.clear_bar();
         let measured = match done {
             Ok(measured) => measured,
-            Err(CommandStop::Interrupted) => return Ok(CommandExit::Interrupted),
-            Err(CommandStop::Found(found)) => {
+            Err(Stop::Found { findings: found, .. }) => {
                 findings.extend(found);
                 self.show_findings(&policy.apply(findings))?;
-                return self.say_nothing_written();
+                return Ok(self.say_nothing_written());
             }
+            Err(stop) => return Err(stop),
         };
         let findings = policy.apply(findings);
         if !findings.is_empty() {
@@ -101,24 +94,17 @@ impl MeasuringCommand<'_> {
             ignore_closed_pipe(print_summary(&summary(&measured), is_taken))?;
         }
         if findings.iter().any(Diagnostic::is_error) {
-            return self.say_nothing_written();
+            return Ok(self.say_nothing_written());
         }
-        match write(&measured, &findings, &outputs) {
-            Ok(None) => Ok(CommandExit::Done),
-            Ok(Some(found)) => {
-                self.show_findings(&[found])?;
-                Ok(CommandExit::Errors)
-            }
-            Err(error) if is_interrupt(&error) => Ok(CommandExit::Interrupted),
-            Err(error) => Err(error),
-        }
+        write(&measured, &findings, &outputs).map_err(|stop| stop.about(self.program))?;
+        Ok(CommandExit::Done)
     }
 
-    fn say_nothing_written(&self) -> io::Result<CommandExit> {
+    fn say_nothing_written(&self) -> CommandExit {
         if !self.quiet && !self.outputs.is_empty() {
             eprintln!("{}: nothing was written", self.program.display());
         }
-        Ok(CommandExit::Errors)
+        CommandExit::Errors
     }
 
     fn show_findings(&self, findings: &[Diagnostic]) -> io::Result<()> {

@@ -1,12 +1,12 @@
 //! The command line: one file for each command, over a library that knows nothing of it.
 
 mod apply;
+mod bad_argument;
 mod batch;
 mod check;
 mod chips;
 mod command_exit;
 mod command_outputs;
-mod command_stop;
 mod diff;
 mod finding_args;
 mod hook;
@@ -19,13 +19,13 @@ mod report_args;
 mod section;
 mod simulate;
 mod stats;
+mod stop;
 mod terminal;
 mod unattended;
 mod undo;
 mod watch;
 
 use clap::{CommandFactory, Parser, Subcommand};
-use command_exit::CommandExit;
 use std::process::ExitCode;
 
 const EXAMPLES: &str = "\
@@ -98,33 +98,25 @@ enum CliCommand {
 /// Runs the command of the process's arguments.
 pub fn run_command_line() -> ExitCode {
     let cli = Cli::parse();
-    let done = match &cli.command {
-        CliCommand::Apply(command) => command.run(),
-        CliCommand::Batch(command) => command.run(),
-        CliCommand::Merge(command) => command.run(),
-        CliCommand::Check(command) => command.run(),
-        CliCommand::Stats(command) => command.run(),
-        CliCommand::Simulate(command) => command.run(),
-        CliCommand::Chips(command) => command.run(),
-        CliCommand::Section(command) => command.run(),
-        CliCommand::Diff(command) => command.run(),
-        CliCommand::Hook(command) => command.run(),
-        CliCommand::Watch(command) => command.run(),
-        CliCommand::Plot(command) => command.run(),
-        CliCommand::Undo(command) => command.run(),
-        CliCommand::Transforms(command) => command.run(),
-        CliCommand::Schema(command) => command.run(),
-        CliCommand::Explain(command) => command.run(),
-        CliCommand::Completions(command) => command.run(&mut Cli::command()),
-        CliCommand::Man(command) => command.run(Cli::command()),
+    let (name, findings, done) = match &cli.command {
+        CliCommand::Apply(command) => ("apply", Some(&command.findings), command.run()),
+        CliCommand::Batch(command) => ("batch", Some(&command.findings), command.run()),
+        CliCommand::Merge(command) => ("merge", Some(&command.findings), command.run()),
+        CliCommand::Check(command) => ("check", Some(&command.findings), command.run()),
+        CliCommand::Stats(command) => ("stats", Some(&command.findings), command.run()),
+        CliCommand::Simulate(command) => ("simulate", Some(&command.findings), command.run()),
+        CliCommand::Chips(command) => ("chips", Some(&command.findings), command.run()),
+        CliCommand::Section(command) => ("section", Some(&command.findings), command.run()),
+        CliCommand::Diff(command) => ("diff", Some(&command.findings), command.run()),
+        CliCommand::Hook(command) => ("hook", Some(&command.findings), command.run()),
+        CliCommand::Watch(command) => ("watch", Some(&command.findings), command.run()),
+        CliCommand::Plot(command) => ("plot", Some(&command.findings), command.run()),
+        CliCommand::Undo(command) => ("undo", Some(&command.findings), command.run()),
+        CliCommand::Transforms(command) => ("transforms", None, command.run()),
+        CliCommand::Schema(command) => ("schema", None, command.run()),
+        CliCommand::Explain(command) => ("explain", None, command.run()),
+        CliCommand::Completions(command) => ("completions", None, command.run(&mut Cli::command())),
+        CliCommand::Man(command) => ("man", None, command.run(Cli::command())),
     };
-    match done {
-        Ok(exit) => exit.exit_process(),
-        // A reader that has seen enough (`clsmith ... | head`) is no error of ours, but the work was not done either.
-        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => CommandExit::NobodyReads.into(),
-        Err(error) => {
-            eprintln!("clsmith: {error}");
-            CommandExit::Errors.into()
-        }
-    }
+    done.unwrap_or_else(|stop| stop.finish_command(name, findings)).exit_process()
 }

@@ -1,11 +1,11 @@
 //! `clsmith plot`.
 
 use super::command_exit::CommandExit;
-use super::command_outputs::{CommandOutputs, find_overwritten_input, ignore_closed_pipe};
-use super::command_stop::CommandStop;
+use super::command_outputs::{CommandOutputs, ignore_closed_pipe, refuse_overwritten_input};
 use super::finding_args::FindingArgs;
 use super::input_files::{self, STANDARD};
 use super::progress::CommandProgress;
+use super::stop::Stop;
 use super::terminal;
 use clap::{Args, ValueEnum};
 use clsmith::diagnostic::{Diagnostic, codes};
@@ -61,7 +61,7 @@ pub struct PlotArgs {
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
-    findings: FindingArgs,
+    pub(in crate::cli) findings: FindingArgs,
 }
 
 /// What goes up.
@@ -142,14 +142,9 @@ fn explain_empty_panel(
 }
 
 impl PlotArgs {
-    pub fn run(&self) -> io::Result<CommandExit> {
-        let policy = match self.find_usage_problem().map_or_else(|| self.findings.build_policy(), Err) {
-            Ok(policy) => policy,
-            Err(problem) => {
-                eprintln!("clsmith plot: {problem}");
-                return Ok(CommandExit::Usage);
-            }
-        };
+    pub fn run(&self) -> Result<CommandExit, Stop> {
+        self.find_usage_problem().map_or(Ok(()), |problem| Err(Stop::Usage(problem)))?;
+        let policy = self.findings.build_policy()?;
         let outputs = CommandOutputs::default();
         let progress = CommandProgress::new(self.quiet, outputs.interrupt());
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
@@ -158,11 +153,11 @@ impl PlotArgs {
         progress.clear_bar();
         let drawn = match drawn {
             Ok(drawn) => Some(drawn),
-            Err(CommandStop::Interrupted) => return Ok(CommandExit::Interrupted),
-            Err(CommandStop::Found(found)) => {
+            Err(Stop::Found { findings: found, .. }) => {
                 findings.extend(found);
                 None
             }
+            Err(stop) => return Err(stop),
         };
         let findings = policy.apply(findings);
         if !findings.is_empty() {
@@ -180,10 +175,9 @@ impl PlotArgs {
             return Ok(CommandExit::Errors);
         };
         let bytes = encode_drawing(&self.output, svg)?;
-        match outputs.write_output(&self.output, |out| out.write_all(&bytes))? {
-            Some(found) => self.show_findings(&[found]).map(|()| CommandExit::Errors),
-            None => Ok(CommandExit::Done),
-        }
+        let written = outputs.write_output(&self.output, |out| out.write_all(&bytes));
+        written.map_err(|stop| stop.about(&self.program))?;
+        Ok(CommandExit::Done)
     }
 
     /// What is wrong with the command line beyond what clap can say.
@@ -206,23 +200,20 @@ impl PlotArgs {
         &self,
         progress: &CommandProgress,
         findings: &mut Vec<Diagnostic>,
-    ) -> Result<PlotDrawing, CommandStop> {
+    ) -> Result<PlotDrawing, Stop> {
         let setup = match &self.setup {
-            Some(path) => {
-                let setup = input_files::read_setup(path)?;
-                let read = |path: &Path| input_files::read_source(path).map_err(|found| found.message);
-                setup.read_material_file(read)?
-            }
+            Some(path) => input_files::read_setup(path)?.read_material_file(input_files::read_bytes)?,
             None => Setup::default(),
         };
         self.check_outputs(&setup)?;
         let mut programs = Vec::new();
         for path in std::iter::once(&self.program).chain(&self.after) {
-            let source = input_files::read_source(path).map_err(|found| *found)?;
+            let source = input_files::read_source(path)?;
             let parsed = parse(&source, self.dialect);
             findings.extend(parsed.diagnostics);
             if findings.iter().any(Diagnostic::is_error) {
-                return Err(CommandStop::Found(Vec::new()));
+                // They are among the findings already.
+                return Err(Vec::new().into());
             }
             programs.push(parsed.program);
         }
@@ -268,7 +259,7 @@ impl PlotArgs {
         setup: &Setup,
         progress: &CommandProgress,
         findings: &mut Vec<Diagnostic>,
-    ) -> Result<SimulationReport, CommandStop> {
+    ) -> Result<SimulationReport, Stop> {
         let units = ResolvedLengthUnit::from_program(program, self.units).unit;
         let machining = Machining::new(program, setup, units, findings)?;
         progress.begin_bar(program.source().name());
@@ -276,14 +267,11 @@ impl PlotArgs {
     }
 
     /// The output may be no input, nor a file that the setup names.
-    fn check_outputs(&self, setup: &Setup) -> Result<(), CommandStop> {
+    fn check_outputs(&self, setup: &Setup) -> Result<(), Stop> {
         let mut inputs = vec![self.program.as_path()];
         inputs.extend([&self.after, &self.setup].into_iter().filter_map(|path| path.as_deref()));
         inputs.extend(setup.referenced_files());
-        match find_overwritten_input(std::iter::once(self.output.as_path()), &inputs) {
-            Some(found) => Err(found.into()),
-            None => Ok(()),
-        }
+        refuse_overwritten_input(std::iter::once(self.output.as_path()), &inputs)
     }
 
     fn show_findings(&self, findings: &[Diagnostic]) -> io::Result<()> {

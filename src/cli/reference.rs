@@ -1,6 +1,7 @@
 //! Commands that print what clsmith knows about itself: `transforms`, `schema`, `explain`, `completions`, `man`.
 
 use super::command_exit::CommandExit;
+use crate::cli::stop::Stop;
 use clap::Args;
 use clsmith::report::{explain, finding_policy, step_descriptions};
 use clsmith::setup::Setup;
@@ -8,7 +9,7 @@ use clsmith::transform;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-fn print_text(text: &str) -> io::Result<CommandExit> {
+fn print_text(text: &str) -> Result<CommandExit, Stop> {
     let mut out = io::stdout().lock();
     out.write_all(text.as_bytes())?;
     if !text.ends_with('\n') {
@@ -26,16 +27,13 @@ pub struct TransformsArgs {
 }
 
 impl TransformsArgs {
-    pub fn run(&self) -> io::Result<CommandExit> {
+    pub fn run(&self) -> Result<CommandExit, Stop> {
         let Some(name) = &self.name else { return print_text(&step_descriptions::list_steps()) };
         match step_descriptions::describe_step(name) {
             Some(text) => print_text(&text),
             None => {
-                eprintln!(
-                    "clsmith transforms: `{name}` is no step; the steps are {}",
-                    transform::NAMES.join(", ")
-                );
-                Ok(CommandExit::Usage)
+                let steps = transform::NAMES.join(", ");
+                Err(Stop::Usage(format!("`{name}` is no step; the steps are {steps}")))
             }
         }
     }
@@ -59,14 +57,14 @@ pub struct SchemaArgs {
 }
 
 impl SchemaArgs {
-    pub fn run(&self) -> io::Result<CommandExit> {
+    pub fn run(&self) -> Result<CommandExit, Stop> {
         let schema = match self {
             Self { jobs: true, .. } => clsmith::batch::jobs_file::jobs_schema(),
             Self { setup: true, .. } => Setup::schema(),
             Self { select: true, .. } => clsmith::recipe_rules::rules_schema(),
             _ => clsmith::recipe::recipe_schema::<transform::Step>(),
         };
-        print_text(&serde_json::to_string_pretty(&schema)?)
+        print_text(&serde_json::to_string_pretty(&schema).map_err(io::Error::from)?)
     }
 }
 
@@ -79,14 +77,11 @@ pub struct ExplainArgs {
 }
 
 impl ExplainArgs {
-    pub fn run(&self) -> io::Result<CommandExit> {
+    pub fn run(&self) -> Result<CommandExit, Stop> {
         let Some(code) = &self.code else { return print_text(&explain::list_codes()) };
         match finding_policy::parse_code(code) {
             Ok(code) => print_text(&explain::explain_code(code)),
-            Err(problem) => {
-                eprintln!("clsmith explain: {problem}");
-                Ok(CommandExit::Usage)
-            }
+            Err(unknown) => Err(Stop::Usage(unknown.to_string())),
         }
     }
 }
@@ -103,7 +98,7 @@ pub struct CompletionsArgs {
 }
 
 impl CompletionsArgs {
-    pub fn run(&self, command: &mut clap::Command) -> io::Result<CommandExit> {
+    pub fn run(&self, command: &mut clap::Command) -> Result<CommandExit, Stop> {
         // Into memory first: clap_complete takes a closed pipe for a bug.
         let mut script = Vec::new();
         clap_complete::generate(self.shell, command, "clsmith", &mut script);
@@ -122,7 +117,7 @@ pub struct ManArgs {
 }
 
 impl ManArgs {
-    pub fn run(&self, command: clap::Command) -> io::Result<CommandExit> {
+    pub fn run(&self, command: clap::Command) -> Result<CommandExit, Stop> {
         match &self.out {
             Some(folder) => clap_mangen::generate_to(command, folder)?,
             None => {

@@ -2,12 +2,11 @@
 
 use super::command_outputs::CommandOutputs;
 use super::progress::CommandProgress;
+use crate::cli::stop::Stop;
 use clap::Args;
-use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::report::comparison::{Comparison, ComparisonRuns, ComparisonSubject, to_markdown};
 use clsmith::report::html;
 use clsmith::simulation_run::SimulationRunOptions;
-use std::io;
 use std::path::{Path, PathBuf};
 
 /// Reports for people.
@@ -39,37 +38,26 @@ impl ReportArgs {
         self.named_outputs().map(|(_, path)| path)
     }
 
-    /// Simulates and writes what is asked for; a finding when a file cannot be written.
+    /// Simulates and writes what is asked for.
     pub fn simulate_and_write(
         &self,
         subject: ComparisonSubject<'_>,
         progress: &CommandProgress,
         outputs: &CommandOutputs,
-    ) -> io::Result<Option<Diagnostic>> {
-        let runs =
-            match ComparisonRuns::simulate_subject(&subject, &SimulationRunOptions::default(), progress) {
-                Ok(runs) => runs,
-                Err(Failure::Interrupted) => return outputs.interrupt().check().map(|()| None),
-                Err(Failure::Found(found)) => return Ok(found.into_iter().next()),
-            };
+    ) -> Result<(), Stop> {
+        let runs = ComparisonRuns::simulate_subject(&subject, &SimulationRunOptions::default(), progress)?;
         self.write_reports(&Comparison::from_runs(subject, &runs), outputs)
     }
 
-    /// Writes what is asked for; a finding when a file cannot be written.
-    pub fn write_reports(
-        &self,
-        comparison: &Comparison<'_>,
-        outputs: &CommandOutputs,
-    ) -> io::Result<Option<Diagnostic>> {
-        if let Some(path) = &self.report
-            && let Some(found) = outputs.write_output(path, |out| html::write_page(comparison, out))?
-        {
-            return Ok(Some(found));
+    /// Writes what is asked for.
+    pub fn write_reports(&self, comparison: &Comparison<'_>, outputs: &CommandOutputs) -> Result<(), Stop> {
+        if let Some(path) = &self.report {
+            outputs.write_output(path, |out| html::write_page(comparison, out))?;
         }
         if let Some(path) = &self.summary {
             let text = to_markdown(comparison);
             return outputs.write_output(path, |out| out.write_all(text.as_bytes()));
         }
-        Ok(None)
+        Ok(())
     }
 }

@@ -4,6 +4,7 @@ use super::command_exit::CommandExit;
 use super::finding_args::FindingArgs;
 use super::input_files;
 use super::terminal;
+use crate::cli::stop::Stop;
 use clap::Args;
 use clsmith::diagnostic::Diagnostic;
 use clsmith::parameters::LengthUnit;
@@ -41,33 +42,20 @@ pub struct StatsArgs {
     #[arg(long, value_name = "FILE")]
     setup: Option<PathBuf>,
     #[command(flatten)]
-    findings: FindingArgs,
+    pub(in crate::cli) findings: FindingArgs,
 }
 
 impl StatsArgs {
-    pub fn run(&self) -> io::Result<CommandExit> {
-        let policy = match self.findings.build_policy() {
-            Ok(policy) => policy,
-            Err(problem) => {
-                eprintln!("clsmith stats: {problem}");
-                return Ok(CommandExit::Usage);
-            }
-        };
-        let setup = match self.setup.as_deref().map(input_files::read_setup).transpose() {
-            Ok(setup) => setup.unwrap_or_else(Setup::default),
-            Err(found) => {
-                self.show_findings(&found, None)?;
-                return Ok(CommandExit::Errors);
-            }
-        };
+    pub fn run(&self) -> Result<CommandExit, Stop> {
+        let policy = self.findings.build_policy()?;
+        let setup = self.setup.as_deref().map_or_else(|| Ok(Setup::default()), input_files::read_setup)?;
         let mut out = io::stdout().lock();
         let mut exit = CommandExit::Done;
         for (index, path) in self.files.iter().enumerate() {
             let source = match input_files::read_source(path) {
                 Ok(source) => source,
-                Err(found) => {
-                    self.show_findings(&[*found], Some(&path.to_string_lossy()))?;
-                    exit = CommandExit::Errors;
+                Err(failure) => {
+                    exit = exit.max(Stop::from(failure).about(path).tell_of_one_file(&self.findings)?);
                     continue;
                 }
             };

@@ -1,15 +1,14 @@
 //! `clsmith undo`.
 
 use super::command_exit::CommandExit;
-use super::command_outputs::{CommandOutputs, find_overwritten_input, ignore_closed_pipe};
+use super::command_outputs::{CommandOutputs, refuse_overwritten_input};
 use super::finding_args::FindingArgs;
 use super::input_files::{self, STANDARD};
-use super::terminal;
+use crate::cli::stop::Stop;
 use clap::Args;
-use clsmith::diagnostic::{Diagnostic, Failure};
+use clsmith::diagnostic::Failure;
 use clsmith::source::Source;
 use clsmith::undo;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -41,45 +40,26 @@ pub struct UndoArgs {
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
-    findings: FindingArgs,
+    pub(in crate::cli) findings: FindingArgs,
 }
 
 impl UndoArgs {
-    pub fn run(&self) -> io::Result<CommandExit> {
-        if let Err(problem) = self.findings.build_policy() {
-            eprintln!("clsmith undo: {problem}");
-            return Ok(CommandExit::Usage);
-        }
+    pub fn run(&self) -> Result<CommandExit, Stop> {
+        self.findings.build_policy()?;
         if [&self.file, &self.report].iter().all(|path| *path == Path::new(STANDARD)) {
-            eprintln!("clsmith undo: standard input can be read only once");
-            return Ok(CommandExit::Usage);
+            return Err(Stop::Usage("standard input can be read only once".to_owned()));
         }
         let outputs = CommandOutputs::default();
         outputs.stop_on_ctrl_c(|| {})?;
-        match self.write_original(&outputs)? {
-            None => Ok(CommandExit::Done),
-            Some(found) => {
-                let name = self.file.to_string_lossy();
-                let mut err = io::stderr().lock();
-                let seen = terminal::is_stderr_terminal();
-                ignore_closed_pipe(self.findings.write_findings(&mut err, seen, &[found], Some(&name)))?;
-                Ok(CommandExit::Errors)
-            }
-        }
+        self.write_original(&outputs).map_err(|stop| stop.about(&self.file))?;
+        Ok(CommandExit::Done)
     }
 
-    fn write_original(&self, outputs: &CommandOutputs) -> io::Result<Option<Diagnostic>> {
+    fn write_original(&self, outputs: &CommandOutputs) -> Result<(), Stop> {
         let target = self.output.as_path();
-        if let Some(found) = find_overwritten_input([target].into_iter(), &[&self.file, &self.report]) {
-            return Ok(Some(found));
-        }
-        let (file, undone) = match self.restore_original() {
-            Ok(found) => found,
-            Err(failure) => return Ok(failure.into_findings().into_iter().next()),
-        };
-        if let Some(found) = outputs.write_output(target, |out| out.write_all(&undone.bytes))? {
-            return Ok(Some(found));
-        }
+        refuse_overwritten_input([target].into_iter(), &[&self.file, &self.report])?;
+        let (file, undone) = self.restore_original()?;
+        outputs.write_output(target, |out| out.write_all(&undone.bytes))?;
         if !self.quiet {
             let to = if target == Path::new(STANDARD) {
                 "standard output".into()
@@ -93,7 +73,7 @@ impl UndoArgs {
             eprintln!("{}: {places} undone -> {to}", file.name());
             eprintln!("  the original, sha256 {}", undone.sha256);
         }
-        Ok(None)
+        Ok(())
     }
 
     fn restore_original(&self) -> Result<(Arc<Source>, undo::RestoredOriginal), Failure> {

@@ -1,6 +1,6 @@
 //! This module writes files so that an output appears whole or not at all.
 
-use super::interrupt::{Interrupt, InterruptibleWriter};
+use super::interrupt::{Interrupt, InterruptibleWriter, WriteError};
 use std::fs::{self, File, Metadata};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -26,19 +26,18 @@ const LEFTOVER_AGE: Duration = Duration::from_secs(60);
 /// Returns the errors of `write` and of the operating system. The target is then unchanged, and the temporary
 /// file is removed. A write-protected target is refused, although a rename could replace it.
 pub fn write_atomically(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
-    write_atomically_unless(path, &Interrupt::new(), write)
+    TemporaryFiles::default().write_file_to_end(path, write)
 }
 
 /// Writes a file as [`write_atomically`] does, but stops between two chunks once `interrupt` is raised.
 ///
 /// # Errors
-/// Returns the errors of [`write_atomically`]; after an interrupt, one that
-/// [`is_interrupt`](super::is_interrupt) recognizes.
+/// Returns the errors of [`write_atomically`], and [`WriteError::Interrupted`] after an interrupt.
 pub fn write_atomically_unless(
     path: &Path,
     interrupt: &Interrupt,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> io::Result<()> {
+) -> Result<(), WriteError> {
     TemporaryFiles::default().write_file(path, interrupt, write)
 }
 
@@ -81,6 +80,24 @@ impl TemporaryFiles {
             .count()
     }
 
+    /// Writes a file as [`write_atomically`] does.
+    ///
+    /// # Errors
+    /// Returns the errors of [`write_atomically`].
+    pub fn write_file_to_end(
+        &self,
+        path: &Path,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> io::Result<()> {
+        self.write_file(path, &Interrupt::new(), write).map_err(|error| match error {
+            WriteError::Io(error) => error,
+            WriteError::Interrupted => {
+                debug_assert!(false, "nobody else has this flag");
+                io::Error::other(error)
+            }
+        })
+    }
+
     /// Writes a file as [`write_atomically_unless`] does.
     ///
     /// # Errors
@@ -90,21 +107,22 @@ impl TemporaryFiles {
         path: &Path,
         interrupt: &Interrupt,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> io::Result<()> {
+    ) -> Result<(), WriteError> {
         let old = match fs::metadata(path) {
-            Ok(old) if old.is_dir() => return Err(io::Error::from(io::ErrorKind::IsADirectory)),
+            Ok(old) if old.is_dir() => return Err(io::Error::from(io::ErrorKind::IsADirectory).into()),
             Ok(old) if !old.is_file() => {
                 let file = File::options().write(true).open(path)?;
-                return fill_file(&file, interrupt, write);
+                return Ok(fill_file(&file, interrupt, write)?);
             }
             Ok(old) if old.permissions().readonly() => {
-                return Err(io::Error::new(io::ErrorKind::PermissionDenied, "the file is write-protected"));
+                let reason = "the file is write-protected";
+                return Err(io::Error::new(io::ErrorKind::PermissionDenied, reason).into());
             }
             Ok(old) => Some(old),
             Err(error) if error.kind() == io::ErrorKind::NotFound => None,
-            Err(error) => return Err(error),
+            Err(error) => return Err(error.into()),
         };
-        replace_file(self, &follow_links(path)?, old.as_ref(), interrupt, write)
+        Ok(replace_file(self, &follow_links(path)?, old.as_ref(), interrupt, write)?)
     }
 }
 

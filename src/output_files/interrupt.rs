@@ -29,18 +29,30 @@ impl Interrupt {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// Returns an error if a stop was requested; for loops that work long between two writes.
-    ///
-    /// # Errors
-    /// Returns an error that [`is_interrupt`] recognizes once the flag is raised.
-    pub fn check(&self) -> io::Result<()> {
+    /// Returns an error if a stop was requested. [`WriteError`] recognizes it, since `Write` knows `io::Error` alone.
+    pub(super) fn check(&self) -> io::Result<()> {
         if self.is_raised() { Err(io::Error::other(WriteInterrupted)) } else { Ok(()) }
     }
 }
 
-/// Returns whether an error means that the user stopped the run, and not that writing failed.
-pub fn is_interrupt(error: &io::Error) -> bool {
-    error.get_ref().is_some_and(|inner| inner.is::<WriteInterrupted>())
+/// Why a file was not written.
+#[derive(Debug, thiserror::Error)]
+pub enum WriteError {
+    /// A stop was requested.
+    #[error("stopped before the file was complete")]
+    Interrupted,
+    /// The system or the writer of the content says so.
+    #[error(transparent)]
+    Io(io::Error),
+}
+
+impl From<io::Error> for WriteError {
+    fn from(error: io::Error) -> Self {
+        match error.get_ref() {
+            Some(inner) if inner.is::<WriteInterrupted>() => Self::Interrupted,
+            _ => Self::Io(error),
+        }
+    }
 }
 
 // The kind is not `ErrorKind::Interrupted`, because `write_all` takes that as "try again" and would never

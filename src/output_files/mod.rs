@@ -5,5 +5,5 @@ mod interrupt;
 mod same_file;
 
 pub use atomic_write::{TemporaryFiles, write_atomically, write_atomically_unless, write_new_atomically};
-pub use interrupt::{Interrupt, is_interrupt};
+pub use interrupt::{Interrupt, WriteError};
 pub use same_file::{FileSet, is_same_file};

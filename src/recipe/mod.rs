@@ -19,7 +19,7 @@ pub use statement_filter::{OperationFilter, StatementFilter};
 
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::setup::{Setup, YamlLocation};
-use crate::source::{Source, Span};
+use crate::source::{Source, SourceReadError, Span};
 use crate::yaml::YamlDocument;
 use parameters::LengthUnit;
 use recipe_text::RecipeText;
@@ -147,7 +147,7 @@ impl<S> Recipe<S> {
     /// [`codes::SETUP_FILE`] at the path in the recipe, or what is wrong in the setup file.
     pub fn load_setup_file(
         &self,
-        read: impl FnOnce(&str) -> Result<Arc<Source>, String>,
+        read: impl FnOnce(&str) -> Result<Arc<Source>, SourceReadError>,
     ) -> Result<Setup, Failure> {
         let Some(path) = &self.setup_file else { return Ok(Setup::default()) };
         let source = read(path).map_err(|reason| {

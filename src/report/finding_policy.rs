@@ -9,6 +9,7 @@ use crate::diagnostic::codes::{
 use crate::diagnostic::{CATALOGUE, Diagnostic, DiagnosticCode, DiagnosticLabel, Severity, find_code};
 use crate::source::Span;
 use std::cmp::Ordering;
+use std::fmt;
 
 /// What the user wants of findings.
 #[derive(Debug, Clone, Default)]
@@ -53,17 +54,57 @@ const NEVER_ALLOWED: &[DiagnosticCode] = &[
 /// Findings about the run itself; without them a program would go on, or be left, and nobody knew.
 const NEVER_SILENT: &[DiagnosticCode] = &[PASSED_ORIGINAL, EXIT_CODE_SHARED, LEAVES_FOLDER];
 
+/// Why `--deny` and `--allow` make no policy.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum FindingPolicyError {
+    /// A word is no code.
+    #[error(transparent)]
+    UnknownCode(#[from] UnknownCode),
+    /// All warnings together cannot be allowed.
+    #[error("`warnings` can be denied but not allowed; name the codes you know to be harmless")]
+    WarningsAllowed,
+    /// The finding ends the run, which must not end without a word.
+    #[error("{code} cannot be allowed: {meaning} ends the run", code = .0, meaning = .0.meaning())]
+    EndsRun(DiagnosticCode),
+    /// The finding is about the run itself.
+    #[error("{code} cannot be allowed, it is always told: {meaning}", code = .0, meaning = .0.meaning())]
+    AlwaysTold(DiagnosticCode),
+    /// The code stands in both lists.
+    #[error("{0} is both denied and allowed")]
+    DeniedAndAllowed(DiagnosticCode),
+}
+
+/// A text that is no code of a finding.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct UnknownCode {
+    /// The text.
+    pub text: String,
+    /// The code that it is most like.
+    pub nearest: Option<DiagnosticCode>,
+}
+
+impl fmt::Display for UnknownCode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "`{}` is not a code; ", self.text)?;
+        match self.nearest {
+            Some(near) => write!(f, "did you mean {near} ({})?", near.meaning()),
+            None => f.write_str("codes look like CL0001"),
+        }
+    }
+}
+
+impl std::error::Error for UnknownCode {}
+
 impl FindingPolicy {
     /// Reads what `--deny` and `--allow` were given: codes in any case, and `warnings` to deny every warning.
     ///
     /// # Errors
-    /// A sentence about the first word that is no code, a code that is both denied and allowed, or one that cannot be
-    /// allowed because it ends the run.
+    /// Returns the first word that is no code, is both denied and allowed, or cannot be allowed.
     pub fn from_code_lists<'a>(
         deny: impl IntoIterator<Item = &'a str>,
         allow: impl IntoIterator<Item = &'a str>,
         notes: bool,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, FindingPolicyError> {
         let mut policy = Self { notes, ..Self::default() };
         for word in deny {
             if word.trim().eq_ignore_ascii_case("warnings") {
@@ -74,19 +115,17 @@ impl FindingPolicy {
         }
         for word in allow {
             if word.trim().eq_ignore_ascii_case("warnings") {
-                return Err(
-                    "`warnings` can be denied but not allowed; name the codes you know to be harmless".into(),
-                );
+                return Err(FindingPolicyError::WarningsAllowed);
             }
             let code = parse_code(word)?;
             if NEVER_ALLOWED.contains(&code) {
-                return Err(format!("{code} cannot be allowed: {} ends the run", code.meaning()));
+                return Err(FindingPolicyError::EndsRun(code));
             }
             if NEVER_SILENT.contains(&code) {
-                return Err(format!("{code} cannot be allowed, it is always told: {}", code.meaning()));
+                return Err(FindingPolicyError::AlwaysTold(code));
             }
             if policy.deny.contains(&code) {
-                return Err(format!("{code} is both denied and allowed"));
+                return Err(FindingPolicyError::DeniedAndAllowed(code));
             }
             policy.allow.push(code);
         }
@@ -138,13 +177,10 @@ fn label_parts(label: &DiagnosticLabel) -> (&str, Span, &str) {
 /// Looks up a code that a user typed, in any case.
 ///
 /// # Errors
-/// A sentence that says so and proposes the nearest code.
-pub fn parse_code(text: &str) -> Result<DiagnosticCode, String> {
+/// Returns the text and the nearest code.
+pub fn parse_code(text: &str) -> Result<DiagnosticCode, UnknownCode> {
     let text = text.trim();
-    find_code(text).ok_or_else(|| match find_nearest_code(text) {
-        Some(near) => format!("`{text}` is not a code; did you mean {near} ({})?", near.meaning()),
-        None => format!("`{text}` is not a code; codes look like CL0001"),
-    })
+    find_code(text).ok_or_else(|| UnknownCode { text: text.to_owned(), nearest: find_nearest_code(text) })
 }
 
 fn find_nearest_code(text: &str) -> Option<DiagnosticCode> {

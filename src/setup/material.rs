@@ -6,7 +6,7 @@ use super::{Setup, YamlLocation};
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::engagement::CuttingCoefficients;
 use crate::parameters::{FilePath, Finite, NonNegative, Positive};
-use crate::source::Source;
+use crate::source::{Source, SourceReadError};
 use crate::yaml::YamlDocument;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -60,7 +60,7 @@ impl Setup {
     /// [`codes::MATERIAL_FILE`] where the file is named, or what is wrong in it.
     pub fn read_material_file(
         mut self,
-        read: impl FnOnce(&Path) -> Result<Arc<Source>, String>,
+        read: impl FnOnce(&Path) -> Result<Arc<Source>, SourceReadError>,
     ) -> Result<Self, Failure> {
         if let Some(MaterialChoice::File(file)) = &self.material {
             let source = read(&file.path).map_err(|reason| {

@@ -19,7 +19,7 @@ pub use affine::Affine;
 pub use motion_selection::MotionSelection;
 pub use move_origin::{DirectionSpec, MirrorSpec, MoveOriginTarget, RotationSpec, VectorSpec};
 pub use recipe_run::{RecipeOutcome, run_recipe, run_recipe_watched, run_steps};
-pub use rewrite::RewriteRule;
+pub use rewrite::{RewriteRule, RuleFault};
 pub use statement_selection::{SelectedStatements, StatementSelection};
 pub use step_context::StepContext;
 pub use step_report::TransformReport;

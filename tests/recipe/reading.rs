@@ -4,6 +4,7 @@ use super::{Step, good, load, source, step};
 use clsmith::recipe::parameters::{LengthUnit, Positive, PositiveCount};
 use clsmith::recipe::{Recipe, YamlPathSegment};
 use clsmith::setup::Setup;
+use clsmith::source::SourceReadError;
 
 #[test]
 fn a_whole_recipe() {
@@ -94,10 +95,14 @@ fn the_command_line_overrides_the_recipe_and_the_recipe_its_setup_file() {
     assert_eq!(recipe.merge_setups(file, typed).machine.max_feed, Positive::new(7.0));
 }
 
+fn unreadable(name: &str) -> SourceReadError {
+    SourceReadError::Unreadable { name: name.to_owned(), error: std::io::Error::other("no such file") }
+}
+
 #[test]
 fn a_setup_file_that_cannot_be_read_is_reported_where_it_is_named() {
     let recipe = good("version: 1\nsetup_file: 'my shop.yaml'\nsteps: []");
-    let found = recipe.load_setup_file(|_| Err("no such file".to_owned())).unwrap_err();
+    let found = recipe.load_setup_file(|name| Err(unreadable(name))).unwrap_err();
     assert_eq!(found.findings()[0].code.id(), "CL0220");
     assert_eq!(super::underlined_by(&found.findings()[0]), "'my shop.yaml'");
     let found = recipe.load_setup_file(|_| Ok(source("machine: { max_fed: 1 }"))).unwrap_err();

@@ -38,7 +38,9 @@ fn what_stands() {
 #[test]
 fn what_cannot_be_wished() {
     let refused = |deny: &[&str], allow: &[&str]| {
-        FindingPolicy::from_code_lists(deny.iter().copied(), allow.iter().copied(), false).unwrap_err()
+        FindingPolicy::from_code_lists(deny.iter().copied(), allow.iter().copied(), false)
+            .unwrap_err()
+            .to_string()
     };
     assert_eq!(refused(&["CL0001"], &["CL0001"]), "CL0001 is both denied and allowed");
     assert_eq!(
@@ -55,7 +57,7 @@ fn what_cannot_be_wished() {
 
 #[test]
 fn unknown_codes_get_a_proposal() {
-    let proposed = |text| parse_code(text).unwrap_err();
+    let proposed = |text| parse_code(text).unwrap_err().to_string();
     assert_eq!(
         proposed("CL1"),
         "`CL1` is not a code; did you mean CL0001 (a statement the grammar cannot read)?"

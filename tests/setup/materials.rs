@@ -3,6 +3,7 @@
 use super::{close, draw, good, seen, source};
 use clsmith::diagnostic::Failure;
 use clsmith::setup::{Setup, WorkMaterial};
+use clsmith::source::SourceReadError;
 use std::path::Path;
 
 #[test]
@@ -31,10 +32,15 @@ fn a_file_has_the_same_keys() {
     assert_eq!(given.require_material().unwrap().coefficients.k_tc, 1.0);
 }
 
+fn unreadable(path: &Path) -> SourceReadError {
+    let error = std::io::Error::other("no such file");
+    SourceReadError::Unreadable { name: path.to_string_lossy().into_owned(), error }
+}
+
 #[test]
 fn what_is_said_when_there_is_none() {
     let setup = good("material: { file: c45.yaml }");
-    let unreadable = setup.clone().read_material_file(|_| Err("no such file".to_owned())).unwrap_err();
+    let unreadable = setup.clone().read_material_file(|path| Err(unreadable(path))).unwrap_err();
     let broken = setup.read_material_file(|_| Ok(source("k_te: 5\n"))).unwrap_err();
     let missing = Setup::default().require_material().unwrap_err();
     let no_stock = Setup::default().require_stock().unwrap_err();

@@ -5,7 +5,7 @@ mod same;
 mod unix;
 mod values;
 
-use clsmith::output_files::{Interrupt, is_interrupt, write_atomically, write_atomically_unless};
+use clsmith::output_files::{Interrupt, WriteError, write_atomically, write_atomically_unless};
 use std::fs;
 use std::io;
 use std::path::Path;
@@ -93,7 +93,7 @@ fn an_interrupt_stops_between_chunks() {
         }
     })
     .unwrap_err();
-    assert!(is_interrupt(&error), "{error:?}");
+    assert!(matches!(error, WriteError::Interrupted), "{error:?}");
     assert_eq!(fs::read(&path).unwrap(), b"old");
     assert_eq!(names(folder.path()), ["part.cls"]);
 }
@@ -109,8 +109,8 @@ fn an_interrupt_after_the_last_byte_still_counts() {
         Ok(())
     })
     .unwrap_err();
-    assert!(is_interrupt(&error));
-    assert!(!is_interrupt(&io::Error::other("else")));
+    assert!(matches!(error, WriteError::Interrupted), "{error:?}");
+    assert!(matches!(WriteError::from(io::Error::other("else")), WriteError::Io(_)));
     assert_eq!(names(folder.path()), [""; 0]);
 }
 

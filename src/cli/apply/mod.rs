@@ -4,18 +4,18 @@ mod outputs;
 mod usage_problem;
 
 use super::command_exit::CommandExit;
-use super::command_outputs::{CommandOutputs, find_overwritten_input, ignore_closed_pipe};
+use super::command_outputs::{CommandOutputs, ignore_closed_pipe, refuse_overwritten_input};
 use super::finding_args::FindingArgs;
 use super::input_files::{self, LoadedRecipe, STANDARD};
 use super::progress::CommandProgress;
 use super::report_args::ReportArgs;
 use super::terminal;
+use crate::cli::stop::Stop;
 use clap::Args;
 use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::fingerprint::RecipeFingerprint;
 use clsmith::job::{CorrectionJob, JobOutcome};
-use clsmith::output_files::is_interrupt;
-use clsmith::program::Dialect;
+use clsmith::program::{Dialect, Program};
 use clsmith::recipe::Provenance;
 use clsmith::report::unified_diff;
 use clsmith::source::Source;
@@ -79,30 +79,16 @@ pub struct ApplyArgs {
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
-    findings: FindingArgs,
+    pub(in crate::cli) findings: FindingArgs,
 }
 
 impl ApplyArgs {
-    pub fn run(&self) -> io::Result<CommandExit> {
-        if let Some(problem) = self.find_usage_problem() {
-            eprintln!("clsmith apply: {problem}");
-            return Ok(CommandExit::Usage);
-        }
-        let policy = match self.findings.build_policy() {
-            Ok(policy) => policy,
-            Err(problem) => {
-                eprintln!("clsmith apply: {problem}");
-                return Ok(CommandExit::Usage);
-            }
-        };
+    pub fn run(&self) -> Result<CommandExit, Stop> {
+        self.find_usage_problem().map_or(Ok(()), |problem| Err(Stop::Usage(problem)))?;
+        let policy = self.findings.build_policy()?;
+        let loaded = input_files::read_recipe(&self.recipe, self.setup.as_deref());
         let LoadedRecipe { mut recipe, setup, texts } =
-            match input_files::read_recipe(&self.recipe, self.setup.as_deref()) {
-                Ok(loaded) => loaded,
-                Err(found) => {
-                    self.show_findings(&found, Some(&self.recipe.to_string_lossy()))?;
-                    return Ok(CommandExit::Errors);
-                }
-            };
+            loaded.map_err(|failure| Stop::from(failure).about(&self.recipe))?;
         recipe.provenance = self.provenance.unwrap_or(recipe.provenance);
         // It reads models and stock once more, so not for nothing.
         let needed = self.json.is_some() || recipe.provenance != Provenance::None;
@@ -111,36 +97,29 @@ impl ApplyArgs {
             Ok(print) => print,
             // A page says itself what it cannot read, and goes without.
             Err(_) if !needed => None,
-            Err(found) => {
-                self.show_findings(found.findings(), Some(&self.recipe.to_string_lossy()))?;
-                return Ok(CommandExit::Errors);
-            }
+            Err(failure) => return Err(Stop::from(failure).about(&self.recipe)),
         };
         // The recipe is the first of them.
         let setup_files = texts.get(1..).unwrap_or_default();
         let outputs = CommandOutputs::default();
         let progress = CommandProgress::new(self.quiet, outputs.interrupt());
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
-        let watch = &progress;
         let job = CorrectionJob {
             recipe: &recipe,
             setup: &setup,
             print: print.as_ref(),
             policy: &policy,
             dialect: self.dialect,
-            watch,
+            watch: &progress,
         };
         let mut worst = CommandExit::Done;
         for input in &self.inputs {
             if outputs.interrupt().is_raised() {
-                return Ok(CommandExit::Interrupted);
+                return Err(Stop::Interrupted);
             }
             progress.begin_bar(&input.to_string_lossy());
-            let done = self.apply_to_input(&job, setup_files, input, &outputs, &progress);
-            match done {
-                Ok(exit) => worst = worst.max(exit),
-                Err(error) if is_interrupt(&error) => return Ok(CommandExit::Interrupted),
-                Err(error) => return Err(error),
+            if let Err(stop) = self.apply_to_input(&job, setup_files, input, &outputs, &progress) {
+                worst = worst.max(stop.about(input).tell_of_one_file(&self.findings)?);
             }
         }
         Ok(worst)
@@ -153,49 +132,32 @@ impl ApplyArgs {
         input: &Path,
         outputs: &CommandOutputs,
         progress: &CommandProgress,
-    ) -> io::Result<CommandExit> {
+    ) -> Result<(), Stop> {
         let target = self.output_path(input);
         let setup_file =
             job.recipe.setup_file.as_deref().map(|name| input_files::path_beside_recipe(&self.recipe, name));
         let drawn = self.named_outputs().map(|(_, path)| path).chain(self.reports.output_paths());
         let outs = target.iter().map(PathBuf::as_path).chain(drawn);
-        if let Some(found) = self.check_outputs(outs, setup_file.as_deref(), job) {
-            self.show_findings(&[found], Some(&input.to_string_lossy()))?;
-            return Ok(CommandExit::Errors);
-        }
-        let source = match input_files::read_source(input) {
-            Ok(source) => source,
-            Err(found) => {
-                self.show_findings(&[*found], Some(&input.to_string_lossy()))?;
-                return Ok(CommandExit::Errors);
-            }
-        };
+        self.check_outputs(outs, setup_file.as_deref(), job)?;
+        let source = input_files::read_source(input)?;
         let done = job.correct_source(&source);
         progress.clear_bar();
         let JobOutcome { program, findings, reports } = match done {
             Ok(outcome) => outcome,
-            Err(Failure::Interrupted) => return Ok(CommandExit::Interrupted),
+            Err(Failure::Interrupted) => return Err(Stop::Interrupted),
             Err(Failure::Found(findings)) => {
-                self.show_findings(&findings, Some(source.name()))?;
+                self.show_findings(&findings, source.name())?;
                 if !self.quiet {
                     eprintln!("{}: nothing was written", source.name());
                 }
-                return Ok(CommandExit::Errors);
+                return Err(Stop::Exit(CommandExit::Errors));
             }
         };
         if !findings.is_empty() {
-            self.show_findings(&findings, Some(source.name()))?;
+            self.show_findings(&findings, source.name())?;
         }
         if self.diff {
-            let mut out = io::stdout().lock();
-            let seen = terminal::is_stdout_terminal();
-            let color = self.findings.color.is_wanted(seen);
-            unified_diff::write_unified_diff(
-                &mut out,
-                &program,
-                &unified_diff::UnifiedDiffOptions { color, display: seen, ..Default::default() },
-            )?;
-            out.flush()?;
+            self.print_diff(&program)?;
         }
         let run = ApplyOutcome {
             job,
@@ -205,23 +167,36 @@ impl ApplyArgs {
             findings: &findings,
             reports: &reports,
         };
+        self.write_all(&run, target.as_deref(), outputs, progress)
+            .map_err(|stop| stop.about(Path::new(source.name())))
+    }
+
+    fn write_all(
+        &self,
+        run: &ApplyOutcome<'_>,
+        target: Option<&Path>,
+        outputs: &CommandOutputs,
+        progress: &CommandProgress,
+    ) -> Result<(), Stop> {
         // The program comes last: one that was replaced without its report could not be undone.
-        if let Some(found) = self.write_side_outputs(&run, target.as_deref(), outputs, progress)? {
-            self.show_findings(&[found], Some(source.name()))?;
-            return Ok(CommandExit::Errors);
-        }
-        if !self.dry_run
-            && let Some(target) = &target
-            && let Some(found) = write_program(&program, target, outputs)?
-        {
-            self.show_findings(&[found], Some(source.name()))?;
-            return Ok(CommandExit::Errors);
+        self.write_side_outputs(run, target, outputs, progress)?;
+        let target = target.filter(|_| !self.dry_run);
+        if let Some(target) = target {
+            write_program(run.program, target, outputs)?;
         }
         if !self.quiet {
-            let target = target.as_deref().filter(|_| !self.dry_run);
-            ignore_closed_pipe(self.show_summary(&run, target))?;
+            ignore_closed_pipe(self.show_summary(run, target))?;
         }
-        Ok(CommandExit::Done)
+        Ok(())
+    }
+
+    fn print_diff(&self, program: &Program) -> io::Result<()> {
+        let mut out = io::stdout().lock();
+        let seen = terminal::is_stdout_terminal();
+        let color = self.findings.color.is_wanted(seen);
+        let options = unified_diff::UnifiedDiffOptions { color, display: seen, ..Default::default() };
+        unified_diff::write_unified_diff(&mut out, program, &options)?;
+        out.flush()
     }
 
     /// The output of an input; `None` when nothing is to be written.
@@ -239,7 +214,7 @@ impl ApplyArgs {
         outs: impl Iterator<Item = &'a Path>,
         setup_file: Option<&Path>,
         job: &CorrectionJob<'_>,
-    ) -> Option<Diagnostic> {
+    ) -> Result<(), Stop> {
         let given = self.inputs.iter().chain([&self.recipe]).chain(&self.setup).map(PathBuf::as_path);
         let read = job.recipe.steps.iter().flat_map(|step| step.transform().reads());
         let models: Vec<PathBuf> = read.map(|file| file.resolve_beside(&self.recipe)).collect();
@@ -247,16 +222,16 @@ impl ApplyArgs {
             .chain(setup_file)
             .chain(models.iter().map(PathBuf::as_path))
             .chain(job.setup.referenced_files());
-        find_overwritten_input(outs, &all.collect::<Vec<_>>())
+        refuse_overwritten_input(outs, &all.collect::<Vec<_>>())
     }
 
-    fn show_findings(&self, findings: &[Diagnostic], file: Option<&str>) -> io::Result<()> {
+    fn show_findings(&self, findings: &[Diagnostic], file: &str) -> io::Result<()> {
         let mut err = io::stderr().lock();
         ignore_closed_pipe(self.findings.write_findings(
             &mut err,
             terminal::is_stderr_terminal(),
             findings,
-            file,
+            Some(file),
         ))
     }
 }

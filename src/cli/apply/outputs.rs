@@ -5,6 +5,7 @@ use crate::cli::command_outputs::CommandOutputs;
 use crate::cli::input_files::STANDARD;
 use crate::cli::plot::encode_drawing;
 use crate::cli::progress::CommandProgress;
+use crate::cli::stop::Stop;
 use clsmith::diagnostic::Diagnostic;
 use clsmith::fingerprint::RecipeFingerprint;
 use clsmith::job::{CorrectionJob, is_program_changed};
@@ -50,19 +51,15 @@ impl ApplyArgs {
         target: Option<&Path>,
         outputs: &CommandOutputs,
         progress: &CommandProgress,
-    ) -> io::Result<Option<Diagnostic>> {
-        if let (Some(path), Some(print)) = (&self.json, run.job.print)
-            && let Some(found) = self.write_run_report(path, run, print, target, outputs)?
-        {
-            return Ok(Some(found));
+    ) -> Result<(), Stop> {
+        if let (Some(path), Some(print)) = (&self.json, run.job.print) {
+            self.write_run_report(path, run, print, target, outputs)?;
         }
-        if let Some(path) = &self.plot
-            && let Some(found) = self.draw_step_reports(path, run.reports, outputs)?
-        {
-            return Ok(Some(found));
+        if let Some(path) = &self.plot {
+            self.draw_step_reports(path, run.reports, outputs)?;
         }
         if !self.reports.is_wanted() {
-            return Ok(None);
+            return Ok(());
         }
         let digits = run.job.print.map(|print| print.sha256.to_string());
         let subject = ComparisonSubject {
@@ -90,7 +87,7 @@ impl ApplyArgs {
         print: &RecipeFingerprint,
         target: Option<&Path>,
         outputs: &CommandOutputs,
-    ) -> io::Result<Option<Diagnostic>> {
+    ) -> Result<(), Stop> {
         let file = target.filter(|target| !self.dry_run && *target != Path::new(STANDARD));
         let file = file.map(|file| file.to_string_lossy().into_owned());
         let changes = run.compare_with_original(&run.parse_original());
@@ -104,13 +101,13 @@ impl ApplyArgs {
         path: &Path,
         reports: &[Box<dyn TransformReport>],
         outputs: &CommandOutputs,
-    ) -> io::Result<Option<Diagnostic>> {
+    ) -> Result<(), Stop> {
         let panels: Vec<_> = reports.iter().flat_map(|report| report.build_panels()).collect();
         let Some(text) = path_drawing::draw_path_panels(&panels)? else {
             if !self.quiet {
                 eprintln!("{}: not drawn, no step has anything to show", path.display());
             }
-            return Ok(None);
+            return Ok(());
         };
         let bytes = encode_drawing(path, text)?;
         outputs.write_output(path, |out| out.write_all(&bytes))
@@ -140,10 +137,6 @@ fn write_step_reports(err: &mut impl Write, reports: &[Box<dyn TransformReport>]
 }
 
 /// Writes the program; a finding when that fails.
-pub(super) fn write_program(
-    program: &Program,
-    target: &Path,
-    outputs: &CommandOutputs,
-) -> io::Result<Option<Diagnostic>> {
+pub(super) fn write_program(program: &Program, target: &Path, outputs: &CommandOutputs) -> Result<(), Stop> {
     outputs.write_output(target, |out| program.byte_chunks().try_for_each(|piece| out.write_all(piece)))
 }

@@ -5,12 +5,11 @@ use crate::cli::command_exit::CommandExit;
 use crate::cli::command_outputs::{CommandOutputs, ignore_closed_pipe, print_summary};
 use crate::cli::finding_args::FindingArgs;
 use crate::cli::input_files;
-use crate::cli::terminal;
+use crate::cli::stop::Stop;
 use clap::Args;
 use clsmith::batch::{batch_results, merge, summary};
-use clsmith::diagnostic::{Diagnostic, Failure, codes};
+use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::output_files::is_same_file;
-use std::io;
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -36,61 +35,37 @@ pub struct MergeArgs {
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
-    findings: FindingArgs,
+    pub(in crate::cli) findings: FindingArgs,
 }
 
 impl MergeArgs {
-    pub fn run(&self) -> io::Result<CommandExit> {
-        let policy = match self.findings.build_policy() {
-            Ok(policy) => policy,
-            Err(problem) => {
-                eprintln!("clsmith merge: {problem}");
-                return Ok(CommandExit::Usage);
-            }
-        };
+    pub fn run(&self) -> Result<CommandExit, Stop> {
+        let policy = self.findings.build_policy()?;
         let standard = self.output == Path::new(input_files::STANDARD);
         if let Some(part) = self.parts.iter().find(|part| !standard && is_same_file(part, &self.output)) {
             let message =
                 format!("writing {} would overwrite the results {}", self.output.display(), part.display());
-            return self.refuse_merge(vec![Diagnostic::new(codes::OUTPUT_IS_INPUT, message)]);
+            return Err(Diagnostic::new(codes::OUTPUT_IS_INPUT, message).into());
         }
         let mut parts = Vec::new();
         let mut wrong = Vec::new();
         for path in &self.parts {
-            let read = input_files::read_source(path).map_err(Failure::from);
-            match read.and_then(|source| batch_results::read_results(&source)) {
+            match input_files::read_source(path).and_then(|source| batch_results::read_results(&source)) {
                 Ok(part) => parts.push(part),
                 Err(failure) => wrong.extend(failure.into_findings()),
             }
         }
         if !wrong.is_empty() {
-            return self.refuse_merge(policy.apply(wrong));
+            return Err(policy.apply(wrong).into());
         }
-        let (head, records) = match merge::merge_results(parts) {
-            Ok(merged) => merged,
-            Err(failure) => return self.refuse_merge(policy.apply(failure.into_findings())),
-        };
+        let merged = merge::merge_results(parts);
+        let (head, records) = merged.map_err(|failure| policy.apply(failure.into_findings()))?;
         // Times are kept where the parts have them.
         let bytes = batch_results::results_to_bytes(&head, &records, true);
-        if let Some(found) =
-            CommandOutputs::default().write_output(&self.output, |out| out.write_all(&bytes))?
-        {
-            return self.refuse_merge(vec![found]);
-        }
+        CommandOutputs::default().write_output(&self.output, |out| out.write_all(&bytes))?;
         if !self.quiet {
             ignore_closed_pipe(print_summary(&summary::summary_to_text(&records, 0, None), standard))?;
         }
         Ok(exit_for_records(&records))
-    }
-
-    fn refuse_merge(&self, found: Vec<Diagnostic>) -> io::Result<CommandExit> {
-        let mut err = io::stderr().lock();
-        ignore_closed_pipe(self.findings.write_findings(
-            &mut err,
-            terminal::is_stderr_terminal(),
-            &found,
-            None,
-        ))?;
-        Ok(CommandExit::Errors)
     }
 }

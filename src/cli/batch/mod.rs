@@ -10,6 +10,7 @@ use super::command_outputs::{CommandOutputs, ignore_closed_pipe, print_summary};
 use super::finding_args::FindingArgs;
 use super::input_files::{self, LoadedRecipe, STANDARD};
 use super::terminal;
+use crate::cli::stop::Stop;
 use bytesize::ByteSize;
 use clap::Args;
 use clsmith::batch::batch_results::{self, ResultsHead};
@@ -97,7 +98,7 @@ pub struct BatchArgs {
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
-    findings: FindingArgs,
+    pub(in crate::cli) findings: FindingArgs,
 }
 
 /// What a thread has for recursion in rare large statements: as much as a main thread.
@@ -114,44 +115,30 @@ struct PreparedBatch {
 }
 
 impl BatchArgs {
-    pub fn run(&self) -> io::Result<CommandExit> {
-        let usage = |problem: &str| {
-            eprintln!("clsmith batch: {problem}");
-            Ok(CommandExit::Usage)
-        };
+    pub fn run(&self) -> Result<CommandExit, Stop> {
+        let usage = |problem: &str| Err(Stop::Usage(problem.to_owned()));
         if self.recipe.is_none() && self.what.len() > 1 {
             return usage("give one jobs file; or a recipe with --recipe, and then programs or patterns");
         }
         if self.results.as_deref() == Some(Path::new(STANDARD)) {
             return usage("results go into a file; read it when the batch is done");
         }
-        let policy = match self.findings.build_policy() {
-            Ok(policy) => policy,
-            Err(problem) => return usage(&problem),
-        };
-        let jobs = match self.read_jobs() {
-            Ok(jobs) => jobs,
-            Err(found) => return self.refuse_batch(&found),
-        };
+        let policy = self.findings.build_policy()?;
+        let jobs = self.read_jobs()?;
         let Some(out) = self.out.clone().or_else(|| jobs.out.clone()) else {
             return usage("the jobs file names no output folder (`out:`); give one with --out");
         };
         let began = Instant::now();
-        let ready = match self.prepare_batch(&jobs, &out) {
-            Ok(ready) => ready,
-            Err(found) => return self.refuse_batch(&found),
-        };
+        let ready = self.prepare_batch(&jobs, &out)?;
         let mut warnings = ready.plan.findings.clone();
         warnings.extend(ready.plan.find_over_budget(self.shard, ready.memory));
         let warnings = policy.apply(warnings);
         if warnings.iter().any(Diagnostic::is_error) {
-            return self.refuse_batch(&warnings);
+            return Err(warnings.into());
         }
         self.show_findings(&warnings)?;
         // Old results would look like those of this batch, should it be killed.
-        if let Err(found) = remove_old_results(&ready.results) {
-            return self.refuse_batch(&[found]);
-        }
+        remove_old_results(&ready.results)?;
         let pool = rayon::ThreadPoolBuilder::new().num_threads(self.worker_count()).stack_size(STACK).build();
         let pool = pool.map_err(io::Error::other)?;
         let outputs = CommandOutputs::default();
@@ -175,13 +162,10 @@ impl BatchArgs {
         };
         let ran = batch.run_batch(&bars);
         bars.clear_bars();
-        let ran = match ran {
-            Ok(ran) => ran,
-            Err(failure) => return self.refuse_batch(failure.findings()),
-        };
+        let ran = ran?;
         if ran.interrupted {
             eprintln!("clsmith batch: stopped; go on with --resume");
-            return Ok(CommandExit::Interrupted);
+            return Err(Stop::Interrupted);
         }
         let head = ResultsHead::new(
             ready.plan.batch_id(&ready.works, &options),
@@ -192,11 +176,11 @@ impl BatchArgs {
     }
 
     /// What is asked for, by the jobs file or by the command line.
-    fn read_jobs(&self) -> Result<BatchJobs, Vec<Diagnostic>> {
+    fn read_jobs(&self) -> Result<BatchJobs, Failure> {
         let Some(recipe) = &self.recipe else {
             let path = self.what.first().map(PathBuf::as_path).unwrap_or(Path::new(""));
-            let source = input_files::read_source(path).map_err(|found| vec![*found])?;
-            return jobs_file::load_jobs(&source, path).map_err(Failure::into_findings);
+            let source = input_files::read_source(path)?;
+            return jobs_file::load_jobs(&source, path);
         };
         let asked = |path: &PathBuf| InputPattern { written: path.clone().into_os_string(), place: None };
         let job = jobs_file::BatchEntry {
@@ -209,7 +193,7 @@ impl BatchArgs {
         Ok(BatchJobs { base: PathBuf::new(), out: None, jobs: vec![job] })
     }
 
-    fn prepare_batch(&self, jobs: &BatchJobs, out: &Path) -> Result<PreparedBatch, Vec<Diagnostic>> {
+    fn prepare_batch(&self, jobs: &BatchJobs, out: &Path) -> Result<PreparedBatch, Failure> {
         let mut works = Vec::new();
         let mut read: Vec<PathBuf> = Vec::new();
         let mut wrong = Vec::new();
@@ -222,7 +206,6 @@ impl BatchArgs {
             let work = input_files::read_recipe(&path, setup.as_deref()).and_then(
                 |LoadedRecipe { recipe, setup, texts }| {
                     PreparedRecipe::with_fingerprint(&job.recipe, recipe, setup, &texts)
-                        .map_err(Failure::into_findings)
                 },
             );
             read.extend([path].into_iter().chain(setup));
@@ -231,7 +214,7 @@ impl BatchArgs {
                     read.extend(work.print.files.iter().map(|file| PathBuf::from(&file.path)));
                     works.push(work);
                 }
-                Err(found) => wrong.extend(found),
+                Err(failure) => wrong.extend(failure.into_findings()),
             }
         }
         let folder = OutputFolder::new(out, self.shard);
@@ -247,14 +230,14 @@ impl BatchArgs {
                         .any(|path| is_same_file(path, results))
                 });
                 let folder = match given.map(|results| report_results_are_input(results)).next() {
-                    None => folder.lock_folder().map_err(Failure::into_findings)?,
-                    Some(found) => return Err(vec![found]),
+                    None => folder.lock_folder()?,
+                    Some(found) => return Err(found.into()),
                 };
                 plan.reserve_comment_memory(&works);
                 Ok(PreparedBatch { plan, works, folder, results, memory: self.memory_bytes() })
             }
-            Ok(_) => Err(wrong),
-            Err(failure) => Err(failure.after(wrong).into_findings()),
+            Ok(_) => Err(wrong.into()),
+            Err(failure) => Err(failure.after(wrong)),
         }
     }
 
@@ -266,10 +249,14 @@ impl BatchArgs {
         ran: &BatchOutcome,
         outputs: &CommandOutputs,
         began: Instant,
-    ) -> io::Result<CommandExit> {
+    ) -> Result<CommandExit, Stop> {
         let bytes = batch_results::results_to_bytes(head, &ran.records, self.times);
         let mut found = ran.findings.clone();
-        found.extend(outputs.write_output(&ready.results, |out| out.write_all(&bytes))?);
+        // The summary is told all the same.
+        match outputs.write_output(&ready.results, |out| out.write_all(&bytes)) {
+            Err(Stop::Found { findings, .. }) => found.extend(findings),
+            written => written?,
+        }
         if !self.quiet {
             let seconds = Some(began.elapsed().as_secs_f64());
             let mut text = summary::summary_to_text(&ran.records, ran.before, seconds);
@@ -280,11 +267,6 @@ impl BatchArgs {
         }
         self.show_findings(&found)?;
         Ok(if found.is_empty() { exit_for_records(&ran.records) } else { CommandExit::Errors })
-    }
-
-    fn refuse_batch(&self, found: &[Diagnostic]) -> io::Result<CommandExit> {
-        self.show_findings(found)?;
-        Ok(CommandExit::Errors)
     }
 
     fn show_findings(&self, found: &[Diagnostic]) -> io::Result<()> {

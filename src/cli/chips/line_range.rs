@@ -1,9 +1,10 @@
 //! `--lines`.
 
+use crate::cli::bad_argument::BadArgument;
 use std::ops::RangeInclusive;
 
 /// Reads `A..B`, `A..`, `..B`, `A` or `..`; both ends are included.
-pub fn parse_line_range(text: &str) -> Result<RangeInclusive<usize>, String> {
+pub fn parse_line_range(text: &str) -> Result<RangeInclusive<usize>, BadArgument> {
     let number = |text: &str, none: usize| match text.trim() {
         "" => Some(none),
         text => text.parse::<usize>().ok().filter(|line| *line > 0),
@@ -12,9 +13,10 @@ pub fn parse_line_range(text: &str) -> Result<RangeInclusive<usize>, String> {
         Some((from, to)) => number(from, 1).zip(number(to, usize::MAX)),
         None => number(text, 0).filter(|line| *line > 0).map(|line| (line, line)),
     };
-    let (from, to) = range.ok_or("this must be lines of the file: 40..48, 40.., ..48 or 44")?;
+    let (from, to) =
+        range.ok_or(BadArgument::new("this must be lines of the file: 40..48, 40.., ..48 or 44"))?;
     if from > to {
-        return Err(format!("line {from} is after line {to}"));
+        return Err(BadArgument::new(format!("line {from} is after line {to}")));
     }
     Ok(from..=to)
 }

@@ -3,11 +3,12 @@
 mod line_range;
 mod outputs;
 
+use crate::cli::bad_argument::BadArgument;
 use crate::cli::command_exit::CommandExit;
-use crate::cli::command_stop::CommandStop;
 use crate::cli::finding_args::FindingArgs;
 use crate::cli::input_files;
 use crate::cli::measuring_command::{MeasuringCommand, MeasuringContext};
+use crate::cli::stop::Stop;
 use clap::Args;
 use clsmith::parameters::LengthUnit;
 use clsmith::program::Dialect;
@@ -16,7 +17,6 @@ use clsmith::report::stats::ResolvedLengthUnit;
 use clsmith::simulation_run::Machining;
 use clsmith::simulation_run::layer_run::LayerRunOptions;
 use outputs::ChipDrawings;
-use std::io;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
@@ -90,25 +90,24 @@ pub struct ChipsArgs {
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
-    findings: FindingArgs,
+    pub(in crate::cli) findings: FindingArgs,
 }
 
 /// A height in mm.
-fn parse_height_mm(text: &str) -> Result<f64, String> {
+fn parse_height_mm(text: &str) -> Result<f64, BadArgument> {
     let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
-    value.ok_or_else(|| "this must be a number".into())
+    value.ok_or(BadArgument::new("this must be a number"))
 }
 
 /// A distance of chords from their curve, mm: no finer than the grid of areas and no coarser than a picture needs.
-fn parse_tolerance_mm(text: &str) -> Result<f64, String> {
+fn parse_tolerance_mm(text: &str) -> Result<f64, BadArgument> {
     let value = text.parse::<f64>().ok().filter(|value| (1e-5..=0.1).contains(value));
-    value.ok_or_else(|| "this must be a number of millimetres from 0.00001 to 0.1".into())
+    value.ok_or(BadArgument::new("this must be a number of millimetres from 0.00001 to 0.1"))
 }
 
 impl ChipsArgs {
-    pub fn run(&self) -> io::Result<CommandExit> {
+    pub fn run(&self) -> Result<CommandExit, Stop> {
         let measuring = MeasuringCommand {
-            command: "chips",
             program: &self.program,
             outputs: self.output_paths().collect(),
             quiet: self.quiet,
@@ -124,10 +123,7 @@ impl ChipsArgs {
     }
 
     /// Everything but writing: the chips, and the drawings if some are wanted. What does not stop the run is added to the findings.
-    fn find_chips(
-        &self,
-        under: &mut MeasuringContext<'_>,
-    ) -> Result<(ChipReport, ChipDrawings), CommandStop> {
+    fn find_chips(&self, under: &mut MeasuringContext<'_>) -> Result<(ChipReport, ChipDrawings), Stop> {
         let setup = input_files::read_setup(&self.setup)?;
         self.check_outputs(&setup)?;
         let program = under.read_program(&self.program, self.dialect)?;

@@ -1,9 +1,9 @@
 //! What `clsmith chips` writes, and where it may not.
 
 use super::ChipsArgs;
-use crate::cli::command_outputs::{self, CommandOutputs};
-use crate::cli::command_stop::CommandStop;
+use crate::cli::command_outputs::{CommandOutputs, refuse_overwritten_input};
 use crate::cli::input_files::STANDARD;
+use crate::cli::stop::Stop;
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::output_files::is_same_file;
 use clsmith::report::layered_chips::{self, ChipReport};
@@ -44,17 +44,14 @@ impl ChipsArgs {
     }
 
     /// No output may be an input, nor a file that the setup names.
-    pub(super) fn check_outputs(&self, setup: &Setup) -> Result<(), CommandStop> {
+    pub(super) fn check_outputs(&self, setup: &Setup) -> Result<(), Stop> {
         let mut inputs = vec![self.program.as_path(), &self.setup];
         inputs.extend(setup.referenced_files());
-        match command_outputs::find_overwritten_input(self.output_paths(), &inputs) {
-            Some(found) => Err(found.into()),
-            None => Ok(()),
-        }
+        refuse_overwritten_input(self.output_paths(), &inputs)
     }
 
     /// The drawings that are wanted.
-    pub(super) fn draw_chips(&self, report: &ChipReport) -> Result<ChipDrawings, CommandStop> {
+    pub(super) fn draw_chips(&self, report: &ChipReport) -> Result<ChipDrawings, Stop> {
         if self.svg.is_none() && self.diagram.is_none() {
             return Ok(ChipDrawings::default());
         }
@@ -89,7 +86,7 @@ impl ChipsArgs {
         report: &ChipReport,
         drawn: &ChipDrawings,
         outputs: &CommandOutputs,
-    ) -> io::Result<Option<Diagnostic>> {
+    ) -> Result<(), Stop> {
         type Writer<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
         let all: [(&Option<PathBuf>, Writer<'_>); 5] = [
             (&self.csv, Box::new(|out| layered_chips::write_csv(report, out))),
@@ -106,10 +103,8 @@ impl ChipsArgs {
         ];
         for (path, write_all) in &all {
             let Some(path) = path else { continue };
-            if let Some(found) = outputs.write_output(path, write_all)? {
-                return Ok(Some(found));
-            }
+            outputs.write_output(path, write_all)?;
         }
-        Ok(None)
+        Ok(())
     }
 }

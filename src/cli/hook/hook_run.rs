@@ -8,6 +8,7 @@ use crate::cli::command_exit::CommandExit;
 use crate::cli::command_outputs::{CommandOutputs, ignore_closed_pipe, report_unwritable};
 use crate::cli::input_files;
 use crate::cli::progress::CommandProgress;
+use crate::cli::stop::Stop;
 use crate::cli::terminal::escape_controls;
 use crate::cli::unattended::{
     self, LogLine, LoggedInput, LoggedOutput, RunLog, UnattendedCorrection, UnattendedOutcome,
@@ -15,7 +16,7 @@ use crate::cli::unattended::{
 use clsmith::batch;
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::fingerprint::Digest;
-use clsmith::output_files::{is_interrupt, is_same_file};
+use clsmith::output_files::is_same_file;
 use clsmith::report::changes;
 use clsmith::report::finding_policy::FindingPolicy;
 use clsmith::source::Source;
@@ -77,11 +78,15 @@ impl<'h> HookRun<'h> {
     }
 
     /// Corrects, keeps, posts, logs.
-    pub fn run_hook(mut self, policy: &FindingPolicy, progress: &CommandProgress) -> io::Result<CommandExit> {
+    pub fn run_hook(
+        mut self,
+        policy: &FindingPolicy,
+        progress: &CommandProgress,
+    ) -> Result<CommandExit, Stop> {
         let source = match input_files::read_source(&self.hook.input) {
             Ok(source) => source,
-            Err(found) => {
-                self.show_and_keep_findings(vec![*found])?;
+            Err(failure) => {
+                self.show_and_keep_findings(failure.into_findings())?;
                 return self.finish_and_log(REFUSED);
             }
         };
@@ -108,12 +113,17 @@ impl<'h> HookRun<'h> {
             );
             self.show_and_keep_findings(vec![Diagnostic::new(codes::PASSED_ORIGINAL, message)])?;
         }
-        if let Some(found) = self.keep_program(&source)? {
-            self.show_and_keep_findings(vec![found])?;
-            if !passes_original {
-                self.correction.outcome = UnattendedOutcome::Refused;
-                return self.finish_and_log(REFUSED);
+        match self.keep_program(&source) {
+            // The wish to stop is looked at again before the post runs.
+            Ok(()) | Err(Stop::Interrupted) => {}
+            Err(Stop::Found { findings, .. }) => {
+                self.show_and_keep_findings(findings)?;
+                if !passes_original {
+                    self.correction.outcome = UnattendedOutcome::Refused;
+                    return self.finish_and_log(REFUSED);
+                }
             }
+            Err(stop) => return Err(stop),
         }
         if let Some(found) = self.check_input_unchanged() {
             self.show_and_keep_findings(vec![found])?;
@@ -134,7 +144,7 @@ impl<'h> HookRun<'h> {
         let name = self.hook.program_file_name().to_string_lossy();
         match args.read_chooser() {
             Ok(chooser) => unattended::correct_unattended(args, &chooser, policy, progress, &name, source),
-            Err(found) => UnattendedCorrection::without_recipe(found),
+            Err(failure) => UnattendedCorrection::without_recipe(failure.into_findings()),
         }
     }
 
@@ -152,25 +162,20 @@ impl<'h> HookRun<'h> {
     }
 
     /// Keeps what the post is to get.
-    fn keep_program(&self, source: &Arc<Source>) -> io::Result<Option<Diagnostic>> {
-        let Some(target) = self.hook.keep_path() else { return Ok(None) };
+    fn keep_program(&self, source: &Arc<Source>) -> Result<(), Stop> {
+        let Some(target) = self.hook.keep_path() else { return Ok(()) };
         if let Some(hit) = self.list_read_files().into_iter().find(|path| is_same_file(path, &target)) {
             let message = format!("keeping {} would overwrite {}", target.display(), hit.display());
-            return Ok(Some(Diagnostic::new(codes::OUTPUT_IS_INPUT, message)));
+            return Err(Diagnostic::new(codes::OUTPUT_IS_INPUT, message).into());
         }
         if let Some(folder) = self.hook.keep_folder()
             && let Err(error) = std::fs::create_dir_all(folder)
         {
-            return Ok(Some(report_unwritable(folder, &error)));
+            return Err(report_unwritable(folder, &error).into());
         }
-        let written = self.outputs.write_held_output(&target, |out| {
+        self.outputs.write_held_output(&target, |out| {
             self.correction.byte_chunks(source).try_for_each(|piece| out.write_all(piece))
-        });
-        match written {
-            // The wish to stop is looked at again before the post runs.
-            Err(error) if is_interrupt(&error) => Ok(None),
-            written => written,
-        }
+        })
     }
 
     /// Files of this run that nothing may overwrite.
@@ -187,8 +192,8 @@ impl<'h> HookRun<'h> {
             self.correction.byte_chunks(source),
         ) {
             Ok(desk) => desk,
-            Err(found) => {
-                self.show_and_keep_findings(vec![*found])?;
+            Err(failure) => {
+                self.show_and_keep_findings(failure.into_findings())?;
                 self.correction.outcome = UnattendedOutcome::Refused;
                 return Ok(REFUSED);
             }
@@ -229,7 +234,7 @@ impl<'h> HookRun<'h> {
             }
             found.extend(faults);
         }
-        found.extend(desk.remove_folder().err().map(|found| *found));
+        found.extend(desk.remove_folder().err());
         self.post = Some(record);
         self.show_and_keep_findings(found)?;
         Ok(exit)
@@ -257,7 +262,7 @@ impl<'h> HookRun<'h> {
     }
 
     /// The last word, and the line in the log.
-    fn finish_and_log(mut self, exit: i32) -> io::Result<CommandExit> {
+    fn finish_and_log(mut self, exit: i32) -> Result<CommandExit, Stop> {
         let stopped = self.outputs.interrupt().is_raised()
             && self.post.as_ref().is_none_or(|post| matches!(post.ended, "stopped"));
         let exit = if stopped { STOPPED } else { exit };
@@ -273,7 +278,7 @@ impl<'h> HookRun<'h> {
         let output = self.output.as_ref();
         let record = LogLine::from_correction("hook", when, &self.input, &self.correction, output, more);
         if let Err(found) = log.add_line(&record) {
-            self.hook.show_findings(&[*found])?;
+            self.hook.show_findings(&[found])?;
         }
         Ok(CommandExit::Posted(exit))
     }

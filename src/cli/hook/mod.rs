@@ -17,6 +17,7 @@ use super::input_files::{self, STANDARD};
 use super::progress::CommandProgress;
 use super::terminal;
 use super::unattended::{RecipeArgs, RunLog};
+use crate::cli::stop::Stop;
 use clap::{Args, ValueEnum};
 use clsmith::diagnostic::Diagnostic;
 use exit_codes::REFUSED;
@@ -85,7 +86,7 @@ pub struct HookArgs {
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
-    findings: FindingArgs,
+    pub(in crate::cli) findings: FindingArgs,
     /// The exported program
     #[arg(value_name = "INPUT")]
     input: PathBuf,
@@ -95,20 +96,15 @@ pub struct HookArgs {
 }
 
 impl HookArgs {
-    pub fn run(&self) -> io::Result<CommandExit> {
-        let policy = match self.find_usage_problem().map_or_else(|| self.findings.build_policy(), Err) {
-            Ok(policy) => policy,
-            Err(problem) => {
-                eprintln!("clsmith hook: {problem}");
-                return Ok(CommandExit::Usage);
-            }
-        };
+    pub fn run(&self) -> Result<CommandExit, Stop> {
+        self.find_usage_problem().map_or(Ok(()), |problem| Err(Stop::Usage(problem)))?;
+        let policy = self.findings.build_policy()?;
         let log =
             self.log.as_ref().map(|path| RunLog::open(path, self.recipe.input_files().chain([&self.input])));
         let log = match log.transpose() {
             Ok(log) => log,
-            Err(found) => {
-                self.show_findings(&[*found])?;
+            Err(failure) => {
+                self.show_findings(failure.findings())?;
                 if self.on_error == OnError::Stop {
                     eprintln!("{}: nothing was posted", self.input.display());
                     return Ok(CommandExit::Posted(REFUSED));

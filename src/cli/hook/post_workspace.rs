@@ -4,8 +4,8 @@
 //! stands there when the post has ended is put where it would have come without the hook: beside the export.
 
 use crate::cli::command_outputs::report_unwritable;
-use clsmith::diagnostic::{Diagnostic, codes};
-use clsmith::output_files::{Interrupt, is_same_file, write_atomically_unless};
+use clsmith::diagnostic::{Diagnostic, Failure, codes};
+use clsmith::output_files::{Interrupt, WriteError, is_same_file, write_atomically_unless};
 use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -23,7 +23,7 @@ impl PostWorkspace {
     pub fn create_with_program<'b>(
         name: &OsStr,
         pieces: impl Iterator<Item = &'b [u8]>,
-    ) -> Result<Self, Box<Diagnostic>> {
+    ) -> Result<Self, Failure> {
         let mut builder = tempfile::Builder::new();
         builder.prefix("clsmith-hook-");
         #[cfg(unix)]
@@ -34,7 +34,7 @@ impl PostWorkspace {
         }
         let folder = builder.tempdir().map_err(|error| {
             let message = format!("the private folder for the post cannot be made: {error}");
-            Box::new(Diagnostic::new(codes::UNWRITABLE, message))
+            Diagnostic::new(codes::UNWRITABLE, message)
         })?;
         let file = folder.path().join(name);
         let fill = || {
@@ -44,7 +44,7 @@ impl PostWorkspace {
             }
             out.flush()
         };
-        fill().map_err(|error| Box::new(report_unwritable(&file, &error)))?;
+        fill().map_err(|error| report_unwritable(&file, &error))?;
         Ok(Self { folder, file })
     }
 
@@ -83,7 +83,11 @@ impl PostWorkspace {
             }
             match copy_file(&from, &target, interrupt) {
                 Ok(()) => put.push(target),
-                Err(error) => found.push(report_unwritable(&target, &error)),
+                // Told as well: the post has ended, and this output of it is missing.
+                Err(WriteError::Interrupted) => {
+                    found.push(report_unwritable(&target, &io::Error::other(WriteError::Interrupted)));
+                }
+                Err(WriteError::Io(error)) => found.push(report_unwritable(&target, &error)),
             }
         }
         (put, found)
@@ -112,16 +116,16 @@ impl PostWorkspace {
     }
 
     /// Takes the folder away.
-    pub fn remove_folder(self) -> Result<(), Box<Diagnostic>> {
+    pub fn remove_folder(self) -> Result<(), Diagnostic> {
         let path = self.folder.path().to_path_buf();
         self.folder.close().map_err(|error| {
             let message = format!("{} cannot be taken away: {error}", path.display());
-            Box::new(Diagnostic::new(codes::UNWRITABLE, message))
+            Diagnostic::new(codes::UNWRITABLE, message)
         })
     }
 }
 
-fn copy_file(from: &Path, to: &Path, interrupt: &Interrupt) -> io::Result<()> {
+fn copy_file(from: &Path, to: &Path, interrupt: &Interrupt) -> Result<(), WriteError> {
     if let Some(folder) = to.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         fs::create_dir_all(folder)?;
     }

@@ -9,9 +9,10 @@ use super::command_outputs::{CommandOutputs, ignore_closed_pipe};
 use super::finding_args::FindingArgs;
 use super::input_files;
 use super::terminal;
+use crate::cli::bad_argument::BadArgument;
+use crate::cli::stop::Stop;
 use clap::{Args, ValueEnum};
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
-use clsmith::output_files::is_interrupt;
 use clsmith::program::{Dialect, LengthUnit};
 use clsmith::report::finding_policy::FindingPolicy;
 use clsmith::report::surface_milling as report;
@@ -133,7 +134,7 @@ pub struct SectionArgs {
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
-    findings: FindingArgs,
+    pub(in crate::cli) findings: FindingArgs,
 }
 
 /// What heights over a mesh are made from.
@@ -154,54 +155,53 @@ enum PassPatternArg {
     OneWay,
 }
 
-fn parse_writable_dialect(name: &str) -> Result<Dialect, String> {
+fn parse_writable_dialect(name: &str) -> Result<Dialect, BadArgument> {
     let writable = clsmith::write::new_program::WRITABLE;
     let found = Dialect::from_name(name).filter(|dialect| writable.contains(dialect));
-    found.ok_or_else(|| "the dialects that can be written are nx, catia and creo".into())
+    found.ok_or(BadArgument::new("the dialects that can be written are nx, catia and creo"))
 }
 
 impl SectionArgs {
-    pub fn run(&self) -> io::Result<CommandExit> {
-        let policy = match self.find_usage_problem().map_or_else(|| self.findings.build_policy(), Err) {
-            Ok(policy) => policy,
-            Err(problem) => {
-                eprintln!("clsmith section: {problem}");
-                return Ok(CommandExit::Usage);
-            }
-        };
+    pub fn run(&self) -> Result<CommandExit, Stop> {
+        self.find_usage_problem().map_or(Ok(()), |problem| Err(Stop::Usage(problem)))?;
+        let policy = self.findings.build_policy()?;
         let options = match self.check_options() {
             Ok(options) => options,
-            Err(found) => {
-                self.show_findings(&policy.apply(found))?;
-                self.say_nothing_written();
-                return Ok(CommandExit::Usage);
-            }
+            Err(failure) => return self.refuse_part(failure, &policy, CommandExit::Usage),
         };
         let outputs = CommandOutputs::default();
         outputs.stop_on_ctrl_c(|| {})?;
         let done = self.check_outputs().and_then(|()| {
             let part = self.read_part(&options)?;
-            make_surface_program(&part, &options).map_err(Failure::into_findings)
+            make_surface_program(&part, &options)
         });
-        let surfaced = match done {
-            Ok(surfaced) => surfaced,
-            Err(found) => {
-                self.show_findings(&policy.apply(found))?;
-                self.say_nothing_written();
-                return Ok(CommandExit::Errors);
-            }
-        };
-        self.show_and_write(&surfaced, &options, &policy, &outputs)
+        match done {
+            Ok(surfaced) => self.show_and_write(&surfaced, &options, &policy, &outputs),
+            Err(failure) => self.refuse_part(failure, &policy, CommandExit::Errors),
+        }
     }
 
-    /// Shows what was found and made, and writes what may be written.
+    /// Tells why there is no program.
+    fn refuse_part(
+        &self,
+        failure: Failure,
+        policy: &FindingPolicy,
+        exit: CommandExit,
+    ) -> Result<CommandExit, Stop> {
+        let Failure::Found(found) = failure else { return Err(Stop::Interrupted) };
+        self.show_findings(&policy.apply(found))?;
+        self.say_nothing_written();
+        Ok(exit)
+    }
+
+    /// Shows the findings, writes the outputs and shows the summary.
     fn show_and_write(
         &self,
         surfaced: &SurfaceProgram,
         options: &SurfaceMillingOptions,
         policy: &FindingPolicy,
         outputs: &CommandOutputs,
-    ) -> io::Result<CommandExit> {
+    ) -> Result<CommandExit, Stop> {
         let found = policy.apply(report::collect_findings(surfaced, options));
         if !found.is_empty() {
             self.show_findings(&found)?;
@@ -211,15 +211,9 @@ impl SectionArgs {
             self.say_nothing_written();
             return Ok(CommandExit::Errors);
         }
-        match self.write_outputs(surfaced, options, outputs) {
-            Ok(None) => self.show_summary_unless_quiet(surfaced, options).map(|()| CommandExit::Done),
-            Ok(Some(found)) => {
-                self.show_findings(&[found])?;
-                Ok(CommandExit::Errors)
-            }
-            Err(error) if is_interrupt(&error) => Ok(CommandExit::Interrupted),
-            Err(error) => Err(error),
-        }
+        self.write_outputs(surfaced, options, outputs).map_err(|stop| stop.about(self.input_path()))?;
+        self.show_summary_unless_quiet(surfaced, options)?;
+        Ok(CommandExit::Done)
     }
 
     fn show_summary_unless_quiet(
@@ -231,21 +225,22 @@ impl SectionArgs {
     }
 
     /// The part, in mm.
-    fn read_part(&self, options: &SurfaceMillingOptions) -> Result<SurfacePart, Vec<Diagnostic>> {
+    fn read_part(&self, options: &SurfaceMillingOptions) -> Result<SurfacePart, Failure> {
         if let Some(profile) = &self.profile {
-            let source = input_files::read_source(profile).map_err(|found| vec![*found])?;
-            return load_profile(&source).map(SurfacePart::Profile).map_err(Failure::into_findings);
+            let source = input_files::read_source(profile)?;
+            return load_profile(&source).map(SurfacePart::Profile);
         }
         let path = self.input_path();
-        let source = input_files::read_source(path).map_err(|found| vec![*found])?;
+        let source = input_files::read_source(path)?;
         let mesh = Mesh::from_stl(source.bytes()).and_then(|mesh| match options.words.units {
             LengthUnit::Mm => Ok(mesh),
             LengthUnit::Inch => mesh.scaled(LengthUnit::Inch.mm_per_unit()),
         });
-        mesh.map(SurfacePart::Mesh).map_err(|error| {
+        let part = mesh.map(SurfacePart::Mesh).map_err(|error| {
             let message = format!("the model {} cannot be gone over: {error}", path.display());
-            vec![Diagnostic::new(codes::MODEL_FILE, message)]
-        })
+            Diagnostic::new(codes::MODEL_FILE, message)
+        })?;
+        Ok(part)
     }
 
     /// The one input.

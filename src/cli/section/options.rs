@@ -2,7 +2,7 @@
 
 use super::SectionArgs;
 use super::command_line::CommandLine;
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::Failure;
 use clsmith::program::Dialect;
 use clsmith::surface_milling::{PassPlanes, SurfaceMillingOptions, SurfaceProgramWords};
 use std::path::Path;
@@ -21,7 +21,7 @@ const NEAREST: f64 = 0.1;
 const SLOWEST: f64 = 0.01;
 
 impl SectionArgs {
-    pub(super) fn check_options(&self) -> Result<SurfaceMillingOptions, Vec<Diagnostic>> {
+    pub(super) fn check_options(&self) -> Result<SurfaceMillingOptions, Failure> {
         let mut line = CommandLine::from_process(self.units);
         let unit = self.units.mm_per_unit();
         let planes = self.parse_planes(&mut line);
@@ -80,7 +80,7 @@ impl SectionArgs {
         let (Some(planes), Some(step), Some(radius), Some(feed), []) =
             (planes, step, radius, feed, found.as_slice())
         else {
-            return Err(found);
+            return Err(found.into());
         };
         Ok(SurfaceMillingOptions {
             planes,

@@ -3,7 +3,8 @@
 use super::SectionArgs;
 use crate::cli::command_outputs::{CommandOutputs, print_summary};
 use crate::cli::input_files::STANDARD;
-use clsmith::diagnostic::{Diagnostic, codes};
+use crate::cli::stop::Stop;
+use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::output_files::is_same_file;
 use clsmith::report::surface_milling as report;
 use clsmith::surface_milling::{SurfaceMillingOptions, SurfaceProgram};
@@ -16,17 +17,15 @@ impl SectionArgs {
         surfaced: &SurfaceProgram,
         options: &SurfaceMillingOptions,
         outputs: &CommandOutputs,
-    ) -> io::Result<Option<Diagnostic>> {
+    ) -> Result<(), Stop> {
         // The drawing first: if it fails, no program was written.
         if let Some(plot) = &self.plot {
             let drawn = report::draw_middle_plane(surfaced, options)?;
-            if let Some(found) = outputs.write_output(plot, |out| out.write_all(drawn.as_bytes()))? {
-                return Ok(Some(found));
-            }
+            outputs.write_output(plot, |out| out.write_all(drawn.as_bytes()))?;
         }
         match self.output.as_deref().filter(|_| !self.dry_run) {
             Some(output) => outputs.write_output(output, |out| out.write_all(&surfaced.text)),
-            None => Ok(None),
+            None => Ok(()),
         }
     }
 
@@ -44,7 +43,7 @@ impl SectionArgs {
     }
 
     /// No output may be the input.
-    pub(super) fn check_outputs(&self) -> Result<(), Vec<Diagnostic>> {
+    pub(super) fn check_outputs(&self) -> Result<(), Failure> {
         let input = self.input_path();
         let files =
             self.output_paths().filter(|path| *path != Path::new(STANDARD) && input != Path::new(STANDARD));
@@ -52,7 +51,7 @@ impl SectionArgs {
             Some(hit) => {
                 let message =
                     format!("writing {} would overwrite the input {}", hit.display(), input.display());
-                Err(vec![Diagnostic::new(codes::OUTPUT_IS_INPUT, message)])
+                Err(Diagnostic::new(codes::OUTPUT_IS_INPUT, message).into())
             }
             None => Ok(()),
         }

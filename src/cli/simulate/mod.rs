@@ -2,16 +2,17 @@
 
 mod outputs;
 
+use crate::cli::bad_argument::BadArgument;
 use crate::cli::command_exit::CommandExit;
-use crate::cli::command_stop::CommandStop;
 use crate::cli::finding_args::FindingArgs;
 use crate::cli::input_files;
 use crate::cli::measuring_command::{MeasuringCommand, MeasuringContext};
 use crate::cli::plot::encode_drawing;
 use crate::cli::progress::CommandProgress;
 use crate::cli::report_args::ReportArgs;
+use crate::cli::stop::Stop;
 use clap::Args;
-use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::parameters::LengthUnit;
 use clsmith::program::{Dialect, Program};
 use clsmith::report::comparison::{ComparisonRuns, ComparisonSubject};
@@ -96,13 +97,13 @@ pub struct SimulateArgs {
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
-    findings: FindingArgs,
+    pub(in crate::cli) findings: FindingArgs,
 }
 
 /// A positive number.
-pub(super) fn parse_positive(text: &str) -> Result<f64, String> {
+pub(super) fn parse_positive(text: &str) -> Result<f64, BadArgument> {
     let value = text.parse::<f64>().ok().filter(|value| *value > 0.0 && value.is_finite());
-    value.ok_or_else(|| "this must be a number above 0".into())
+    value.ok_or(BadArgument::new("this must be a number above 0"))
 }
 
 /// A run, and what it was made of.
@@ -136,9 +137,8 @@ impl SimulateOutcome {
 }
 
 impl SimulateArgs {
-    pub fn run(&self) -> io::Result<CommandExit> {
+    pub fn run(&self) -> Result<CommandExit, Stop> {
         let measuring = MeasuringCommand {
-            command: "simulate",
             program: &self.program,
             outputs: self.output_paths().collect(),
             quiet: self.quiet,
@@ -154,12 +154,11 @@ impl SimulateArgs {
     }
 
     /// Everything but writing: the simulation, and the drawing if one is wanted. What does not stop the run is added to the findings.
-    fn simulate_and_draw(&self, under: &mut MeasuringContext<'_>) -> Result<SimulateOutcome, CommandStop> {
-        let setup_file = input_files::read_source(&self.setup).map_err(|found| *found)?;
+    fn simulate_and_draw(&self, under: &mut MeasuringContext<'_>) -> Result<SimulateOutcome, Stop> {
+        let setup_file = input_files::read_source(&self.setup)?;
         let setup = Setup::load(&setup_file)?;
         self.check_outputs(&setup)?;
-        let read = |path: &Path| input_files::read_source(path).map_err(|found| found.message);
-        let setup = setup.read_material_file(read)?;
+        let setup = setup.read_material_file(input_files::read_bytes)?;
         let program = under.read_program(&self.program, self.dialect)?;
         let units = ResolvedLengthUnit::from_program(&program, self.units).unit;
         let target = self.target.as_deref().map(|path| read_target(path, units)).transpose()?;
@@ -188,7 +187,7 @@ impl SimulateArgs {
         simulated: &SimulationReport,
         setup: &Setup,
         under: &mut MeasuringContext<'_>,
-    ) -> Result<Vec<u8>, CommandStop> {
+    ) -> Result<Vec<u8>, Stop> {
         let mut series = Vec::new();
         if let Some(path) = &self.plot_before {
             let before = under.read_program(path, self.dialect)?;
@@ -207,7 +206,7 @@ impl SimulateArgs {
         setup: &Setup,
         progress: &CommandProgress,
         findings: &mut Vec<Diagnostic>,
-    ) -> Result<SimulationReport, CommandStop> {
+    ) -> Result<SimulationReport, Stop> {
         let units = ResolvedLengthUnit::from_program(program, self.units).unit;
         let machining = Machining::new(program, setup, units, findings)?;
         let bytes = (self.budget * f64::from(1 << 30)) as u64;
@@ -222,11 +221,12 @@ impl SimulateArgs {
 }
 
 /// Reads a target part.
-fn read_target(path: &Path, units: LengthUnit) -> Result<Arc<Mesh>, Diagnostic> {
-    let source = input_files::read_source(path).map_err(|found| *found)?;
-    Machining::read_target_part(source.bytes(), units).map_err(|error| {
+fn read_target(path: &Path, units: LengthUnit) -> Result<Arc<Mesh>, Failure> {
+    let source = input_files::read_source(path)?;
+    let mesh = Machining::read_target_part(source.bytes(), units).map_err(|error| {
         let message = format!("the target {} cannot be used: {error}", path.display());
         let help = "The file must be a closed STL, in the coordinates and the unit of the program.";
         Diagnostic::new(codes::STOCK_FILE, message).with_help(help)
-    })
+    })?;
+    Ok(mesh)
 }

@@ -1,9 +1,9 @@
 //! What `clsmith simulate` writes, and where it may not.
 
 use super::{SimulateArgs, SimulateOutcome};
-use crate::cli::command_outputs::{CommandOutputs, find_overwritten_input};
-use crate::cli::command_stop::CommandStop;
+use crate::cli::command_outputs::{CommandOutputs, refuse_overwritten_input};
 use crate::cli::input_files::STANDARD;
+use crate::cli::stop::Stop;
 use clsmith::diagnostic::Diagnostic;
 use clsmith::output_files::is_same_file;
 use clsmith::report::comparison::Comparison;
@@ -39,14 +39,11 @@ impl SimulateArgs {
     }
 
     /// No output may be an input, nor a file that the setup names.
-    pub(super) fn check_outputs(&self, setup: &Setup) -> Result<(), CommandStop> {
+    pub(super) fn check_outputs(&self, setup: &Setup) -> Result<(), Stop> {
         let mut inputs = vec![self.program.as_path(), &self.setup];
         inputs.extend([&self.target, &self.plot_before].into_iter().filter_map(|path| path.as_deref()));
         inputs.extend(setup.referenced_files());
-        match find_overwritten_input(self.output_paths(), &inputs) {
-            Some(found) => Err(found.into()),
-            None => Ok(()),
-        }
+        refuse_overwritten_input(self.output_paths(), &inputs)
     }
 
     /// Writes what was asked for; a finding when that fails.
@@ -55,8 +52,11 @@ impl SimulateArgs {
         ran: &SimulateOutcome,
         findings: &[Diagnostic],
         outputs: &CommandOutputs,
-    ) -> io::Result<Option<Diagnostic>> {
-        let Some(simulated) = &ran.runs.after else { return Ok(None) };
+    ) -> Result<(), Stop> {
+        let Some(simulated) = &ran.runs.after else {
+            debug_assert!(false, "a run that was not stopped leaves a simulation");
+            return Ok(());
+        };
         type Writer<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
         let all: [(&Option<PathBuf>, Writer<'_>); 5] = [
             (&self.csv, Box::new(|out| simulation::write_csv(simulated, out))),
@@ -67,12 +67,10 @@ impl SimulateArgs {
         ];
         for (path, write_all) in &all {
             let Some(path) = path else { continue };
-            if let Some(found) = outputs.write_output(path, write_all)? {
-                return Ok(Some(found));
-            }
+            outputs.write_output(path, write_all)?;
         }
         if !self.reports.is_wanted() {
-            return Ok(None);
+            return Ok(());
         }
         self.reports.write_reports(
             &Comparison::from_runs(ran.report_subject(self.units, findings), &ran.runs),

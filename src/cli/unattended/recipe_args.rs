@@ -2,7 +2,7 @@
 
 use crate::cli::input_files;
 use clap::Args;
-use clsmith::diagnostic::{Diagnostic, Failure};
+use clsmith::diagnostic::Failure;
 use clsmith::program::{Dialect, Program};
 use clsmith::recipe_rules::{RecipeChoice, RecipeRuleFacts, RecipeRules};
 use std::path::PathBuf;
@@ -33,10 +33,10 @@ pub enum RecipeChooser {
 
 impl RecipeArgs {
     /// Reads the rules, if there are any.
-    pub fn read_chooser(&self) -> Result<RecipeChooser, Vec<Diagnostic>> {
+    pub fn read_chooser(&self) -> Result<RecipeChooser, Failure> {
         if let Some(path) = &self.select {
-            let source = input_files::read_source(path).map_err(|found| vec![*found])?;
-            return RecipeRules::load(&source).map(RecipeChooser::Rules).map_err(Failure::into_findings);
+            let source = input_files::read_source(path)?;
+            return RecipeRules::load(&source).map(RecipeChooser::Rules);
         }
         let recipe = self.recipe.clone().unwrap_or_default();
         Ok(RecipeChooser::One(RecipeChoice::Recipe {

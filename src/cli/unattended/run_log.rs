@@ -2,7 +2,7 @@
 
 use super::unattended_correction::{LoggedRecipe, UnattendedCorrection, UnattendedOutcome};
 use crate::cli::command_outputs::report_unwritable;
-use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::fingerprint::{Digest, VERSION};
 use clsmith::output_files::is_same_file;
 use clsmith::report::changes::StepChanges;
@@ -138,27 +138,24 @@ pub struct RunLog {
 
 impl RunLog {
     /// Opens a log, before anything is done that could not be logged.
-    pub fn open<'p>(
-        path: &Path,
-        inputs: impl IntoIterator<Item = &'p PathBuf>,
-    ) -> Result<Self, Box<Diagnostic>> {
+    pub fn open<'p>(path: &Path, inputs: impl IntoIterator<Item = &'p PathBuf>) -> Result<Self, Failure> {
         if let Some(input) = inputs.into_iter().find(|input| is_same_file(input, path)) {
             let message =
                 format!("the log {} would be written into the input {}", path.display(), input.display());
-            return Err(Box::new(Diagnostic::new(codes::OUTPUT_IS_INPUT, message)));
+            return Err(Diagnostic::new(codes::OUTPUT_IS_INPUT, message).into());
         }
         let file = File::options().read(true).append(true).create(true).open(path);
         let file = file.and_then(|mut file| end_cut_line(&mut file).map(|()| file));
-        let file = file.map_err(|error| Box::new(report_unwritable(path, &error)))?;
+        let file = file.map_err(|error| report_unwritable(path, &error))?;
         Ok(Self { path: path.to_path_buf(), file })
     }
 
     /// Adds a line, in one write to the end of the file: lines of several runs do not mix.
-    pub fn add_line(&mut self, record: &impl Serialize) -> Result<(), Box<Diagnostic>> {
+    pub fn add_line(&mut self, record: &impl Serialize) -> Result<(), Diagnostic> {
         let written = serde_json::to_vec(record).map_err(io::Error::from).and_then(|mut line| {
             line.push(b'\n');
             self.file.write_all(&line)
         });
-        written.map_err(|error| Box::new(report_unwritable(&self.path, &error)))
+        written.map_err(|error| report_unwritable(&self.path, &error))
     }
 }

@@ -117,7 +117,7 @@ pub fn correct_unattended(
     };
     let LoadedRecipe { recipe, setup, texts } = match input_files::read_recipe(&path, given.as_deref()) {
         Ok(loaded) => loaded,
-        Err(found) => return UnattendedCorrection::without_recipe(found),
+        Err(failure) => return UnattendedCorrection::without_recipe(failure.into_findings()),
     };
     let print = match RecipeFingerprint::read_files(&texts, &recipe, &setup) {
         Ok(print) => print,

@@ -3,9 +3,10 @@
 use super::folder_scan::ExportedFile;
 use super::refused_programs::{RefusedMove, move_aside};
 use super::watch_folders::LOCK;
-use super::watch_run::{ExportStatus, TakenExport, WatchRun};
+use super::watch_run::{ExportStatus, WatchRun};
 use crate::cli::command_exit::CommandExit;
 use crate::cli::command_outputs::report_unwritable;
+use crate::cli::stop::Stop;
 use crate::cli::terminal::escape_controls;
 use crate::cli::unattended::{LogLine, LoggedInput, LoggedOutput, UnattendedCorrection, UnattendedOutcome};
 use clsmith::batch;
@@ -36,17 +37,17 @@ impl WatchRun<'_> {
         source: &Source,
         correction: UnattendedCorrection,
         when: (String, Instant),
-    ) -> io::Result<TakenExport> {
+    ) -> Result<ExportStatus, Stop> {
         let target = self.folders.out.join(&export.name);
         let print = correction.recipe.iter().flat_map(|recipe| &recipe.print.files);
         let mut inputs =
             print.map(|file| PathBuf::from(&file.path)).chain(self.watch.recipe.input_files().cloned());
         if is_same_file(&target, &export.path) || inputs.any(|input| is_same_file(&target, &input)) {
             let message = format!("writing {} would overwrite an input", target.display());
-            return Ok(Err(vec![Diagnostic::new(codes::OUTPUT_IS_INPUT, message)]));
+            return Err(Diagnostic::new(codes::OUTPUT_IS_INPUT, message).into());
         }
         if let Some(found) = self.find_write_conflict(export, &target) {
-            return Ok(Err(vec![found]));
+            return Err(found.into());
         }
         let new = Digest::from_chunks(correction.byte_chunks(source));
         // After a crash between output and state the output stands already, and nobody must see it change.
@@ -54,14 +55,12 @@ impl WatchRun<'_> {
             if let Some(folder) = target.parent()
                 && let Err(error) = fs::create_dir_all(folder)
             {
-                return Ok(Err(vec![report_unwritable(folder, &error)]));
+                return Err(report_unwritable(folder, &error).into());
             }
             let pieces = |out: &mut dyn io::Write| {
                 correction.byte_chunks(source).try_for_each(|piece| out.write_all(piece))
             };
-            if let Some(found) = self.outputs.write_output(&target, pieces)? {
-                return Ok(Err(vec![found]));
-            }
+            self.outputs.write_output(&target, pieces)?;
         }
         let name = export.name.to_string_lossy();
         if !correction.findings.is_empty() {
@@ -71,7 +70,7 @@ impl WatchRun<'_> {
         self.remember_done(export, digest, correction.outcome)?;
         let output = LoggedOutput { path: Some(target.to_string_lossy().into_owned()), sha256: new };
         self.add_to_log(export, digest, &correction, (Some(output), None), when)?;
-        Ok(Ok(ExportStatus::Done))
+        Ok(ExportStatus::Done)
     }
 
     /// Why a corrected program must not be written: where refused ones lie, over what the watch keeps, or through a link.
@@ -101,7 +100,7 @@ impl WatchRun<'_> {
         digest: Digest,
         correction: UnattendedCorrection,
         when: (String, Instant),
-    ) -> io::Result<TakenExport> {
+    ) -> Result<ExportStatus, Stop> {
         let name = export.name.to_string_lossy();
         let mut text = Vec::new();
         human::render_human(
@@ -111,12 +110,9 @@ impl WatchRun<'_> {
             &human::HumanRenderOptions::default(),
         )?;
         let text = String::from_utf8_lossy(&text);
-        let moved = match move_aside(export, digest, &text, &self.folders.refused) {
-            Ok(moved) => moved,
-            Err(found) => return Ok(Err(vec![*found])),
-        };
+        let moved = move_aside(export, digest, &text, &self.folders.refused)?;
         let (to, stays) = match moved {
-            RefusedMove::Changed => return Ok(Ok(ExportStatus::Settling(Instant::now()))),
+            RefusedMove::Changed => return Ok(ExportStatus::Settling(Instant::now())),
             RefusedMove::To(to) => (to, None),
             RefusedMove::Copied(to, found) => (to, Some(found)),
         };
@@ -135,7 +131,7 @@ impl WatchRun<'_> {
         }
         let to = to.to_string_lossy().into_owned();
         self.add_to_log(export, digest, &correction, (None, Some(&to)), when)?;
-        Ok(Ok(ExportStatus::Done))
+        Ok(ExportStatus::Done)
     }
 
     fn print_outcome(&self, name: &str, correction: &UnattendedCorrection, target: &Path) {
@@ -162,7 +158,7 @@ impl WatchRun<'_> {
     ) -> io::Result<()> {
         match self.state.remember_program(&export.name, digest, outcome) {
             Ok(()) => Ok(()),
-            Err(found) => self.tell_once(*found),
+            Err(found) => self.tell_once(found),
         }
     }
 
@@ -182,7 +178,7 @@ impl WatchRun<'_> {
             LogLine::from_correction("watch", (&time, started), &input, correction, output.as_ref(), more);
         match log.add_line(&record) {
             Ok(()) => Ok(()),
-            Err(found) => self.tell_once(*found),
+            Err(found) => self.tell_once(found),
         }
     }
 }

@@ -73,7 +73,7 @@ pub fn scan_exports(watched: &Path, glob: &GlobMatcher) -> (Vec<ExportedFile>, V
                 Ok(Some(WatchedEntry::Folder)) if is_deep => folders.push(entry.path()),
                 Ok(Some(WatchedEntry::Export(export))) => found.push(export),
                 Ok(_) => {}
-                Err(fault) => faults.push(*fault),
+                Err(fault) => faults.push(fault),
             }
         }
     }
@@ -90,12 +90,12 @@ fn classify_entry(
     watched: &Path,
     glob: &GlobMatcher,
     entry: &DirEntry,
-) -> Result<Option<WatchedEntry>, Box<Diagnostic>> {
+) -> Result<Option<WatchedEntry>, Diagnostic> {
     let path = entry.path();
     let failed = |error: io::Error| match error.kind() {
         // Gone since the folder was read.
         io::ErrorKind::NotFound => None,
-        _ => Some(Box::new(report_unreadable(&path, &error))),
+        _ => Some(report_unreadable(&path, &error)),
     };
     let kind = match entry.file_type() {
         Ok(kind) => kind,
@@ -110,7 +110,7 @@ fn classify_entry(
     }
     if kind.is_symlink() && fs::canonicalize(&path).is_ok_and(|real| !real.starts_with(watched)) {
         let message = format!("{} leads out of the watched folder and is left alone", name.display());
-        return Err(Box::new(Diagnostic::new(codes::LEAVES_FOLDER, message)));
+        return Err(Diagnostic::new(codes::LEAVES_FOLDER, message));
     }
     match fs::metadata(&path) {
         Ok(metadata) if metadata.is_file() => {
@@ -121,7 +121,7 @@ fn classify_entry(
         // Reading a pipe would wait for ever.
         Ok(_) => {
             let message = format!("{} is no file (a pipe or device) and is left alone", name.display());
-            Err(Box::new(Diagnostic::new(codes::UNREADABLE, message)))
+            Err(Diagnostic::new(codes::UNREADABLE, message))
         }
         Err(error) => failed(error).map_or(Ok(None), Err),
     }

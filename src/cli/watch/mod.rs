@@ -22,8 +22,10 @@ use super::input_files;
 use super::progress::CommandProgress;
 use super::terminal;
 use super::unattended::{RecipeArgs, RunLog};
+use crate::cli::bad_argument::BadArgument;
+use crate::cli::stop::Stop;
 use clap::Args;
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::recipe_rules::RecipeChoice;
 use globset::{GlobBuilder, GlobMatcher};
 use std::io;
@@ -93,46 +95,37 @@ pub struct WatchArgs {
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
-    findings: FindingArgs,
+    pub(in crate::cli) findings: FindingArgs,
 }
 
 impl WatchArgs {
-    pub fn run(&self) -> io::Result<CommandExit> {
-        let policy = match self.findings.build_policy() {
-            Ok(policy) => policy,
-            Err(problem) => {
-                eprintln!("clsmith watch: {problem}");
-                return Ok(CommandExit::Usage);
-            }
-        };
-        let ready = WatchFolders::open_and_lock(self).and_then(|folders| {
-            // A recipe that is wrong is told now, not when the first program comes at night.
-            for choice in self.recipe.read_chooser()?.list_choices() {
-                if let RecipeChoice::Recipe { recipe, setup, .. } = choice {
-                    input_files::read_recipe(&recipe, setup.as_deref())?;
-                }
-            }
-            let alone = |found: Box<Diagnostic>| vec![*found];
-            let log = self.log.as_ref().map(|path| RunLog::open(path, self.recipe.input_files()));
-            let (state, bad) = WatchState::open(&folders.state).map_err(alone)?;
-            if bad > 0 {
-                let path = folders.state.display();
-                let lines = if bad == 1 { "1 line" } else { &format!("{bad} lines") };
-                eprintln!("{path}: {lines} cannot be read; the programs of these are done again");
-            }
-            Ok((folders, log.transpose().map_err(alone)?, state))
-        });
-        let (folders, log, state) = match ready {
-            Ok(ready) => ready,
-            Err(found) => {
-                self.show_findings(&found, &self.folder.to_string_lossy())?;
-                return Ok(CommandExit::Errors);
-            }
-        };
+    pub fn run(&self) -> Result<CommandExit, Stop> {
+        let policy = self.findings.build_policy()?;
+        let (folders, log, state) =
+            self.prepare_watch().map_err(|failure| Stop::from(failure).about(&self.folder))?;
         let outputs = CommandOutputs::default();
         let progress = CommandProgress::new(self.quiet, outputs.interrupt());
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
         WatchRun::new(self, &folders, &outputs, &policy, &progress, (log, state)).watch_folder()
+    }
+
+    /// Locks the folders and reads the recipes, the log and the state.
+    fn prepare_watch(&self) -> Result<(WatchFolders, Option<RunLog>, WatchState), Failure> {
+        let folders = WatchFolders::open_and_lock(self)?;
+        // A recipe that is wrong is told now, not when the first program comes at night.
+        for choice in self.recipe.read_chooser()?.list_choices() {
+            if let RecipeChoice::Recipe { recipe, setup, .. } = choice {
+                input_files::read_recipe(&recipe, setup.as_deref())?;
+            }
+        }
+        let log = self.log.as_ref().map(|path| RunLog::open(path, self.recipe.input_files()));
+        let (state, bad) = WatchState::open(&folders.state)?;
+        if bad > 0 {
+            let path = folders.state.display();
+            let lines = if bad == 1 { "1 line" } else { &format!("{bad} lines") };
+            eprintln!("{path}: {lines} cannot be read; the programs of these are done again");
+        }
+        Ok((folders, log.transpose()?, state))
     }
 
     fn show_findings(&self, findings: &[Diagnostic], file: &str) -> io::Result<()> {
@@ -149,8 +142,10 @@ impl WatchArgs {
 /// What CAM systems call their exports; Creo counts versions behind the suffix.
 const EXPORTS: &str = "*.{cls,clsf,apt,aptsource,ncl,cl,clt,CLS,CLSF,APT,APTSOURCE,NCL,CL,CLT,ncl.[0-9]*}";
 
-fn parse_glob(text: &str) -> Result<GlobMatcher, String> {
-    let glob =
-        GlobBuilder::new(text).literal_separator(true).build().map_err(|error| error.kind().to_string())?;
+fn parse_glob(text: &str) -> Result<GlobMatcher, BadArgument> {
+    let glob = GlobBuilder::new(text)
+        .literal_separator(true)
+        .build()
+        .map_err(|error| BadArgument::new(error.kind().to_string()))?;
     Ok(glob.compile_matcher())
 }

@@ -5,7 +5,7 @@
 
 use super::folder_scan::{ExportStamp, ExportedFile, report_unreadable};
 use crate::cli::command_outputs::report_unwritable;
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::fingerprint::Digest;
 use clsmith::output_files::write_new_atomically;
 use std::ffi::OsString;
@@ -32,7 +32,7 @@ pub fn move_aside(
     digest: Digest,
     diagnostics: &str,
     folder: &Path,
-) -> Result<RefusedMove, Box<Diagnostic>> {
+) -> Result<RefusedMove, Failure> {
     let text = Digest::from_bytes(diagnostics.as_bytes());
     for number in 0..MOST {
         let target = numbered_path(&folder.join(&export.name), number);
@@ -60,17 +60,17 @@ pub fn move_aside(
         });
     }
     let full = io::Error::other(format!("there are {MOST} refused programs of this name"));
-    Err(Box::new(report_unwritable(&folder.join(&export.name), &full)))
+    Err(report_unwritable(&folder.join(&export.name), &full).into())
 }
 
 /// Whether nothing stands there, or just this content.
-fn is_free_or_same(path: &Path, digest: Digest) -> Result<bool, Box<Diagnostic>> {
+fn is_free_or_same(path: &Path, digest: Digest) -> Result<bool, Failure> {
     match Digest::from_file(path) {
         Ok(found) => Ok(found == digest),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(true),
         // A folder of this name, say.
         Err(_) if fs::symlink_metadata(path).is_ok() => Ok(false),
-        Err(error) => Err(Box::new(report_unreadable(path, &error))),
+        Err(error) => Err(report_unreadable(path, &error).into()),
     }
 }
 
@@ -78,7 +78,7 @@ fn is_free_or_same(path: &Path, digest: Digest) -> Result<bool, Box<Diagnostic>>
 fn write_new_file(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> Result<bool, Box<Diagnostic>> {
+) -> Result<bool, Failure> {
     let make = || {
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder)?;
@@ -88,7 +88,7 @@ fn write_new_file(
             written => written.map(|()| true),
         }
     };
-    make().map_err(|error| Box::new(report_unwritable(path, &error)))
+    Ok(make().map_err(|error| report_unwritable(path, &error))?)
 }
 
 /// `part.cls`, `part.1.cls`, `part.2.cls`.

@@ -2,7 +2,7 @@
 
 use super::WatchArgs;
 use crate::cli::command_outputs::report_unwritable;
-use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
 
@@ -25,14 +25,14 @@ pub struct WatchFolders {
 
 impl WatchFolders {
     /// Looks at the folders, makes those for outputs, and locks.
-    pub fn open_and_lock(watch: &WatchArgs) -> Result<Self, Vec<Diagnostic>> {
+    pub fn open_and_lock(watch: &WatchArgs) -> Result<Self, Failure> {
         let watched = fs::canonicalize(&watch.folder).map_err(|error| {
             let message = format!("{} cannot be read: {error}", watch.folder.display());
-            vec![Diagnostic::new(codes::UNREADABLE, message)]
+            Diagnostic::new(codes::UNREADABLE, message)
         })?;
         if !watched.is_dir() {
             let message = format!("{} is no folder", watch.folder.display());
-            return Err(vec![Diagnostic::new(codes::UNREADABLE, message)]);
+            return Err(Diagnostic::new(codes::UNREADABLE, message).into());
         }
         let refused = watch.refused.clone().unwrap_or_else(|| watch.out.join("refused"));
         let state = watch.state.clone().unwrap_or_else(|| watch.out.join(".clsmith-watch.jsonl"));
@@ -47,18 +47,18 @@ impl WatchFolders {
                     path.display(),
                     watched.display()
                 );
-                return Err(vec![Diagnostic::new(codes::WATCHED_FOLDERS, message)]);
+                return Err(Diagnostic::new(codes::WATCHED_FOLDERS, message).into());
             }
         }
         for folder in [&watch.out, &refused] {
-            fs::create_dir_all(folder).map_err(|error| vec![report_unwritable(folder, &error)])?;
+            fs::create_dir_all(folder).map_err(|error| report_unwritable(folder, &error))?;
         }
-        let mut locks = vec![lock_folder(&watch.out).map_err(|found| vec![*found])?];
+        let mut locks = vec![lock_folder(&watch.out)?];
         match lock_folder(&watched) {
             Ok(held) => locks.push(held),
             // A folder of exports that can only be read cannot be locked; the one for outputs is.
             Err(found) if found.code == codes::UNWRITABLE => {}
-            Err(found) => return Err(vec![*found]),
+            Err(found) => return Err(found.into()),
         }
         Ok(Self { watched, out: watch.out.clone(), refused, state, _locks: locks })
     }
@@ -75,16 +75,16 @@ fn resolve_future_path(path: &Path) -> PathBuf {
     path
 }
 
-fn lock_folder(folder: &Path) -> Result<File, Box<Diagnostic>> {
+fn lock_folder(folder: &Path) -> Result<File, Diagnostic> {
     let path = folder.join(LOCK);
     let file = File::options().write(true).create(true).truncate(false).open(&path);
-    let file = file.map_err(|error| Box::new(report_unwritable(&path, &error)))?;
+    let file = file.map_err(|error| report_unwritable(&path, &error))?;
     match file.try_lock() {
         Ok(()) => Ok(file),
         Err(TryLockError::WouldBlock) => {
             let message = format!("another watch is at work in {}", folder.display());
-            Err(Box::new(Diagnostic::new(codes::WATCHED_ALREADY, message)))
+            Err(Diagnostic::new(codes::WATCHED_ALREADY, message))
         }
-        Err(TryLockError::Error(error)) => Err(Box::new(report_unwritable(&path, &error))),
+        Err(TryLockError::Error(error)) => Err(report_unwritable(&path, &error)),
     }
 }

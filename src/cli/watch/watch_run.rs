@@ -7,11 +7,11 @@ use super::watch_state::WatchState;
 use crate::cli::command_exit::CommandExit;
 use crate::cli::command_outputs::CommandOutputs;
 use crate::cli::progress::CommandProgress;
+use crate::cli::stop::Stop;
 use crate::cli::terminal::escape_controls;
 use crate::cli::unattended::{self, RunLog, UnattendedCorrection, UnattendedOutcome};
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::fingerprint::Digest;
-use clsmith::output_files::is_interrupt;
 use clsmith::report::finding_policy::FindingPolicy;
 use clsmith::source::Source;
 use std::collections::{BTreeMap, BTreeSet};
@@ -54,9 +54,6 @@ pub enum ExportStatus {
     Failed { next: Instant, pause: Duration, message: String },
 }
 
-/// What a file that was taken waits for, or what stands in the way around it.
-pub type TakenExport = Result<ExportStatus, Vec<Diagnostic>>;
-
 impl<'w> WatchRun<'w> {
     pub fn new(
         watch: &'w WatchArgs,
@@ -71,7 +68,7 @@ impl<'w> WatchRun<'w> {
     }
 
     /// Watches, until Ctrl-C; with `--once` until what is there is done.
-    pub fn watch_folder(mut self) -> io::Result<CommandExit> {
+    pub fn watch_folder(mut self) -> Result<CommandExit, Stop> {
         let begun = Instant::now();
         let pause = if self.watch.once { self.watch.poll.min(self.watch.settle) } else { self.watch.poll };
         let mut first: Option<BTreeSet<PathBuf>> = None;
@@ -88,13 +85,10 @@ impl<'w> WatchRun<'w> {
             // Exports come in the order of their names.
             self.seen.retain(|name, _| exports.binary_search_by(|export| export.name.cmp(name)).is_ok());
             for export in &exports {
-                match self.take_settled(export) {
-                    Err(error) if is_interrupt(&error) => return Ok(CommandExit::Interrupted),
-                    done => done?,
-                }
+                self.take_settled(export)?;
                 // Ctrl-C while an output was written is only remembered, and may come when all is written.
                 if self.outputs.interrupt().is_raised() {
-                    return Ok(CommandExit::Interrupted);
+                    return Err(Stop::Interrupted);
                 }
             }
             if self.watch.once && self.is_once_finished(begun)? {
@@ -126,7 +120,7 @@ impl<'w> WatchRun<'w> {
     }
 
     /// Takes a file if it has come to rest.
-    fn take_settled(&mut self, export: &ExportedFile) -> io::Result<()> {
+    fn take_settled(&mut self, export: &ExportedFile) -> Result<(), Stop> {
         let now = Instant::now();
         let status = match self.seen.get(&export.name) {
             Some(seen) if seen.stamp == export.stamp => seen.status.clone(),
@@ -142,10 +136,9 @@ impl<'w> WatchRun<'w> {
             ExportStatus::Settling(_) => self.watch.poll,
             ExportStatus::Failed { pause, .. } => (*pause * 2).min(LONGEST_PAUSE),
         };
-        let taken = self.take_export(export)?;
-        let after = match taken {
+        let after = match self.take_export(export) {
             Ok(after) => after,
-            Err(found) => {
+            Err(Stop::Found { findings: found, .. }) => {
                 self.worst = self.worst.max(CommandExit::Errors);
                 let message: String = found.iter().map(|found| found.message.as_str()).collect();
                 if !matches!(&status, ExportStatus::Failed { message: before, .. } if *before == message) {
@@ -154,6 +147,7 @@ impl<'w> WatchRun<'w> {
                 }
                 ExportStatus::Failed { next: Instant::now() + pause, pause, message }
             }
+            Err(stop) => return Err(stop),
         };
         self.set_status(export, after);
         Ok(())
@@ -164,8 +158,8 @@ impl<'w> WatchRun<'w> {
     }
 
     /// Reads, corrects and writes one file; what it then waits for, or what stands around it that is in the way.
-    fn take_export(&mut self, export: &ExportedFile) -> io::Result<TakenExport> {
-        let changed = || Ok(Ok(ExportStatus::Settling(Instant::now())));
+    fn take_export(&mut self, export: &ExportedFile) -> Result<ExportStatus, Stop> {
+        let changed = || Ok(ExportStatus::Settling(Instant::now()));
         let fits = export.stamp.size < u64::from(u32::MAX);
         let read = || -> io::Result<_> {
             let bytes = if fits { Some(fs::read(&export.path)?) } else { None };
@@ -181,13 +175,13 @@ impl<'w> WatchRun<'w> {
             Ok(read) => read,
             // Taken away again.
             Err(error) if error.kind() == io::ErrorKind::NotFound => return changed(),
-            Err(error) => return Ok(Err(vec![report_unreadable(&export.path, &error)])),
+            Err(error) => return Err(report_unreadable(&export.path, &error).into()),
         };
         if !rests {
             return changed();
         }
         if is_done {
-            return Ok(Ok(ExportStatus::Done));
+            return Ok(ExportStatus::Done);
         }
         let when = (unattended::utc_now(), Instant::now());
         let name = export.path.to_string_lossy().into_owned();
@@ -202,8 +196,11 @@ impl<'w> WatchRun<'w> {
             }
         };
         self.progress.clear_bar();
+        if correction.outcome == UnattendedOutcome::Stopped {
+            return Err(Stop::Interrupted);
+        }
         if correction.surroundings {
-            return Ok(Err(correction.findings));
+            return Err(correction.findings.into());
         }
         // A new export while we worked: the one that was read is of no use to anybody.
         if ExportStamp::read_stamp(&export.path).ok() != Some(export.stamp) {
@@ -225,7 +222,7 @@ impl<'w> WatchRun<'w> {
             Ok(chooser) => {
                 unattended::correct_unattended(args, &chooser, self.policy, self.progress, &file, source)
             }
-            Err(found) => UnattendedCorrection::without_recipe(found),
+            Err(failure) => UnattendedCorrection::without_recipe(failure.into_findings()),
         }
     }
 

@@ -5,7 +5,7 @@
 
 use crate::cli::command_outputs::report_unwritable;
 use crate::cli::unattended::{UnattendedOutcome, utc_now};
-use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::fingerprint::Digest;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -41,13 +41,13 @@ pub struct WatchState {
 
 impl WatchState {
     /// Reads what was done before. Also tells how many lines could not be read.
-    pub fn open(path: &Path) -> Result<(Self, usize), Box<Diagnostic>> {
+    pub fn open(path: &Path) -> Result<(Self, usize), Failure> {
         let bytes = match fs::read(path) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
             Err(error) => {
                 let message = format!("{} cannot be read: {error}", path.display());
-                return Err(Box::new(Diagnostic::new(codes::UNREADABLE, message)));
+                return Err(Diagnostic::new(codes::UNREADABLE, message).into());
             }
         };
         let (mut done, mut bad) = (BTreeMap::new(), 0);
@@ -64,7 +64,7 @@ impl WatchState {
             }
             Ok(file)
         };
-        let file = open().map_err(|error: io::Error| Box::new(report_unwritable(path, &error)))?;
+        let file = open().map_err(|error: io::Error| report_unwritable(path, &error))?;
         Ok((Self { path: path.to_path_buf(), file, done }, bad))
     }
 
@@ -79,7 +79,7 @@ impl WatchState {
         name: &Path,
         digest: Digest,
         outcome: UnattendedOutcome,
-    ) -> Result<(), Box<Diagnostic>> {
+    ) -> Result<(), Diagnostic> {
         let key = encode_name(name);
         let line = WatchStateLine { version: 1, time: utc_now(), path: &key, sha256: digest, outcome };
         let written = serde_json::to_vec(&line).map_err(io::Error::from).and_then(|mut line| {
@@ -88,7 +88,7 @@ impl WatchState {
             self.file.sync_data()
         });
         self.done.insert(key, digest);
-        written.map_err(|error| Box::new(report_unwritable(&self.path, &error)))
+        written.map_err(|error| report_unwritable(&self.path, &error))
     }
 }
 

@@ -1,6 +1,6 @@
 //! This module runs a program over the layers of its stock.
 
-use super::flat_mills::to_flat_mill;
+use super::flat_mills::{NotFlat, to_flat_mill};
 use super::stock_reach::can_reach_stock;
 use super::{LayerRunOptions, LayerRunResult, MotionChips, UncutReason};
 use crate::diagnostic::{Diagnostic, Failure, codes};
@@ -106,14 +106,14 @@ struct LayerRunner<'r> {
 
 /// A tool that is not a flat end mill, with the number of its motions and the statement of the first one.
 struct UnsuitableTool {
-    has: String,
+    has: NotFlat,
     motions: usize,
     first: Option<usize>,
 }
 
 impl<'r> LayerRunner<'r> {
     fn new(machining: &'r Machining<'_>, options: &'r LayerRunOptions, stack: LayerStack) -> Self {
-        let other = |has: String| UnsuitableTool { has, motions: 0, first: None };
+        let other = |has: NotFlat| UnsuitableTool { has, motions: 0, first: None };
         let mills =
             machining.tooling.cutters().iter().map(|cutter| to_flat_mill(cutter).map_err(other)).collect();
         Self {

@@ -1,6 +1,7 @@
 //! What a pattern bound in a statement.
 
 use super::expression_value::{ExpressionValue, parse_value};
+use super::rule_fault::RuleFault;
 use std::ops::Range;
 
 /// A name that a pattern binds.
@@ -61,8 +62,8 @@ impl<'t> Bindings<'t> {
     }
 }
 
-/// What is said about a name that no argument is bound to.
-pub(super) fn unbound_message(name: &str, names: &[BoundName], usual: &str) -> String {
+/// Tells that no argument is bound to a name.
+pub(super) fn unbound_name(name: &str, names: &[BoundName], usual: &str) -> RuleFault {
     let known: Vec<String> = names
         .iter()
         .map(|name| if name.rest { format!("$...{}", name.text) } else { format!("${}", name.text) })
@@ -77,5 +78,5 @@ pub(super) fn unbound_message(name: &str, names: &[BoundName], usual: &str) -> S
         Some(known) => format!("Where letters follow a name, write ${{{}}}.", known.text),
         None => usual.to_owned(),
     };
-    format!("`{name}` is not bound by `match`\n{}", format!("{bound} {help}").trim_end())
+    RuleFault::new(format!("`{name}` is not bound by `match`"), format!("{bound} {help}").trim_end())
 }

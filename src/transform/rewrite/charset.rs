@@ -2,6 +2,11 @@
 
 use crate::program::Program;
 
+/// A letter of the recipe that the character set of a file does not have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("the file is not written in UTF-8, and `{0}` does not exist in its 8-bit code page")]
+pub(super) struct MissingLetter(char);
+
 /// The character set of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Charset {
@@ -23,19 +28,13 @@ impl Charset {
     /// A text of the recipe as it stands in such a file.
     ///
     /// # Errors
-    /// A message when the file cannot hold one of its letters.
-    pub fn encode(self, text: &str) -> Result<Vec<u8>, String> {
+    /// Returns the first letter that the file cannot hold.
+    pub fn encode(self, text: &str) -> Result<Vec<u8>, MissingLetter> {
         if self == Self::Utf8 {
             return Ok(text.as_bytes().to_vec());
         }
         text.chars()
-            .map(|c| {
-                u8::try_from(u32::from(c)).map_err(|_| {
-                    format!(
-                        "the file is not written in UTF-8, and `{c}` does not exist in its 8-bit code page"
-                    )
-                })
-            })
+            .map(|letter| u8::try_from(u32::from(letter)).map_err(|_| MissingLetter(letter)))
             .collect()
     }
 }

@@ -1,7 +1,9 @@
 //! Expressions of `if` and `${...}`: their types, checked when the recipe is read, and their values.
 
-use super::bindings::{Bindings, BoundName, unbound_message};
+use super::bindings::{self, Bindings, BoundName};
+use super::charset::MissingLetter;
 use super::expression_value::{ExpressionValue, fold_word};
+use super::rule_fault::RuleFault;
 use std::ops::Range;
 
 /// An expression on bound numbers and words.
@@ -57,12 +59,18 @@ pub(super) struct EvaluationError {
     pub at: Option<Range<usize>>,
 }
 
+impl From<MissingLetter> for EvaluationError {
+    fn from(letter: MissingLetter) -> Self {
+        Self { message: letter.to_string(), at: None }
+    }
+}
+
 impl Expression {
     /// Its kind, if it can have a value at all. Names are checked apart.
     ///
     /// # Errors
-    /// A message, with help after a line break.
-    pub fn kind(&self) -> Result<ExpressionKind, String> {
+    /// Returns what is wrong with the text.
+    pub fn kind(&self) -> Result<ExpressionKind, RuleFault> {
         Ok(match self {
             Self::Number(_) => ExpressionKind::Number,
             Self::Word(_) => ExpressionKind::Word,
@@ -105,12 +113,15 @@ impl Expression {
     /// Checks that every name is bound to one argument.
     ///
     /// # Errors
-    /// A message, with help after a line break.
-    pub fn check_names(&self, names: &[BoundName]) -> Result<(), String> {
+    /// Returns what is wrong with the text.
+    pub fn check_names(&self, names: &[BoundName]) -> Result<(), RuleFault> {
         self.names().into_iter().try_for_each(|name| match names.iter().find(|known| known.text == *name) {
-            None => Err(unbound_message(name, names, "A word to compare with stands in quotes: 'MMPM'.")),
-            Some(known) if known.rest => Err(format!(
-                "`$...{name}` is not one value but several arguments\nBind the one that is meant: $NAME."
+            None => {
+                Err(bindings::unbound_name(name, names, "A word to compare with stands in quotes: 'MMPM'."))
+            }
+            Some(known) if known.rest => Err(RuleFault::new(
+                format!("`$...{name}` is not one value but several arguments"),
+                "Bind the one that is meant: $NAME.",
             )),
             Some(_) => Ok(()),
         })
@@ -229,35 +240,39 @@ impl ExpressionOperator {
     }
 }
 
-fn require_truth(value: &Expression, sign: &str) -> Result<(), String> {
+fn require_truth(value: &Expression, sign: &str) -> Result<(), RuleFault> {
     match value.kind()? {
         ExpressionKind::Truth => Ok(()),
         _ => {
             let left = if sign == "not" { "" } else { "$F > 1000 " };
-            Err(format!("`{sign}` stands with comparisons only\nFor example: {left}{sign} $U == 'MMPM'."))
+            let message = format!("`{sign}` stands with comparisons only");
+            Err(RuleFault::new(message, format!("For example: {left}{sign} $U == 'MMPM'.")))
         }
     }
 }
 
-fn require_number(value: &Expression, sign: &str) -> Result<(), String> {
+fn require_number(value: &Expression, sign: &str) -> Result<(), RuleFault> {
     match value.kind()? {
         ExpressionKind::Number | ExpressionKind::Argument => Ok(()),
         ExpressionKind::Word => {
-            Err(format!("`{sign}` stands with numbers only\nWords are compared by == and !=."))
+            let message = format!("`{sign}` stands with numbers only");
+            Err(RuleFault::new(message, "Words are compared by == and !=."))
         }
         ExpressionKind::Truth => {
-            Err(format!("`{sign}` stands with numbers, not with a comparison\nJoin comparisons by `and`."))
+            let message = format!("`{sign}` stands with numbers, not with a comparison");
+            Err(RuleFault::new(message, "Join comparisons by `and`."))
         }
     }
 }
 
-fn require_comparable(left: ExpressionKind, right: ExpressionKind) -> Result<(), String> {
+fn require_comparable(left: ExpressionKind, right: ExpressionKind) -> Result<(), RuleFault> {
     match (left, right) {
         (ExpressionKind::Truth, _) | (_, ExpressionKind::Truth) => {
-            Err("`==` and `!=` compare numbers or words\nJoin comparisons by `and` or `or`.".to_owned())
+            let message = "`==` and `!=` compare numbers or words";
+            Err(RuleFault::new(message, "Join comparisons by `and` or `or`."))
         }
         (ExpressionKind::Number, ExpressionKind::Word) | (ExpressionKind::Word, ExpressionKind::Number) => {
-            Err("a number never equals a word\nA number stands without quotes.".to_owned())
+            Err(RuleFault::new("a number never equals a word", "A number stands without quotes."))
         }
         _ => Ok(()),
     }

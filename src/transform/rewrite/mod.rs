@@ -8,6 +8,7 @@ mod pattern;
 mod reshape;
 mod rewrite_run;
 mod rule;
+mod rule_fault;
 mod rule_matching;
 mod rule_subject;
 mod rule_text;
@@ -16,6 +17,7 @@ mod template;
 mod wildcards;
 
 pub use rule::RewriteRule;
+pub use rule_fault::RuleFault;
 
 use super::statement_selection::{StatementSelection, report_nothing_selected};
 use super::{StepContext, Transform};

@@ -4,6 +4,7 @@
 
 use super::bindings::{Bindings, BoundName};
 use super::charset::Charset;
+use super::rule_fault::RuleFault;
 use super::rule_subject::{RuleSubject, SubjectClass};
 use super::rule_text::{RuleTextPart, parse_rule_text, quote_text};
 use super::wildcards::{self, MARK, Wildcard, WildcardPattern};
@@ -36,8 +37,8 @@ impl StatementPattern {
     /// Reads a pattern.
     ///
     /// # Errors
-    /// A message, with help after a line break.
-    pub fn new(text: &str) -> Result<Self, String> {
+    /// Returns what is wrong with the text.
+    pub fn new(text: &str) -> Result<Self, RuleFault> {
         Self::compile(text, Charset::Utf8)
     }
 
@@ -57,20 +58,24 @@ impl StatementPattern {
         &self.names
     }
 
-    fn compile(text: &str, charset: Charset) -> Result<Self, String> {
+    fn compile(text: &str, charset: Charset) -> Result<Self, RuleFault> {
         let mut marked = Vec::new();
         let mut holes = Vec::new();
         for piece in parse_rule_text(text)? {
             let hole = match piece {
                 RuleTextPart::Plain(plain) => {
-                    marked.extend(charset.encode(&plain)?);
+                    marked.extend(
+                        charset
+                            .encode(&plain)
+                            .map_err(|letter| RuleFault::without_help(letter.to_string()))?,
+                    );
                     continue;
                 }
                 RuleTextPart::Bound(name) => Wildcard { name: Some(name), rest: false },
                 RuleTextPart::Rest(name) => Wildcard { name, rest: true },
                 RuleTextPart::Computed(_) => {
                     let help = "Write `$NAME` here, and the condition in `if`.";
-                    return Err(format!("a pattern binds arguments, it does not compute\n{help}"));
+                    return Err(RuleFault::new("a pattern binds arguments, it does not compute", help));
                 }
             };
             marked.extend_from_slice(format!("\u{7F}{}\u{7F}", holes.len()).as_bytes());
@@ -81,15 +86,16 @@ impl StatementPattern {
         let is_bare = number::parse_number(first.trim_ascii()).is_some();
         if subject.class == SubjectClass::Other || is_bare || !subject.is_whole(&marked) {
             let help = "A pattern is one statement as it stands in the file, with $NAME for arguments.";
-            return Err(format!("{} is no CL statement that a rule can match\n{help}", quote_text(text)));
+            let message = format!("{} is no CL statement that a rule can match", quote_text(text));
+            return Err(RuleFault::new(message, help));
         }
         if subject.remark.is_some() && subject.class != SubjectClass::Comment {
             let help = "Leave the comment out; statements match with and without one.";
-            return Err(format!("a comment behind a statement is not matched\n{help}"));
+            return Err(RuleFault::new("a comment behind a statement is not matched", help));
         }
         let word = WildcardPattern::compile(subject.bytes_at(&subject.word), &holes)?;
         if word.has_rest() {
-            return Err("`$...` stands for arguments, not for a word\nWrite `$WORD/$...`.".to_owned());
+            return Err(RuleFault::new("`$...` stands for arguments, not for a word", "Write `$WORD/$...`."));
         }
         let slots = compile_arguments(&subject, &subject.fields, &holes)?;
         Ok(Self { text: text.to_owned(), class: subject.class, word, slots, names: collect_names(&holes)? })
@@ -123,7 +129,7 @@ fn compile_arguments(
     subject: &RuleSubject<'_>,
     fields: &[StatementField],
     holes: &[Wildcard],
-) -> Result<Vec<ArgumentPattern>, String> {
+) -> Result<Vec<ArgumentPattern>, RuleFault> {
     let slots: Vec<ArgumentPattern> =
         fields.iter().map(|field| compile_argument(subject, field, holes)).collect::<Result<_, _>>()?;
     let takes_all = |slot: &ArgumentPattern| match slot {
@@ -132,7 +138,7 @@ fn compile_arguments(
         _ => false,
     };
     match slots.iter().rev().skip(1).any(takes_all) {
-        true => Err(wildcards::rest_not_last_message()),
+        true => Err(wildcards::rest_not_last()),
         false => Ok(slots),
     }
 }
@@ -141,14 +147,14 @@ fn compile_argument(
     subject: &RuleSubject<'_>,
     field: &StatementField,
     holes: &[Wildcard],
-) -> Result<ArgumentPattern, String> {
+) -> Result<ArgumentPattern, RuleFault> {
     let bytes = subject.bytes_at(&field.at);
     Ok(match &field.kind {
         FieldKind::Empty => ArgumentPattern::Empty,
         FieldKind::Number(value) => ArgumentPattern::Number(*value),
         FieldKind::Quoted if bytes.contains(&MARK) => {
             let help = "Write `$NAME` without quotes for the whole argument; it is bound with its quotes.";
-            return Err(format!("`$` between quotes is text, so it binds nothing\n{help}"));
+            return Err(RuleFault::new("`$` between quotes is text, so it binds nothing", help));
         }
         FieldKind::Quoted => ArgumentPattern::Quoted(bytes.to_vec()),
         FieldKind::Text => {
@@ -162,22 +168,21 @@ fn compile_argument(
         FieldKind::Group(group) => {
             let word = WildcardPattern::compile(subject.bytes_at(&group.word), holes)?;
             if word.has_rest() {
-                return Err(wildcards::rest_not_last_message());
+                return Err(wildcards::rest_not_last());
             }
             ArgumentPattern::Group(word, compile_arguments(subject, &group.fields, holes)?)
         }
     })
 }
 
-fn collect_names(holes: &[Wildcard]) -> Result<Vec<BoundName>, String> {
+fn collect_names(holes: &[Wildcard]) -> Result<Vec<BoundName>, RuleFault> {
     let mut names: Vec<BoundName> = Vec::new();
     for hole in holes {
         let Some(text) = hole.name.as_deref().filter(|name| *name != "_") else { continue };
         match names.iter().find(|name| name.text == text) {
             Some(known) if known.rest != hole.rest => {
-                return Err(format!(
-                    "`${text}` and `$...{text}` cannot both be bound\nGive one of them another name."
-                ));
+                let message = format!("`${text}` and `$...{text}` cannot both be bound");
+                return Err(RuleFault::new(message, "Give one of them another name."));
             }
             Some(_) => {}
             None => names.push(BoundName { text: text.to_owned(), rest: hole.rest }),

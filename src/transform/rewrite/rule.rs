@@ -3,6 +3,7 @@
 use super::bindings::BoundName;
 use super::expression::{Expression, ExpressionKind};
 use super::pattern::StatementPattern;
+use super::rule_fault::RuleFault;
 use super::rule_text::parse_condition;
 use super::template::StatementTemplate;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -40,7 +41,7 @@ impl RewriteRule {
     ///
     /// # Errors
     /// What is wrong with one of the texts; the same as a recipe is told.
-    pub fn replacing(matched: &str, with: &str) -> Result<Self, String> {
+    pub fn replacing(matched: &str, with: &str) -> Result<Self, RuleFault> {
         let replace = Some(StatementTemplate::new(with)?);
         Self { replace, ..Self::matching(matched)? }.check_names()
     }
@@ -49,7 +50,7 @@ impl RewriteRule {
     ///
     /// # Errors
     /// As [`RewriteRule::replacing`].
-    pub fn deleting(matched: &str) -> Result<Self, String> {
+    pub fn deleting(matched: &str) -> Result<Self, RuleFault> {
         Ok(Self { delete: true, ..Self::matching(matched)? })
     }
 
@@ -57,7 +58,7 @@ impl RewriteRule {
     ///
     /// # Errors
     /// As [`RewriteRule::replacing`].
-    pub fn inserting_before(matched: &str, statement: &str) -> Result<Self, String> {
+    pub fn inserting_before(matched: &str, statement: &str) -> Result<Self, RuleFault> {
         let insert_before = vec![StatementTemplate::new(statement)?];
         Self { insert_before, ..Self::matching(matched)? }.check_names()
     }
@@ -66,7 +67,7 @@ impl RewriteRule {
     ///
     /// # Errors
     /// As [`RewriteRule::replacing`].
-    pub fn inserting_after(matched: &str, statement: &str) -> Result<Self, String> {
+    pub fn inserting_after(matched: &str, statement: &str) -> Result<Self, RuleFault> {
         let insert_after = vec![StatementTemplate::new(statement)?];
         Self { insert_after, ..Self::matching(matched)? }.check_names()
     }
@@ -75,19 +76,19 @@ impl RewriteRule {
     ///
     /// # Errors
     /// As [`RewriteRule::replacing`].
-    pub fn only_if(self, condition: &str) -> Result<Self, String> {
+    pub fn only_if(self, condition: &str) -> Result<Self, RuleFault> {
         let condition = read_condition(condition)?;
         condition.0.check_names(self.r#match.names())?;
         Ok(Self { r#if: Some(condition), ..self })
     }
 
-    fn matching(matched: &str) -> Result<Self, String> {
+    fn matching(matched: &str) -> Result<Self, RuleFault> {
         let r#match = StatementPattern::new(matched)?;
         let (insert_before, insert_after) = (Vec::new(), Vec::new());
         Ok(Self { r#match, r#if: None, replace: None, delete: false, insert_before, insert_after })
     }
 
-    fn check_names(self) -> Result<Self, String> {
+    fn check_names(self) -> Result<Self, RuleFault> {
         let mut templates = self.replace.iter().chain(&self.insert_before).chain(&self.insert_after);
         templates.try_for_each(|template| template.check_names(self.r#match.names()))?;
         Ok(self)
@@ -134,22 +135,22 @@ struct RuleDraft {
 }
 
 impl RuleDraft {
-    fn check_condition(&self, condition: &RuleCondition) -> Result<(), String> {
+    fn check_condition(&self, condition: &RuleCondition) -> Result<(), RuleFault> {
         self.pattern_names().map_or(Ok(()), |names| condition.0.check_names(names))
     }
 
-    fn check_template(&self, template: &StatementTemplate) -> Result<(), String> {
+    fn check_template(&self, template: &StatementTemplate) -> Result<(), RuleFault> {
         self.pattern_names().map_or(Ok(()), |names| template.check_names(names))
     }
 
-    fn check_replace(&self, template: &StatementTemplate) -> Result<(), String> {
+    fn check_replace(&self, template: &StatementTemplate) -> Result<(), RuleFault> {
         match self.delete {
-            true => Err(BOTH.to_owned()),
+            true => Err(replaced_and_deleted()),
             false => self.check_template(template),
         }
     }
 
-    fn check_pattern(&self, pattern: &StatementPattern) -> Result<(), String> {
+    fn check_pattern(&self, pattern: &StatementPattern) -> Result<(), RuleFault> {
         let mut templates = self.replace.iter().chain(&self.before).chain(&self.after);
         templates.try_for_each(|template| template.check_names(pattern.names()))?;
         self.condition.iter().try_for_each(|condition| condition.0.check_names(pattern.names()))
@@ -160,9 +161,9 @@ impl RuleDraft {
     }
 }
 
-const BOTH: &str = "a statement cannot be replaced and deleted\nKeep one of the two.";
-const NO_ACTION: &str =
-    "the rule does nothing\nAdd `replace: …`, `delete: true`, `insert_before: …` or `insert_after: …`.";
+fn replaced_and_deleted() -> RuleFault {
+    RuleFault::new("a statement cannot be replaced and deleted", "Keep one of the two.")
+}
 
 struct RuleVisitor;
 
@@ -216,7 +217,8 @@ impl<'de> Visitor<'de> for RuleVisitor {
         }
         let pattern = draft.pattern.ok_or_else(|| A::Error::missing_field("match"))?;
         if !acts {
-            return Err(A::Error::custom(NO_ACTION));
+            let help = "Add `replace: …`, `delete: true`, `insert_before: …` or `insert_after: …`.";
+            return Err(A::Error::custom(RuleFault::new("the rule does nothing", help)));
         }
         Ok(RewriteRule {
             r#match: pattern,
@@ -229,11 +231,14 @@ impl<'de> Visitor<'de> for RuleVisitor {
     }
 }
 
-fn read_condition(text: &str) -> Result<RuleCondition, String> {
+fn read_condition(text: &str) -> Result<RuleCondition, RuleFault> {
     let expression = parse_condition(text)?;
     match expression.kind()? {
         ExpressionKind::Truth => Ok(RuleCondition(expression)),
-        _ => Err(format!("`{text}` is neither true nor false\nCompare it: {text} > 0.")),
+        _ => Err(RuleFault::new(
+            format!("`{text}` is neither true nor false"),
+            format!("Compare it: {text} > 0."),
+        )),
     }
 }
 
@@ -245,8 +250,8 @@ struct CheckedTextSeed<R, C> {
 
 impl<'de, T, R, C> DeserializeSeed<'de> for CheckedTextSeed<R, C>
 where
-    R: Fn(&str) -> Result<T, String>,
-    C: Fn(&T) -> Result<(), String>,
+    R: Fn(&str) -> Result<T, RuleFault>,
+    C: Fn(&T) -> Result<(), RuleFault>,
 {
     type Value = T;
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<T, D::Error> {
@@ -265,7 +270,7 @@ impl<'de> DeserializeSeed<'de> for DeleteSeed {
     type Value = bool;
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<bool, D::Error> {
         match bool::deserialize(deserializer)? {
-            true if self.replaces => Err(D::Error::custom(BOTH)),
+            true if self.replaces => Err(D::Error::custom(replaced_and_deleted())),
             delete => Ok(delete),
         }
     }
@@ -304,7 +309,7 @@ impl<'de> Visitor<'de> for TemplateListSeed<'_> {
             templates.push(template);
         }
         if templates.is_empty() {
-            return Err(A::Error::custom("an empty list inserts nothing\nRemove the key."));
+            return Err(A::Error::custom(RuleFault::new("an empty list inserts nothing", "Remove the key.")));
         }
         Ok(templates)
     }

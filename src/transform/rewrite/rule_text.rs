@@ -1,6 +1,7 @@
 //! Texts of a rule taken apart at their `$`: the only place of `rewrite` that knows pest.
 
 use super::expression::{Expression, ExpressionOperator};
+use super::rule_fault::RuleFault;
 use pest::Parser;
 use pest::iterators::{Pair, Pairs};
 use pest::pratt_parser::{Assoc, Op, PrattParser};
@@ -30,18 +31,24 @@ pub(super) enum RuleTextPart {
 /// The pieces of a pattern or template.
 ///
 /// # Errors
-/// A message, with help after a line break.
-pub(super) fn parse_rule_text(text: &str) -> Result<Vec<RuleTextPart>, String> {
+/// Returns what is wrong with the text.
+pub(super) fn parse_rule_text(text: &str) -> Result<Vec<RuleTextPart>, RuleFault> {
     let text = text.trim_end_matches(['\r', '\n']);
     check_text_size(text)?;
     if text.trim().is_empty() {
-        return Err("an empty text is no statement\nWrite a statement as it stands in the file.".to_owned());
+        return Err(RuleFault::new(
+            "an empty text is no statement",
+            "Write a statement as it stands in the file.",
+        ));
     }
     if text.chars().any(|c| c.is_control() && !matches!(c, '\t' | '\r' | '\n')) {
-        return Err("the text holds a control character\nCL statements are plain text; remove it.".to_owned());
+        return Err(RuleFault::new(
+            "the text holds a control character",
+            "CL statements are plain text; remove it.",
+        ));
     }
     let mut parsed = RewriteGrammar::parse(Rule::text, text)
-        .map_err(|error| syntax_error_message(text, &error, TEXT_HELP))?;
+        .map_err(|error| explain_syntax_error(text, &error, TEXT_HELP))?;
     let inner = parsed.next().map(Pair::into_inner).into_iter().flatten();
     inner.filter(|pair| pair.as_rule() != Rule::EOI).map(parse_text_part).collect()
 }
@@ -49,19 +56,22 @@ pub(super) fn parse_rule_text(text: &str) -> Result<Vec<RuleTextPart>, String> {
 /// The expression of an `if`.
 ///
 /// # Errors
-/// A message, with help after a line break.
-pub(super) fn parse_condition(text: &str) -> Result<Expression, String> {
+/// Returns what is wrong with the text.
+pub(super) fn parse_condition(text: &str) -> Result<Expression, RuleFault> {
     check_text_size(text)?;
     let parsed = RewriteGrammar::parse(Rule::condition, text)
-        .map_err(|error| syntax_error_message(text, &error, CONDITION_HELP))?;
+        .map_err(|error| explain_syntax_error(text, &error, CONDITION_HELP))?;
     let inner = parsed.flat_map(Pair::into_inner).find(|pair| pair.as_rule() == Rule::expression);
-    parse_expression(inner.map(Pair::into_inner).ok_or("there is no expression")?)
+    parse_expression(
+        inner.map(Pair::into_inner).ok_or_else(|| RuleFault::without_help("there is no expression"))?,
+    )
 }
 
-fn check_text_size(text: &str) -> Result<(), String> {
+fn check_text_size(text: &str) -> Result<(), RuleFault> {
     if text.len() > MOST_BYTES {
         let help = "Statements are a few lines at most; give several as a list.";
-        return Err(format!("the text has {} bytes; {MOST_BYTES} are the most\n{help}", text.len()));
+        let message = format!("the text has {} bytes; {MOST_BYTES} are the most", text.len());
+        return Err(RuleFault::new(message, help));
     }
     let mut open = 0_usize;
     for c in text.chars() {
@@ -71,7 +81,8 @@ fn check_text_size(text: &str) -> Result<(), String> {
             _ => {}
         }
         if open > MOST_NESTED {
-            return Err(format!("more than {MOST_NESTED} parentheses are open at once\nIs one not closed?"));
+            let message = format!("more than {MOST_NESTED} parentheses are open at once");
+            return Err(RuleFault::new(message, "Is one not closed?"));
         }
     }
     Ok(())
@@ -91,7 +102,7 @@ pub(super) fn quote_text(text: &str) -> String {
     format!("`{line}{more}`")
 }
 
-fn syntax_error_message(text: &str, error: &pest::error::Error<Rule>, usual: &str) -> String {
+fn explain_syntax_error(text: &str, error: &pest::error::Error<Rule>, usual: &str) -> RuleFault {
     let at = match error.location {
         pest::error::InputLocation::Pos(at) | pest::error::InputLocation::Span((at, _)) => at,
     };
@@ -103,13 +114,14 @@ fn syntax_error_message(text: &str, error: &pest::error::Error<Rule>, usual: &st
     } else {
         usual
     };
-    match rest {
-        "" => format!("{} ends too early\n{help}", quote_text(text)),
-        rest => format!("{} cannot be read from {} on\n{help}", quote_text(text), quote_text(rest)),
-    }
+    let message = match rest {
+        "" => format!("{} ends too early", quote_text(text)),
+        rest => format!("{} cannot be read from {} on", quote_text(text), quote_text(rest)),
+    };
+    RuleFault::new(message, help)
 }
 
-fn parse_text_part(pair: Pair<'_, Rule>) -> Result<RuleTextPart, String> {
+fn parse_text_part(pair: Pair<'_, Rule>) -> Result<RuleTextPart, RuleFault> {
     let plain = pair.as_str().to_owned();
     let rule = pair.as_rule();
     let mut inner = pair.into_inner();
@@ -119,7 +131,9 @@ fn parse_text_part(pair: Pair<'_, Rule>) -> Result<RuleTextPart, String> {
         Rule::rest => RuleTextPart::Rest(name(inner.next())),
         Rule::computed => {
             let inner = inner.find(|pair| pair.as_rule() == Rule::expression);
-            RuleTextPart::Computed(parse_expression(inner.map(Pair::into_inner).ok_or("`${}` is empty")?)?)
+            RuleTextPart::Computed(parse_expression(
+                inner.map(Pair::into_inner).ok_or_else(|| RuleFault::without_help("`${}` is empty"))?,
+            )?)
         }
         _ => RuleTextPart::Plain(plain),
     })
@@ -142,7 +156,7 @@ static PRECEDENCE: LazyLock<PrattParser<Rule>> = LazyLock::new(|| {
         .op(Op::prefix(Rule::minus))
 });
 
-fn parse_expression(pairs: Pairs<'_, Rule>) -> Result<Expression, String> {
+fn parse_expression(pairs: Pairs<'_, Rule>) -> Result<Expression, RuleFault> {
     PRECEDENCE
         .map_primary(parse_operand)
         .map_prefix(|operator, value| {
@@ -158,12 +172,12 @@ fn parse_expression(pairs: Pairs<'_, Rule>) -> Result<Expression, String> {
         .parse(pairs)
 }
 
-fn parse_operand(pair: Pair<'_, Rule>) -> Result<Expression, String> {
+fn parse_operand(pair: Pair<'_, Rule>) -> Result<Expression, RuleFault> {
     let text = pair.as_str();
     match pair.as_rule() {
         Rule::number => match text.parse::<f64>().ok().filter(|value| value.is_finite()) {
             Some(value) => Ok(Expression::Number(value)),
-            None => Err(format!("`{text}` is not a number")),
+            None => Err(RuleFault::without_help(format!("`{text}` is not a number"))),
         },
         Rule::word => Ok(Expression::Word(text.trim_matches('\'').to_owned())),
         Rule::variable => Ok(Expression::Name(text.trim_start_matches('$').to_owned())),
@@ -171,7 +185,7 @@ fn parse_operand(pair: Pair<'_, Rule>) -> Result<Expression, String> {
     }
 }
 
-fn parse_operator(rule: Rule) -> Result<ExpressionOperator, String> {
+fn parse_operator(rule: Rule) -> Result<ExpressionOperator, RuleFault> {
     Ok(match rule {
         Rule::or => ExpressionOperator::Or,
         Rule::and => ExpressionOperator::And,
@@ -185,6 +199,6 @@ fn parse_operator(rule: Rule) -> Result<ExpressionOperator, String> {
         Rule::subtract => ExpressionOperator::Subtract,
         Rule::multiply => ExpressionOperator::Multiply,
         Rule::divide => ExpressionOperator::Divide,
-        other => return Err(format!("{other:?} is no operator")),
+        other => return Err(RuleFault::without_help(format!("{other:?} is no operator"))),
     })
 }

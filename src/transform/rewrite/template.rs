@@ -1,9 +1,10 @@
 //! What a rule writes: a statement with `$NAME` and `${...}` in it.
 
-use super::bindings::{Bindings, BoundName, unbound_message};
+use super::bindings::{Bindings, BoundName, unbound_name};
 use super::charset::Charset;
 use super::expression::{EvaluationError, Expression, ExpressionKind};
 use super::expression_value::ExpressionValue;
+use super::rule_fault::RuleFault;
 use super::rule_subject::{RuleSubject, SubjectClass};
 use super::rule_text::{RuleTextPart, parse_rule_text, quote_text};
 use crate::parse;
@@ -35,8 +36,8 @@ impl StatementTemplate {
     /// Reads a template.
     ///
     /// # Errors
-    /// A message, with help after a line break.
-    pub fn new(text: &str) -> Result<Self, String> {
+    /// Returns what is wrong with the text.
+    pub fn new(text: &str) -> Result<Self, RuleFault> {
         let pieces = parse_rule_text(text)?;
         let mut tried = String::new();
         let mut is_plain = true;
@@ -46,16 +47,13 @@ impl StatementTemplate {
                 RuleTextPart::Plain(plain) => tried.push_str(plain),
                 RuleTextPart::Bound(_) | RuleTextPart::Rest(Some(_)) => tried.push('\u{7F}'),
                 RuleTextPart::Rest(None) => {
-                    return Err(
-                        "`$...` does not say what is to be written\nName it here and in `match`: $...REST."
-                            .to_owned(),
-                    );
+                    let message = "`$...` does not say what is to be written";
+                    return Err(RuleFault::new(message, "Name it here and in `match`: $...REST."));
                 }
                 RuleTextPart::Computed(expression) => {
                     if expression.kind()? == ExpressionKind::Truth {
-                        return Err(
-                            "`${...}` writes a number or a word\nA condition stands in `if`.".to_owned()
-                        );
+                        let message = "`${...}` writes a number or a word";
+                        return Err(RuleFault::new(message, "A condition stands in `if`."));
                     }
                     tried.push('1');
                 }
@@ -65,7 +63,7 @@ impl StatementTemplate {
         if !subject.is_whole(tried.as_bytes()) {
             let help =
                 "Give several statements as a list; a statement goes on in a new line only behind a `$`.";
-            return Err(format!("this is not one statement\n{help}"));
+            return Err(RuleFault::new("this is not one statement", help));
         }
         // Arguments are known only when the rule runs; then the whole statement is read back again.
         let problem = match parse::read_whole_record(tried.as_bytes()) {
@@ -74,10 +72,10 @@ impl StatementTemplate {
             _ => None,
         };
         match problem {
-            Some(problem) => Err(format!(
-                "{} is no CL statement: {problem}\nWrite a statement as it stands in the file.",
-                quote_text(text)
-            )),
+            Some(problem) => {
+                let message = format!("{} is no CL statement: {problem}", quote_text(text));
+                Err(RuleFault::new(message, "Write a statement as it stands in the file."))
+            }
             None => Ok(Self { pieces, is_ascii: text.is_ascii() }),
         }
     }
@@ -90,13 +88,13 @@ impl StatementTemplate {
     /// Checks that every name is bound.
     ///
     /// # Errors
-    /// A message, with help after a line break.
-    pub fn check_names(&self, names: &[BoundName]) -> Result<(), String> {
+    /// Returns what is wrong with the text.
+    pub fn check_names(&self, names: &[BoundName]) -> Result<(), RuleFault> {
         self.pieces.iter().try_for_each(|piece| match piece {
             RuleTextPart::Bound(name) | RuleTextPart::Rest(Some(name))
                 if !names.iter().any(|known| known.text == *name) =>
             {
-                Err(unbound_message(name, names, ""))
+                Err(unbound_name(name, names, ""))
             }
             // `${REST}` names; only what calculates needs one argument.
             RuleTextPart::Computed(Expression::Name(name))
@@ -124,7 +122,7 @@ impl StatementTemplate {
                         false => plain,
                     };
                     let bytes = filling.charset.encode(plain);
-                    out.extend(bytes.map_err(|message| EvaluationError { message, at: None })?);
+                    out.extend(bytes.map_err(EvaluationError::from)?);
                 }
                 RuleTextPart::Rest(None) => {}
                 RuleTextPart::Bound(name)
@@ -167,7 +165,7 @@ fn format_computed(
     let number = match expression.evaluate(filling.bindings)? {
         ExpressionValue::Number(number) => number,
         ExpressionValue::Word(word) => {
-            return filling.charset.encode(&word).map_err(|message| EvaluationError { message, at: None });
+            return Ok(filling.charset.encode(&word)?);
         }
         ExpressionValue::Truth(_) => {
             return Err(EvaluationError { message: "this is not a number".to_owned(), at: None });

@@ -4,6 +4,7 @@
 //! next words fit, the last one all that is left, so matching never goes back and takes linear time.
 
 use super::bindings::Bindings;
+use super::rule_fault::RuleFault;
 use std::ops::Range;
 
 /// In texts handed to the CL grammar, a `$NAME` is the number of its hole between two of these: a byte that the grammar takes
@@ -37,8 +38,8 @@ impl WildcardPattern {
     /// Reads a text in which holes are marked.
     ///
     /// # Errors
-    /// A message, with help after a line break.
-    pub fn compile(marked: &[u8], holes: &[Wildcard]) -> Result<Self, String> {
+    /// Returns what is wrong with the text.
+    pub fn compile(marked: &[u8], holes: &[Wildcard]) -> Result<Self, RuleFault> {
         let folded: Vec<u8> =
             fold_bytes(marked, &(0..marked.len())).into_iter().map(|(byte, _)| byte).collect();
         let mut parts: Vec<WildcardPart> = Vec::new();
@@ -49,7 +50,9 @@ impl WildcardPattern {
                 }
                 continue;
             }
-            let Some(hole) = find_wildcard(bytes, holes) else { return Err("a wildcard is lost".to_owned()) };
+            let Some(hole) = find_wildcard(bytes, holes) else {
+                return Err(RuleFault::without_help("a wildcard is lost"));
+            };
             let mut after_blank = false;
             if hole.rest
                 && let Some(WildcardPart::Literal(literal)) = parts.last_mut()
@@ -62,10 +65,11 @@ impl WildcardPattern {
                 }
             }
             match parts.last() {
-                Some(WildcardPart::Rest(..)) => return Err(rest_not_last_message()),
+                Some(WildcardPart::Rest(..)) => return Err(rest_not_last()),
                 Some(WildcardPart::Some(_)) if !after_blank => {
                     let help = "Put a blank or a comma between them; two arguments are two names.";
-                    return Err(format!("nothing tells where one wildcard ends and the next starts\n{help}"));
+                    let message = "nothing tells where one wildcard ends and the next starts";
+                    return Err(RuleFault::new(message, help));
                 }
                 _ => {}
             }
@@ -75,7 +79,7 @@ impl WildcardPattern {
             });
         }
         match parts.iter().rev().skip(1).any(|part| matches!(part, WildcardPart::Rest(..))) {
-            true => Err(rest_not_last_message()),
+            true => Err(rest_not_last()),
             false => Ok(Self(parts)),
         }
     }
@@ -148,8 +152,8 @@ impl WildcardPattern {
     }
 }
 
-pub(super) fn rest_not_last_message() -> String {
-    "`$...` takes all that is left, so it comes last\n`$NAME` stands for one argument.".to_owned()
+pub(super) fn rest_not_last() -> RuleFault {
+    RuleFault::new("`$...` takes all that is left, so it comes last", "`$NAME` stands for one argument.")
 }
 
 /// The hole of a marked number.

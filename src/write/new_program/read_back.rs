@@ -2,7 +2,7 @@
 
 use super::{DraftMove, DraftMoveKind, ProgramDraft};
 use crate::parse::parse;
-use crate::program::geometry::MotionPath;
+use crate::program::geometry::{CircularArc, MotionPath};
 use crate::program::motion::Motion;
 use crate::program::{Dialect, Program};
 use crate::source::Source;
@@ -63,7 +63,8 @@ pub(super) fn check_read_back(
     for (index, meant) in draft.moves.iter().enumerate() {
         let Some(motion) = motions.next() else { break };
         let slack = ARC_SLACK * 10f64.powi(-(super::coordinate_decimals(dialect) as i32));
-        check_motion(meant, &motion, slack).map_err(|reason| ReadBackError { motion: index + 1, reason })?;
+        check_motion(meant, &motion, slack)
+            .map_err(|found| ReadBackError { motion: index + 1, reason: found.to_string() })?;
         count += 1;
     }
     if count != draft.moves.len() || motions.next().is_some() {
@@ -75,20 +76,37 @@ pub(super) fn check_read_back(
     }
 }
 
+/// The difference between a motion that was read back and the intended one. Lengths are in the file's unit.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+enum MotionDifference {
+    #[error("it ends {0} from where it should")]
+    End(f64),
+    #[error("rapid or feed, the other was meant")]
+    RapidOrFeed,
+    #[error("feed {read:?}, {meant} was meant")]
+    Feed { read: Option<f64>, meant: f64 },
+    #[error("the arc turns otherwise: {0:?}")]
+    Arc(Box<CircularArc>),
+    #[error("the arc ends {0} off its circle")]
+    ArcEnd(f64),
+    #[error("another kind of path: {0:?}")]
+    Path(MotionPath),
+}
+
 /// Compares a motion with the intended one.
-fn check_motion(meant: &DraftMove, motion: &Motion, slack: f64) -> Result<(), String> {
+fn check_motion(meant: &DraftMove, motion: &Motion, slack: f64) -> Result<(), MotionDifference> {
     let off = (motion.to.point - meant.to).norm();
     if off.is_nan() || off > SAME * (1.0 + meant.to.coords.norm()) {
-        return Err(format!("it ends {off} from where it should"));
+        return Err(MotionDifference::End(off));
     }
     if motion.rapid != (meant.way == DraftMoveKind::Rapid) {
-        return Err("rapid or feed, the other was meant".to_owned());
+        return Err(MotionDifference::RapidOrFeed);
     }
     let feed = motion.feed.map(|feed| feed.value);
     if let Some(meant) = meant.way.feed()
         && !feed.is_some_and(|feed| (feed - meant).abs() <= SAME * (1.0 + meant))
     {
-        return Err(format!("feed {feed:?}, {meant} was meant"));
+        return Err(MotionDifference::Feed { read: feed, meant });
     }
     match (&meant.way, &motion.path) {
         (DraftMoveKind::Arc { centre, axis, .. }, MotionPath::Arc(arc)) => {
@@ -96,12 +114,12 @@ fn check_motion(meant: &DraftMove, motion: &Motion, slack: f64) -> Result<(), St
             let off = (arc.center - centre).norm();
             // The axis has seven decimals, but the points that define the plane only have four.
             if off > SAME * (1.0 + centre.coords.norm()) || turned < 0.99 || arc.sweep > 3.2 {
-                return Err(format!("the arc turns otherwise: {arc:?}"));
+                return Err(MotionDifference::Arc(arc.clone()));
             }
             let end = arc.end_deviation(motion.to.point);
-            if end > slack { Err(format!("the arc ends {end} off its circle")) } else { Ok(()) }
+            if end > slack { Err(MotionDifference::ArcEnd(end)) } else { Ok(()) }
         }
         (DraftMoveKind::Rapid | DraftMoveKind::Line { .. }, MotionPath::Line | MotionPath::Start) => Ok(()),
-        (_, path) => Err(format!("another kind of path: {path:?}")),
+        (_, path) => Err(MotionDifference::Path(path.clone())),
     }
 }
