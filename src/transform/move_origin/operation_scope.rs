@@ -2,12 +2,11 @@
 
 use crate::diagnostic::codes;
 use crate::parameters::Glob;
-use crate::program::{Program, operation};
+use crate::program::{Program, StatementId, StatementRange, operation};
 use crate::recipe::deserialize_not_empty;
 use crate::transform::StepContext;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use std::ops::Range;
 
 /// Which operations a step applies to; all of them when nothing is said. A part of an operation cannot move on its own.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
@@ -23,7 +22,7 @@ pub struct MoveScopeSpec {
 #[derive(Debug)]
 pub struct OperationScope {
     /// In order; `None` is everything.
-    chosen: Option<Vec<Range<usize>>>,
+    chosen: Option<Vec<StatementRange>>,
 }
 
 impl OperationScope {
@@ -37,7 +36,6 @@ impl OperationScope {
         let chosen: Vec<_> = operation::find_operations(program)
             .into_iter()
             .filter(|operation| names.iter().any(|glob| glob.matches_name(&operation.name)))
-            .map(|operation| operation.statements)
             .collect();
         if chosen.is_empty() {
             let message = "`where` selects no operation of this program";
@@ -45,14 +43,14 @@ impl OperationScope {
                 context.step_finding(codes::NOTHING_SELECTED, message, &["where"], "selects nothing");
             context.findings.push(finding);
         }
-        Self { chosen: Some(chosen) }
+        Self { chosen: Some(chosen.into_iter().filter_map(|operation| operation.statements).collect()) }
     }
 
     /// Whether a statement belongs to a selected operation.
-    pub fn contains(&self, statement: usize) -> bool {
+    pub fn contains(&self, statement: StatementId) -> bool {
         let Some(chosen) = &self.chosen else { return true };
-        let after = chosen.partition_point(|operation| operation.end <= statement);
-        chosen.get(after).is_some_and(|operation| operation.contains(&statement))
+        let after = chosen.partition_point(|operation| operation.last() < statement);
+        chosen.get(after).is_some_and(|operation| operation.contains(statement))
     }
 
     /// Whether nothing at all is selected.

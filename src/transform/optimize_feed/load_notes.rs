@@ -4,7 +4,7 @@
 use super::block_measurement::{BlockMeasurement, MeasuredBlocks};
 use super::parameters::LoadCriterion;
 use super::step::OptimizeFeedJob;
-use crate::program::{LengthUnit, Program, StepId};
+use crate::program::{LengthUnit, Program, StatementId, StepId};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -29,9 +29,9 @@ impl OptimizeFeedJob {
         let Some((criterion, _)) = self.limits.first().copied().filter(|_| program.has_history()) else {
             return;
         };
-        let governors: Vec<Option<usize>> = program.motions().map(|motion| motion.feed_from).collect();
+        let governors: Vec<Option<StatementId>> = program.motions().map(|motion| motion.feed_from).collect();
         let governor = |motion: usize| governors.get(motion).copied().flatten();
-        let mut loads: BTreeMap<usize, GovernedLoads> = BTreeMap::new();
+        let mut loads: BTreeMap<StatementId, GovernedLoads> = BTreeMap::new();
         let estimate = |mark: &BlockMeasurement| mark.measured.first().map_or(0.0, |[estimate, _]| *estimate);
         for mark in &before.marks {
             let parts = parts.get(mark.motion).cloned().unwrap_or_default();

@@ -8,7 +8,7 @@ use super::parameters::{LoadCriterion, OptimizeFeed};
 use crate::diagnostic::{Diagnostic, codes, Failure};
 use crate::parameters::Positive;
 use crate::program::motion::Motion;
-use crate::program::{LengthUnit, Program, Statement};
+use crate::program::{LengthUnit, Program};
 use crate::setup::Setup;
 use crate::simulation_run::{EngagementModel, EngagementRunResult, Machining, SimulationRunOptions};
 use crate::transform::feed_plan::{FeedPlan, decimals_of_feed, round_feed_down};
@@ -245,7 +245,7 @@ impl OptimizeFeedJob {
     ) {
         for block in found.below_minimum.iter().take(TOLD) {
             let Some(mark) = before.marks.get(*block) else { continue };
-            let span = program.statement(mark.statement).map(Statement::origin).unwrap_or_default();
+            let span = program.statement(mark.statement).origin();
             let message = "the target is passed here at the lowest feed allowed";
             let finding = Diagnostic::new(codes::BELOW_MINIMUM, message).with_label(
                 program.source(),

@@ -35,7 +35,7 @@ impl OptimizeFeedJob {
             for ((criterion, limit), [estimate, bound]) in self.limits.iter().zip(&mark.measured) {
                 let allowed = limit * (1.0 + PATH) + (bound - estimate).max(0.0);
                 if *estimate > allowed {
-                    let span = program.statement(mark.statement).map(Statement::origin).unwrap_or_default();
+                    let span = program.statement(mark.statement).origin();
                     let message = format!(
                         "simulated again, the {} is {estimate:.6} {} here; the target is {limit}",
                         criterion.display_name(),

@@ -91,7 +91,7 @@ impl Transform for Rewrite {
 impl Rewrite {
     fn selects_nothing(&self, program: &Program) -> bool {
         let mut region = self.r#where.start_cursor(program);
-        !self.r#where.is_everything() && !program.live_statements().any(|(index, _)| region.contains(index))
+        !self.r#where.is_everything() && !program.live_statements().any(|(id, _)| region.contains(id))
     }
 }
 

@@ -1,9 +1,9 @@
 //! `where:` for statements: the operations and tools they stand under.
 
 use crate::parameters::{Glob, ToolPattern};
-use crate::program::Program;
 use crate::program::motion::Motions;
 use crate::program::operation::{self, Operation};
+use crate::program::{Program, StatementId};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -34,7 +34,7 @@ impl RewriteRegionSpec {
             Some(_) => operation::find_operations(program),
             None => Vec::new(),
         };
-        RewriteRegionCursor { region: self, operations, operation: 0, motions: program.motions(), read: 0 }
+        RewriteRegionCursor { region: self, operations, operation: 0, motions: program.motions(), read: None }
     }
 }
 
@@ -44,30 +44,36 @@ pub(super) struct RewriteRegionCursor<'p> {
     operations: Vec<Operation>,
     operation: usize,
     motions: Motions<'p>,
-    read: usize,
+    /// The last statement that the motions have read.
+    read: Option<StatementId>,
 }
 
 impl RewriteRegionCursor<'_> {
     /// Whether a statement stands in the region. Statements are asked for in order, each at most once.
-    pub fn contains(&mut self, index: usize) -> bool {
-        self.is_in_operations(index) && self.is_under_tools(index)
+    pub fn contains(&mut self, id: StatementId) -> bool {
+        self.is_in_operations(id) && self.is_under_tools(id)
     }
 
-    fn is_in_operations(&mut self, index: usize) -> bool {
+    fn is_in_operations(&mut self, id: StatementId) -> bool {
         let Some(wanted) = &self.region.operations else { return true };
-        while self.operations.get(self.operation).is_some_and(|operation| operation.statements.end <= index) {
+        while self.operations.get(self.operation).is_some_and(|operation| ends_before(operation, id)) {
             self.operation += 1;
         }
         let name = self.operations.get(self.operation).map(|operation| operation.name.as_str());
         name.is_some_and(|name| wanted.iter().any(|glob| glob.matches_name(name)))
     }
 
-    fn is_under_tools(&mut self, index: usize) -> bool {
+    fn is_under_tools(&mut self, id: StatementId) -> bool {
         let Some(wanted) = &self.region.tools else { return true };
-        while self.read <= index && self.motions.read_statement().is_some() {
-            self.read += 1;
+        while self.read.is_none_or(|read| read < id) {
+            let Some(read) = self.motions.read_statement() else { break };
+            self.read = Some(read);
         }
         let Some(tool) = self.motions.state().tool.as_deref() else { return false };
         wanted.iter().any(|pattern| pattern.matches_tool(tool.number, tool.name.as_deref()))
     }
+}
+
+fn ends_before(operation: &Operation, id: StatementId) -> bool {
+    operation.statements.is_none_or(|statements| statements.last() < id)
 }
