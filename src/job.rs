@@ -9,13 +9,13 @@ use crate::check;
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::fingerprint::RecipeFingerprint;
 use crate::parse::parse;
-use crate::program::{Dialect, Program, Statement, StatementChange};
+use crate::program::{Dialect, InsertionPoint, Program, Statement, StatementChange, StatementId};
 use crate::provenance;
 use crate::recipe::Provenance;
 use crate::report::finding_policy::FindingPolicy;
 use crate::setup::Setup;
 use crate::simulation_run::RunWatcher;
-use crate::source::Source;
+use crate::source::{Source, Span};
 use crate::transform::{self, Recipe, RecipeOutcome, TransformReport};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -106,7 +106,9 @@ impl CorrectionJob<'_> {
             .map_err(|too_large| Diagnostic::new(codes::TOO_LARGE, too_large.to_string()))?;
         let (corrected, found) = check::read_and_check(&corrected_source, Some(program.dialect()));
         if let Some(differs) = find_first_difference(program, &corrected) {
-            let span = corrected.statement(differs).map(Statement::origin).unwrap_or_default();
+            let end = corrected_source.bytes().len();
+            let statement = corrected.statement_behind(differs).map(|id| corrected.statement(id));
+            let span = statement.map_or(Span::new(end, end), Statement::origin);
             let message = "the corrected program does not read back as what the steps made";
             let finding = Diagnostic::new(codes::UNREADABLE_EDIT, message);
             return Ok(vec![finding.with_label(&corrected_source, span, "from here")]);
@@ -123,13 +125,12 @@ impl CorrectionJob<'_> {
         let mut known: BTreeMap<(&str, String, Option<StatementOrigin>), usize> = BTreeMap::new();
         for found in known_findings {
             let place = find_statement_of_finding(&original, &found)
-                .and_then(|index| original.statement(index))
-                .map(StatementOrigin::from_statement);
+                .map(|id| StatementOrigin::from_statement(original.statement(id)));
             *known.entry((found.code.id(), found.message, place)).or_default() += 1;
         }
         let is_new = |found: &Diagnostic| {
             let place =
-                find_statement_of_finding(&corrected, found).and_then(|index| origins.get(index)).copied();
+                find_statement_of_finding(&corrected, found).and_then(|id| origins.get(id.index())).copied();
             match known.get_mut(&(found.code.id(), found.message.clone(), place)) {
                 Some(count) if *count > 0 => {
                     *count -= 1;
@@ -156,21 +157,20 @@ impl StatementOrigin {
     }
 }
 
-/// The first statement of the text read back that does not mean what the program's statement means; the writer's proof.
-fn find_first_difference(program: &Program, read_back: &Program) -> Option<usize> {
+/// From where on the text read back does not mean what the program's statements mean; the writer's proof.
+fn find_first_difference(program: &Program, read_back: &Program) -> Option<InsertionPoint> {
     let mut live = program.live_statements();
-    for (index, statement) in read_back.statements().iter().enumerate() {
+    for (id, statement) in read_back.numbered_statements() {
         if live.next().is_none_or(|(_, before)| before.record() != statement.record()) {
-            return Some(index);
+            return Some(id.before());
         }
     }
-    live.next().map(|_| read_back.statements().len())
+    live.next().map(|_| read_back.end())
 }
 
 /// The statement that a finding in a freshly read program is about; `None` for the whole file.
-fn find_statement_of_finding(program: &Program, found: &Diagnostic) -> Option<usize> {
-    let at = found.labels.first()?.span.start;
-    program.statements().partition_point(|statement| statement.origin().start <= at).checked_sub(1)
+fn find_statement_of_finding(program: &Program, found: &Diagnostic) -> Option<StatementId> {
+    program.statement_at_offset(found.labels.first()?.span.start)
 }
 
 /// Whether any statement differs from the source.

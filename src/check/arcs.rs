@@ -4,7 +4,7 @@ use super::{Lint, LintFindings};
 use crate::diagnostic::{DiagnosticCode, codes};
 use crate::program::geometry::MotionPath;
 use crate::program::motion::{Motion, MotionProblem, MotionProblemKind};
-use crate::program::{NumberRole, Record};
+use crate::program::{NumberRole, Record, StatementId};
 use crate::source::Span;
 
 pub(super) const CODES: &[DiagnosticCode] = &[
@@ -73,11 +73,11 @@ impl Lint for MotionProblemLint {
     }
 }
 
-fn axis_span(at: usize, found: &LintFindings<'_>) -> Span {
+fn axis_span(at: StatementId, found: &LintFindings<'_>) -> Span {
     found.numbers_span(at, 3..6)
 }
 
-fn report_end_off_circle(at: usize, off: f64, motion: Option<&Motion>, found: &mut LintFindings<'_>) {
+fn report_end_off_circle(at: StatementId, off: f64, motion: Option<&Motion>, found: &mut LintFindings<'_>) {
     let code = choose_code(codes::ARC_END_OFF_CIRCLE, off, found);
     let message = format!("the end of this arc is {} off its circle", found.format_length(off));
     let arc = (found.statement_span(at), "the arc");
@@ -90,14 +90,14 @@ fn report_end_off_circle(at: usize, off: f64, motion: Option<&Motion>, found: &m
     }
 }
 
-fn report_radius_difference(at: usize, off: f64, found: &mut LintFindings<'_>) {
+fn report_radius_difference(at: StatementId, off: f64, found: &mut LintFindings<'_>) {
     let code = choose_code(codes::ARC_RADIUS_DIFFERS, off, found);
     let message = format!(
         "the radius is {} off the distance from the centre to where the tool starts",
         found.format_length(off)
     );
-    let span = match found.program.statement(at).map(|statement| statement.record()) {
-        Some(Record::Circle(_)) => found.numbers_span(at, 6..7),
+    let span = match found.program.statement(at).record() {
+        Record::Circle(_) => found.numbers_span(at, 6..7),
         _ => found.role_span(at, NumberRole::Length),
     };
     found.report(code, span, message, "this radius");

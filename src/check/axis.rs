@@ -4,7 +4,7 @@ use super::{Lint, LintFindings};
 use crate::diagnostic::codes;
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
-use crate::program::{Dialect, Record, Statement};
+use crate::program::{Dialect, Record, Statement, StatementId};
 use nalgebra::Vector3;
 use std::ops::Range;
 
@@ -19,7 +19,7 @@ const NO_AXIS_FROM: f64 = 0.1;
 pub(super) struct UnitAxisLint;
 
 impl Lint for UnitAxisLint {
-    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
+    fn check_statement(&mut self, id: StatementId, statement: &Statement, found: &mut LintFindings<'_>) {
         let (axis, place) = match statement.record() {
             Record::Goto(goto) => match &goto.axis {
                 Some(axis) => (axis, 3..6),
@@ -36,18 +36,18 @@ impl Lint for UnitAxisLint {
         };
         // Squares first: 1.6 million roots are saved in a large file.
         if (axis.norm_squared() - 1.0).abs() > UNIT_TOLERANCE {
-            report_axis(index, axis, place, found);
+            report_axis(id, axis, place, found);
         }
     }
 }
 
-fn report_axis(index: usize, axis: &Vector3<f64>, place: Range<usize>, found: &mut LintFindings<'_>) {
+fn report_axis(id: StatementId, axis: &Vector3<f64>, place: Range<usize>, found: &mut LintFindings<'_>) {
     let length = axis.norm();
     let off = (length - 1.0).abs();
     if off <= UNIT_TOLERANCE {
         return;
     }
-    let span = found.numbers_span(index, place);
+    let span = found.numbers_span(id, place);
     if off > NO_AXIS_FROM {
         let message = format!("these numbers are no axis: their length is {length:.4}, not 1");
         found.report(codes::NO_AXIS, span, message, "not a direction");
@@ -69,7 +69,7 @@ pub(super) struct MultaxLint {
 }
 
 impl Lint for MultaxLint {
-    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
+    fn check_statement(&mut self, id: StatementId, statement: &Statement, found: &mut LintFindings<'_>) {
         match statement.record() {
             Record::MultiAxis(on) => (self.on, self.reported) = (*on, false),
             Record::ToolAxis(axis) => self.axis = Some(**axis),
@@ -84,7 +84,7 @@ impl Lint for MultaxLint {
                     let message = "the tool axis changes here, but MULTAX is not on";
                     found.report(
                         codes::AXIS_WITHOUT_MULTAX,
-                        found.numbers_span(index, 3..6),
+                        found.numbers_span(id, 3..6),
                         message,
                         "another axis",
                     );
@@ -110,7 +110,7 @@ pub(super) struct AxisJumpLint {
 }
 
 impl Lint for AxisJumpLint {
-    fn check_statement(&mut self, _index: usize, statement: &Statement, _found: &mut LintFindings<'_>) {
+    fn check_statement(&mut self, _id: StatementId, statement: &Statement, _found: &mut LintFindings<'_>) {
         self.set |= matches!(statement.record(), Record::ToolAxis(_) | Record::OperationStart(_));
     }
 

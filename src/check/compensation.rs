@@ -5,7 +5,7 @@ use crate::diagnostic::{DiagnosticCode, codes};
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::program::record::{CompensationSide, CutterCompensation};
-use crate::program::{Record, Statement};
+use crate::program::{Record, Statement, StatementId};
 
 pub(super) const CODES: &[DiagnosticCode] =
     &[codes::CUTCOM_LEFT_ON, codes::CUTCOM_AT_ARC, codes::CUTCOM_RAPID, codes::CUTCOM_CHANGES_SIDE];
@@ -13,14 +13,14 @@ pub(super) const CODES: &[DiagnosticCode] =
 /// Follows CUTCOM through the program.
 #[derive(Default)]
 pub(super) struct CompensationLint {
-    on: Option<(CompensationSide, usize)>,
+    on: Option<(CompensationSide, StatementId)>,
     /// The CUTCOM that the next motion carries out.
-    switched: Option<usize>,
+    switched: Option<StatementId>,
     rapid_reported: bool,
 }
 
 impl CompensationLint {
-    fn apply_compensation(&mut self, index: usize, to: CutterCompensation, found: &mut LintFindings<'_>) {
+    fn apply_compensation(&mut self, id: StatementId, to: CutterCompensation, found: &mut LintFindings<'_>) {
         match to {
             CutterCompensation::On(side) => {
                 if let Some((_, before)) = self.on.filter(|(before, _)| *before != side) {
@@ -29,17 +29,17 @@ impl CompensationLint {
                     found.report_at_two_spans(
                         codes::CUTCOM_CHANGES_SIDE,
                         message,
-                        (found.statement_span(index), "the other side"),
+                        (found.statement_span(id), "the other side"),
                         second,
                     );
                 }
                 if self.on.is_none() {
-                    self.switched = Some(index);
+                    self.switched = Some(id);
                 }
-                self.on = Some((side, index));
+                self.on = Some((side, id));
                 self.rapid_reported = false;
             }
-            CutterCompensation::Off => self.switched = self.on.take().map(|_| index),
+            CutterCompensation::Off => self.switched = self.on.take().map(|_| id),
             // The side comes with the next CUTCOM.
             CutterCompensation::Armed => {}
         }
@@ -55,9 +55,9 @@ impl CompensationLint {
 }
 
 impl Lint for CompensationLint {
-    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
+    fn check_statement(&mut self, id: StatementId, statement: &Statement, found: &mut LintFindings<'_>) {
         match statement.record() {
-            Record::CutterCompensation(to) => self.apply_compensation(index, *to, found),
+            Record::CutterCompensation(to) => self.apply_compensation(id, *to, found),
             Record::OperationStart(_) | Record::OperationEnd => self.report_left_on("the operation", found),
             Record::ProgramEnd => self.report_left_on("the program", found),
             _ => {}

@@ -4,7 +4,7 @@ use super::{Lint, LintFindings};
 use crate::diagnostic::{DiagnosticCode, codes};
 use crate::program::motion::Motion;
 use crate::program::record::DrillingCycle;
-use crate::program::{Dialect, Record, Statement};
+use crate::program::{Dialect, Record, Statement, StatementId};
 
 pub(super) const CODES: &[DiagnosticCode] = &[
     codes::CYCLE_LEFT_ON,
@@ -18,7 +18,7 @@ pub(super) const CODES: &[DiagnosticCode] = &[
 #[derive(Default)]
 pub(super) struct CycleLint {
     /// The cycle in force, and whether it has drilled.
-    open: Option<(usize, bool)>,
+    open: Option<(StatementId, bool)>,
     tool: Option<u32>,
 }
 
@@ -43,12 +43,12 @@ impl CycleLint {
 }
 
 impl Lint for CycleLint {
-    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
+    fn check_statement(&mut self, id: StatementId, statement: &Statement, found: &mut LintFindings<'_>) {
         match statement.record() {
             Record::Cycle(cycle) => {
                 self.close_cycle(found);
-                self.open = Some((index, false));
-                check_cycle(index, cycle, found);
+                self.open = Some((id, false));
+                check_cycle(id, cycle, found);
             }
             Record::CycleOff => self.close_cycle(found),
             Record::OperationStart(_) | Record::OperationEnd => self.report_left_on("the operation", found),
@@ -74,17 +74,14 @@ impl Lint for CycleLint {
     }
 }
 
-fn check_cycle(index: usize, cycle: &DrillingCycle, found: &mut LintFindings<'_>) {
+fn check_cycle(id: StatementId, cycle: &DrillingCycle, found: &mut LintFindings<'_>) {
     let coordinate = cycle.depth_is_fedto && found.program.dialect() == Dialect::Nx;
     match cycle.depth {
-        None => found.report(
-            codes::CYCLE_WITHOUT_DEPTH,
-            found.statement_span(index),
-            "this cycle has no depth",
-            "",
-        ),
+        None => {
+            found.report(codes::CYCLE_WITHOUT_DEPTH, found.statement_span(id), "this cycle has no depth", "")
+        }
         Some(depth) if depth == 0.0 || coordinate && depth > 0.0 => {
-            let span = number_span(index, depth, found);
+            let span = number_span(id, depth, found);
             found.report(codes::CYCLE_CUTS_NOTHING, span, "this cycle does not go below its points", "");
         }
         Some(_) => {}
@@ -92,16 +89,16 @@ fn check_cycle(index: usize, cycle: &DrillingCycle, found: &mut LintFindings<'_>
     if let Some(clearance) = cycle.clearance.filter(|clearance| *clearance < 0.0) {
         let message =
             format!("the rapid of this cycle ends {} below its points", found.format_length(-clearance));
-        let span = number_span(index, clearance, found);
+        let span = number_span(id, clearance, found);
         found.report(codes::CYCLE_BELOW_POINT, span, message, "");
     }
 }
 
 /// The first number of the cycle with a value: which word governs it only the record's reader knows.
-fn number_span(index: usize, value: f64, found: &LintFindings<'_>) -> crate::source::Span {
-    let numbers = found.statement_syntax(index).numbers();
+fn number_span(id: StatementId, value: f64, found: &LintFindings<'_>) -> crate::source::Span {
+    let numbers = found.statement_syntax(id).numbers();
     match numbers.iter().find(|(_, found)| *found == value) {
-        Some((at, _)) => found.text_span(index, at),
-        None => found.statement_span(index),
+        Some((at, _)) => found.text_span(id, at),
+        None => found.statement_span(id),
     }
 }

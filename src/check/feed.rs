@@ -3,7 +3,7 @@
 use super::{Lint, LintFindings};
 use crate::diagnostic::{DiagnosticCode, codes};
 use crate::program::motion::Motion;
-use crate::program::{Feed, FeedUnit, NumberRole};
+use crate::program::{Feed, FeedUnit, NumberRole, StatementId};
 use std::collections::HashSet;
 
 pub(super) const CODES: &[DiagnosticCode] = &[
@@ -25,8 +25,8 @@ const COARSEST: f64 = 25.0;
 #[derive(Default)]
 pub(super) struct FeedLint {
     missing: bool,
-    last: Option<usize>,
-    seen: HashSet<usize>,
+    last: Option<StatementId>,
+    seen: HashSet<StatementId>,
 }
 
 impl Lint for FeedLint {
@@ -49,7 +49,7 @@ impl Lint for FeedLint {
     }
 }
 
-fn check_feed(feed: Feed, from: usize, motion: &Motion, found: &mut LintFindings<'_>) {
+fn check_feed(feed: Feed, from: StatementId, motion: &Motion, found: &mut LintFindings<'_>) {
     let unit = feed.unit_or_default();
     if feed.value == 0.0 {
         let at = (found.role_span(from, NumberRole::Feed), "a feed of zero");

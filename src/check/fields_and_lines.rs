@@ -2,7 +2,7 @@
 
 use super::{Lint, LintFindings};
 use crate::diagnostic::{DiagnosticCode, codes};
-use crate::program::{Dialect, FieldKind, Record, Statement, StatementField};
+use crate::program::{Dialect, FieldKind, Record, Statement, StatementField, StatementId};
 use crate::source::Span;
 
 pub(super) const LINE_CODES: &[DiagnosticCode] =
@@ -13,7 +13,7 @@ pub(super) const LINE_CODES: &[DiagnosticCode] =
 pub(super) struct FieldLint;
 
 impl Lint for FieldLint {
-    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
+    fn check_statement(&mut self, id: StatementId, statement: &Statement, found: &mut LintFindings<'_>) {
         match statement.record() {
             Record::ByteOrderMark
             | Record::Blank
@@ -32,19 +32,19 @@ impl Lint for FieldLint {
         if !is_suspect(text) {
             return;
         }
-        let syntax = found.statement_syntax(index);
+        let syntax = found.statement_syntax(id);
         for pair in syntax.fields.windows(2) {
             let [one, two] = pair else { continue };
             let between = syntax.text.get(one.at.end..two.at.start).unwrap_or_default();
             if !between.is_empty() && between.iter().all(|byte| matches!(byte, b' ' | b'\t')) {
-                let span = found.text_span(index, &(one.at.start..two.at.end));
+                let span = found.text_span(id, &(one.at.start..two.at.end));
                 found.report(codes::MISSING_COMMA, span, "a comma is missing between these two fields", "");
             }
         }
         for StatementField { at, kind } in &syntax.fields {
             let unusual = |byte: &u8| byte.is_ascii_alphabetic() || *byte == b'+';
             if matches!(kind, FieldKind::Number(_)) && syntax.bytes_at(at).iter().any(unusual) {
-                let span = found.text_span(index, at);
+                let span = found.text_span(id, at);
                 found.report(
                     codes::UNUSUAL_NUMBER,
                     span,
@@ -90,11 +90,11 @@ pub(super) struct LineLint {
     /// The first kind of line end: with CR or without.
     first: Option<bool>,
     mixed: bool,
-    last: Option<usize>,
+    last: Option<StatementId>,
 }
 
 impl Lint for LineLint {
-    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
+    fn check_statement(&mut self, id: StatementId, statement: &Statement, found: &mut LintFindings<'_>) {
         let text = found.program.statement_text(statement);
         match statement.record() {
             Record::ByteOrderMark => {
@@ -108,11 +108,11 @@ impl Lint for LineLint {
             }
             Record::Blank | Record::Comment | Record::Text | Record::MatrixRow(_) | Record::Unparsed => {}
             _ if text.len() > COLUMNS && has_column_limit(found.program.dialect()) => {
-                report_long_lines(index, text, found)
+                report_long_lines(id, text, found)
             }
             _ => {}
         }
-        self.last = Some(index);
+        self.last = Some(id);
         if self.mixed {
             return;
         }
@@ -125,7 +125,7 @@ impl Lint for LineLint {
             self.mixed = true;
             let (this, before) = if crlf { ("CRLF", "LF") } else { ("LF", "CRLF") };
             let message = format!("this line ends in {this}, the lines before in {before}");
-            found.report(codes::MIXED_LINE_ENDS, found.statement_span(index), message, "");
+            found.report(codes::MIXED_LINE_ENDS, found.statement_span(id), message, "");
         }
     }
 
@@ -147,12 +147,12 @@ fn has_column_limit(dialect: Dialect) -> bool {
     matches!(dialect, Dialect::Catia | Dialect::CatiaIcam | Dialect::Creo | Dialect::CreoGpost)
 }
 
-fn report_long_lines(index: usize, text: &[u8], found: &mut LintFindings<'_>) {
+fn report_long_lines(id: StatementId, text: &[u8], found: &mut LintFindings<'_>) {
     let mut start = 0;
     for line in text.split_inclusive(|byte| *byte == b'\n') {
         let length = line.trim_ascii_end().len();
         if length > COLUMNS {
-            let span: Span = found.text_span(index, &(start + COLUMNS..start + length));
+            let span: Span = found.text_span(id, &(start + COLUMNS..start + length));
             let message = format!("this line has {length} columns");
             found.report(codes::LONG_LINE, span, message, "beyond column 72");
         }

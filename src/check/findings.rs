@@ -6,7 +6,9 @@ use crate::parse;
 use crate::program::geometry::{MotionPath, SAME_POINT};
 use crate::program::motion::Motion;
 use crate::program::record::ToolWord;
-use crate::program::{LengthUnit, NumberRole, Program, Record, StatementChange, StatementSyntax};
+use crate::program::{
+    LengthUnit, NumberRole, Program, Record, StatementChange, StatementId, StatementSyntax,
+};
 use crate::source::Span;
 use std::ops::Range;
 
@@ -109,21 +111,18 @@ impl<'p> LintFindings<'p> {
     }
 
     /// The text of a statement as it stands.
-    pub(crate) fn statement_text(&self, index: usize) -> &'p [u8] {
-        self.program
-            .statement(index)
-            .map(|statement| self.program.statement_text(statement))
-            .unwrap_or_default()
+    pub(crate) fn statement_text(&self, id: StatementId) -> &'p [u8] {
+        self.program.statement_text(self.program.statement(id))
     }
 
     /// A statement, taken apart by the grammar. Slow: only where there is something to report.
-    pub(crate) fn statement_syntax(&self, index: usize) -> StatementSyntax<'p> {
-        parse::syntax(self.statement_text(index))
+    pub(crate) fn statement_syntax(&self, id: StatementId) -> StatementSyntax<'p> {
+        parse::syntax(self.statement_text(id))
     }
 
     /// A statement's bytes in the source, without the blanks and line ends around them.
-    pub(crate) fn statement_span(&self, index: usize) -> Span {
-        let Some(statement) = self.program.statement(index) else { return Span::default() };
+    pub(crate) fn statement_span(&self, id: StatementId) -> Span {
+        let statement = self.program.statement(id);
         let text = self.program.source().slice(statement.origin());
         let end = text.trim_ascii_end().len();
         let start = end - text.trim_ascii().len().min(end);
@@ -131,50 +130,48 @@ impl<'p> LintFindings<'p> {
     }
 
     /// A place in a statement's text. A statement that a step changed has no such place in the source: all of it is meant.
-    pub(crate) fn text_span(&self, index: usize, at: &Range<usize>) -> Span {
-        match self.program.statement(index) {
-            Some(statement) if statement.change() == StatementChange::Untouched && !at.is_empty() => {
-                statement.origin().sub_span(at.start, at.end)
-            }
-            _ => self.statement_span(index),
+    pub(crate) fn text_span(&self, id: StatementId, at: &Range<usize>) -> Span {
+        let statement = self.program.statement(id);
+        if statement.change() != StatementChange::Untouched || at.is_empty() {
+            return self.statement_span(id);
         }
+        statement.origin().sub_span(at.start, at.end)
     }
 
     /// The major word of a statement.
-    pub(crate) fn word_span(&self, index: usize) -> Span {
-        self.text_span(index, &self.statement_syntax(index).word)
+    pub(crate) fn word_span(&self, id: StatementId) -> Span {
+        self.text_span(id, &self.statement_syntax(id).word)
     }
 
     /// The numbers of a statement from the first to the last of a range, as one place.
-    pub(crate) fn numbers_span(&self, index: usize, range: Range<usize>) -> Span {
-        let plain = plain_number_ranges(self.statement_text(index));
-        let numbers = plain.unwrap_or_else(|| {
-            self.statement_syntax(index).numbers().into_iter().map(|(at, _)| at).collect()
-        });
+    pub(crate) fn numbers_span(&self, id: StatementId, range: Range<usize>) -> Span {
+        let plain = plain_number_ranges(self.statement_text(id));
+        let numbers = plain
+            .unwrap_or_else(|| self.statement_syntax(id).numbers().into_iter().map(|(at, _)| at).collect());
         let last = range.end.min(numbers.len()).checked_sub(1);
         match (numbers.get(range.start), last.and_then(|last| numbers.get(last))) {
-            (Some(first), Some(last)) => self.text_span(index, &(first.start..last.end)),
-            _ => self.statement_span(index),
+            (Some(first), Some(last)) => self.text_span(id, &(first.start..last.end)),
+            _ => self.statement_span(id),
         }
     }
 
     /// The first number of a statement that has a role.
-    pub(crate) fn role_span(&self, index: usize, role: NumberRole) -> Span {
-        let syntax = self.statement_syntax(index);
-        let roles = self.program.statement(index).map(|statement| statement.record().number_roles(&syntax));
-        match roles.and_then(|roles| roles.iter().position(|&found| found == role)) {
-            Some(at) => self.numbers_span(index, at..at + 1),
-            None => self.statement_span(index),
+    pub(crate) fn role_span(&self, id: StatementId, role: NumberRole) -> Span {
+        let syntax = self.statement_syntax(id);
+        let roles = self.program.statement(id).record().number_roles(&syntax);
+        match roles.iter().position(|&found| found == role) {
+            Some(at) => self.numbers_span(id, at..at + 1),
+            None => self.statement_span(id),
         }
     }
 
     /// The point that a motion ends with.
     pub(crate) fn end_point_span(&self, motion: &Motion) -> Span {
         let at = motion.last_statement();
-        match self.program.statement(at).map(|statement| statement.record()) {
+        match self.program.statement(at).record() {
             // Centre, radius, the 2 of `2,INTOF` where it stands, and the two ends of the LINE.
-            Some(Record::DriveArc(arc)) if arc.beyond_half => self.numbers_span(at, 8..11),
-            Some(Record::DriveArc(_)) => self.numbers_span(at, 7..10),
+            Record::DriveArc(arc) if arc.beyond_half => self.numbers_span(at, 8..11),
+            Record::DriveArc(_) => self.numbers_span(at, 7..10),
             _ => self.numbers_span(at, 0..3),
         }
     }
@@ -191,10 +188,7 @@ impl<'p> LintFindings<'p> {
             {
                 false
             }
-            _ => !matches!(
-                self.program.statement(motion.last_statement()).map(|statement| statement.record()),
-                Some(Record::GoHome(_))
-            ),
+            _ => !matches!(self.program.statement(motion.last_statement()).record(), Record::GoHome(_)),
         }
     }
 

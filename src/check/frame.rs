@@ -4,7 +4,7 @@ use super::{Lint, LintFindings};
 use crate::diagnostic::codes;
 use crate::number::count_decimals;
 use crate::program::record::FrameWord;
-use crate::program::{Record, Statement};
+use crate::program::{Record, Statement, StatementId};
 use crate::source::Span;
 use nalgebra::Matrix3;
 
@@ -12,11 +12,11 @@ use nalgebra::Matrix3;
 #[derive(Default)]
 pub(super) struct FrameLint {
     /// Rows of a CATIA0 matrix: their statements and numbers.
-    rows: Option<Vec<(usize, [f64; 4])>>,
+    rows: Option<Vec<(StatementId, [f64; 4])>>,
 }
 
 impl Lint for FrameLint {
-    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
+    fn check_statement(&mut self, id: StatementId, statement: &Statement, found: &mut LintFindings<'_>) {
         match statement.record() {
             Record::Frame(frame) => {
                 let axes = match (frame.word, frame.numbers.as_slice()) {
@@ -30,12 +30,12 @@ impl Lint for FrameLint {
                     }
                     _ => return,
                 };
-                check_axes(&axes, &[index], found);
+                check_axes(&axes, &[id], found);
             }
             Record::FrameMark => self.rows = Some(Vec::new()),
             Record::MatrixRow(row) => {
                 let Some(rows) = &mut self.rows else { return };
-                rows.push((index, **row));
+                rows.push((id, **row));
                 if let [(first, a), (second, b), (third, c)] = rows.as_slice() {
                     let axes = Matrix3::new(a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]);
                     let places = [*first, *second, *third];
@@ -49,7 +49,7 @@ impl Lint for FrameLint {
     }
 }
 
-fn check_axes(axes: &Matrix3<f64>, places: &[usize], found: &mut LintFindings<'_>) {
+fn check_axes(axes: &Matrix3<f64>, places: &[StatementId], found: &mut LintFindings<'_>) {
     let off = (axes.transpose() * axes - Matrix3::identity()).abs().max();
     // The grammar is asked for the decimals only where they matter.
     if off > 1e-12 && off > rounding_tolerance(places, found) {
@@ -67,20 +67,23 @@ fn check_axes(axes: &Matrix3<f64>, places: &[usize], found: &mut LintFindings<'_
 
 /// What rounding explains: each component is off by half its last decimal, and a product of two axes by twice the root of
 /// three of that. Three decimals are granted to files that cut their zeros.
-fn rounding_tolerance(places: &[usize], found: &LintFindings<'_>) -> f64 {
-    let of = |index: &usize| {
-        let syntax = found.statement_syntax(*index);
+fn rounding_tolerance(places: &[StatementId], found: &LintFindings<'_>) -> f64 {
+    let of = |id: &StatementId| {
+        let syntax = found.statement_syntax(*id);
         syntax.numbers().iter().map(|(at, _)| count_decimals(syntax.bytes_at(at))).max().unwrap_or(0)
     };
     let printed = places.iter().map(of).max().unwrap_or(0).clamp(3, 12);
     2.0 * 10f64.powi(-(printed as i32))
 }
 
-fn frame_span(places: &[usize], found: &LintFindings<'_>) -> Span {
+fn frame_span(places: &[StatementId], found: &LintFindings<'_>) -> Span {
     match (places.first(), places.last()) {
         (Some(first), Some(last)) => {
             Span { start: found.statement_span(*first).start, end: found.statement_span(*last).end }
         }
-        _ => Span::default(),
+        _ => {
+            debug_assert!(false, "a frame has a statement at least");
+            Span::default()
+        }
     }
 }

@@ -26,7 +26,7 @@ pub use stale_records::{STALE_CODES, find_stale_records};
 use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
 use crate::parse::{self, ParsedProgram};
 use crate::program::motion::{Motion, MotionProblem};
-use crate::program::{Dialect, Program, Statement};
+use crate::program::{Dialect, Program, Statement, StatementId};
 use crate::source::Source;
 use findings::LintFindings;
 use std::sync::Arc;
@@ -45,7 +45,7 @@ pub fn read_and_check(source: &Arc<Source>, dialect: Option<Dialect>) -> (Progra
 /// One check, with what it has to remember of the program so far.
 trait Lint {
     /// A live statement, in order.
-    fn check_statement(&mut self, _index: usize, _statement: &Statement, _found: &mut LintFindings<'_>) {}
+    fn check_statement(&mut self, _id: StatementId, _statement: &Statement, _found: &mut LintFindings<'_>) {}
     /// A motion, after its statements.
     fn check_motion(&mut self, _motion: &Motion, _found: &mut LintFindings<'_>) {}
     /// A problem that the motions met; with the motion it belongs to, where there is one.
@@ -105,19 +105,15 @@ pub fn check_program(program: &Program) -> Vec<Diagnostic> {
     let mut found = LintFindings::new(program);
     let mut lints: Vec<Box<dyn Lint>> = LINTS.iter().map(|row| (row.new)()).collect();
     let mut motions = program.motions();
-    let mut next = 0;
+    let mut statements = program.live_statements().peekable();
     loop {
         let motion = motions.next();
-        let end = motion.as_ref().map_or(program.statements().len(), |motion| motion.statements.end);
-        for index in next..end {
-            let Some(statement) = program.statement(index).filter(|statement| statement.is_live()) else {
-                continue;
-            };
-            lints.iter_mut().for_each(|lint| lint.check_statement(index, statement, &mut found));
+        let last = motion.as_ref().map(Motion::last_statement);
+        while let Some((id, statement)) = statements.next_if(|(id, _)| last.is_none_or(|last| *id <= last)) {
+            lints.iter_mut().for_each(|lint| lint.check_statement(id, statement, &mut found));
         }
-        next = next.max(end);
         for problem in motions.take_problems() {
-            let own = motion.as_ref().filter(|motion| motion.statements.contains(&problem.statement));
+            let own = motion.as_ref().filter(|motion| motion.statements.contains(problem.statement));
             lints.iter_mut().for_each(|lint| lint.check_problem(&problem, own, &mut found));
         }
         match &motion {

@@ -5,7 +5,7 @@ use crate::diagnostic::{Diagnostic, codes};
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::program::motion_class::MotionClass;
-use crate::program::{Record, Statement};
+use crate::program::{Record, Statement, StatementId};
 
 /// Millimetres: a hundred metres.
 const FAR: f64 = 1e5;
@@ -23,8 +23,8 @@ impl Lint for PointLint {
         let far = found.mm_to_file_unit(FAR);
         if let Some(axis) = point.iter().position(|value| value.abs() > far) {
             let at = motion.last_statement();
-            let span = match found.program.statement(at).map(|statement| statement.record()) {
-                Some(Record::Goto(_) | Record::From(_) | Record::Control(_)) => {
+            let span = match found.program.statement(at).record() {
+                Record::Goto(_) | Record::From(_) | Record::Control(_) => {
                     found.numbers_span(at, axis..axis + 1)
                 }
                 _ => found.statement_span(at),
@@ -56,7 +56,7 @@ impl Lint for PointLint {
 /// Tools that are left in a cut. Only marked motions count: without marks a retract cannot be told from a cut.
 #[derive(Default)]
 pub(super) struct LeftInCutLint {
-    cut: Option<usize>,
+    cut: Option<StatementId>,
     tool: Option<u32>,
 }
 
@@ -70,7 +70,7 @@ impl LeftInCutLint {
 }
 
 impl Lint for LeftInCutLint {
-    fn check_statement(&mut self, _index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
+    fn check_statement(&mut self, _id: StatementId, statement: &Statement, found: &mut LintFindings<'_>) {
         if let Record::ToolCall(call) = statement.record()
             && call.loads
         {

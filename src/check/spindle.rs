@@ -4,7 +4,7 @@ use super::findings::coolant_switch;
 use super::{Lint, LintFindings};
 use crate::diagnostic::{DiagnosticCode, codes};
 use crate::program::motion::Motion;
-use crate::program::{Record, Statement};
+use crate::program::{Record, Statement, StatementId};
 
 pub(super) const CODES: &[DiagnosticCode] =
     &[codes::CUT_WITHOUT_SPINDLE, codes::NO_SPINDLE, codes::ZERO_SPEED, codes::SPINDLE_NOT_RESTARTED];
@@ -13,29 +13,29 @@ pub(super) const CODES: &[DiagnosticCode] =
 #[derive(Default)]
 pub(super) struct SpindleLint {
     /// The last SPINDL/OFF, while it is in force.
-    off: Option<usize>,
+    off: Option<StatementId>,
     /// Whether the stop in force was reported.
     reported: bool,
     tool: Option<u32>,
     /// A tool change, until SPINDL comes after it.
-    changed: Option<usize>,
+    changed: Option<StatementId>,
 }
 
 impl Lint for SpindleLint {
-    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
+    fn check_statement(&mut self, id: StatementId, statement: &Statement, found: &mut LintFindings<'_>) {
         match statement.record() {
             Record::Spindle(spindle) => {
-                self.off = (!spindle.on).then_some(index);
+                self.off = (!spindle.on).then_some(id);
                 self.reported = false;
                 self.changed = None;
                 if spindle.on && spindle.speed == Some(0.0) {
-                    let span = found.numbers_span(index, 0..1);
+                    let span = found.numbers_span(id, 0..1);
                     found.report(codes::ZERO_SPEED, span, "the spindle is started with speed 0", "");
                 }
             }
             Record::ToolCall(call) if call.loads => {
                 if self.tool.is_some_and(|tool| tool != call.number) {
-                    self.changed = Some(index);
+                    self.changed = Some(id);
                 }
                 self.tool = Some(call.number);
             }
@@ -96,7 +96,7 @@ pub(super) struct CoolantLint {
 }
 
 impl Lint for CoolantLint {
-    fn check_statement(&mut self, _index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
+    fn check_statement(&mut self, _id: StatementId, statement: &Statement, found: &mut LintFindings<'_>) {
         if let Record::Known = statement.record()
             && let Some(on) = coolant_switch(found.program.statement_text(statement))
         {

@@ -33,12 +33,12 @@ pub const STALE_CODES: &[DiagnosticCode] =
 pub fn find_stale_records(program: &Program, step: StepId) -> Vec<Diagnostic> {
     let displacement = Displacement::measure_step(program, step);
     let mut found = LintFindings::new(program);
-    for (index, statement) in program.live_statements() {
+    for (id, statement) in program.live_statements() {
         if !displacement.moved || statement.edited_by() == Some(step) {
             continue;
         }
         if let Some((code, message)) = explain_stale_record(program, statement, &displacement) {
-            found.report(code, found.statement_span(index), message, "");
+            found.report(code, found.statement_span(id), message, "");
         }
     }
     report_turned_frames(step, &mut found);
@@ -102,7 +102,7 @@ fn report_turned_frames(step: StepId, found: &mut LintFindings<'_>) {
     }
     let mut turned = BTreeSet::new();
     for motion in program.motions() {
-        let by_step = |index| program.statement(index).and_then(Statement::edited_by) == Some(step);
+        let by_step = |id| program.statement(id).edited_by() == Some(step);
         if let Some(frame) = &motion.frame
             && by_step(motion.last_statement())
             && !by_step(frame.statement)
@@ -129,8 +129,8 @@ mod tests {
     fn after(text: &str, change: impl Fn([f64; 6]) -> [f64; 6]) -> Vec<(&'static str, String)> {
         let source = Source::new("part", text.as_bytes().to_vec()).unwrap();
         let mut program = parse(&source, None).program;
-        for index in 0..program.statements().len() {
-            let statement = program.statement(index).unwrap();
+        for id in program.statement_ids() {
+            let statement = program.statement(id);
             let Record::Goto(goto) = statement.record() else { continue };
             let axis = goto.axis.unwrap_or_default();
             let [x, y, z, i, j, k] =
@@ -138,7 +138,7 @@ mod tests {
             let axis = if goto.axis.is_some() { format!(",{i:.7},{j:.7},{k:.7}") } else { String::new() };
             let text = format!("GOTO/{x:.4},{y:.4},{z:.4}{axis}\n");
             let (record, _) = read_record(text.as_bytes()).unwrap();
-            program.replace_statement(index, text.as_bytes(), record, STEP);
+            program.replace_statement(id, text.as_bytes(), record, STEP);
         }
         let shown = |found: &Diagnostic| {
             String::from_utf8_lossy(source.slice(found.labels.first().unwrap().span)).into_owned()
@@ -230,7 +230,8 @@ mod tests {
         let mut program = parse(&source, None).program;
         for text in ["PPRINT/ESCAPE-HEIGHT,55.0\n", "GOTO/0.0,0.0,5.0\n"] {
             let (record, _) = read_record(text.as_bytes()).unwrap();
-            program.replace_statement(usize::from(text.starts_with('G')), text.as_bytes(), record, STEP);
+            let id = program.statement_ids().nth(usize::from(text.starts_with('G'))).unwrap();
+            program.replace_statement(id, text.as_bytes(), record, STEP);
         }
         assert!(find_stale_records(&program, STEP).is_empty());
         assert!(find_stale_records(&program, StepId(0)).is_empty());

@@ -3,12 +3,12 @@
 use super::{Lint, LintFindings};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::motion::Motion;
-use crate::program::{Dialect, Record, Statement, operation};
+use crate::program::{Dialect, Record, Statement, StatementId, operation};
 
 /// Operations that are not closed or do nothing, in the dialects that close them.
 #[derive(Default)]
 pub(super) struct OperationLint {
-    open: Option<usize>,
+    open: Option<StatementId>,
     moved: bool,
 }
 
@@ -22,14 +22,14 @@ impl OperationLint {
 }
 
 impl Lint for OperationLint {
-    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
+    fn check_statement(&mut self, id: StatementId, statement: &Statement, found: &mut LintFindings<'_>) {
         if !closes_operations(found.program.dialect()) {
             return;
         }
         match statement.record() {
             Record::OperationStart(_) => {
                 self.report_left_open(found);
-                (self.open, self.moved) = (Some(index), false);
+                (self.open, self.moved) = (Some(id), false);
             }
             Record::OperationEnd => {
                 if let Some(at) = self.open.take().filter(|_| !self.moved) {
@@ -51,9 +51,8 @@ impl Lint for OperationLint {
     }
 }
 
-fn quoted_operation_name(at: usize, found: &LintFindings<'_>) -> String {
-    let name =
-        found.program.statement(at).and_then(|statement| operation::operation_name(found.program, statement));
+fn quoted_operation_name(at: StatementId, found: &LintFindings<'_>) -> String {
+    let name = operation::operation_name(found.program, found.program.statement(at));
     name.filter(|name| !name.is_empty()).map(|name| format!(" `{name}`")).unwrap_or_default()
 }
 
@@ -65,22 +64,22 @@ fn closes_operations(dialect: Dialect) -> bool {
 /// FINI: missing, or with something after it.
 #[derive(Default)]
 pub(super) struct ProgramEndLint {
-    end: Option<usize>,
+    end: Option<StatementId>,
     /// The first statement after the end, and how many there are.
-    after: Option<(usize, usize)>,
+    after: Option<(StatementId, usize)>,
     /// How many of them move the tool.
     motions: usize,
 }
 
 impl Lint for ProgramEndLint {
-    fn check_statement(&mut self, index: usize, statement: &Statement, _found: &mut LintFindings<'_>) {
+    fn check_statement(&mut self, id: StatementId, statement: &Statement, _found: &mut LintFindings<'_>) {
         match statement.record() {
             Record::ProgramEnd => {
-                self.end.get_or_insert(index);
+                self.end.get_or_insert(id);
             }
             Record::Blank | Record::Comment => {}
             record if self.end.is_some() => {
-                self.after.get_or_insert((index, 0)).1 += 1;
+                self.after.get_or_insert((id, 0)).1 += 1;
                 self.motions += usize::from(record.is_motion());
             }
             _ => {}
@@ -118,7 +117,7 @@ fn report_missing_end(found: &mut LintFindings<'_>) {
         .live_statements()
         .rev()
         .find(|(_, statement)| !matches!(statement.record(), Record::Blank));
-    match last.map(|(index, _)| index) {
+    match last.map(|(id, _)| id) {
         Some(last) => {
             found.report(codes::MISSING_END, found.statement_span(last), message, "the last statement")
         }

@@ -4,7 +4,7 @@ use super::{Lint, LintFindings};
 use crate::diagnostic::{DiagnosticCode, codes};
 use crate::program::motion::{ActiveTool, Motion};
 use crate::program::record::{ToolData, ToolWord};
-use crate::program::{NumberRole, Record, Statement};
+use crate::program::{NumberRole, Record, Statement, StatementId};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
@@ -25,21 +25,21 @@ pub(super) struct ToolShapeLint {
     none_reported: bool,
     last: Option<Arc<ActiveTool>>,
     /// The statement of the shape in force.
-    data: Option<usize>,
+    data: Option<StatementId>,
     /// Whether the shape in force has cut.
     used: bool,
     /// Whether the shape in force is that of an earlier tool.
     outdated: bool,
     /// Whether a turret has turned since the last tool number.
     turret: bool,
-    shapes: HashMap<u32, (ToolData, usize)>,
+    shapes: HashMap<u32, (ToolData, StatementId)>,
     without_shape: HashSet<Option<u32>>,
 }
 
 impl Lint for ToolShapeLint {
-    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
+    fn check_statement(&mut self, id: StatementId, statement: &Statement, found: &mut LintFindings<'_>) {
         match statement.record() {
-            Record::ToolData(_) => (self.data, self.used, self.outdated) = (Some(index), false, false),
+            Record::ToolData(_) => (self.data, self.used, self.outdated) = (Some(id), false, false),
             Record::ToolCall(call) => {
                 let other = self.last.as_ref().is_none_or(|tool| tool.number != Some(call.number));
                 self.outdated |= self.used && other;
@@ -107,7 +107,7 @@ impl ToolShapeLint {
         &mut self,
         tool: &ActiveTool,
         data: &ToolData,
-        at: usize,
+        at: StatementId,
         found: &mut LintFindings<'_>,
     ) {
         let Some(number) = tool.number.filter(|_| !self.turret) else { return };
@@ -135,7 +135,7 @@ impl ToolShapeLint {
     }
 }
 
-fn report_impossible_shape(data: &ToolData, at: usize, found: &mut LintFindings<'_>) {
+fn report_impossible_shape(data: &ToolData, at: StatementId, found: &mut LintFindings<'_>) {
     let Some(diameter) = data.diameter else { return };
     if diameter <= 0.0 {
         let span = found.role_span(at, NumberRole::Length);
@@ -158,19 +158,19 @@ fn report_impossible_shape(data: &ToolData, at: usize, found: &mut LintFindings<
 /// TOOLNO and the load after it.
 #[derive(Default)]
 pub(super) struct ToolNumberLint {
-    named: Option<(u32, usize)>,
+    named: Option<(u32, StatementId)>,
 }
 
 impl Lint for ToolNumberLint {
-    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
+    fn check_statement(&mut self, id: StatementId, statement: &Statement, found: &mut LintFindings<'_>) {
         let Record::ToolCall(call) = statement.record() else { return };
         if !call.loads {
-            self.named = Some((call.number, index));
+            self.named = Some((call.number, id));
             return;
         }
         if let Some((number, at)) = self.named.take().filter(|(number, _)| *number != call.number) {
             let message = format!("tool {} is loaded, but tool {number} was described", call.number);
-            let first = (found.numbers_span(index, 0..1), "loaded");
+            let first = (found.numbers_span(id, 0..1), "loaded");
             let second = (found.numbers_span(at, 0..1), "described");
             found.report_at_two_spans(codes::TOOL_NUMBERS_DIFFER, message, first, second);
         }

@@ -3,22 +3,22 @@
 use super::{Lint, LintFindings};
 use crate::diagnostic::codes;
 use crate::program::motion::Motion;
-use crate::program::{LengthUnit, NumberRole, Record, Statement};
+use crate::program::{LengthUnit, NumberRole, Record, Statement, StatementId};
 
 /// UNITS records.
 #[derive(Default)]
 pub(super) struct LengthUnitLint {
-    stated: Option<(LengthUnit, usize)>,
+    stated: Option<(LengthUnit, StatementId)>,
     moved: bool,
 }
 
 impl Lint for LengthUnitLint {
-    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
+    fn check_statement(&mut self, id: StatementId, statement: &Statement, found: &mut LintFindings<'_>) {
         let Record::Units(units) = statement.record() else { return };
         match self.stated {
             Some((before, at)) if before != *units => {
                 let message = "the unit of lengths changes here";
-                let first = (found.statement_span(index), "this unit");
+                let first = (found.statement_span(id), "this unit");
                 found.report_at_two_spans(
                     codes::UNITS_DIFFER,
                     message,
@@ -29,14 +29,14 @@ impl Lint for LengthUnitLint {
             None if self.moved => {
                 found.report(
                     codes::UNITS_LATE,
-                    found.statement_span(index),
+                    found.statement_span(id),
                     "motions stand before this unit",
                     "",
                 );
             }
             _ => {}
         }
-        self.stated = Some((*units, index));
+        self.stated = Some((*units, id));
     }
 
     fn check_motion(&mut self, _motion: &Motion, _found: &mut LintFindings<'_>) {
@@ -52,7 +52,7 @@ pub(super) struct FeedUnitLint {
 }
 
 impl Lint for FeedUnitLint {
-    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
+    fn check_statement(&mut self, id: StatementId, statement: &Statement, found: &mut LintFindings<'_>) {
         let feed = match statement.record() {
             Record::Feed(feed) => Some(*feed),
             Record::Cycle(cycle) => cycle.feed,
@@ -79,7 +79,7 @@ impl Lint for FeedUnitLint {
             let message = format!("this feed is in {}, but {whose} in {}", name(mm), name(expected));
             found.report(
                 codes::FEED_UNITS_MIXED,
-                found.role_span(index, NumberRole::Feed),
+                found.role_span(id, NumberRole::Feed),
                 message,
                 unit.word(),
             );

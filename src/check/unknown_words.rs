@@ -2,7 +2,7 @@
 
 use super::{Lint, LintFindings};
 use crate::diagnostic::codes;
-use crate::program::{Record, Statement};
+use crate::program::{Record, Statement, StatementId};
 
 /// Words whose loss changes what the machine does.
 const MATTER: &[&str] = &[
@@ -48,15 +48,15 @@ pub(super) struct UnknownWordLint {
 }
 
 impl Lint for UnknownWordLint {
-    fn check_statement(&mut self, index: usize, statement: &Statement, found: &mut LintFindings<'_>) {
+    fn check_statement(&mut self, id: StatementId, statement: &Statement, found: &mut LintFindings<'_>) {
         self.ended |= matches!(statement.record(), Record::ProgramEnd);
         // What stands after the end has its own finding.
         if self.ended || !matches!(statement.record(), Record::Other) {
             return;
         }
-        let syntax = found.statement_syntax(index);
+        let syntax = found.statement_syntax(id);
         let major = syntax.major_word();
-        let span = found.text_span(index, &syntax.word);
+        let span = found.text_span(id, &syntax.word);
         let meant = MATTER.iter().find(|word| strsim::osa_distance(&major, word) == 1);
         match meant {
             Some(word) => {

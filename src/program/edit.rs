@@ -3,8 +3,9 @@
 //! The texts come from `write`, which patches them and reads them back. Here they are only put in place and
 //! signed with the step.
 
+use super::program_stamp::ProgramStamp;
 use super::statement::{Statement, StatementChange, StepId, TextLocation};
-use super::{Program, Record};
+use super::{InsertionPoint, Program, Record, StatementId};
 use crate::source::Span;
 
 impl Program {
@@ -24,51 +25,58 @@ impl Program {
         place
     }
 
-    /// Gives a statement a new text and the record that was read from it. An equal text is not a change.
-    pub(crate) fn replace_statement(&mut self, index: usize, text: &[u8], record: Record, step: StepId) {
-        let same = self.statement(index).is_none_or(|statement| self.statement_text(statement) == text);
-        if same {
+    /// Gives a live statement a new text and the record that was read from it. An equal text is not a
+    /// change.
+    pub(crate) fn replace_statement(&mut self, id: StatementId, text: &[u8], record: Record, step: StepId) {
+        let before = self.statement(id).text;
+        if self.text_at(before) == text {
             return;
         }
         let place = self.store_text(text);
-        if let Some(statement) = self.statements.get_mut(index) {
-            if let Some(history) = &mut self.history {
-                history.record_edit(place, Some(statement.text), step);
-            }
-            statement.text = place;
-            statement.record = record;
-            // A statement that is not in the file stays inserted, whoever edits it.
-            statement.change = match statement.change {
-                StatementChange::Inserted(_) => StatementChange::Inserted(step),
-                _ => StatementChange::Edited(step),
-            };
+        if let Some(history) = &mut self.history {
+            history.record_edit(place, Some(before), step);
         }
+        let statement = live_statement_mut(&mut self.statements, self.stamp, id);
+        statement.text = place;
+        statement.record = record;
+        // A statement that is not in the file stays inserted, whoever edits it.
+        statement.change = match statement.change {
+            StatementChange::Inserted(_) => StatementChange::Inserted(step),
+            _ => StatementChange::Edited(step),
+        };
     }
 
-    /// Removes a statement from the program. It is kept with a mark, also if a step inserted it, so that the
+    /// Removes a live statement from the program. It is kept with a mark, also if a step inserted it, so that the
     /// report can show it.
-    pub(crate) fn delete_statement(&mut self, index: usize, step: StepId) {
-        if let Some(statement) = self.statements.get_mut(index) {
-            self.step_edits.record_deletion(&statement.record, statement.change, step);
-            statement.change = StatementChange::Deleted(step);
-        }
+    pub(crate) fn delete_statement(&mut self, id: StatementId, step: StepId) {
+        let statement = live_statement_mut(&mut self.statements, self.stamp, id);
+        self.step_edits.record_deletion(&statement.record, statement.change, step);
+        statement.change = StatementChange::Deleted(step);
     }
 
-    /// Inserts new statements, each before the statement with its index (the count of statements for the
-    /// end). Insertions with the same index keep their order. Indices are those before the call.
-    pub(crate) fn insert_statements(&mut self, mut new: Vec<(usize, Vec<u8>, Record)>, step: StepId) {
+    /// Inserts new statements at places of this program as it is before the call. Statements behind them get new
+    /// ids. Insertions at the same place keep their order.
+    pub(crate) fn insert_statements(
+        &mut self,
+        mut new: Vec<(InsertionPoint, Vec<u8>, Record)>,
+        step: StepId,
+    ) {
+        for (at, _, _) in &new {
+            at.stamp().assert_belongs_to(self.stamp);
+            debug_assert!(*at <= self.end(), "{at:?} is behind the end of the program");
+        }
         if new.is_empty() {
             return;
         }
         new.iter().for_each(|(_, _, record)| self.step_edits.record_insertion(record));
         // A stable sort keeps the order of insertions at the same place. One pass then merges both lists.
-        new.sort_by_key(|(index, _, _)| *index);
+        new.sort_by_key(|(at, _, _)| *at);
         let mut merged = Vec::with_capacity(self.statements.len() + new.len());
         let mut new = new.into_iter().peekable();
         let old = std::mem::take(&mut self.statements);
         let end = old.last().map_or(0, |last| last.origin.end);
         for (index, statement) in old.into_iter().enumerate() {
-            while let Some((_, text, record)) = new.next_if(|(before, _, _)| *before <= index) {
+            while let Some((_, text, record)) = new.next_if(|(at, _, _)| at.index() <= index) {
                 // The origin is an empty span at the following statement, so that findings can point at a
                 // place in the file.
                 let origin = Span { start: statement.origin.start, end: statement.origin.start };
@@ -87,5 +95,17 @@ impl Program {
             });
         }
         self.statements = merged;
+        self.stamp = ProgramStamp::new();
     }
+}
+
+/// Returns a live statement for a change. [`ProgramEditor`](crate::write::ProgramEditor) refuses edits of deleted
+/// statements before.
+// As in `Program::statement`: every id was made for a statement.
+#[allow(clippy::indexing_slicing)]
+fn live_statement_mut(statements: &mut [Statement], stamp: ProgramStamp, id: StatementId) -> &mut Statement {
+    id.stamp().assert_belongs_to(stamp);
+    let statement = &mut statements[id.index()];
+    debug_assert!(statement.is_live(), "a deleted statement cannot be changed");
+    statement
 }

@@ -6,7 +6,7 @@
 //! move. No step has to keep a log, and a program without history pays nothing.
 
 use super::statement::{Statement, StepId, TextLocation};
-use super::{Program, StatementChange};
+use super::{Program, StatementChange, StatementId};
 use std::collections::BTreeMap;
 
 /// The history of a program's edits.
@@ -79,11 +79,12 @@ impl Program {
 
     /// Adds a note about a step's edit of a statement. It has no effect if the step did not edit the
     /// statement or no history is kept.
-    pub fn add_edit_note(&mut self, index: usize, by: StepId, note: String) {
-        let Some(statement) = self.statements.get(index) else { return };
+    pub(crate) fn add_edit_note(&mut self, id: StatementId, by: StepId, note: String) {
+        let statement = self.statement(id);
         let changed = matches!(statement.change, StatementChange::Edited(step) | StatementChange::Inserted(step) if step == by);
+        let start = statement.text.start;
         if let Some(history) = self.history.as_mut().filter(|_| changed) {
-            history.notes.insert(statement.text.start, note.into_boxed_str());
+            history.notes.insert(start, note.into_boxed_str());
         }
     }
 }

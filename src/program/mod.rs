@@ -14,10 +14,13 @@ mod history;
 pub mod motion;
 pub mod motion_class;
 pub mod operation;
+mod program_stamp;
 mod provenance_comments;
 pub mod record;
 mod record_kind;
 mod statement;
+mod statement_id;
+mod statements;
 mod step_edits;
 mod syntax;
 pub mod units;
@@ -29,6 +32,7 @@ pub use provenance_comments::{OWN_WORD, ProvenanceComment};
 pub use record::{NumberRole, Record};
 pub use record_kind::RecordKind;
 pub use statement::{Statement, StatementChange, StepId};
+pub use statement_id::{InsertionPoint, StatementId, StatementRange};
 pub use step_edits::StepEdits;
 pub use syntax::{FieldGroup, FieldKind, StatementField, StatementKind, StatementSyntax, fold_text};
 pub use units::{Feed, FeedUnit, LengthUnit};
@@ -46,6 +50,7 @@ pub struct Program {
     dialect: Dialect,
     history: Option<Box<history::EditHistory>>,
     step_edits: step_edits::StepEditCounts,
+    stamp: program_stamp::ProgramStamp,
 }
 
 impl Program {
@@ -58,6 +63,7 @@ impl Program {
             dialect: Dialect::Iso,
             history: None,
             step_edits: step_edits::StepEditCounts::default(),
+            stamp: program_stamp::ProgramStamp::new(),
         }
     }
 
@@ -72,6 +78,7 @@ impl Program {
     /// Adds a statement as the parser read it.
     #[inline]
     pub(crate) fn push(&mut self, record: Record, span: Span) {
+        debug_assert!(span.end as usize <= self.source.bytes().len(), "{span:?} is no place in the source");
         let text = TextLocation { start: u64::from(span.start), length: span.len() as u32 };
         self.statements.push(Statement { record, text, origin: span, change: StatementChange::Untouched });
     }
@@ -84,21 +91,6 @@ impl Program {
     /// Returns the dialect: detected, or forced when the program was parsed.
     pub fn dialect(&self) -> Dialect {
         self.dialect
-    }
-
-    /// Returns all statements in order, including deleted ones (see [`Statement::is_live`]).
-    pub fn statements(&self) -> &[Statement] {
-        &self.statements
-    }
-
-    /// Returns the statement with an index.
-    pub fn statement(&self, index: usize) -> Option<&Statement> {
-        self.statements.get(index)
-    }
-
-    /// Returns the live statements with their indices.
-    pub fn live_statements(&self) -> impl DoubleEndedIterator<Item = (usize, &Statement)> {
-        self.statements.iter().enumerate().filter(|(_, statement)| statement.is_live())
     }
 
     /// Returns the current text of a statement with its line end.
@@ -117,7 +109,9 @@ impl Program {
         } else {
             (self.edits.as_slice(), start - source.len())
         };
-        bytes.get(start..start + length).unwrap_or_default()
+        let text = bytes.get(start..start + length);
+        debug_assert!(text.is_some(), "texts are never taken out of the source or the edits");
+        text.unwrap_or_default()
     }
 
     /// Returns the unit of lengths that the file states first, or `None` if it states none (NX and CATIA

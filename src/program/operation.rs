@@ -4,34 +4,36 @@
 //! and CLT `OPFEATSTART`..`OPFEATEND`. A file without marks has one unnamed operation. Statements before the
 //! first mark belong to the first operation.
 
-use super::{Program, Record, Statement};
-use std::ops::Range;
+use super::{InsertionPoint, Program, Record, Statement, StatementId, StatementRange};
 
 /// One operation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Operation {
     /// The name, empty if the file has none. Bytes that are not UTF-8 are read as Latin-1.
     pub name: String,
-    /// The index of the statement that starts it.
-    pub start: usize,
-    /// The indices of its statements.
-    pub statements: Range<usize>,
+    /// The statement that starts it, or `None` if the file marks no operation.
+    pub start: Option<StatementId>,
+    /// Its statements including deleted ones, or `None` in a program without statements.
+    pub statements: Option<StatementRange>,
     /// Whether an end mark closed it.
     pub closed: bool,
 }
 
+impl Operation {
+    /// Returns whether a statement belongs to it.
+    pub fn contains(&self, id: StatementId) -> bool {
+        self.statements.is_some_and(|statements| statements.contains(id))
+    }
+}
+
 /// Finds the operations of a program, in order and without gaps. There is always at least one.
 pub fn find_operations(program: &Program) -> Vec<Operation> {
-    let end = program.statements().len();
     let mut found: Vec<Operation> = Vec::new();
-    for (index, statement) in program.live_statements() {
+    for (id, statement) in program.live_statements() {
         match statement.record() {
             Record::OperationStart(_) => {
-                if let Some(last) = found.last_mut() {
-                    last.statements.end = index;
-                }
                 let name = operation_name(program, statement).unwrap_or_default();
-                found.push(Operation { name, start: index, statements: index..end, closed: false });
+                found.push(Operation { name, start: Some(id), statements: None, closed: false });
             }
             Record::OperationEnd => {
                 if let Some(last) = found.last_mut() {
@@ -41,11 +43,29 @@ pub fn find_operations(program: &Program) -> Vec<Operation> {
             _ => {}
         }
     }
-    match found.first_mut() {
-        Some(first) => first.statements.start = 0,
-        None => found.push(Operation { name: String::new(), start: 0, statements: 0..end, closed: true }),
+    if found.is_empty() {
+        found.push(Operation { name: String::new(), start: None, statements: None, closed: true });
     }
+    set_operation_statements(program, &mut found);
     found
+}
+
+/// Gives each operation the statements from its start to that of the next one. The first operation also gets
+/// the statements before it.
+fn set_operation_statements(program: &Program, operations: &mut [Operation]) {
+    let mut next = program.end();
+    let last_before = |at: InsertionPoint| {
+        let index = at.index().checked_sub(1)?;
+        Some(StatementId::new(index, program.stamp))
+    };
+    for (number, operation) in operations.iter_mut().enumerate().rev() {
+        let first = operation.start.filter(|_| number > 0).map_or(program.start(), StatementId::before);
+        operation.statements = program
+            .statement_behind(first)
+            .zip(last_before(next))
+            .map(|(first, last)| StatementRange::new(first, last));
+        next = first;
+    }
 }
 
 /// Returns the name in the start statement of an operation.

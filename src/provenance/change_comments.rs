@@ -3,7 +3,10 @@
 use super::comment_format::{self, WIDTH};
 use super::comment_places::CommentPlaces;
 use super::{CommentLine, change_wording, feeds_before_steps};
-use crate::program::{Program, ProvenanceComment, Record, Statement, StatementChange, StatementEdit, StepId};
+use crate::program::{
+    InsertionPoint, Program, ProvenanceComment, Record, Statement, StatementChange, StatementEdit,
+    StatementId, StepId,
+};
 use crate::transform::Recipe;
 
 /// What is to be put in, and what goes for it.
@@ -11,7 +14,7 @@ use crate::transform::Recipe;
 pub(super) struct ChangeComments {
     pub(super) lines: Vec<CommentLine>,
     /// Comments of earlier runs that go along with their record, because something was put in between.
-    pub(super) moved: Vec<usize>,
+    pub(super) moved: Vec<StatementId>,
 }
 
 /// A line for each step that changed a record, one for records that a step put in or took out in a row.
@@ -30,8 +33,8 @@ pub(super) fn write_change_comments(
         parted: false,
         found: ChangeComments::default(),
     };
-    for (index, statement) in program.statements().iter().enumerate() {
-        writer.visit_statement(index, statement);
+    for (id, statement) in program.numbered_statements() {
+        writer.visit_statement(id, statement);
     }
     writer.end_run();
     writer.found
@@ -41,7 +44,7 @@ pub(super) fn write_change_comments(
 struct RecordRun {
     by: StepId,
     put_in: bool,
-    first: usize,
+    first: StatementId,
     count: usize,
     /// What is said of a single one, from the longest to the shortest.
     single: Vec<String>,
@@ -55,19 +58,19 @@ struct ChangeCommentWriter<'p> {
     feeds: feeds_before_steps::FeedsBeforeSteps,
     run: Option<RecordRun>,
     /// Comments of earlier runs that no record has followed yet.
-    earlier: Vec<usize>,
+    earlier: Vec<StatementId>,
     /// Whether something was put in after them.
     parted: bool,
     found: ChangeComments,
 }
 
 impl ChangeCommentWriter<'_> {
-    fn visit_statement(&mut self, index: usize, statement: &Statement) {
+    fn visit_statement(&mut self, id: StatementId, statement: &Statement) {
         if ProvenanceComment::from_text(self.program.statement_text(statement))
             == Some(ProvenanceComment::Change)
         {
             if statement.is_live() {
-                self.earlier.push(index);
+                self.earlier.push(id);
             }
             return;
         }
@@ -75,20 +78,20 @@ impl ChangeCommentWriter<'_> {
             StatementChange::Untouched => self.end_run(),
             StatementChange::Edited(by) => {
                 self.end_run();
-                self.write_edits(index, statement, by);
+                self.write_edits(id, statement, by);
             }
-            StatementChange::Inserted(by) => self.visit_inserted(index, statement, by),
+            StatementChange::Inserted(by) => self.visit_inserted(id, statement, by),
             // One step put it in, this one took it out: the file never had it.
             StatementChange::Deleted(_) if statement.origin().is_empty() => return,
-            StatementChange::Deleted(by) => self.visit_deleted(index, statement, by),
+            StatementChange::Deleted(by) => self.visit_deleted(id, statement, by),
         }
         if statement.is_live() {
-            self.keep_earlier_comments(index, statement);
+            self.keep_earlier_comments(id, statement);
         }
         self.feeds.pass_statement(self.program, statement);
     }
 
-    fn write_edits(&mut self, index: usize, statement: &Statement, by: StepId) {
+    fn write_edits(&mut self, id: StatementId, statement: &Statement, by: StepId) {
         let mut edits = self.program.edits_of_statement(statement);
         if edits.is_empty() {
             let before = Some(self.program.source().slice(statement.origin()));
@@ -99,12 +102,12 @@ impl ChangeCommentWriter<'_> {
                 note: None,
             });
         }
-        edits.iter().for_each(|edit| self.write_edit(index, statement, edit));
+        edits.iter().for_each(|edit| self.write_edit(id, statement, edit));
     }
 
-    fn write_edit(&mut self, index: usize, statement: &Statement, edit: &StatementEdit<'_>) {
+    fn write_edit(&mut self, id: StatementId, statement: &Statement, edit: &StatementEdit<'_>) {
         let before = edit.before.unwrap_or_default();
-        let name = self.record_name(index, statement);
+        let name = self.record_name(id, statement);
         let room = self.columns_left(edit.by);
         let with_note = |note: String| {
             let left = room.saturating_sub(name.len() + note.len());
@@ -113,10 +116,10 @@ impl ChangeCommentWriter<'_> {
             format!("{name}{difference}{note}")
         };
         let texts = comment_format::note_variants(edit.note).into_iter().map(with_note).collect();
-        self.push_line(index, edit.by, &comment_format::first_fitting(texts, room));
+        self.push_line(id, edit.by, &comment_format::first_fitting(texts, room));
     }
 
-    fn visit_inserted(&mut self, index: usize, statement: &Statement, by: StepId) {
+    fn visit_inserted(&mut self, id: StatementId, statement: &Statement, by: StepId) {
         let edits = self.program.edits_of_statement(statement);
         let (first, later) =
             edits.split_first().map_or((None, &[][..]), |(first, later)| (Some(first), later));
@@ -130,7 +133,7 @@ impl ChangeCommentWriter<'_> {
             Some(run) if run.put_in && run.by == by && !alone => run.count += 1,
             _ => {
                 self.end_run();
-                let name = self.record_name(index, statement);
+                let name = self.record_name(id, statement);
                 let text = first.map_or(self.program.statement_text(statement), |first| first.after);
                 let single =
                     match self.describe_inserted_feed(statement.record(), text, by).filter(|_| is_feed) {
@@ -138,12 +141,12 @@ impl ChangeCommentWriter<'_> {
                         None => vec![format!("{name}put in")],
                     };
                 let note = first.and_then(|first| first.note).map(str::to_owned);
-                self.run = Some(RecordRun { by, put_in: true, first: index, count: 1, single, note });
+                self.run = Some(RecordRun { by, put_in: true, first: id, count: 1, single, note });
             }
         }
         if alone {
             self.end_run();
-            later.iter().for_each(|edit| self.write_edit(index, statement, edit));
+            later.iter().for_each(|edit| self.write_edit(id, statement, edit));
         }
     }
 
@@ -157,7 +160,7 @@ impl ChangeCommentWriter<'_> {
         })
     }
 
-    fn visit_deleted(&mut self, index: usize, statement: &Statement, by: StepId) {
+    fn visit_deleted(&mut self, id: StatementId, statement: &Statement, by: StepId) {
         match &mut self.run {
             Some(run) if !run.put_in && run.by == by => run.count += 1,
             _ => {
@@ -165,7 +168,7 @@ impl ChangeCommentWriter<'_> {
                 let text = change_wording::to_one_line(self.program.source().slice(statement.origin()));
                 let room = self.columns_left(by).saturating_sub("taken out: ".len());
                 let single = vec![format!("taken out: {}", comment_format::shorten_middle(&text, room))];
-                self.run = Some(RecordRun { by, put_in: false, first: index, count: 1, single, note: None });
+                self.run = Some(RecordRun { by, put_in: false, first: id, count: 1, single, note: None });
             }
         }
     }
@@ -182,37 +185,36 @@ impl ChangeCommentWriter<'_> {
     }
 
     /// Comments of an earlier run stay with the record that they are about, where one was put in between.
-    fn keep_earlier_comments(&mut self, index: usize, statement: &Statement) {
+    fn keep_earlier_comments(&mut self, id: StatementId, statement: &Statement) {
         if matches!(statement.change(), StatementChange::Inserted(_)) {
             return;
         }
         let earlier = std::mem::take(&mut self.earlier);
-        let to = self.places.comment_position(index);
+        let to = self.places.comment_position(id);
         let parted = std::mem::take(&mut self.parted);
         let first = earlier.first().copied();
-        if !parted || first.is_none_or(|first| to <= first || !self.has_inserted_between(first, to)) {
+        if !parted || first.is_none_or(|first| to <= first.before() || !self.has_inserted_between(first, to))
+        {
             return;
         }
         // Lines about this record itself, which were added just now, come after them.
-        let own = self.found.lines.iter().rposition(|line| line.before < to).map_or(0, |last| last + 1);
-        let text = |index: &usize| {
-            let statement = self.program.statement(*index)?;
-            Some(CommentLine { before: to, text: self.program.statement_text(statement).to_vec() })
-        };
-        let lines: Vec<CommentLine> = earlier.iter().filter_map(text).collect();
+        let own = self.found.lines.iter().rposition(|line| line.at < to).map_or(0, |last| last + 1);
+        let text = |id: &StatementId| self.program.statement_text(self.program.statement(*id)).to_vec();
+        let lines: Vec<CommentLine> =
+            earlier.iter().map(|id| CommentLine { at: to, text: text(id) }).collect();
         self.found.lines.splice(own..own, lines);
         self.found.moved.extend(earlier);
     }
 
     /// Whether a live record that was put in stands between two statements.
-    fn has_inserted_between(&self, from: usize, to: usize) -> bool {
-        let between = self.program.statements().get(from..to).unwrap_or_default();
+    fn has_inserted_between(&self, from: StatementId, to: InsertionPoint) -> bool {
+        let between = self.program.statements_between(from.before(), to);
         between.iter().any(|statement| matches!(statement.change(), StatementChange::Inserted(_)))
     }
 
     /// The record's name with a blank, where its comments do not stand directly before it.
-    fn record_name(&self, index: usize, statement: &Statement) -> String {
-        if self.places.comment_position(index) == index {
+    fn record_name(&self, id: StatementId, statement: &Statement) -> String {
+        if self.places.comment_position(id) == id.before() {
             return String::new();
         }
         format!(
@@ -231,9 +233,9 @@ impl ChangeCommentWriter<'_> {
         )
     }
 
-    fn push_line(&mut self, index: usize, by: StepId, text: &str) {
+    fn push_line(&mut self, id: StatementId, by: StepId, text: &str) {
         let text =
             comment_format::comment_line(self.program.dialect(), &format!("{}: {text}", self.step_name(by)));
-        self.found.lines.push(CommentLine { before: self.places.comment_position(index), text });
+        self.found.lines.push(CommentLine { at: self.places.comment_position(id), text });
     }
 }

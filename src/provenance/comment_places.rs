@@ -1,55 +1,78 @@
 //! Where a comment may stand: directly before a record, but never inside a group that readers expect in one piece.
 
 use crate::parse;
-use crate::program::{Dialect, Program, ProvenanceComment, Record, Statement};
+use crate::program::{Dialect, InsertionPoint, Program, ProvenanceComment, Record, Statement, StatementId};
 
 /// For each statement of a program, where its comments stand.
 pub(super) struct CommentPlaces {
-    /// The statement before which they stand: itself, or the first of its group; of a deleted one, that of the next live one.
-    before: Vec<usize>,
-    header: usize,
+    /// Before each statement itself, or before the first of its group; of a deleted one, where those of the next live one stand.
+    places: Vec<InsertionPoint>,
+    header: InsertionPoint,
 }
 
 impl CommentPlaces {
     /// Looks at a whole program.
     pub(super) fn from_program(program: &Program) -> Self {
-        let end = program.statements().len();
-        let mut before: Vec<usize> = (0..end).collect();
-        let mut last: Option<(usize, &Statement)> = None;
-        for (index, statement) in program.live_statements() {
+        let places = program.statement_ids().map(StatementId::before).collect();
+        let mut found = Self { places, header: program.start() };
+        let mut last: Option<(StatementId, &Statement)> = None;
+        for (id, statement) in program.live_statements() {
             if let Some((last, above)) = last
                 && must_stay_together(program, above, statement)
-                && let Some(start) = before.get(last).copied()
-                && let Some(place) = before.get_mut(index)
             {
-                *place = start;
+                found.move_comments(id, found.comment_position(last));
             }
-            last = Some((index, statement));
+            last = Some((id, statement));
         }
         if program.dialect() == Dialect::Nx {
-            move_behind_heads(program, &mut before);
+            found.move_behind_heads(program);
         }
-        let mut next = end;
-        for (statement, place) in program.statements().iter().zip(&mut before).rev() {
+        let mut next = program.end();
+        for (id, statement) in program.numbered_statements().rev() {
             if statement.is_live() {
-                next = *place;
+                next = found.comment_position(id);
             } else {
-                *place = next;
+                found.move_comments(id, next);
             }
         }
-        let mut places = Self { before, header: 0 };
-        places.header = find_header_position(program, &places);
-        places
+        found.header = find_header_position(program, &found);
+        found
     }
 
-    /// The statement before which comments about a statement stand.
-    pub(super) fn comment_position(&self, index: usize) -> usize {
-        self.before.get(index).copied().unwrap_or(self.before.len())
+    /// Where comments about a statement stand.
+    pub(super) fn comment_position(&self, id: StatementId) -> InsertionPoint {
+        let place = self.places.get(id.index()).copied();
+        debug_assert!(place.is_some(), "{id:?} is of another program");
+        place.unwrap_or(id.before())
     }
 
-    /// The statement before which the header stands.
-    pub(super) fn header_position(&self) -> usize {
+    /// Where the header stands.
+    pub(super) fn header_position(&self) -> InsertionPoint {
         self.header
+    }
+
+    fn move_comments(&mut self, id: StatementId, to: InsertionPoint) {
+        match self.places.get_mut(id.index()) {
+            Some(place) => *place = to,
+            None => debug_assert!(false, "{id:?} is of another program"),
+        }
+    }
+
+    /// The head of an NX operation, TOOL PATH to MSYS, stays in one piece, and nothing comes before it, where no operation is:
+    /// what is to say about it stands after it, beside NX's own `$$ centerline data`.
+    fn move_behind_heads(&mut self, program: &Program) {
+        let mut head: Vec<StatementId> = Vec::new();
+        for (id, statement) in program.live_statements() {
+            match statement.record() {
+                Record::ToolData(_) | Record::Frame(_) | Record::Comment if !head.is_empty() => head.push(id),
+                Record::OperationStart(_) => {
+                    head.drain(..).for_each(|inside| self.move_comments(inside, id.before()));
+                    head.push(id);
+                }
+                _ => head.drain(..).for_each(|inside| self.move_comments(inside, id.before())),
+            }
+        }
+        head.drain(..).for_each(|inside| self.move_comments(inside, program.end()));
     }
 }
 
@@ -90,39 +113,14 @@ fn must_stay_together(program: &Program, above: &Statement, below: &Statement) -
         }
 }
 
-/// The head of an NX operation, TOOL PATH to MSYS, stays in one piece, and nothing comes before it, where no operation is:
-/// what is to say about it stands after it, beside NX's own `$$ centerline data`.
-fn move_behind_heads(program: &Program, before: &mut [usize]) {
-    let mut head: Vec<usize> = Vec::new();
-    let end = before.len();
-    let mut close = |head: &mut Vec<usize>, next: usize| {
-        for inside in head.drain(..) {
-            if let Some(place) = before.get_mut(inside) {
-                *place = next;
-            }
-        }
-    };
-    for (index, statement) in program.live_statements() {
-        match statement.record() {
-            Record::ToolData(_) | Record::Frame(_) | Record::Comment if !head.is_empty() => head.push(index),
-            Record::OperationStart(_) => {
-                close(&mut head, index);
-                head.push(index);
-            }
-            _ => close(&mut head, index),
-        }
-    }
-    close(&mut head, end);
-}
-
 /// Where systems have comments of their own: after NX's first head; after PARTNO; after the record that Makino and CAMWorks files
 /// must begin with; else before the first record that is no comment. Headers of earlier runs come first.
-fn find_header_position(program: &Program, places: &CommentPlaces) -> usize {
+fn find_header_position(program: &Program, places: &CommentPlaces) -> InsertionPoint {
     let mut found = None;
-    for (index, statement) in program.live_statements() {
+    for (id, statement) in program.live_statements() {
         let first_of_file = match (program.dialect(), statement.record()) {
             (Dialect::Nx, Record::OperationStart(_)) => {
-                found = Some(places.comment_position(index));
+                found = Some(places.comment_position(id));
                 break;
             }
             (Dialect::MakinoFf, Record::Text) => major_word(program, statement) == "PPRINT",
@@ -131,7 +129,7 @@ fn find_header_position(program: &Program, places: &CommentPlaces) -> usize {
             _ => false,
         };
         if first_of_file {
-            found = Some(index + 1);
+            found = Some(id.after());
             break;
         }
         if statement.record().is_motion() {
@@ -149,15 +147,19 @@ fn find_header_position(program: &Program, places: &CommentPlaces) -> usize {
         )
     };
     let first = || {
-        program.live_statements().find(|(_, statement)| !says_nothing(statement.record())).map(|(at, _)| at)
+        program
+            .live_statements()
+            .find(|(_, statement)| !says_nothing(statement.record()))
+            .map(|(id, _)| id.before())
     };
-    let from = found.or_else(first).unwrap_or_default();
+    // A file of comments alone has its header before them.
+    let from = found.or_else(first).unwrap_or(program.start());
     let own = |statement: &Statement| {
         ProvenanceComment::from_text(program.statement_text(statement)) == Some(ProvenanceComment::Header)
     };
-    let rest = program.live_statements().filter(|(index, _)| *index >= from);
-    let next = rest.skip_while(|(_, statement)| own(statement)).map(|(index, _)| index).next();
-    next.map_or(program.statements().len(), |next| places.comment_position(next))
+    let rest = program.live_statements().filter(|(id, _)| id.before() >= from);
+    let next = rest.skip_while(|(_, statement)| own(statement)).map(|(id, _)| id).next();
+    next.map_or(program.end(), |next| places.comment_position(next))
 }
 
 fn major_word(program: &Program, statement: &Statement) -> String {

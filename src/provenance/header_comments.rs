@@ -30,11 +30,8 @@ pub(super) fn header_lines(
     // What the print is of, so that nobody compares it with the digest of the recipe's text alone.
     named("recipe", recipe.source.name(), "recipe and files", print.map(|print| print.sha256));
     named("input", program.source().name(), "input", Some(Digest::from_bytes(program.source().bytes())));
-    let before = places.header_position();
-    texts
-        .iter()
-        .map(|text| CommentLine { before, text: comment_format::comment_line(dialect, text) })
-        .collect()
+    let at = places.header_position();
+    texts.iter().map(|text| CommentLine { at, text: comment_format::comment_line(dialect, text) }).collect()
 }
 
 fn printable_file_name(path: &str) -> String {

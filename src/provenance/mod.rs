@@ -31,15 +31,15 @@ pub use stale_comments::find_stale_comments;
 
 use crate::diagnostic::Failure;
 use crate::fingerprint::RecipeFingerprint;
-use crate::program::{Program, StatementChange};
+use crate::program::{InsertionPoint, Program, StatementChange};
 use crate::recipe::Provenance;
 use crate::transform::Recipe;
 use crate::write::ProgramEditor;
 use comment_places::CommentPlaces;
 
-/// A comment and the statement that it stands before (the count of statements for the end).
+/// A comment and the place where it is put in.
 struct CommentLine {
-    before: usize,
+    at: InsertionPoint,
     text: Vec<u8>,
 }
 
@@ -67,9 +67,11 @@ pub fn add_comments(
         moved = found.moved;
     }
     let mut editor = ProgramEditor::new(program, recipe.provenance_step());
-    moved.into_iter().for_each(|index| editor.delete_statement(index));
+    for id in moved {
+        editor.delete_statement(id)?;
+    }
     for line in lines {
-        editor.insert_before(line.before, &line.text)?;
+        editor.insert(line.at, &line.text)?;
     }
     editor.finish()
 }

@@ -13,11 +13,11 @@ pub fn find_stale_comments(program: &Program) -> Option<Diagnostic> {
     };
     let mut commented = BTreeSet::new();
     let mut last = None;
-    for (index, statement) in program.live_statements() {
+    for (id, statement) in program.live_statements() {
         if own(statement) {
-            last = Some(last.unwrap_or(index));
+            last = Some(last.unwrap_or(id));
         } else if last.take().is_some() {
-            commented.insert(index);
+            commented.insert(id.before());
         }
     }
     if commented.is_empty() {
@@ -25,10 +25,9 @@ pub fn find_stale_comments(program: &Program) -> Option<Diagnostic> {
     }
     let places = CommentPlaces::from_program(program);
     let changed = |statement: &Statement| statement.change() != StatementChange::Untouched && !own(statement);
-    let all = program.statements().iter().enumerate();
-    let mut hit = all.filter(|(index, statement)| {
-        changed(statement) && commented.contains(&places.comment_position(*index))
-    });
+    let all = program.numbered_statements();
+    let mut hit =
+        all.filter(|(id, statement)| changed(statement) && commented.contains(&places.comment_position(*id)));
     let (_, first) = hit.next()?;
     let more = hit.count();
     let message = match more {

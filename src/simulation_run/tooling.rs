@@ -5,7 +5,7 @@ use crate::diagnostic::Diagnostic;
 use crate::engagement::{CuttingCoefficients, LoadModel};
 use crate::program::motion::{ActiveTool, Motion};
 use crate::program::record::SpindleDirection;
-use crate::program::{LengthUnit, Program, Statement};
+use crate::program::{LengthUnit, Program, StatementId};
 use crate::setup::Setup;
 use crate::source::Span;
 use std::sync::Arc;
@@ -22,7 +22,7 @@ pub struct Tooling {
 struct UsedTool {
     tool: Arc<ActiveTool>,
     /// The index of the first statement that moves the tool.
-    statement: usize,
+    statement: StatementId,
 }
 
 impl Tooling {
@@ -114,6 +114,6 @@ fn is_same_tool(a: &Arc<ActiveTool>, b: &Arc<ActiveTool>) -> bool {
 }
 
 /// Returns where a statement is in the source, or an empty span if there is no such statement.
-pub(super) fn statement_span(program: &Program, statement: usize) -> Span {
-    program.statement(statement).map(Statement::origin).unwrap_or_default()
+pub(super) fn statement_span(program: &Program, statement: StatementId) -> Span {
+    program.statement(statement).origin()
 }

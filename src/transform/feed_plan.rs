@@ -10,7 +10,7 @@ use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::number;
 use crate::parse;
 use crate::program::motion::Motion;
-use crate::program::{NumberRole, Program, Record, StatementKind};
+use crate::program::{NumberRole, Program, Record, StatementId, StatementKind};
 use crate::source::Span;
 use crate::write::{FEED_SHARE, ProgramEditor};
 
@@ -18,11 +18,11 @@ use crate::write::{FEED_SHARE, ProgramEditor};
 #[derive(Debug, Clone, Copy)]
 struct WantedFeed {
     /// First statement of the motion, or of the first of several that share a statement.
-    first: u32,
+    first: StatementId,
     /// Last statement of the motion; the GOTO of a point in a line of bare numbers. Points of one GOTO share it.
-    last: u32,
+    last: StatementId,
     /// The FEDRAT or CYCLE in force.
-    governor: u32,
+    governor: StatementId,
     feed: f64,
 }
 
@@ -52,19 +52,14 @@ impl FeedPlan {
             }
             let (Some(feed), Some(governor)) = (motion.feed, motion.feed_from) else { continue };
             let wanted = want(number, &motion).unwrap_or(feed.value);
-            wishes.push(WantedFeed {
-                first: place.first as u32,
-                last: place.last as u32,
-                governor: governor as u32,
-                feed: wanted,
-            });
+            wishes.push(WantedFeed { first: place.first(), last: place.last(), governor, feed: wanted });
         }
         Self { wishes }
     }
 
     /// The statements that govern a feed motion.
-    pub fn governing_statements(&self) -> std::collections::BTreeSet<usize> {
-        self.wishes.iter().map(|wish| wish.governor as usize).collect()
+    pub fn governing_statements(&self) -> std::collections::BTreeSet<StatementId> {
+        self.wishes.iter().map(|wish| wish.governor).collect()
     }
 
     /// Writes the feeds.
@@ -82,7 +77,7 @@ impl FeedPlan {
         // the newest can.
         let (mut fedrat, mut cycle): (Option<FeedInForce>, Option<FeedInForce>) = (None, None);
         for wish in &self.wishes {
-            let governor = wish.governor as usize;
+            let governor = wish.governor;
             let slot = if is_cycle(editor.program(), governor) { &mut cycle } else { &mut fedrat };
             match slot {
                 Some(in_force) if in_force.governor == wish.governor => {
@@ -96,8 +91,7 @@ impl FeedPlan {
                     if !wish.feed.is_finite() {
                         return set_feed(editor, governor, wish.feed);
                     }
-                    editor
-                        .insert_before(wish.first as usize, &template.render_with_feed(wish.feed, editor))?;
+                    editor.insert_before(wish.first, &template.render_with_feed(wish.feed, editor))?;
                     in_force.feed = wish.feed;
                 }
                 _ => {
@@ -123,7 +117,7 @@ impl FeedPlan {
             let lowest = group.iter().map(|wish| wish.feed).fold(f64::INFINITY, f64::min);
             if group.iter().any(|wish| wish.feed != lowest) {
                 group.iter_mut().for_each(|wish| wish.feed = lowest);
-                findings.push(describe_shared_statement(program, wish.last as usize));
+                findings.push(describe_shared_statement(program, wish.last));
             }
             start += count;
         }
@@ -132,26 +126,29 @@ impl FeedPlan {
 
 /// A FEDRAT or CYCLE that was given its feed, and the feed that was written last in its place.
 struct FeedInForce {
-    governor: u32,
+    governor: StatementId,
     feed: f64,
     /// `None` for a CYCLE, of which no second one can be put between holes.
     template: Option<FedratTemplate>,
 }
 
-fn is_cycle(program: &Program, statement: usize) -> bool {
-    program.statement(statement).is_some_and(|found| matches!(found.record(), Record::Cycle(_)))
+fn is_cycle(program: &Program, statement: StatementId) -> bool {
+    matches!(program.statement(statement).record(), Record::Cycle(_))
 }
 
 /// Gives a FEDRAT or CYCLE another feed.
 ///
 /// # Errors
-/// When it cannot be printed as a record that reads back.
-pub fn set_feed(editor: &mut ProgramEditor, statement: usize, feed: f64) -> Result<(), Failure> {
-    let first = feed_number_indices(editor.program(), statement).next();
-    match first {
-        Some(number) => editor.set_numbers(statement, &[(number, feed)]),
-        None => Ok(()),
-    }
+/// When the statement states no feed, and when the feed cannot be printed as a record that reads back.
+pub fn set_feed(editor: &mut ProgramEditor, statement: StatementId, feed: f64) -> Result<(), Failure> {
+    let program = editor.program();
+    let Some(number) = feed_number_indices(program, statement).next() else {
+        let error =
+            Diagnostic::new(codes::NO_SUCH_STATEMENT, "the step sets the feed of a record that states none");
+        let span = statement_span(program, statement);
+        return Err(error.with_label(program.source(), span, "states no feed").into());
+    };
+    editor.set_numbers(statement, &[(number, feed)])
 }
 
 /// How many decimals a feed must have so that it is printed exactly: its own, or so many that the writer's tolerance is below
@@ -169,8 +166,8 @@ pub(super) fn round_feed_down(feed: f64, own: usize) -> f64 {
 }
 
 /// Decimals of the feed that a statement prints.
-pub(super) fn decimals_of_feed(program: &Program, statement: usize) -> usize {
-    let Some(found) = program.statement(statement) else { return 0 };
+pub(super) fn decimals_of_feed(program: &Program, statement: StatementId) -> usize {
+    let found = program.statement(statement);
     let text = program.statement_text(found);
     let roles = parse::number_roles(found.record(), text);
     let numbers = parse::statement_numbers(text).into_iter().zip(roles);
@@ -179,11 +176,9 @@ pub(super) fn decimals_of_feed(program: &Program, statement: usize) -> usize {
 }
 
 /// Which numbers of a statement are feeds.
-fn feed_number_indices(program: &Program, statement: usize) -> impl Iterator<Item = usize> {
+fn feed_number_indices(program: &Program, statement: StatementId) -> impl Iterator<Item = usize> {
     let found = program.statement(statement);
-    let roles = found
-        .map(|found| parse::number_roles(found.record(), program.statement_text(found)))
-        .unwrap_or_default();
+    let roles = parse::number_roles(found.record(), program.statement_text(found));
     roles.into_iter().enumerate().filter(|(_, role)| *role == NumberRole::Feed).map(|(number, _)| number)
 }
 
@@ -193,9 +188,12 @@ struct FedratTemplate {
 }
 
 impl FedratTemplate {
-    fn from_statement(editor: &ProgramEditor, statement: usize) -> Option<Self> {
+    fn from_statement(editor: &ProgramEditor, statement: StatementId) -> Option<Self> {
         let program = editor.program();
-        let found = program.statement(statement).filter(|found| matches!(found.record(), Record::Feed(_)))?;
+        let found = program.statement(statement);
+        if !matches!(found.record(), Record::Feed(_)) {
+            return None;
+        }
         debug_assert!(matches!(
             parse::syntax(program.statement_text(found)).form,
             StatementKind::Words | StatementKind::Structured
@@ -210,8 +208,8 @@ impl FedratTemplate {
     }
 }
 
-fn statement_span(program: &Program, statement: usize) -> Span {
-    program.statement(statement).map(crate::program::Statement::origin).unwrap_or_default()
+fn statement_span(program: &Program, statement: StatementId) -> Span {
+    program.statement(statement).origin()
 }
 
 /// FEDRATs in words of a post (`FEDRAT/9000,FPM`, `FEDRAT/RAPID`): what they set is not known, so no step can change it.
@@ -229,7 +227,7 @@ fn describe_unknown_feeds(program: &Program) -> Option<Diagnostic> {
     Some(found.with_label(program.source(), statement_span(program, first), "left as it is"))
 }
 
-fn describe_shared_statement(program: &Program, statement: usize) -> Diagnostic {
+fn describe_shared_statement(program: &Program, statement: StatementId) -> Diagnostic {
     Diagnostic::new(
         codes::NOT_CHANGED,
         "the points of this GOTO want different feeds; the lowest is used for all of them",
@@ -237,7 +235,7 @@ fn describe_shared_statement(program: &Program, statement: usize) -> Diagnostic 
     .with_label(program.source(), statement_span(program, statement), "several points in one statement")
 }
 
-fn describe_further_feeds(program: &Program, statement: usize) -> Diagnostic {
+fn describe_further_feeds(program: &Program, statement: StatementId) -> Diagnostic {
     Diagnostic::new(
         codes::NOT_CHANGED,
         "this record has several feeds; only the first, at which the tool goes in, is changed",
@@ -245,7 +243,7 @@ fn describe_further_feeds(program: &Program, statement: usize) -> Diagnostic {
     .with_label(program.source(), statement_span(program, statement), "more than one feed")
 }
 
-fn describe_kept_cycle_feed(program: &Program, statement: usize) -> Diagnostic {
+fn describe_kept_cycle_feed(program: &Program, statement: StatementId) -> Diagnostic {
     Diagnostic::new(
         codes::NOT_CHANGED,
         "holes of one CYCLE want different feeds; those of the first hole are kept",

@@ -4,7 +4,7 @@ use super::feed_plan::{self, FeedPlan};
 use super::{MotionSelection, StepContext, Transform};
 use crate::diagnostic::Failure;
 use crate::parameters::Factor;
-use crate::program::{Program, Record};
+use crate::program::{Program, Record, Statement};
 use crate::recipe::MotionFilter;
 use crate::write::ProgramEditor;
 use schemars::JsonSchema;
@@ -48,11 +48,9 @@ impl Transform for ScaleFeed {
         plan.write_feeds(&mut editor, &mut context.findings)?;
         if selection.is_everything() {
             // A FEDRAT that no motion uses still sets the machine's feed; left behind it would surprise.
-            for index in 0..editor.program().statements().len() {
-                if let Some(feed) =
-                    stated_feed(editor.program(), index).filter(|_| !governors.contains(&index))
-                {
-                    feed_plan::set_feed(&mut editor, index, feed * factor)?;
+            for id in editor.program().statement_ids().filter(|id| !governors.contains(id)) {
+                if let Some(feed) = stated_feed(editor.program().statement(id)) {
+                    feed_plan::set_feed(&mut editor, id, feed * factor)?;
                 }
             }
         }
@@ -60,9 +58,10 @@ impl Transform for ScaleFeed {
     }
 }
 
-fn stated_feed(program: &Program, index: usize) -> Option<f64> {
-    let statement = program.statement(index).filter(|statement| statement.is_live())?;
+/// The feed that a live statement states.
+fn stated_feed(statement: &Statement) -> Option<f64> {
     match statement.record() {
+        _ if !statement.is_live() => None,
         Record::Feed(feed) => Some(feed.value),
         Record::Cycle(cycle) => cycle.feed.map(|feed| feed.value),
         _ => None,

@@ -7,7 +7,7 @@ use super::{Affine, StepContext};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::parse;
 use crate::program::record::{FrameRecord, FrameWord};
-use crate::program::{Program, Record};
+use crate::program::{Program, Record, StatementId};
 
 /// A kind of record that has become stale, and why.
 type StaleRecord = (&'static str, &'static str);
@@ -83,7 +83,7 @@ fn report_stale_records(
     stale: impl Fn(&Record, &[u8]) -> Option<StaleRecord>,
 ) {
     let mut seen: Vec<&'static str> = Vec::new();
-    for (index, statement) in program.live_statements() {
+    for (id, statement) in program.live_statements() {
         if matches!(statement.record(), Record::Goto(_)) {
             continue;
         }
@@ -91,14 +91,14 @@ fn report_stale_records(
             && !seen.contains(&kind)
         {
             seen.push(kind);
-            let finding = stale_finding(program, index, message, context);
+            let finding = stale_finding(program, id, message, context);
             context.findings.push(finding);
         }
     }
 }
 
-fn stale_finding(program: &Program, index: usize, message: &str, context: &StepContext<'_>) -> Diagnostic {
-    let span = program.statement(index).map(crate::program::Statement::origin).unwrap_or_default();
+fn stale_finding(program: &Program, id: StatementId, message: &str, context: &StepContext<'_>) -> Diagnostic {
+    let span = program.statement(id).origin();
     let finding =
         Diagnostic::new(codes::STALE_RECORD, message).with_label(program.source(), span, "left as it is");
     context.label_step(finding, "by this step")

@@ -7,7 +7,7 @@ use crate::diagnostic::Failure;
 use crate::number::{self, NumberFormat};
 use crate::parse;
 use crate::program::record::{has_contact_normal, has_tool_axes};
-use crate::program::{FieldKind, NumberRole, Record};
+use crate::program::{FieldKind, NumberRole, Record, StatementId};
 use crate::write::{ProgramEditor, copy_with_numbers};
 use nalgebra::Vector3;
 
@@ -79,10 +79,10 @@ impl MatrixRowCounter {
 /// When the row does not read back.
 pub fn set_matrix_row(
     editor: &mut ProgramEditor,
-    index: usize,
+    id: StatementId,
     edits: &[(usize, f64)],
 ) -> Result<(), Failure> {
-    let Some(statement) = editor.program().statement(index) else { return Ok(()) };
+    let statement = editor.program().statement(id);
     let text = editor.program().statement_text(statement).to_vec();
     let numbers = parse::statement_numbers(&text);
     let mut parts: Vec<(std::ops::Range<usize>, String)> = Vec::new();
@@ -106,7 +106,7 @@ pub fn set_matrix_row(
         parts.push((start..at.end, format!(" {printed:>0$}", width.saturating_sub(1))));
     }
     let parts: Vec<_> = parts.iter().map(|(at, text)| (at.clone(), text.as_bytes())).collect();
-    if parts.is_empty() { Ok(()) } else { editor.replace_parts(index, &parts) }
+    if parts.is_empty() { Ok(()) } else { editor.replace_parts(id, &parts) }
 }
 
 /// The major word of a statement in upper case, without asking the grammar: for lists of words.
@@ -131,17 +131,14 @@ pub fn strip_remark(text: &[u8]) -> Vec<u8> {
 ///
 /// # Errors
 /// When the comment does not read back.
-pub fn delete_keeping_remark(editor: &mut ProgramEditor, statement: usize) -> Result<(), Failure> {
+pub fn delete_keeping_remark(editor: &mut ProgramEditor, statement: StatementId) -> Result<(), Failure> {
     let program = editor.program();
-    let Some(found) = program.statement(statement) else { return Ok(()) };
+    let found = program.statement(statement);
     let text = program.statement_text(found);
     let remark = parse::syntax(text).remark.and_then(|remark| text.get(remark.start..));
     match remark.map(<[u8]>::to_vec) {
         Some(remark) => editor.set_text(statement, &remark),
-        None => {
-            editor.delete_statement(statement);
-            Ok(())
-        }
+        None => editor.delete_statement(statement),
     }
 }
 
@@ -157,8 +154,8 @@ pub fn pair_with_indices(first: usize, values: impl IntoIterator<Item = f64>) ->
 }
 
 /// A statement's text with other numbers and without its remark, for a new statement in its form.
-pub fn copy_statement(editor: &ProgramEditor, statement: usize, numbers: &[(usize, f64)]) -> Vec<u8> {
+pub fn copy_statement(editor: &ProgramEditor, statement: StatementId, numbers: &[(usize, f64)]) -> Vec<u8> {
     let program = editor.program();
-    let Some(found) = program.statement(statement) else { return Vec::new() };
+    let found = program.statement(statement);
     copy_with_numbers(&strip_remark(program.statement_text(found)), found.record(), numbers, editor.style())
 }

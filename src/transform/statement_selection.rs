@@ -12,10 +12,9 @@ use super::step_context::feed_per_minute;
 use crate::diagnostic::codes;
 use crate::program::motion::{Motion, Motions};
 use crate::program::operation::{self, Operation};
-use crate::program::{LengthUnit, Program};
+use crate::program::{LengthUnit, Program, StatementId, StatementRange};
 use crate::recipe::MotionFilter;
 use std::collections::VecDeque;
-use std::ops::Range;
 
 /// Decides statement by statement, in their order, whether a step means it.
 pub struct StatementSelection<'p> {
@@ -24,7 +23,8 @@ pub struct StatementSelection<'p> {
     operation: usize,
     /// The state machine as far as statements were asked for, which knows the tool in force.
     tools: Motions<'p>,
-    read: usize,
+    /// The last statement that `tools` has read.
+    read: Option<StatementId>,
     motions: StatementMotions<'p>,
     file: LengthUnit,
     units: LengthUnit,
@@ -43,7 +43,7 @@ impl<'p> StatementSelection<'p> {
             operations,
             operation: 0,
             tools: program.motions(),
-            read: 0,
+            read: None,
             motions: StatementMotions { ahead: program.motions(), found: VecDeque::new() },
             file: context.file_length_unit(program),
             units: context.units,
@@ -51,34 +51,35 @@ impl<'p> StatementSelection<'p> {
     }
 
     /// Whether a statement is meant. Statements are asked for in their order; those that are left out cost little.
-    pub fn contains(&mut self, statement: usize) -> bool {
+    pub fn contains(&mut self, statement: StatementId) -> bool {
         self.is_in_operation(statement) && self.is_under_tool(statement) && self.makes_motion(statement)
     }
 
-    fn is_in_operation(&mut self, statement: usize) -> bool {
+    fn is_in_operation(&mut self, statement: StatementId) -> bool {
         if self.wanted.operations.is_none() {
             return true;
         }
-        while self.operations.get(self.operation).is_some_and(|found| found.statements.end <= statement) {
+        while self.operations.get(self.operation).is_some_and(|found| ends_before(found, statement)) {
             self.operation += 1;
         }
         let found = self.operations.get(self.operation);
         self.wanted.matches_operation(found.map(|operation| operation.name.as_str()))
     }
 
-    fn is_under_tool(&mut self, statement: usize) -> bool {
+    fn is_under_tool(&mut self, statement: StatementId) -> bool {
         if self.wanted.tools.is_none() {
             return true;
         }
-        while self.read <= statement && self.tools.read_statement().is_some() {
-            self.read += 1;
+        while self.read.is_none_or(|read| read < statement) {
+            let Some(read) = self.tools.read_statement() else { break };
+            self.read = Some(read);
         }
         let tool = self.tools.state().tool.as_deref();
         self.wanted
             .matches_tool(tool.and_then(|tool| tool.number), tool.and_then(|tool| tool.name.as_deref()))
     }
 
-    fn makes_motion(&mut self, statement: usize) -> bool {
+    fn makes_motion(&mut self, statement: StatementId) -> bool {
         if self.wanted.motions.is_none() && self.wanted.feed.is_none() {
             return true;
         }
@@ -90,6 +91,10 @@ impl<'p> StatementSelection<'p> {
     }
 }
 
+fn ends_before(operation: &Operation, statement: StatementId) -> bool {
+    operation.statements.is_none_or(|statements| statements.last() < statement)
+}
+
 /// The motions of a program, to be asked for by their statements.
 struct StatementMotions<'p> {
     ahead: Motions<'p>,
@@ -99,26 +104,26 @@ struct StatementMotions<'p> {
 
 impl StatementMotions<'_> {
     /// The motions that a statement makes: the points of a GOTO, the moves of a hole. Statements are asked for in their order.
-    fn find_motions(&mut self, statement: usize) -> impl Iterator<Item = &Motion> {
-        while self.found.front().is_some_and(|motion| motion.statements.end <= statement) {
+    fn find_motions(&mut self, statement: StatementId) -> impl Iterator<Item = &Motion> {
+        while self.found.front().is_some_and(|motion| motion.statements.last() < statement) {
             self.found.pop_front();
         }
-        while self.found.back().is_none_or(|motion| motion.statements.start <= statement) {
+        while self.found.back().is_none_or(|motion| motion.statements.first() <= statement) {
             let Some(motion) = self.ahead.next() else { break };
-            if motion.statements.end > statement {
+            if motion.statements.last() >= statement {
                 self.found.push_back(motion);
             }
         }
-        self.found.iter().filter(move |motion| motion.statements.contains(&statement))
+        self.found.iter().filter(move |motion| motion.statements.contains(statement))
     }
 }
 
-/// The statements that a step means, to be asked for in any order and while the program changes: indices are those of the
+/// The statements that a step means, to be asked for in any order and while the program changes: ids are those of the
 /// program that the selection was made in.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SelectedStatements {
     /// In order, without gaps between neighbours that are meant.
-    ranges: Vec<Range<usize>>,
+    ranges: Vec<StatementRange>,
 }
 
 impl SelectedStatements {
@@ -131,11 +136,10 @@ impl SelectedStatements {
         context: &mut StepContext<'_>,
     ) -> Self {
         let mut selection = StatementSelection::new(wanted, program, context);
-        let mut ranges: Vec<Range<usize>> = Vec::new();
-        for index in (0..program.statements().len()).filter(|index| selection.contains(*index)) {
-            match ranges.last_mut() {
-                Some(last) if last.end == index => last.end += 1,
-                _ => ranges.push(index..index + 1),
+        let mut ranges: Vec<StatementRange> = Vec::new();
+        for id in program.statement_ids().filter(|id| selection.contains(*id)) {
+            if !ranges.last_mut().is_some_and(|last| last.extend_by(id)) {
+                ranges.push(StatementRange::of_one(id));
             }
         }
         if ranges.is_empty() && selection.wanted != MotionFilter::default() {
@@ -145,9 +149,9 @@ impl SelectedStatements {
     }
 
     /// Whether a statement is meant.
-    pub fn contains(&self, statement: usize) -> bool {
-        let after = self.ranges.partition_point(|range| range.end <= statement);
-        self.ranges.get(after).is_some_and(|range| range.contains(&statement))
+    pub fn contains(&self, statement: StatementId) -> bool {
+        let after = self.ranges.partition_point(|range| range.last() < statement);
+        self.ranges.get(after).is_some_and(|range| range.contains(statement))
     }
 
     /// Whether none is meant.

@@ -5,9 +5,10 @@ use super::{Recipe, TransformReport};
 use crate::diagnostic::{Diagnostic, DiagnosticCode, Failure, codes};
 use crate::parameters::FilePath;
 use crate::program::motion::Motion;
-use crate::program::{LengthUnit, Program, StepId};
+use crate::program::{LengthUnit, Program, StatementId, StepId};
 use crate::setup::Setup;
 use crate::simulation_run::RunWatcher;
+use crate::source::Span;
 use std::path::{Path, PathBuf};
 
 /// The surroundings of a running step.
@@ -76,7 +77,7 @@ impl StepContext<'_> {
         &self,
         message: impl Into<String>,
         program: &Program,
-        statement: usize,
+        statement: StatementId,
         label: &str,
     ) -> Failure {
         self.statement_finding(message, program, statement, label).into()
@@ -87,18 +88,34 @@ impl StepContext<'_> {
         &self,
         message: impl Into<String>,
         program: &Program,
-        statement: usize,
+        statement: StatementId,
         label: &str,
     ) -> Diagnostic {
-        let span = program.statement(statement).map(crate::program::Statement::origin).unwrap_or_default();
+        self.source_finding(message, program, program.statement(statement).origin(), label)
+    }
+
+    /// Why the step cannot go on, at a place in the source of the program and at the step. This is for what is
+    /// found when the step has inserted statements, and the ids from before no longer hold.
+    pub fn source_finding(
+        &self,
+        message: impl Into<String>,
+        program: &Program,
+        place: Span,
+        label: &str,
+    ) -> Diagnostic {
         let diagnostic =
-            Diagnostic::new(codes::STEP_FAILED, message).with_label(program.source(), span, label);
+            Diagnostic::new(codes::STEP_FAILED, message).with_label(program.source(), place, label);
         self.label_step(diagnostic, "by this step")
     }
 
     /// A record that the step leaves as it is although it should change, at the record and at the step.
-    pub fn report_unchanged(&mut self, message: impl Into<String>, program: &Program, statement: usize) {
-        let span = program.statement(statement).map(crate::program::Statement::origin).unwrap_or_default();
+    pub fn report_unchanged(
+        &mut self,
+        message: impl Into<String>,
+        program: &Program,
+        statement: StatementId,
+    ) {
+        let span = program.statement(statement).origin();
         let finding =
             Diagnostic::new(codes::NOT_CHANGED, message).with_label(program.source(), span, "left as it is");
         self.findings.push(self.label_step(finding, "by this step"));

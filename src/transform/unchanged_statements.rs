@@ -3,22 +3,22 @@
 use super::StepContext;
 use super::statement_numbers::major_word;
 use crate::parse;
-use crate::program::{FieldKind, Program, Record};
+use crate::program::{FieldKind, Program, Record, StatementId};
 
 /// Reports unknown words with numbers that may be places or lengths, one finding for each word, and statements that could not
 /// be read, one finding for all of them. `meant` says which statements the step changes; `verb` what it does to them.
 pub fn report_unchanged_statements(
     program: &Program,
-    meant: impl Fn(usize) -> bool,
+    meant: impl Fn(StatementId) -> bool,
     verb: &str,
     context: &mut StepContext<'_>,
 ) {
     let mut words: Vec<String> = Vec::new();
     let mut unreadable = Vec::new();
-    for (index, statement) in program.live_statements() {
+    for (id, statement) in program.live_statements() {
         match statement.record() {
-            Record::Unparsed | Record::Definition if meant(index) => unreadable.push(index),
-            Record::Other if meant(index) => {
+            Record::Unparsed | Record::Definition if meant(id) => unreadable.push(id),
+            Record::Other if meant(id) => {
                 let text = program.statement_text(statement);
                 let word = major_word(text);
                 if may_hold_lengths(text) && !words.contains(&word) {
@@ -27,7 +27,7 @@ pub fn report_unchanged_statements(
                             "`{word}` is no word clsmith knows: if its numbers are places or lengths, they are not {verb}"
                         ),
                         program,
-                        index,
+                        id,
                     );
                     words.push(word);
                 }

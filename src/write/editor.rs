@@ -8,20 +8,27 @@ use super::file_style::FileStyle;
 use super::number_patch;
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::parse;
-use crate::program::{Program, Record, StatementSyntax, StepId};
+use crate::program::{
+    InsertionPoint, Program, Record, Statement, StatementChange, StatementId, StatementSyntax, StepId,
+};
 use std::ops::Range;
 
 /// Edits one program for one recipe step.
+///
+/// Statements are addressed by the ids that the program gives. All ids stay valid until
+/// [`ProgramEditor::finish`]: a deleted statement keeps its id, and inserted statements join the program only in
+/// `finish`. An edit of a statement that this step or an earlier one has deleted is an error
+/// ([`codes::NO_SUCH_STATEMENT`]). So is an edit at a place that the program does not have.
 #[derive(Debug)]
 pub struct ProgramEditor {
     program: Program,
     step: StepId,
     style: FileStyle,
-    inserted: Vec<(usize, Vec<u8>, Record)>,
+    inserted: Vec<(InsertionPoint, Vec<u8>, Record)>,
 }
 
 impl ProgramEditor {
-    /// Opens the gate. Indices of statements stay valid until [`ProgramEditor::finish`].
+    /// Opens the gate.
     pub fn new(program: Program, step: StepId) -> Self {
         let style = FileStyle::from_program(&program);
         Self { program, step, style, inserted: Vec::new() }
@@ -46,18 +53,23 @@ impl ProgramEditor {
     /// Gives numbers of a statement new values: pairs of the number's index and its value.
     ///
     /// # Errors
-    /// Returns an error if the patched text cannot be read back, for example because a value is too large to
-    /// print.
-    pub fn set_numbers(&mut self, index: usize, edits: &[(usize, f64)]) -> Result<(), Failure> {
-        let Some(statement) = self.program.statement(index) else { return Ok(()) };
+    /// Returns an error if the statement is deleted, if it has no number with such an index, or if the patched
+    /// text cannot be read back, for example because a value is too large to print.
+    pub fn set_numbers(&mut self, id: StatementId, edits: &[(usize, f64)]) -> Result<(), Failure> {
+        let statement = self.live_statement(id)?;
         let text = self.program.statement_text(statement);
         if let Some((_, value)) = edits.iter().find(|(_, value)| !value.is_finite()) {
             let message = format!("the step would write the value {value}, which no CL number can be");
-            return Err(self.unwritable_error(index, &message));
+            return Err(self.unwritable_error(id, &message));
         }
-        match number_patch::patch_numbers(text, statement.record(), edits, &self.style) {
-            Some(patched) => self.set_text(index, &patched),
-            None => Ok(()),
+        match number_patch::patch_existing_numbers(text, statement.record(), edits, &self.style) {
+            Ok(Some(patched)) => self.set_text(id, &patched),
+            Ok(None) => Ok(()),
+            Err(missing) => {
+                let message =
+                    format!("the step would change number {} of a statement that has none", missing + 1);
+                Err(self.unwritable_error(id, &message))
+            }
         }
     }
 
@@ -65,70 +77,93 @@ impl ProgramEditor {
     /// without overlap.
     ///
     /// # Errors
-    /// Returns an error if the new text cannot be read back.
-    pub fn replace_parts(&mut self, index: usize, parts: &[(Range<usize>, &[u8])]) -> Result<(), Failure> {
-        let Some(statement) = self.program.statement(index) else { return Ok(()) };
-        let text = self.program.statement_text(statement);
+    /// Returns an error if the statement is deleted, if a part is no place in its text, or if the new text cannot
+    /// be read back.
+    pub fn replace_parts(&mut self, id: StatementId, parts: &[(Range<usize>, &[u8])]) -> Result<(), Failure> {
+        let text = self.program.statement_text(self.live_statement(id)?);
         let mut out = Vec::with_capacity(text.len() + 16);
         let mut copied = 0;
         for (at, bytes) in parts {
-            out.extend_from_slice(text.get(copied..at.start).unwrap_or_default());
+            let Some(kept) = text.get(copied..at.start).filter(|_| text.get(at.clone()).is_some()) else {
+                let message =
+                    format!("the step would replace the bytes {at:?} of a text that has no such part");
+                return Err(self.unwritable_error(id, &message));
+            };
+            out.extend_from_slice(kept);
             out.extend_from_slice(bytes);
             copied = at.end;
         }
         out.extend_from_slice(text.get(copied..).unwrap_or_default());
-        self.set_text(index, &out)
+        self.set_text(id, &out)
     }
 
     /// Gives a statement a new text with its line end.
     ///
     /// # Errors
-    /// Returns an error if the text is not one well-formed statement.
-    pub fn set_text(&mut self, index: usize, text: &[u8]) -> Result<(), Failure> {
-        let record = self.read_back(index, text)?;
-        self.program.replace_statement(index, text, record, self.step);
+    /// Returns an error if the statement is deleted, or if the text is not one well-formed statement.
+    pub fn set_text(&mut self, id: StatementId, text: &[u8]) -> Result<(), Failure> {
+        self.live_statement(id)?;
+        let record = self.read_back(id.before(), text)?;
+        self.program.replace_statement(id, text, record, self.step);
         Ok(())
     }
 
     /// Deletes a statement.
-    pub fn delete_statement(&mut self, index: usize) {
-        self.program.delete_statement(index, self.step);
-    }
-
-    /// Inserts a statement before another one (before the count of statements for the end). `text` needs no
-    /// line end; it gets that of the file.
     ///
     /// # Errors
-    /// Returns an error if the text is not one well-formed statement.
-    pub fn insert_before(&mut self, index: usize, text: &[u8]) -> Result<(), Failure> {
-        let text = [strip_line_end(text), self.style.line_end.as_bytes()].concat();
-        let record = self.read_back(index, &text)?;
-        self.inserted.push((index, text, record));
+    /// Returns an error if the statement is deleted already.
+    pub fn delete_statement(&mut self, id: StatementId) -> Result<(), Failure> {
+        self.live_statement(id)?;
+        self.program.delete_statement(id, self.step);
         Ok(())
     }
 
-    /// Inserts a statement after another one.
+    /// Inserts a statement at a place. `text` needs no line end; it gets that of the file. Insertions at the same
+    /// place keep their order.
     ///
     /// # Errors
-    /// Returns an error if the text is not one well-formed statement.
-    pub fn insert_after(&mut self, index: usize, text: &[u8]) -> Result<(), Failure> {
-        self.insert_before(index + 1, text)
+    /// Returns an error if the program has no such place, or if the text is not one well-formed statement.
+    pub fn insert(&mut self, at: InsertionPoint, text: &[u8]) -> Result<(), Failure> {
+        if at > self.program.end() {
+            let message = format!("the step puts a statement in at place {}", at.index());
+            return Err(self.missing_error(&message));
+        }
+        let text = [strip_line_end(text), self.style.line_end.as_bytes()].concat();
+        let record = self.read_back(at, &text)?;
+        self.inserted.push((at, text, record));
+        Ok(())
     }
 
-    /// Closes the gate and returns the program with all edits.
+    /// Inserts a statement before another one, which may be deleted: its place is still known.
+    ///
+    /// # Errors
+    /// Returns the errors of [`ProgramEditor::insert`].
+    pub fn insert_before(&mut self, id: StatementId, text: &[u8]) -> Result<(), Failure> {
+        self.insert(id.before(), text)
+    }
+
+    /// Inserts a statement after another one, which may be deleted.
+    ///
+    /// # Errors
+    /// Returns the errors of [`ProgramEditor::insert`].
+    pub fn insert_after(&mut self, id: StatementId, text: &[u8]) -> Result<(), Failure> {
+        self.insert(id.after(), text)
+    }
+
+    /// Closes the gate and returns the program with all edits. Statements behind an insertion get new ids.
     ///
     /// # Errors
     /// Returns the errors of [`ProgramEditor::set_text`]: a last line without line end gets one if something
     /// is inserted after it.
     pub fn finish(mut self) -> Result<Program, Failure> {
-        let end = self.program.statements().len();
+        let end = self.program.end();
         let last = self
             .program
             .live_statements()
             .next_back()
-            .map(|(index, statement)| (index, self.program.statement_text(statement)));
+            .map(|(id, statement)| (id, self.program.statement_text(statement)));
         if let Some((last, text)) = last.filter(|(_, text)| !text.ends_with(b"\n") && !text.ends_with(b"\r"))
-            && let Some((_, new, _)) = self.inserted.iter_mut().rev().find(|(index, _, _)| *index == end)
+            && let Some((_, new, _)) = self.inserted.iter_mut().rev().find(|(at, _, _)| *at == end)
         {
             // The old last line gets a line end, and the new last line has none, as the file had it.
             new.truncate(strip_line_end(new).len());
@@ -139,8 +174,30 @@ impl ProgramEditor {
         Ok(self.program)
     }
 
+    /// Returns a statement for an edit, and makes an error of one that is not there.
+    fn live_statement(&self, id: StatementId) -> Result<&Statement, Failure> {
+        if !self.program.contains(id) {
+            return Err(self.missing_error(&format!("the step edits statement {}", id.index())));
+        }
+        let statement = self.program.statement(id);
+        let StatementChange::Deleted(by) = statement.change() else { return Ok(statement) };
+        let message = match by == self.step {
+            true => "the step edits a statement that it has taken out",
+            false => "the step edits a statement that an earlier step has taken out",
+        };
+        let error = Diagnostic::new(codes::NO_SUCH_STATEMENT, message);
+        Err(error.with_label(self.program.source(), statement.origin(), "this statement").into())
+    }
+
+    /// Makes the error for a place that the program does not have.
+    fn missing_error(&self, message: &str) -> Failure {
+        let count = self.program.statements().len();
+        let message = format!("{message}, but the program has {count} statements");
+        Diagnostic::new(codes::NO_SUCH_STATEMENT, message).into()
+    }
+
     /// Reads a text back; makes an error of a text that is not one statement.
-    fn read_back(&self, index: usize, text: &[u8]) -> Result<Record, Failure> {
+    fn read_back(&self, at: InsertionPoint, text: &[u8]) -> Result<Record, Failure> {
         let problem = match parse::read_whole_record(text) {
             Ok(record) => return Ok(record),
             Err(problem) => problem,
@@ -148,23 +205,23 @@ impl ProgramEditor {
         let shown = String::from_utf8_lossy(text.trim_ascii()).into_owned();
         let message =
             format!("the step would write `{shown}`, which is no CL statement: {}", problem.problem);
-        Err(self.unwritable_error(index, &message))
+        Err(match self.program.statement_behind(at) {
+            Some(id) => self.unwritable_error(id, &message),
+            None => Diagnostic::new(codes::UNREADABLE_EDIT, message).into(),
+        })
     }
 
     /// Makes the error for a text that cannot be written, with the place of its statement.
-    fn unwritable_error(&self, index: usize, message: &str) -> Failure {
-        let mut diagnostic = Diagnostic::new(codes::UNREADABLE_EDIT, message);
-        if let Some(statement) = self.program.statement(index) {
-            diagnostic =
-                diagnostic.with_label(self.program.source(), statement.origin(), "for this statement");
-        }
-        diagnostic.into()
+    fn unwritable_error(&self, id: StatementId, message: &str) -> Failure {
+        let origin = self.program.statement(id).origin();
+        let error = Diagnostic::new(codes::UNREADABLE_EDIT, message);
+        error.with_label(self.program.source(), origin, "for this statement").into()
     }
 }
 
 /// Returns the syntax of a statement's text, for transforms that examine words.
-pub fn statement_syntax(program: &Program, index: usize) -> Option<StatementSyntax<'_>> {
-    program.statement(index).map(|statement| parse::syntax(program.statement_text(statement)))
+pub fn statement_syntax(program: &Program, id: StatementId) -> StatementSyntax<'_> {
+    parse::syntax(program.statement_text(program.statement(id)))
 }
 
 /// Returns a text without its line end.

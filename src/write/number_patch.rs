@@ -4,6 +4,7 @@ use super::file_style::FileStyle;
 use crate::parse;
 use crate::program::{NumberRole, Record};
 use std::iter::Peekable;
+use std::ops::Range;
 
 /// A change below this fraction of the value is noise of the arithmetic and not an edit.
 const NOISE: f64 = 1e-13;
@@ -22,36 +23,57 @@ const LENGTH_DECIMALS: usize = 4;
 /// `edits` are pairs of a number's index (in the order of the text) and its new value. Numbers keep their
 /// decimals, or get more if fewer would lose the edit. In dialects with columns they keep their column.
 /// Everything else stays unchanged. A value that is not finite is ignored; [`super::ProgramEditor`] refuses
-/// it.
+/// it. Every index must be that of a number of the text.
 pub fn patch_numbers(
     text: &[u8],
     record: &Record,
     edits: &[(usize, f64)],
     style: &FileStyle,
 ) -> Option<Vec<u8>> {
-    let out = reprint_numbers(text, record, edits, style, |role, original, old, wanted| {
+    let patched = patch_existing_numbers(text, record, edits, style);
+    debug_assert!(patched.is_ok(), "the text has no number {patched:?}");
+    patched.ok().flatten()
+}
+
+/// Patches numbers as [`patch_numbers`] does.
+///
+/// # Errors
+/// Returns the first index of `edits` that is not that of a number of the text.
+pub(super) fn patch_existing_numbers(
+    text: &[u8],
+    record: &Record,
+    edits: &[(usize, f64)],
+    style: &FileStyle,
+) -> Result<Option<Vec<u8>>, usize> {
+    let places = parse::statement_numbers(text);
+    if let Some((missing, _)) = edits.iter().find(|(index, _)| *index >= places.len()) {
+        return Err(*missing);
+    }
+    let out = reprint_numbers((text, &places), record, edits, style, |role, original, old, wanted| {
         let mut form = style.changed_format(role, original);
         if role == NumberRole::Feed {
             // Feeds span four powers of ten (0.002 inch/rev, 9000 mm/min), so their tolerance is relative.
             form.tolerance = form.tolerance.min(wanted.abs() * FEED_SHARE);
         }
         form.format_number(wanted, wanted - old)
-    })?;
-    (out != text).then_some(out)
+    });
+    Ok(out.filter(|out| out != text))
 }
 
 /// Returns a statement's text with other values for some of its numbers, for a new statement in the form of
 /// an old one.
 ///
 /// The numbers are rounded to the decimals of the old ones, or to those of the file if it has more, but to at
-/// least four (unit vectors: five). So they are off by at most half of the last decimal.
+/// least four (unit vectors: five). So they are off by at most half of the last decimal. Values for numbers that
+/// the text does not have are left out: a GOTO without axis takes the point of one with axis.
 pub fn copy_with_numbers(
     text: &[u8],
     record: &Record,
     values: &[(usize, f64)],
     style: &FileStyle,
 ) -> Vec<u8> {
-    let out = reprint_numbers(text, record, values, style, |role, original, _, wanted| {
+    let places = parse::statement_numbers(text);
+    let out = reprint_numbers((text, &places), record, values, style, |role, original, _, wanted| {
         let (least, of_file) = match role {
             NumberRole::Direction(_) | NumberRole::ArcAxis(_) | NumberRole::FrameAxis(..) => {
                 (DIRECTION_DECIMALS, 0)
@@ -66,16 +88,15 @@ pub fn copy_with_numbers(
     out.unwrap_or_else(|| text.to_vec())
 }
 
-/// Prints the numbers of `edits` anew, except those that do not change. Returns the text, or `None` if no
-/// number changes.
+/// Prints the numbers of `edits` anew, except those that do not change; `places` are all numbers of the text.
+/// Returns the text, or `None` if no number changes.
 fn reprint_numbers(
-    text: &[u8],
+    (text, places): (&[u8], &[(Range<usize>, f64)]),
     record: &Record,
     edits: &[(usize, f64)],
     style: &FileStyle,
     print: impl Fn(NumberRole, &[u8], f64, f64) -> String,
 ) -> Option<Vec<u8>> {
-    let places = parse::statement_numbers(text);
     let roles = parse::number_roles(record, text);
     let mut out = Vec::with_capacity(text.len() + 16);
     let mut copied = 0;

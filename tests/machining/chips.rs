@@ -3,7 +3,7 @@
 use super::{SETUP, near, nx};
 use crate::support;
 use clsmith::diagnostic::{Diagnostic, Failure};
-use clsmith::program::LengthUnit;
+use clsmith::program::{LengthUnit, StatementId};
 use clsmith::setup::Setup;
 use clsmith::simulation_run::layer_run::{LayerRunOptions, LayerRunResult, UncutReason};
 use clsmith::simulation_run::{Machining, SilentWatcher, SimulationRunOptions};
@@ -167,8 +167,8 @@ fn real(end: &str, tool: &str, units: LengthUnit, lines: usize) {
     let Some(path) = support::require_corpus_file(end) else { return };
     let parsed = clsmith::parse::parse(&support::source(&path), None);
     let unit = units.mm_per_unit();
-    let line = |statement: usize| {
-        let start = parsed.program.statement(statement).unwrap().origin().start;
+    let line = |statement: StatementId| {
+        let start = parsed.program.statement(statement).origin().start;
         parsed.program.source().line_column(start).0
     };
     let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];

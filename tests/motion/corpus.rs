@@ -41,11 +41,10 @@ fn arcs_of(
 fn nx_arcs_lie_on_their_circles_and_continue_the_motion_before() {
     let Some(corpus) = require_corpus() else { return };
     let (count, tangent, agree) = arcs_of(&corpus, Dialect::Nx, |program, motion, arc| {
-        let printed =
-            motion.statements.clone().find_map(|index| match program.statements()[index].record() {
-                Record::Circle(circle) => circle.radius,
-                _ => None,
-            });
+        let printed = motion.statements.ids().find_map(|id| match program.statement(id).record() {
+            Record::Circle(circle) => circle.radius,
+            _ => None,
+        });
         assert!((arc.radius - printed.unwrap()).abs() <= 2e-4, "{arc:?}");
         assert!(arc.end_deviation(motion.to.point) <= 2e-4, "{arc:?}");
         assert!((arc.point_at(1.0) - motion.to.point).norm() <= 4e-4);
@@ -84,9 +83,7 @@ fn catia_arcs_end_where_their_line_ends_and_pass_half_if_and_only_if_intof() {
     let mut count = 0;
     for motion in &found {
         let MotionPath::Arc(arc) = &motion.path else { continue };
-        let Record::DriveArc(record) = program.statements()[motion.last_statement()].record() else {
-            panic!()
-        };
+        let Record::DriveArc(record) = program.statement(motion.last_statement()).record() else { panic!() };
         count += 1;
         assert_eq!(motion.to.point, record.end);
         assert!(arc.end_deviation(record.end) <= 2e-5 && (arc.point_at(1.0) - record.end).norm() <= 1e-4);

@@ -99,7 +99,7 @@ fn compensation_is_in_force_until_off() {
     let mut motions = program.motions();
     let mut found = Vec::new();
     while motions.next().is_some() {
-        found.push(motions.state().compensation);
+        found.push(motions.state().compensation.map(|(mode, set_by)| (mode, set_by.index())));
     }
     use CutterCompensation::{Off, On};
     assert_eq!(

@@ -16,7 +16,7 @@ fn msys_is_origin_x_axis_and_y_axis() {
     let frame = frame_of("MSYS/393.0000,-297.5000,3.0000,0,1,0,1,0,0\nGOTO/0,0,0\n");
     assert_eq!(frame.origin, Vector3::new(393.0, -297.5, 3.0));
     assert_eq!(frame.axes, Matrix3::new(0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0));
-    assert_eq!(frame.statement, 0);
+    assert_eq!(frame.statement.index(), 0);
 }
 
 #[test]

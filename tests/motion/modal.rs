@@ -1,6 +1,6 @@
 //! What stays in force from one statement to the next, and what is used up.
 
-use crate::support::{clean_motions, motions, program, program_of};
+use crate::support::{clean_motions, motions, program, program_of, statement_indices};
 use clsmith::program::Dialect;
 use clsmith::program::geometry::MotionPath;
 use clsmith::program::motion::MotionProblemKind;
@@ -48,11 +48,13 @@ fn an_axis_that_is_no_unit_vector_is_made_one() {
 
 #[test]
 fn rapid_is_good_for_one_motion_and_the_feed_comes_back() {
-    let found = clean_motions(&program(
-        "FEDRAT/100,MMPM\nGOTO/0,0,0\nRAPID\nGOTO/1,0,0\nGOTO/2,0,0\nRAPID/\nGOTO/3,0,0\n",
-    ));
+    let program = program("FEDRAT/100,MMPM\nGOTO/0,0,0\nRAPID\nGOTO/1,0,0\nGOTO/2,0,0\nRAPID/\nGOTO/3,0,0\n");
+    let found = clean_motions(&program);
     assert_eq!(found.iter().map(|motion| motion.rapid).collect::<Vec<_>>(), [false, true, false, true]);
-    assert!(found.iter().all(|motion| motion.feed.unwrap().value == 100.0 && motion.feed_from == Some(0)));
+    assert!(
+        found.iter().all(|motion| motion.feed.unwrap().value == 100.0
+            && motion.feed_from == program.statement_ids().next())
+    );
 }
 
 #[test]
@@ -61,7 +63,7 @@ fn rapid_waits_for_a_motion_over_other_words() {
         "GOTO/0,0,0\nRAPID\nCOOLNT/ON\nPPRINT up\nSPINDL/1000\n$$ c\nGOTO/1,0,0\nGOTO/2,0,0\n",
     ));
     assert_eq!(found.iter().map(|motion| motion.rapid).collect::<Vec<_>>(), [false, true, false]);
-    assert_eq!(found[1].statements, 1..7);
+    assert_eq!(statement_indices(&found[1]), [1, 2, 3, 4, 5, 6]);
 }
 
 #[test]

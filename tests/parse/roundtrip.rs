@@ -29,8 +29,10 @@ fn check(bytes: &[u8], dialect: Option<Dialect>) -> Result<(), TestCaseError> {
     }
     let (found, _) = motions(program);
     for motion in &found {
-        prop_assert!(motion.statements.end <= program.statements().len());
-        prop_assert!(motion.statements.start < motion.statements.end);
+        prop_assert!(motion.statements.ids().all(|id| program.contains(id)));
+        prop_assert!(motion.statements.first() <= motion.statements.last());
+        prop_assert!(program.statement(motion.last_statement()).is_live());
+        prop_assert!(motion.feed_from.is_none_or(|id| program.statement(id).is_live()));
         let _ = (motion.length(), motion.path.sample_points(motion.from.point, motion.to.point).len());
         let _ = motion.path.end_tangent(motion.from.point, motion.to.point);
     }

@@ -3,7 +3,7 @@
 use super::unified::apply;
 use crate::support;
 use clsmith::parse::parse;
-use clsmith::program::StepId;
+use clsmith::program::{StatementId, StepId};
 use clsmith::report::diff::ProgramDiff;
 use clsmith::report::stats::{ProgramStats, to_json, to_text};
 use clsmith::report::unified_diff::{UnifiedDiffOptions, to_bytes};
@@ -52,19 +52,19 @@ fn real_files_with_other_feeds_keep_their_geometry_and_have_a_patch() {
     for path in corpus {
         let source = support::source(&path);
         let program = parse(&source, None).program;
-        let feeds: Vec<(usize, f64)> = program
+        let feeds: Vec<(StatementId, f64)> = program
             .live_statements()
-            .filter_map(|(index, statement)| match statement.record() {
-                Record::Feed(feed) => Some((index, feed.value)),
+            .filter_map(|(id, statement)| match statement.record() {
+                Record::Feed(feed) => Some((id, feed.value)),
                 _ => None,
             })
             .collect();
         let mut editor = ProgramEditor::new(program, StepId(0));
-        for (index, feed) in &feeds {
-            let text = editor.program().statement_text(editor.program().statement(*index).unwrap());
+        for (id, feed) in &feeds {
+            let text = editor.program().statement_text(editor.program().statement(*id));
             let number =
                 clsmith::parse::statement_numbers(text).iter().position(|(_, value)| value == feed).unwrap();
-            editor.set_numbers(*index, &[(number, feed * 0.8)]).unwrap();
+            editor.set_numbers(*id, &[(number, feed * 0.8)]).unwrap();
         }
         let after = editor.finish().unwrap();
         let found = ProgramDiff::from_programs(&parse(&source, None).program, &after);

@@ -2,7 +2,7 @@
 
 use crate::support::{snapshots, text};
 use clsmith::parse::parse;
-use clsmith::program::{Program, StepId};
+use clsmith::program::{InsertionPoint, Program, StatementId, StepId};
 use clsmith::report::unified_diff::{UnifiedDiffOptions, to_bytes};
 use clsmith::write::ProgramEditor;
 use proptest::prelude::*;
@@ -64,17 +64,15 @@ enum Edit {
 
 fn edited(source: &[u8], edits: &[Edit]) -> Program {
     let program = parse(&text(source), None).program;
-    let end = program.statements().len();
+    let ids: Vec<StatementId> = program.statement_ids().collect();
+    let places: Vec<InsertionPoint> = ids.iter().map(|id| id.before()).chain([program.end()]).collect();
     let mut editor = ProgramEditor::new(program, StepId(0));
     for edit in edits {
         // What the gate refuses is not changed, which is as good a program as any.
         let _ = match edit {
-            Edit::Set(at, text) => editor.set_text(at % (end + 1), text.as_bytes()),
-            Edit::Insert(at, text) => editor.insert_before(at % (end + 1), text.as_bytes()),
-            Edit::Delete(at) => {
-                editor.delete_statement(at % (end + 1));
-                Ok(())
-            }
+            Edit::Set(at, text) => editor.set_text(ids[at % ids.len()], text.as_bytes()),
+            Edit::Insert(at, text) => editor.insert(places[at % places.len()], text.as_bytes()),
+            Edit::Delete(at) => editor.delete_statement(ids[at % ids.len()]),
         };
     }
     editor.finish().unwrap()

@@ -15,7 +15,7 @@ pub use timing::{try_until_met, wait_for, within_seconds};
 
 use clsmith::program::geometry::{CircularArc, MotionPath as ClPath};
 use clsmith::program::motion::{ActiveTool, Motion, MotionProblemKind};
-use clsmith::program::{Dialect, Program};
+use clsmith::program::{Dialect, Program, StatementId};
 use clsmith::source::Source;
 use std::path::{Path, PathBuf};
 
@@ -34,6 +34,11 @@ pub fn program(source: impl AsRef<[u8]>) -> Program {
     let parsed = clsmith::parse::parse(&text(source), None);
     assert!(parsed.diagnostics.iter().all(|found| !found.is_error()), "{:?}", parsed.diagnostics);
     parsed.program
+}
+
+/// How many statements stand before each statement of a motion.
+pub fn statement_indices(motion: &Motion) -> Vec<usize> {
+    motion.statements.ids().map(StatementId::index).collect()
 }
 
 /// Snapshots of an area, all kept in the top-level `snapshots/`.

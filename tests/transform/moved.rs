@@ -48,7 +48,7 @@ pub fn assert_moved(name: &str, before: &Program, after: &Program, place: &Place
     assert_eq!(old.len(), new.len(), "{name}: number of motions");
     let mut last: Option<Point3<f64>> = None;
     for (old, new) in old.iter().zip(&new) {
-        let statement = &before.statements()[old.last_statement()];
+        let statement = before.statement(old.last_statement());
         let place_of = || {
             let (line, _) = before.source().line_column(statement.origin().start);
             format!("{name}:{line} {}", String::from_utf8_lossy(before.statement_text(statement)).trim())

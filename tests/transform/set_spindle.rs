@@ -3,7 +3,7 @@
 use super::{apply, try_apply};
 use crate::support;
 use clsmith::parameters::{Factor, Positive};
-use clsmith::program::{LengthUnit, Program, Record};
+use clsmith::program::{LengthUnit, Program, Record, StatementId};
 use clsmith::recipe::StatementFilter;
 use clsmith::setup::Setup;
 use clsmith::transform::set_spindle::{
@@ -79,7 +79,7 @@ fn every_fixture_is_scaled_and_nothing_else_changes() {
 
 /// The statements' texts, and whether each sets spindle speed.
 fn lines(program: &Program) -> Vec<(bool, Vec<u8>)> {
-    let line = |(_, statement): (usize, &clsmith::program::Statement)| {
+    let line = |(_, statement): (StatementId, &clsmith::program::Statement)| {
         (matches!(statement.record(), Record::Spindle(_)), program.statement_text(statement).to_vec())
     };
     program.live_statements().map(line).collect()

@@ -1,6 +1,7 @@
 //! An output appears whole or not at all.
 
 mod same;
+mod statement_ids;
 #[cfg(unix)]
 mod unix;
 mod values;

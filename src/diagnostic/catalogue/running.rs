@@ -34,6 +34,12 @@ super::area! {
         "The recipe says no `units`, so its lengths and feeds are in millimetres, but the program is in inches. clsmith converts: \
          `translate: [1, 0, 0]` moves such a program by 0.0394 inches. That is right if the recipe was written in millimetres, \
          and off by a factor of 25.4 if its author thought in inches like the program. Saying the unit settles it.";
+    NO_SUCH_STATEMENT = "CL0308", Error, "a step edits a statement that is not there",
+        "Please report it with the recipe and the program: it is a fault of the step, not of your files.",
+        "Steps change statements that stand in the program. This one wants to change or take out a statement that it, or a step \
+         before it, has taken out already, or one that the program never had. What it means to do is then not what would be \
+         written, so the run stops here and nothing is written. clsmith's own steps never do that; a step of another program \
+         that uses clsmith as a library may.";
     RULE_UNUSED = "CL0310", Warning, "a rule of `rewrite` applies to no statement",
         "Compare it with a statement of the file; a statement that an earlier rule takes does not reach this one.",
         "No statement of this program fits the rule's `match` where the step's `where` selects one. Spacing, case of letters and \

@@ -20,16 +20,15 @@ pub use state_machine::Motions;
 use super::geometry::{MotionPath, Pose};
 use super::motion_class::MotionClass;
 use super::record::{DrillingCycle, Spindle};
-use super::{Feed, Program};
-use std::ops::Range;
+use super::{Feed, Program, StatementId, StatementRange};
 use std::sync::Arc;
 
 /// One move of the tool.
 #[derive(Debug, Clone)]
 pub struct Motion {
-    /// The indices of the statements that make it, including deleted ones: from the first one that belongs to
-    /// this motion alone (RAPID, CIRCLE, INDIRV, NURBS) to the one that ends it.
-    pub statements: Range<usize>,
+    /// The statements that make it, including deleted ones: from the first one that belongs to this motion
+    /// alone (RAPID, CIRCLE, INDIRV, NURBS) to the one that ends it.
+    pub statements: StatementRange,
     /// The pose at the start; equal to `to` for a path of [`MotionPath::Start`].
     pub from: Pose,
     /// The pose at the end.
@@ -43,8 +42,8 @@ pub struct Motion {
     /// The feed in force; for a rapid, the feed that holds again after it; in the holes of a cycle, the
     /// cycle's own feed.
     pub feed: Option<Feed>,
-    /// The index of the FEDRAT (or CYCLE) statement that set the feed.
-    pub feed_from: Option<usize>,
+    /// The FEDRAT (or CYCLE) statement that set the feed.
+    pub feed_from: Option<StatementId>,
     /// The spindle in force.
     pub spindle: Option<Arc<Spindle>>,
     /// The tool in force.
@@ -63,9 +62,9 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// Returns the index of the statement that ends the motion.
-    pub fn last_statement(&self) -> usize {
-        self.statements.end.saturating_sub(1)
+    /// Returns the statement that ends the motion.
+    pub fn last_statement(&self) -> StatementId {
+        self.statements.last()
     }
 
     /// Returns the length of the path in the file's unit.

@@ -5,19 +5,19 @@ use super::modal_state::{CoordinateFrame, MotionProblemKind};
 use super::state_machine::Motions;
 use crate::program::geometry::Pose;
 use crate::program::record::{FrameRecord, FrameWord};
-use crate::program::{Record, operation};
+use crate::program::{Record, StatementId, operation};
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 
 impl Motions<'_> {
     /// Processes a record that does not move the tool.
-    pub(super) fn process_modal_record(&mut self, index: usize, record: &Record) {
+    pub(super) fn process_modal_record(&mut self, id: StatementId, record: &Record) {
         let state = &mut self.state;
         match record {
             Record::Feed(feed) => {
                 // A feed without a unit keeps the unit of the feed before.
                 let unit = feed.unit.or(state.feed.and_then(|(before, _)| before.unit));
-                state.feed = Some((crate::program::Feed { value: feed.value, unit }, index));
+                state.feed = Some((crate::program::Feed { value: feed.value, unit }, id));
                 // CAM systems write no FEDRAT between RAPID and its motion. In APT, a feed ends a rapid.
                 if let Some(rapid) = self.pending.rapid.take() {
                     self.report_problem(rapid, MotionProblemKind::RapidWithoutMotion);
@@ -27,7 +27,7 @@ impl Motions<'_> {
                 let spindle = spindle.inherit_from(state.spindle.as_deref());
                 state.spindle = Some(Arc::new(spindle));
             }
-            Record::CutterCompensation(compensation) => state.compensation = Some((*compensation, index)),
+            Record::CutterCompensation(compensation) => state.compensation = Some((*compensation, id)),
             Record::ToolCall(call) => state.change_tool(|tool| {
                 let another = tool.number.is_some_and(|number| number != call.number);
                 if another && tool.loaded && call.loads {
@@ -47,8 +47,8 @@ impl Motions<'_> {
                 state.axis = normalize_axis(**axis)
             }
             Record::MultiAxis(on) => state.multi_axis = *on,
-            Record::Frame(frame) => self.process_frame(index, frame),
-            Record::FrameMark => self.pending.matrix = Some((index, Vec::new())),
+            Record::Frame(frame) => self.process_frame(id, frame),
+            Record::FrameMark => self.pending.matrix = Some((id, Vec::new())),
             Record::MatrixRow(row) => {
                 if let Some((_, rows)) = &mut self.pending.matrix
                     && rows.len() < 3
@@ -63,14 +63,14 @@ impl Motions<'_> {
                 // CYCLE/ON with words only changes some values of the cycle in force.
                 let before = state.cycle.as_ref().map(|(before, _)| before.as_ref());
                 let cycle_in_force = cycle.inherit_from(before);
-                let own = cycle.feed.map(|_| index);
+                let own = cycle.feed.map(|_| id);
                 self.cycle_feed = own.or(self.cycle_feed.filter(|_| cycle_in_force.feed.is_some()));
-                state.cycle = Some((Arc::new(cycle_in_force), index));
+                state.cycle = Some((Arc::new(cycle_in_force), id));
             }
             Record::CycleOff => self.last_cycle = state.cycle.take().or(self.last_cycle.take()),
             Record::CycleOn => state.cycle = state.cycle.take().or_else(|| self.last_cycle.clone()),
             Record::Marked(mark) => state.marked = mark.class,
-            Record::OperationStart(_) => self.start_operation(index),
+            Record::OperationStart(_) => self.start_operation(id),
             Record::OperationEnd => state.marked = None,
             Record::Units(units) => state.units = Some(*units),
             _ => {}
@@ -78,12 +78,12 @@ impl Motions<'_> {
     }
 
     /// Starts an operation: counts it, and takes over the tool that an NX TOOL PATH names.
-    pub(super) fn start_operation(&mut self, index: usize) {
+    pub(super) fn start_operation(&mut self, id: StatementId) {
         if self.operations_seen {
             self.state.operation += 1;
         }
         self.operations_seen = true;
-        let Some(statement) = self.program.statement(index) else { return };
+        let statement = self.program.statement(id);
         if let Some(name) = operation::tool_name(self.program, statement) {
             // A TOOL PATH describes its tool anew. The number comes with the LOAD that follows, or is that of
             // the loaded tool.
@@ -105,7 +105,7 @@ impl Motions<'_> {
     }
 
     /// Processes a frame or a shift.
-    pub(super) fn process_frame(&mut self, index: usize, record: &FrameRecord) {
+    pub(super) fn process_frame(&mut self, id: StatementId, record: &FrameRecord) {
         let at = |index: usize| record.numbers.get(index).copied().unwrap_or_default();
         let three = |start: usize| Vector3::new(at(start), at(start + 1), at(start + 2));
         match record.word {
@@ -113,7 +113,7 @@ impl Motions<'_> {
                 // MSYS prints the origin and two axes; the third one is their cross product.
                 let (x, y) = (three(3), three(6));
                 let axes = Matrix3::from_columns(&[x, y, x.cross(&y)]);
-                let frame = CoordinateFrame { statement: index, origin: three(0), axes };
+                let frame = CoordinateFrame { statement: id, origin: three(0), axes };
                 self.express_pose_in(&frame);
                 self.state.frame = Some(Arc::new(frame));
             }
@@ -121,7 +121,7 @@ impl Motions<'_> {
                 // CSYS prints three rows with the axes as columns, and the origin in the fourth column.
                 let axes = Matrix3::new(at(0), at(1), at(2), at(4), at(5), at(6), at(8), at(9), at(10));
                 let origin = Vector3::new(at(3), at(7), at(11));
-                self.state.frame = Some(Arc::new(CoordinateFrame { statement: index, origin, axes }));
+                self.state.frame = Some(Arc::new(CoordinateFrame { statement: id, origin, axes }));
             }
             FrameWord::Trans => self.state.shift = three(0),
             FrameWord::Origin => self.state.shift = -three(0),

@@ -3,7 +3,7 @@
 use crate::program::geometry::Pose;
 use crate::program::motion_class::MotionClass;
 use crate::program::record::{CutterCompensation, DrillingCycle, Spindle, ToolData};
-use crate::program::{Feed, LengthUnit};
+use crate::program::{Feed, LengthUnit, StatementId};
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 
@@ -41,7 +41,7 @@ impl ActiveTool {
 #[derive(Debug, Clone, PartialEq)]
 pub struct CoordinateFrame {
     /// The statement that set the frame (for a CATIA0 matrix, its mark).
-    pub statement: usize,
+    pub statement: StatementId,
     /// The origin.
     pub origin: Vector3<f64>,
     /// The axes as columns.
@@ -51,8 +51,8 @@ pub struct CoordinateFrame {
 /// A problem that was found while motions were resolved, for `check`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionProblem {
-    /// The index of the statement that it is about.
-    pub statement: usize,
+    /// The statement that it is about.
+    pub statement: StatementId,
     /// The kind of the problem.
     pub kind: MotionProblemKind,
 }
@@ -90,7 +90,7 @@ pub struct ModalState {
     /// Whether MULTAX is in force.
     pub multi_axis: bool,
     /// The feed, and the statement that set it.
-    pub feed: Option<(Feed, usize)>,
+    pub feed: Option<(Feed, StatementId)>,
     /// The spindle.
     pub spindle: Option<Arc<Spindle>>,
     /// The tool.
@@ -100,9 +100,9 @@ pub struct ModalState {
     /// The shift that the post will add, from TRANS and ORIGIN.
     pub shift: Vector3<f64>,
     /// The cutter compensation, and the statement that set it.
-    pub compensation: Option<(CutterCompensation, usize)>,
+    pub compensation: Option<(CutterCompensation, StatementId)>,
     /// The cycle, and the statement that set it.
-    pub cycle: Option<(Arc<DrillingCycle>, usize)>,
+    pub cycle: Option<(Arc<DrillingCycle>, StatementId)>,
     /// The class of motions that the file has marked.
     pub marked: Option<MotionClass>,
     /// The unit of lengths, if the file states it.

@@ -9,31 +9,32 @@ use super::{Motion, drilling_cycles};
 use crate::program::geometry::{MotionPath, Pose, SAME_POINT, Spline};
 use crate::program::motion_class::MotionClass;
 use crate::program::record::{Goto, has_contact_normal, has_tool_axes};
+use crate::program::{StatementId, StatementRange};
 use nalgebra::Vector3;
 use std::sync::Arc;
 
 impl Motions<'_> {
     /// Keeps an arc until its end point follows.
-    pub(super) fn announce_arc(&mut self, index: usize, arc: PendingArc) {
-        if let Some((_, before)) = self.pending.arc.replace((arc, index)) {
+    pub(super) fn announce_arc(&mut self, id: StatementId, arc: PendingArc) {
+        if let Some((_, before)) = self.pending.arc.replace((arc, id)) {
             self.report_problem(before, MotionProblemKind::ArcWithoutEnd);
         }
-        self.pending.first.get_or_insert(index);
+        self.pending.first.get_or_insert(id);
     }
 
     /// Moves to the point of a GOTO.
-    pub(super) fn process_goto(&mut self, index: usize, goto: &Goto) {
+    pub(super) fn process_goto(&mut self, id: StatementId, goto: &Goto) {
         let axis = goto.axis.map_or(self.state.axis, normalize_axis);
-        self.move_to(MotionTarget { pose: Pose { point: goto.point, axis }, normal: None, statement: index });
+        self.move_to(MotionTarget { pose: Pose { point: goto.point, axis }, normal: None, statement: id });
     }
 
     /// Moves to the points of a long GOTO or of a line of numbers: one point with axis and normal, points
     /// with axes, or points alone.
-    pub(super) fn process_points(&mut self, index: usize, numbers: &[f64]) {
+    pub(super) fn process_points(&mut self, id: StatementId, numbers: &[f64]) {
         let at = |index: usize| Vector3::from_iterator(numbers.iter().skip(index).take(3).copied());
         if has_contact_normal(numbers) {
             let pose = Pose { point: at(0).into(), axis: normalize_axis(at(3)) };
-            return self.move_to(MotionTarget { pose, normal: Some(at(6)), statement: index });
+            return self.move_to(MotionTarget { pose, normal: Some(at(6)), statement: id });
         }
         let with_axes = self.state.multi_axis && has_tool_axes(numbers);
         let step = if with_axes { 6 } else { 3 };
@@ -43,12 +44,12 @@ impl Motions<'_> {
             self.pending.rapid = rapid;
             let axis = if with_axes { normalize_axis(at(start + 3)) } else { self.state.axis };
             let pose = Pose { point: at(start).into(), axis };
-            self.move_to(MotionTarget { pose, normal: None, statement: index });
+            self.move_to(MotionTarget { pose, normal: None, statement: id });
         }
     }
 
     /// Sets the tool's pose at a FROM.
-    pub(super) fn process_from(&mut self, index: usize, goto: &Goto) {
+    pub(super) fn process_from(&mut self, id: StatementId, goto: &Goto) {
         let axis = goto.axis.map_or(self.state.axis, normalize_axis);
         let pose = Pose { point: goto.point, axis };
         self.state.axis = axis;
@@ -56,13 +57,13 @@ impl Motions<'_> {
         self.last_tangent = None;
         // The tool does not move, so an announced RAPID or CIRCLE is for the motion after this one.
         let announced = std::mem::take(&mut self.pending);
-        let motion = self.build_motion(pose, pose, MotionPath::Start, index);
+        let motion = self.build_motion(pose, pose, MotionPath::Start, id);
         self.pending = announced;
         self.queue.push_back(motion);
     }
 
     /// Moves by a step (GODLTA); a single number is a step along the tool axis.
-    pub(super) fn process_delta(&mut self, index: usize, step: &[f64]) {
+    pub(super) fn process_delta(&mut self, id: StatementId, step: &[f64]) {
         let delta = match step {
             [x, y, z] => Vector3::new(*x, *y, *z),
             [along] => self.state.axis * *along,
@@ -71,9 +72,9 @@ impl Motions<'_> {
         match self.state.pose {
             Some(pose) => {
                 let to = Pose { point: pose.point + delta, axis: self.state.axis };
-                self.move_to(MotionTarget { pose: to, normal: None, statement: index });
+                self.move_to(MotionTarget { pose: to, normal: None, statement: id });
             }
-            None => self.report_problem(index, MotionProblemKind::UnknownStart),
+            None => self.report_problem(id, MotionProblemKind::UnknownStart),
         }
     }
 
@@ -114,7 +115,7 @@ impl Motions<'_> {
     pub(super) fn resolve_arc_path(
         &mut self,
         arc: PendingArc,
-        statement: usize,
+        statement: StatementId,
         from: Pose,
         target: &MotionTarget,
     ) -> MotionPath {
@@ -187,7 +188,7 @@ impl Motions<'_> {
         from: Pose,
         to: Pose,
         path: MotionPath,
-        statement: usize,
+        statement: StatementId,
     ) -> Motion {
         let first = self.pending.first.take().unwrap_or(statement);
         let rapid = self.pending.rapid.take().is_some();
@@ -195,7 +196,7 @@ impl Motions<'_> {
         let (class, class_is_told) = self.classify_motion(rapid, &from, &to, &path);
         let state = &self.state;
         Motion {
-            statements: first..statement + 1,
+            statements: StatementRange::new(first, statement),
             from,
             to,
             path,

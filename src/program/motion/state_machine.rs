@@ -5,7 +5,7 @@ use super::arcs::PendingArc;
 use super::modal_state::{ModalState, MotionProblem, MotionProblemKind};
 use crate::program::geometry::Pose;
 use crate::program::record::DrillingCycle;
-use crate::program::{Program, Record};
+use crate::program::{Program, Record, StatementId};
 use nalgebra::{Point3, Vector3};
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -23,43 +23,43 @@ pub struct Motions<'p> {
     pub(super) operations_seen: bool,
     pub(super) holes: usize,
     /// The cycle that CYCLE/ON switches on again.
-    pub(super) last_cycle: Option<(Arc<DrillingCycle>, usize)>,
+    pub(super) last_cycle: Option<(Arc<DrillingCycle>, StatementId)>,
     /// The CYCLE statement that has the feed of the cycle in force: CYCLE/ON,FEDTO,... takes the feed over
     /// without printing it.
-    pub(super) cycle_feed: Option<usize>,
+    pub(super) cycle_feed: Option<StatementId>,
 }
 
 /// The announcements of statements for the next motion.
 #[derive(Debug, Clone, Default)]
 pub(super) struct PendingMotion {
     /// The first statement that belongs to the next motion.
-    pub(super) first: Option<usize>,
+    pub(super) first: Option<StatementId>,
     /// The statement of a RAPID.
-    pub(super) rapid: Option<usize>,
+    pub(super) rapid: Option<StatementId>,
     /// The arc of a CIRCLE or MOVARC, and its statement.
-    pub(super) arc: Option<(PendingArc, usize)>,
+    pub(super) arc: Option<(PendingArc, StatementId)>,
     /// The direction of an INDIRV, and its statement.
-    pub(super) direction: Option<(Vector3<f64>, usize)>,
+    pub(super) direction: Option<(Vector3<f64>, StatementId)>,
     /// The spline of a NURBS as far as it has been read.
     pub(super) spline: Option<PendingSpline>,
     /// The statement of a `$$*CATIA0`, and the rows of its matrix.
-    pub(super) matrix: Option<(usize, Vec<[f64; 4]>)>,
+    pub(super) matrix: Option<(StatementId, Vec<[f64; 4]>)>,
 }
 
 /// A spline whose control points are being read.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(super) struct PendingSpline {
-    pub(super) statement: usize,
+    pub(super) statement: StatementId,
     pub(super) knots: Vec<f64>,
     pub(super) controls: Vec<Point3<f64>>,
-    pub(super) last: usize,
+    pub(super) last: StatementId,
 }
 
 /// The target of a motion before its path is known.
 pub(super) struct MotionTarget {
     pub(super) pose: Pose,
     pub(super) normal: Option<Vector3<f64>>,
-    pub(super) statement: usize,
+    pub(super) statement: StatementId,
 }
 
 impl<'p> Motions<'p> {
@@ -89,27 +89,32 @@ impl<'p> Motions<'p> {
         std::mem::take(&mut self.problems)
     }
 
-    /// Reads one statement and returns its index. Motions that it ends are dropped. This is for callers who
-    /// need [`Motions::state`] at every statement instead of motions.
-    pub fn read_statement(&mut self) -> Option<usize> {
-        let index = self.next;
-        let statement = self.program.statement(index)?;
-        self.next += 1;
-        if statement.is_live() {
-            self.process_record(index, statement.record());
-        }
+    /// Reads one statement and returns its id. Motions that it ends are dropped. This is for callers who need
+    /// [`Motions::state`] at every statement instead of motions.
+    pub fn read_statement(&mut self) -> Option<StatementId> {
+        let id = self.process_next_statement()?;
         self.queue.clear();
         self.problems.clear();
-        Some(index)
+        Some(id)
+    }
+
+    fn process_next_statement(&mut self) -> Option<StatementId> {
+        let statement = self.program.statements().get(self.next)?;
+        let id = StatementId::new(self.next, self.program.stamp);
+        self.next += 1;
+        if statement.is_live() {
+            self.process_record(id, statement.record());
+        }
+        Some(id)
     }
 
     /// Adds a problem.
-    pub(super) fn report_problem(&mut self, statement: usize, kind: MotionProblemKind) {
+    pub(super) fn report_problem(&mut self, statement: StatementId, kind: MotionProblemKind) {
         self.problems.push(MotionProblem { statement, kind });
     }
 
     /// Processes one record: moves the tool, announces something, or changes the modal state.
-    pub(super) fn process_record(&mut self, index: usize, record: &Record) {
+    pub(super) fn process_record(&mut self, id: StatementId, record: &Record) {
         // A spline or matrix ends at the first record that cannot belong to it.
         if self.pending.spline.is_some()
             && !matches!(record, Record::Knot(_) | Record::Control(_) | Record::Comment | Record::Blank)
@@ -123,36 +128,36 @@ impl<'p> Motions<'p> {
             self.finish_matrix();
         }
         match record {
-            Record::Goto(goto) => self.process_goto(index, goto),
-            Record::Points(numbers) => self.process_points(index, numbers),
-            Record::From(goto) => self.process_from(index, goto),
+            Record::Goto(goto) => self.process_goto(id, goto),
+            Record::Points(numbers) => self.process_points(id, numbers),
+            Record::From(goto) => self.process_from(id, goto),
             Record::GoHome(Some(goto)) => {
                 // There is no hole at home, whatever cycle is in force.
                 let cycle = self.state.cycle.take();
-                self.process_goto(index, goto);
+                self.process_goto(id, goto);
                 self.state.cycle = cycle;
             }
             Record::GoHome(None) => self.forget_pose(),
-            Record::GoDelta(step) => self.process_delta(index, step),
-            Record::Circle(circle) => self.announce_arc(index, PendingArc::Circle(circle.as_ref().clone())),
-            Record::MoveArc(arc) => self.announce_arc(index, PendingArc::MoveArc(arc.as_ref().clone())),
+            Record::GoDelta(step) => self.process_delta(id, step),
+            Record::Circle(circle) => self.announce_arc(id, PendingArc::Circle(circle.as_ref().clone())),
+            Record::MoveArc(arc) => self.announce_arc(id, PendingArc::MoveArc(arc.as_ref().clone())),
             Record::StartDirection(direction) => {
                 if let Some((_, before)) = self.pending.direction {
                     self.report_problem(before, MotionProblemKind::ArcWithoutEnd);
                 }
-                self.pending.first.get_or_insert(index);
-                self.pending.direction = Some((**direction, index));
+                self.pending.first.get_or_insert(id);
+                self.pending.direction = Some((**direction, id));
             }
             Record::DriveArc(arc) => {
                 let arc = arc.as_ref().clone();
                 let pose = Pose { point: arc.end, axis: self.state.axis };
-                self.pending.arc = Some((PendingArc::Drive(arc), index));
-                self.move_to(MotionTarget { pose, normal: None, statement: index });
+                self.pending.arc = Some((PendingArc::Drive(arc), id));
+                self.move_to(MotionTarget { pose, normal: None, statement: id });
             }
             Record::Nurbs => {
-                self.pending.first.get_or_insert(index);
+                self.pending.first.get_or_insert(id);
                 self.pending.spline =
-                    Some(PendingSpline { statement: index, last: index, ..Default::default() });
+                    Some(PendingSpline { statement: id, last: id, knots: Vec::new(), controls: Vec::new() });
             }
             Record::Knot(knots) => {
                 if let Some(spline) = &mut self.pending.spline {
@@ -162,18 +167,18 @@ impl<'p> Motions<'p> {
             Record::Control(point) => match &mut self.pending.spline {
                 Some(spline) => {
                     spline.controls.push(**point);
-                    spline.last = index;
+                    spline.last = id;
                 }
-                None => self.report_problem(index, MotionProblemKind::BrokenSpline),
+                None => self.report_problem(id, MotionProblemKind::BrokenSpline),
             },
             Record::Rapid => {
                 if let Some(before) = self.pending.rapid {
                     self.report_problem(before, MotionProblemKind::RapidWithoutMotion);
                 }
-                self.pending.first.get_or_insert(index);
-                self.pending.rapid = Some(index);
+                self.pending.first.get_or_insert(id);
+                self.pending.rapid = Some(id);
             }
-            _ => self.process_modal_record(index, record),
+            _ => self.process_modal_record(id, record),
         }
     }
 
@@ -207,20 +212,14 @@ impl Iterator for Motions<'_> {
             if let Some(motion) = self.queue.pop_front() {
                 return Some(motion);
             }
-            let program = self.program;
-            let Some(statement) = program.statement(self.next) else {
-                if self.next == program.statements().len() {
-                    self.next += 1;
-                    self.finish();
-                    continue;
-                }
-                return None;
-            };
-            let index = self.next;
-            self.next += 1;
-            if statement.is_live() {
-                self.process_record(index, statement.record());
+            if self.process_next_statement().is_some() {
+                continue;
             }
+            if self.next > self.program.statements().len() {
+                return None;
+            }
+            self.next += 1;
+            self.finish();
         }
     }
 }

@@ -242,11 +242,7 @@ mod tests {
     use super::*;
 
     fn keys(meaning: &[u64], shape: &[u32]) -> AlignmentKeys {
-        AlignmentKeys {
-            index: (0..meaning.len() as u32).collect(),
-            meaning: meaning.into(),
-            shape: shape.into(),
-        }
+        AlignmentKeys { ids: Vec::new(), meaning: meaning.into(), shape: shape.into() }
     }
 
     #[test]

@@ -1,15 +1,17 @@
 //! What statements are aligned by: their meaning where it is the same, their shape where it is not.
 
 use crate::parse;
-use crate::program::RecordKind;
-use crate::program::{FieldKind, Program, Record, Statement, StatementField, StatementSyntax, fold_text};
+use crate::program::{
+    FieldKind, Program, Record, RecordKind, Statement, StatementField, StatementId, StatementSyntax,
+    fold_text,
+};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// The keys of a program's live statements.
 #[derive(Debug, Default)]
 pub(super) struct AlignmentKeys {
-    /// Index of each statement in the program.
-    pub(super) index: Vec<u32>,
+    /// The statements.
+    pub(super) ids: Vec<StatementId>,
     /// Equal for statements that say the same, whatever their blanks and zeros.
     pub(super) meaning: Vec<u64>,
     /// Equal for statements that may be the same one with other numbers.
@@ -19,9 +21,9 @@ pub(super) struct AlignmentKeys {
 impl AlignmentKeys {
     pub(super) fn from_program(program: &Program) -> Self {
         let mut keys = Self::default();
-        for (index, statement) in program.live_statements() {
+        for (id, statement) in program.live_statements() {
             let text = program.statement_text(statement);
-            keys.index.push(index as u32);
+            keys.ids.push(id);
             keys.meaning.push(hash_meaning(statement.record(), text));
             keys.shape.push(hash_shape(statement.record(), text));
         }
@@ -29,7 +31,7 @@ impl AlignmentKeys {
     }
 
     pub(super) fn len(&self) -> usize {
-        self.index.len()
+        self.meaning.len()
     }
 }
 

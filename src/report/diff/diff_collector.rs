@@ -54,11 +54,11 @@ struct AlignedPrograms<'p> {
 
 impl<'p> AlignedPrograms<'p> {
     fn statement_a(&self, at: usize) -> Option<&'p Statement> {
-        self.keys_a.index.get(at).and_then(|index| self.a.statement(*index as usize))
+        self.keys_a.ids.get(at).map(|id| self.a.statement(*id))
     }
 
     fn statement_b(&self, at: usize) -> Option<&'p Statement> {
-        self.keys_b.index.get(at).and_then(|index| self.b.statement(*index as usize))
+        self.keys_b.ids.get(at).map(|id| self.b.statement(*id))
     }
 
     /// Whether all points of a stretch are the other's, moved by one distance.
@@ -66,7 +66,10 @@ impl<'p> AlignedPrograms<'p> {
         let mut first = None;
         for (at_a, at_b) in pairs {
             let records = (self.statement_a(at_a), self.statement_b(at_b));
-            let (Some(a), Some(b)) = records else { return false };
+            let (Some(a), Some(b)) = records else {
+                debug_assert!(false, "{at_a} or {at_b} is no statement of its program");
+                return false;
+            };
             let (Record::Goto(a), Record::Goto(b)) = (a.record(), b.record()) else { continue };
             let move_by = b.point - a.point;
             let before = *first.get_or_insert(move_by);
@@ -94,7 +97,9 @@ struct DiffCollector {
 
 impl DiffCollector {
     fn add_pair(&mut self, sides: &AlignedPrograms<'_>, at_a: usize, at_b: usize) {
-        let (Some(a), Some(b)) = (sides.statement_a(at_a), sides.statement_b(at_b)) else { return };
+        let (Some(a), Some(b)) = (sides.statement_a(at_a), sides.statement_b(at_b)) else {
+            return debug_assert!(false, "{at_a} or {at_b} is no statement of its program");
+        };
         self.enter_operation(sides.b, b);
         let pair = StatementPair { a: (sides.a, a), b: (sides.b, b), units: sides.units };
         match pair.classify_difference() {
@@ -104,7 +109,9 @@ impl DiffCollector {
     }
 
     fn add_unpaired(&mut self, program: &Program, statement: Option<&Statement>, what: DifferenceKind) {
-        let Some(statement) = statement else { return };
+        let Some(statement) = statement else {
+            return debug_assert!(false, "an index of the alignment is no statement of its program");
+        };
         self.enter_operation(program, statement);
         let side = Some((program, statement));
         let (a, b) = if what == DifferenceKind::Removed { (side, None) } else { (None, side) };

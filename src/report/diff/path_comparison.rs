@@ -2,7 +2,7 @@
 
 use crate::program::geometry::{MotionPath, Pose, SAME_POINT};
 use crate::program::motion::{Motion, Motions};
-use crate::program::{LengthUnit, Program};
+use crate::program::{LengthUnit, Program, StatementId};
 use crate::report::statement_line;
 use crate::report::stats::{MotionLengthAndTime, MotionTotals};
 use nalgebra::{Point3, Vector3};
@@ -61,7 +61,7 @@ struct ComparedMove {
     middle: Point3<f64>,
     length: f64,
     rapid: bool,
-    statement: usize,
+    statement: StatementId,
 }
 
 /// How far each side goes on: to the end of its move, or to a pose within it.
@@ -143,7 +143,7 @@ impl<'p> MoveCursor<'p> {
 
     /// Line of the move in its file.
     fn current_line(&self) -> Option<usize> {
-        let statement = self.program.statement(self.step.as_ref()?.statement)?;
+        let statement = self.program.statement(self.step.as_ref()?.statement);
         statement_line(self.program, statement)
     }
 

@@ -139,11 +139,12 @@ impl PageMotionArrays {
             self.tools.len() - 1
         });
         self.tool.push(u16::try_from(tool).unwrap_or(u16::MAX));
-        self.row.push(rows.get(statement).copied().unwrap_or(NONE));
-        if let Some(place) = self.ended_by.get_mut(statement).filter(|place| **place == NONE) {
+        debug_assert!(statement.index() < rows.len(), "the rows are of this program");
+        self.row.push(rows.get(statement.index()).copied().unwrap_or(NONE));
+        if let Some(place) = self.ended_by.get_mut(statement.index()).filter(|place| **place == NONE) {
             *place = self.statement.len() as u32;
         }
-        self.statement.push(statement as u32);
+        self.statement.push(statement.index() as u32);
     }
 
     /// Where a motion's vertices are, its beginning included.

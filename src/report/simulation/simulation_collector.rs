@@ -90,7 +90,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         let length_mm = motion.length() * unit.mm_per_unit();
         let statement = program.statement(motion.last_statement());
         let mut row = MotionRow {
-            line: statement.and_then(|statement| statement_line(program, statement)),
+            line: statement_line(program, statement),
             operation: motion.operation,
             tool: self.tool_index(motion),
             rapid: motion.rapid,

@@ -1,8 +1,8 @@
 //! Cuts whose feed or speed is not known, as findings: a few with their places, the rest as a number.
 
 use crate::diagnostic::{Diagnostic, codes};
+use crate::program::Program;
 use crate::program::motion::Motion;
-use crate::program::{Program, Statement};
 use crate::source::Span;
 
 /// Findings that are told one by one.
@@ -45,7 +45,7 @@ impl UnknownFeedCollector {
             return;
         };
         self.count += 1;
-        let span = program.statement(statement).map(Statement::origin).unwrap_or_default();
+        let span = program.statement(statement).origin();
         self.first.get_or_insert(span);
         // A feed that many motions cut with is told once.
         let known = |found: &Diagnostic| found.labels.first().is_some_and(|label| label.span == span);

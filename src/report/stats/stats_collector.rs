@@ -184,7 +184,7 @@ impl StatsCollector<'_> {
     fn describe_frame(&self, frame: &CoordinateFrame) -> FrameStats {
         let statement = self.program.statement(frame.statement);
         FrameStats {
-            line: statement.and_then(|statement| super::super::statement_line(self.program, statement)),
+            line: super::super::statement_line(self.program, statement),
             origin: frame.origin.into(),
             z_axis: frame.axes.column(2).into_owned().into(),
             motions: 0,

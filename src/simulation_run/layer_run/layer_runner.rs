@@ -10,7 +10,7 @@ use crate::layered_chips::stack::LayerStack;
 use crate::layered_chips::{FlatMill, MillStepError};
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
-use crate::program::{Program, Statement};
+use crate::program::{Program, StatementId};
 use crate::simulation_run::faults::FaultCollector;
 use crate::simulation_run::tooling::statement_span;
 use crate::simulation_run::{Machining, RunWatcher};
@@ -78,7 +78,7 @@ impl Machining<'_> {
 
 /// Returns the line of the statement that ends a motion, counted from 1.
 fn end_line_number(program: &Program, motion: &Motion) -> usize {
-    let start = program.statement(motion.last_statement()).map(Statement::origin).unwrap_or_default().start;
+    let start = program.statement(motion.last_statement()).origin().start;
     program.source().line_column(start).0
 }
 
@@ -108,7 +108,7 @@ struct LayerRunner<'r> {
 struct UnsuitableTool {
     has: NotFlat,
     motions: usize,
-    first: Option<usize>,
+    first: Option<StatementId>,
 }
 
 impl<'r> LayerRunner<'r> {

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::Failure;
 use crate::program::record::{ArcSense, Circle};
-use crate::program::{ArcRule, Program, Record};
+use crate::program::{ArcRule, Program, Record, StatementId};
 use crate::surface::profile::{ArcPiece, ChainPiece, Point, ProfilePlane};
 use crate::transform::statement_numbers::{copy_statement, major_word, pair_with_indices};
 use crate::write::ProgramEditor;
@@ -13,13 +13,13 @@ use nalgebra::{Point3, Vector3};
 pub(super) enum ArcTemplate {
     /// CIRCLE and GOTO.
     Circle {
-        statement: usize,
+        statement: StatementId,
         has_radius: bool,
         /// 1 where the printed axis is right-hand, -1 where it is left-hand.
         hand: f64,
     },
     /// CATIA's INDIRV and TLON, after AUTOPS where the file has that.
-    Drive { auto: Option<usize>, direction: usize, drive: usize },
+    Drive { auto: Option<StatementId>, direction: StatementId, drive: StatementId },
 }
 
 /// The first arc of the file whose sense is known.
@@ -69,7 +69,7 @@ impl ArcTemplate {
         arc: &ArcPiece,
         plane: &ProfilePlane,
         mm_per_unit: f64,
-        before: usize,
+        before: StatementId,
     ) -> Result<bool, Failure> {
         let space = |point: Point| plane.to_space(point);
         let way = |u: f64, z: f64| (space(Point::new(u, z)) - space(Point::default())).map(zero_out_rounding);

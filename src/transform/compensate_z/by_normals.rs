@@ -160,9 +160,8 @@ fn report_gouges(
             gouge.depth_mm
         );
         let mut finding = place.build_finding(codes::BALL_GOUGES, message, *motion, "touches here", context);
-        let statement =
-            place.motions.get(*neighbour).and_then(|motion| place.program.statement(motion.last_statement()));
-        if let Some(statement) = statement {
+        if let Some(cut) = place.motions.get(*neighbour) {
+            let statement = place.program.statement(cut.last_statement());
             finding = finding.with_label(place.program.source(), statement.origin(), "is cut into");
         }
         context.findings.push(finding);

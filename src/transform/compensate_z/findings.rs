@@ -5,8 +5,8 @@ use super::pass_profile::PassFault;
 use super::pass_writer::UnwritableMotion;
 use super::vertical_passes::NoPassReason;
 use crate::diagnostic::{Diagnostic, DiagnosticCode, Failure, codes};
+use crate::program::Program;
 use crate::program::motion::Motion;
-use crate::program::{Program, Statement};
 use crate::transform::StepContext;
 
 /// A program and its motions.
@@ -26,12 +26,14 @@ impl MotionFindings<'_> {
         label: &str,
         context: &StepContext<'_>,
     ) -> Diagnostic {
-        let statement = self.motions.get(motion).map(Motion::last_statement);
-        let span = statement
-            .and_then(|index| self.program.statement(index))
-            .map(Statement::origin)
-            .unwrap_or_default();
-        let finding = Diagnostic::new(code, message).with_label(self.program.source(), span, label);
+        let mut finding = Diagnostic::new(code, message);
+        match self.motions.get(motion) {
+            Some(motion) => {
+                let statement = self.program.statement(motion.last_statement());
+                finding = finding.with_label(self.program.source(), statement.origin(), label);
+            }
+            None => debug_assert!(false, "motion {motion} of {} is told of", self.motions.len()),
+        }
         context.label_step(finding, "by this step")
     }
 

@@ -7,7 +7,7 @@ use super::vertical_passes::{UPRIGHT, is_cutting};
 use crate::diagnostic::Failure;
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
-use crate::program::{Program, Record, Statement};
+use crate::program::{Program, Record};
 use crate::transform::StepContext;
 use crate::write::ProgramEditor;
 use nalgebra::{Point3, Vector3};
@@ -47,8 +47,8 @@ impl<'a> PassSurroundings<'a> {
         lift: f64,
     ) -> Self {
         let fixed = |motion: &Motion| {
-            let record = program.statement(motion.last_statement()).map(Statement::record);
-            matches!(record, Some(Record::From(_) | Record::GoHome(_)))
+            let record = program.statement(motion.last_statement()).record();
+            matches!(record, Record::From(_) | Record::GoHome(_))
         };
         let excluded = |(motion, meant): (&Motion, &bool)| {
             let way = motion.to.point - motion.from.point;

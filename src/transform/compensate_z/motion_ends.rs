@@ -5,7 +5,7 @@ use crate::diagnostic::Failure;
 use crate::parse;
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
-use crate::program::{NumberRole, Record, Statement};
+use crate::program::{NumberRole, Record};
 use crate::transform::statement_numbers::map_triples;
 use crate::write::ProgramEditor;
 use nalgebra::{Point3, Vector3};
@@ -22,13 +22,16 @@ impl PassWriter<'_> {
         end: Point3<f64>,
         start: Point3<f64>,
     ) -> Result<Result<(), UnwritableMotion>, Failure> {
-        let Some(motion) = self.motions.get(index) else { return Ok(Ok(())) };
+        let Some(motion) = self.motions.get(index) else {
+            debug_assert!(false, "motion {index} of {} gets another end", self.motions.len());
+            return Ok(Err(UnwritableMotion::NoGoto));
+        };
         let (by, from) =
             (end - motion.to.point * self.mm_per_unit, start - motion.from.point * self.mm_per_unit);
         let last = motion.last_statement();
         let moves = |by: Vector3<f64>| by.amax() > 1e-9;
-        let record = editor.program().statement(last).map(Statement::record);
-        if moves(from) && matches!(record, Some(Record::GoDelta(_))) {
+        let record = editor.program().statement(last).record();
+        if moves(from) && matches!(record, Record::GoDelta(_)) {
             // A step from a place that has moved would end elsewhere.
             return Ok(Err(UnwritableMotion::NoGoto));
         }
@@ -42,11 +45,8 @@ impl PassWriter<'_> {
                 }
                 if (by - from).amax() <= 1e-6 {
                     self.shift_points(editor, motion, by)?;
-                } else if matches!(
-                    editor.program().statement(last).map(Statement::record),
-                    Some(Record::Goto(_))
-                ) {
-                    delete_announcements(editor, motion);
+                } else if matches!(editor.program().statement(last).record(), Record::Goto(_)) {
+                    delete_announcements(editor, motion)?;
                     editor.set_numbers(last, &self.point_numbers(end))?;
                 } else {
                     return Ok(Err(UnwritableMotion::Arc));
@@ -70,10 +70,10 @@ impl PassWriter<'_> {
         motion: &Motion,
         by: Vector3<f64>,
     ) -> Result<(), Failure> {
-        for statement in motion.statements.clone() {
+        for statement in motion.statements.ids() {
             let program = editor.program();
-            let Some(found) = program.statement(statement).filter(|found| found.is_live()) else { continue };
-            if !is_motion_record(found.record()) {
+            let found = program.statement(statement);
+            if !found.is_live() || !is_motion_record(found.record()) {
                 continue;
             }
             let text = program.statement_text(found);

@@ -6,7 +6,7 @@ use super::vertical_passes::VerticalPass;
 use crate::diagnostic::Failure;
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
-use crate::program::{Program, Record, Statement};
+use crate::program::{Program, Record, StatementId};
 use crate::surface::profile::{Chain, ChainPiece, ProfilePlane};
 use crate::transform::statement_numbers::{
     copy_statement, delete_keeping_remark, pair_with_indices, round_to_decimals,
@@ -58,12 +58,12 @@ impl<'a> PassWriter<'a> {
         if beside.iter().any(shares) || motion.hole.is_some() {
             return Err(UnwritableMotion::NoGoto);
         }
-        let record = program.statement(last).map(Statement::record);
+        let record = program.statement(last).record();
         match (record, &motion.path) {
-            (Some(Record::Goto(_)), _) => Ok(()),
-            (Some(Record::Points(_)), _) if motion.normal.is_some() => Ok(()),
-            (Some(Record::DriveArc(_)), MotionPath::Arc(_)) => Ok(()),
-            (Some(Record::Control(_)), MotionPath::Spline(_)) => Ok(()),
+            (Record::Goto(_), _) => Ok(()),
+            (Record::Points(_), _) if motion.normal.is_some() => Ok(()),
+            (Record::DriveArc(_), MotionPath::Arc(_)) => Ok(()),
+            (Record::Control(_), MotionPath::Spline(_)) => Ok(()),
             (_, MotionPath::Arc(_) | MotionPath::Spline(_)) => Err(UnwritableMotion::Arc),
             _ => Err(UnwritableMotion::NoGoto),
         }
@@ -135,7 +135,7 @@ impl<'a> PassWriter<'a> {
             };
             for point in put_in {
                 let text = copy_statement(editor, goto, &self.point_numbers(*point));
-                editor.insert_before(motion.statements.start, &text)?;
+                editor.insert_before(motion.statements.first(), &text)?;
             }
             self.keep_end(editor, motion, kept.copied())?;
         }
@@ -152,18 +152,19 @@ impl<'a> PassWriter<'a> {
         match end {
             Some(end) => editor.set_numbers(motion.last_statement(), &self.point_numbers(end)),
             None => {
-                delete_announcements(editor, motion);
+                delete_announcements(editor, motion)?;
                 delete_keeping_remark(editor, motion.last_statement())
             }
         }
     }
 
     /// A GOTO of one point that new ones are modelled on: of the pass, else the nearest before or after it in its operation.
-    fn find_goto(&self, program: &Program, pass: &Range<usize>) -> Option<usize> {
+    fn find_goto(&self, program: &Program, pass: &Range<usize>) -> Option<StatementId> {
         let is_goto = |index: &usize| {
-            let found =
-                self.motions.get(*index).and_then(|motion| program.statement(motion.last_statement()));
-            found.is_some_and(|found| found.is_live() && matches!(found.record(), Record::Goto(_)))
+            self.motions.get(*index).is_some_and(|motion| {
+                let found = program.statement(motion.last_statement());
+                found.is_live() && matches!(found.record(), Record::Goto(_))
+            })
         };
         let own = pass.clone().find(is_goto);
         let before = || (0..pass.start).rev().find(is_goto);
@@ -196,7 +197,7 @@ impl<'a> PassWriter<'a> {
         motion: &Motion,
         pieces: &[ChainPiece],
         plane: &ProfilePlane,
-        goto: usize,
+        goto: StatementId,
     ) -> Result<(), Failure> {
         let simple = is_line(editor.program(), motion);
         let (put_in, kept) = match pieces.split_last() {
@@ -204,7 +205,7 @@ impl<'a> PassWriter<'a> {
             _ => (pieces, None),
         };
         for piece in put_in {
-            self.insert_piece(editor, piece, plane, goto, motion.statements.start)?;
+            self.insert_piece(editor, piece, plane, goto, motion.statements.first())?;
         }
         self.keep_end(editor, motion, kept.map(|end| plane.to_space(end)))
     }
@@ -214,8 +215,8 @@ impl<'a> PassWriter<'a> {
         editor: &mut ProgramEditor,
         piece: &ChainPiece,
         plane: &ProfilePlane,
-        goto: usize,
-        before: usize,
+        goto: StatementId,
+        before: StatementId,
     ) -> Result<(), Failure> {
         if let (ChainPiece::Arc(arc), Some(template)) = (piece, &self.arc)
             && !template.insert_arc(editor, arc, plane, self.mm_per_unit, before)?
@@ -229,8 +230,8 @@ impl<'a> PassWriter<'a> {
 
 /// Whether a motion is a line that one GOTO says.
 fn is_line(program: &Program, motion: &Motion) -> bool {
-    let record = program.statement(motion.last_statement()).map(Statement::record);
-    matches!(motion.path, MotionPath::Line) && matches!(record, Some(Record::Goto(_)))
+    let record = program.statement(motion.last_statement()).record();
+    matches!(motion.path, MotionPath::Line) && matches!(record, Record::Goto(_))
 }
 
 /// The pieces, arcs of more than half a turn in two.
@@ -245,15 +246,17 @@ pub(super) fn split_long_arcs(path: &Chain) -> Vec<ChainPiece> {
 }
 
 /// Takes out what announces an arc or spline.
-pub(super) fn delete_announcements(editor: &mut ProgramEditor, motion: &Motion) {
-    for statement in motion.statements.clone().rev().skip(1) {
-        let found = editor.program().statement(statement);
-        if found.is_some_and(|found| {
-            found.is_live() && is_motion_record(found.record()) && *found.record() != Record::Rapid
-        }) {
-            editor.delete_statement(statement);
+///
+/// # Errors
+/// As [`ProgramEditor::delete_statement`].
+pub(super) fn delete_announcements(editor: &mut ProgramEditor, motion: &Motion) -> Result<(), Failure> {
+    for id in motion.statements.ids().rev().skip(1) {
+        let found = editor.program().statement(id);
+        if found.is_live() && is_motion_record(found.record()) && *found.record() != Record::Rapid {
+            editor.delete_statement(id)?;
         }
     }
+    Ok(())
 }
 
 pub(super) fn is_motion_record(record: &Record) -> bool {

@@ -78,14 +78,17 @@ impl<'a> PassReporter<'a> {
     /// The report of a pass before anything was measured.
     pub fn start_report(&self, motions: &Range<usize>, after: usize) -> PassReport {
         let first = self.motions.get(motions.start);
-        let statement = first.and_then(|motion| self.program.statement(motion.statements.start));
-        let origin = statement.map(|found| found.origin()).unwrap_or_default();
+        debug_assert!(first.is_some(), "a pass has motions");
+        let line = |motion: &Motion| {
+            let origin = self.program.statement(motion.statements.first()).origin();
+            self.program.source().line_column(origin.start).0 as u64
+        };
         PassReport {
             operation: first
                 .and_then(|motion| self.operations.get(motion.operation))
                 .cloned()
                 .unwrap_or_default(),
-            line: self.program.source().line_column(origin.start).0 as u64,
+            line: first.map_or(0, line),
             motions_before: motions.len(),
             motions_after: after,
             ..PassReport::default()

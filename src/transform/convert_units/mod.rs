@@ -93,15 +93,15 @@ impl ConvertUnits {
         context: &StepContext<'_>,
     ) -> Result<Option<LengthUnit>, Failure> {
         let mut stated = None;
-        for (index, statement) in program.live_statements() {
+        for (id, statement) in program.live_statements() {
             let Record::Units(unit) = statement.record() else { continue };
             if stated.is_some_and(|before| before != *unit) {
                 let message = "the file changes its unit on the way; which of its lengths have which unit is not clear enough";
-                return Err(context.statement_failure(message, program, index, "another unit than before"));
+                return Err(context.statement_failure(message, program, id, "another unit than before"));
             }
             if self.from.is_some_and(|from| from != *unit) {
                 let message = "`from` says another unit than the file itself";
-                return Err(context.statement_failure(message, program, index, "the file's unit"));
+                return Err(context.statement_failure(message, program, id, "the file's unit"));
             }
             stated = Some(*unit);
         }

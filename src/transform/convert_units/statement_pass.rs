@@ -5,7 +5,7 @@ use super::unit_words;
 use crate::diagnostic::Failure;
 use crate::parse;
 use crate::program::record::{SpindleUnit, ToolWord};
-use crate::program::{FeedUnit, LengthUnit, NumberRole, Record};
+use crate::program::{FeedUnit, LengthUnit, NumberRole, Record, StatementId};
 use crate::transform::StepContext;
 use crate::transform::statement_numbers::{self, MatrixRowCounter, major_word, set_matrix_row};
 use crate::write::{self, ProgramEditor};
@@ -29,29 +29,29 @@ pub fn convert_statements(
     let mut multi_axis = false;
     let mut unit_in_force = None;
     let mut reported = Vec::new();
-    for index in 0..editor.program().statements().len() {
-        let Some(statement) = editor.program().statement(index).filter(|statement| statement.is_live())
-        else {
+    for id in editor.program().statement_ids() {
+        let statement = editor.program().statement(id);
+        if !statement.is_live() {
             continue;
-        };
+        }
         let record = statement.record();
         let row = rows.observe_record(record);
         match record {
             Record::Goto(goto) => {
                 let point = goto.point.coords.map(|value| conversion.convert_length(value));
-                editor.set_numbers(index, &[(0, point.x), (1, point.y), (2, point.z)])?;
+                editor.set_numbers(id, &[(0, point.x), (1, point.y), (2, point.z)])?;
                 continue;
             }
             Record::Comment | Record::Blank | Record::Rapid | Record::Text | Record::Marked(_) => continue,
             Record::Units(_) => {
-                unit_words::swap_units(editor, index, conversion.to)?;
+                unit_words::swap_units(editor, id, conversion.to)?;
                 continue;
             }
             Record::MatrixRow(numbers) => {
                 let [_, _, _, shift] = **numbers;
                 if row.is_some() {
                     let shift = conversion.convert_length(shift);
-                    set_matrix_row(editor, index, &[(3, shift)])?;
+                    set_matrix_row(editor, id, &[(3, shift)])?;
                 }
                 continue;
             }
@@ -59,18 +59,18 @@ pub fn convert_statements(
             Record::Feed(feed) => unit_in_force = feed.unit.or(unit_in_force),
             _ => {}
         }
-        report_unconverted(editor, index, conversion, context, &mut reported);
-        let edits = compute_edits(editor, index, conversion, multi_axis, unit_in_force);
-        let Some(statement) = editor.program().statement(index) else { continue };
+        report_unconverted(editor, id, conversion, context, &mut reported);
+        let edits = compute_edits(editor, id, conversion, multi_axis, unit_in_force);
+        let statement = editor.program().statement(id);
         match statement.record() {
-            Record::Feed(_) | Record::Cycle(_) => unit_words::swap_feed_words(editor, index, conversion)?,
+            Record::Feed(_) | Record::Cycle(_) => unit_words::swap_feed_words(editor, id, conversion)?,
             Record::Spindle(_) if !edits.is_empty() => {
-                unit_words::swap_speed_word(editor, index, conversion.to)?;
+                unit_words::swap_speed_word(editor, id, conversion.to)?;
             }
             _ => {}
         }
         if !edits.is_empty() {
-            editor.set_numbers(index, &edits)?;
+            editor.set_numbers(id, &edits)?;
         }
     }
     Ok(())
@@ -79,22 +79,20 @@ pub fn convert_statements(
 /// The new values of a statement's numbers.
 fn compute_edits(
     editor: &ProgramEditor,
-    index: usize,
+    id: StatementId,
     conversion: UnitConversion,
     multi_axis: bool,
     unit_in_force: Option<FeedUnit>,
 ) -> Vec<(usize, f64)> {
     let program = editor.program();
-    let Some(statement) = program.statement(index) else { return Vec::new() };
+    let statement = program.statement(id);
     let (record, text) = (statement.record(), program.statement_text(statement));
     let roles = statement_numbers::number_roles(record, text, multi_axis);
     if roles.iter().all(|role| *role == NumberRole::Plain) {
         return Vec::new();
     }
     let feeds = match record {
-        Record::Feed(_) | Record::Cycle(_) => write::statement_syntax(program, index)
-            .map(|syntax| unit_words::find_feeds(&syntax))
-            .unwrap_or_default(),
+        Record::Feed(_) | Record::Cycle(_) => unit_words::find_feeds(&write::statement_syntax(program, id)),
         _ => Vec::new(),
     };
     let metric_speed =
@@ -130,13 +128,13 @@ fn compute_edits(
 /// Reports what holds lengths in a form that is not understood, once for each word.
 fn report_unconverted(
     editor: &ProgramEditor,
-    index: usize,
+    id: StatementId,
     conversion: UnitConversion,
     context: &mut StepContext<'_>,
     reported: &mut Vec<String>,
 ) {
     let program = editor.program();
-    let Some(statement) = program.statement(index) else { return };
+    let statement = program.statement(id);
     let text = program.statement_text(statement);
     let message = match statement.record() {
         Record::ToolCall(call) if !call.loads && parse::statement_numbers(text).len() > 2 => {
@@ -165,7 +163,7 @@ fn report_unconverted(
     };
     let word = major_word(text);
     if !reported.contains(&word) {
-        context.report_unchanged(message, program, index);
+        context.report_unchanged(message, program, id);
         reported.push(word);
     }
 }

@@ -2,7 +2,9 @@
 
 use super::unit_conversion::UnitConversion;
 use crate::diagnostic::Failure;
-use crate::program::{FeedUnit, FieldKind, LengthUnit, StatementField, StatementSyntax, fold_text};
+use crate::program::{
+    FeedUnit, FieldKind, LengthUnit, StatementField, StatementId, StatementSyntax, fold_text,
+};
 use crate::write::{self, ProgramEditor};
 use std::ops::Range;
 
@@ -24,43 +26,43 @@ pub fn find_feeds(syntax: &StatementSyntax<'_>) -> Vec<(usize, Option<FeedUnit>)
 /// When the new text does not read back.
 pub fn swap_feed_words(
     editor: &mut ProgramEditor,
-    index: usize,
+    id: StatementId,
     conversion: UnitConversion,
 ) -> Result<(), Failure> {
-    let Some(syntax) = write::statement_syntax(editor.program(), index) else { return Ok(()) };
+    let syntax = write::statement_syntax(editor.program(), id);
     let parts = find_feed_words(&syntax)
         .into_iter()
         .filter_map(|(at, unit)| conversion.convert_feed_unit(Some(unit)).0.map(|new| (at, new.word())))
         .collect();
-    replace_words(editor, index, parts)
+    replace_words(editor, id, parts)
 }
 
 /// Gives the unit word of a surface speed its new name.
 ///
 /// # Errors
 /// When the new text does not read back.
-pub fn swap_speed_word(editor: &mut ProgramEditor, index: usize, to: LengthUnit) -> Result<(), Failure> {
+pub fn swap_speed_word(editor: &mut ProgramEditor, id: StatementId, to: LengthUnit) -> Result<(), Failure> {
     let (old, new) = match to {
         LengthUnit::Inch => ("SMM", "SFM"),
         LengthUnit::Mm => ("SFM", "SMM"),
     };
-    let Some(syntax) = write::statement_syntax(editor.program(), index) else { return Ok(()) };
+    let syntax = write::statement_syntax(editor.program(), id);
     let parts = split_words(&syntax).filter(|(_, word)| word == old).map(|(at, _)| (at, new)).collect();
-    replace_words(editor, index, parts)
+    replace_words(editor, id, parts)
 }
 
 /// Names the new unit in a UNITS record, whose word keeps its own spelling.
 ///
 /// # Errors
 /// When the new text does not read back.
-pub fn swap_units(editor: &mut ProgramEditor, index: usize, to: LengthUnit) -> Result<(), Failure> {
-    let Some(syntax) = write::statement_syntax(editor.program(), index) else { return Ok(()) };
+pub fn swap_units(editor: &mut ProgramEditor, id: StatementId, to: LengthUnit) -> Result<(), Failure> {
+    let syntax = write::statement_syntax(editor.program(), id);
     let name = match to {
         LengthUnit::Inch => "INCHES",
         LengthUnit::Mm => "MM",
     };
     let parts = syntax.fields.first().map(|field| (field.at.clone(), name)).into_iter().collect();
-    replace_words(editor, index, parts)
+    replace_words(editor, id, parts)
 }
 
 fn find_feed_words(syntax: &StatementSyntax<'_>) -> Vec<(Range<usize>, FeedUnit)> {
@@ -84,9 +86,9 @@ fn split_words<'s>(syntax: &'s StatementSyntax<'_>) -> impl Iterator<Item = (Ran
 
 fn replace_words(
     editor: &mut ProgramEditor,
-    index: usize,
+    id: StatementId,
     parts: Vec<(Range<usize>, &'static str)>,
 ) -> Result<(), Failure> {
     let parts: Vec<_> = parts.into_iter().map(|(at, word)| (at, word.as_bytes())).collect();
-    if parts.is_empty() { Ok(()) } else { editor.replace_parts(index, &parts) }
+    if parts.is_empty() { Ok(()) } else { editor.replace_parts(id, &parts) }
 }

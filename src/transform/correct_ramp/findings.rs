@@ -5,7 +5,7 @@ use super::ramp_search::FoundRamp;
 use super::report::RampReport;
 use crate::diagnostic::{Diagnostic, DiagnosticCode, Failure, codes};
 use crate::program::motion::{ActiveTool, Motion};
-use crate::program::{Program, Statement};
+use crate::program::{Program, StatementId};
 use crate::source::Span;
 use crate::transform::StepContext;
 use std::fmt::Display;
@@ -19,11 +19,17 @@ pub(super) struct RampFindings<'a> {
 
 impl RampFindings<'_> {
     fn statement_span(&self, motion: usize, end: bool) -> Span {
-        let statement = self
-            .motions
-            .get(motion)
-            .map(|motion| if end { motion.last_statement() } else { motion.statements.start });
-        statement.and_then(|index| self.program.statement(index)).map(Statement::origin).unwrap_or_default()
+        let Some(motion) = self.motions.get(motion) else {
+            debug_assert!(false, "motion {motion} of {} is told of", self.motions.len());
+            return Span::default();
+        };
+        let statement = if end { motion.statements.last() } else { motion.statements.first() };
+        self.program.statement(statement).origin()
+    }
+
+    /// Where the ramp begins in the source.
+    pub fn begin_span(&self) -> Span {
+        self.statement_span(self.found.motions.start, false)
     }
 
     /// A finding at the ramp's first and last statement, and at the step.
@@ -31,7 +37,7 @@ impl RampFindings<'_> {
         let range = &self.found.motions;
         let last = range.end.saturating_sub(1);
         let source = self.program.source();
-        let first = self.statement_span(range.start, false);
+        let first = self.begin_span();
         let end = self.statement_span(last, true);
         let mut found = Diagnostic::new(code, message).with_label(source, first, "the ramp begins");
         if end != first {
@@ -127,37 +133,33 @@ pub(super) fn describe_impossible_ramp(
 /// A tool that nothing says has inserts: an error when no ramp can be judged, else a note.
 pub(super) fn describe_missing_inserts(
     program: &Program,
-    motions: &[Motion],
-    motion: usize,
+    first: StatementId,
     tool: Option<&ActiveTool>,
     error: bool,
     context: &StepContext<'_>,
 ) -> Diagnostic {
     let called = tool.map_or_else(|| "the tool".to_owned(), ActiveTool::display_name);
-    let statement = motions.get(motion).map_or(0, Motion::last_statement);
     if error {
         let message = format!(
             "neither the step nor `setup.tools` says which inserts {called} has, so no ramp can be judged"
         );
-        let found = context.statement_finding(message, program, statement, "its first ramp");
+        let found = context.statement_finding(message, program, first, "its first ramp");
         let help = "Say `tool: { insert_height: ..., insert_radius: ... }` in the step, or `insert: { height: ..., radius: ... }` \
                     for the tool under `setup.tools`.";
         return found.with_help(help);
     }
     let message = format!("the ramps of {called} are left as they are: nothing says that it has inserts");
-    let span = program.statement(statement).map(Statement::origin).unwrap_or_default();
+    let span = program.statement(first).origin();
     Diagnostic::new(codes::NO_INSERTS, message).with_label(program.source(), span, "its first ramp")
 }
 
-/// A ramp that could not be written, or not proven.
+/// A ramp that could not be written, or not proven; `place` is where it begins in the source.
 pub(super) fn describe_unproven_ramp(
     program: &Program,
-    motions: &[Motion],
-    found: &FoundRamp,
+    place: Span,
     why: impl Display,
     context: &StepContext<'_>,
 ) -> Failure {
-    let statement = motions.get(found.motions.start).map_or(0, |motion| motion.statements.start);
     let message = format!("this ramp cannot be corrected: {why}");
-    context.statement_failure(message, program, statement, "the ramp begins")
+    context.source_finding(message, program, place, "the ramp begins").into()
 }

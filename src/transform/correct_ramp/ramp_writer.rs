@@ -11,7 +11,7 @@ use crate::parse;
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::program::record::{ArcSense, Circle};
-use crate::program::{Program, Record};
+use crate::program::{Program, Record, StatementId};
 use crate::transform::statement_numbers::{copy_statement, delete_keeping_remark, pair_with_indices};
 use crate::write::ProgramEditor;
 use nalgebra::{Point3, Vector3};
@@ -53,9 +53,9 @@ pub(super) struct WrittenRamp {
 
 /// The statements of a motion of a ramp.
 #[derive(Debug, Clone, Copy)]
-struct MotionStatements {
-    goto: usize,
-    arc: Option<usize>,
+struct RampMotionStatements {
+    goto: StatementId,
+    arc: Option<StatementId>,
 }
 
 /// Whether a ramp's statements can be given other points.
@@ -73,7 +73,7 @@ fn has_single_feed(motions: &[Motion], range: &Range<usize>) -> Result<bool, Unw
     let all = motions.get(range.clone()).unwrap_or_default();
     let last = all.last().and_then(|motion| motion.feed);
     // A FEDRAT between CIRCLE and its GOTO governs that arc, but not what would be put in before it.
-    let inside = |motion: &Motion| motion.feed_from.is_some_and(|from| from >= motion.statements.start);
+    let inside = |motion: &Motion| motion.feed_from.is_some_and(|from| from >= motion.statements.first());
     if all.iter().any(inside) {
         return Err(UnwritableRamp::Feed);
     }
@@ -90,11 +90,11 @@ fn find_motion_statements(
     program: &Program,
     motions: &[Motion],
     range: &Range<usize>,
-) -> Result<Vec<MotionStatements>, UnwritableRamp> {
+) -> Result<Vec<RampMotionStatements>, UnwritableRamp> {
     let one = |index: usize| {
         let motion = motions.get(index).ok_or(UnwritableRamp::NoGoto)?;
         let goto = motion.last_statement();
-        let live = |index: usize| program.statement(index).filter(|found| found.is_live());
+        let live = |id: StatementId| Some(program.statement(id)).filter(|found| found.is_live());
         if !matches!(live(goto).map(|found| found.record()), Some(Record::Goto(_))) {
             return Err(UnwritableRamp::NoGoto);
         }
@@ -106,9 +106,9 @@ fn find_motion_statements(
         if beside.iter().any(shares) {
             return Err(UnwritableRamp::Shared);
         }
-        let announced = motion.statements.clone().rev().skip(1);
-        let mut arcs = announced.filter(|index| {
-            live(*index).is_some_and(|found| {
+        let announced = motion.statements.ids().rev().skip(1);
+        let mut arcs = announced.filter(|id| {
+            live(*id).is_some_and(|found| {
                 matches!(
                     found.record(),
                     Record::Circle(_) | Record::MoveArc(_) | Record::StartDirection(_) | Record::Nurbs
@@ -119,7 +119,7 @@ fn find_motion_statements(
         let told = arc.and_then(live).map(|found| found.record());
         match (&motion.path, told) {
             (MotionPath::Line, None) | (MotionPath::Arc(_), Some(Record::Circle(_) | Record::MoveArc(_))) => {
-                Ok(MotionStatements { goto, arc })
+                Ok(RampMotionStatements { goto, arc })
             }
             _ => Err(UnwritableRamp::Arc),
         }
@@ -160,10 +160,10 @@ pub(super) fn write_ramp(
     if !one_feed {
         for form in forms.drain(..forms.len().saturating_sub(1)) {
             delete_keeping_remark(editor, form.goto)?;
-            form.arc.into_iter().for_each(|arc| editor.delete_statement(arc));
+            form.arc.map_or(Ok(()), |arc| editor.delete_statement(arc))?;
         }
     }
-    let before = motions.get(place).map_or(first.goto, |motion| motion.statements.start);
+    let before = motions.get(place).map_or(first.goto, |motion| motion.statements.first());
     let (lead, lowered) = writer.lower_start(editor, motions, &new, before)?;
     let steps: Vec<(Point3<f64>, RampStep)> =
         new.steps_with_starts().map(|(from, step)| (from, *step)).collect();
@@ -179,7 +179,7 @@ pub(super) fn write_ramp(
     }
     for form in forms.iter().skip(kept).take(forms.len().saturating_sub(kept + 1)) {
         delete_keeping_remark(editor, form.goto)?;
-        form.arc.into_iter().for_each(|arc| editor.delete_statement(arc));
+        form.arc.map_or(Ok(()), |arc| editor.delete_statement(arc))?;
     }
     Ok(Ok(WrittenRamp { ramp: new, lead, lowered }))
 }
@@ -188,9 +188,9 @@ struct RampWriter<'a> {
     found: &'a FoundRamp,
     mm_per_unit: f64,
     /// The GOTO that new ones are modelled on.
-    goto: usize,
+    goto: StatementId,
     /// The CIRCLE that new ones are modelled on.
-    circle: Option<(usize, Circle)>,
+    circle: Option<(StatementId, Circle)>,
 }
 
 impl RampWriter<'_> {
@@ -248,7 +248,7 @@ impl RampWriter<'_> {
         editor: &mut ProgramEditor,
         motions: &[Motion],
         new: &Ramp,
-        before: usize,
+        before: StatementId,
     ) -> Result<(bool, bool), Failure> {
         if self.found.ramp.start.z - new.start.z <= 1e-9 {
             return Ok((false, false));
@@ -279,7 +279,12 @@ impl RampWriter<'_> {
     }
 
     /// A new statement, or two for an arc.
-    fn insert_step(&self, editor: &mut ProgramEditor, step: &RampStep, before: usize) -> Result<(), Failure> {
+    fn insert_step(
+        &self,
+        editor: &mut ProgramEditor,
+        step: &RampStep,
+        before: StatementId,
+    ) -> Result<(), Failure> {
         if let Some((statement, numbers)) = self.circle_numbers(editor.program(), step) {
             let text = copy_statement(editor, statement, &numbers);
             editor.insert_before(before, &text)?;
@@ -293,7 +298,7 @@ impl RampWriter<'_> {
         &self,
         editor: &mut ProgramEditor,
         step: &RampStep,
-        form: MotionStatements,
+        form: RampMotionStatements,
     ) -> Result<(), Failure> {
         let circle = self.circle_numbers(editor.program(), step);
         match (circle, form.arc) {
@@ -302,16 +307,16 @@ impl RampWriter<'_> {
             }
             (Some((statement, numbers)), _) => {
                 let text = copy_statement(editor, statement, &numbers);
-                form.arc.into_iter().for_each(|arc| editor.delete_statement(arc));
+                form.arc.map_or(Ok(()), |arc| editor.delete_statement(arc))?;
                 editor.insert_before(form.goto, &text)?;
             }
-            (None, arc) => arc.into_iter().for_each(|arc| editor.delete_statement(arc)),
+            (None, arc) => arc.map_or(Ok(()), |arc| editor.delete_statement(arc))?,
         }
         editor.set_numbers(form.goto, &pair_with_indices(0, self.to_file_point(step.to)))
     }
 
     /// The CIRCLE that new ones are modelled on, with the numbers that one for a step has.
-    fn circle_numbers(&self, program: &Program, step: &RampStep) -> Option<(usize, Vec<(usize, f64)>)> {
+    fn circle_numbers(&self, program: &Program, step: &RampStep) -> Option<(StatementId, Vec<(usize, f64)>)> {
         let bend = step.bend?;
         let (statement, circle) = self.circle.as_ref()?;
         let sense = self.circle_axis_sign(bend.sweep)?;
@@ -329,20 +334,20 @@ impl RampWriter<'_> {
     }
 }
 
-fn find_circle(program: &Program, statement: usize) -> Option<(usize, Circle)> {
-    match program.statement(statement)?.record() {
+fn find_circle(program: &Program, statement: StatementId) -> Option<(StatementId, Circle)> {
+    match program.statement(statement).record() {
         Record::Circle(circle) => Some((statement, circle.as_ref().clone())),
         _ => None,
     }
 }
 
-fn is_circle(program: &Program, statement: usize) -> bool {
+fn is_circle(program: &Program, statement: StatementId) -> bool {
     find_circle(program, statement).is_some()
 }
 
 /// The index of the number after `TIMES`.
-fn find_times_number(program: &Program, statement: usize) -> Option<usize> {
-    let found = program.statement(statement)?;
+fn find_times_number(program: &Program, statement: StatementId) -> Option<usize> {
+    let found = program.statement(statement);
     let syntax = parse::syntax(program.statement_text(found));
     let word = (0..syntax.fields.len()).find(|field| syntax.word_at(*field).as_deref() == Some("TIMES"))?;
     let place = &syntax.fields.get(word + 1)?.at;

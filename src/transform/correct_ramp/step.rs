@@ -17,7 +17,7 @@ use crate::diagnostic::{Diagnostic, Failure};
 use crate::parameters::{Finite, NonNegative, Positive};
 use crate::program::motion::{ActiveTool, Motion};
 use crate::program::record::CutterCompensation;
-use crate::program::{LengthUnit, Program, Record, Statement, operation};
+use crate::program::{LengthUnit, Program, Record, Statement, StatementId, operation};
 use crate::transform::{MotionSelection, StepContext, Transform};
 use crate::write::ProgramEditor;
 use std::sync::Arc;
@@ -50,14 +50,14 @@ impl Transform for CorrectRamp {
                 file.mm_per_unit(),
             )?;
             written.push(done.map_err(|why| {
-                findings::describe_unproven_ramp(editor.program(), &motions, &plan.found, why, context)
+                findings::describe_unproven_ramp(editor.program(), plan.begins, why, context)
             })?);
         }
         let program = editor.finish()?;
         let rounding = ROUNDING * file.mm_per_unit();
         ramp_proof::prove_ramps(&program, &motions, &plans, &written, (file, rounding), &mut reports)
             .map_err(|(plan, why)| match plans.get(plan) {
-                Some(plan) => findings::describe_unproven_ramp(&program, &motions, &plan.found, why, context),
+                Some(plan) => findings::describe_unproven_ramp(&program, plan.begins, why, context),
                 None => context.step_failure(why.to_string(), &[]),
             })?;
         context.add_report(CorrectRampReport { ramps: reports });
@@ -78,7 +78,7 @@ struct RampJudge<'a> {
     levels: LevelMotions<'a>,
     polygon: Option<ToolRegion>,
     /// Statements that switch cutter compensation, and whether on.
-    compensation: Vec<(usize, bool)>,
+    compensation: Vec<(StatementId, bool)>,
     cutters: Vec<(Option<Arc<ActiveTool>>, Option<CutterAndLimits>)>,
     plans: Vec<PlannedRamp>,
     reports: Vec<RampReport>,
@@ -138,27 +138,21 @@ impl<'a> RampJudge<'a> {
         if meant.is_empty() && !self.motions.iter().any(|motion| selection.contains(motion, context)) {
             selection.report_if_empty(context);
         }
-        let mut solid: Vec<(usize, Option<Arc<ActiveTool>>)> = Vec::new();
+        let mut solid: Vec<(StatementId, Option<Arc<ActiveTool>>)> = Vec::new();
         let count = meant.len();
         for found in meant {
             context.watch.check_stop()?;
             let Some(first) = self.motions.get(found.motions.start) else { continue };
             match self.find_tool_limits(first, context)? {
                 Some(known) => self.judge_ramp(found, known, context),
-                None => solid.push((found.motions.start, first.tool.clone())),
+                None => solid.push((first.last_statement(), first.tool.clone())),
             }
         }
-        if let Some((index, tool)) = solid.first() {
+        if let Some((first, tool)) = solid.first() {
             // A tool list with inserts serves many programs, and not each has an indexable cutter.
             let all = solid.len() == count && !context.setup.tools.iter().any(|entry| entry.insert.is_some());
-            let told = findings::describe_missing_inserts(
-                self.program,
-                self.motions,
-                *index,
-                tool.as_deref(),
-                all,
-                context,
-            );
+            let told =
+                findings::describe_missing_inserts(self.program, *first, tool.as_deref(), all, context);
             if all {
                 return Err(told.into());
             }
@@ -244,7 +238,8 @@ impl<'a> RampJudge<'a> {
                 report.lengthened = corrected.lengthened;
                 report.compression = corrected.compression;
                 report.passes = corrected.passes;
-                self.plans.push(PlannedRamp { found, limits, corrected, report: self.reports.len() });
+                let begins = place.begin_span();
+                self.plans.push(PlannedRamp { found, limits, corrected, begins, report: self.reports.len() });
             }
             (_, why) => {
                 let why = why.unwrap_or_default();
@@ -259,10 +254,14 @@ impl<'a> RampJudge<'a> {
     /// Whether cutter compensation is on at a ramp, or switched in it.
     fn is_compensated(&self, found: &FoundRamp) -> bool {
         let motions = self.motions.get(found.motions.clone()).unwrap_or_default();
-        let start = motions.first().map_or(0, |motion| motion.statements.start);
-        let end = motions.last().map_or(0, |motion| motion.statements.end);
+        let (Some(first), Some(last)) = (motions.first(), motions.last()) else {
+            debug_assert!(false, "a ramp has motions");
+            return true;
+        };
+        let start = first.statements.first();
         let before = self.compensation.partition_point(|(statement, _)| *statement < start);
-        let within = self.compensation.iter().skip(before).take_while(|(statement, _)| *statement < end);
+        let end = last.statements.last();
+        let within = self.compensation.iter().skip(before).take_while(|(statement, _)| *statement <= end);
         let on =
             before.checked_sub(1).and_then(|last| self.compensation.get(last)).is_some_and(|(_, on)| *on);
         on || within.count() > 0
@@ -270,13 +269,14 @@ impl<'a> RampJudge<'a> {
 
     fn build_report(&self, found: &FoundRamp, limits: RampLimits, outcome: RampOutcome) -> RampReport {
         let first = self.motions.get(found.motions.start);
-        let origin = first
-            .and_then(|motion| self.program.statement(motion.statements.start))
-            .map(|statement| statement.origin())
-            .unwrap_or_default();
+        debug_assert!(first.is_some(), "a ramp has motions");
+        let line = |motion: &Motion| {
+            let origin = self.program.statement(motion.statements.first()).origin();
+            self.program.source().line_column(origin.start).0 as u64
+        };
         RampReport {
             operation: self.operations.get(found.operation).cloned().unwrap_or_default(),
-            line: self.program.source().line_column(origin.start).0 as u64,
+            line: first.map_or(0, line),
             kind: RampKind::classify_ramp(&found.ramp).display_name(),
             limit_leg_mm: limits.shortest_leg,
             limit_degrees: limits.steepest.atan().to_degrees(),
@@ -294,8 +294,8 @@ impl<'a> RampJudge<'a> {
     }
 }
 
-fn find_compensation_switches(program: &Program) -> Vec<(usize, bool)> {
-    let switch = |(statement, found): (usize, &Statement)| match found.record() {
+fn find_compensation_switches(program: &Program) -> Vec<(StatementId, bool)> {
+    let switch = |(statement, found): (StatementId, &Statement)| match found.record() {
         Record::CutterCompensation(mode) => Some((statement, *mode != CutterCompensation::Off)),
         _ => None,
     };

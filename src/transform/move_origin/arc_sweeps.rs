@@ -2,44 +2,44 @@
 //!
 //! The end of an arc of a few microns may round onto its start, which every reader takes for a full circle.
 
-use super::move_tracker::MoveRefusal;
 use crate::program::Program;
 use crate::program::geometry::MotionPath;
+use crate::source::Span;
 use std::f64::consts::PI;
 
-/// Sweeps of all arcs of a program, in order, in radians.
-pub fn collect_sweeps(program: &Program) -> Vec<f64> {
-    iter_arcs(program).map(|(_, sweep)| sweep).collect()
+/// An arc of the program before the move.
+pub struct ArcSweep {
+    /// The statement that ends it, in the source.
+    place: Span,
+    /// In radians.
+    sweep: f64,
 }
 
-/// Compares the sweeps after a move with those before it.
+/// All arcs of a program, in order.
+pub fn collect_sweeps(program: &Program) -> Vec<ArcSweep> {
+    iter_arcs(program).collect()
+}
+
+/// Compares the arcs after a move with those before it.
 ///
 /// # Errors
-/// The first arc that has gained or lost most of a turn, or has become something else.
-pub fn check_sweeps(program: &Program, before: &[f64]) -> Result<(), MoveRefusal> {
+/// The place of the first arc that has gained or lost most of a turn, or has become something else.
+pub fn check_sweeps(program: &Program, before: &[ArcSweep]) -> Result<(), Span> {
     let mut before = before.iter();
-    let mut last = 0;
-    for (statement, sweep) in iter_arcs(program) {
-        last = statement;
-        if before.next().is_none_or(|before| (before - sweep).abs() > PI) {
-            return Err(arc_refusal(statement));
+    for after in iter_arcs(program) {
+        if before.next().is_none_or(|before| (before.sweep - after.sweep).abs() > PI) {
+            return Err(after.place);
         }
     }
-    if before.next().is_some() { Err(arc_refusal(last)) } else { Ok(()) }
+    before.next().map_or(Ok(()), |lost| Err(lost.place))
 }
 
-fn iter_arcs(program: &Program) -> impl Iterator<Item = (usize, f64)> + '_ {
+fn iter_arcs(program: &Program) -> impl Iterator<Item = ArcSweep> + '_ {
     program.motions().filter_map(|motion| match &motion.path {
-        MotionPath::Arc(arc) => Some((motion.last_statement(), arc.sweep)),
+        MotionPath::Arc(arc) => {
+            let place = program.statement(motion.last_statement()).origin();
+            Some(ArcSweep { place, sweep: arc.sweep })
+        }
         _ => None,
     })
-}
-
-fn arc_refusal(statement: usize) -> MoveRefusal {
-    MoveRefusal {
-        message: "this arc is so short that its ends meet when they are rounded to the file's decimals, and would be read as a \
-                  full turn. Quarter turns and mirrors in x, y or z do not round",
-        statement,
-        label: "the arc ends here",
-    }
 }

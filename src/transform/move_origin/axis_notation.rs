@@ -2,7 +2,7 @@
 
 use crate::diagnostic::Failure;
 use crate::parse;
-use crate::program::{Dialect, NumberRole, Record};
+use crate::program::{Dialect, NumberRole, Record, StatementId};
 use crate::write::ProgramEditor;
 use nalgebra::Vector3;
 
@@ -40,7 +40,7 @@ pub struct RequiredAxis {
     /// The axis.
     pub axis: Vector3<f64>,
     /// The first statement that belongs to the motion alone (its RAPID, CIRCLE, INDIRV).
-    pub first: usize,
+    pub first: StatementId,
 }
 
 /// What became of a wish for an axis.
@@ -60,16 +60,14 @@ pub enum AxisWriteOutcome {
 /// When the new text does not read back.
 pub fn write_axis(
     editor: &mut ProgramEditor,
-    index: usize,
+    id: StatementId,
     need: RequiredAxis,
     multi_axis: bool,
     six_values_seen: bool,
 ) -> Result<AxisWriteOutcome, Failure> {
     let dialect = editor.program().dialect();
     let form = AxisNotation::for_dialect(dialect);
-    let Some(record) = editor.program().statement(index).map(crate::program::Statement::record) else {
-        return Ok(AxisWriteOutcome::Impossible);
-    };
+    let record = editor.program().statement(id).record();
     let holds_axis = matches!(record, Record::Goto(_) | Record::From(_) | Record::GoHome(Some(_)));
     let is_from = matches!(record, Record::From(_));
     match form {
@@ -91,15 +89,15 @@ pub fn write_axis(
             if let Some(line) = multax {
                 editor.insert_before(need.first, line.as_bytes())?;
             }
-            append_axis(editor, index, need.axis)?;
+            append_axis(editor, id, need.axis)?;
             Ok(if multax.is_some() { AxisWriteOutcome::WithMultax } else { AxisWriteOutcome::Done })
         }
     }
 }
 
 /// Makes six values of three.
-fn append_axis(editor: &mut ProgramEditor, index: usize, axis: Vector3<f64>) -> Result<(), Failure> {
-    let Some(statement) = editor.program().statement(index) else { return Ok(()) };
+fn append_axis(editor: &mut ProgramEditor, id: StatementId, axis: Vector3<f64>) -> Result<(), Failure> {
+    let statement = editor.program().statement(id);
     let text = editor.program().statement_text(statement);
     let numbers = parse::statement_numbers(text);
     let [_, (second, _), (third, _)] = numbers.as_slice() else { return Ok(()) };
@@ -117,7 +115,7 @@ fn append_axis(editor: &mut ProgramEditor, index: usize, axis: Vector3<f64>) -> 
         Dialect::CreoGpost => format!(",${line_end}{}", join_axis_numbers(editor, axis, ", ")),
         _ => format!("{between}{}", join_axis_numbers(editor, axis, &between)),
     };
-    editor.replace_parts(index, &[(end..end, tail.as_bytes())])
+    editor.replace_parts(id, &[(end..end, tail.as_bytes())])
 }
 
 /// CATIA's columns for axes: nine wide, six decimals.

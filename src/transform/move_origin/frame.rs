@@ -5,7 +5,7 @@
 
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::record::{FrameRecord, FrameWord};
-use crate::program::{Dialect, Program, Record};
+use crate::program::{Dialect, Program, Record, StatementId};
 use crate::transform::statement_numbers::{MatrixRowCounter, set_matrix_row};
 use crate::transform::{Affine, SelectedStatements, StepContext};
 use crate::write::ProgramEditor;
@@ -31,33 +31,32 @@ pub fn move_frames(
     let mut editor = ProgramEditor::new(program, context.step);
     let mut rows = MatrixRowCounter::default();
     let mut comment_frame = None;
-    for index in 0..editor.program().statements().len() {
-        let Some(statement) = editor.program().statement(index).filter(|statement| statement.is_live())
-        else {
+    for id in editor.program().statement_ids() {
+        let statement = editor.program().statement(id);
+        if !statement.is_live() {
             continue;
-        };
+        }
         let row = rows.observe_record(statement.record());
-        if !scope.contains(index) {
+        if !scope.contains(id) {
             continue;
         }
         match (statement.record(), row) {
             (Record::Frame(frame), _) => {
                 let edits = compute_frame_edits(frame, place);
-                editor.set_numbers(index, &edits)?;
+                editor.set_numbers(id, &edits)?;
             }
             (Record::MatrixRow(numbers), Some(_)) => {
                 let edits = compute_row_edits(numbers, place);
-                set_matrix_row(&mut editor, index, &edits)?;
-                comment_frame.get_or_insert(index);
+                set_matrix_row(&mut editor, id, &edits)?;
+                comment_frame.get_or_insert(id);
             }
             _ => {}
         }
     }
-    if let Some(index) = comment_frame {
+    if let Some(id) = comment_frame {
         let message =
             "the matrix stands in comments: a post that does not read them moves the tool as before";
-        let span =
-            editor.program().statement(index).map(crate::program::Statement::origin).unwrap_or_default();
+        let span = editor.program().statement(id).origin();
         let finding = Diagnostic::new(codes::COMMENT_FRAME, message);
         context.findings.push(finding.with_label(editor.program().source(), span, "changed here"));
     }
@@ -80,28 +79,28 @@ fn check_motions_in_frames(
     }
     let mut rows = MatrixRowCounter::default();
     let mut frame = None;
-    for (index, statement) in program.live_statements() {
+    for (id, statement) in program.live_statements() {
         let record = statement.record();
         let row = rows.observe_record(record);
-        if let (Record::Frame(found), true) = (record, scope.contains(index)) {
-            check_frame(found, place, program, index, context)?;
+        if let (Record::Frame(found), true) = (record, scope.contains(id)) {
+            check_frame(found, place, program, id, context)?;
         }
         match record {
             Record::Frame(found) if matches!(found.word, FrameWord::Msys | FrameWord::Csys) => {
-                frame = Some(index);
+                frame = Some(id);
             }
-            _ if row == Some(2) => frame = Some(index),
+            _ if row == Some(2) => frame = Some(id),
             _ if record.is_motion() || matches!(record, Record::From(_)) => {
-                let moved = scope.contains(index);
+                let moved = scope.contains(id);
                 match frame {
-                    None if moved => return Err(missing_frame_error(program, index, context)),
+                    None if moved => return Err(missing_frame_error(program, id, context)),
                     Some(frame) if scope.contains(frame) != moved => {
                         let message = "one frame holds for operations that are selected and for others; select all of them, or use \
                                        `change: points`";
                         return Err(context.statement_failure(
                             message,
                             program,
-                            index,
+                            id,
                             "stands in the same frame",
                         ));
                     }
@@ -122,15 +121,15 @@ const NO_FRAME: &str =
     "there is no frame record (MSYS, CSYS, CAMERA, `$$*CATIA0`) that could move the points";
 const HELP: &str = "Use `change: points`, which is also the default.";
 
-fn missing_frame_error(program: &Program, index: usize, context: &StepContext<'_>) -> Failure {
-    context.statement_finding(NO_FRAME, program, index, "stands in no frame").with_help(HELP).into()
+fn missing_frame_error(program: &Program, id: StatementId, context: &StepContext<'_>) -> Failure {
+    context.statement_finding(NO_FRAME, program, id, "stands in no frame").with_help(HELP).into()
 }
 
 fn check_frame(
     frame: &FrameRecord,
     place: &Affine,
     program: &Program,
-    index: usize,
+    id: StatementId,
     context: &StepContext<'_>,
 ) -> Result<(), Failure> {
     let message = match (frame.word, program.dialect()) {
@@ -152,7 +151,7 @@ fn check_frame(
         }
         _ => return Ok(()),
     };
-    Err(context.statement_failure(message, program, index, "the frame"))
+    Err(context.statement_failure(message, program, id, "the frame"))
 }
 
 fn has_identity_axes(frame: &FrameRecord) -> bool {

@@ -1,7 +1,7 @@
 //! Words of left and right: the sides of CUTCOM, and the sense of arcs that say it in words.
 
 use crate::diagnostic::Failure;
-use crate::program::{FieldKind, StatementSyntax, fold_text};
+use crate::program::{FieldKind, StatementId, StatementSyntax, fold_text};
 use crate::transform::Affine;
 use crate::write::{self, ProgramEditor};
 use nalgebra::Vector3;
@@ -14,16 +14,16 @@ const SENSES: &[[&str; 2]] = &[["CLOCKWISE", "COUNTERCLOCKWISE"], ["CLW", "CCLW"
 ///
 /// # Errors
 /// When the new text does not read back.
-pub fn swap_sides(editor: &mut ProgramEditor, index: usize) -> Result<(), Failure> {
-    swap_words(editor, index, SIDES)
+pub fn swap_sides(editor: &mut ProgramEditor, id: StatementId) -> Result<(), Failure> {
+    swap_words(editor, id, SIDES)
 }
 
 /// Swaps the words of an arc's sense.
 ///
 /// # Errors
 /// When the new text does not read back.
-pub fn swap_senses(editor: &mut ProgramEditor, index: usize) -> Result<(), Failure> {
-    swap_words(editor, index, SENSES)
+pub fn swap_senses(editor: &mut ProgramEditor, id: StatementId) -> Result<(), Failure> {
+    swap_words(editor, id, SENSES)
 }
 
 /// The normal of the plane that a CUTCOM names; `None` when it names none.
@@ -41,8 +41,12 @@ pub fn keeps_plane(place: &Affine, normal: Vector3<f64>) -> bool {
     place.keeps_direction(normal)
 }
 
-fn swap_words(editor: &mut ProgramEditor, index: usize, pairs: &[[&'static str; 2]]) -> Result<(), Failure> {
-    let Some(syntax) = write::statement_syntax(editor.program(), index) else { return Ok(()) };
+fn swap_words(
+    editor: &mut ProgramEditor,
+    id: StatementId,
+    pairs: &[[&'static str; 2]],
+) -> Result<(), Failure> {
+    let syntax = write::statement_syntax(editor.program(), id);
     let parts: Vec<(Range<usize>, Vec<u8>)> = syntax
         .fields
         .iter()
@@ -59,5 +63,5 @@ fn swap_words(editor: &mut ProgramEditor, index: usize, pairs: &[[&'static str; 
         })
         .collect();
     let parts: Vec<_> = parts.iter().map(|(at, bytes)| (at.clone(), bytes.as_slice())).collect();
-    if parts.is_empty() { Ok(()) } else { editor.replace_parts(index, &parts) }
+    if parts.is_empty() { Ok(()) } else { editor.replace_parts(id, &parts) }
 }

@@ -101,13 +101,15 @@ impl Transform for MoveOrigin {
         let found = found.findings;
         let sweeps = arc_sweeps::collect_sweeps(&program);
         let program = points::move_points(program, &place, &scope, context)?;
-        arc_sweeps::check_sweeps(&program, &sweeps).map_err(|refusal| {
-            context.statement_failure(refusal.message, &program, refusal.statement, refusal.label)
-        })?;
+        arc_sweeps::check_sweeps(&program, &sweeps)
+            .map_err(|place| context.source_finding(ROUNDED_ARC, &program, place, "the arc ends here"))?;
         context.findings.extend(found);
         Ok(program)
     }
 }
+
+const ROUNDED_ARC: &str = "this arc is so short that its ends meet when they are rounded to the file's decimals, and would be \
+                           read as a full turn. Quarter turns and mirrors in x, y or z do not round";
 
 fn mirrored_spindle_finding(context: &StepContext<'_>) -> Diagnostic {
     let message =

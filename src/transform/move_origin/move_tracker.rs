@@ -5,7 +5,7 @@
 
 use super::axis_notation::{AxisNotation, RequiredAxis};
 use crate::program::record::{CutterCompensation, FrameWord, has_contact_normal, has_tool_axes};
-use crate::program::{Dialect, Record};
+use crate::program::{Dialect, Record, StatementId};
 use crate::transform::Affine;
 use crate::transform::affine::is_same_vector;
 use nalgebra::Vector3;
@@ -16,7 +16,7 @@ pub struct MoveRefusal {
     /// The reason.
     pub message: &'static str,
     /// The statement that stands in the way.
-    pub statement: usize,
+    pub statement: StatementId,
     /// What is to be seen there.
     pub label: &'static str,
 }
@@ -32,7 +32,7 @@ pub struct MoveTracker<'p> {
     /// Whether the axis in force was written out by this step.
     written: bool,
     multi_axis: bool,
-    first: Option<usize>,
+    first: Option<StatementId>,
     /// A CIRCLE, INDIRV or NURBS that waits for its end, and whether it moved.
     pending: Option<bool>,
     /// Whether the tool's place moved.
@@ -43,7 +43,7 @@ pub struct MoveTracker<'p> {
     used_setup: Option<Option<Vector3<f64>>>,
     axis_words_ignored: bool,
     moved: usize,
-    turned_over: Option<usize>,
+    turned_over: Option<StatementId>,
     upright: bool,
 }
 
@@ -90,15 +90,15 @@ impl<'p> MoveTracker<'p> {
     /// Reads a statement before it changes; `moved` says whether it will. Gives the axis that has to be written out there.
     pub fn observe_statement(
         &mut self,
-        index: usize,
+        id: StatementId,
         record: &Record,
         text: &[u8],
         moved: bool,
     ) -> Result<Option<RequiredAxis>, MoveRefusal> {
         match record {
-            Record::Goto(goto) => return self.observe_motion(index, moved, goto.axis, false),
-            Record::From(goto) => return self.observe_motion(index, moved, goto.axis, false),
-            Record::GoHome(Some(goto)) => return self.observe_motion(index, moved, goto.axis, false),
+            Record::Goto(goto) => return self.observe_motion(id, moved, goto.axis, false),
+            Record::From(goto) => return self.observe_motion(id, moved, goto.axis, false),
+            Record::GoHome(Some(goto)) => return self.observe_motion(id, moved, goto.axis, false),
             Record::Points(numbers) => {
                 let axis = if has_contact_normal(numbers) {
                     numbers.get(3..6)
@@ -107,16 +107,16 @@ impl<'p> MoveTracker<'p> {
                 } else {
                     None
                 };
-                return self.observe_motion(index, moved, axis.map(Vector3::from_column_slice), false);
+                return self.observe_motion(id, moved, axis.map(Vector3::from_column_slice), false);
             }
             Record::GoDelta(_) | Record::DriveArc(_) | Record::Control(_) => {
-                return self.observe_motion(index, moved, None, true);
+                return self.observe_motion(id, moved, None, true);
             }
             Record::Rapid => {
-                self.first.get_or_insert(index);
+                self.first.get_or_insert(id);
             }
             Record::Circle(_) | Record::MoveArc(_) | Record::StartDirection(_) | Record::Nurbs => {
-                self.first.get_or_insert(index);
+                self.first.get_or_insert(id);
                 self.pending = Some(moved);
             }
             Record::GoHome(None) => (self.first, self.pending, self.last) = (None, None, None),
@@ -160,20 +160,20 @@ impl<'p> MoveTracker<'p> {
 
     fn observe_motion(
         &mut self,
-        index: usize,
+        id: StatementId,
         moved: bool,
         axis: Option<Vector3<f64>>,
         relative: bool,
     ) -> Result<Option<RequiredAxis>, MoveRefusal> {
-        let first = self.first.take().unwrap_or(index);
-        self.check_moves_together(index, moved, relative)?;
+        let first = self.first.take().unwrap_or(id);
+        self.check_moves_together(id, moved, relative)?;
         self.last = Some(moved);
         if let Some(axis) = axis {
             self.set_axis(axis, moved);
         }
         let wanted = if moved { self.place.transform_vector(self.old) } else { self.old };
         if moved {
-            self.check_axis(index, wanted)?;
+            self.check_axis(id, wanted)?;
         }
         if axis.is_some() {
             return Ok(None);
@@ -188,29 +188,34 @@ impl<'p> MoveTracker<'p> {
     }
 
     /// What starts where the motion before ended has to move with it.
-    fn check_moves_together(&mut self, index: usize, moved: bool, relative: bool) -> Result<(), MoveRefusal> {
+    fn check_moves_together(
+        &mut self,
+        id: StatementId,
+        moved: bool,
+        relative: bool,
+    ) -> Result<(), MoveRefusal> {
         let announced = self.pending.take();
         let start = self.last.is_some_and(|last| last != moved);
         if announced.is_some_and(|announced| announced != moved || start) || relative && start {
             return Err(MoveRefusal {
                 message: "an arc, spline or step starts where an operation ends that does not move with it; select both",
-                statement: index,
+                statement: id,
                 label: "starts in the operation before",
             });
         }
         if self.place.has_mirror() && self.compensation.is_some_and(|compensation| compensation != moved) {
             return Err(MoveRefusal {
                 message: "cutter compensation goes on from an operation that is not mirrored with this one; select both",
-                statement: index,
+                statement: id,
                 label: "moves under compensation",
             });
         }
         Ok(())
     }
 
-    fn check_axis(&mut self, index: usize, wanted: Vector3<f64>) -> Result<(), MoveRefusal> {
+    fn check_axis(&mut self, id: StatementId, wanted: Vector3<f64>) -> Result<(), MoveRefusal> {
         self.moved += 1;
-        let refuse = |message, label| Err(MoveRefusal { message, statement: index, label });
+        let refuse = |message, label| Err(MoveRefusal { message, statement: id, label });
         if self.dialect.has_setup_axis() {
             if self.used_setup.is_some_and(|used| used != self.setup) {
                 return refuse(
@@ -254,7 +259,7 @@ impl<'p> MoveTracker<'p> {
             );
         }
         if self.place.has_mirror() && is_same_vector(wanted, -self.old) {
-            self.turned_over.get_or_insert(index);
+            self.turned_over.get_or_insert(id);
         } else {
             self.upright = true;
         }

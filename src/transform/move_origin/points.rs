@@ -5,7 +5,7 @@ use super::{axis_notation, handedness_words};
 use crate::diagnostic::Failure;
 use crate::parse;
 use crate::program::record::{ArcSense, CutterCompensation};
-use crate::program::{NumberRole, Program, Record};
+use crate::program::{NumberRole, Program, Record, StatementId};
 use crate::transform::statement_numbers::{self, major_word};
 use crate::transform::{Affine, SelectedStatements, StepContext};
 use crate::write::{self, ProgramEditor};
@@ -27,54 +27,54 @@ pub fn move_points(
         .any(|(_, it)| matches!(it.record(), Record::Goto(goto) if goto.axis.is_some()));
     let mut editor = ProgramEditor::new(program, context.step);
     let mut plane_reported = false;
-    for index in 0..editor.program().statements().len() {
+    for id in editor.program().statement_ids() {
         let program = editor.program();
-        let Some(statement) = program.statement(index).filter(|statement| statement.is_live()) else {
+        let statement = program.statement(id);
+        if !statement.is_live() {
             continue;
-        };
-        let moved = scope.contains(index);
+        }
+        let moved = scope.contains(id);
         let text = program.statement_text(statement);
         let record = statement.record();
         let refused = |refusal: MoveRefusal| {
             context.statement_failure(refusal.message, program, refusal.statement, refusal.label)
         };
-        let need = walk.observe_statement(index, record, text, moved).map_err(refused)?;
+        let need = walk.observe_statement(id, record, text, moved).map_err(refused)?;
         if moved {
-            if let Some(refusal) = refuse_unmovable(record, text, index) {
+            if let Some(refusal) = refuse_unmovable(record, text, id) {
                 return Err(refused(refusal));
             }
             let edits = compute_edits(record, text, place, walk.is_multi_axis());
             let words = HandednessWords::from_record(record, text);
             if words == HandednessWords::Sides
-                && !is_compensation_plane_kept(program, index, record, place, &walk).map_err(refused)?
+                && !is_compensation_plane_kept(program, id, record, place, &walk).map_err(refused)?
             {
                 if !plane_reported {
                     let message = "this CUTCOM names no plane, and the tool axis it works about turns";
-                    context.report_unchanged(message, editor.program(), index);
+                    context.report_unchanged(message, editor.program(), id);
                 }
                 plane_reported = true;
             }
             if !edits.is_empty() {
-                editor.set_numbers(index, &edits)?;
+                editor.set_numbers(id, &edits)?;
             }
             if place.has_mirror() {
                 match words {
-                    HandednessWords::Sides => handedness_words::swap_sides(&mut editor, index)?,
-                    HandednessWords::Senses => handedness_words::swap_senses(&mut editor, index)?,
+                    HandednessWords::Sides => handedness_words::swap_sides(&mut editor, id)?,
+                    HandednessWords::Senses => handedness_words::swap_senses(&mut editor, id)?,
                     HandednessWords::None => {}
                 }
             }
         }
         if let Some(need) = need {
-            match axis_notation::write_axis(&mut editor, index, need, walk.is_multi_axis(), six_values_seen)?
-            {
+            match axis_notation::write_axis(&mut editor, id, need, walk.is_multi_axis(), six_values_seen)? {
                 axis_notation::AxisWriteOutcome::Done => {}
                 axis_notation::AxisWriteOutcome::WithMultax => walk.note_multax(),
                 axis_notation::AxisWriteOutcome::Impossible => {
                     let message = "the transform turns the tool axis, and this motion cannot state one in this dialect: nothing \
                                    before it does either";
                     let label = "has the axis 0,0,1 only by default";
-                    return Err(context.statement_failure(message, editor.program(), index, label));
+                    return Err(context.statement_failure(message, editor.program(), id, label));
                 }
             }
         }
@@ -151,17 +151,16 @@ impl HandednessWords {
 /// Whether the plane that compensation works in is still the one that its record means; a named plane has to be.
 fn is_compensation_plane_kept(
     program: &Program,
-    index: usize,
+    id: StatementId,
     record: &Record,
     place: &Affine,
     walk: &MoveTracker<'_>,
 ) -> Result<bool, MoveRefusal> {
-    let normal =
-        write::statement_syntax(program, index).as_ref().and_then(handedness_words::named_plane_normal);
+    let normal = handedness_words::named_plane_normal(&write::statement_syntax(program, id));
     match normal {
         Some(normal) if !handedness_words::keeps_plane(place, normal) => Err(MoveRefusal {
             message: "the transform turns the plane of cutter compensation away from the one that CUTCOM names",
-            statement: index,
+            statement: id,
             label: "names its plane",
         }),
         Some(_) => Ok(true),
@@ -172,7 +171,7 @@ fn is_compensation_plane_kept(
 }
 
 /// Motions of part programs that no record describes: their places cannot be changed, and leaving them would cut across.
-fn refuse_unmovable(record: &Record, text: &[u8], index: usize) -> Option<MoveRefusal> {
+fn refuse_unmovable(record: &Record, text: &[u8], id: StatementId) -> Option<MoveRefusal> {
     const MOTIONS: &[&str] =
         &["TLON", "TLLFT", "TLRGT", "GOFWD", "GOBACK", "GOLFT", "GORGT", "GOUP", "GODOWN", "POCKET"];
     let stands_in_the_way = *record == Record::Other && {
@@ -181,7 +180,7 @@ fn refuse_unmovable(record: &Record, text: &[u8], index: usize) -> Option<MoveRe
     };
     stands_in_the_way.then_some(MoveRefusal {
         message: "this motion has a form that clsmith does not understand, so it cannot be moved with the others",
-        statement: index,
+        statement: id,
         label: "would stay where it is",
     })
 }

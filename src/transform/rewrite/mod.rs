@@ -96,8 +96,7 @@ impl Rewrite {
 
     fn selects_nothing(&self, program: &Program, context: &StepContext<'_>) -> bool {
         let mut selection = StatementSelection::new(&self.r#where, program, context);
-        !self.r#where.is_everything()
-            && !program.live_statements().any(|(index, _)| selection.contains(index))
+        !self.r#where.is_everything() && !program.live_statements().any(|(id, _)| selection.contains(id))
     }
 }
 

@@ -8,7 +8,9 @@ use super::rule_subject::RuleSubject;
 use super::spacing_style::{SpacingStyle, is_same_statement};
 use super::template::{StatementTemplate, TemplateInputs};
 use crate::diagnostic::{Diagnostic, Failure, codes};
-use crate::program::{Program, ProvenanceComment, Record, Statement, StatementChange};
+use crate::program::{
+    InsertionPoint, Program, ProvenanceComment, Record, Statement, StatementChange, StatementId,
+};
 use crate::transform::StepContext;
 use crate::write::ProgramEditor;
 
@@ -63,14 +65,18 @@ impl<'w> RewriteRun<'w> {
         look: &mut SpacingStyle,
     ) -> Result<Option<PendingInsertion>, Failure> {
         let program = editor.program();
-        let (Some(active), Some(statement)) = (self.rules.get(hit.rule), program.statement(hit.statement))
-        else {
+        let statement = program.statement(hit.statement);
+        let Some(active) = self.rules.get(hit.rule) else {
+            debug_assert!(false, "rule {} of {} was matched", hit.rule, self.rules.len());
             return Ok(None);
         };
         let rule = active.rule;
         let text = program.statement_text(statement);
         let subject = RuleSubject::from_text(text);
-        let Some(bindings) = active.bind_arguments(&subject) else { return Ok(None) };
+        let Some(bindings) = active.bind_arguments(&subject) else {
+            debug_assert!(false, "the statement is as it was when the rule matched it");
+            return Ok(None);
+        };
         let (style, charset) = (editor.style(), self.charset);
         let filling =
             TemplateInputs { bindings: &bindings, text, record: statement.record(), style, charset };
@@ -93,7 +99,7 @@ impl<'w> RewriteRun<'w> {
                 .map_err(|failure| failure.map_findings(|found| self.label_rule(found, hit, &["replace"])))?;
         }
         if rule.delete {
-            editor.delete_statement(hit.statement);
+            editor.delete_statement(hit.statement)?;
         }
         Ok(Some(PendingInsertion { hit, before, after }))
     }
@@ -102,11 +108,11 @@ impl<'w> RewriteRun<'w> {
     fn insert_missing(&self, insertion: PendingInsertion, editor: &mut ProgramEditor) -> Result<(), Failure> {
         let PendingInsertion { hit, before, after } = insertion;
         if !is_already_inserted(&before, editor.program(), hit.statement, true) {
-            self.insert_texts(&before, hit.statement, hit, "insert_before", editor)?;
+            self.insert_texts(&before, hit.statement.before(), hit, "insert_before", editor)?;
         }
         let inserts = !is_already_inserted(&after, editor.program(), hit.statement, false);
         if inserts {
-            self.insert_texts(&after, hit.statement + 1, hit, "insert_after", editor)?;
+            self.insert_texts(&after, hit.statement.after(), hit, "insert_after", editor)?;
         }
         self.check_point_lines(hit, editor.program(), inserts)
     }
@@ -114,17 +120,17 @@ impl<'w> RewriteRun<'w> {
     fn insert_texts(
         &self,
         texts: &[Vec<u8>],
-        before: usize,
+        at: InsertionPoint,
         hit: RuleMatch,
         key: &str,
         editor: &mut ProgramEditor,
     ) -> Result<(), Failure> {
         for (number, text) in texts.iter().enumerate() {
-            if let Err(failure) = editor.insert_before(before, text) {
+            if let Err(failure) = editor.insert(at, text) {
                 let program = editor.program();
-                let span = program.statement(hit.statement).map(Statement::origin).unwrap_or_default();
+                let span = program.statement(hit.statement).origin();
                 return Err(failure.map_findings(|mut found| {
-                    // The editor knows what it was to insert before, not for which statement.
+                    // The editor knows where it was to insert, not for which statement.
                     found.labels.clear();
                     let found = found.with_label(program.source(), span, "beside this statement");
                     self.label_rule(found, hit, &[key, &number.to_string()])
@@ -137,12 +143,12 @@ impl<'w> RewriteRun<'w> {
     /// Lines of bare numbers go on with the GOTO before them and mean nothing without it.
     fn check_point_lines(&self, hit: RuleMatch, program: &Program, inserts: bool) -> Result<(), Failure> {
         let is_points = |record: &Record| matches!(record, Record::Goto(_) | Record::Points(_));
-        let kept = program.statement(hit.statement).filter(|kept| kept.is_live());
-        if !inserts && kept.is_some_and(|kept| is_points(kept.record())) {
+        let own = program.statement(hit.statement);
+        if !inserts && own.is_live() && is_points(own.record()) {
             return Ok(());
         }
-        let mut behind = program.statements().iter().enumerate().skip(hit.statement + 1);
-        let Some((index, next)) = behind.find(|(_, next)| next.is_live()) else { return Ok(()) };
+        let Some(next_id) = program.next_live_statement(hit.statement) else { return Ok(()) };
+        let next = program.statement(next_id);
         let first = program.statement_text(next).trim_ascii_start().first();
         let is_bare = first.is_some_and(|byte| byte.is_ascii_digit() || b"+-.".contains(byte));
         if !is_points(next.record()) || !is_bare {
@@ -150,7 +156,7 @@ impl<'w> RewriteRun<'w> {
         }
         let message = "the rule would part a GOTO from the lines of numbers that go on with it";
         let error =
-            self.context.statement_failure(message, program, index, "these numbers would stand alone");
+            self.context.statement_failure(message, program, next_id, "these numbers would stand alone");
         Err(error.map_findings(|found| self.label_rule(found, hit, &[])))
     }
 
@@ -160,18 +166,18 @@ impl<'w> RewriteRun<'w> {
 }
 
 /// Whether what is to be inserted before or behind a statement already stands there, or is the statement itself.
-fn is_already_inserted(wanted: &[Vec<u8>], program: &Program, statement: usize, before: bool) -> bool {
+fn is_already_inserted(wanted: &[Vec<u8>], program: &Program, statement: StatementId, before: bool) -> bool {
     let with_own = wanted.iter().any(|text| ProvenanceComment::from_text(text).is_some());
     let wanted: Vec<RuleSubject<'_>> = wanted.iter().map(|text| RuleSubject::from_text(text)).collect();
     if wanted.is_empty() {
         return true;
     }
-    let own = program
-        .statement(statement)
-        .filter(|own| own.is_live())
-        .map(|own| RuleSubject::from_text(program.statement_text(own)));
-    if own.is_some_and(|own| wanted.iter().any(|wanted| is_same_statement(wanted, &own))) {
-        return true;
+    let own = program.statement(statement);
+    if own.is_live() {
+        let own = RuleSubject::from_text(program.statement_text(own));
+        if wanted.iter().any(|wanted| is_same_statement(wanted, &own)) {
+            return true;
+        }
     }
     let mut found = find_neighbours(program, statement, before, wanted.len(), with_own);
     if before {
@@ -185,18 +191,24 @@ fn is_already_inserted(wanted: &[Vec<u8>], program: &Program, statement: usize, 
 /// between a statement and what an earlier run put beside it. `with_own` is for rules that write such a comment themselves.
 fn find_neighbours(
     program: &Program,
-    statement: usize,
+    statement: StatementId,
     before: bool,
     count: usize,
     with_own: bool,
 ) -> Vec<RuleSubject<'_>> {
-    let (head, tail) = program.statements().split_at_checked(statement).unwrap_or_default();
     let subject = |statement: &Statement| RuleSubject::from_text(program.statement_text(statement));
     let is_own = |other: &Statement| ProvenanceComment::from_text(program.statement_text(other)).is_some();
     let counts = |other: &&Statement| other.is_live() && (with_own || !is_own(other));
     match before {
-        true => head.iter().rev().filter(counts).take(count).map(subject).collect(),
-        false => tail.iter().skip(1).filter(counts).take(count).map(subject).collect(),
+        true => program
+            .statements_before(statement)
+            .iter()
+            .rev()
+            .filter(counts)
+            .take(count)
+            .map(subject)
+            .collect(),
+        false => program.statements_after(statement).iter().filter(counts).take(count).map(subject).collect(),
     }
 }
 
@@ -220,11 +232,11 @@ pub(super) fn rule_failure(
     program: &Program,
     context: &StepContext<'_>,
 ) -> Failure {
-    let mut span = program.statement(hit.statement).map(Statement::origin).unwrap_or_default();
-    let untouched = program
-        .statement(hit.statement)
-        .is_some_and(|statement| statement.change() == StatementChange::Untouched);
-    if let (Some(at), true) = (&trouble.at, untouched) {
+    let statement = program.statement(hit.statement);
+    let mut span = statement.origin();
+    if let Some(at) = &trouble.at
+        && statement.change() == StatementChange::Untouched
+    {
         span = span.sub_span(at.start, at.end);
     }
     let message = format!("rule {} of this `rewrite` cannot be applied: {}", hit.rule + 1, trouble.message);

@@ -7,7 +7,7 @@ use super::expression::EvaluationError;
 use super::pattern::StatementPattern;
 use super::rule::RewriteRule;
 use super::rule_subject::RuleSubject;
-use crate::program::{Program, Record};
+use crate::program::{Program, Record, StatementId};
 use crate::transform::{StatementSelection, StepContext};
 
 /// A rule as it is looked for in one file.
@@ -24,7 +24,7 @@ pub(super) struct ActiveRule<'r> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RuleMatch {
     /// The statement.
-    pub statement: usize,
+    pub statement: StatementId,
     /// The rule's number in the recipe.
     pub rule: usize,
 }
@@ -77,7 +77,7 @@ pub(super) fn find_rule_matches(
 ) -> Result<Vec<RuleMatch>, RuleFailure> {
     let mut selection = StatementSelection::new(&step.r#where, program, context);
     let mut hits = Vec::new();
-    for (index, statement) in program.live_statements() {
+    for (id, statement) in program.live_statements() {
         if matches!(statement.record(), Record::Blank | Record::ByteOrderMark) {
             continue;
         }
@@ -86,12 +86,12 @@ pub(super) fn find_rule_matches(
             |rule: &ActiveRule<'_>| rule.pattern.as_ref().is_some_and(|pattern| pattern.may_match(text));
         // Most statements of a large file end here, before the grammar or the selection costs anything.
         let Some(first) = rules.iter().position(may_match) else { continue };
-        if !selection.contains(index) {
+        if !selection.contains(id) {
             continue;
         }
         let subject = RuleSubject::from_text(text);
         for rule in rules.iter_mut().skip(first) {
-            let hit = RuleMatch { statement: index, rule: rule.index };
+            let hit = RuleMatch { statement: id, rule: rule.index };
             if rule.accepts_subject(&subject).map_err(|trouble| RuleFailure { hit, trouble })? {
                 hits.push(hit);
                 break;

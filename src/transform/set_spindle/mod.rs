@@ -8,7 +8,7 @@ use super::{SelectedStatements, StepContext, Transform};
 use crate::diagnostic::Failure;
 use crate::parameters::{Factor, Positive};
 use crate::presentation::text_format::{format_count, format_counted};
-use crate::program::{Program, Record};
+use crate::program::{Program, Record, StatementId};
 use crate::recipe::StatementFilter;
 use crate::write::{ProgramEditor, statement_syntax};
 use schemars::JsonSchema;
@@ -133,16 +133,14 @@ impl Transform for SetSpindle {
 
 /// Cycles that print a speed of their own, which stays.
 fn report_speeds_of_cycles(program: &Program, selected: &SelectedStatements, context: &mut StepContext<'_>) {
-    let has_speed = |index: usize| {
-        let syntax = statement_syntax(program, index);
-        syntax.is_some_and(|syntax| {
-            (0..syntax.fields.len())
-                .any(|field| matches!(syntax.word_at(field).as_deref(), Some("RPM" | "SPINDL")))
-        })
+    let has_speed = |cycle: StatementId| {
+        let syntax = statement_syntax(program, cycle);
+        (0..syntax.fields.len())
+            .any(|field| matches!(syntax.word_at(field).as_deref(), Some("RPM" | "SPINDL")))
     };
     let cycles = program.live_statements().filter(|(_, found)| matches!(found.record(), Record::Cycle(_)));
     let mut found =
-        cycles.map(|(index, _)| index).filter(|index| selected.contains(*index) && has_speed(*index));
+        cycles.map(|(cycle, _)| cycle).filter(|cycle| selected.contains(*cycle) && has_speed(*cycle));
     if let Some(first) = found.next() {
         let message = match found.count() {
             0 => "this CYCLE has a spindle speed of its own, which is not changed".to_owned(),

@@ -9,7 +9,7 @@ use crate::number;
 use crate::parameters::Positive;
 use crate::parse;
 use crate::program::record::{SpindleDirection, SpindleUnit};
-use crate::program::{Program, Record, fold_text};
+use crate::program::{Program, Record, StatementId, fold_text};
 use crate::transform::motion_insertion::MotionInsertion;
 use crate::transform::statement_numbers::{round_to_decimals, strip_remark};
 use crate::transform::{SelectedStatements, StepContext};
@@ -30,7 +30,7 @@ pub(super) struct SpeedPlan {
 
 /// A SPINDL of the program.
 struct ProgrammedSpindle {
-    statement: usize,
+    statement: StatementId,
     on: bool,
     direction: Option<SpindleDirection>,
     speed: Option<PrintedSpeed>,
@@ -54,11 +54,11 @@ pub(super) struct MotionSpeed {
     /// The motion's number.
     motion: usize,
     /// The statement that a SPINDL for the motion goes in front of.
-    first: usize,
+    first: StatementId,
     /// The motion's last statement.
-    last: usize,
+    last: StatementId,
     /// The SPINDL that prints the speed.
-    governor: usize,
+    governor: StatementId,
     /// The speed in force, in the unit of its SPINDL.
     pub programmed: f64,
     /// The speed that the step wants.
@@ -79,7 +79,7 @@ impl SpeedPlan {
         let taps = find_cycle_starts(program);
         let mut insertion = MotionInsertion::new(program);
         let mut motions = Vec::new();
-        let mut kept: BTreeSet<usize> =
+        let mut kept: BTreeSet<StatementId> =
             spindles.iter().filter(|found| found.is_kept()).map(|found| found.statement).collect();
         let mut without = None;
         for (number, motion) in program.motions().enumerate() {
@@ -103,8 +103,8 @@ impl SpeedPlan {
             let tap = taps.get(taps.partition_point(|(cycle, _)| *cycle < end).saturating_sub(1));
             motions.push(MotionSpeed {
                 motion: number,
-                first: place.first,
-                last: place.last,
+                first: place.first(),
+                last: place.last(),
                 governor,
                 programmed: speed.programmed,
                 wanted: if is_meant { speed.changed } else { speed.programmed },
@@ -171,7 +171,7 @@ fn find_spindles(
     selected: &SelectedStatements,
 ) -> Vec<ProgrammedSpindle> {
     let mut spindles = Vec::new();
-    for (index, statement) in program.live_statements() {
+    for (id, statement) in program.live_statements() {
         let Record::Spindle(spindle) = statement.record() else { continue };
         let text = program.statement_text(statement);
         let numbers = parse::statement_numbers(text);
@@ -185,31 +185,31 @@ fn find_spindles(
                 programmed,
                 changed: changed.unwrap_or(programmed),
                 is_changeable: changed.is_some(),
-                is_meant: selected.contains(index),
+                is_meant: selected.contains(id),
             })
         });
         let (on, direction) = (spindle.on, spindle.direction);
-        spindles.push(ProgrammedSpindle { statement: index, on, direction, speed });
+        spindles.push(ProgrammedSpindle { statement: id, on, direction, speed });
     }
     spindles
 }
 
 /// The CYCLEs that do not only change the one in force, and whether their feed is pitch times speed.
-fn find_cycle_starts(program: &Program) -> Vec<(usize, bool)> {
+fn find_cycle_starts(program: &Program) -> Vec<(StatementId, bool)> {
     let starts = program
         .live_statements()
         .filter(|(_, found)| matches!(found.record(), Record::Cycle(cycle) if !cycle.changes));
-    let is_tap = |index: usize| {
-        let first = statement_syntax(program, index).and_then(|syntax| syntax.word_at(0)).unwrap_or_default();
-        matches!(first.split(' ').next(), Some("TAP" | "RTAP" | "THREAD"))
+    let is_tap = |cycle: StatementId| {
+        let first = statement_syntax(program, cycle).word_at(0);
+        matches!(first.as_deref().and_then(|word| word.split(' ').next()), Some("TAP" | "RTAP" | "THREAD"))
     };
-    starts.map(|(index, _)| (index, is_tap(index))).collect()
+    starts.map(|(cycle, _)| (cycle, is_tap(cycle))).collect()
 }
 
 fn report_kept_speeds(
     program: &Program,
-    kept: &BTreeSet<usize>,
-    without: Option<usize>,
+    kept: &BTreeSet<StatementId>,
+    without: Option<StatementId>,
     context: &mut StepContext<'_>,
 ) {
     if let Some(first) = kept.first() {
@@ -260,7 +260,7 @@ impl SpindleSpeedChange {
 struct SpeedWriter<'e> {
     editor: &'e mut ProgramEditor,
     /// The SPINDL whose speed is in force, which of its numbers that is, and the speed as written last.
-    in_force: Option<(usize, usize, f64)>,
+    in_force: Option<(StatementId, usize, f64)>,
     /// The sense in which the spindle turns, once it was said.
     direction: Option<SpindleDirection>,
     changed: usize,
@@ -269,7 +269,7 @@ struct SpeedWriter<'e> {
 
 impl SpeedWriter<'_> {
     /// Gives a SPINDL of the program its speed.
-    fn set_speed(&mut self, statement: usize, speed: PrintedSpeed, wanted: f64) -> Result<(), Failure> {
+    fn set_speed(&mut self, statement: StatementId, speed: PrintedSpeed, wanted: f64) -> Result<(), Failure> {
         if wanted != speed.programmed {
             self.editor.set_numbers(statement, &[(speed.number, wanted)])?;
             self.changed += 1;
@@ -279,7 +279,7 @@ impl SpeedWriter<'_> {
     }
 
     /// Puts a SPINDL in before a statement where the speed in force is not the one that a motion wants.
-    fn reach_speed(&mut self, motion: &MotionSpeed, before: usize) -> Result<(), Failure> {
+    fn reach_speed(&mut self, motion: &MotionSpeed, before: StatementId) -> Result<(), Failure> {
         let Some((governor, number, speed)) = self.in_force else { return Ok(()) };
         if governor != motion.governor || speed == motion.wanted {
             return Ok(());
@@ -292,12 +292,9 @@ impl SpeedWriter<'_> {
     }
 
     /// A SPINDL's text with another speed, and with the sense that is in force.
-    fn render_spindle(&self, governor: usize, number: usize, speed: f64) -> Vec<u8> {
+    fn render_spindle(&self, governor: StatementId, number: usize, speed: f64) -> Vec<u8> {
         let program = self.editor.program();
-        let Some(found) = program.statement(governor) else {
-            debug_assert!(false, "the SPINDL in force is a statement of the program");
-            return Vec::new();
-        };
+        let found = program.statement(governor);
         let text = strip_remark(program.statement_text(found));
         let mut text =
             patch_numbers(&text, found.record(), &[(number, speed)], self.editor.style()).unwrap_or(text);

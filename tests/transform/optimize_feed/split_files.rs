@@ -30,7 +30,7 @@ fn split_all(name: &str, before: &Program) -> (usize, BTreeMap<UnsplitReason, us
     for ((index, old), range) in old.iter().enumerate().zip(&result.parts) {
         let place = || {
             let (line, _) =
-                before.source().line_column(before.statements()[old.last_statement()].origin().start);
+                before.source().line_column(before.statement(old.last_statement()).origin().start);
             format!("{name}:{line}")
         };
         let parts = &new[range.clone()];

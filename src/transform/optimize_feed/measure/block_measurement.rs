@@ -7,7 +7,7 @@ use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::program::record::SpindleDirection;
-use crate::program::{Program, Record, Statement};
+use crate::program::{Program, Record, Statement, StatementId};
 use crate::simulation_run::{
     EngagedMotion, EngagementModel, EngagementRunResult, Machining, RunWatcher, SimulationRunOptions,
     StockResolution,
@@ -31,7 +31,7 @@ pub(in crate::transform::optimize_feed) struct BlockMeasurement {
     /// Number of the motion.
     pub motion: usize,
     /// Its last statement.
-    pub statement: usize,
+    pub statement: StatementId,
     /// Its operation.
     pub operation: usize,
     /// Whether it cuts.
@@ -49,7 +49,7 @@ pub(in crate::transform::optimize_feed) fn measure_blocks(
     mut touches: impl FnMut(&Motion) -> bool,
 ) -> Result<(MeasuredBlocks, EngagementRunResult), Failure> {
     let mut gathered = MeasuredBlocks::default();
-    let mut before = PreviousMotion::default();
+    let mut before = None;
     let ran = machining.find_engagements(options, source, watch, &mut |engaged| {
         let touched = touches(engaged.motion);
         gathered.add_motion(machining, limits, engaged, touched, &mut before);
@@ -70,9 +70,9 @@ const AROUND: f64 = 1.5;
 const SHORT: f64 = 0.1;
 
 /// The motion before, as far as it decides whether a chain of blocks breaks.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct PreviousMotion {
-    end: usize,
+    last: StatementId,
     tool: Option<usize>,
     moves_at_feed: bool,
 }
@@ -84,16 +84,19 @@ impl MeasuredBlocks {
         limits: &LoadLimits,
         engaged: &EngagedMotion<'_>,
         touched: bool,
-        before: &mut PreviousMotion,
+        before: &mut Option<PreviousMotion>,
     ) {
         let motion = engaged.motion;
         let program = machining.program();
         let at_feed = !motion.rapid && !matches!(motion.path, MotionPath::Start);
-        let goes_on = before.moves_at_feed
-            && at_feed
-            && before.tool == engaged.cutter
-            && !has_machine_stop(program, before.end..motion.statements.end);
-        *before = PreviousMotion { end: motion.statements.end, tool: engaged.cutter, moves_at_feed: at_feed };
+        let last = motion.last_statement();
+        let goes_on = before.as_ref().is_some_and(|before| {
+            before.moves_at_feed
+                && at_feed
+                && before.tool == engaged.cutter
+                && !has_machine_stop(program, before.last, last)
+        });
+        *before = Some(PreviousMotion { last, tool: engaged.cutter, moves_at_feed: at_feed });
         if !at_feed {
             return;
         }
@@ -150,15 +153,14 @@ impl MeasuredBlocks {
     }
 }
 
-/// Whether the machine stands still between two motions: STOP, OPSTOP, DELAY.
-fn has_machine_stop(program: &Program, statements: std::ops::Range<usize>) -> bool {
+/// Whether the machine stands still behind a statement and up to another: STOP, OPSTOP, DELAY.
+fn has_machine_stop(program: &Program, behind: StatementId, until: StatementId) -> bool {
     let waits = |statement: &Statement| {
         matches!(statement.record(), Record::Known | Record::Other)
             && matches!(major_word(program.statement_text(statement)).as_str(), "STOP" | "OPSTOP" | "DELAY")
     };
-    statements
-        .filter_map(|index| program.statement(index))
-        .any(|statement| statement.is_live() && waits(statement))
+    let between = program.statements_between(behind.after(), until.after());
+    between.iter().any(|statement| statement.is_live() && waits(statement))
 }
 
 fn describe_unknown_feed(program: &Program, motion: &Motion, feed: bool) -> Diagnostic {
@@ -167,6 +169,6 @@ fn describe_unknown_feed(program: &Program, motion: &Motion, feed: bool) -> Diag
     } else {
         "this motion cuts, and the spindle speed in rev/min is not known"
     };
-    let span = program.statement(motion.last_statement()).map(Statement::origin).unwrap_or_default();
+    let span = program.statement(motion.last_statement()).origin();
     Diagnostic::new(codes::FEED_UNKNOWN, message).with_label(program.source(), span, "cuts here")
 }

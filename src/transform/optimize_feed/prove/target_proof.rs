@@ -1,7 +1,7 @@
 //! The corrected program against its targets, and both programs in numbers.
 
 use crate::diagnostic::{Diagnostic, Failure, codes};
-use crate::program::{Program, Statement};
+use crate::program::Program;
 use crate::transform::StepContext;
 use crate::transform::optimize_feed::limit::{FeedGoals, FeedWindow};
 use crate::transform::optimize_feed::measure::{BlockMeasurement, FeedBlock, MeasuredBlocks};
@@ -30,8 +30,7 @@ pub(in crate::transform::optimize_feed) fn prove_targets(
         for ((criterion, limit), [estimate, bound]) in goals.limits.iter().zip(&measurement.measured) {
             let allowed = limit * (1.0 + PATH) + (bound - estimate).max(0.0);
             if *estimate > allowed {
-                let span =
-                    program.statement(measurement.statement).map(Statement::origin).unwrap_or_default();
+                let span = program.statement(measurement.statement).origin();
                 let message = format!(
                     "simulated again, the {} is {estimate:.6} {} here; the target is {limit}",
                     criterion.display_name(),

@@ -2,7 +2,7 @@
 
 use super::motion_split::{SplitProgram, split_motions};
 use crate::diagnostic::{Diagnostic, Failure, codes};
-use crate::program::{Program, Statement};
+use crate::program::Program;
 use crate::transform::StepContext;
 use crate::transform::feed_plan::{FeedPlan, decimals_of_feed, round_feed_down};
 use crate::transform::optimize_feed::limit::FeedGoals;
@@ -120,7 +120,7 @@ fn report_below_minimum(
 ) {
     for block in planned.below_minimum.iter().take(MOST_TOLD) {
         let Some(measurement) = before.measurements.get(*block) else { continue };
-        let span = program.statement(measurement.statement).map(Statement::origin).unwrap_or_default();
+        let span = program.statement(measurement.statement).origin();
         let message = "the target is passed here at the lowest feed allowed";
         let finding = Diagnostic::new(codes::BELOW_MINIMUM, message).with_label(
             program.source(),

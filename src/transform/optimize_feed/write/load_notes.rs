@@ -1,7 +1,7 @@
 //! What is said of each FEDRAT that the step wrote, for the comments of `provenance:`: the largest load of the motions that it
 //! governs, before and after. The load of a motion that was split is none of its parts' own, so these have only the one after.
 
-use crate::program::{LengthUnit, Program, StepId};
+use crate::program::{LengthUnit, Program, StatementId, StepId};
 use crate::transform::optimize_feed::limit::FeedGoals;
 use crate::transform::optimize_feed::measure::{BlockMeasurement, LoadCriterion, MeasuredBlocks};
 use std::collections::BTreeMap;
@@ -27,9 +27,9 @@ pub(in crate::transform::optimize_feed) fn add_load_notes(
     let Some((criterion, _)) = goals.limits.first().copied().filter(|_| program.has_history()) else {
         return;
     };
-    let governors: Vec<Option<usize>> = program.motions().map(|motion| motion.feed_from).collect();
+    let governors: Vec<Option<StatementId>> = program.motions().map(|motion| motion.feed_from).collect();
     let governor = |motion: usize| governors.get(motion).copied().flatten();
-    let mut loads: BTreeMap<usize, GovernedLoads> = BTreeMap::new();
+    let mut loads: BTreeMap<StatementId, GovernedLoads> = BTreeMap::new();
     let estimate =
         |measurement: &BlockMeasurement| measurement.measured.first().map_or(0.0, |[estimate, _]| *estimate);
     for measurement in &before.measurements {

@@ -9,7 +9,7 @@ use super::split_statements::{SplitForm, SplitMotion, write_split_motion};
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
-use crate::program::{Program, Record, StepId};
+use crate::program::{Program, Record, StatementId, StepId};
 use crate::write::ProgramEditor;
 use std::fmt;
 use std::ops::Range;
@@ -174,7 +174,7 @@ fn choose_splits(
 /// How a motion is written, if its parts can be written alike.
 fn find_split_form(program: &Program, motion: &Motion, shared: bool) -> Result<SplitForm, UnsplitReason> {
     let last = motion.last_statement();
-    let record = program.statement(last).map_or(&Record::Other, |found| found.record());
+    let record = program.statement(last).record();
     match (record, &motion.path) {
         _ if motion.hole.is_some() => return Err(UnsplitReason::Hole),
         _ if motion.rapid => return Err(UnsplitReason::Rapid),
@@ -193,8 +193,9 @@ fn find_split_form(program: &Program, motion: &Motion, shared: bool) -> Result<S
         (Record::Goto(_) | Record::DriveArc(_), _) => {}
         _ => return Err(UnsplitReason::OtherStatement),
     }
-    let announced = motion.statements.clone().rev().skip(1).filter_map(|index| {
-        Some((index, program.statement(index).filter(|found| found.is_live())?.record()))
+    let announced = motion.statements.ids().rev().skip(1).filter_map(|id| {
+        let found = program.statement(id);
+        found.is_live().then(|| (id, found.record()))
     });
     let arc = announced.clone().find(|(_, record)| {
         matches!(record, Record::Circle(_) | Record::MoveArc(_) | Record::StartDirection(_))
@@ -220,9 +221,8 @@ fn find_split_form(program: &Program, motion: &Motion, shared: bool) -> Result<S
     }
 }
 
-fn has_goback(program: &Program, statement: usize) -> bool {
-    crate::write::statement_syntax(program, statement)
-        .is_some_and(|syntax| syntax.major_word() == "TLON,GOBACK")
+fn has_goback(program: &Program, statement: StatementId) -> bool {
+    crate::write::statement_syntax(program, statement).major_word() == "TLON,GOBACK"
 }
 
 fn part_ranges(count: usize, splits: &[SplitMotion]) -> Vec<Range<usize>> {
@@ -239,7 +239,7 @@ fn part_ranges(count: usize, splits: &[SplitMotion]) -> Vec<Range<usize>> {
 }
 
 fn describe_unsplit_motion(program: &Program, motion: &Motion, why: UnsplitReason) -> Diagnostic {
-    let place = program.statement(motion.last_statement()).map(|found| found.origin()).unwrap_or_default();
+    let place = program.statement(motion.last_statement()).origin();
     let message = format!("the motion is not split, so that one feed holds for all of it: {why}");
     Diagnostic::new(codes::NOT_CHANGED, message).with_label(program.source(), place, "left whole")
 }

@@ -1,9 +1,9 @@
 //! Whether a program with split motions still says the same path.
 
 use super::split_statements::SplitMotion;
-use crate::program::Program;
 use crate::program::geometry::{CircularArc, MotionPath, SAME_POINT};
 use crate::program::motion::Motion;
+use crate::program::{Program, StatementId};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -16,21 +16,26 @@ const AXIS_ROUNDING: f64 = 5e-6 * (1.0 + 1e-6);
 /// A program's motions, and the statements that have problems, once for each.
 pub(super) struct ReadMotions {
     pub motions: Vec<Motion>,
-    problems: Vec<usize>,
+    problems: Vec<StatementId>,
 }
 
 impl ReadMotions {
     pub fn from_program(program: &Program) -> Self {
         let mut all = program.motions();
         let motions = all.by_ref().collect();
-        let mut problems: Vec<usize> = all.take_problems().iter().map(|problem| problem.statement).collect();
+        let mut problems: Vec<StatementId> =
+            all.take_problems().iter().map(|problem| problem.statement).collect();
         problems.sort_unstable();
         Self { motions, problems }
     }
 
     fn count_problems(&self, motions: &[Motion]) -> usize {
-        let before = |end: usize| self.problems.partition_point(|problem| *problem < end);
-        motions.iter().map(|motion| before(motion.statements.end) - before(motion.statements.start)).sum()
+        let count = |motion: &Motion| {
+            let before = self.problems.partition_point(|problem| *problem < motion.statements.first());
+            let until = self.problems.partition_point(|problem| *problem <= motion.statements.last());
+            until - before
+        };
+        motions.iter().map(count).sum()
     }
 }
 

@@ -4,7 +4,7 @@ use crate::diagnostic::Failure;
 use crate::parse;
 use crate::program::geometry::{MotionPath, Pose};
 use crate::program::motion::Motion;
-use crate::program::{FieldKind, Program};
+use crate::program::{FieldKind, Program, StatementId};
 use crate::transform::statement_numbers::{copy_statement, pair_with_indices, strip_remark};
 use crate::write::ProgramEditor;
 use nalgebra::Vector3;
@@ -20,11 +20,11 @@ pub(super) enum SplitForm {
     /// A GOTO.
     Line,
     /// CIRCLE (its statement) and GOTO.
-    Circle(usize),
+    Circle(StatementId),
     /// MOVARC (its statement) and GOTO.
-    MoveArc(usize),
+    MoveArc(StatementId),
     /// CATIA's INDIRV (its statement) and TLON.
-    Drive(usize),
+    Drive(StatementId),
 }
 
 /// A motion with the places where it is split: fractions of its length, and the poses there.
@@ -84,7 +84,7 @@ fn write_move_arcs(
     editor: &mut ProgramEditor,
     motion: &Motion,
     split: &SplitMotion,
-    statement: usize,
+    statement: StatementId,
 ) -> Result<(), Failure> {
     let angle = find_move_arc_angle(editor.program(), statement);
     let degrees = |(start, end): (f64, f64)| angle.map(|(number, whole)| (number, whole * (end - start)));
@@ -104,8 +104,8 @@ fn write_move_arcs(
 }
 
 /// The angle of a MOVARC: the index of its number, and its value in degrees.
-fn find_move_arc_angle(program: &Program, statement: usize) -> Option<(usize, f64)> {
-    let found = program.statement(statement)?;
+fn find_move_arc_angle(program: &Program, statement: StatementId) -> Option<(usize, f64)> {
+    let found = program.statement(statement);
     let syntax = parse::syntax(program.statement_text(found));
     let word = (0..syntax.fields.len()).find(|field| syntax.word_at(*field).as_deref() == Some("ANGLE"))?;
     let place = &syntax.fields.get(word + 1)?.at;
@@ -118,15 +118,13 @@ fn write_drive_arcs(
     editor: &mut ProgramEditor,
     motion: &Motion,
     split: &SplitMotion,
-    direction: usize,
+    direction: StatementId,
 ) -> Result<(), Failure> {
     let MotionPath::Arc(arc) = &motion.path else { return Ok(()) };
     let last = motion.last_statement();
     let short = |(start, end): (f64, f64)| (end - start) * arc.sweep <= PI + HALF_TURN;
-    let numbers = editor
-        .program()
-        .statement(last)
-        .map_or(0, |found| parse::statement_numbers(editor.program().statement_text(found)).len());
+    let program = editor.program();
+    let numbers = parse::statement_numbers(program.statement_text(program.statement(last))).len();
     for ((pose, fraction), part) in split.poses.iter().zip(&split.fractions).zip(split.part_fractions()) {
         let [x, y, z]: [f64; 3] = pose.point.coords.into();
         let mut drive = copy_with_numbers(editor, last, numbers.saturating_sub(3), &[x, y, z]);
@@ -138,10 +136,8 @@ fn write_drive_arcs(
         editor.insert_before(last, &drive)?;
         editor.insert_before(last, &indirv)?;
     }
-    let whole = editor
-        .program()
-        .statement(last)
-        .and_then(|found| find_intof_range(editor.program().statement_text(found)));
+    let program = editor.program();
+    let whole = find_intof_range(program.statement_text(program.statement(last)));
     match whole.filter(|_| split.part_fractions().last().is_some_and(short)) {
         Some(intof) => editor.replace_parts(last, &[(intof, b"")]),
         None => Ok(()),
@@ -164,11 +160,16 @@ fn find_intof_range(text: &[u8]) -> Option<Range<usize>> {
 }
 
 /// A statement's text with numbers from `first` on given new values.
-fn copy_with_numbers(editor: &ProgramEditor, statement: usize, first: usize, values: &[f64]) -> Vec<u8> {
+fn copy_with_numbers(
+    editor: &ProgramEditor,
+    statement: StatementId,
+    first: usize,
+    values: &[f64],
+) -> Vec<u8> {
     copy_statement(editor, statement, &pair_with_indices(first, values.iter().copied()))
 }
 
 /// A statement's text without a comment at its end.
-fn text_without_remark(program: &Program, statement: usize) -> Vec<u8> {
-    program.statement(statement).map(|found| strip_remark(program.statement_text(found))).unwrap_or_default()
+fn text_without_remark(program: &Program, statement: StatementId) -> Vec<u8> {
+    strip_remark(program.statement_text(program.statement(statement)))
 }
