@@ -69,10 +69,11 @@ fn edited(source: &[u8], edits: &[Edit]) -> Program {
     let mut editor = ProgramEditor::new(program, StepId(0));
     for edit in edits {
         // What the gate refuses is not changed, which is as good a program as any.
+        let named = |at: &usize| ids.get(at.checked_rem(ids.len())?).copied();
         let _ = match edit {
-            Edit::Set(at, text) => editor.set_text(ids[at % ids.len()], text.as_bytes()),
+            Edit::Set(at, text) => named(at).map_or(Ok(()), |id| editor.set_text(id, text.as_bytes())),
             Edit::Insert(at, text) => editor.insert(places[at % places.len()], text.as_bytes()),
-            Edit::Delete(at) => editor.delete_statement(ids[at % ids.len()]),
+            Edit::Delete(at) => named(at).map_or(Ok(()), |id| editor.delete_statement(id)),
         };
     }
     editor.finish().unwrap()
