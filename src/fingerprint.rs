@@ -20,6 +20,14 @@ use std::sync::Arc;
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// A SHA-256 digest; written as 64 hexadecimal digits, the same as `sha256sum` prints.
+///
+/// ```
+/// use clsmith::fingerprint::Digest;
+///
+/// let digest = Digest::from_bytes(b"abc");
+/// assert!(digest.to_string().starts_with("ba7816bf"));
+/// assert_eq!(Digest::from_chunks([&b"a"[..], b"bc"]), digest);
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Digest([u8; 32]);
 
@@ -131,6 +139,22 @@ pub struct FileFingerprint {
 }
 
 /// A recipe and all files it depends on.
+///
+/// ```
+/// use clsmith::fingerprint::{Digest, RecipeFingerprint};
+/// use clsmith::setup::Setup;
+/// use clsmith::source::Source;
+/// use clsmith::transform::Recipe;
+///
+/// let source = Source::new("recipe.yaml", b"version: 1\nsteps: []\n".to_vec())?;
+/// let recipe = Recipe::load(&source)?;
+/// let print = RecipeFingerprint::read_files(&[source], &recipe, &Setup::default())?;
+/// let input = Digest::from_bytes(b"GOTO/0,0,0\n");
+/// // What was done with the same input, recipe and options need not be done again.
+/// assert_eq!(print.result_key(input, "--notes"), print.result_key(input, "--notes"));
+/// assert_ne!(print.result_key(input, "--notes"), print.result_key(input, ""));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct RecipeFingerprint {
     /// The digest of all of them, in their order. Names do not count: a recipe that was moved is the same recipe.

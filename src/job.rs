@@ -21,6 +21,31 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// A recipe with everything it needs, ready for any number of files.
+///
+/// ```
+/// use clsmith::job::CorrectionJob;
+/// use clsmith::report::finding_policy::FindingPolicy;
+/// use clsmith::setup::Setup;
+/// use clsmith::simulation_run::SilentWatcher;
+/// use clsmith::source::Source;
+/// use clsmith::transform::Recipe;
+///
+/// let text = b"version: 1\nsteps:\n  - scale_feed: { factor: 0.5 }\n";
+/// let recipe = Recipe::load(&Source::new("recipe.yaml", text.to_vec())?)?;
+/// let job = CorrectionJob {
+///     recipe: &recipe,
+///     setup: &Setup::default(),
+///     print: None,
+///     policy: &FindingPolicy::default(),
+///     dialect: None,
+///     watch: &SilentWatcher,
+/// };
+/// let outcome = job.correct_source(&Source::new("part.cls", b"FEDRAT/MMPM,800.\nGOTO/0,0,0\n".to_vec())?)?;
+/// assert_eq!(outcome.program.to_bytes(), b"FEDRAT/MMPM,400.\nGOTO/0,0,0\n");
+/// // Nothing comes of a program with an error.
+/// assert!(job.correct_source(&Source::new("part.cls", b"GOTO/0,0,O\n".to_vec())?).is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct CorrectionJob<'r> {
     /// The recipe.
     pub recipe: &'r Recipe,

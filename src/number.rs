@@ -58,6 +58,14 @@ pub fn parse_plain_decimal(text: &[u8]) -> Option<(f64, usize)> {
 /// Reads the whole of `text` as a CL number.
 ///
 /// Returns `None` if it is not a number or is too large for `f64`.
+///
+/// ```
+/// use clsmith::number::parse_number;
+///
+/// assert_eq!(parse_number(b"-.5"), Some(-0.5));
+/// assert_eq!(parse_number(b"1.25D+1"), Some(12.5));
+/// assert_eq!(parse_number(b"12.5O00"), None);
+/// ```
 pub fn parse_number(text: &[u8]) -> Option<f64> {
     if let Some((value, length)) = parse_plain_decimal(text)
         && length == text.len()
@@ -76,6 +84,13 @@ pub fn parse_number(text: &[u8]) -> Option<f64> {
 }
 
 /// Returns the number of digits after the decimal point of a number's text.
+///
+/// ```
+/// use clsmith::number::count_decimals;
+///
+/// assert_eq!(count_decimals(b"12.5000"), 4);
+/// assert_eq!(count_decimals(b"120."), 0);
+/// ```
 pub fn count_decimals(text: &[u8]) -> usize {
     match text.iter().position(|&byte| byte == b'.') {
         Some(point) => text.iter().skip(point + 1).take_while(|byte| byte.is_ascii_digit()).count(),
@@ -95,6 +110,17 @@ pub enum ZeroStyle {
 }
 
 /// The requirements for a printed number.
+///
+/// ```
+/// use clsmith::number::{NumberFormat, ZeroStyle};
+///
+/// let nx = NumberFormat { decimals: 4, tolerance: 5e-5, zeros: ZeroStyle::Kept, point: true };
+/// assert_eq!(nx.format_number(600.0, -600.0), "600.0000");
+/// // An edit that four decimals would round away gets as many as it needs.
+/// assert_eq!(nx.format_number(10.00002, 0.00002), "10.00002");
+/// let solid_works = NumberFormat { zeros: ZeroStyle::Cut, ..nx };
+/// assert_eq!(solid_works.format_number(0.5, 0.0), ".5");
+/// ```
 #[derive(Debug, Clone, Copy)]
 pub struct NumberFormat {
     /// The least number of decimals; with [`ZeroStyle::Cut`], before zeros are cut.

@@ -9,6 +9,16 @@ use std::sync::{Arc, OnceLock};
 ///
 /// 32 bits are enough because [`Source::new`] refuses files of 4 GiB and more. They make a statement 8 bytes
 /// smaller.
+///
+/// ```
+/// use clsmith::source::{Source, Span};
+///
+/// let source = Source::new("part.cls", b"FEDRAT/MMPM,1200.0\n".to_vec())?;
+/// let fields = Span::new(7, 18);
+/// assert_eq!(source.slice(fields), b"MMPM,1200.0");
+/// assert_eq!(source.slice(fields.sub_span(5, 11)), b"1200.0");
+/// # Ok::<(), clsmith::source::SourceTooLarge>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord)]
 pub struct Span {
     /// The offset of the first byte.
@@ -52,6 +62,16 @@ impl fmt::Debug for Span {
 }
 
 /// A file that was read: its name and its bytes, which never change.
+///
+/// ```
+/// use clsmith::source::Source;
+///
+/// let source = Source::new("part.cls", b"RAPID\nGOTO/1,2,3\n".to_vec())?;
+/// assert_eq!(source.line_column(11), (2, 6));
+/// let line = source.line_span(2).expect("there are two lines");
+/// assert_eq!(source.slice(line), b"GOTO/1,2,3");
+/// # Ok::<(), clsmith::source::SourceTooLarge>(())
+/// ```
 pub struct Source {
     name: String,
     bytes: Vec<u8>,

@@ -16,6 +16,19 @@ use std::path::Path;
 use std::sync::mpsc;
 
 /// A batch that is ready to run.
+///
+/// ```
+/// use clsmith::batch::jobs_file::load_jobs;
+/// use clsmith::source::Source;
+/// use std::path::Path;
+///
+/// // A jobs file says which recipe which files get.
+/// let text = b"out: done\njobs:\n  - { recipe: slow.yaml, files: [\"programs/**/*.cls\"] }\n";
+/// let jobs = load_jobs(&Source::new("jobs.yaml", text.to_vec())?, Path::new("jobs.yaml"))?;
+/// assert_eq!(jobs.jobs.len(), 1);
+/// assert!(jobs.jobs[0].recipe.ends_with("slow.yaml"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct BatchRun<'a> {
     /// Which files.
     pub plan: &'a BatchPlan,

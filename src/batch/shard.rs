@@ -8,6 +8,15 @@ use std::str::FromStr;
 /// File k of the list sorted by name belongs to shard `k mod N`. So the parts are as many files, give or take one;
 /// neighbours, which are often alike, are spread; and every machine that sees the same files makes the same parts,
 /// whatever order its disk lists them in.
+///
+/// ```
+/// use clsmith::batch::Shard;
+///
+/// let second: Shard = "2/8".parse()?;
+/// assert_eq!((second.index(), second.count()), (2, 8));
+/// assert!("9/8".parse::<Shard>().is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Shard {
     index: u32,

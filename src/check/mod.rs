@@ -34,6 +34,18 @@ use std::sync::Arc;
 /// Reads a file and checks it: the program, and everything that reading and checking find, reading first.
 ///
 /// A file that is no CL data has the one finding that says so.
+///
+/// ```
+/// use clsmith::check::read_and_check;
+/// use clsmith::diagnostic::codes;
+/// use clsmith::source::Source;
+///
+/// // The tool cuts before any feed is programmed.
+/// let source = Source::new("part.cls", b"SPINDL/RPM,5000,CLW\nFROM/0,0,50\nGOTO/0,0,0\n".to_vec())?;
+/// let (_, findings) = read_and_check(&source, None);
+/// assert!(findings.iter().any(|found| found.code == codes::CUT_WITHOUT_FEED));
+/// # Ok::<(), clsmith::source::SourceTooLarge>(())
+/// ```
 pub fn read_and_check(source: &Arc<Source>, dialect: Option<Dialect>) -> (Program, Vec<Diagnostic>) {
     let ParsedProgram { program, mut diagnostics, refused } = parse::parse(source, dialect);
     if !refused {

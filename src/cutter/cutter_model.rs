@@ -7,6 +7,23 @@ use crate::cutter::{Meridian, Teeth};
 
 /// A cutter: its cutting part, the cylinders above the flutes, and its teeth. Lengths are in mm from the tip
 /// up the axis.
+///
+/// ```
+/// use clsmith::cutter::{CutterModel, Meridian, NonCuttingCylinder, NonCuttingKind, Teeth};
+///
+/// let mill = CutterModel {
+///     profile: Meridian::new(10.0, 0.5, 0.0, 0.0, 22.0)?,
+///     collars: vec![NonCuttingCylinder {
+///         kind: NonCuttingKind::Holder,
+///         radius_mm: 20.0,
+///         from_mm: 40.0,
+///         to_mm: 90.0,
+///     }],
+///     teeth: Teeth::evenly_spaced(4, 0.6),
+/// };
+/// assert_eq!((mill.radius_mm(), mill.flute_length_mm()), (5.0, 22.0));
+/// # Ok::<(), clsmith::cutter::MeridianError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct CutterModel {
     /// The meridian of the cutting part, with the tip at the origin.

@@ -13,6 +13,17 @@ use std::f64::consts::FRAC_PI_2;
 const SAME: f64 = 1e-6;
 
 /// The meridian of a cutter in mm, with the tip at the origin, r across the axis and z up the axis.
+///
+/// ```
+/// use clsmith::cutter::Meridian;
+///
+/// // A ball of 10 mm with flutes of 20 mm: diameter, corner radius, taper, tip angle, flute length.
+/// let ball = Meridian::new(10.0, 5.0, 0.0, 0.0, 20.0)?;
+/// assert!((ball.height_at_radius_mm(3.0) - 1.0).abs() < 1e-12);
+/// assert!((ball.radius_at_height_mm(12.0) - 5.0).abs() < 1e-12);
+/// assert!(Meridian::new(10.0, 6.0, 0.0, 0.0, 20.0).is_err());
+/// # Ok::<(), clsmith::cutter::MeridianError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Meridian {
     /// The radius at which the bottom ends. Its height there is `bottom_radius * tan(bottom_angle)`.

@@ -11,6 +11,16 @@ const MOST: usize = 1000;
 const SAME: f64 = 1e-9;
 
 /// The teeth of a cutter.
+///
+/// ```
+/// use clsmith::cutter::Teeth;
+///
+/// let even = Teeth::evenly_spaced(4, 38_f64.to_radians()).expect("four teeth");
+/// assert_eq!(even.count(), 4);
+/// let pitches = [80.0, 100.0, 80.0, 100.0].map(f64::to_radians).to_vec();
+/// let uneven = Teeth::unevenly_spaced(pitches, vec![0.0; 4], 0.0).expect("as many angles as offsets");
+/// assert!(even.is_even() && !uneven.is_even());
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Teeth {
     /// The angle in radians between each tooth and the one that cuts before it. The angles sum to a full

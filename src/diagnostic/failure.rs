@@ -7,6 +7,16 @@ use std::fmt;
 ///
 /// Every function that can end with findings or by an interruption returns `Result<T, Failure>`. An interruption
 /// is never a finding: it travels as [`Failure::Interrupted`] from where it is noticed up to the command.
+///
+/// ```
+/// use clsmith::diagnostic::{Diagnostic, Failure, codes};
+///
+/// let failure = Failure::from(Diagnostic::new(codes::BAD_NUMBER, "`3O` is not a number"));
+/// match failure {
+///     Failure::Found(findings) => assert_eq!(findings[0].code.id(), "CL0003"),
+///     Failure::Interrupted => unreachable!("nobody raised an interrupt"),
+/// }
+/// ```
 #[derive(Debug, Clone)]
 pub enum Failure {
     /// What stands in the way, in the order in which it was found; never empty. Findings of lower severity that

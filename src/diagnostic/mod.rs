@@ -46,6 +46,20 @@ pub struct DiagnosticLabel {
 }
 
 /// One finding, with its places. The first label is the primary one.
+///
+/// ```
+/// use clsmith::diagnostic::{Diagnostic, codes};
+/// use clsmith::source::{Source, Span};
+///
+/// let source = Source::new("part.cls", b"GOTO/1,2,3O\n".to_vec())?;
+/// let found = Diagnostic::new(codes::BAD_NUMBER, "`3O` is not a number")
+///     .with_label(&source, Span::new(9, 11), "a letter O?");
+/// assert!(found.is_error());
+/// assert_eq!(found.code.id(), "CL0003");
+/// let label = &found.labels[0];
+/// assert_eq!(label.source.line_column(label.span.start), (1, 10));
+/// # Ok::<(), clsmith::source::SourceTooLarge>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Diagnostic {
     /// Its entry in the catalogue.

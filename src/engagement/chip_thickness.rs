@@ -18,6 +18,17 @@ impl Teeth {
     /// a surface that retreats cuts no chip. `radial` is the part of the normal across the axis, from 0 to 1,
     /// by which radial offsets count. The thickness of the material is not known here and limits the chip in
     /// addition. Even teeth without runout cut exactly `advance_mm / count`.
+    ///
+    /// ```
+    /// use clsmith::cutter::Teeth;
+    ///
+    /// let even = Teeth::evenly_spaced(4, 0.0).expect("four teeth");
+    /// assert_eq!(even.max_chip_thickness_mm(0.4, 1.0), 0.1);
+    /// // Two teeth, one 0.02 mm further out: it takes that much more, and the other that much less.
+    /// let runout = Teeth::unevenly_spaced(vec![1.0, 1.0], vec![0.01, -0.01], 0.0).expect("two teeth");
+    /// assert!((runout.edge_chip_thickness_mm(0, 0.1, 1.0) - 0.07).abs() < 1e-12);
+    /// assert!((runout.edge_chip_thickness_mm(1, 0.1, 1.0) - 0.03).abs() < 1e-12);
+    /// ```
     pub fn max_chip_thickness_mm(&self, advance_mm: f64, radial: f64) -> f64 {
         match self.regularity() {
             ToothRegularity::Even => advance_mm.max(0.0) / self.count() as f64,
@@ -62,6 +73,14 @@ impl Teeth {
     /// long as one of them does. Runout alone never exceeds a target, since every tooth follows its own cut
     /// of the turn before. So the result is between `thickness_mm` and `thickness_mm` times the number of teeth. It
     /// is 0 for a target of 0 or less.
+    ///
+    /// ```
+    /// use clsmith::cutter::Teeth;
+    ///
+    /// let teeth = Teeth::with_eccentricity(vec![1.0; 3], 0.01, 0.0, 0.0).expect("three teeth");
+    /// let advance = teeth.max_advance_for_chip_mm(0.08, 1.0);
+    /// assert!((teeth.max_chip_thickness_mm(advance, 1.0) - 0.08).abs() < 1e-12);
+    /// ```
     pub fn max_advance_for_chip_mm(&self, thickness_mm: f64, radial: f64) -> f64 {
         let thickness = thickness_mm.max(0.0);
         match self.regularity() {

@@ -31,6 +31,36 @@ pub struct CuttingLoads {
 
 /// A cutter in a material, from which loads are computed. It is made once for each cutter and holds
 /// everything that does not depend on the engagement, the feed and the spindle speed.
+///
+/// ```
+/// use clsmith::cutter::{CutterModel, Meridian, Teeth};
+/// use clsmith::engagement::{CuttingCoefficients, CuttingLoads, LoadModel, PathPiece, Simulation};
+/// use clsmith::program::geometry::Pose;
+/// use clsmith::program::record::SpindleDirection;
+/// use clsmith::stock::{SolidBody, Stock};
+/// use nalgebra::{Point3, Vector3};
+///
+/// let profile = Meridian::new(10.0, 0.0, 0.0, 0.0, 20.0)?;
+/// let teeth = Teeth::evenly_spaced(4, 0.5).expect("four teeth");
+/// let steel =
+///     CuttingCoefficients { k_tc: 1900.0, k_te: 25.0, k_rc: 600.0, k_re: 30.0, k_ac: 0.0, k_ae: 0.0 };
+/// let model = LoadModel::new(&profile, &teeth, steel, SpindleDirection::Clockwise);
+///
+/// let block = SolidBody::Block { from: [0.0, -20.0, -10.0], to: [60.0, 20.0, 0.0] };
+/// let stock = Stock::new(vec![block], 0.0)?.to_dexels(0.5, 1_000_000)?;
+/// let at = |x: f64| Pose { point: Point3::new(x, 0.0, -2.0), axis: Vector3::z() };
+/// let slot = PathPiece { from: at(-6.0), to: at(30.0), cutter: 0 };
+/// let mill = CutterModel { profile, collars: Vec::new(), teeth: Some(teeth) };
+/// let engagement = Simulation::new(stock, true).sweep_pieces(&[slot], &[mill]).remove(0);
+///
+/// let loads = model.cutting_loads(&engagement, 1000.0, 5000.0);
+/// assert!(loads.force_n > 100.0 && loads.power_kw > 0.1);
+/// // The feed at which the torque is half of that.
+/// let half = 0.5 * loads.torque_nm;
+/// let limits = CuttingLoads { force_n: f64::INFINITY, torque_nm: half, power_kw: f64::INFINITY };
+/// assert!(model.feed_for_load_mm_min(&engagement, 5000.0, limits) < 500.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct LoadModel {
     teeth: Teeth,

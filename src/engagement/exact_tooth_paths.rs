@@ -78,6 +78,27 @@ const SETTLED: f64 = 1e-9;
 /// because a tooth does not pass there at one moment. In a sloped motion, points within a revolution's travel
 /// of a sharp edge of the meridian are left out, because the inward normal there runs along the chip of the
 /// other side. A chip is searched over 1.2 times the turn's advance and the runout.
+///
+/// ```
+/// use clsmith::cutter::{Meridian, Teeth};
+/// use clsmith::engagement::{ToothMotion, ToothSampling, measure_exact_chips};
+/// use clsmith::program::record::SpindleDirection;
+/// use nalgebra::Point3;
+///
+/// let profile = Meridian::new(10.0, 0.0, 0.0, 0.0, 20.0)?;
+/// let teeth = Teeth::evenly_spaced(2, 0.0).expect("two teeth");
+/// let motion = ToothMotion {
+///     from: Point3::new(0.0, 0.0, 0.0),
+///     to: Point3::new(2.0, 0.0, 0.0),
+///     feed_mm_min: 1000.0,
+///     rpm: 5000.0,
+///     spindle: SpindleDirection::Clockwise,
+/// };
+/// let fineness = ToothSampling { looks: 120, points: 1, height_mm: 1.0, tolerance_mm: 1e-4 };
+/// let chips = measure_exact_chips(&profile, &teeth, &motion, fineness, |point| point.z < 2.0);
+/// assert!((chips.largest_mm - 0.1).abs() < 1e-3);
+/// # Ok::<(), clsmith::cutter::MeridianError>(())
+/// ```
 pub fn measure_exact_chips(
     profile: &Meridian,
     teeth: &Teeth,

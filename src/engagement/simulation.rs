@@ -14,6 +14,32 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 
 /// The stock, and the state that carries over from one piece of path to the next.
+///
+/// ```
+/// use clsmith::cutter::{CutterModel, Meridian, Teeth};
+/// use clsmith::engagement::{PathPiece, Simulation};
+/// use clsmith::program::geometry::Pose;
+/// use clsmith::stock::{SolidBody, Stock};
+/// use nalgebra::{Point3, Vector3};
+///
+/// let block = SolidBody::Block { from: [0.0, -20.0, -10.0], to: [60.0, 20.0, 0.0] };
+/// let stock = Stock::new(vec![block], 0.0)?.to_dexels(0.5, 1_000_000)?;
+/// let teeth = Teeth::evenly_spaced(4, 0.0).expect("four teeth");
+/// let mill = CutterModel {
+///     profile: Meridian::new(10.0, 0.0, 0.0, 0.0, 20.0)?,
+///     collars: Vec::new(),
+///     teeth: Some(teeth.clone()),
+/// };
+/// let at = |x: f64| Pose { point: Point3::new(x, 0.0, -2.0), axis: Vector3::z() };
+/// let slot = PathPiece { from: at(-6.0), to: at(30.0), cutter: 0 };
+///
+/// let mut simulation = Simulation::new(stock, false);
+/// let engagement = &simulation.sweep_pieces(&[slot], &[mill])[0];
+/// assert!((engagement.axial_depth_mm() - 2.0).abs() < 1e-3);
+/// // A full slot at 1000 mm/min and 5000 rev/min: 0.2 mm a turn for four teeth.
+/// assert!((engagement.chip_thickness_mm(&teeth, 1000.0, 5000.0) - 0.05).abs() < 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct Simulation {
     stock: Dexels,

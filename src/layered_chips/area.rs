@@ -13,6 +13,16 @@ pub use grid_area::{GridArea, GridBox};
 
 /// A connected area: an outer boundary and the holes in it. Points are x, y in mm. The outer boundary goes
 /// counter-clockwise and holes go clockwise; no boundary repeats its first point.
+///
+/// ```
+/// use clsmith::layered_chips::Polygon;
+///
+/// let frame = Polygon {
+///     outer: vec![[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]],
+///     holes: vec![vec![[1.0, 1.0], [1.0, 3.0], [3.0, 3.0], [3.0, 1.0]]],
+/// };
+/// assert!((frame.area_mm2() - 12.0).abs() < 1e-12);
+/// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Polygon {
     /// The outer boundary.

@@ -58,6 +58,29 @@ impl Chip {
 ///
 /// Layers do not depend on each other and are processed in parallel; the result is the same for any number of
 /// threads.
+///
+/// ```
+/// use clsmith::engagement::PathPiece;
+/// use clsmith::layered_chips::{FlatMill, LayerStack, cut_chips};
+/// use clsmith::program::geometry::Pose;
+/// use clsmith::stock::{SolidBody, Stock};
+/// use nalgebra::{Point3, Vector3};
+///
+/// let block = SolidBody::Block { from: [0.0, -20.0, -10.0], to: [60.0, 20.0, 0.0] };
+/// let mut stack = LayerStack::new(&Stock::new(vec![block], 0.0)?, 0.5)?;
+/// let mill = FlatMill { radius_mm: 5.0, flute_length_mm: 20.0 };
+/// let at = |x: f64| Pose { point: Point3::new(x, 0.0, -2.0), axis: Vector3::z() };
+/// // The cutter makes its way to the middle; then it advances by 0.1 mm.
+/// let pieces = [
+///     PathPiece { from: at(-6.0), to: at(30.0), cutter: 0 },
+///     PathPiece { from: at(30.0), to: at(30.1), cutter: 0 },
+/// ];
+/// let chips = cut_chips(&mut stack, &[mill], &pieces, 1e-4);
+/// let chip = chips[1].as_ref().expect("an upright mill that moves");
+/// // The crescent's area is diameter times advance; it is 2 mm thick.
+/// assert!((chip.volume_mm3() - 10.0 * 0.1 * 2.0).abs() < 1e-2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn cut_chips(
     stack: &mut LayerStack,
     mills: &[FlatMill],

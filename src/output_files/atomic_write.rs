@@ -22,6 +22,19 @@ const LEFTOVER_AGE: Duration = Duration::from_secs(60);
 /// is replaced. A target that is not a file (a pipe, `/dev/stdout`) has no old content to protect and is
 /// written directly.
 ///
+/// ```
+/// use clsmith::output_files::write_atomically;
+///
+/// let path = std::env::temp_dir().join(format!("clsmith-example-{}.cls", std::process::id()));
+/// write_atomically(&path, |out| out.write_all(b"GOTO/1,2,3\n"))?;
+/// // A write that fails leaves what was there.
+/// let failed = write_atomically(&path, |_| Err(std::io::Error::other("no more data")));
+/// assert!(failed.is_err());
+/// assert_eq!(std::fs::read(&path)?, b"GOTO/1,2,3\n");
+/// std::fs::remove_file(&path)?;
+/// # Ok::<(), std::io::Error>(())
+/// ```
+///
 /// # Errors
 /// Returns the errors of `write` and of the operating system. The target is then unchanged, and the temporary
 /// file is removed. A write-protected target is refused, although a rename could replace it.

@@ -10,6 +10,15 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// so the temporary file is removed by its destructor, as after any other error. So no handler needs a list
 /// of files to delete. A process that is killed outright leaves one `.clsmith-*.tmp` file behind, but never
 /// half an output.
+///
+/// ```
+/// use clsmith::output_files::Interrupt;
+///
+/// let interrupt = Interrupt::new();
+/// let handler = interrupt.clone();
+/// std::thread::spawn(move || handler.raise()).join().expect("the thread ends");
+/// assert!(interrupt.is_raised());
+/// ```
 #[derive(Debug, Clone, Default)]
 pub struct Interrupt(Arc<AtomicBool>);
 

@@ -2,6 +2,14 @@
 //!
 //! A parameter of type [`Positive`] needs no check in the transform that uses it. The check happens while the YAML is read,
 //! so the error points at the number itself; the JSON schema tells editors the same range.
+//!
+//! ```
+//! use clsmith::parameters::{Factor, NonNegative, Positive};
+//!
+//! assert_eq!(Positive::new(0.5).map(Positive::get), Some(0.5));
+//! assert_eq!(Positive::new(0.0), None);
+//! assert!(NonNegative::new(0.0).is_some() && Factor::new(f64::NAN).is_none());
+//! ```
 
 mod file_path;
 mod name_patterns;

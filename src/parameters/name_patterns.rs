@@ -9,6 +9,14 @@ use std::fmt;
 
 /// A name with wildcards: `*` is any text, `?` any character, `[AB]` one of them, `{A,B}` either text, `\` takes the next
 /// character as it is. Upper and lower case differ. Outside ASCII, use `*` rather than `?`: globset counts bytes there.
+///
+/// ```
+/// use clsmith::parameters::Glob;
+///
+/// let roughing = Glob::new("ROUGH*")?;
+/// assert!(roughing.matches_name("ROUGH_2") && !roughing.matches_name("FINISH"));
+/// # Ok::<(), clsmith::parameters::GlobError>(())
+/// ```
 #[derive(Clone)]
 pub struct Glob {
     text: String,

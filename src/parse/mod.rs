@@ -32,6 +32,19 @@ pub struct ParsedProgram {
 ///
 /// No statement is refused: one that cannot be read is kept and reported. A file that is not CL data at all
 /// (an APT part program, UTF-16 text) is kept as one statement with one finding.
+///
+/// ```
+/// use clsmith::parse::parse;
+/// use clsmith::source::Source;
+///
+/// let source = Source::new("part.cls", b"GOTO/1,2,3\nGOTO/4,,6)\n".to_vec())?;
+/// let parsed = parse(&source, None);
+/// assert!(!parsed.refused);
+/// // What is wrong is reported where it stands, and it is kept byte for byte all the same.
+/// assert_eq!(source.line_column(parsed.diagnostics[0].labels[0].span.start), (2, 10));
+/// assert_eq!(parsed.program.to_bytes(), source.bytes());
+/// # Ok::<(), clsmith::source::SourceTooLarge>(())
+/// ```
 pub fn parse(source: &Arc<Source>, dialect: Option<Dialect>) -> ParsedProgram {
     let bytes = source.bytes();
     let mut reader = StatementReader {
@@ -81,6 +94,13 @@ pub fn parse(source: &Arc<Source>, dialect: Option<Dialect>) -> ParsedProgram {
 }
 
 /// Returns all numbers of a statement with their places in its text, in the order of the text.
+///
+/// ```
+/// use clsmith::parse::statement_numbers;
+///
+/// let numbers = statement_numbers(b"FEDRAT/MMPM,1200.0000\n");
+/// assert_eq!(numbers, [(12..21, 1200.0)]);
+/// ```
 pub fn statement_numbers(text: &[u8]) -> Vec<(Range<usize>, f64)> {
     shortcut::plain_goto_numbers(text).unwrap_or_else(|| split_statement(text).0.numbers())
 }

@@ -6,6 +6,13 @@ use super::syntax::{StatementKind, StatementSyntax};
 use std::fmt;
 
 /// A dialect of CL text. The names are those of `--dialect` and of reports.
+///
+/// ```
+/// use clsmith::program::Dialect;
+///
+/// assert_eq!(Dialect::from_name("nx"), Some(Dialect::Nx));
+/// assert_eq!(Dialect::ALL.map(Dialect::name).len(), 9);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Dialect {
     /// Siemens NX CLSF.

@@ -31,6 +31,17 @@ pub enum MotionPath {
 }
 
 /// An arc from `start`, right-hand about `axis`. It is a helix if `rise` is not zero.
+///
+/// ```
+/// use clsmith::program::geometry::CircularArc;
+/// use nalgebra::{Point3, Vector3};
+/// use std::f64::consts::PI;
+///
+/// let (start, end) = (Point3::new(10.0, 0.0, 0.0), Point3::new(-10.0, 0.0, 0.0));
+/// let half = CircularArc::from_endpoints(start, end, Point3::origin(), Vector3::z_axis(), 0);
+/// assert!((half.length() - 10.0 * PI).abs() < 1e-9);
+/// assert!((half.point_at(0.5) - Point3::new(0.0, 10.0, 0.0)).norm() < 1e-9);
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct CircularArc {
     /// The start of the arc.

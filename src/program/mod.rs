@@ -42,6 +42,20 @@ use statement::TextLocation;
 use std::sync::Arc;
 
 /// A CL program.
+///
+/// ```
+/// use clsmith::parse::parse;
+/// use clsmith::program::{Dialect, LengthUnit};
+/// use clsmith::source::Source;
+///
+/// let text = b"TOOL PATH/A,TOOL,T1\nFEDRAT/MMPM,1200.\nGOTO/1.,2.,3.\nEND-OF-PATH\n";
+/// let source = Source::new("part.cls", text.to_vec())?;
+/// let program = parse(&source, None).program;
+/// assert_eq!(program.dialect(), Dialect::Nx);
+/// assert_eq!(program.feed_length_unit(), Some(LengthUnit::Mm));
+/// assert_eq!(program.to_bytes(), source.bytes());
+/// # Ok::<(), clsmith::source::SourceTooLarge>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Program {
     source: Arc<Source>,

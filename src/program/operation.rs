@@ -27,6 +27,20 @@ impl Operation {
 }
 
 /// Finds the operations of a program, in order and without gaps. There is always at least one.
+///
+/// ```
+/// use clsmith::parse::parse;
+/// use clsmith::program::operation::find_operations;
+/// use clsmith::source::Source;
+///
+/// let text = b"TOOL PATH/ROUGH,TOOL,T1\nGOTO/0,0,0\nEND-OF-PATH\n\
+///     TOOL PATH/FINISH,TOOL,T2\nGOTO/1,0,0\nEND-OF-PATH\n";
+/// let program = parse(&Source::new("part.cls", text.to_vec())?, None).program;
+/// let operations = find_operations(&program);
+/// let names: Vec<&str> = operations.iter().map(|operation| operation.name.as_str()).collect();
+/// assert!(names.ends_with(&["ROUGH", "FINISH"]));
+/// # Ok::<(), clsmith::source::SourceTooLarge>(())
+/// ```
 pub fn find_operations(program: &Program) -> Vec<Operation> {
     let mut found: Vec<Operation> = Vec::new();
     for (id, statement) in program.live_statements() {

@@ -14,6 +14,23 @@ use std::cmp::Ordering;
 use std::hash::{Hash, Hasher};
 
 /// The name of one statement of a program. Ids are ordered as the statements are.
+///
+/// ```
+/// use clsmith::parse::parse;
+/// use clsmith::program::Record;
+/// use clsmith::source::Source;
+///
+/// let source = Source::new("part.cls", b"RAPID\nGOTO/1,2,3\n".to_vec())?;
+/// let program = parse(&source, None).program;
+/// let rapid = program
+///     .live_statements()
+///     .find(|(_, statement)| matches!(statement.record(), Record::Rapid))
+///     .map(|(id, _)| id)
+///     .expect("there is a RAPID");
+/// let next = program.next_live_statement(rapid).expect("a GOTO follows");
+/// assert_eq!(program.statement_text(program.statement(next)), b"GOTO/1,2,3\n");
+/// # Ok::<(), clsmith::source::SourceTooLarge>(())
+/// ```
 #[derive(Debug, Clone, Copy)]
 pub struct StatementId {
     index: u32,

@@ -61,6 +61,22 @@ impl Program {
 
     /// Returns the changes of each step, in the order in which the steps ran. Edits after the last counted
     /// step count for the step that signed them.
+    ///
+    /// ```
+    /// use clsmith::parse::parse;
+    /// use clsmith::program::{RecordKind, StepId};
+    /// use clsmith::source::Source;
+    /// use clsmith::write::ProgramEditor;
+    ///
+    /// let source = Source::new("part.cls", b"FEDRAT/MMPM,500.\nGOTO/1,2,3\n".to_vec())?;
+    /// let program = parse(&source, None).program;
+    /// let feed = program.statement_ids().next().expect("there are statements");
+    /// let mut editor = ProgramEditor::new(program, StepId(0));
+    /// editor.set_numbers(feed, &[(0, 250.0)])?;
+    /// let program = editor.finish()?;
+    /// assert_eq!(program.step_edits()[0].edited.get(&RecordKind::Feed), Some(&1));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn step_edits(&self) -> Vec<StepEdits> {
         let mut all = self.step_edits.closed.clone();
         let signed = self.statements.iter().filter_map(|statement| statement.edited_by()).max();

@@ -29,6 +29,12 @@ impl std::fmt::Display for LengthUnit {
 
 impl LengthUnit {
     /// Returns the millimetres in one unit.
+    ///
+    /// ```
+    /// use clsmith::program::LengthUnit;
+    ///
+    /// assert_eq!(2.0 * LengthUnit::Inch.mm_per_unit(), 50.8);
+    /// ```
     pub fn mm_per_unit(self) -> f64 {
         match self {
             Self::Mm => 1.0,
@@ -102,6 +108,16 @@ impl FeedUnit {
 }
 
 /// A feed in force: its value and its unit, if the file gives one.
+///
+/// ```
+/// use clsmith::program::{Feed, FeedUnit, LengthUnit};
+///
+/// let per_turn = Feed { value: 0.2, unit: Some(FeedUnit::MmPerRevolution) };
+/// let feed = per_turn.mm_per_minute(LengthUnit::Mm, Some(5000.0), None);
+/// assert_eq!(feed, Some(1000.0));
+/// // A feed per revolution means nothing without a spindle speed.
+/// assert_eq!(per_turn.mm_per_minute(LengthUnit::Mm, None, None), None);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Feed {
     /// The programmed value, in `unit`.

@@ -46,6 +46,22 @@ struct CommentLine {
 /// Adds the comments that the recipe asks for to what its steps made of a program. Without a print, the header tells the
 /// recipe's name alone.
 ///
+/// ```
+/// use clsmith::parse::parse;
+/// use clsmith::provenance::add_comments;
+/// use clsmith::setup::Setup;
+/// use clsmith::source::Source;
+/// use clsmith::transform::{Recipe, run_recipe};
+///
+/// let text = b"version: 1\nprovenance: comments\nsteps:\n  - scale_feed: { factor: 0.5 }\n";
+/// let recipe = Recipe::load(&Source::new("recipe.yaml", text.to_vec())?)?;
+/// let part = Source::new("part.cls", b"FEDRAT/MMPM,1200.\nGOTO/0,0,0\n".to_vec())?;
+/// let program = run_recipe(&recipe, &Setup::default(), parse(&part, None).program)?.program;
+/// let text = String::from_utf8(add_comments(program, &recipe, None)?.to_bytes())?;
+/// assert!(text.contains("$$ clsmith scale_feed: 1200. -> 600.\nFEDRAT/MMPM,600.\n"), "{text}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// When a comment would not read back as one; that is a fault of clsmith.
 pub fn add_comments(

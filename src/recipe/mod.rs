@@ -29,6 +29,23 @@ use std::sync::{Arc, OnceLock};
 /// A recipe that was read and checked.
 ///
 /// `S` is a serde enum with one variant per transform, tagged externally: `- scale_feed: { factor: 0.8 }`.
+///
+/// ```
+/// use clsmith::source::Source;
+/// use clsmith::transform::Recipe;
+///
+/// let text = b"version: 1\nsteps:\n  - scale_feed: { factor: 0.8 }\n";
+/// let recipe = Recipe::load(&Source::new("recipe.yaml", text.to_vec())?)?;
+/// assert_eq!(recipe.step_names(), ["scale_feed"]);
+///
+/// // A fault stands at its place, with what to do about it.
+/// let text = b"version: 1\nsteps:\n  - scale_fed: { factor: 0.8 }\n";
+/// let wrong = Source::new("recipe.yaml", text.to_vec())?;
+/// let findings = Recipe::load(&wrong).expect_err("there is no such step").into_findings();
+/// assert_eq!(wrong.slice(findings[0].labels[0].span), b"scale_fed");
+/// assert!(findings[0].help.as_ref().is_some_and(|help| help.contains("scale_feed")));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct Recipe<S> {
     /// The file it was read from, for diagnostics that point into it.

@@ -54,6 +54,29 @@ pub struct MotionFacts<'a> {
 
 impl MotionFilter {
     /// Whether a motion is meant. What is asked for but not known does not fit.
+    ///
+    /// ```
+    /// use clsmith::parameters::Glob;
+    /// use clsmith::program::MotionClass;
+    /// use clsmith::recipe::{MotionFacts, MotionFilter};
+    ///
+    /// let filter = MotionFilter {
+    ///     operations: Some(vec![Glob::new("POCKET*")?]),
+    ///     motions: Some(vec![MotionClass::Engage]),
+    ///     ..MotionFilter::default()
+    /// };
+    /// let mut facts = MotionFacts {
+    ///     operation: Some("POCKET_1"),
+    ///     tool_number: Some(3),
+    ///     tool_name: None,
+    ///     motion: Some(MotionClass::Engage),
+    ///     feed: Some(600.0),
+    /// };
+    /// assert!(filter.matches_motion(&facts));
+    /// facts.motion = Some(MotionClass::Cut);
+    /// assert!(!filter.matches_motion(&facts));
+    /// # Ok::<(), clsmith::parameters::GlobError>(())
+    /// ```
     pub fn matches_motion(&self, facts: &MotionFacts<'_>) -> bool {
         self.matches_operation(facts.operation)
             && self.matches_tool(facts.tool_number, facts.tool_name)

@@ -31,6 +31,14 @@ pub(super) struct RecipeText<S> {
 }
 
 /// JSON schema of a recipe with steps of type `S`, for editors.
+///
+/// ```
+/// use clsmith::recipe::recipe_schema;
+/// use clsmith::transform::Step;
+///
+/// let schema = recipe_schema::<Step>();
+/// assert!(schema["properties"]["steps"].is_object());
+/// ```
 pub fn recipe_schema<S: JsonSchema>() -> serde_json::Value {
     schemars::schema_for!(RecipeText<S>).to_value()
 }

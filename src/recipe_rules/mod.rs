@@ -16,6 +16,19 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A file of rules.
+///
+/// ```
+/// use clsmith::parse::parse;
+/// use clsmith::recipe_rules::{RecipeChoice, RecipeRuleFacts, RecipeRules};
+/// use clsmith::source::Source;
+///
+/// let rules = b"rules:\n  - when: { tool: [3] }\n    recipe: ball.yaml\notherwise: pass\n";
+/// let rules = RecipeRules::load(&Source::new("rules.yaml", rules.to_vec())?)?;
+/// let program = parse(&Source::new("part.cls", b"LOAD/TOOL,3\nGOTO/0,0,0\n".to_vec())?, None).program;
+/// let choice = rules.choose_recipe(&RecipeRuleFacts::from_program("part.cls", &program))?;
+/// assert!(matches!(choice, RecipeChoice::Recipe { recipe, .. } if recipe.ends_with("ball.yaml")));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct RecipeRules {
     source: Arc<Source>,

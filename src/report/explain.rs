@@ -6,6 +6,13 @@ use std::fmt::Write;
 const WIDTH: usize = 80;
 
 /// Everything the catalogue knows of a code, wrapped at 80 columns.
+///
+/// ```
+/// use clsmith::diagnostic::codes;
+/// use clsmith::report::explain::explain_code;
+///
+/// assert!(explain_code(codes::BAD_NUMBER).starts_with("CL0003"));
+/// ```
 pub fn explain_code(code: DiagnosticCode) -> String {
     let mut text = format!("{code}: {} ({})\n", code.meaning(), code.severity());
     for part in [code.explanation(), code.help()] {

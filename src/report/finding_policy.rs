@@ -12,6 +12,20 @@ use std::cmp::Ordering;
 use std::fmt;
 
 /// What the user wants of findings.
+///
+/// ```
+/// use clsmith::diagnostic::{Diagnostic, codes};
+/// use clsmith::report::finding_policy::FindingPolicy;
+///
+/// let policy = FindingPolicy::from_code_lists(["CL0120"], ["CL0125"], false)?;
+/// let told = policy.apply(vec![
+///     Diagnostic::new(codes::CUT_WITHOUT_FEED, "the tool cuts before any feed"),
+///     Diagnostic::new(codes::CUT_WITHOUT_SPINDLE, "the tool cuts while the spindle stands"),
+/// ]);
+/// assert_eq!(told.len(), 1);
+/// assert!(told[0].is_error());
+/// # Ok::<(), clsmith::report::finding_policy::FindingPolicyError>(())
+/// ```
 #[derive(Debug, Clone, Default)]
 pub struct FindingPolicy {
     /// Codes that are errors, whatever the catalogue says.

@@ -16,6 +16,13 @@ pub fn list_steps() -> String {
 }
 
 /// What a step does and what its parameters are. `None` when there is no such step.
+///
+/// ```
+/// use clsmith::report::step_descriptions::describe_step;
+///
+/// assert!(describe_step("scale_feed").is_some_and(|text| text.contains("factor")));
+/// assert_eq!(describe_step("scale_fed"), None);
+/// ```
 pub fn describe_step(name: &str) -> Option<String> {
     let schema = step_schema(name)?;
     let mut text = format!("{name}\n\n{}\n\nParameters:\n", wrap_paragraphs(&schema_description(&schema), 0));

@@ -14,6 +14,16 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// A work material.
+///
+/// ```
+/// use clsmith::setup::WorkMaterial;
+/// use clsmith::source::Source;
+///
+/// let text = b"name: AlCu4Mg1\nk_tc: 796\nk_te: 27.7\n";
+/// let material = WorkMaterial::load(&Source::new("alcu4mg1.yaml", text.to_vec())?)?;
+/// assert_eq!(material.coefficients.k_tc, 796.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct WorkMaterial {
     /// What it is called.

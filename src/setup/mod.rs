@@ -26,6 +26,22 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// The setup of a job. Lengths in millimetres, whatever the unit of the file it came from.
+///
+/// ```
+/// use clsmith::setup::Setup;
+/// use clsmith::source::Source;
+///
+/// let text = b"machine: { max_feed: 8000 }\ntools: [ { match: { number: 3 }, diameter: 10, teeth: 4 } ]\n";
+/// let setup = Setup::load(&Source::new("shop.yaml", text.to_vec())?)?;
+/// assert_eq!(setup.machine.max_feed.map(|feed| feed.get()), Some(8000.0));
+/// assert_eq!(setup.tools[0].diameter_mm, Some(10.0));
+///
+/// // A fault is told where it stands.
+/// let typo = Source::new("shop.yaml", b"machine: { max_fed: 8000 }\n".to_vec())?;
+/// let findings = Setup::load(&typo).expect_err("there is no such key").into_findings();
+/// assert_eq!(typo.slice(findings[0].labels[0].span), b"max_fed");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Setup {
     /// The machine.

@@ -54,6 +54,30 @@ impl Default for SimulationRunOptions {
 }
 
 /// A program that is ready to be machined.
+///
+/// ```
+/// use clsmith::parse::parse;
+/// use clsmith::program::LengthUnit;
+/// use clsmith::setup::Setup;
+/// use clsmith::simulation_run::{Machining, SilentWatcher, SimulationRunOptions};
+/// use clsmith::source::Source;
+///
+/// let shop = b"stock: { block: { from: [0, -20, -10], to: [60, 20, 0] } }\n\
+///     tools: [ { match: {}, diameter: 10, flute_length: 20, teeth: 4 } ]\n";
+/// let setup = Setup::load(&Source::new("shop.yaml", shop.to_vec())?)?;
+/// let part = b"LOAD/TOOL,3\nSPINDL/RPM,5000,CLW\nRAPID\nGOTO/-10,0,-2\nFEDRAT/MMPM,1000.\nGOTO/30,0,-2\n";
+/// let program = parse(&Source::new("part.cls", part.to_vec())?, None).program;
+///
+/// let mut assumptions = Vec::new();
+/// let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut assumptions)?;
+/// let options = SimulationRunOptions { cell_mm: Some(0.5), ..SimulationRunOptions::default() };
+/// let mut removed_mm3 = 0.0;
+/// let result = machining.simulate_program(&options, &SilentWatcher, &mut |motion| {
+///     removed_mm3 += motion.whole_engagement().map_or(0.0, |engagement| engagement.removed_mm3);
+/// })?;
+/// assert!((result.before_mm3 - result.left.volume_mm3() - removed_mm3).abs() < 1.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct Machining<'p> {
     program: &'p Program,

@@ -6,6 +6,18 @@ use rayon::prelude::*;
 use std::sync::Arc;
 
 /// The union of some bodies, all grown by the same allowance.
+///
+/// ```
+/// use clsmith::stock::{SolidBody, Stock};
+///
+/// let block = SolidBody::Block { from: [0.0, 0.0, -20.0], to: [100.0, 50.0, 0.0] };
+/// let boss = SolidBody::Cylinder { diameter: 20.0, from: [50.0, 25.0, 0.0], to: [50.0, 25.0, 10.0] };
+/// let stock = Stock::new(vec![block, boss], 0.0)?;
+/// let columns = stock.to_dexels(1.0, 100_000)?;
+/// assert!(columns.contains([50.0, 25.0, 5.0]) && !columns.contains([10.0, 25.0, 5.0]));
+/// assert_eq!(columns.highest_z_mm(), Some(10.0));
+/// # Ok::<(), clsmith::stock::StockError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stock {
     bodies: Vec<SolidBody>,

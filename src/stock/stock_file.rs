@@ -65,6 +65,20 @@ pub enum StockFileError {
 
 /// Writes remaining stock as a `.clstock` file.
 ///
+/// ```
+/// use clsmith::stock::stock_file::{read_clstock, write_clstock};
+/// use clsmith::stock::{SolidBody, Stock};
+///
+/// let block = SolidBody::Block { from: [0.0, 0.0, 0.0], to: [10.0, 10.0, 5.0] };
+/// let columns = Stock::new(vec![block], 0.0)?.to_dexels(1.0, 1000)?;
+/// let mut file = Vec::new();
+/// write_clstock(&columns, &mut file)?;
+/// assert_eq!(read_clstock(&file)?.volume_mm3(), columns.volume_mm3());
+/// file[40] ^= 1;
+/// assert!(read_clstock(&file).is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// Returns the errors of `out`, and an error if a row has more columns than the format can count (2^32).
 pub fn write_clstock(dexels: &Dexels, out: &mut dyn Write) -> io::Result<()> {

@@ -10,6 +10,19 @@ use rayon::prelude::*;
 const ROUNDING: f32 = 1e-4;
 
 /// The difference between remaining stock and a target part.
+///
+/// ```
+/// use clsmith::stock::{SolidBody, Stock, TargetDeviation};
+///
+/// let block = |top: f64| SolidBody::Block { from: [0.0, 0.0, 0.0], to: [10.0, 10.0, top] };
+/// let target = Stock::new(vec![block(5.0)], 0.0)?.to_dexels(1.0, 1000)?;
+/// let mut left = target.clone();
+/// left.set_column(3, 3, &[[0.0, 4.0]]);
+/// let found = TargetDeviation::measure_by_thickness(&left, &target, 0.01)?;
+/// assert_eq!((found.columns_gouged, found.columns_in_excess), (1, 0));
+/// assert!((found.gouge_mm3 - 1.0).abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TargetDeviation {
     /// The volume of the target's material that is missing, mm3.

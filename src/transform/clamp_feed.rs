@@ -31,6 +31,23 @@ pub struct ClampFeed {
     pub r#where: MotionFilter,
 }
 
+/// This step lets no feed below 100 and none above 6000, in the unit that [`run_steps`](super::run_steps)
+/// is told.
+///
+/// ```
+/// use clsmith::parameters::Positive;
+/// use clsmith::parse::parse;
+/// use clsmith::program::LengthUnit;
+/// use clsmith::setup::Setup;
+/// use clsmith::source::Source;
+/// use clsmith::transform::{ClampFeed, run_steps};
+///
+/// let step = ClampFeed { min: Positive::new(100.0), max: Positive::new(6000.0), ..ClampFeed::default() };
+/// let program = parse(&Source::new("part.cls", b"FEDRAT/MMPM,9000.\nGOTO/0,0,0\n".to_vec())?, None).program;
+/// let outcome = run_steps(&[&step], LengthUnit::Mm, &Setup::default(), program)?;
+/// assert_eq!(outcome.program.to_bytes(), b"FEDRAT/MMPM,6000.\nGOTO/0,0,0\n");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 impl Transform for ClampFeed {
     fn measures(&self) -> bool {
         true

@@ -20,6 +20,22 @@ pub struct RecipeOutcome {
 
 /// Applies the steps in order.
 ///
+/// ```
+/// use clsmith::parse::parse;
+/// use clsmith::setup::Setup;
+/// use clsmith::source::Source;
+/// use clsmith::transform::{Recipe, run_recipe};
+///
+/// let recipe = b"version: 1\nsteps:\n  - scale_feed: { factor: 0.5 }\n  - clamp_feed: { min: 300 }\n";
+/// let recipe = Recipe::load(&Source::new("recipe.yaml", recipe.to_vec())?)?;
+/// let part = b"FEDRAT/MMPM,1000.\nGOTO/0,0,0\nFEDRAT/MMPM,400.\nGOTO/9,0,0\n";
+/// let program = parse(&Source::new("part.cls", part.to_vec())?, None).program;
+/// let outcome = run_recipe(&recipe, &Setup::default(), program)?;
+/// let text = outcome.program.to_bytes();
+/// assert_eq!(text, b"FEDRAT/MMPM,500.\nGOTO/0,0,0\nFEDRAT/MMPM,300.\nGOTO/9,0,0\n");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// What stopped a step, after the findings of the steps before it; [`Failure::Interrupted`] when somebody stopped it.
 pub fn run_recipe(recipe: &Recipe, setup: &Setup, program: Program) -> Result<RecipeOutcome, Failure> {
@@ -48,6 +64,22 @@ pub fn run_recipe_watched(
 /// Applies transforms that were built in Rust, in order. `units` is the unit of lengths among their parameters.
 ///
 /// Findings about a parameter have no place then, for there is no recipe that they could point into.
+///
+/// ```
+/// use clsmith::parameters::{Factor, Positive};
+/// use clsmith::parse::parse;
+/// use clsmith::program::LengthUnit;
+/// use clsmith::setup::Setup;
+/// use clsmith::source::Source;
+/// use clsmith::transform::{ClampFeed, ScaleFeed, run_steps};
+///
+/// let slower = ScaleFeed::new(Factor::new(0.5).expect("0.5 is above 0"));
+/// let limited = ClampFeed { max: Positive::new(400.0), ..ClampFeed::default() };
+/// let program = parse(&Source::new("part.cls", b"FEDRAT/MMPM,1000.\nGOTO/0,0,0\n".to_vec())?, None).program;
+/// let outcome = run_steps(&[&slower, &limited], LengthUnit::Mm, &Setup::default(), program)?;
+/// assert_eq!(outcome.program.to_bytes(), b"FEDRAT/MMPM,400.\nGOTO/0,0,0\n");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 /// As [`run_recipe`].

@@ -34,6 +34,28 @@ impl ScaleFeed {
     }
 }
 
+/// This step halves the feed where the tool enters the material.
+///
+/// ```
+/// use clsmith::parameters::Factor;
+/// use clsmith::parse::parse;
+/// use clsmith::program::{LengthUnit, MotionClass};
+/// use clsmith::recipe::MotionFilter;
+/// use clsmith::setup::Setup;
+/// use clsmith::source::Source;
+/// use clsmith::transform::{ScaleFeed, run_steps};
+///
+/// let part = b"TOOL PATH/A,TOOL,T\nFEDRAT/MMPM,800.\n\
+///     PAINT/COLOR,42\nGOTO/0,0,0\nPAINT/COLOR,31\nGOTO/9,0,0\n";
+/// let program = parse(&Source::new("part.cls", part.to_vec())?, None).program;
+/// let engages = MotionFilter { motions: Some(vec![MotionClass::Engage]), ..MotionFilter::default() };
+/// let step = ScaleFeed { r#where: engages, ..ScaleFeed::new(Factor::new(0.5).expect("0.5 is above 0")) };
+/// let text = run_steps(&[&step], LengthUnit::Mm, &Setup::default(), program)?.program.to_bytes();
+/// let text = String::from_utf8(text)?;
+/// assert!(text.contains("FEDRAT/MMPM,400.\nPAINT/COLOR,42\nGOTO/0,0,0\n"), "{text}");
+/// assert!(text.contains("FEDRAT/MMPM,800.\nGOTO/9,0,0\n"), "{text}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 impl Transform for ScaleFeed {
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
         let factor = self.factor.get();

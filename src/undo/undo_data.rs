@@ -10,6 +10,33 @@ use serde_json::Value;
 use std::sync::Arc;
 
 /// What undo has to know of a run.
+///
+/// ```
+/// use clsmith::fingerprint::RecipeFingerprint;
+/// use clsmith::parse::parse;
+/// use clsmith::report::changes::RecipeChanges;
+/// use clsmith::setup::Setup;
+/// use clsmith::source::Source;
+/// use clsmith::transform::{Recipe, run_recipe};
+/// use clsmith::undo::{RunReport, UndoData};
+///
+/// let text = Source::new("recipe.yaml", b"version: 1\nsteps:\n  - scale_feed: { factor: 0.5 }\n".to_vec())?;
+/// let recipe = Recipe::load(&text)?;
+/// let print = RecipeFingerprint::read_files(&[text], &recipe, &Setup::default())?;
+/// let part = Source::new("part.cls", b"FEDRAT/MMPM,1200.\nGOTO/0,0,0\n".to_vec())?;
+/// let before = parse(&part, None).program;
+/// let after = run_recipe(&recipe, &Setup::default(), before.clone())?.program;
+///
+/// let changes = RecipeChanges::from_programs(&before, &after, &recipe.step_names(), Some(recipe.units));
+/// let mut report = Vec::new();
+/// RunReport::from_program(&after, None, &print, recipe.provenance, &changes).write_json(&mut report)?;
+///
+/// let report = Source::new("out.json", report)?;
+/// let corrected = Source::new("out.cls", after.to_bytes())?;
+/// let original = UndoData::read_report(&report)?.restore_original(&corrected, &report)?;
+/// assert_eq!(original.bytes, part.bytes());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, Deserialize)]
 pub struct UndoData {
     /// The file as it came.

@@ -19,6 +19,24 @@ pub struct UndoEdit {
 }
 
 /// All places that differ, from the first to the last; what touches is one place.
+///
+/// ```
+/// use clsmith::parse::parse;
+/// use clsmith::program::StepId;
+/// use clsmith::source::Source;
+/// use clsmith::undo::UndoPatch;
+/// use clsmith::write::ProgramEditor;
+///
+/// let source = Source::new("part.cls", b"FEDRAT/MMPM,1200.\nGOTO/0,0,0\n".to_vec())?;
+/// let program = parse(&source, None).program;
+/// let feed = program.statement_ids().next().expect("there are statements");
+/// let mut editor = ProgramEditor::new(program, StepId(0));
+/// editor.set_numbers(feed, &[(0, 600.0)])?;
+/// let corrected = editor.finish()?;
+/// let patch = UndoPatch::from_program(&corrected);
+/// assert_eq!(patch.restore_bytes(&corrected.to_bytes()).as_deref(), Some(source.bytes()));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, serde::Deserialize)]
 #[serde(transparent)]
 pub struct UndoPatch(pub Vec<UndoEdit>);

@@ -19,6 +19,24 @@ use std::ops::Range;
 /// [`ProgramEditor::finish`]: a deleted statement keeps its id, and inserted statements join the program only in
 /// `finish`. An edit of a statement that this step or an earlier one has deleted is an error
 /// ([`codes::NO_SUCH_STATEMENT`]). So is an edit at a place that the program does not have.
+///
+/// ```
+/// use clsmith::parse::parse;
+/// use clsmith::program::{Record, StepId};
+/// use clsmith::source::Source;
+/// use clsmith::write::ProgramEditor;
+///
+/// let source = Source::new("part.cls", b"RAPID\r\nGOTO/ 1., 2., 3.\r\nCOOLNT/ON\r\n".to_vec())?;
+/// let program = parse(&source, None).program;
+/// let goto = program.live_statements().find(|(_, statement)| matches!(statement.record(), Record::Goto(_)));
+/// let (goto, _) = goto.expect("there is a GOTO");
+/// let mut editor = ProgramEditor::new(program, StepId(0));
+/// editor.set_numbers(goto, &[(2, 3.25)])?;
+/// editor.insert_after(goto, b"DELAY/2")?;
+/// let program = editor.finish()?;
+/// assert_eq!(program.to_bytes(), b"RAPID\r\nGOTO/ 1., 2., 3.25\r\nDELAY/2\r\nCOOLNT/ON\r\n");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct ProgramEditor {
     program: Program,
@@ -220,6 +238,20 @@ impl ProgramEditor {
 }
 
 /// Returns the syntax of a statement's text, for transforms that examine words.
+///
+/// ```
+/// use clsmith::parse::parse;
+/// use clsmith::source::Source;
+/// use clsmith::write::statement_syntax;
+///
+/// let program = parse(&Source::new("part.cls", b"SPINDL/RPM,4500,CLW\n".to_vec())?, None).program;
+/// let spindle = program.statement_ids().next().expect("there is a statement");
+/// let syntax = statement_syntax(&program, spindle);
+/// assert_eq!(syntax.major_word(), "SPINDL");
+/// assert_eq!(syntax.word_at(2).as_deref(), Some("CLW"));
+/// assert_eq!(syntax.number_at(1), Some(4500.0));
+/// # Ok::<(), clsmith::source::SourceTooLarge>(())
+/// ```
 pub fn statement_syntax(program: &Program, id: StatementId) -> StatementSyntax<'_> {
     parse::syntax(program.statement_text(program.statement(id)))
 }

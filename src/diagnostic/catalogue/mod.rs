@@ -132,6 +132,14 @@ pub const CATALOGUE: &[&[DiagnosticCode]] = &[
 ];
 
 /// Looks a code up by its id, in any case.
+///
+/// ```
+/// use clsmith::diagnostic::{Severity, find_code};
+///
+/// let code = find_code("CL0003").expect("the code is in the catalogue");
+/// assert_eq!(code.severity(), Severity::Error);
+/// assert_eq!(find_code("CL9999"), None);
+/// ```
 pub fn find_code(id: &str) -> Option<DiagnosticCode> {
     CATALOGUE.iter().flat_map(|rows| rows.iter()).copied().find(|code| code.id().eq_ignore_ascii_case(id))
 }

@@ -81,6 +81,21 @@ impl Motion {
 
 impl Program {
     /// Returns the motions in order.
+    ///
+    /// ```
+    /// use clsmith::parse::parse;
+    /// use clsmith::program::MotionClass;
+    /// use clsmith::source::Source;
+    ///
+    /// let text = b"FROM/0,0,50\nRAPID\nGOTO/0,0,2\nFEDRAT/MMPM,300.\nGOTO/0,0,-1\nGOTO/30,0,-1\n";
+    /// let program = parse(&Source::new("part.cls", text.to_vec())?, None).program;
+    /// let moves: Vec<_> = program.motions().filter(|motion| motion.length() > 0.0).collect();
+    /// let lengths: Vec<f64> = moves.iter().map(|motion| motion.length()).collect();
+    /// assert_eq!(lengths, [48.0, 3.0, 30.0]);
+    /// assert_eq!(moves[0].class, MotionClass::Rapid);
+    /// assert_eq!(moves[2].feed.map(|feed| feed.value), Some(300.0));
+    /// # Ok::<(), clsmith::source::SourceTooLarge>(())
+    /// ```
     pub fn motions(&self) -> Motions<'_> {
         Motions::new(self)
     }

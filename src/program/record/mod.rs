@@ -28,6 +28,18 @@ use std::ops::Range;
 
 /// The meaning of a statement. A file has one for each of its statements, so rare records are boxed and a
 /// test holds the size.
+///
+/// ```
+/// use clsmith::parse::parse;
+/// use clsmith::program::Record;
+/// use clsmith::source::Source;
+///
+/// let program = parse(&Source::new("part.cls", b"LOAD/TOOL,3\nGOTO/1,2,3\n".to_vec())?, None).program;
+/// let records: Vec<&Record> = program.statements().iter().map(|statement| statement.record()).collect();
+/// assert!(matches!(records[0], Record::ToolCall(call) if call.number == 3));
+/// assert!(matches!(records[1], Record::Goto(goto) if goto.point.z == 3.0));
+/// # Ok::<(), clsmith::source::SourceTooLarge>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub enum Record {
     /// The UTF-8 byte order mark before the first statement.

@@ -16,6 +16,24 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// What a recipe made of a program.
+///
+/// ```
+/// use clsmith::parameters::Factor;
+/// use clsmith::parse::parse;
+/// use clsmith::program::LengthUnit;
+/// use clsmith::report::changes::RecipeChanges;
+/// use clsmith::setup::Setup;
+/// use clsmith::source::Source;
+/// use clsmith::transform::{ScaleFeed, run_steps};
+///
+/// let part = b"FROM/0,0,0\nFEDRAT/MMPM,600.\nGOTO/100,0,0\n";
+/// let before = parse(&Source::new("part.cls", part.to_vec())?, None).program;
+/// let step = ScaleFeed::new(Factor::new(2.0).expect("2 is above 0"));
+/// let after = run_steps(&[&step], LengthUnit::Mm, &Setup::default(), before.clone())?.program;
+/// let changes = RecipeChanges::from_programs(&before, &after, &["scale_feed"], None);
+/// assert_eq!((changes.steps[0].edited.len(), changes.untouched), (1, 2));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RecipeChanges {
     /// Version of the JSON structure: 1.

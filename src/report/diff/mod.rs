@@ -26,6 +26,22 @@ use std::collections::BTreeMap;
 pub const MOST_LISTED: usize = 500;
 
 /// What differs between two programs.
+///
+/// ```
+/// use clsmith::parse::parse;
+/// use clsmith::report::diff::ProgramDiff;
+/// use clsmith::source::Source;
+///
+/// let read = |text: &str| -> Result<_, clsmith::source::SourceTooLarge> {
+///     Ok(parse(&Source::new("part.cls", text.as_bytes().to_vec())?, None).program)
+/// };
+/// let (before, layout) = (read("GOTO/1.0,2.0,3.0\n")?, read("GOTO/1,2,3.000\n")?);
+/// let diff = ProgramDiff::from_programs(&before, &layout);
+/// assert!(!diff.identical && diff.same_meaning);
+/// let diff = ProgramDiff::from_programs(&before, &read("GOTO/1.0,2.0,3.5\n")?);
+/// assert_eq!(diff.largest_move, Some(0.5));
+/// # Ok::<(), clsmith::source::SourceTooLarge>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ProgramDiff {
     /// Version of the JSON structure: 1.

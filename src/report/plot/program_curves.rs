@@ -114,6 +114,26 @@ pub struct PlottedProgram<'a> {
 
 /// Draws quantities of programs as SVG, a panel each. With several programs, all but the last are grey and stand behind it.
 ///
+/// ```
+/// use clsmith::parse::parse;
+/// use clsmith::program::LengthUnit;
+/// use clsmith::report::plot::{PlotAbscissa, PlotQuantity, PlottedProgram, draw_programs};
+/// use clsmith::source::Source;
+///
+/// let part = b"FROM/0,0,0\nFEDRAT/MMPM,600.\nGOTO/100,0,0\nFEDRAT/MMPM,900.\nGOTO/200,0,0\n";
+/// let program = parse(&Source::new("part.cls", part.to_vec())?, None).program;
+/// let plotted = PlottedProgram {
+///     name: "part.cls",
+///     program: &program,
+///     units: LengthUnit::Mm,
+///     rapid_feed_mm_min: None,
+///     simulated: None,
+/// };
+/// let svg = draw_programs(&[plotted], &[PlotQuantity::Feed, PlotQuantity::Z], PlotAbscissa::Time)?;
+/// assert!(svg.starts_with("<svg") && svg.contains("feed, mm/min"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// What the drawing library returns, which for a drawing in memory is nothing.
 pub fn draw_programs(

@@ -34,6 +34,21 @@ impl Default for HumanRenderOptions {
 ///
 /// `file` is the run's file, which the summary names.
 ///
+/// ```
+/// use clsmith::check::read_and_check;
+/// use clsmith::report::render::human::{HumanRenderOptions, render_human};
+/// use clsmith::source::Source;
+///
+/// let source = Source::new("part.cls", b"RAPID\nGOTO/10.000,12.5O00,-4.0000\n".to_vec())?;
+/// let (_, findings) = read_and_check(&source, None);
+/// let mut text = Vec::new();
+/// render_human(&mut text, &findings, Some("part.cls"), &HumanRenderOptions::default())?;
+/// let text = String::from_utf8(text)?;
+/// assert!(text.contains("`12.5O00` is not a number"), "{text}");
+/// assert!(text.contains("part.cls:2:13"), "{text}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// What the writer returns.
 pub fn render_human(

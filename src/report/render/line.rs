@@ -10,6 +10,18 @@ use std::io::{self, Write};
 /// The place is the first label's. Columns count bytes from 1. Line breaks in messages become blanks, so a line is a
 /// finding; `file` names the run's file for findings that have no place of their own.
 ///
+/// ```
+/// use clsmith::parse::parse;
+/// use clsmith::report::render::line::render_lines;
+/// use clsmith::source::Source;
+///
+/// let source = Source::new("part.cls", b"GOTO/1,2,3O\n".to_vec())?;
+/// let mut text = Vec::new();
+/// render_lines(&mut text, &parse(&source, None).diagnostics, None)?;
+/// assert!(text.starts_with(b"part.cls:1:10: CL0003"), "{}", String::from_utf8_lossy(&text));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// What the writer returns.
 pub fn render_lines(out: &mut dyn Write, diagnostics: &[Diagnostic], file: Option<&str>) -> io::Result<()> {

@@ -32,6 +32,30 @@ use motion_row::motion_columns;
 use serde::{Serialize, Serializer};
 
 /// A program that was simulated.
+///
+/// ```
+/// use clsmith::parse::parse;
+/// use clsmith::program::LengthUnit;
+/// use clsmith::report::simulation::{SimulationReport, write_csv};
+/// use clsmith::setup::Setup;
+/// use clsmith::simulation_run::{Machining, SilentWatcher, SimulationRunOptions};
+/// use clsmith::source::Source;
+///
+/// let shop = b"stock: { block: { from: [0, -20, -10], to: [60, 20, 0] } }\n\
+///     tools: [ { match: {}, diameter: 10, flute_length: 20, teeth: 4 } ]\n";
+/// let setup = Setup::load(&Source::new("shop.yaml", shop.to_vec())?)?;
+/// let part = b"LOAD/TOOL,3\nSPINDL/RPM,5000,CLW\nRAPID\nGOTO/-10,0,-2\nFEDRAT/MMPM,1000.\nGOTO/30,0,-2\n";
+/// let program = parse(&Source::new("part.cls", part.to_vec())?, None).program;
+/// let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new())?;
+/// let options = SimulationRunOptions { cell_mm: Some(0.5), ..SimulationRunOptions::default() };
+/// let report = SimulationReport::simulate_program(&machining, &options, &SilentWatcher)?;
+/// let slot = report.motions.rows.last().expect("there is a row for each motion");
+/// assert!(slot.chip_thickness_mm.is_some_and(|chip| (chip - 0.05).abs() < 1e-3));
+/// let mut table = Vec::new();
+/// write_csv(&report, &mut table)?;
+/// assert!(String::from_utf8(table)?.lines().next().is_some_and(|head| head.contains("chip_thickness")));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Serialize)]
 pub struct SimulationReport {
     /// Version of the JSON structure: 1.

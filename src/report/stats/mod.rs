@@ -24,6 +24,20 @@ use crate::setup::Setup;
 use serde::Serialize;
 
 /// The statistics of a program.
+///
+/// ```
+/// use clsmith::parse::parse;
+/// use clsmith::report::stats::{ProgramStats, to_text};
+/// use clsmith::setup::Setup;
+/// use clsmith::source::Source;
+///
+/// let part = b"FROM/0,0,0\nFEDRAT/MMPM,600.\nGOTO/100,0,0\nGOTO/100,50,0\n";
+/// let program = parse(&Source::new("part.cls", part.to_vec())?, None).program;
+/// let stats = ProgramStats::from_program(&program, &Setup::default());
+/// assert_eq!(stats.totals.feed_length, 150.0);
+/// assert!(to_text(&stats).contains("150"));
+/// # Ok::<(), clsmith::source::SourceTooLarge>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ProgramStats {
     /// Version of the JSON structure: 1.

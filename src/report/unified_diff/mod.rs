@@ -64,6 +64,23 @@ pub fn write_unified_diff(
 }
 
 /// The diff as bytes, for callers that keep it.
+///
+/// ```
+/// use clsmith::parameters::Factor;
+/// use clsmith::parse::parse;
+/// use clsmith::program::LengthUnit;
+/// use clsmith::report::unified_diff::{UnifiedDiffOptions, to_bytes};
+/// use clsmith::setup::Setup;
+/// use clsmith::source::Source;
+/// use clsmith::transform::{ScaleFeed, run_steps};
+///
+/// let program = parse(&Source::new("part.cls", b"FEDRAT/MMPM,600.\nGOTO/1,0,0\n".to_vec())?, None).program;
+/// let step = ScaleFeed::new(Factor::new(0.5).expect("0.5 is above 0"));
+/// let program = run_steps(&[&step], LengthUnit::Mm, &Setup::default(), program)?.program;
+/// let diff = String::from_utf8(to_bytes(&program, &UnifiedDiffOptions::default()))?;
+/// assert!(diff.contains("-FEDRAT/MMPM,600.\n+FEDRAT/MMPM,300.\n"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn to_bytes(program: &Program, options: &UnifiedDiffOptions) -> Vec<u8> {
     let mut out = Vec::new();
     // Writing to memory cannot fail.

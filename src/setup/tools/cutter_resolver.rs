@@ -49,6 +49,25 @@ impl Setup {
     ///
     /// Worth calling once for each distinct tool, not for each motion.
     ///
+    /// ```
+    /// use clsmith::parse::parse;
+    /// use clsmith::program::LengthUnit;
+    /// use clsmith::setup::Setup;
+    /// use clsmith::source::Source;
+    ///
+    /// let shop = b"tools: [ { match: { number: 3 }, flute_length: 25, teeth: 2, helix: 30 } ]\n";
+    /// let setup = Setup::load(&Source::new("shop.yaml", shop.to_vec())?)?;
+    /// let part = b"TLDATA/MILL,8.0000,4.0000,75.0000,0.0000,0.0000\nLOAD/TOOL,3\nGOTO/0,0,0\n";
+    /// let program = parse(&Source::new("part.cls", part.to_vec())?, None).program;
+    /// let motion = program.motions().next().expect("there is a GOTO");
+    /// let tool = motion.tool.expect("a tool is loaded");
+    /// // The program says the diameter and the ball, the setup file flutes and teeth.
+    /// let resolved = setup.resolve_cutter(&tool, LengthUnit::Mm).expect("nothing is missing");
+    /// assert_eq!(resolved.cutter.profile.corner_radius_mm(), 4.0);
+    /// assert_eq!(resolved.cutter.teeth.map(|teeth| teeth.count()), Some(2));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// [`ToolDataFault`] when the diameter is unknown, the numbers make no cutter, or it is no milling cutter.
     pub fn resolve_cutter(

@@ -32,6 +32,31 @@ impl Machining<'_> {
     /// Runs the program in layers, up to the last line that is asked for. `sink` gets every motion in order
     /// with its chips.
     ///
+    /// ```
+    /// use clsmith::parse::parse;
+    /// use clsmith::program::LengthUnit;
+    /// use clsmith::setup::Setup;
+    /// use clsmith::simulation_run::layer_run::LayerRunOptions;
+    /// use clsmith::simulation_run::{Machining, SilentWatcher};
+    /// use clsmith::source::Source;
+    ///
+    /// let shop = b"stock: { block: { from: [0, -20, -10], to: [60, 20, 0] } }\n\
+    ///     tools: [ { match: {}, diameter: 10, flute_length: 20, teeth: 4 } ]\n";
+    /// let setup = Setup::load(&Source::new("shop.yaml", shop.to_vec())?)?;
+    /// let part = b"LOAD/TOOL,3\nSPINDL/RPM,5000,CLW\nRAPID\nGOTO/-10,0,-2\n\
+    ///     FEDRAT/MMPM,1000.\nGOTO/20,0,-2\n";
+    /// let program = parse(&Source::new("part.cls", part.to_vec())?, None).program;
+    /// let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new())?;
+    /// let mut volume_mm3 = 0.0;
+    /// machining.simulate_layers(&LayerRunOptions::new(0.5), &SilentWatcher, &mut |motion| {
+    ///     volume_mm3 += motion.volume_mm3();
+    /// })?;
+    /// // A slot of 20 mm that ends in a half circle, 10 mm wide and 2 mm deep.
+    /// let exact = 2.0 * (10.0 * 20.0 + std::f64::consts::PI * 25.0 / 2.0);
+    /// assert!((volume_mm3 - exact).abs() < 0.1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// Returns [`codes::LAYERS`] if the stock cannot be divided in such layers, and
     /// [`Failure::Interrupted`] if `watch` stopped the run.

@@ -10,6 +10,19 @@ use crate::stock::axis_box::{AxisBox, FARTHEST};
 /// A closed triangle mesh in mm. A point is inside where the winding number of the surface is not zero: so
 /// nested or overlapping shells are one solid, and a shell that is turned inside out within another one is a
 /// hollow.
+///
+/// ```
+/// use clsmith::stock::{Mesh, MeshError};
+///
+/// let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+/// let faces = vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+/// let tetrahedron = Mesh::new(corners.clone(), faces)?;
+/// assert!((tetrahedron.volume_mm3() - 36.0).abs() < 1e-9);
+/// // A face is missing.
+/// let open = Mesh::new(corners, vec![[0, 2, 1], [0, 1, 3], [0, 3, 2]]);
+/// assert!(matches!(open, Err(MeshError::Open { edges: 3, .. })));
+/// # Ok::<(), clsmith::stock::MeshError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
     vertices: Vec<[f64; 3]>,

@@ -26,6 +26,20 @@ use facet_contact::{Facet, HighestTouch};
 use facet_tree::{FacetTreeNode, NodeChildren};
 
 /// A cutter and a mesh that is sorted so that a height takes microseconds.
+///
+/// ```
+/// use clsmith::stock::Mesh;
+/// use clsmith::surface::drop_cutter::{DropCutter, DropCutterShape};
+///
+/// // A slope of 45 degrees: the lower face of a tetrahedron does not matter to a cutter from above.
+/// let corners = vec![[0.0, 0.0, 0.0], [40.0, 0.0, 0.0], [0.0, 40.0, 0.0], [0.0, 40.0, 40.0]];
+/// let wedge = Mesh::new(corners, vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])?;
+/// let cutter = DropCutter::new(&wedge, DropCutterShape::ball(6.0)?);
+/// let there = cutter.drop_at(10.0, 15.0).expect("the wedge is below");
+/// assert!(there.contact_mm[2] > 0.0 && there.tip_z_mm < there.contact_mm[2]);
+/// assert!(cutter.drop_at(100.0, 100.0).is_none());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct DropCutter {
     cutter: DropCutterShape,

@@ -103,6 +103,19 @@ impl VerticalMeshSections {
 
 /// Returns the topmost line of a mesh in one vertical plane; see [`VerticalMeshSections::section_at`], which
 /// is faster for several planes.
+///
+/// ```
+/// use clsmith::stock::Mesh;
+/// use clsmith::surface::mesh_section::section_mesh;
+///
+/// let corners = vec![[0.0, 0.0, 0.0], [8.0, 0.0, 0.0], [0.0, 8.0, 0.0], [0.0, 0.0, 8.0]];
+/// let tetrahedron = Mesh::new(corners, vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])?;
+/// // The vertical plane along x at y = 2.
+/// let lines = section_mesh(&tetrahedron, 0.0, 2.0);
+/// let highest = lines.iter().flatten().map(|[_, z]| *z).fold(f64::MIN, f64::max);
+/// assert!((highest - 6.0).abs() < 1e-9);
+/// # Ok::<(), clsmith::stock::MeshError>(())
+/// ```
 pub fn section_mesh(mesh: &Mesh, angle_rad: f64, offset_mm: f64) -> Vec<Vec<[f64; 2]>> {
     VerticalMeshSections::new(mesh, angle_rad).section_at(offset_mm)
 }

@@ -46,6 +46,18 @@ pub enum BallCompensationError {
 /// The cost is O(n) for profiles that never turn back in u, else O(n log n). The source is Dragoi 2009,
 /// section 3, with the loops of the offset removed.
 ///
+/// ```
+/// use clsmith::surface::profile::{Chain, Point, check_tip_path, compensate_profile};
+///
+/// let profile = Chain::from_points(&[Point::new(0.0, 0.0), Point::new(10.0, 0.0), Point::new(20.0, 10.0)])?;
+/// let tip = compensate_profile(&profile, 2.0)?;
+/// let measured = check_tip_path(&profile, &tip, 2.0, 0.01);
+/// assert!(measured.gouge_mm < 1e-9);
+/// // Driven as it is, the profile itself would let the ball cut into the slope.
+/// assert!(check_tip_path(&profile, &profile, 2.0, 0.01).gouge_mm > 0.5);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// Returns a [`BallCompensationError`] if the radius is not from [`SMALLEST_BALL`] to [`LARGEST`].
 pub fn compensate_profile(profile: &Chain, radius_mm: f64) -> Result<Chain, BallCompensationError> {

@@ -37,6 +37,18 @@ struct TouchedPart {
 /// Walls are touched by the side of the ball where it goes up or down beside them. The remaining thickness is
 /// measured at the ends of pieces, and at the middle and the quarters of arcs.
 ///
+/// ```
+/// use clsmith::surface::profile::{Chain, Point, find_unreachable_parts};
+///
+/// let groove = [[0.0, 0.0], [10.0, 0.0], [11.0, -5.0], [12.0, 0.0], [22.0, 0.0]];
+/// let groove = Chain::from_points(&groove.map(|[u, z]| Point::new(u, z)))?;
+/// // A ball of 3 mm radius does not reach the ground of a groove that is 2 mm wide.
+/// let parts = find_unreachable_parts(&groove, 3.0, 0.01)?;
+/// assert_eq!(parts.len(), 1);
+/// assert!(parts[0].left_mm > 1.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// Returns a [`BallCompensationError`] in the same cases as
 /// [`compensate_profile`](super::compensate_profile).

@@ -10,6 +10,28 @@ use crate::program::Program;
 use crate::program::motion::Motion;
 use crate::transform::{MotionSelection, StepContext, Transform};
 
+/// This pass stands on the part itself; the step lifts a ball of 10 mm onto it.
+///
+/// ```
+/// use clsmith::parameters::Positive;
+/// use clsmith::parse::parse;
+/// use clsmith::program::LengthUnit;
+/// use clsmith::setup::Setup;
+/// use clsmith::source::Source;
+/// use clsmith::transform::compensate_z::CompensateZReport;
+/// use clsmith::transform::{CompensateZ, run_steps};
+///
+/// // A pass along a slope that goes on level, programmed on the part itself.
+/// let part = b"TOOL PATH/FINISH,TOOL,B10\nRAPID\nGOTO/0.0000,0.0000,30.0000\n\
+///     FEDRAT/MMPM,500.0000\nPAINT/COLOR,31\nGOTO/0.0000,0.0000,10.0000\n\
+///     GOTO/10.0000,0.0000,0.0000\nGOTO/30.0000,0.0000,0.0000\nEND-OF-PATH\n";
+/// let program = parse(&Source::new("part.cls", part.to_vec())?, None).program;
+/// let step = CompensateZ { radius: Positive::new(5.0), ..CompensateZ::default() };
+/// let outcome = run_steps(&[&step], LengthUnit::Mm, &Setup::default(), program)?;
+/// let report = outcome.reports[0].downcast_ref::<CompensateZReport>().expect("the step reports its passes");
+/// assert!(report.passes.iter().all(|pass| pass.gouge_mm < 0.005));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 impl Transform for CompensateZ {
     fn measures(&self) -> bool {
         true

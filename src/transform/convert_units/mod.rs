@@ -40,6 +40,23 @@ impl ConvertUnits {
     }
 }
 
+/// This step makes a program in inches of one in millimetres.
+///
+/// ```
+/// use clsmith::parse::parse;
+/// use clsmith::program::LengthUnit;
+/// use clsmith::setup::Setup;
+/// use clsmith::source::Source;
+/// use clsmith::transform::{ConvertUnits, run_steps};
+///
+/// let part = b"UNITS/MM\nFEDRAT/MMPM,508.\nGOTO/25.4,0.,0.\n";
+/// let program = parse(&Source::new("part.cls", part.to_vec())?, None).program;
+/// let step = ConvertUnits::new(LengthUnit::Inch);
+/// let outcome = run_steps(&[&step], LengthUnit::Mm, &Setup::default(), program)?;
+/// let text = String::from_utf8(outcome.program.to_bytes())?;
+/// assert!(text.contains("FEDRAT/IPM,20."), "{text}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 impl Transform for ConvertUnits {
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
         let stated = self.check_stated_unit(&program, context)?;

@@ -28,6 +28,36 @@ const ROUNDING: f64 = 2e-4;
 /// Where a ramp may begin above the depth of cut, mm (Zhou 2020: 2 to 3 mm).
 const CLEARANCE: f64 = 2.5;
 
+/// This ramp is too short for a face mill with inserts.
+///
+/// ```
+/// use clsmith::parameters::Positive;
+/// use clsmith::parse::parse;
+/// use clsmith::program::LengthUnit;
+/// use clsmith::setup::Setup;
+/// use clsmith::source::Source;
+/// use clsmith::transform::correct_ramp::{CorrectRampReport, RampRegionSpec, RampToolSpec};
+/// use clsmith::transform::{CorrectRamp, run_steps};
+///
+/// let part = b"TOOL PATH/WEB,TOOL,FM50\nSPINDL/RPM,3000,CLW\nRAPID\nGOTO/0.0000,0.0000,5.0000\n\
+///     FEDRAT/MMPM,500.0000\nPAINT/COLOR,42\nGOTO/20.0000,0.0000,-2.0000\n\
+///     PAINT/COLOR,31\nGOTO/80.0000,0.0000,-2.0000\nEND-OF-PATH\n";
+/// let program = parse(&Source::new("part.cls", part.to_vec())?, None).program;
+/// let step = CorrectRamp {
+///     tool: Some(RampToolSpec {
+///         diameter: Positive::new(50.0),
+///         insert_radius: Positive::new(6.0),
+///         insert_height: Positive::new(5.0),
+///     }),
+///     region: RampRegionSpec::None,
+///     ..CorrectRamp::default()
+/// };
+/// let outcome = run_steps(&[&step], LengthUnit::Mm, &Setup::default(), program)?;
+/// let report = outcome.reports[0].downcast_ref::<CorrectRampReport>().expect("the step reports its ramps");
+/// // A leg of 20 mm is too short for a cutter that does not cut within 38 mm.
+/// assert_eq!(report.ramps.len(), 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 impl Transform for CorrectRamp {
     fn measures(&self) -> bool {
         true

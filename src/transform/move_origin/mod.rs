@@ -59,6 +59,23 @@ pub enum MoveOriginTarget {
     Frame,
 }
 
+/// This step moves the path up by an inch.
+///
+/// ```
+/// use clsmith::parameters::Finite;
+/// use clsmith::parse::parse;
+/// use clsmith::program::LengthUnit;
+/// use clsmith::setup::Setup;
+/// use clsmith::source::Source;
+/// use clsmith::transform::{MoveOrigin, run_steps};
+///
+/// let up = [0.0, 0.0, 25.4].map(|value| Finite::new(value).expect("it is finite"));
+/// let step = MoveOrigin { translate: Some(up), ..MoveOrigin::default() };
+/// let program = parse(&Source::new("part.cls", b"GOTO/1.0000,2.0000,-4.0000\n".to_vec())?, None).program;
+/// let outcome = run_steps(&[&step], LengthUnit::Mm, &Setup::default(), program)?;
+/// assert_eq!(outcome.program.to_bytes(), b"GOTO/1.0000,2.0000,21.4000\n");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 impl Transform for MoveOrigin {
     /// Whether it says a length: a turn about the origin has none.
     fn measures(&self) -> bool {

@@ -18,6 +18,30 @@ use crate::transform::{MotionSelection, StepContext, Transform};
 /// where in a block the material is.
 const PIECE: f64 = 1.0;
 
+/// This step finds the feed at which the chips of a slot are 0.05 mm thick.
+///
+/// ```
+/// use clsmith::parameters::Positive;
+/// use clsmith::parse::parse;
+/// use clsmith::program::LengthUnit;
+/// use clsmith::setup::Setup;
+/// use clsmith::source::Source;
+/// use clsmith::transform::{OptimizeFeed, run_steps};
+///
+/// let shop = b"machine: { max_feed: 8000 }\nstock: { block: { from: [0, -20, -10], to: [60, 20, 0] } }\n\
+///     tools: [ { match: {}, diameter: 10, flute_length: 20, teeth: 4 } ]\n";
+/// let setup = Setup::load(&Source::new("shop.yaml", shop.to_vec())?)?;
+/// let part = b"LOAD/TOOL,3\nSPINDL/RPM,5000,CLW\nRAPID\nGOTO/-10.0000,0.0000,-2.0000\n\
+///     FEDRAT/MMPM,400.0000\nGOTO/40.0000,0.0000,-2.0000\n";
+/// let program = parse(&Source::new("part.cls", part.to_vec())?, None).program;
+/// let mut step = OptimizeFeed::new(Positive::new(0.05).expect("0.05 mm is above 0"));
+/// step.cell = Positive::new(0.5);
+/// let outcome = run_steps(&[&step], LengthUnit::Mm, &setup, program)?;
+/// // A full slot with a chip of 0.05 mm, four teeth and 5000 rev/min: about 1000 mm/min.
+/// let slot = outcome.program.motions().last().and_then(|motion| motion.feed).expect("there is a feed");
+/// assert!(slot.value > 900.0 && slot.value <= 1000.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 impl Transform for OptimizeFeed {
     fn measures(&self) -> bool {
         true

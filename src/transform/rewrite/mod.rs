@@ -65,6 +65,23 @@ pub struct Rewrite {
     pub rules: Vec<RewriteRule>,
 }
 
+/// This rule writes the arguments in the order that a post wants.
+///
+/// ```
+/// use clsmith::parse::parse;
+/// use clsmith::program::LengthUnit;
+/// use clsmith::setup::Setup;
+/// use clsmith::source::Source;
+/// use clsmith::transform::{Rewrite, RewriteRule, run_steps};
+///
+/// let rule = RewriteRule::replacing("SPINDL/RPM,$N,CLW", "SPINDL/$N,RPM,CLW").expect("both are statements");
+/// let source = Source::new("part.cls", b"SPINDL/RPM,5000,CLW\nGOTO/0,0,0\n".to_vec())?;
+/// let program = parse(&source, None).program;
+/// let step = Rewrite::new(vec![rule]);
+/// let outcome = run_steps(&[&step], LengthUnit::Mm, &Setup::default(), program)?;
+/// assert_eq!(outcome.program.to_bytes(), b"SPINDL/5000,RPM,CLW\nGOTO/0,0,0\n");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 impl Transform for Rewrite {
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
         let is_ascii = self.rules.iter().all(RewriteRule::is_ascii);

@@ -104,6 +104,25 @@ impl SetSpindle {
     }
 }
 
+/// This step takes four fifths of the speed and keeps the feed per tooth.
+///
+/// ```
+/// use clsmith::parameters::Factor;
+/// use clsmith::parse::parse;
+/// use clsmith::program::LengthUnit;
+/// use clsmith::setup::Setup;
+/// use clsmith::source::Source;
+/// use clsmith::transform::set_spindle::{SpindleFeedHandling, SpindleSpeedChange};
+/// use clsmith::transform::{SetSpindle, run_steps};
+///
+/// let part = b"SPINDL/RPM,5000,CLW\nFEDRAT/MMPM,1000.\nGOTO/0,0,0\n";
+/// let program = parse(&Source::new("part.cls", part.to_vec())?, None).program;
+/// let slower = SpindleSpeedChange::Scale(Factor::new(0.8).expect("0.8 is above 0"));
+/// let step = SetSpindle::new(slower, SpindleFeedHandling::Follow);
+/// let outcome = run_steps(&[&step], LengthUnit::Mm, &Setup::default(), program)?;
+/// assert_eq!(outcome.program.to_bytes(), b"SPINDL/RPM,4000,CLW\nFEDRAT/MMPM,800.\nGOTO/0,0,0\n");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 impl Transform for SetSpindle {
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
         let selected = SelectedStatements::select(&self.r#where, &program, "statement", context);

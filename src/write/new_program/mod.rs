@@ -83,6 +83,43 @@ struct ArcMove {
 
 /// Writes a draft as a program of a dialect of [`WRITABLE`], or of NX for any other dialect.
 ///
+/// ```
+/// use clsmith::program::{Dialect, LengthUnit, MotionClass};
+/// use clsmith::write::new_program::{DraftMove, DraftMoveKind, DraftTool, ProgramDraft, write_program};
+/// use nalgebra::Point3;
+///
+/// let draft = ProgramDraft {
+///     name: "PLATE".to_owned(),
+///     operation: "SLOT".to_owned(),
+///     tool: DraftTool {
+///         number: 3,
+///         name: "EM10".to_owned(),
+///         diameter: 10.0,
+///         corner_radius: 0.0,
+///         length: 75.0,
+///     },
+///     spindle: Some(5000.0),
+///     coolant: false,
+///     units: LengthUnit::Mm,
+///     tolerance: 0.01,
+///     moves: vec![
+///         DraftMove {
+///             to: Point3::new(0.0, 0.0, 5.0),
+///             way: DraftMoveKind::Rapid,
+///             class: MotionClass::Rapid,
+///         },
+///         DraftMove {
+///             to: Point3::new(40.0, 0.0, 5.0),
+///             way: DraftMoveKind::Line { feed: 800.0 },
+///             class: MotionClass::Cut,
+///         },
+///     ],
+/// };
+/// let text = String::from_utf8(write_program(&draft, Dialect::Nx)?)?;
+/// assert!(text.contains("FEDRAT/MMPM,800.0000\nGOTO/40.0000,0.0000,5.0000"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// Returns a [`ReadBackError`] if the text does not read back as the draft, because of numbers that the
 /// dialect cannot print or names that it cannot hold.

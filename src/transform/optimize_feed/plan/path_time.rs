@@ -26,6 +26,16 @@ pub(super) fn reachable_feed_mm_min(from: f64, acceleration: f64, length: f64) -
 /// before it, speeds up inside itself and slows down inside itself towards a lower one after it. Where feeds cannot be reached in time,
 /// the machine is taken to look ahead, as every control does. Ends of chains are passed at feed. Segments without length or feed
 /// take no time.
+///
+/// ```
+/// use clsmith::transform::optimize_feed::{TimedSegment, path_time_s};
+///
+/// let at = |feed: f64| TimedSegment { length: 100.0, feed, breaks_chain: false };
+/// let path = [at(3000.0), at(6000.0)];
+/// assert_eq!(path_time_s(&path, None), 3.0);
+/// // At 100 mm/s2 the second half speeds up from 50 to 100 mm/s over its first 37.5 mm.
+/// assert!((path_time_s(&path, Some(6000.0)) - 3.125).abs() < 1e-9);
+/// ```
 pub fn path_time_s(path: &[TimedSegment], acceleration: Option<f64>) -> f64 {
     let Some(acceleration) = acceleration.filter(|acceleration| *acceleration > 0.0) else {
         return path
