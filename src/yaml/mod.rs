@@ -1,7 +1,7 @@
 //! YAML files that people write by hand: read, checked against a type, every fault at its exact place.
 //!
-//! [`YamlDocument::read`] turns text into a tree or says why it is no YAML; [`YamlDocument::typed_document`] turns the tree into a type
-//! and reports all it finds, not only the first fault; [`YamlDocument::value_span`] says where a value stands, at any time later.
+//! [`YamlDocument::parse`] turns text into a tree or says why it is no YAML;
+//! [`YamlDocument::deserialize_checked`] turns the tree into a type and reports all it finds, not only the first fault; [`YamlDocument::value_span`] says where a value stands, at any time later.
 //! Recipes and setup files go through here; nothing here knows what is in them.
 
 mod fault_diagnostics;

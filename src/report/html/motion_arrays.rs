@@ -43,7 +43,7 @@ pub struct PageMotionArrays {
     pub feed: Vec<f32>,
     /// What the simulation told, by name.
     pub loads: Vec<(&'static str, Vec<f32>)>,
-    /// What became of each motion ([`super::change`]).
+    /// What became of each motion ([`super::motion_change`]).
     pub change: Vec<u8>,
     /// The motion before that each comes from, or [`NONE`].
     pub pair: Vec<u32>,

@@ -21,7 +21,8 @@ const FALLS: f64 = 5e-5;
 /// A descent of less than this (mm) is the rounding of a level.
 const LEAST_HEIGHT: f64 = 0.01;
 
-/// Least share ([`level_shares`]) of an unmarked operation, for its descents to be ramps.
+/// The least share of level cuts among an operation's level and rising ones ([`survey_operations`]): below it,
+/// descents that the file does not mark are no ramps.
 const LEAST_LEVEL_SHARE: f64 = 0.8;
 
 /// Axes whose components differ by less are one.

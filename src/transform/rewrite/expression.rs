@@ -155,7 +155,7 @@ impl Expression {
     /// Its truth for a statement.
     ///
     /// # Errors
-    /// As [`Expression::value`].
+    /// As [`Expression::evaluate`].
     pub fn evaluate_truth(&self, bindings: &Bindings<'_>) -> Result<bool, EvaluationError> {
         match self.evaluate(bindings)? {
             ExpressionValue::Truth(value) => Ok(value),

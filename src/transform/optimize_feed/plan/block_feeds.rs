@@ -29,7 +29,7 @@ pub struct BlockFeeds {
 }
 
 impl BlockFeeds {
-    /// The path at these feeds, for [`path_time_s`].
+    /// The path at these feeds, for [`path_time_s`](super::path_time_s).
     pub fn timed_segments(&self, blocks: &[FeedBlock]) -> Vec<TimedSegment> {
         let mut found = Vec::with_capacity(blocks.len());
         for (block, segments) in blocks.iter().zip(&self.segments) {
