@@ -17,6 +17,7 @@ mod machining;
 mod motion;
 mod parse;
 mod provenance;
+mod real_text;
 mod recipe;
 mod report;
 mod setup;

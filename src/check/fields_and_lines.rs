@@ -2,6 +2,7 @@
 
 use super::{Lint, LintFindings};
 use crate::diagnostic::{DiagnosticCode, codes};
+use crate::parse::columns::inspect_line;
 use crate::program::{Dialect, FieldKind, Record, Statement, StatementField, StatementId};
 use crate::source::Span;
 
@@ -151,7 +152,8 @@ fn report_long_lines(id: StatementId, text: &[u8], found: &mut LintFindings<'_>)
     let mut start = 0;
     for line in text.split_inclusive(|byte| *byte == b'\n') {
         let length = line.trim_ascii_end().len();
-        if length > COLUMNS {
+        // Processors know the identification and do not read it.
+        if length > COLUMNS && inspect_line(line).identification.is_none() {
             let span: Span = found.text_span(id, &(start + COLUMNS..start + length));
             let message = format!("this line has {length} columns");
             found.report(codes::LONG_LINE, span, message, "beyond column 72");

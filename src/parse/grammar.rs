@@ -1,13 +1,13 @@
 //! This module converts pest's pairs to our own [`StatementSyntax`]. It is the only module that knows pest.
 //!
-//! pest reads `str`, so every byte from 0x80 on is given to it as DEL. Offsets stay the same, and every code
-//! page is read alike.
+//! pest reads `str`, so it is given the text with some bytes masked (see [`super::columns`]). Offsets stay the
+//! same, and every code page is read alike.
 
+use super::columns::mask_for_grammar;
 use crate::number;
-use crate::program::{FieldGroup, FieldKind, StatementField, StatementKind, StatementSyntax};
+use crate::program::{FieldGroup, FieldKind, StatementField, StatementKind, StatementSyntax, join_broken};
 use pest::Parser;
 use pest::iterators::Pair;
-use std::borrow::Cow;
 
 /// The grammar of CL text, of which `grammar/cl.pest` is the only description.
 #[derive(pest_derive::Parser)]
@@ -28,7 +28,7 @@ pub fn parse_statement(window: &[u8]) -> StatementSyntax<'_> {
     if window.len() > LONGEST {
         return bare_syntax(window, StatementKind::Refused);
     }
-    let readable = mask_non_ascii(window);
+    let readable = mask_for_grammar(window);
     let Some(statement) =
         ClGrammar::parse(Rule::statement, &readable).ok().and_then(|mut pairs| pairs.next())
     else {
@@ -55,22 +55,12 @@ pub fn find_refusal_offset(text: &[u8]) -> usize {
     if text.len() > LONGEST {
         return 0;
     }
-    match ClGrammar::parse(Rule::words, &mask_non_ascii(text)) {
+    match ClGrammar::parse(Rule::words, &mask_for_grammar(text)) {
         Ok(_) => 0,
         Err(error) => match error.location {
             pest::error::InputLocation::Pos(at) => at,
             pest::error::InputLocation::Span((at, _)) => at,
         },
-    }
-}
-
-/// Replaces every byte from 0x80 on by DEL, since pest reads `str`.
-fn mask_non_ascii(window: &[u8]) -> Cow<'_, str> {
-    match std::str::from_utf8(window) {
-        Ok(text) if text.is_ascii() => Cow::Borrowed(text),
-        _ => Cow::Owned(
-            window.iter().map(|&byte| if byte.is_ascii() { char::from(byte) } else { '\u{7F}' }).collect(),
-        ),
     }
 }
 
@@ -111,15 +101,16 @@ fn parse_field(part: Pair<'_, Rule>) -> Option<StatementField> {
     let at = part.as_span().start()..part.as_span().end();
     let kind = match part.as_rule() {
         Rule::empty => FieldKind::Empty,
-        Rule::number => {
-            number::parse_number(part.as_str().as_bytes()).map_or(FieldKind::Text, FieldKind::Number)
-        }
+        Rule::number => number::parse_number(&join_broken(part.as_str().as_bytes()))
+            .map_or(FieldKind::Text, FieldKind::Number),
         Rule::quoted => FieldKind::Quoted,
         Rule::text
+        | Rule::bracketed
         | Rule::inner_text
         | Rule::text_line
         | Rule::listed
         | Rule::operation_name
+        | Rule::plain_name
         | Rule::tool_name => FieldKind::Text,
         Rule::group | Rule::group_2 | Rule::group_3 => FieldKind::Group(Box::new(parse_group(part))),
         _ => return None,

@@ -4,6 +4,8 @@
 //! pest keeps a line index of its whole input, so it gets one statement at a time. If the grammar reports
 //! that a statement continues past its window of lines, the window is doubled.
 
+pub mod columns;
+mod foreign_files;
 mod grammar;
 mod shortcut;
 
@@ -31,7 +33,7 @@ pub struct ParsedProgram {
 /// Reads a whole file. `dialect` forces a dialect; otherwise it is detected.
 ///
 /// No statement is refused: one that cannot be read is kept and reported. A file that is not CL data at all
-/// (an APT part program, UTF-16 text) is kept as one statement with one finding.
+/// (an APT part program, G-code, UTF-16 text) is kept as one statement with one finding.
 ///
 /// ```
 /// use clsmith::parse::parse;
@@ -53,6 +55,7 @@ pub fn parse(source: &Arc<Source>, dialect: Option<Dialect>) -> ParsedProgram {
         diagnostics: Vec::new(),
         detector: DialectDetector::default(),
         last_was_points: false,
+        definitions: Vec::new(),
     };
     if let Some(problem) = detect_non_text(bytes) {
         return reader.refuse_file(Diagnostic::new(codes::NOT_TEXT, problem).with_label(
@@ -60,6 +63,11 @@ pub fn parse(source: &Arc<Source>, dialect: Option<Dialect>) -> ParsedProgram {
             Span::new(0, bytes.len().min(2)),
             "",
         ));
+    }
+    if let Some(problem) = foreign_files::detect_foreign_file(bytes) {
+        let first = bytes.iter().take_while(|byte| !matches!(byte, b'\n' | b'\r')).count();
+        let diagnostic = Diagnostic::new(codes::NOT_CL_DATA, problem);
+        return reader.refuse_file(diagnostic.with_label(source, Span::new(0, first.min(80)), ""));
     }
     // A GOTO with six values has about 62 bytes, one with three values about 32.
     reader.program.reserve(bytes.len() / 48);
@@ -83,11 +91,12 @@ pub fn parse(source: &Arc<Source>, dialect: Option<Dialect>) -> ParsedProgram {
             at += length;
             continue;
         }
-        match reader.read_statement(at, rest) {
-            Ok(length) => at += length,
-            Err(refusal) => return reader.refuse_file(*refusal),
-        }
+        at += reader.read_statement(at, rest);
     }
+    if let Some(refusal) = reader.detect_part_program() {
+        return reader.refuse_file(refusal);
+    }
+    reader.report_definitions();
     let dialect = dialect.unwrap_or_else(|| reader.detector.detected_dialect());
     reader.program.set_dialect(dialect);
     ParsedProgram { program: reader.program, diagnostics: reader.diagnostics, refused: false }
@@ -162,24 +171,20 @@ struct StatementReader<'s> {
     diagnostics: Vec<Diagnostic>,
     detector: DialectDetector,
     last_was_points: bool,
+    /// The places of definitions of an APT part program, without blanks and line ends.
+    definitions: Vec<Span>,
 }
 
 impl StatementReader<'_> {
-    /// Reads one statement and returns its length. Returns an error if the file is not CL data.
-    fn read_statement(&mut self, at: usize, rest: &[u8]) -> Result<usize, Box<Diagnostic>> {
+    /// Reads one statement and returns its length.
+    fn read_statement(&mut self, at: usize, rest: &[u8]) -> usize {
         let (syntax, length) = split_statement(rest);
         let span = Span::new(at, at + length);
         let record = self.interpret_syntax(&syntax, span);
-        // One definition is enough: no CL file has any, and an APT part program has no tool path to correct.
         if record == Record::Definition {
             let text = rest.get(..length).unwrap_or_default();
             let shown = span.sub_span(length - text.trim_ascii_start().len(), trimmed_length(text));
-            return Err(Diagnostic::new(
-                codes::APT_PART_PROGRAM,
-                "this is an APT part program, not cutter-location data",
-            )
-            .with_label(self.source, shown, "geometry and variables are defined here")
-            .into());
+            self.definitions.push(shown);
         }
         if syntax.open {
             self.diagnostics.push(
@@ -191,7 +196,30 @@ impl StatementReader<'_> {
         // A line of bare numbers may only follow points, which it continues.
         self.last_was_points = matches!(record, Record::Goto(_) | Record::Points(_));
         self.program.push(record, span);
-        Ok(length)
+        length
+    }
+
+    /// Returns the finding that refuses an APT part program: a file of which no system is known, with as many
+    /// definitions as motions or more. A stray definition among motions is a finding on its line.
+    fn detect_part_program(&self) -> Option<Diagnostic> {
+        let first = *self.definitions.first()?;
+        let motions = self.program.statements().iter().filter(|statement| statement.record().is_motion());
+        if self.detector.has_mark() || motions.count() > self.definitions.len() {
+            return None;
+        }
+        let message = "this is an APT part program, not cutter-location data";
+        let diagnostic = Diagnostic::new(codes::APT_PART_PROGRAM, message);
+        Some(diagnostic.with_label(self.source, first, "geometry and variables are defined here"))
+    }
+
+    /// Reports definitions in CL data, each on its line.
+    fn report_definitions(&mut self) {
+        for place in std::mem::take(&mut self.definitions) {
+            let message = "this statement defines something, which only APT part programs and posts do";
+            let finding = Diagnostic::new(codes::MALFORMED, message);
+            self.diagnostics.push(finding.with_label(self.source, place, "no CL data"));
+        }
+        self.diagnostics.sort_by_key(|finding| finding.labels.first().map(|label| label.span.start));
     }
 
     /// Returns the meaning of a statement, or [`Record::Unparsed`] with a finding if it has none.

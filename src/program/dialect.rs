@@ -167,6 +167,11 @@ impl DialectDetector {
         };
     }
 
+    /// Returns whether a mark of any system was found.
+    pub fn has_mark(&self) -> bool {
+        self.found.is_some() || self.catia || self.icam
+    }
+
     /// Returns the dialect, or [`Dialect::Iso`] if there was no mark.
     pub fn detected_dialect(&self) -> Dialect {
         match self.found {

@@ -34,7 +34,9 @@ pub use record_kind::RecordKind;
 pub use statement::{Statement, StatementChange, StepId};
 pub use statement_id::{InsertionPoint, StatementId, StatementRange};
 pub use step_edits::StepEdits;
-pub use syntax::{FieldGroup, FieldKind, StatementField, StatementKind, StatementSyntax, fold_text};
+pub use syntax::{
+    FieldGroup, FieldKind, StatementField, StatementKind, StatementSyntax, fold_text, join_broken,
+};
 pub use units::{Feed, FeedUnit, LengthUnit};
 
 use crate::source::{Source, Span};

@@ -4,6 +4,7 @@
 //! A [`StatementSyntax`] is made on demand and never stored. Records read their meaning from it; edits and
 //! rewrite rules work on it.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// The form of the grammar that a statement has.
@@ -136,9 +137,29 @@ fn collect_numbers(fields: &[StatementField], into: &mut Vec<(Range<usize>, f64)
     }
 }
 
+/// Returns a word, text or number without the breaks in it: the `$` at the end of a line, what follows it in
+/// that line, and the line end.
+pub fn join_broken(bytes: &[u8]) -> Cow<'_, [u8]> {
+    if memchr::memchr2(b'\n', b'\r', bytes).is_none() {
+        return Cow::Borrowed(bytes);
+    }
+    let mut joined = Vec::with_capacity(bytes.len());
+    let mut lines = bytes.split(|byte| matches!(byte, b'\n' | b'\r')).peekable();
+    while let Some(line) = lines.next() {
+        // The grammar reads a full line's `$` as another byte.
+        let end = match lines.peek() {
+            Some(_) => line.iter().rposition(|byte| matches!(byte, b'$' | 1)).unwrap_or(line.len()),
+            None => line.len(),
+        };
+        joined.extend_from_slice(line.get(..end).unwrap_or_default());
+    }
+    Cow::Owned(joined)
+}
+
 /// Returns a text in upper case, with single blanks between words and no blanks around commas. Bytes from
-/// 0x80 on are read as Latin-1.
+/// 0x80 on are read as Latin-1. Breaks in the text are left out.
 pub fn fold_text(bytes: &[u8]) -> String {
+    let bytes = &*join_broken(bytes);
     let mut text = String::with_capacity(bytes.len());
     let mut blank = false;
     for &byte in bytes {

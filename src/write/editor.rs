@@ -5,6 +5,7 @@
 //! sees what will be written.
 
 use super::file_style::FileStyle;
+use super::line_columns::fit_lines;
 use super::number_patch;
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::parse;
@@ -115,12 +116,13 @@ impl ProgramEditor {
         self.set_text(id, &out)
     }
 
-    /// Gives a statement a new text with its line end.
+    /// Gives a statement a new text with its line end, in the columns of the old one.
     ///
     /// # Errors
     /// Returns an error if the statement is deleted, or if the text is not one well-formed statement.
     pub fn set_text(&mut self, id: StatementId, text: &[u8]) -> Result<(), Failure> {
-        self.live_statement(id)?;
+        let old = self.program.statement_text(self.live_statement(id)?);
+        let text = &fit_lines(old, text.to_vec(), self.style.full_column);
         let record = self.read_back(id.before(), text)?;
         self.program.replace_statement(id, text, record, self.step);
         Ok(())
@@ -147,6 +149,7 @@ impl ProgramEditor {
             return Err(self.missing_error(&message));
         }
         let text = [strip_line_end(text), self.style.line_end.as_bytes()].concat();
+        let text = fit_lines(b"", text, self.style.full_column);
         let record = self.read_back(at, &text)?;
         self.inserted.push((at, text, record));
         Ok(())

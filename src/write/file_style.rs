@@ -1,5 +1,6 @@
 //! This module measures on a file itself how it writes its numbers and lines.
 
+use super::line_columns;
 use crate::number::{self, NumberFormat, ZeroStyle};
 use crate::parse;
 use crate::program::{NumberRole, Program, Record};
@@ -20,6 +21,8 @@ pub struct FileStyle {
     pub feed_decimals: usize,
     /// Whether numbers are right-aligned in columns.
     pub columns: bool,
+    /// The offset at which the file breaks full lines, inside numbers and words too; `None` if it breaks none.
+    pub full_column: Option<usize>,
     /// The line end of most of the sampled lines: `\n`, `\r\n` or a lone `\r`.
     pub line_end: &'static str,
     /// The number of decimals that changed lengths and feeds get beyond their own; 0 unless a step converts
@@ -55,6 +58,7 @@ impl FileStyle {
             direction_decimals: seen.directions.unwrap_or(7).max(6),
             feed_decimals: seen.feed.unwrap_or(4),
             columns: program.dialect().has_columns(),
+            full_column: line_columns::find_full_column(program.source().bytes()),
             line_end: match seen.lines {
                 lines if seen.crlf * 2 > lines => "\r\n",
                 lines if seen.cr * 2 > lines => "\r",

@@ -2,6 +2,7 @@
 
 mod editor;
 mod file_style;
+mod line_columns;
 pub mod new_program;
 mod number_patch;
 

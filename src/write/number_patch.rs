@@ -1,6 +1,7 @@
 //! This module patches numbers in a statement's text, each in its own style.
 
 use super::file_style::FileStyle;
+use super::line_columns::{JoinedText, fit_lines};
 use crate::parse;
 use crate::program::{NumberRole, Record};
 use std::iter::Peekable;
@@ -98,6 +99,9 @@ fn reprint_numbers(
     print: impl Fn(NumberRole, &[u8], f64, f64) -> String,
 ) -> Option<Vec<u8>> {
     let roles = parse::number_roles(record, text);
+    // In a full line a number may be broken; it is patched as one and broken again.
+    let joined = JoinedText::new(text, places);
+    let whole = &*joined.text;
     let mut out = Vec::with_capacity(text.len() + 16);
     let mut copied = 0;
     // One pass goes through both lists, because a statement may have hundreds of thousands of numbers.
@@ -110,9 +114,10 @@ fn reprint_numbers(
             continue;
         }
         let role = roles.get(index).copied().unwrap_or(NumberRole::Plain);
-        let original = text.get(at.clone()).unwrap_or_default();
+        let at = joined.joined_offset(at.start)..joined.joined_offset(at.end);
+        let original = whole.get(at.clone()).unwrap_or_default();
         let printed = print(role, original, *old, wanted);
-        let before = text.get(copied..at.start).unwrap_or_default();
+        let before = whole.get(copied..at.start).unwrap_or_default();
         if style.columns {
             push_in_column(&mut out, before, at.len(), &printed);
         } else {
@@ -124,8 +129,8 @@ fn reprint_numbers(
     if copied == 0 {
         return None;
     }
-    out.extend_from_slice(text.get(copied..).unwrap_or_default());
-    Some(out)
+    out.extend_from_slice(whole.get(copied..).unwrap_or_default());
+    Some(fit_lines(text, out, style.full_column))
 }
 
 fn in_number_order(edits: &[(usize, f64)]) -> Peekable<impl Iterator<Item = (usize, f64)>> {

@@ -34,4 +34,9 @@ super::area! {
         "Save or export it as plain text (ASCII, Latin-1, UTF-8 or another 8-bit code page).",
         "The file starts with the mark of UTF-16 or holds mostly NUL bytes. Posts read 8-bit text; so does clsmith. Binary \
          CL files (NX .cls in binary form, APT CLTAPE) must be converted to text by the CAM system.";
+    NOT_CL_DATA = "CL0012", Error, "a file of another kind, given by mistake",
+        "Give clsmith the file that the CAM system writes for the post: .cls, .aptsource, .ncl, .apt or .clt.",
+        "The file is what comes behind the post (G-code, Heidenhain, a robot program), an intermediate file of another \
+         system (Mastercam NCI), XML, STEP or an archive. clsmith corrects CL data, which come before the post; in an NC \
+         program there are no operations, tools or frames left to work with. Nothing of the file was read.";
 }

@@ -93,7 +93,13 @@ fn resolve_circle(
 /// Resolves a MOVARC, whose angle and end point both give the sweep.
 fn resolve_move_arc(record: &MoveArc, start: Point3<f64>, end: Point3<f64>) -> ResolvedArc {
     let mut problems = Vec::new();
-    let mut arc = CircularArc::from_endpoints(start, end, record.center, Unit::new_normalize(record.axis), 0);
+    let mut arc = CircularArc::from_endpoints(
+        start,
+        end,
+        record.center,
+        Unit::new_normalize(record.axis),
+        record.times - 1,
+    );
     if let Some(degrees) = record.sweep_degrees {
         let told = degrees.to_radians();
         // Both the end point and the angle give the end of the arc, but only the angle gives whole turns.

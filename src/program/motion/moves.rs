@@ -65,13 +65,17 @@ impl Motions<'_> {
     /// Moves by a step (GODLTA); a single number is a step along the tool axis.
     pub(super) fn process_delta(&mut self, id: StatementId, step: &[f64]) {
         let delta = match step {
-            [x, y, z] => Vector3::new(*x, *y, *z),
+            [x, y, z, ..] => Vector3::new(*x, *y, *z),
             [along] => self.state.axis * *along,
             _ => Vector3::zeros(),
         };
         match self.state.pose {
             Some(pose) => {
-                let to = Pose { point: pose.point + delta, axis: self.state.axis };
+                let axis = match step {
+                    [_, _, _, i, j, k] => normalize_axis(Vector3::new(*i, *j, *k)),
+                    _ => self.state.axis,
+                };
+                let to = Pose { point: pose.point + delta, axis };
                 self.move_to(MotionTarget { pose: to, normal: None, statement: id });
             }
             None => self.report_problem(id, MotionProblemKind::UnknownStart),

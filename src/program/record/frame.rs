@@ -34,7 +34,8 @@ pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordRe
         "MSYS" => (FrameWord::Msys, "9 numbers", &[9]),
         "CSYS" | "CAMERA" => (FrameWord::Csys, "12 numbers", &[12]),
         "TRANS" => (FrameWord::Trans, "3 numbers", &[3]),
-        "ORIGIN" => (FrameWord::Origin, "3 numbers", &[3]),
+        // Some posts take two axes of the frame with the origin.
+        "ORIGIN" => (FrameWord::Origin, "3 or 9 numbers", &[3, 9]),
         "ROTABL" | "ROTHED" => {
             let numbers = syntax.fields.iter().filter_map(|field| field.number_value()).collect();
             return Some(Ok(Record::Frame(Box::new(FrameRecord { word: FrameWord::Rotary, numbers }))));

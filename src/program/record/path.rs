@@ -4,7 +4,7 @@ use super::{
     BadRecord, NumberRole, Record, RecordReading, bad_record, point_from_numbers, read_all_numbers,
     read_number, vector_from_numbers, wrong_count,
 };
-use crate::program::syntax::{FieldGroup, FieldKind, StatementSyntax};
+use crate::program::syntax::{FieldGroup, FieldKind, StatementSyntax, fold_text};
 use nalgebra::{Point3, Vector3};
 
 /// A point with or without a tool axis. Without one, the axis in force stays (measured: 15,397 GOTOs with
@@ -55,6 +55,8 @@ pub struct MoveArc {
     pub radius: f64,
     /// The sweep in degrees, positive, if the record gives it.
     pub sweep_degrees: Option<f64>,
+    /// `TIMES,n`: how often the direction of the end point is reached.
+    pub times: u32,
 }
 
 /// An arc: `TLON,GOFWD/(CIRCLE/cx,cy,cz,r),ON,[2,INTOF,](LINE/cx,cy,cz,ex,ey,ez)`.
@@ -76,10 +78,13 @@ pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordRe
     Some(match major {
         "GOTO" => read_goto(major, syntax),
         "FROM" => read_single_goto(major, syntax).map(|goto| Record::From(Box::new(goto))),
-        "GOHOME" if syntax.fields.is_empty() => Ok(Record::GoHome(None)),
+        // GOHOME without numbers, or with the name of a place: only the post knows where it is.
+        "GOHOME" if syntax.numbers().is_empty() => Ok(Record::GoHome(None)),
         "GOHOME" => read_single_goto(major, syntax).map(|goto| Record::GoHome(Some(Box::new(goto)))),
-        "GODLTA" => read_counted_numbers(major, syntax, "1 or 3 numbers", |count| count == 1 || count == 3)
-            .map(Record::GoDelta),
+        "GODLTA" => {
+            read_counted_numbers(major, syntax, "1, 3 or 6 numbers", |count| matches!(count, 1 | 3 | 6))
+                .map(Record::GoDelta)
+        }
         "CIRCLE" => read_circle(syntax),
         "MOVARC" => read_move_arc(syntax),
         "INDIRV" => read_vector(major, syntax).map(|vector| Record::StartDirection(Box::new(vector))),
@@ -175,7 +180,7 @@ fn read_circle(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     let mut fields = syntax.fields.iter().peekable();
     while let Some(field) = fields.next() {
         match &field.kind {
-            FieldKind::Text => match crate::program::syntax::fold_text(syntax.bytes_at(&field.at)).as_str() {
+            FieldKind::Text => match fold_text(syntax.bytes_at(&field.at)).as_str() {
                 "CLOCKWISE" | "CLW" => sense = ArcSense::Clockwise,
                 "COUNTERCLOCKWISE" | "CCLW" => sense = ArcSense::CounterClockwise,
                 "TIMES" => times = read_turn_count(syntax, fields.next(), field)?,
@@ -240,30 +245,98 @@ fn unexpected_field(
     }
 }
 
-/// Reads a MOVARC, with or without words before its numbers.
+/// Reads a MOVARC: numbers by position, or by the words before them.
 fn read_move_arc(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
+    let places = move_arc_numbers(syntax)?;
+    let of = |part: MoveArcPart| places.iter().find(|(found, _)| *found == part).map(|(_, value)| *value);
+    let three = |part: fn(u8) -> MoveArcPart| Some([of(part(0))?, of(part(1))?, of(part(2))?]);
+    let times = match of(MoveArcPart::Times) {
+        None => 1,
+        Some(times) if times.fract() == 0.0 && (1.0..=10_000.0).contains(&times) => times as u32,
+        Some(_) => {
+            let problem = "the number of turns is a whole number from 1 to 10000";
+            return Err(bad_record(syntax.word.clone(), problem));
+        }
+    };
+    match (three(MoveArcPart::Center), three(MoveArcPart::Axis), of(MoveArcPart::Radius)) {
+        (Some(center), Some(axis), Some(radius)) if has_direction(&Vector3::from(axis)) => {
+            let (center, axis) = (Point3::from(center), Vector3::from(axis));
+            let sweep_degrees = of(MoveArcPart::Angle);
+            Ok(Record::MoveArc(Box::new(MoveArc { center, axis, radius, sweep_degrees, times })))
+        }
+        _ => Err(wrong_count("MOVARC", syntax, "a centre, an axis and a radius (7 numbers)", places.len())),
+    }
+}
+
+/// What a number of a MOVARC is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum MoveArcPart {
+    Center(u8),
+    Axis(u8),
+    Radius,
+    Angle,
+    Times,
+    /// The tolerance of the arc, a length.
+    Tolerance,
+    /// A number behind a word that is not known. It has no effect on the arc.
+    Other,
+}
+
+/// Returns the numbers of a MOVARC with what each is. Numbers that no word governs go on where the numbers
+/// before them ended.
+fn move_arc_numbers(syntax: &StatementSyntax<'_>) -> Result<Vec<(MoveArcPart, f64)>, BadRecord> {
+    let position = |index: u8| match index {
+        0..=2 => MoveArcPart::Center(index),
+        3..=5 => MoveArcPart::Axis(index - 3),
+        6 => MoveArcPart::Radius,
+        _ => MoveArcPart::Other,
+    };
     let mut numbers = Vec::new();
-    let mut sweep_degrees = None;
-    let mut fields = syntax.fields.iter();
-    while let Some(field) = fields.next() {
+    let (mut next, mut single) = (0, None);
+    for field in &syntax.fields {
         match &field.kind {
-            FieldKind::Text => match crate::program::syntax::fold_text(syntax.bytes_at(&field.at)).as_str() {
-                "CENTER" | "AXIS" | "RADIUS" => {}
-                "ANGLE" => match fields.next() {
-                    Some(angle) => sweep_degrees = Some(read_number(syntax, angle)?),
-                    None => return Err(bad_record(field.at.clone(), "ANGLE wants degrees after it")),
-                },
-                _ => return Err(unexpected_field(syntax, field, numbers.len() < 7)),
+            FieldKind::Text if single.is_some_and(|part| part != MoveArcPart::Other) => {
+                read_number(syntax, field)?;
+            }
+            FieldKind::Text => match fold_text(syntax.bytes_at(&field.at)).as_str() {
+                "CENTER" => (next, single) = (0, None),
+                "AXIS" => (next, single) = (3, None),
+                "RADIUS" => (next, single) = (6, None),
+                "ANGLE" => single = Some(MoveArcPart::Angle),
+                "TIMES" => single = Some(MoveArcPart::Times),
+                "TOLER" => single = Some(MoveArcPart::Tolerance),
+                // Where a coordinate is wanted, a word is a slip. A word behind the radius is passed on.
+                word if next < 7 || !word.starts_with(|first: char| first.is_ascii_alphabetic()) => {
+                    return Err(unexpected_field(syntax, field, next < 7));
+                }
+                _ => single = Some(MoveArcPart::Other),
             },
-            _ => numbers.push(read_number(syntax, field)?),
+            FieldKind::Empty => {}
+            _ => {
+                let value = read_number(syntax, field)?;
+                let part = single.take().unwrap_or_else(|| {
+                    next = (next + 1).min(8);
+                    position(next - 1)
+                });
+                numbers.push((part, value));
+            }
         }
     }
-    match (point_from_numbers(&numbers), numbers.get(3..).and_then(vector_from_numbers), numbers.get(6)) {
-        (Some(center), Some(axis), Some(&radius)) if has_direction(&axis) => {
-            Ok(Record::MoveArc(Box::new(MoveArc { center, axis, radius, sweep_degrees })))
-        }
-        _ => Err(wrong_count("MOVARC", syntax, "a centre, an axis and a radius (7 numbers)", numbers.len())),
+    match single {
+        Some(MoveArcPart::Angle) => Err(bad_record(syntax.word.clone(), "ANGLE wants degrees after it")),
+        _ => Ok(numbers),
     }
+}
+
+/// Returns the roles of the numbers of a MOVARC.
+fn move_arc_roles(syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
+    let role = |part: MoveArcPart| match part {
+        MoveArcPart::Center(index) => NumberRole::Point(index),
+        MoveArcPart::Axis(index) => NumberRole::ArcAxis(index),
+        MoveArcPart::Radius | MoveArcPart::Tolerance => NumberRole::Length,
+        MoveArcPart::Angle | MoveArcPart::Times | MoveArcPart::Other => NumberRole::Plain,
+    };
+    move_arc_numbers(syntax).unwrap_or_default().into_iter().map(|(part, _)| role(part)).collect()
 }
 
 /// Reads a drive arc of CATIA; other drive motions are passed on as they are.
@@ -312,8 +385,9 @@ pub(super) fn number_roles(record: &Record, syntax: &StatementSyntax<'_>) -> Vec
         }
         Record::Points(numbers) if has_tool_axes(numbers) => goto_roles(true).repeat(numbers.len() / 6),
         Record::Points(_) | Record::Control(_) => points(count),
-        Record::GoDelta(numbers) if numbers.len() == 3 => {
-            vec![NumberRole::Step(0), NumberRole::Step(1), NumberRole::Step(2)]
+        Record::GoDelta(numbers) if numbers.len() >= 3 => {
+            let step = vec![NumberRole::Step(0), NumberRole::Step(1), NumberRole::Step(2)];
+            if numbers.len() == 6 { [step, direction_roles()].concat() } else { step }
         }
         Record::GoDelta(_) => vec![NumberRole::Length],
         Record::StartDirection(_) => direction_roles(),
@@ -330,7 +404,7 @@ pub(super) fn number_roles(record: &Record, syntax: &StatementSyntax<'_>) -> Vec
             );
             roles
         }
-        Record::MoveArc(_) => [points(3), arc_axis_roles(), vec![NumberRole::Length]].concat(),
+        Record::MoveArc(_) => move_arc_roles(syntax),
         _ => Vec::new(),
     }
 }

@@ -27,6 +27,7 @@ pub struct MotionMark {
 pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordReading {
     Some(Ok(match major {
         "PAINT" => read_paint(syntax),
+        "TOOL PATH" if !syntax.fields.is_empty() => read_listed_name(syntax),
         "MOVE_ATTRIB" => read_move_attribute(syntax),
         "END-OF-PATH" => Record::OperationEnd,
         "FEATNO" if syntax.form == StatementKind::Structured => read_feature_start(syntax),
@@ -43,6 +44,13 @@ pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordRe
 pub(super) fn read_tool_path(syntax: &StatementSyntax<'_>) -> Record {
     let at = |index: usize| syntax.fields.get(index).map(|field| Box::new(field.at.clone()));
     Record::OperationStart(OperationNames { name: at(0).unwrap_or_default(), tool: at(1) })
+}
+
+/// Reads `TOOL PATH/name` whose name holds commas: no tool follows (wire EDM).
+fn read_listed_name(syntax: &StatementSyntax<'_>) -> Record {
+    let start = syntax.fields.first().map_or(0, |field| field.at.start);
+    let end = syntax.fields.last().map_or(start, |field| field.at.end);
+    Record::OperationStart(OperationNames { name: Box::new(start..end), tool: None })
 }
 
 /// Reads Creo's FEATNO, which starts an operation.

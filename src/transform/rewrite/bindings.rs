@@ -2,6 +2,9 @@
 
 use super::expression_value::{ExpressionValue, parse_value};
 use super::rule_fault::RuleFault;
+use crate::parse::columns::without_full_breaks;
+use crate::program::join_broken;
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// A name that a pattern binds.
@@ -47,14 +50,16 @@ impl<'t> Bindings<'t> {
         self.found.iter().find(|(bound, _)| *bound == name).map(|(_, at)| at.clone())
     }
 
-    /// The bytes of the argument of a name, as they stand; nothing when it is not bound.
-    pub fn argument_text(&self, name: &str) -> &'t [u8] {
-        self.argument_range(name).map(|at| self.bytes_at(&at)).unwrap_or_default()
+    /// The bytes of the argument of a name, as they stand but for the breaks of full lines, which belong to
+    /// their columns; nothing when it is not bound.
+    pub fn argument_text(&self, name: &str) -> Cow<'t, [u8]> {
+        let range = self.argument_range(name).unwrap_or_default();
+        without_full_breaks(self.text, &range)
     }
 
     /// Its value.
     pub fn argument_value(&self, name: &str) -> ExpressionValue {
-        parse_value(self.argument_text(name))
+        parse_value(&join_broken(&self.argument_text(name)))
     }
 
     fn bytes_at(&self, at: &Range<usize>) -> &'t [u8] {

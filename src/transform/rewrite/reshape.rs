@@ -3,7 +3,7 @@
 use super::rule_subject::{RuleSubject, SubjectClass};
 use super::spacing_style::SpacingStyle;
 use super::wildcards::is_same_folded;
-use crate::program::{FieldKind, Program, Record, Statement, StatementField};
+use crate::program::{FieldKind, Program, Record, Statement, StatementField, join_broken};
 use crate::write::{FileStyle, patch_numbers};
 use std::ops::Range;
 
@@ -104,7 +104,7 @@ impl<'n> ArgumentChanges<'n> {
                 }
                 _ => {
                     self.seen += count_numbers(before);
-                    if old.bytes_at(&before.at) != bytes {
+                    if join_broken(old.bytes_at(&before.at)) != join_broken(bytes) {
                         self.parts.push((before.at.clone(), bytes));
                     }
                 }

@@ -135,7 +135,7 @@ impl StatementTemplate {
                             drop_separator(&mut out);
                         }
                     }
-                    out.extend_from_slice(argument);
+                    out.extend_from_slice(&argument);
                 }
                 RuleTextPart::Computed(expression) => out.extend(format_computed(expression, filling)?),
             }

@@ -1,0 +1,175 @@
+//! This module holds what columns mean in CL text: lines that were broken because they were full, and the
+//! identification in columns 73 to 80. Both come from punched cards; CATIA and old processors still write
+//! them.
+//!
+//! A column is a byte here, as it is for the programs that write such files in 8-bit code pages.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+/// The number of columns for data. Identification stands behind them.
+pub const DATA_COLUMNS: usize = 72;
+
+/// The number of columns of a card, with the identification.
+pub const CARD_COLUMNS: usize = 80;
+
+/// The byte that stands for a `$` at the end of a full line in the text that the grammar reads.
+pub(super) const FULL_LINE: u8 = 1;
+
+/// What columns say about a line; offsets are relative to its start.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LineColumns {
+    /// The bytes of the line without its line end.
+    pub length: usize,
+    /// The offset of the `$` that ends a full line.
+    pub full: Option<usize>,
+    /// The place of the identification, without the blanks before it.
+    pub identification: Option<Range<usize>>,
+}
+
+/// Returns what columns say about a line, which may have a line end.
+///
+/// A line is full if it ends in a single `$` in column 72 or behind it (a file that was converted to UTF-8 has
+/// more bytes than columns), or in column 72 with an identification after it.
+pub fn inspect_line(line: &[u8]) -> LineColumns {
+    let length = line.len() - line.iter().rev().take_while(|byte| matches!(byte, b'\n' | b'\r')).count();
+    let line = line.get(..length).unwrap_or_default();
+    let mut found = LineColumns { length, full: None, identification: None };
+    if !(DATA_COLUMNS..=CARD_COLUMNS).contains(&length) {
+        return found;
+    }
+    let is_single = |at: usize| line.get(at) == Some(&b'$') && line.get(at - 1) != Some(&b'$');
+    if is_single(length - 1) {
+        found.full = Some(length - 1);
+        return found;
+    }
+    found.identification = find_identification(line);
+    if found.identification.is_some() && is_single(DATA_COLUMNS - 1) {
+        found.full = Some(DATA_COLUMNS - 1);
+    }
+    found
+}
+
+/// Returns the place of an identification such as `PT     2`, `PKT00010` or `00000010`.
+///
+/// It must be told apart from data that happen to reach these columns, so nothing before it may wait for more:
+/// blanks stand before it, or it fills its eight columns and stands right behind a number or a `$`.
+fn find_identification(line: &[u8]) -> Option<Range<usize>> {
+    let (data, behind) = line.split_at_checked(DATA_COLUMNS)?;
+    let behind = behind.trim_ascii_end();
+    let blanks = behind.len() - behind.trim_ascii_start().len();
+    let text = behind.trim_ascii_start();
+    let letters = text.iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
+    let number = text.get(letters..).unwrap_or_default().trim_ascii_start();
+    if number.is_empty() || !number.iter().all(u8::is_ascii_digit) {
+        return None;
+    }
+    let ink = data.trim_ascii();
+    // Comments and names of operations are texts of people, which may hold anything in any column.
+    if ink.starts_with(b"$$") || ink.get(..4).is_some_and(|word| word.eq_ignore_ascii_case(b"TOOL")) {
+        return None;
+    }
+    let last = ink.last().copied().unwrap_or(b' ');
+    let gap = data.len() - data.trim_ascii_end().len() + blanks;
+    let fits = match (letters, last) {
+        (_, b' ' | b',' | b'/' | b'(' | b'-' | b'+') => false,
+        _ if gap >= 2 => true,
+        (0, _) => false,
+        (_, last) => {
+            gap == 0
+                && behind.len() == CARD_COLUMNS - DATA_COLUMNS
+                && (last.is_ascii_digit() || matches!(last, b'.' | b')' | b'$'))
+        }
+    };
+    fits.then(|| DATA_COLUMNS + blanks..DATA_COLUMNS + behind.len())
+}
+
+/// Returns the text that the grammar reads: bytes from 0x80 on as DEL, the `$` of full lines as
+/// [`FULL_LINE`], and identifications as blanks. Every byte stays one byte.
+pub(super) fn mask_for_grammar(window: &[u8]) -> Cow<'_, str> {
+    let columns = window.len() >= DATA_COLUMNS;
+    let plain = match std::str::from_utf8(window) {
+        Ok(text) if text.is_ascii() && memchr::memchr(FULL_LINE, window).is_none() => Some(text),
+        _ => None,
+    };
+    if let Some(text) = plain.filter(|_| !columns) {
+        return Cow::Borrowed(text);
+    }
+    let mut masks = Vec::new();
+    if columns {
+        let mut start = 0;
+        for line in window.split_inclusive(|byte| *byte == b'\n') {
+            let found = inspect_line(line);
+            masks.extend(found.full.map(|at| (start + at..start + at + 1, FULL_LINE)));
+            masks.extend(found.identification.map(|at| (start + at.start..start + at.end, b' ')));
+            start += line.len();
+        }
+    }
+    if let Some(text) = plain.filter(|_| masks.is_empty()) {
+        return Cow::Borrowed(text);
+    }
+    let mut bytes: Vec<u8> =
+        window.iter().map(|&byte| if byte.is_ascii() && byte != FULL_LINE { byte } else { 0x7F }).collect();
+    for (at, mask) in masks {
+        if let Some(masked) = bytes.get_mut(at) {
+            masked.fill(mask);
+        }
+    }
+    Cow::Owned(bytes.into_iter().map(char::from).collect())
+}
+
+/// Returns a part of a statement's text without the breaks of full lines in it.
+pub fn without_full_breaks<'t>(text: &'t [u8], at: &Range<usize>) -> Cow<'t, [u8]> {
+    let part = text.get(at.clone()).unwrap_or_default();
+    if memchr::memchr(b'\n', part).is_none() {
+        return Cow::Borrowed(part);
+    }
+    let mut joined = Vec::with_capacity(part.len());
+    let mut start = 0;
+    for line in text.split_inclusive(|byte| *byte == b'\n') {
+        let end = start + inspect_line(line).full.unwrap_or(line.len());
+        let shown = start.max(at.start)..end.min(at.end);
+        joined.extend_from_slice(text.get(shown).unwrap_or_default());
+        start += line.len();
+    }
+    Cow::Owned(joined)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn card(data: &str, behind: &str) -> String {
+        format!("{data:<72}{behind}\r\n")
+    }
+
+    #[test]
+    fn identifications_are_told_from_data() {
+        for (line, expected) in [
+            (card("GOTO/1,2,3", "PT     2"), true),
+            (card("GOTO/1,2,3", "00000010"), true),
+            (card("GOTO/1,2,3", "      10"), true),
+            (card("RAPID", "PKT00070"), true),
+            (card(&format!("GOTO  /{}", "1".repeat(65)), "PT     1"), true),
+            (card(&format!("GOTO  /{}$", "1".repeat(64)), "PT     1"), true),
+            // The number that a comma waits for, the name of a tool, a text, and a number that goes on.
+            (card("GOTO/1,2,", "00000010"), false),
+            (card("TOOL PATH/A,TOOL,EM", "R5"), false),
+            (card("$$ A COMMENT", "AB12"), false),
+            (card(&format!("GOTO/1,{}", "1".repeat(65)), "123"), false),
+            (card("GOTO/1,2,3", "PT   2 X"), false),
+        ] {
+            assert_eq!(inspect_line(line.as_bytes()).identification.is_some(), expected, "{line}");
+        }
+    }
+
+    #[test]
+    fn a_full_line_ends_in_a_dollar_in_column_72_or_behind() {
+        let line = |length: usize, end: &str| format!("{}{end}\n", "X".repeat(length));
+        assert_eq!(inspect_line(line(71, "$").as_bytes()).full, Some(71));
+        assert_eq!(inspect_line(line(73, "$").as_bytes()).full, Some(73));
+        for (length, end) in [(70, "$"), (71, "$$"), (71, "$ A"), (90, "$")] {
+            assert_eq!(inspect_line(line(length, end).as_bytes()).full, None, "{length} {end}");
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! This module recognizes files that are no CL data but are given by mistake: programs behind the post, robot
+//! programs, models, archives.
+//!
+//! It only has to know files that the reader would otherwise take for CL data with very many errors, so it looks
+//! at the first lines and decides by what no CL file has.
+
+/// How many bytes of a file are looked at.
+const LOOKED_AT: usize = 16 * 1024;
+
+/// Returns a sentence that says what a file is, or `None` if it may be CL data.
+pub(super) fn detect_foreign_file(bytes: &[u8]) -> Option<&'static str> {
+    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    let head = bytes.get(..LOOKED_AT).unwrap_or(bytes);
+    if head.starts_with(b"PK\x03\x04") || head.starts_with(b"\x1F\x8B") {
+        return Some("this is an archive (zip or gzip), not CL data");
+    }
+    let start = head.trim_ascii_start();
+    if start.starts_with(b"<?xml") || start.starts_with(b"<!--") || starts_with_tag(start) {
+        return Some("this is an XML file, not CL data");
+    }
+    if start.starts_with(b"ISO-10303-21") {
+        return Some("this is a STEP or STEP-NC file (ISO 10303-21), not CL data");
+    }
+    let lines: Vec<&[u8]> = head
+        .split(|byte| matches!(byte, b'\n' | b'\r'))
+        .map(<[u8]>::trim_ascii)
+        .filter(|line| !line.is_empty())
+        .collect();
+    if lines.iter().take(5).any(|line| is_heidenhain_start(line)) {
+        return Some("this is an NC program behind the post (Heidenhain), not CL data");
+    }
+    if is_robot_program(&lines) {
+        return Some("this is a robot program behind the post (KUKA KRL), not CL data");
+    }
+    if is_mastercam_nci(&lines) {
+        return Some("this is an NCI file (Mastercam), not CL data");
+    }
+    is_gcode(&lines).then_some("this is an NC program behind the post (G-code), not CL data")
+}
+
+/// Returns whether a text starts with the tag of an element.
+fn starts_with_tag(text: &[u8]) -> bool {
+    let Some([b'<', rest @ ..]) = text.split(|byte| matches!(byte, b'>' | b'\n')).next() else {
+        return false;
+    };
+    rest.first().is_some_and(u8::is_ascii_alphabetic) && text.get(rest.len() + 1) == Some(&b'>')
+}
+
+/// Returns whether a line is `0 BEGIN PGM NAME MM`.
+fn is_heidenhain_start(line: &[u8]) -> bool {
+    let number = line.iter().take_while(|byte| byte.is_ascii_digit()).count();
+    line.get(number..).unwrap_or_default().trim_ascii_start().starts_with(b"BEGIN PGM")
+}
+
+/// Returns whether the first line that is no comment opens a KRL module: `&ACCESS RVP`, `DEF NAME()`.
+fn is_robot_program(lines: &[&[u8]]) -> bool {
+    let first = lines.iter().find(|line| !line.starts_with(b";"));
+    first.is_some_and(|line| {
+        let upper = line.to_ascii_uppercase();
+        let module = upper.strip_prefix(b"GLOBAL ").unwrap_or(&upper);
+        upper.starts_with(b"&ACCESS")
+            || upper.starts_with(b"&REL")
+            || module.starts_with(b"DEFDAT ")
+            || (module.starts_with(b"DEF ") && module.contains(&b'('))
+    })
+}
+
+/// Returns whether lines alternate between a code and the numbers of its record, as in Mastercam's NCI.
+fn is_mastercam_nci(lines: &[&[u8]]) -> bool {
+    // Older files have a version line in front.
+    let records = lines.iter().position(|line| is_code(line)).map(|first| (first, lines.get(first..)));
+    let Some((0..=2, Some(records))) = records else { return false };
+    let pairs = records.chunks_exact(2).take(20);
+    let count = pairs.len();
+    let alike =
+        pairs.filter(|pair| matches!(pair, [code, values] if is_code(code) && is_number_list(values)));
+    let alike = alike.count();
+    count >= 2 && alike * 10 >= count * 7
+}
+
+fn is_code(line: &[u8]) -> bool {
+    (1..=5).contains(&line.len()) && line.iter().all(u8::is_ascii_digit)
+}
+
+/// Returns whether a line holds numbers with blanks between them, and no comma.
+fn is_number_list(line: &[u8]) -> bool {
+    line.iter().all(|byte| byte.is_ascii_digit() || b" \t.-+eE".contains(byte))
+}
+
+/// Returns whether most lines are blocks of G-code, and none is a GOTO of CL data.
+fn is_gcode(lines: &[&[u8]]) -> bool {
+    let (mut blocks, mut others) = (0, 0);
+    for line in lines {
+        if is_goto(line) {
+            return false;
+        }
+        match line {
+            // The mark of a tape's start and end, comments.
+            [b'%', ..] | [b'(', ..] | [b';', ..] => {}
+            _ if is_block(line) => blocks += 1,
+            _ => others += 1,
+        }
+    }
+    // A few blocks may be what somebody typed into CL data.
+    (blocks >= 3 && others == 0) || (blocks >= 5 && blocks > others)
+}
+
+fn is_goto(line: &[u8]) -> bool {
+    let rest = line.get(..4).filter(|word| word.eq_ignore_ascii_case(b"GOTO")).and_then(|_| line.get(4..));
+    rest.is_some_and(|rest| rest.trim_ascii_start().starts_with(b"/"))
+}
+
+/// Returns whether a line is a block such as `N10 G1 X-15. F800 (CUT)`: addresses of one letter with numbers.
+fn is_block(line: &[u8]) -> bool {
+    let mut rest = line.strip_prefix(b"/").unwrap_or(line);
+    let mut words = 0;
+    loop {
+        rest = rest.trim_ascii_start();
+        let [first, after @ ..] = rest else { break };
+        match first {
+            b'(' | b';' => break,
+            letter if letter.is_ascii_alphabetic() => {
+                let after = after.trim_ascii_start();
+                let after = after.strip_prefix(b"=").unwrap_or(after);
+                let number = after.iter().take_while(|&byte| b"+-.0123456789".contains(byte)).count();
+                if !after.get(..number).is_some_and(|text| text.iter().any(u8::is_ascii_digit)) {
+                    return false;
+                }
+                words += 1;
+                rest = after.get(number..).unwrap_or_default();
+            }
+            _ => return false,
+        }
+    }
+    words > 0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::detect_foreign_file;
+
+    #[test]
+    fn files_behind_the_post_are_named() {
+        for (text, named) in [
+            ("%\nO0042 (PLATE)\nG21 G90\nT3 M6\nG0X-15.Y0.\nG1 Z-5. F800\nM30\n%\n", "G-code"),
+            ("N10 G90\nN20 T=3 M6\nN30 G0 X1 Y2 ; home\nN40 M30\n", "G-code"),
+            ("0 BEGIN PGM PLATE MM\n1 TOOL CALL 3 Z S2600\n", "Heidenhain"),
+            ("BEGIN PGM A INCH\n", "Heidenhain"),
+            ("&ACCESS RVP\n&REL 1\nDEF MILL( )\nLIN {X 1,Y 2}\nEND\n", "KRL"),
+            ("1050\n9 1 2 0.5\n1000\n0 1 0 2. 0 0\n0\n0 1. 2. 3. 500. 0\n", "NCI"),
+            ("<?xml version=\"1.0\"?>\n<a/>\n", "XML"),
+            ("<toolpath>\n</toolpath>\n", "XML"),
+            ("ISO-10303-21;\nHEADER;\n", "STEP-NC"),
+            ("PK\x03\x04rest", "archive"),
+        ] {
+            let found = detect_foreign_file(text.as_bytes());
+            assert!(found.is_some_and(|found| found.contains(named)), "{text:?}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn cl_data_are_not_taken_for_something_else() {
+        for text in [
+            "",
+            "RAPID\nGOTO/1,2,3\n",
+            "T1\nT2\nT3\nGOTO / 1,2,3\n",
+            "GOTO/1,2,3\n4,5,6\n7,8,9\n",
+            "1,2,3\n4,5,6\n7,8,9\n4,5,6\n",
+            "$$ <A>\nFINI\n",
+            "PARTNO A1\nUNITS/MM\n",
+        ] {
+            assert_eq!(detect_foreign_file(text.as_bytes()), None, "{text:?}");
+        }
+    }
+}

@@ -1,0 +1,51 @@
+//! The programs of `../shared/cases`, whose right values stand in `CASES.md` there.
+
+use super::{alarms, assert_near, read, totals};
+use crate::support::require_shared_folder;
+
+/// A case: its file, and its length at feed, its length at rapid and its time at feed; a NaN is not asked.
+type Case = (&'static str, f64, f64, f64);
+
+/// The cases that a check finds nothing in.
+const CLEAN: &[Case] = &[
+    ("01-number-split.aptsource", 1711.0, 1580.465, 68.44),
+    ("02-list-split.aptsource", 118.5, 99.5, 11.109),
+    ("03-pprint-continued.aptsource", 139.0, 27.0, 17.375),
+    ("16-columns-catia.aptsource", 127.208, 112.35, 13.629),
+    ("17-columns-classic.apt", 70.0, 30.0, 10.0),
+    ("18-gohome-empty.apt", 91.0, 28.0, 15.6),
+    ("19-stop-text.aptsource", 242.0, 84.0, 24.2),
+    ("20-opstop-text.apt", 76.5, 16.5, 10.929),
+    ("21-movarc-extra.apt", 24.566, f64::NAN, 4.211),
+    ("33-numbered.cls", 140.708, f64::NAN, 14.731),
+    ("34-comma-names.cls", 84.5, f64::NAN, f64::NAN),
+];
+
+/// The cases with findings: their codes and lines.
+const WITH_FINDINGS: &[(Case, &[(&str, usize)])] = &[
+    (("11-stray-equals.aptsource", 148.0, f64::NAN, 11.471), &[("CL0001", 28)]),
+    (("12-stray-lines.ncl", 145.0, f64::NAN, 24.167), &[("CL0001", 19), ("CL0001", 21)]),
+    (("35-gcode.nc", 0.0, 0.0, 0.0), &[("CL0012", 1)]),
+    (("35-gcode-bare.nc", 0.0, 0.0, 0.0), &[("CL0012", 1)]),
+    (("36-heidenhain.h", 0.0, 0.0, 0.0), &[("CL0012", 1)]),
+];
+
+#[test]
+fn cases_have_their_lengths_times_and_findings() {
+    let Some(folder) = require_shared_folder("cases") else { return };
+    let clean = CLEAN.iter().map(|case| (*case, &[] as &[_]));
+    for ((name, feed, rapid, seconds), expected) in clean.chain(WITH_FINDINGS.iter().copied()) {
+        let text = std::fs::read(folder.join(name)).unwrap();
+        let found = alarms(&text);
+        let found: Vec<_> = found.iter().map(|(code, line)| (code.as_str(), *line)).collect();
+        assert_eq!(found, expected, "{name}");
+        let lengths = totals(&read(&text));
+        for (what, found, wanted) in
+            [("feed", lengths.0, feed), ("rapid", lengths.1, rapid), ("seconds", lengths.2, seconds)]
+        {
+            if !wanted.is_nan() {
+                assert_near(&format!("{name}: {what}"), found, wanted);
+            }
+        }
+    }
+}
