@@ -1,22 +1,22 @@
 //! One program through one recipe: read it, correct it, read the result back and compare. `apply`, hooks,
 //! watches and batches share it.
 //!
-//! The corrected program is read back as a whole before anything is written. Record by record it must be what
-//! the steps made of it. Then [`check`] looks at it, and each finding that the same statement
-//! of the original did not have counts as a finding of this run.
+//! The input is checked first; an error in it stops the job. The corrected program is read back as a whole before
+//! anything is written. Record by record it must be what the steps made of it. Then [`check`] looks at it, and each
+//! finding that the same statement of the original did not have counts as a finding of this run.
 
 use crate::check;
-use crate::diagnostic::{Diagnostic, Failure, codes};
+use crate::diagnostic::{Diagnostic, DiagnosticCode, Failure, codes};
 use crate::fingerprint::RecipeFingerprint;
-use crate::parse::parse;
 use crate::program::{Dialect, InsertionPoint, Program, Statement, StatementChange, StatementId};
 use crate::provenance;
 use crate::recipe::Provenance;
 use crate::report::finding_policy::FindingPolicy;
+use crate::report::stats::ResolvedLengthUnit;
 use crate::setup::Setup;
 use crate::simulation_run::RunWatcher;
 use crate::source::{Source, Span};
-use crate::transform::{self, Recipe, RecipeOutcome, TransformReport};
+use crate::transform::{self, Recipe, RecipeOutcome, TransformReport, unit_slips};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -75,18 +75,22 @@ pub struct JobOutcome {
 impl CorrectionJob<'_> {
     /// Corrects one file.
     ///
-    /// A changed program is printed, read back and checked; what is worse in it than in the original counts as a finding,
-    /// so no step can break a program and say nothing.
+    /// The input is checked before any step runs: an error in it stops the job, and its warnings are findings of the run. A
+    /// changed program is printed, read back and checked; what is worse in it than in the original counts as a finding, so
+    /// no step can break a program and say nothing.
     ///
     /// # Errors
-    /// All findings, as the policy leaves them, once one of them is an error; [`Failure::Interrupted`] when `watch` stopped it.
+    /// Returns all findings, as the policy leaves them, once one of them is an error, and [`Failure::Interrupted`] when
+    /// `watch` stopped the job.
     pub fn correct_source(&self, source: &Arc<Source>) -> Result<JobOutcome, Failure> {
-        let parsed = parse(source, self.dialect);
-        let mut findings = self.policy.apply(parsed.diagnostics);
+        let (program, found) = check::read_and_check(source, self.dialect);
+        // Which findings are known is asked before the steps, since they take the program.
+        let known = KnownFindings::new(&program, &found);
+        let mut findings = self.policy.apply(found);
         if findings.iter().any(Diagnostic::is_error) {
             return Err(findings.into());
         }
-        let RecipeOutcome { program, findings: new, reports } = match self.run_steps(source, parsed.program) {
+        let RecipeOutcome { program, findings: new, reports } = match self.run_steps(source, program, known) {
             Ok(done) => done,
             Err(failure) => return Err(self.apply_policy(failure).after(findings)),
         };
@@ -98,7 +102,12 @@ impl CorrectionJob<'_> {
     }
 
     /// The steps, the comments, and the look at what came of them.
-    fn run_steps(&self, source: &Arc<Source>, program: Program) -> Result<RecipeOutcome, Failure> {
+    fn run_steps(
+        &self,
+        source: &Arc<Source>,
+        program: Program,
+        known: KnownFindings,
+    ) -> Result<RecipeOutcome, Failure> {
         let outcome = transform::run_recipe_watched(self.recipe, self.setup, program, self.watch)?;
         let mut new = outcome.findings;
         if self.recipe.provenance != Provenance::Comments {
@@ -108,8 +117,10 @@ impl CorrectionJob<'_> {
             Ok(program) => program,
             Err(failure) => return Err(failure.after(new)),
         };
+        let unit = ResolvedLengthUnit::from_program(&program, Some(self.recipe.units)).unit;
+        new.extend(unit_slips::find_feeds_above_machine(&program, self.setup, unit));
         if is_program_changed(&program) {
-            match self.find_new_findings(source, &program) {
+            match find_new_findings(source, &program, known) {
                 Ok(worse) => new.extend(worse),
                 Err(failure) => return Err(failure.after(new)),
             }
@@ -119,52 +130,64 @@ impl CorrectionJob<'_> {
 
     fn apply_policy(&self, failure: Failure) -> Failure {
         let Failure::Found(found) = failure else { return Failure::Interrupted };
-        let told = self.policy.apply(found.clone());
-        // What stopped the job is told even where its code is allowed: else it would stop without a word.
-        Failure::from(if told.iter().any(Diagnostic::is_error) { told } else { found })
+        let stands = self.policy.apply(found.clone());
+        // What stopped the job is an error even where its code is allowed: else it would stop without a word.
+        Failure::from(if stands.iter().any(Diagnostic::is_error) { stands } else { found })
+    }
+}
+
+/// Finds what is wrong in the corrected text and was not in the original. The places are in the corrected text.
+fn find_new_findings(
+    source: &Arc<Source>,
+    program: &Program,
+    mut known: KnownFindings,
+) -> Result<Vec<Diagnostic>, Failure> {
+    let name = format!("{} (corrected)", source.name());
+    let corrected_source = Source::new(name, program.to_bytes())
+        .map_err(|too_large| Diagnostic::new(codes::TOO_LARGE, too_large.to_string()))?;
+    let (corrected, found) = check::read_and_check(&corrected_source, Some(program.dialect()));
+    if let Some(differs) = find_first_difference(program, &corrected) {
+        let end = corrected_source.bytes().len();
+        let statement = corrected.statement_behind(differs).map(|id| corrected.statement(id));
+        let span = statement.map_or(Span::new(end, end), Statement::origin);
+        let message = "the corrected program does not read back as what the steps made";
+        let finding = Diagnostic::new(codes::UNREADABLE_EDIT, message);
+        return Ok(vec![finding.with_label(&corrected_source, span, "from here")]);
+    }
+    // Statement by statement the corrected text is the program: so each of its findings has a place in the original.
+    let origins: Vec<StatementOrigin> =
+        program.live_statements().map(|(_, statement)| StatementOrigin::from_statement(statement)).collect();
+    let is_new = |found: &Diagnostic| {
+        let statement = find_statement_of_finding(&corrected, found);
+        !known.take_known(found, statement.and_then(|id| origins.get(id.index())).copied())
+    };
+    Ok(found.into_iter().filter(is_new).collect())
+}
+
+/// The findings of the original, counted by code and statement. Messages do not tell them apart: a changed number in one
+/// makes no new finding.
+struct KnownFindings(BTreeMap<(DiagnosticCode, Option<StatementOrigin>), usize>);
+
+impl KnownFindings {
+    fn new(original: &Program, found: &[Diagnostic]) -> Self {
+        let mut counts = BTreeMap::new();
+        for found in found {
+            let statement = find_statement_of_finding(original, found);
+            let origin = statement.map(|id| StatementOrigin::from_statement(original.statement(id)));
+            *counts.entry((found.code, origin)).or_default() += 1;
+        }
+        Self(counts)
     }
 
-    /// Findings of the corrected text that the original did not have. Their places are in the corrected text.
-    fn find_new_findings(&self, source: &Arc<Source>, program: &Program) -> Result<Vec<Diagnostic>, Failure> {
-        let name = format!("{} (corrected)", source.name());
-        let corrected_source = Source::new(name, program.to_bytes())
-            .map_err(|too_large| Diagnostic::new(codes::TOO_LARGE, too_large.to_string()))?;
-        let (corrected, found) = check::read_and_check(&corrected_source, Some(program.dialect()));
-        if let Some(differs) = find_first_difference(program, &corrected) {
-            let end = corrected_source.bytes().len();
-            let statement = corrected.statement_behind(differs).map(|id| corrected.statement(id));
-            let span = statement.map_or(Span::new(end, end), Statement::origin);
-            let message = "the corrected program does not read back as what the steps made";
-            let finding = Diagnostic::new(codes::UNREADABLE_EDIT, message);
-            return Ok(vec![finding.with_label(&corrected_source, span, "from here")]);
-        }
-        if found.is_empty() {
-            return Ok(found);
-        }
-        // Statement by statement the corrected text is the program: so each of its findings has a place in the original.
-        let origins: Vec<StatementOrigin> = program
-            .live_statements()
-            .map(|(_, statement)| StatementOrigin::from_statement(statement))
-            .collect();
-        let (original, known_findings) = check::read_and_check(source, Some(program.dialect()));
-        let mut known: BTreeMap<(&str, String, Option<StatementOrigin>), usize> = BTreeMap::new();
-        for found in known_findings {
-            let place = find_statement_of_finding(&original, &found)
-                .map(|id| StatementOrigin::from_statement(original.statement(id)));
-            *known.entry((found.code.id(), found.message, place)).or_default() += 1;
-        }
-        let is_new = |found: &Diagnostic| {
-            let place =
-                find_statement_of_finding(&corrected, found).and_then(|id| origins.get(id.index())).copied();
-            match known.get_mut(&(found.code.id(), found.message.clone(), place)) {
-                Some(count) if *count > 0 => {
-                    *count -= 1;
-                    false
-                }
-                _ => true,
+    /// Returns whether the original has such a finding that no finding before has taken.
+    fn take_known(&mut self, found: &Diagnostic, origin: Option<StatementOrigin>) -> bool {
+        match self.0.get_mut(&(found.code, origin)) {
+            Some(count) if *count > 0 => {
+                *count -= 1;
+                true
             }
-        };
-        Ok(found.into_iter().filter(is_new).collect())
+            _ => false,
+        }
     }
 }
 

@@ -85,6 +85,9 @@ pub struct BatchFindingCounts {
     pub warnings: usize,
     /// Notes; none unless they were asked for.
     pub notes: usize,
+    /// Findings of any severity that were allowed by hand; they are in no other count.
+    #[serde(default)]
+    pub allowed: usize,
 }
 
 /// Findings of one code and severity.
@@ -94,6 +97,9 @@ pub struct BatchFinding {
     pub code: String,
     /// `error`, `warning` or `note`.
     pub severity: String,
+    /// Whether they were allowed by hand, so that they stopped nothing.
+    #[serde(default)]
+    pub allowed: bool,
     /// How many there are.
     pub count: usize,
     /// The message of the first.
@@ -157,9 +163,10 @@ impl BatchRecord {
 
     /// Takes the findings down, as the policy left them.
     pub(super) fn count_findings(&mut self, findings: &[Diagnostic], source_name: &str) {
-        let mut by_code: BTreeMap<(&str, Severity), BatchFinding> = BTreeMap::new();
+        let mut by_code: BTreeMap<(&str, Severity, bool), BatchFinding> = BTreeMap::new();
         for found in findings {
             match found.severity {
+                _ if found.is_allowed => self.counts.allowed += 1,
                 Severity::Error => self.counts.errors += 1,
                 Severity::Warning => self.counts.warnings += 1,
                 Severity::Note => self.counts.notes += 1,
@@ -168,11 +175,13 @@ impl BatchRecord {
             let first = || BatchFinding {
                 code: found.code.id().to_owned(),
                 severity: found.severity.to_string(),
+                allowed: found.is_allowed,
                 count: 0,
                 first: found.message.clone(),
                 line: label.map(|label| label.source.line_column(label.span.start).0),
             };
-            by_code.entry((found.code.id(), found.severity)).or_insert_with(first).count += 1;
+            by_code.entry((found.code.id(), found.severity, found.is_allowed)).or_insert_with(first).count +=
+                1;
         }
         self.findings = by_code.into_values().collect();
     }

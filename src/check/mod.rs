@@ -49,7 +49,10 @@ use std::sync::Arc;
 pub fn read_and_check(source: &Arc<Source>, dialect: Option<Dialect>) -> (Program, Vec<Diagnostic>) {
     let ParsedProgram { program, mut diagnostics, refused } = parse::parse(source, dialect);
     if !refused {
-        diagnostics.extend(check_program(&program));
+        let unread = diagnostics.iter().any(Diagnostic::is_error);
+        // Motions that could not be read are no missing motions.
+        let repeats = |found: &Diagnostic| unread && found.code == codes::NO_MOTION;
+        diagnostics.extend(check_program(&program).into_iter().filter(|found| !repeats(found)));
     }
     (program, diagnostics)
 }

@@ -26,7 +26,7 @@ pub struct FindingArgs {
     /// Treat a code as an error; `warnings` for all of them. May be given several times
     #[arg(long, value_name = "CODE", value_delimiter = ',')]
     deny: Vec<String>,
-    /// Drop a code: it is not shown and does not stop anything. May be given several times
+    /// Let a code pass: it stops nothing, and is counted as allowed by hand. May be given several times
     #[arg(long, value_name = "CODE", value_delimiter = ',')]
     allow: Vec<String>,
     /// Show notes, too
@@ -35,8 +35,9 @@ pub struct FindingArgs {
     /// Form of the findings
     #[arg(long, value_enum, default_value = "human", value_name = "FORM")]
     pub format: FindingFormat,
-    /// How many findings of one code are shown to people; 0 shows all
-    #[arg(long, default_value_t = 10, value_name = "N")]
+    /// How many findings of one step and code are shown to people where there are more than three, the worst first; 0
+    /// shows all. The others are counted, with their lines
+    #[arg(long, default_value_t = 1, value_name = "N")]
     max_per_code: usize,
     /// Colours in what people read
     #[arg(long, value_enum, default_value = "auto", value_name = "WHEN")]

@@ -7,6 +7,7 @@ use crate::cli::input_files::STANDARD;
 use crate::cli::progress::CommandProgress;
 use crate::cli::stop::Stop;
 use crate::cli::terminal;
+use clsmith::check::check_program;
 use clsmith::diagnostic::Diagnostic;
 use clsmith::parse::parse;
 use clsmith::program::{Dialect, Program};
@@ -39,21 +40,25 @@ pub struct MeasuringContext<'r> {
 }
 
 impl MeasuringContext<'_> {
-    /// Reads a program; errors in its text stop the run.
+    /// Reads a program and checks it. A text that cannot be read stops the run; what else is wrong with the program is seen
+    /// better in the measurement.
     pub fn read_program(&mut self, path: &Path, dialect: Option<Dialect>) -> Result<Program, Stop> {
         let source = crate::cli::input_files::read_source(path)?;
         let parsed = parse(&source, dialect);
+        let unread = self.policy.apply(parsed.diagnostics.clone()).iter().any(Diagnostic::is_error);
         self.findings.extend(parsed.diagnostics);
-        if self.policy.apply(self.findings.clone()).iter().any(Diagnostic::is_error) {
+        if unread {
             // They are among the findings already.
             return Err(Vec::new().into());
         }
+        self.findings.extend(check_program(&parsed.program));
         Ok(parsed.program)
     }
 }
 
 impl MeasuringCommand<'_> {
-    /// Measures, tells, and writes: nothing is written while an error stands. `problem` is what is wrong with the command line; `measure`
+    /// Measures, tells, and writes. The outputs of a measurement are written also when errors were found in the program: they
+    /// show where. `problem` is what is wrong with the command line; `measure`
     /// makes everything but the outputs; `write` writes the outputs.
     pub fn run_measurement<T>(
         &self,
@@ -93,11 +98,9 @@ impl MeasuringCommand<'_> {
             let is_taken = self.outputs.contains(&Path::new(STANDARD));
             ignore_closed_pipe(print_summary(&summary(&measured), is_taken))?;
         }
-        if findings.iter().any(Diagnostic::is_error) {
-            return Ok(self.say_nothing_written());
-        }
         write(&measured, &findings, &outputs).map_err(|stop| stop.about(self.program))?;
-        Ok(CommandExit::Done)
+        let refused = findings.iter().any(Diagnostic::is_error);
+        Ok(if refused { CommandExit::Errors } else { CommandExit::Done })
     }
 
     fn say_nothing_written(&self) -> CommandExit {

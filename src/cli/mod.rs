@@ -12,6 +12,7 @@ mod finding_args;
 mod hook;
 mod input_files;
 mod measuring_command;
+mod output_endings;
 mod plot;
 mod progress;
 mod reference;

@@ -4,14 +4,16 @@ use super::command_exit::CommandExit;
 use super::command_outputs::{CommandOutputs, ignore_closed_pipe, refuse_overwritten_input};
 use super::finding_args::FindingArgs;
 use super::input_files::{self, STANDARD};
+use super::output_endings::{OutputContent, find_wrong_ending};
 use super::progress::CommandProgress;
 use super::stop::Stop;
 use super::terminal;
 use clap::{Args, ValueEnum};
+use clsmith::check::read_and_check;
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::parameters::LengthUnit;
-use clsmith::parse::parse;
 use clsmith::program::{Dialect, Program};
+use clsmith::report::finding_policy::FindingPolicy;
 use clsmith::report::plot::{self, CurvePanel, PlotAbscissa, PlotQuantity, PlottedProgram};
 use clsmith::report::simulation::SimulationReport;
 use clsmith::report::stats::ResolvedLengthUnit;
@@ -149,7 +151,7 @@ impl PlotArgs {
         let progress = CommandProgress::new(self.quiet, outputs.interrupt());
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
         let mut findings = Vec::new();
-        let drawn = self.draw_panels(&progress, &mut findings);
+        let drawn = self.draw_panels(&policy, &progress, &mut findings);
         progress.clear_bar();
         let drawn = match drawn {
             Ok(drawn) => Some(drawn),
@@ -163,10 +165,7 @@ impl PlotArgs {
         if !findings.is_empty() {
             self.show_findings(&findings)?;
         }
-        let Some(PlotDrawing { svg, empty }) = drawn.filter(|_| !findings.iter().any(Diagnostic::is_error))
-        else {
-            return Ok(CommandExit::Errors);
-        };
+        let Some(PlotDrawing { svg, empty }) = drawn else { return Ok(CommandExit::Errors) };
         if svg.is_none() || !self.quiet {
             empty.iter().for_each(|sentence| eprintln!("clsmith plot: {sentence}"));
         }
@@ -177,15 +176,16 @@ impl PlotArgs {
         let bytes = encode_drawing(&self.output, svg)?;
         let written = outputs.write_output(&self.output, |out| out.write_all(&bytes));
         written.map_err(|stop| stop.about(&self.program))?;
-        Ok(CommandExit::Done)
+        // A drawing shows what is wrong, too.
+        let refused = findings.iter().any(Diagnostic::is_error);
+        Ok(if refused { CommandExit::Errors } else { CommandExit::Done })
     }
 
     /// What is wrong with the command line beyond what clap can say.
     fn find_usage_problem(&self) -> Option<String> {
         let standard = Path::new(STANDARD);
-        let is_svg = self.output.extension().is_some_and(|end| end.eq_ignore_ascii_case("svg"));
-        if self.output != standard && !is_svg && !is_png(&self.output) {
-            return Some(format!("{} ends neither in .svg nor in .png", self.output.display()));
+        if let Some(wrong) = find_wrong_ending([("-o", Some(&*self.output), OutputContent::Drawing)]) {
+            return Some(wrong);
         }
         let read = [Some(&self.program), self.after.as_ref(), self.setup.as_ref()];
         if read.into_iter().flatten().filter(|path| path.as_path() == standard).count() > 1 {
@@ -198,6 +198,7 @@ impl PlotArgs {
 
     fn draw_panels(
         &self,
+        policy: &FindingPolicy,
         progress: &CommandProgress,
         findings: &mut Vec<Diagnostic>,
     ) -> Result<PlotDrawing, Stop> {
@@ -209,13 +210,13 @@ impl PlotArgs {
         let mut programs = Vec::new();
         for path in std::iter::once(&self.program).chain(&self.after) {
             let source = input_files::read_source(path)?;
-            let parsed = parse(&source, self.dialect);
-            findings.extend(parsed.diagnostics);
-            if findings.iter().any(Diagnostic::is_error) {
+            let (program, found) = read_and_check(&source, self.dialect);
+            findings.extend(found);
+            if policy.apply(findings.clone()).iter().any(Diagnostic::is_error) {
                 // They are among the findings already.
                 return Err(Vec::new().into());
             }
-            programs.push(parsed.program);
+            programs.push(program);
         }
         let quantities: Vec<PlotQuantity> = self.of.iter().map(|what| what.quantity()).collect();
         let wanted = quantities.iter().any(|quantity| quantity.is_simulated());

@@ -1,12 +1,11 @@
 //! `--report` and `--summary`: what changed, as a page and as Markdown.
 
 use super::command_outputs::CommandOutputs;
-use super::progress::CommandProgress;
+use super::output_endings::{OutputContent, find_wrong_ending};
 use crate::cli::stop::Stop;
 use clap::Args;
-use clsmith::report::comparison::{Comparison, ComparisonRuns, ComparisonSubject, to_markdown};
+use clsmith::report::comparison::{Comparison, to_markdown};
 use clsmith::report::html;
-use clsmith::simulation_run::SimulationRunOptions;
 use std::path::{Path, PathBuf};
 
 /// Reports for people.
@@ -33,20 +32,17 @@ impl ReportArgs {
         both.into_iter().filter_map(|(name, path)| Some((name, path.as_deref()?)))
     }
 
+    /// What is wrong with the ending of a file.
+    pub fn find_wrong_ending(&self) -> Option<String> {
+        find_wrong_ending([
+            ("--report", self.report.as_deref(), OutputContent::Page),
+            ("--summary", self.summary.as_deref(), OutputContent::Markdown),
+        ])
+    }
+
     /// The files.
     pub fn output_paths(&self) -> impl Iterator<Item = &Path> {
         self.named_outputs().map(|(_, path)| path)
-    }
-
-    /// Simulates and writes what is asked for.
-    pub fn simulate_and_write(
-        &self,
-        subject: ComparisonSubject<'_>,
-        progress: &CommandProgress,
-        outputs: &CommandOutputs,
-    ) -> Result<(), Stop> {
-        let runs = ComparisonRuns::simulate_subject(&subject, &SimulationRunOptions::default(), progress)?;
-        self.write_reports(&Comparison::from_runs(subject, &runs), outputs)
     }
 
     /// Writes what is asked for.

@@ -4,6 +4,7 @@ use super::command_exit::CommandExit;
 use super::command_outputs::{CommandOutputs, refuse_overwritten_input};
 use super::finding_args::FindingArgs;
 use super::input_files::{self, STANDARD};
+use super::output_endings::{OutputContent, find_wrong_ending};
 use crate::cli::stop::Stop;
 use clap::Args;
 use clsmith::diagnostic::Failure;
@@ -58,6 +59,9 @@ impl UndoArgs {
     fn write_original(&self, outputs: &CommandOutputs) -> Result<(), Stop> {
         let target = self.output.as_path();
         refuse_overwritten_input([target].into_iter(), &[&self.file, &self.report])?;
+        if let Some(wrong) = find_wrong_ending([("-o", Some(target), OutputContent::Program)]) {
+            return Err(Stop::Usage(wrong));
+        }
         let (file, undone) = self.restore_original()?;
         outputs.write_output(target, |out| out.write_all(&undone.bytes))?;
         if !self.quiet {

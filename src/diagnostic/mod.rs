@@ -72,13 +72,29 @@ pub struct Diagnostic {
     pub labels: Vec<DiagnosticLabel>,
     /// What to do; the catalogue's help unless the finding knows better.
     pub help: Option<String>,
+    /// Whether `--allow` named its code. It is then counted and shown as allowed by hand, and stops nothing.
+    pub is_allowed: bool,
+    /// The step of the recipe that found it, from 1; `None` for findings about the input or the whole run.
+    pub step: Option<usize>,
+    /// How bad it is beside others of its code, in the unit of its message (a depth, a load); the largest is shown
+    /// first. `None` where they are alike.
+    pub magnitude: Option<f64>,
 }
 
 impl Diagnostic {
     /// A finding with the catalogue's severity and help.
     pub fn new(code: DiagnosticCode, message: impl Into<String>) -> Self {
         let help = (!code.help().is_empty()).then(|| code.help().to_owned());
-        Self { code, severity: code.severity(), message: message.into(), labels: Vec::new(), help }
+        Self {
+            code,
+            severity: code.severity(),
+            message: message.into(),
+            labels: Vec::new(),
+            help,
+            is_allowed: false,
+            step: None,
+            magnitude: None,
+        }
     }
 
     /// Adds a place; the first one added is the primary.
@@ -95,8 +111,15 @@ impl Diagnostic {
         self
     }
 
-    /// Whether nothing may be written while it stands.
+    /// Says how bad the finding is beside others of its code.
+    #[must_use]
+    pub fn with_magnitude(mut self, magnitude: f64) -> Self {
+        self.magnitude = Some(magnitude);
+        self
+    }
+
+    /// Returns whether no program may be written while the finding stands: it is an error that nobody allowed.
     pub fn is_error(&self) -> bool {
-        self.severity == Severity::Error
+        self.severity == Severity::Error && !self.is_allowed
     }
 }

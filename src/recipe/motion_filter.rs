@@ -7,7 +7,7 @@ use serde::Deserialize;
 use serde::de::{Deserializer, Error as _};
 
 /// Which part of the program a step applies to. What is given must all fit; of a list, one has to. Empty: everything.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MotionFilter {
     /// Names of operations; `*` and `?` are wildcards.
@@ -25,6 +25,20 @@ pub struct MotionFilter {
     /// Range of the programmed feed, in the recipe's unit per minute. Motions without a feed do not fit.
     #[serde(default, deserialize_with = "deserialize_feed_range")]
     pub feed: Option<FeedRange>,
+    /// Whether it is an error if nothing in the program fits, which is the rule: a step that selects nothing is most often
+    /// a name with a slip. `false` for recipes that serve programs of which some have nothing to select.
+    #[serde(default = "default_required")]
+    pub required: bool,
+}
+
+impl Default for MotionFilter {
+    fn default() -> Self {
+        Self { operations: None, tools: None, motions: None, feed: None, required: true }
+    }
+}
+
+pub(super) fn default_required() -> bool {
+    true
 }
 
 /// A range of feeds, both ends included.
@@ -53,6 +67,11 @@ pub struct MotionFacts<'a> {
 }
 
 impl MotionFilter {
+    /// Returns whether it leaves nothing out.
+    pub fn is_everything(&self) -> bool {
+        self.operations.is_none() && self.tools.is_none() && self.motions.is_none() && self.feed.is_none()
+    }
+
     /// Whether a motion is meant. What is asked for but not known does not fit.
     ///
     /// ```

@@ -30,7 +30,7 @@ use std::fmt;
 pub struct FindingPolicy {
     /// Codes that are errors, whatever the catalogue says.
     pub deny: Vec<DiagnosticCode>,
-    /// Codes that are dropped: not shown, and no reason not to write.
+    /// Codes that stop nothing. They are counted and shown as allowed by hand.
     pub allow: Vec<DiagnosticCode>,
     /// Whether every remaining warning is an error.
     pub deny_warnings: bool,
@@ -148,10 +148,14 @@ impl FindingPolicy {
 
     /// The findings that stand, with their severities, sorted by file, place and code and each only once.
     ///
-    /// A denied note is shown even if notes are not. A code named in `allow` is dropped even if warnings are denied.
+    /// A denied note is shown even if notes are not. A finding whose code is named in `allow` stays among the findings and
+    /// is marked as allowed; it stops nothing, even if warnings are denied.
     pub fn apply(&self, mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
-        diagnostics.retain(|found| !self.allow.contains(&found.code));
         for found in &mut diagnostics {
+            found.is_allowed = self.allow.contains(&found.code);
+            if found.is_allowed {
+                continue;
+            }
             let warning = self.deny_warnings && found.severity == Severity::Warning;
             if warning || self.deny.contains(&found.code) {
                 found.severity = Severity::Error;
@@ -175,6 +179,8 @@ fn compare_findings(a: &Diagnostic, b: &Diagnostic) -> Ordering {
         .cmp(&finding_place(b))
         .then_with(|| a.code.cmp(&b.code))
         .then_with(|| b.severity.cmp(&a.severity))
+        .then_with(|| a.is_allowed.cmp(&b.is_allowed))
+        .then_with(|| a.step.cmp(&b.step))
         .then_with(|| a.message.cmp(&b.message))
         .then_with(|| a.help.cmp(&b.help))
         .then_with(|| a.labels.iter().map(label_parts).cmp(b.labels.iter().map(label_parts)))

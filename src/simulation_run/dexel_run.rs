@@ -108,7 +108,7 @@ impl Machining<'_> {
                 break;
             }
         }
-        let findings = faults.collect_findings(self.program);
+        let findings = faults.into_findings();
         Ok(DexelRunResult { left: simulation.into_stock(), before_mm3, cell_mm: plan.cell_mm, findings })
     }
 }

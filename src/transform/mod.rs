@@ -14,6 +14,7 @@ mod statement_selection;
 mod step_context;
 pub mod step_report;
 mod unchanged_statements;
+pub mod unit_slips;
 
 pub use affine::Affine;
 pub use motion_selection::MotionSelection;

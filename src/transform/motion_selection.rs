@@ -19,7 +19,7 @@ pub struct MotionSelection<'w> {
 impl<'w> MotionSelection<'w> {
     /// The selection of a step in a program.
     pub fn new(wanted: &'w MotionFilter, program: &Program, context: &StepContext<'_>) -> Self {
-        let everything = *wanted == MotionFilter::default();
+        let everything = wanted.is_everything();
         let operations =
             operation::find_operations(program).into_iter().map(|operation| operation.name).collect();
         Self { wanted, everything, operations, file: context.file_length_unit(program), selected: 0 }
@@ -40,7 +40,7 @@ impl<'w> MotionSelection<'w> {
     /// A warning when nothing was meant.
     pub fn report_if_empty(&self, context: &mut StepContext<'_>) {
         if self.selected == 0 && !self.everything {
-            report_nothing_selected("motion", context);
+            report_nothing_selected("motion", self.wanted.required, context);
         }
     }
 

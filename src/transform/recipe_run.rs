@@ -116,13 +116,21 @@ impl StepSequence<'_> {
         for (index, step) in self.steps.iter().enumerate() {
             context.step = step_id(index);
             self.watch.check_stop()?;
-            match step.apply(program, &mut context) {
+            let earlier = context.findings.len();
+            let applied = step.apply(program, &mut context);
+            for found in context.findings.iter_mut().skip(earlier) {
+                found.step = Some(index + 1);
+            }
+            match applied {
                 Ok(changed) => {
                     program = changed;
                     // Before the next step signs the same statements.
                     program.close_step(context.step);
                 }
-                Err(failure) => return Err(failure.after(context.findings)),
+                Err(failure) => {
+                    let of_step = |found| Diagnostic { step: Some(index + 1), ..found };
+                    return Err(failure.map_findings(of_step).after(context.findings));
+                }
             }
         }
         Ok(RecipeOutcome { program, findings: context.findings, reports: context.reports })

@@ -1,6 +1,7 @@
 //! `scale_feed`: programmed feeds times a factor.
 
 use super::feed_plan::{self, FeedPlan};
+use super::unit_slips::check_factor;
 use super::{MotionSelection, StepContext, Transform};
 use crate::diagnostic::Failure;
 use crate::parameters::Factor;
@@ -59,6 +60,7 @@ impl ScaleFeed {
 impl Transform for ScaleFeed {
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
         let factor = self.factor.get();
+        check_factor(factor, &["factor"], context);
         let mut selection = MotionSelection::new(&self.r#where, &program, context);
         let plan = FeedPlan::for_motions(&program, |motion| {
             let feed = motion.feed?.value;

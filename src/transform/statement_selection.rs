@@ -9,7 +9,7 @@
 
 use super::StepContext;
 use super::step_context::feed_per_minute;
-use crate::diagnostic::codes;
+use crate::diagnostic::{Diagnostic, Severity, codes};
 use crate::program::motion::{Motion, Motions};
 use crate::program::operation::{self, Operation};
 use crate::program::{LengthUnit, Program, StatementId, StatementRange};
@@ -142,8 +142,8 @@ impl SelectedStatements {
                 ranges.push(StatementRange::of_one(id));
             }
         }
-        if ranges.is_empty() && selection.wanted != MotionFilter::default() {
-            report_nothing_selected(kind, context);
+        if ranges.is_empty() && !selection.wanted.is_everything() {
+            report_nothing_selected(kind, selection.wanted.required, context);
         }
         Self { ranges }
     }
@@ -160,9 +160,12 @@ impl SelectedStatements {
     }
 }
 
-/// The warning that a `where` selects nothing; `kind` is what it selects.
-pub(super) fn report_nothing_selected(kind: &str, context: &mut StepContext<'_>) {
+/// Reports that a `where` selects nothing; `kind` is what it selects. It is an error where the selection is required.
+pub(super) fn report_nothing_selected(kind: &str, required: bool, context: &mut StepContext<'_>) {
     let message = format!("`where` selects no {kind} of this program");
-    let finding = context.step_finding(codes::NOTHING_SELECTED, message, &["where"], "selects nothing");
+    let mut finding = context.step_finding(codes::NOTHING_SELECTED, message, &["where"], "selects nothing");
+    if !required {
+        finding = Diagnostic { severity: Severity::Note, help: None, ..finding };
+    }
     context.findings.push(finding);
 }

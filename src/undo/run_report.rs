@@ -1,10 +1,12 @@
 //! What a run did, as JSON: for other programs, and for undo.
 
 use super::{BlockChecksums, UndoPatch};
+use crate::diagnostic::Diagnostic;
 use crate::fingerprint::{Digest, RecipeFingerprint, VERSION};
 use crate::program::Program;
 use crate::recipe::Provenance;
 use crate::report::changes::RecipeChanges;
+use crate::report::render::json::FindingsJson;
 use serde::{Deserialize, Serialize};
 use std::io::{self, Write};
 
@@ -33,6 +35,8 @@ pub struct RunReport<'r> {
     pub provenance: Provenance,
     /// What each step changed, lengths and times.
     pub changes: &'r RecipeChanges,
+    /// What was found, as every other output of the run has it.
+    pub findings: FindingsJson<'r>,
     /// The way back.
     pub undo: UndoPatch,
 }
@@ -89,8 +93,16 @@ impl<'r> RunReport<'r> {
             recipe,
             provenance,
             changes,
+            findings: FindingsJson::from_findings(&[]),
             undo: UndoPatch::from_program(program),
         }
+    }
+
+    /// Adds what was found in the run, as the policy left it.
+    #[must_use]
+    pub fn with_findings(mut self, findings: &'r [Diagnostic]) -> Self {
+        self.findings = FindingsJson::from_findings(findings);
+        self
     }
 
     /// Writes it as one line of JSON.

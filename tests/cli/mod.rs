@@ -5,6 +5,7 @@ mod batch;
 mod chips;
 mod hook;
 mod hook_examples;
+mod one_list;
 mod other;
 mod plot;
 mod reports;

@@ -57,7 +57,7 @@ fn empty_panels_are_told() {
 fn what_cannot_be_drawn_is_told() {
     let folder = job();
     for (args, said) in [
-        (&["part.cls", "-o", "a.pdf"][..], "ends neither in .svg nor in .png"),
+        (&["part.cls", "-o", "a.pdf"][..], "give it .svg or .png"),
         (&["part.cls", "-o", "a.svg", "--of", "chip"], "needs --setup"),
         (&["-", "--after", "-", "-o", "a.svg"], "read only once"),
         (&["part.cls", "-o", "a.svg", "--of", "speed"], "possible values"),

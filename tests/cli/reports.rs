@@ -105,11 +105,13 @@ fn reports_share_no_file_with_anything() {
 }
 
 #[test]
-fn nothing_is_written_while_an_error_stands() {
+fn reports_are_written_of_a_program_that_is_refused() {
     let folder = job();
     std::fs::write(folder.path().join("part.cls"), SLOT.replace("GOTO/70.0000,15", "GOTO/70..0000,15"))
         .unwrap();
     let args = ["apply", "recipe.yaml", "part.cls", "-o", "a.cls", "--report", "a.html", "--summary", "a.md"];
     clsmith(folder.path()).args(args).assert().code(1);
-    assert_eq!(names(folder.path()).len(), 3);
+    assert!(!folder.path().join("a.cls").exists());
+    assert!(read(&folder, "a.md").contains("- **error** CL0003 part.cls:"));
+    assert!(read(&folder, "a.html").contains("error[CL0003]"));
 }

@@ -73,12 +73,13 @@ fn a_table_goes_to_standard_output() {
 }
 
 #[test]
-fn an_error_is_shown_and_nothing_is_written() {
+fn analysis_is_written_also_when_errors_were_found() {
     let folder = job();
     std::fs::write(folder.path().join("part.cls"), SLOT.replace("4000.0000", "0.0000")).unwrap();
-    let before = names(folder.path());
-    let done = run(folder.path(), &["--csv", "a.csv", "--stl", "a.stl"]).code(1);
-    assert_eq!(names(folder.path()), before);
+    let outputs = ["--csv", "a.csv", "--stl", "a.stl", "--save-stock", "a.clstock"];
+    let done = run(folder.path(), &outputs).code(1);
+    // Only the stock for the next program is not: it would carry on what went wrong in this one.
+    assert_eq!(names(folder.path()), ["a.csv", "a.stl", "part.cls", "shop.yaml"].map(PathBuf::from));
     let shown = text(&done.get_output().stderr);
     support::snapshots("cli").bind(|| insta::assert_snapshot!("simulate_zero_spindle", shown));
     run(folder.path(), &["--csv", "a.csv", "--allow", "CL0516"]).success();
@@ -97,7 +98,7 @@ fn a_gouge_is_an_error() {
     let done = run(folder.path(), &["--target", "part.stl", "--csv", "a.csv"]).code(1);
     let shown = text(&done.get_output().stderr);
     assert!(shown.contains("CL0518") && shown.contains("1.000 mm along z"), "{shown}");
-    assert!(!folder.path().join("a.csv").exists());
+    assert!(folder.path().join("a.csv").exists());
     run(folder.path(), &["--target", "part.stl", "--tolerance", "1.1", "--csv", "a.csv"]).success();
 }
 

@@ -35,7 +35,7 @@ fn what_a_rule_put_beside_a_record_is_found_again_behind_its_comment() {
 
 #[test]
 fn comments_end_as_the_lines_of_the_file_do() {
-    for part in [PART.replace('\n', "\r"), "PARTNO A\rSTOP\rFINI\r".to_owned()] {
+    for part in [PART.replace('\n', "\r"), "PARTNO A\rRAPID\rGOTO/0.0,0.0,5.0\rFINI\r".to_owned()] {
         let steps = "  - rewrite: { rules: [{ match: FINI, insert_before: OPSTOP }] }";
         let done = text(&with_comments(steps), &part);
         assert!(done.contains("\r$$ clsmith rewrite: put in\rOPSTOP\rFINI\r"), "{done:?}");

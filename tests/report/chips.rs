@@ -47,7 +47,7 @@ fn csv(report: &ChipReport) -> String {
 
 fn json(report: &ChipReport) -> String {
     let mut out = Vec::new();
-    write_json(report, &mut out).unwrap();
+    write_json(report, &[], &mut out).unwrap();
     String::from_utf8(out).unwrap()
 }
 

@@ -4,6 +4,7 @@ use super::simulation::{SHOP, SLOT, setup};
 use crate::support;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use clsmith::check::read_and_check;
 use clsmith::job::{CorrectionJob, JobOutcome};
 use clsmith::parse::parse;
 use clsmith::report::comparison::{Comparison, ComparisonRuns, ComparisonSubject};
@@ -253,8 +254,8 @@ fn a_program_that_nothing_changed() {
 
 #[test]
 fn a_program_without_motions_makes_a_page() {
-    let page = page("empty.cls", b"PARTNO EMPTY\nFINI\n", SLOWER, "");
-    assert_eq!(rows(&page), [" PARTNO EMPTY", " FINI"]);
+    let page = page("empty.cls", b"PARTNO EMPTY\nFROM/0.0,0.0,5.0\nFINI\n", SLOWER, "");
+    assert_eq!(rows(&page), [" PARTNO EMPTY", " FROM/0.0,0.0,5.0", " FINI"]);
     assert!(floats(&page, "after.feed").is_empty());
 }
 
@@ -262,7 +263,7 @@ fn a_program_without_motions_makes_a_page() {
 fn every_fixture_makes_a_page() {
     for (_, path) in support::fixtures() {
         let source = support::source(&path);
-        if parse(&source, None).diagnostics.iter().any(clsmith::diagnostic::Diagnostic::is_error) {
+        if read_and_check(&source, None).1.iter().any(clsmith::diagnostic::Diagnostic::is_error) {
             continue;
         }
         let page = page(source.name(), source.bytes(), SLOWER, "");

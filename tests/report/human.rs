@@ -4,7 +4,7 @@ use super::{PART, at, finding, source};
 use crate::support::snapshots;
 use clsmith::diagnostic::codes::{BAD_NUMBER, MALFORMED, UNREADABLE};
 use clsmith::diagnostic::{Diagnostic, Severity};
-use clsmith::report::render::human::{HumanRenderOptions, describe_hidden_findings, render_human};
+use clsmith::report::render::human::{HumanRenderOptions, render_human};
 use clsmith::source::Span;
 
 pub fn draw(found: &[Diagnostic], options: &HumanRenderOptions) -> String {
@@ -88,13 +88,14 @@ fn more_than_the_cap_is_counted_not_shown() {
     let capped = draw(&found, &options);
     assert_eq!(capped.matches("error[CL0001]").count(), 2);
     assert!(
-        capped.ends_with("5 more of CL0001 not shown (--max-per-code 0 shows all)\npart.cls: 7 errors\n"),
+        capped.ends_with("5 more of CL0001, on line 3 (--max-per-code 0 shows all)\n\npart.cls: 7 errors\n"),
         "{capped}"
     );
     let all = draw(&found, &HumanRenderOptions { per_code: 0, ..options });
     assert_eq!(all.matches("error[CL0001]").count(), 7);
-    assert!(!all.contains("not shown"));
-    assert_eq!(describe_hidden_findings(MALFORMED, 2, 2), None);
+    assert!(!all.contains("more of"));
+    let few = draw(&found[..3], &HumanRenderOptions { per_code: 1, ..options });
+    assert_eq!(few.matches("error[CL0001]").count(), 3, "three are no wall");
 }
 
 #[test]

@@ -30,10 +30,12 @@ fn the_whole_structure() {
         json!({
             "version": 1,
             "diagnostics": [
-                { "code": "CL0401", "severity": "warning", "message": "gone", "help": null, "labels": [] },
+                { "code": "CL0401", "severity": "warning", "allowed": false, "step": null, "message": "gone", "help": null, "labels": [] },
                 {
                     "code": "CL0003",
                     "severity": "error",
+                    "allowed": false,
+                    "step": null,
                     "message": "`0..0000` is not a number",
                     "help": BAD_NUMBER.help(),
                     "labels": [
@@ -54,14 +56,14 @@ fn the_whole_structure() {
                     ],
                 },
             ],
-            "counts": { "errors": 1, "warnings": 1, "notes": 0 },
+            "counts": { "errors": 1, "warnings": 1, "notes": 0, "allowed": 0 },
         })
     );
 }
 
 #[test]
 fn nothing_found_is_still_a_document() {
-    let empty = json!({ "errors": 0, "warnings": 0, "notes": 0 });
+    let empty = json!({ "errors": 0, "warnings": 0, "notes": 0, "allowed": 0 });
     assert_eq!(rendered(&[]), json!({ "version": 1, "diagnostics": [], "counts": empty }));
 }
 

@@ -15,11 +15,12 @@ use clap::Args;
 use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::fingerprint::RecipeFingerprint;
 use clsmith::job::{CorrectionJob, JobOutcome};
+use clsmith::parse::parse;
 use clsmith::program::{Dialect, Program};
 use clsmith::recipe::Provenance;
 use clsmith::report::unified_diff;
 use clsmith::source::Source;
-use outputs::{ApplyOutcome, write_program};
+use outputs::{ApplyOutcome, ApplyRun, write_program};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -139,55 +140,64 @@ impl ApplyArgs {
         let drawn = self.named_outputs().map(|(_, path)| path).chain(self.reports.output_paths());
         let outs = target.iter().map(PathBuf::as_path).chain(drawn);
         self.check_outputs(outs, setup_file.as_deref(), job)?;
+        self.find_wrong_ending(target.as_deref()).map_or(Ok(()), |wrong| Err(Stop::Usage(wrong)))?;
         let source = input_files::read_source(input)?;
-        let done = job.correct_source(&source);
+        let corrected = job.correct_source(&source);
         progress.clear_bar();
-        let JobOutcome { program, findings, reports } = match done {
-            Ok(outcome) => outcome,
+        let outcome = match corrected {
+            Ok(JobOutcome { program, findings, reports }) => ApplyOutcome { program, findings, reports },
             Err(Failure::Interrupted) => return Err(Stop::Interrupted),
+            // Analysis of a refused program is still wanted: it shows what is wrong with it.
             Err(Failure::Found(findings)) => {
-                self.show_findings(&findings, source.name())?;
-                if !self.quiet {
-                    eprintln!("{}: nothing was written", source.name());
-                }
-                return Err(Stop::Exit(CommandExit::Errors));
+                ApplyOutcome { program: parse(&source, job.dialect).program, findings, reports: Vec::new() }
             }
         };
-        if !findings.is_empty() {
-            self.show_findings(&findings, source.name())?;
-        }
-        if self.diff {
-            self.print_diff(&program)?;
-        }
-        let run = ApplyOutcome {
-            job,
-            setup_files,
-            source: &source,
-            program: &program,
-            findings: &findings,
-            reports: &reports,
-        };
-        self.write_all(&run, target.as_deref(), outputs, progress)
+        let mut run = ApplyRun { job, setup_files, source: &source, outcome };
+        self.finish_run(&mut run, target.as_deref(), outputs, progress)
             .map_err(|stop| stop.about(Path::new(source.name())))
     }
 
-    fn write_all(
+    /// Tells what was found, and writes what is asked for: analysis always, the program while no error stands.
+    fn finish_run(
         &self,
-        run: &ApplyOutcome<'_>,
+        run: &mut ApplyRun<'_>,
         target: Option<&Path>,
         outputs: &CommandOutputs,
         progress: &CommandProgress,
     ) -> Result<(), Stop> {
+        let simulated = self.simulate_for_reports(run, progress)?;
+        let findings = &run.outcome.findings;
+        let refused = findings.iter().any(Diagnostic::is_error);
+        if !findings.is_empty() {
+            self.show_findings(findings, run.source.name())?;
+        }
+        if self.diff && !refused {
+            self.print_diff(&run.outcome.program)?;
+        }
+        let target = target.filter(|_| !self.dry_run && !refused);
         // The program comes last: one that was replaced without its report could not be undone.
-        self.write_side_outputs(run, target, outputs, progress)?;
-        let target = target.filter(|_| !self.dry_run);
+        self.write_side_outputs(run, simulated.as_ref(), target, outputs)?;
+        if refused {
+            if !self.quiet {
+                eprintln!("{}: {}", run.source.name(), self.describe_refusal());
+            }
+            return Err(Stop::Exit(CommandExit::Errors));
+        }
         if let Some(target) = target {
-            write_program(run.program, target, outputs)?;
+            write_program(&run.outcome.program, target, outputs)?;
         }
         if !self.quiet {
             ignore_closed_pipe(self.show_summary(run, target))?;
         }
         Ok(())
+    }
+
+    /// What is said of a program with errors.
+    fn describe_refusal(&self) -> &'static str {
+        match self.named_outputs().next().is_some() || self.reports.is_wanted() {
+            true => "the program was not written, the reports of it were",
+            false => "nothing was written",
+        }
     }
 
     fn print_diff(&self, program: &Program) -> io::Result<()> {

@@ -12,8 +12,10 @@ use clsmith::job::{CorrectionJob, is_program_changed};
 use clsmith::parse::parse;
 use clsmith::program::Program;
 use clsmith::report::changes::{self, RecipeChanges};
-use clsmith::report::comparison::ComparisonSubject;
+use clsmith::report::comparison::{Comparison, ComparisonRuns, ComparisonSubject};
+use clsmith::report::finding_policy::sort_findings;
 use clsmith::report::path_drawing;
+use clsmith::simulation_run::SimulationRunOptions;
 use clsmith::source::Source;
 use clsmith::transform::TransformReport;
 use clsmith::undo::RunReport;
@@ -21,77 +23,113 @@ use std::io::{self, Write};
 use std::path::Path;
 use std::sync::Arc;
 
-/// A program that its recipe is through with.
-pub(super) struct ApplyOutcome<'r> {
+/// A program that its recipe is through with, or as it came where it was refused.
+pub(super) struct ApplyOutcome {
+    pub program: Program,
+    /// What was found, as the policy leaves it.
+    pub findings: Vec<Diagnostic>,
+    pub reports: Vec<Box<dyn TransformReport>>,
+}
+
+/// A run on one file: what it was made of, and what came of it.
+pub(super) struct ApplyRun<'r> {
     pub job: &'r CorrectionJob<'r>,
     pub setup_files: &'r [Arc<Source>],
     pub source: &'r Arc<Source>,
-    pub program: &'r Program,
-    pub findings: &'r [Diagnostic],
-    pub reports: &'r [Box<dyn TransformReport>],
+    pub outcome: ApplyOutcome,
 }
 
-impl ApplyOutcome<'_> {
+impl ApplyRun<'_> {
     /// The program as it was read.
     fn parse_original(&self) -> Program {
-        parse(self.source, Some(self.program.dialect())).program
+        parse(self.source, Some(self.outcome.program.dialect())).program
     }
 
     fn compare_with_original(&self, before: &Program) -> RecipeChanges {
         let recipe = self.job.recipe;
-        RecipeChanges::from_programs(before, self.program, &recipe.step_names(), Some(recipe.units))
+        RecipeChanges::from_programs(before, &self.outcome.program, &recipe.step_names(), Some(recipe.units))
+    }
+
+    /// What reports tell of.
+    fn report_subject<'a>(&'a self, before: &'a Program, print: Option<&'a str>) -> ComparisonSubject<'a> {
+        ComparisonSubject {
+            before: Some(before),
+            program: &self.outcome.program,
+            recipe: Some(self.job.recipe),
+            setup: self.job.setup,
+            setup_files: self.setup_files,
+            units: Some(self.job.recipe.units),
+            findings: &self.outcome.findings,
+            reports: &self.outcome.reports,
+            print,
+        }
     }
 }
 
+/// The original, and the simulations of it and of the corrected program.
+pub(super) struct SimulatedForReports {
+    before: Program,
+    runs: ComparisonRuns,
+}
+
 impl ApplyArgs {
+    /// Simulates where a report is wanted. What is found in the program as it stands is a finding of the run, in every output.
+    pub(super) fn simulate_for_reports(
+        &self,
+        run: &mut ApplyRun<'_>,
+        progress: &CommandProgress,
+    ) -> Result<Option<SimulatedForReports>, Stop> {
+        if !self.reports.is_wanted() {
+            return Ok(None);
+        }
+        progress.begin_bar(&format!("{}: report", run.source.name()));
+        let before = run.parse_original();
+        let options = SimulationRunOptions::default();
+        let runs = ComparisonRuns::simulate_subject(&run.report_subject(&before, None), &options, progress);
+        progress.clear_bar();
+        let runs = runs?;
+        if let Some(simulated) = &runs.after {
+            run.outcome.findings.extend(run.job.policy.apply(simulated.findings.clone()));
+            sort_findings(&mut run.outcome.findings);
+        }
+        Ok(Some(SimulatedForReports { before, runs }))
+    }
+
     /// Writes what is wanted beside the program: run report, drawing, page and summary. A finding for the first that cannot be written.
     pub(super) fn write_side_outputs(
         &self,
-        run: &ApplyOutcome<'_>,
+        run: &ApplyRun<'_>,
+        simulated: Option<&SimulatedForReports>,
         target: Option<&Path>,
         outputs: &CommandOutputs,
-        progress: &CommandProgress,
     ) -> Result<(), Stop> {
         if let (Some(path), Some(print)) = (&self.json, run.job.print) {
             self.write_run_report(path, run, print, target, outputs)?;
         }
         if let Some(path) = &self.plot {
-            self.draw_step_reports(path, run.reports, outputs)?;
+            self.draw_step_reports(path, &run.outcome.reports, outputs)?;
         }
-        if !self.reports.is_wanted() {
-            return Ok(());
-        }
+        let Some(simulated) = simulated else { return Ok(()) };
         let digits = run.job.print.map(|print| print.sha256.to_string());
-        let subject = ComparisonSubject {
-            before: Some(&run.parse_original()),
-            program: run.program,
-            recipe: Some(run.job.recipe),
-            setup: run.job.setup,
-            setup_files: run.setup_files,
-            units: Some(run.job.recipe.units),
-            findings: run.findings,
-            reports: run.reports,
-            print: digits.as_deref(),
-        };
-        progress.begin_bar(&format!("{}: report", run.source.name()));
-        let written = self.reports.simulate_and_write(subject, progress, outputs);
-        progress.clear_bar();
-        written
+        let subject = run.report_subject(&simulated.before, digits.as_deref());
+        self.reports.write_reports(&Comparison::from_runs(subject, &simulated.runs), outputs)
     }
 
     /// Writes what the run did as JSON; a finding when that fails.
     fn write_run_report(
         &self,
         path: &Path,
-        run: &ApplyOutcome<'_>,
+        run: &ApplyRun<'_>,
         print: &RecipeFingerprint,
         target: Option<&Path>,
         outputs: &CommandOutputs,
     ) -> Result<(), Stop> {
-        let file = target.filter(|target| !self.dry_run && *target != Path::new(STANDARD));
+        let file = target.filter(|target| *target != Path::new(STANDARD));
         let file = file.map(|file| file.to_string_lossy().into_owned());
         let changes = run.compare_with_original(&run.parse_original());
-        let report = RunReport::from_program(run.program, file, print, run.job.recipe.provenance, &changes);
+        let report =
+            RunReport::from_program(&run.outcome.program, file, print, run.job.recipe.provenance, &changes);
+        let report = report.with_findings(&run.outcome.findings);
         outputs.write_output(path, |out| report.write_json(out))
     }
 
@@ -114,19 +152,19 @@ impl ApplyArgs {
     }
 
     /// What was changed, for who looks on.
-    pub(super) fn show_summary(&self, run: &ApplyOutcome<'_>, target: Option<&Path>) -> io::Result<()> {
+    pub(super) fn show_summary(&self, run: &ApplyRun<'_>, target: Option<&Path>) -> io::Result<()> {
         let mut err = io::stderr().lock();
         let to = match target {
             Some(path) if path == Path::new(STANDARD) => " -> standard output".to_owned(),
             Some(path) => format!(" -> {}", path.display()),
             None => String::new(),
         };
-        if !is_program_changed(run.program) {
+        if !is_program_changed(&run.outcome.program) {
             writeln!(err, "{}{to}: nothing to change, every byte as it was", run.source.name())?;
-            return write_step_reports(&mut err, run.reports);
+            return write_step_reports(&mut err, &run.outcome.reports);
         }
         err.write_all(changes::to_text(&run.compare_with_original(&run.parse_original())).as_bytes())?;
-        write_step_reports(&mut err, run.reports)?;
+        write_step_reports(&mut err, &run.outcome.reports)?;
         if to.is_empty() { Ok(()) } else { writeln!(err, "{to}", to = to.trim_start()) }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::ApplyArgs;
 use crate::cli::input_files::STANDARD;
+use crate::cli::output_endings::{OutputContent, find_wrong_ending};
 use clsmith::output_files::is_same_file;
 use std::path::{Path, PathBuf};
 
@@ -59,6 +60,16 @@ impl ApplyArgs {
             }
         }
         None
+    }
+
+    /// Finds an output whose ending promises something else than what is written. Asked after inputs are known to be safe.
+    pub(super) fn find_wrong_ending(&self, target: Option<&Path>) -> Option<String> {
+        let wrong = find_wrong_ending([
+            ("-o", target, OutputContent::Program),
+            ("--plot", self.plot.as_deref(), OutputContent::Drawing),
+            ("--json", self.json.as_deref(), OutputContent::Json),
+        ]);
+        wrong.or_else(|| self.reports.find_wrong_ending())
     }
 
     /// Options beside those of reports that name a file to write.

@@ -118,7 +118,7 @@ impl ChipsArgs {
             self.find_usage_problem(),
             |under| self.find_chips(under),
             |(report, _)| layered_chips::to_text(report),
-            |(report, drawn), _, outputs| self.write_outputs(report, drawn, outputs),
+            |(report, drawn), findings, outputs| self.write_outputs(report, drawn, findings, outputs),
         )
     }
 

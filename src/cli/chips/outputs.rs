@@ -3,6 +3,7 @@
 use super::ChipsArgs;
 use crate::cli::command_outputs::{CommandOutputs, refuse_overwritten_input};
 use crate::cli::input_files::STANDARD;
+use crate::cli::output_endings::{OutputContent, find_wrong_ending};
 use crate::cli::stop::Stop;
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::output_files::is_same_file;
@@ -47,7 +48,15 @@ impl ChipsArgs {
     pub(super) fn check_outputs(&self, setup: &Setup) -> Result<(), Stop> {
         let mut inputs = vec![self.program.as_path(), &self.setup];
         inputs.extend(setup.referenced_files());
-        refuse_overwritten_input(self.output_paths(), &inputs)
+        refuse_overwritten_input(self.output_paths(), &inputs)?;
+        let wrong = find_wrong_ending([
+            ("--csv", self.csv.as_deref(), OutputContent::Csv),
+            ("--json", self.json.as_deref(), OutputContent::Json),
+            ("--stl", self.stl.as_deref(), OutputContent::Stl),
+            ("--svg", self.svg.as_deref(), OutputContent::Svg),
+            ("--diagram", self.diagram.as_deref(), OutputContent::Svg),
+        ]);
+        wrong.map_or(Ok(()), |wrong| Err(Stop::Usage(wrong)))
     }
 
     /// The drawings that are wanted.
@@ -85,12 +94,13 @@ impl ChipsArgs {
         &self,
         report: &ChipReport,
         drawn: &ChipDrawings,
+        findings: &[Diagnostic],
         outputs: &CommandOutputs,
     ) -> Result<(), Stop> {
         type Writer<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
         let all: [(&Option<PathBuf>, Writer<'_>); 5] = [
             (&self.csv, Box::new(|out| layered_chips::write_csv(report, out))),
-            (&self.json, Box::new(|out| layered_chips::write_json(report, out))),
+            (&self.json, Box::new(|out| layered_chips::write_json(report, findings, out))),
             (&self.stl, Box::new(|out| layered_chips::write_stl(report, out))),
             (
                 &self.svg,

@@ -171,10 +171,11 @@ impl SectionArgs {
         };
         let outputs = CommandOutputs::default();
         outputs.stop_on_ctrl_c(|| {})?;
-        let done = self.check_outputs().and_then(|()| {
-            let part = self.read_part(&options)?;
-            make_surface_program(&part, &options)
-        });
+        if let Err(failure) = self.check_outputs() {
+            return self.refuse_part(failure, &policy, CommandExit::Errors);
+        }
+        self.find_wrong_ending().map_or(Ok(()), |wrong| Err(Stop::Usage(wrong)))?;
+        let done = self.read_part(&options).and_then(|part| make_surface_program(&part, &options));
         match done {
             Ok(surfaced) => self.show_and_write(&surfaced, &options, &policy, &outputs),
             Err(failure) => self.refuse_part(failure, &policy, CommandExit::Errors),

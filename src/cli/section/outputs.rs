@@ -3,6 +3,7 @@
 use super::SectionArgs;
 use crate::cli::command_outputs::{CommandOutputs, print_summary};
 use crate::cli::input_files::STANDARD;
+use crate::cli::output_endings::{OutputContent, find_wrong_ending};
 use crate::cli::stop::Stop;
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::output_files::is_same_file;
@@ -40,6 +41,14 @@ impl SectionArgs {
         let (one, other) = (outputs.next()?, outputs.next()?);
         (one == other || is_same_file(one, other))
             .then(|| format!("two outputs would go to {}", one.display()))
+    }
+
+    /// Finds an output whose ending promises something else than what is written. Asked once the input is known to be safe.
+    pub(super) fn find_wrong_ending(&self) -> Option<String> {
+        find_wrong_ending([
+            ("-o", self.output.as_deref(), OutputContent::Program),
+            ("--plot", self.plot.as_deref(), OutputContent::Drawing),
+        ])
     }
 
     /// No output may be the input.

@@ -3,6 +3,7 @@
 use super::{SimulateArgs, SimulateOutcome};
 use crate::cli::command_outputs::{CommandOutputs, refuse_overwritten_input};
 use crate::cli::input_files::STANDARD;
+use crate::cli::output_endings::{OutputContent, find_wrong_ending};
 use crate::cli::stop::Stop;
 use clsmith::diagnostic::Diagnostic;
 use clsmith::output_files::is_same_file;
@@ -43,7 +44,15 @@ impl SimulateArgs {
         let mut inputs = vec![self.program.as_path(), &self.setup];
         inputs.extend([&self.target, &self.plot_before].into_iter().filter_map(|path| path.as_deref()));
         inputs.extend(setup.referenced_files());
-        refuse_overwritten_input(self.output_paths(), &inputs)
+        refuse_overwritten_input(self.output_paths(), &inputs)?;
+        let wrong = find_wrong_ending([
+            ("--csv", self.csv.as_deref(), OutputContent::Csv),
+            ("--json", self.json.as_deref(), OutputContent::Json),
+            ("--stl", self.stl.as_deref(), OutputContent::Stl),
+            ("--save-stock", self.save_stock.as_deref(), OutputContent::Stock),
+            ("--plot", self.plot.as_deref(), OutputContent::Drawing),
+        ]);
+        wrong.or_else(|| self.reports.find_wrong_ending()).map_or(Ok(()), |wrong| Err(Stop::Usage(wrong)))
     }
 
     /// Writes what was asked for; a finding when that fails.
@@ -60,13 +69,18 @@ impl SimulateArgs {
         type Writer<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
         let all: [(&Option<PathBuf>, Writer<'_>); 5] = [
             (&self.csv, Box::new(|out| simulation::write_csv(simulated, out))),
-            (&self.json, Box::new(|out| out.write_all(simulation::to_json(simulated).as_bytes()))),
+            (&self.json, Box::new(|out| out.write_all(simulation::to_json(simulated, findings).as_bytes()))),
             (&self.stl, Box::new(|out| stl_export::write_stl(&simulated.left, out))),
             (&self.save_stock, Box::new(|out| stock_file::write_clstock(&simulated.left, out))),
             (&self.plot, Box::new(|out| out.write_all(ran.drawn.as_deref().unwrap_or_default()))),
         ];
+        let refused = findings.iter().any(Diagnostic::is_error);
         for (path, write_all) in &all {
             let Some(path) = path else { continue };
+            // Analysis is written also when errors were found. What a program with a crash leaves is no stock for the next.
+            if refused && self.save_stock.as_ref() == Some(path) {
+                continue;
+            }
             outputs.write_output(path, write_all)?;
         }
         if !self.reports.is_wanted() {

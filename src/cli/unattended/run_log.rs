@@ -36,8 +36,10 @@ pub struct LogLine<'r, More> {
     recipe: Option<&'r LoggedRecipe>,
     /// What each step changed.
     steps: &'r [StepChanges],
-    /// How many findings of each code there were.
+    /// How many findings of each code there were, those allowed by hand included.
     findings: BTreeMap<&'static str, usize>,
+    /// How many of them were allowed by hand, by code.
+    allowed: BTreeMap<&'static str, usize>,
     /// The first errors, a line each.
     errors: Vec<String>,
     /// The program as it went on; `null` where none did.
@@ -84,7 +86,8 @@ impl<'r, More> LogLine<'r, More> {
             outcome: correction.outcome,
             recipe: correction.recipe.as_ref(),
             steps: &correction.steps,
-            findings: count_by_severity(&correction.findings),
+            findings: count_by_code(correction.findings.iter()),
+            allowed: count_by_code(correction.findings.iter().filter(|found| found.is_allowed)),
             errors: list_errors(&correction.findings, &input.path),
             output,
             more,
@@ -99,7 +102,7 @@ pub fn utc_now() -> String {
     format!("{:.3}", jiff::Timestamp::now())
 }
 
-fn count_by_severity(findings: &[Diagnostic]) -> BTreeMap<&'static str, usize> {
+fn count_by_code<'f>(findings: impl Iterator<Item = &'f Diagnostic>) -> BTreeMap<&'static str, usize> {
     let mut counts = BTreeMap::new();
     for found in findings {
         *counts.entry(found.code.id()).or_default() += 1;

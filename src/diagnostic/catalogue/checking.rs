@@ -81,7 +81,7 @@ super::area! {
         "Check the decimal point and the unit.",
         "A coordinate lies more than 100 metres away. Usually a decimal point was lost, an inch file is read as millimetres \
          twice, or two numbers have run together.";
-    NO_MOTION = "CL0116", Warning, "a program without any motion",
+    NO_MOTION = "CL0116", Error, "a program without any motion",
         "Check that the export was complete.",
         "Not one GOTO, FROM or arc is in the file. Either it is not the file you meant, or nothing was selected when it was \
          exported.";
@@ -211,7 +211,7 @@ super::area! {
         "Generate the tool path in the CAM system, or leave the operation out.",
         "The operation has a start and an end, but nothing moves. In the CAM system its path was probably not generated or \
          came out empty.";
-    AFTER_END = "CL0154", Error, "statements after the end of the program",
+    AFTER_END = "CL0154", Warning, "statements after the end of the program",
         "Remove them, or the FINI/END before them.",
         "FINI and END end the program: a post reads no further, so what follows is never machined. Either it is stray text, \
          or two programs were joined and everything after the first FINI would be lost without a word.";

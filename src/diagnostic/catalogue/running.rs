@@ -11,10 +11,12 @@ super::area! {
         "The recipe is well formed, but this program does not allow the step: a parameter is missing that the CL data does not \
          tell either (a tool's diameter, say), a selection is ambiguous, or a record stands in the way that the step cannot \
          change and must not ignore. Steps take programs whole: when one fails nothing of it is written.";
-    NOTHING_SELECTED = "CL0303", Warning, "a step's `where` selects nothing in this program",
-        "Check names with `clsmith stats`; globs are case-sensitive and `*` matches anything.",
-        "The step ran, but no motion of this program is selected by its `where`: no operation, tool, motion class or feed fits. \
-         In a batch over many programs that may be meant; for one program it is most often a misspelt operation name.";
+    NOTHING_SELECTED = "CL0303", Error, "a step's `where` selects nothing in this program",
+        "Check the names; they are case-sensitive and `*` matches anything. Write `required: false` into the `where` of a \
+         step that may find nothing.",
+        "No motion or statement of this program is selected by the step's `where`: no operation, tool, motion class or feed fits. \
+         It is most often a misspelt name, and a program that passes as corrected when it is not breaks a cutter. In a batch over \
+         many programs a step may find nothing in some of them; its `where` then says `required: false`, and this is a note.";
     STALE_RECORD = "CL0304", Warning, "a record still describes the program as it was before a step",
         "Change or remove it with a `rewrite` step, or export the program anew from the place it now has.",
         "The step moved, turned or rescaled the path. This record states a place, height or size in words that only the CAM \
@@ -46,6 +48,23 @@ super::area! {
          the spelling of numbers do not matter, but the arguments and their number do: `COOLNT/ON` is not `COOLNT/ON,FLOOD`, \
          which `COOLNT/ON,$...` matches too. In a batch over many programs this may be meant. A rule whose `if` was false \
          everywhere is not reported: it found its statements, and nothing to correct.";
+    UNUSUAL_VALUE = "CL0311", Warning, "a value that looks like a slip of units or of a decimal point",
+        "Compare it with what the program does; `clsmith stats` and `clsmith simulate` tell.",
+        "The value can be meant, but it is far from what is milled: a factor outside 0.05 to 10, or a target that is 20 times \
+         above or below what the program does today. Most often a percentage was not divided by 100, or inches were taken for \
+         millimetres.";
+    ABSURD_VALUE = "CL0312", Error, "a value that no machine can mean",
+        "Correct the value; `--allow CL0312` lets it pass.",
+        "The value is so far from anything that is milled that it must be a slip: a factor outside 0.001 to 1000, a feed of more \
+         than 20 times what the machine can do, a chip thicker than the tool's radius. Nothing is written while it stands.";
+    FEED_ABOVE_MACHINE = "CL0313", Warning, "a feed above what the machine can do",
+        "Put `clamp_feed: {}` behind the other steps, or correct `machine: { max_feed: ... }` in the setup.",
+        "A feed of the corrected program is above the setup's `machine: { max_feed: ... }`. The control runs it at its own limit, \
+         so the program takes longer than its feeds say, and a feed per tooth is not what was programmed.";
+    TARGET_NOT_REACHED = "CL0314", Warning, "a target that no motion comes near",
+        "Look at `max_feed` and `max_ratio` of the step and at `max_feed` of the machine: one of them holds every feed down.",
+        "`optimize_feed` raises feeds until the load reaches its target. Here the highest feed allowed was reached first \
+         everywhere, so the target decides nothing.";
     RAMP_OUT_OF_LIMITS = "CL0320", Warning, "a ramp is too short or too steep for an indexable cutter",
         "The step corrects it; look at the new points with `--diff`.",
         "An indexable cutter does not cut within D - 2r around its axis (D its diameter, r the radius of the inserts' bottom \

@@ -91,7 +91,8 @@ impl ComparisonFigures {
                 self.feed_range_mm_min = Some([low.min(feed), high.max(feed)]);
             }
         }
-        let Some(row) = row else { return };
+        // A rapid through material is a crash, not a cut: what it would load is no peak of the program's cuts.
+        let Some(row) = row.filter(|row| !row.rapid) else { return };
         let raise = |peak: &mut Option<ComparisonPeak>, value: Option<f64>| {
             if let Some(value) = value.filter(|value| peak.is_none_or(|peak| *value > peak.value)) {
                 *peak = Some(ComparisonPeak { value, motion });

@@ -6,14 +6,13 @@ use crate::diagnostic::{Diagnostic, DiagnosticLabel};
 use crate::program::RecordKind;
 use crate::report::changes::StepChanges;
 use crate::report::escaping::escape_markdown;
+use crate::report::render::describe_counts;
+use crate::report::render::finding_groups::group_findings;
 use crate::report::table::{Column, ColumnUnit, DisplayUnits, PrintedTable, TableLooks, TableValue};
 use crate::report::text_format::{format_count, format_counted};
 use crate::transform::PROVENANCE;
 use std::collections::BTreeMap;
 use std::fmt::Write;
-
-/// Findings that are listed; the rest is counted.
-const MOST_FINDINGS: usize = 50;
 
 /// The comparison as Markdown (GitHub's and GitLab's tables). The same comparison makes the same bytes.
 pub fn to_markdown(comparison: &Comparison<'_>) -> String {
@@ -38,10 +37,10 @@ pub fn to_markdown(comparison: &Comparison<'_>) -> String {
         }
         None => {}
     }
+    append_findings(&mut out, comparison.subject.findings);
     out.push_str(&build_whole_table(comparison).to_markdown());
     append_steps(&mut out, comparison);
     append_operations(&mut out, comparison);
-    append_findings(&mut out, comparison.subject.findings);
     append_list(&mut out, "Not shown", &comparison.runs.missing);
     append_list(&mut out, "Assumed", &comparison.assumptions);
     let _ = writeln!(out, "<sub>clsmith {}", env!("CARGO_PKG_VERSION"));
@@ -116,13 +115,17 @@ fn append_findings(out: &mut String, findings: &[Diagnostic]) {
         out.push_str("None.\n\n");
         return;
     }
-    for found in findings.iter().take(MOST_FINDINGS) {
-        let place = found.labels.first().map(format_place).unwrap_or_default();
-        let message = escape_markdown(&found.message);
-        let _ = writeln!(out, "- **{}** {}{place}: {message}", found.severity, found.code);
-    }
-    if findings.len() > MOST_FINDINGS {
-        let _ = writeln!(out, "- and {} more", findings.len() - MOST_FINDINGS);
+    let _ = writeln!(out, "{}.\n", describe_counts(findings));
+    for group in group_findings(findings) {
+        for found in group.shown(1) {
+            let place = found.labels.first().map(format_place).unwrap_or_default();
+            let message = escape_markdown(&found.message);
+            let allowed = if found.is_allowed { ", allowed by hand" } else { "" };
+            let _ = writeln!(out, "- **{}{allowed}** {}{place}: {message}", found.severity, found.code);
+        }
+        if let Some(hidden) = group.describe_hidden(1) {
+            let _ = writeln!(out, "  - {}", escape_markdown(&hidden));
+        }
     }
     out.push('\n');
 }

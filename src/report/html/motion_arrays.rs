@@ -17,6 +17,8 @@ pub const CHORD_MM: f64 = 0.02;
 const RAPID: u8 = 1;
 /// It does not begin where the motion before ended; its first vertex is where it begins.
 const JUMPS: u8 = 2;
+/// It is a crash: the page draws it red.
+const CRASH: u8 = 4;
 
 /// The arrays of a program, one value a motion; first points, which come from nowhere, are no motions.
 #[derive(Debug, Default)]
@@ -104,6 +106,9 @@ impl PageMotionArrays {
             side.push_motion_facts(&motion, rows);
         }
         if let Some(rows) = simulated.map(|simulated| &simulated.motions.rows) {
+            for (flags, _) in side.flags.iter_mut().zip(rows).filter(|(_, row)| row.is_crash) {
+                *flags |= CRASH;
+            }
             for (name, value) in LOADS {
                 if rows.iter().any(|row| value(row).is_some()) {
                     let values = rows.iter().map(|row| value(row).map_or(f32::NAN, |value| value as f32));

@@ -1,22 +1,22 @@
 //! The parts of the page that are plain text and tables.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::presentation::safe_text::to_safe_line;
 use crate::report::comparison::{
     ComparedFile, Comparison, build_operation_table, build_step_table, build_whole_table,
 };
 use crate::report::escaping::escape_html;
-use crate::report::render::SeverityCounts;
+use crate::report::render::describe_counts;
+use crate::report::render::finding_groups::group_findings;
 use crate::report::render::human::{self, HumanRenderOptions};
 use crate::report::table::{Column, ColumnUnit, DisplayUnits, PrintedTable, TableLooks, TableValue};
 use crate::report::text_format::format_count;
 use crate::source::Source;
-use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::sync::Arc;
 
-/// Findings of one code that are shown with their lines; the rest is counted.
-const PER_CODE: usize = 40;
+/// Findings of a group that are shown with their text; of the others the lines are named.
+const PER_GROUP: usize = 10;
 
 /// Writes a section by its name in the template.
 pub fn write_section(
@@ -85,53 +85,51 @@ fn write_steps(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<(
 }
 
 fn write_findings(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
-    let subject = &comparison.subject;
-    let runs = [
-        ("the program before", &comparison.runs.before),
-        ("the program as it stands", &comparison.runs.after),
-    ];
-    let simulated = runs.into_iter().filter_map(|(of, run)| Some((of, run.as_ref()?)));
-    write_finding_list(out, "Of the run", subject.findings, comparison)?;
-    for (of, simulated) in simulated {
-        if !simulated.findings.is_empty() {
-            write_finding_list(out, &format!("Of the simulation of {of}"), &simulated.findings, comparison)?;
+    write_finding_list(out, "Of the run", comparison.subject.findings, comparison)?;
+    // Those of the program as it stands are findings of the run.
+    match &comparison.runs.before {
+        Some(before) if !before.findings.is_empty() => {
+            write_finding_list(out, "Of the simulation of the program before", &before.findings, comparison)
         }
+        _ => Ok(()),
     }
-    Ok(())
 }
 
 fn write_finding_list(
     out: &mut dyn Write,
     title: &str,
-    found: &[Diagnostic],
+    findings: &[Diagnostic],
     comparison: &Comparison<'_>,
 ) -> io::Result<()> {
-    writeln!(out, "<h3>{}: {}</h3>", escape_html(title), SeverityCounts::from_findings(found))?;
-    let options = HumanRenderOptions { width: 120, ..HumanRenderOptions::default() };
-    let mut seen: BTreeMap<&str, usize> = BTreeMap::new();
-    for one in found {
-        let count = seen.entry(one.code.id()).or_default();
-        *count += 1;
-        if *count > PER_CODE {
-            continue;
+    writeln!(out, "<h3>{}: {}</h3>", escape_html(title), escape_html(&describe_counts(findings)))?;
+    for group in group_findings(findings) {
+        for found in group.shown(PER_GROUP) {
+            write_finding(out, found, comparison)?;
         }
-        let mut drawn = Vec::new();
-        human::render_human(&mut drawn, std::slice::from_ref(one), None, &options)?;
-        let drawn = String::from_utf8_lossy(&drawn);
-        // The last line counts findings, here always one.
-        let drawn = drawn.trim_end().rsplit_once('\n').map_or("", |(drawn, _)| drawn.trim_matches('\n'));
-        let severity = one.severity;
-        writeln!(
-            out,
-            "<div class=\"finding {severity}\"{}><pre>{}</pre></div>",
-            format_line_attribute(one, comparison),
-            escape_html(drawn)
-        )?;
-    }
-    for (code, count) in seen.into_iter().filter(|(_, count)| *count > PER_CODE) {
-        writeln!(out, "<p>{} more of {code} are not shown.</p>", count - PER_CODE)?;
+        if let Some(hidden) = group.describe_hidden(PER_GROUP) {
+            writeln!(out, "<p>{}</p>", escape_html(&hidden))?;
+        }
     }
     Ok(())
+}
+
+/// Writes one finding; its line is a link for the scripts.
+fn write_finding(out: &mut dyn Write, found: &Diagnostic, comparison: &Comparison<'_>) -> io::Result<()> {
+    let options = HumanRenderOptions { width: 120, ..HumanRenderOptions::default() };
+    let mut drawn = Vec::new();
+    let standing = Diagnostic { is_allowed: false, ..found.clone() };
+    human::render_human(&mut drawn, std::slice::from_ref(&standing), None, &options)?;
+    let drawn = String::from_utf8_lossy(&drawn);
+    // The last line counts findings, here always one.
+    let drawn = drawn.trim_end().rsplit_once('\n').map_or("", |(drawn, _)| drawn.trim_matches('\n'));
+    let allowed = if found.is_allowed { "<b>Allowed by hand.</b> " } else { "" };
+    writeln!(
+        out,
+        "<div class=\"finding {severity}\"{line}>{allowed}<pre>{drawn}</pre></div>",
+        severity = if found.is_allowed { Severity::Note } else { found.severity },
+        line = format_line_attribute(found, comparison),
+        drawn = escape_html(drawn)
+    )
 }
 
 /// The line that a finding is about, for the scripts.

@@ -3,6 +3,8 @@
 use super::chip_columns::{ChipLayerOfMotion, layer_columns, motion_columns};
 use super::json_formatter::DepthLimitedFormatter;
 use super::{ChipLayerRow, ChipReport, ChipRow, ChipTotals, OperationChips, UncutMotion};
+use crate::diagnostic::Diagnostic;
+use crate::report::render::json::FindingsJson;
 use crate::report::rounding::{round_to_micro, serialize_rounded};
 use crate::report::table::{CsvTable, DisplayUnits, JsonColumns, RecordNumbers};
 use serde::ser::SerializeMap;
@@ -32,15 +34,16 @@ struct ChipDocument<'a> {
     assumptions: &'a [String],
     operations: &'a [OperationChips],
     skipped: &'a [UncutMotion],
+    findings: FindingsJson<'a>,
     motions: MotionList<'a>,
 }
 
 /// Writes the chips as one JSON document, a line for each layer, with a line end. The borders of pieces are
-/// in it where they were kept.
+/// in it where they were kept. `findings` are those of the whole run, as the policy left them.
 ///
 /// # Errors
 /// Returns the errors of `out`.
-pub fn write_json(report: &ChipReport, out: &mut dyn Write) -> io::Result<()> {
+pub fn write_json(report: &ChipReport, findings: &[Diagnostic], out: &mut dyn Write) -> io::Result<()> {
     let columns = ChipJsonColumns::new();
     let document = ChipDocument {
         version: 1,
@@ -51,6 +54,7 @@ pub fn write_json(report: &ChipReport, out: &mut dyn Write) -> io::Result<()> {
         assumptions: &report.assumptions,
         operations: &report.operations,
         skipped: &report.skipped,
+        findings: FindingsJson::from_findings(findings),
         motions: MotionList { rows: &report.rows, columns: &columns },
     };
     let mut serializer = serde_json::Serializer::with_formatter(&mut *out, DepthLimitedFormatter::default());

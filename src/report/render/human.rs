@@ -1,11 +1,11 @@
 //! Findings for people, drawn by miette.
 
 use super::excerpt::{ExcerptMark, ExcerptOptions, SourceExcerpt};
-use super::{NO_FILE, SeverityCounts, line};
-use crate::diagnostic::{Diagnostic, DiagnosticCode, Severity};
+use super::finding_groups::group_findings;
+use super::{NO_FILE, SeverityCounts, describe_counts, line};
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::presentation::safe_text;
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
-use std::collections::BTreeMap;
 use std::fmt;
 use std::io::{self, Write};
 
@@ -18,7 +18,7 @@ pub struct HumanRenderOptions {
     pub unicode: bool,
     /// Columns of the terminal.
     pub width: usize,
-    /// How many findings of one code are shown; 0 shows all.
+    /// How many findings are shown of a group of more than three; 0 shows all.
     pub per_code: usize,
     /// Lines shown before and after a labelled one.
     pub context_lines: usize,
@@ -26,11 +26,12 @@ pub struct HumanRenderOptions {
 
 impl Default for HumanRenderOptions {
     fn default() -> Self {
-        Self { color: false, unicode: true, width: 100, per_code: 10, context_lines: 1 }
+        Self { color: false, unicode: true, width: 100, per_code: 1, context_lines: 1 }
     }
 }
 
-/// Writes each finding with the lines it is about, then what was left out, then a summary line.
+/// Writes the findings with the lines they are about, group by group: the worst of a large group and what was left out.
+/// A summary line follows, which also counts what was allowed by hand.
 ///
 /// `file` is the run's file, which the summary names.
 ///
@@ -58,41 +59,41 @@ pub fn render_human(
     options: &HumanRenderOptions,
 ) -> io::Result<()> {
     let handler = build_miette_handler(options);
-    let mut seen: BTreeMap<DiagnosticCode, usize> = BTreeMap::new();
-    for found in diagnostics {
-        let count = seen.entry(found.code).or_default();
-        *count += 1;
-        if options.per_code > 0 && *count > options.per_code {
-            continue;
+    let groups = group_findings(diagnostics);
+    let standing = groups.iter().filter(|group| !group.worst().is_allowed);
+    // The order is that of the findings, also between groups: a file is mended from its top to its end.
+    let mut shown: Vec<(&Diagnostic, Option<String>)> = Vec::new();
+    for group in standing {
+        let mut of_group: Vec<_> =
+            group.shown(options.per_code).into_iter().map(|found| (found, None)).collect();
+        if let Some((_, hidden)) = of_group.last_mut() {
+            *hidden = group.describe_hidden(options.per_code);
         }
+        shown.extend(of_group);
+    }
+    // Findings stand in one slice, so their order is that of their addresses.
+    shown.sort_by_key(|(found, _)| std::ptr::from_ref(*found));
+    for (found, hidden) in shown {
         let mut drawn = String::new();
         match handler.render_report(&mut drawn, &MietteFinding::new(found, options)) {
             Ok(()) => writeln!(out, "{drawn}")?,
             Err(fmt::Error) => writeln!(out, "{}\n", line::format_finding_line(found, file))?,
         }
-    }
-    for (code, count) in seen {
-        if let Some(note) = describe_hidden_findings(code, count, options.per_code) {
-            writeln!(out, "{note}")?;
+        if let Some(hidden) = hidden {
+            writeln!(out, "{hidden} (--max-per-code 0 shows all)\n")?;
         }
     }
     writeln!(out, "{}", format_summary(diagnostics, file, options.color))
 }
 
-/// What to say about the findings of a code beyond the cap; `None` when all were shown.
-pub fn describe_hidden_findings(code: DiagnosticCode, count: usize, per_code: usize) -> Option<String> {
-    let hidden = count.checked_sub(per_code).filter(|&hidden| hidden > 0 && per_code > 0)?;
-    Some(format!("{hidden} more of {code} not shown (--max-per-code 0 shows all)"))
-}
-
 fn format_summary(diagnostics: &[Diagnostic], file: Option<&str>, color: bool) -> String {
-    let counts = SeverityCounts::from_findings(diagnostics);
+    let counts = describe_counts(diagnostics);
     let name = safe_text::to_safe_line(file.unwrap_or(NO_FILE));
-    let paint = match counts {
+    let paint = match SeverityCounts::from_findings(diagnostics) {
         _ if !color => return format!("{name}: {counts}"),
         SeverityCounts { errors: 1.., .. } => 31,
         SeverityCounts { warnings: 1.., .. } => 33,
-        SeverityCounts { notes: 1.., .. } => 36,
+        SeverityCounts { notes: 1.., .. } | SeverityCounts { allowed: 1.., .. } => 36,
         _ => 32,
     };
     format!("{name}: \u{1b}[{paint}m{counts}\u{1b}[0m")
@@ -154,7 +155,11 @@ impl std::error::Error for MietteFinding<'_> {}
 
 impl miette::Diagnostic for MietteFinding<'_> {
     fn code<'b>(&'b self) -> Option<Box<dyn fmt::Display + 'b>> {
-        Some(Box::new(format!("{}[{}]", self.found.severity, self.found.code)))
+        let (severity, code) = (self.found.severity, self.found.code);
+        Some(match self.found.step {
+            Some(step) => Box::new(format!("{severity}[{code}] in step {step}")),
+            None => Box::new(format!("{severity}[{code}]")),
+        })
     }
 
     fn severity(&self) -> Option<miette::Severity> {

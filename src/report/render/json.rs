@@ -7,6 +7,8 @@
 //!     {
 //!       "code": "CL0003",
 //!       "severity": "error",
+//!       "allowed": false,
+//!       "step": null,
 //!       "message": "`1.2.3` is not a number",
 //!       "help": "Numbers are digits with at most one decimal point.",
 //!       "labels": [
@@ -20,11 +22,12 @@
 //!       ]
 //!     }
 //!   ],
-//!   "counts": { "errors": 1, "warnings": 0, "notes": 0 }
+//!   "counts": { "errors": 1, "warnings": 0, "notes": 0, "allowed": 0 }
 //! }
 //! ```
 //!
-//! `severity` is `error`, `warning` or `note`. Lines and columns count from 1, offsets from 0; columns and offsets count
+//! `severity` is `error`, `warning` or `note`; `allowed` says that `--allow` named the code, so that the finding stops
+//! nothing and is counted as allowed alone. `step` is the step of the recipe that found it, from 1. Lines and columns count from 1, offsets from 0; columns and offsets count
 //! bytes; `end` is one past the last byte. The first label is the primary one; `labels` is empty for findings about a whole
 //! file or run. `help` is `null` when there is none, a label's `message` may be empty. `text` is what stands at the place,
 //! `null` when it is longer than 1000 bytes; bytes that are no UTF-8 are read as Latin-1. `version` changes when a reader of
@@ -44,32 +47,41 @@ const LONGEST_TEXT: usize = 1000;
 /// # Errors
 /// What the writer returns.
 pub fn render_json(out: &mut dyn Write, diagnostics: &[Diagnostic]) -> io::Result<()> {
-    let report = FindingsJson {
-        version: 1,
-        diagnostics: diagnostics.iter().map(to_finding_json).collect(),
-        counts: SeverityCounts::from_findings(diagnostics).into(),
-    };
-    serde_json::to_writer_pretty(&mut *out, &report)?;
+    serde_json::to_writer_pretty(&mut *out, &FindingsJson::from_findings(diagnostics))?;
     writeln!(out)
 }
 
-#[derive(Serialize)]
-struct FindingsJson<'a> {
+/// All findings of a run as a JSON document or a part of one; every output that has findings has them in this form.
+#[derive(Debug, Serialize)]
+pub struct FindingsJson<'a> {
     version: u32,
     diagnostics: Vec<FindingJson<'a>>,
     counts: SeverityCountsJson,
 }
 
-#[derive(Serialize)]
+impl<'a> FindingsJson<'a> {
+    /// Takes the findings of a run, as the policy left them.
+    pub fn from_findings(diagnostics: &'a [Diagnostic]) -> Self {
+        Self {
+            version: 1,
+            diagnostics: diagnostics.iter().map(to_finding_json).collect(),
+            counts: SeverityCounts::from_findings(diagnostics).into(),
+        }
+    }
+}
+
+#[derive(Debug, Serialize)]
 struct FindingJson<'a> {
     code: &'static str,
     severity: String,
+    allowed: bool,
+    step: Option<usize>,
     message: &'a str,
     help: Option<&'a str>,
     labels: Vec<FindingLabelJson<'a>>,
 }
 
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 struct FindingLabelJson<'a> {
     file: &'a str,
     start: SourcePositionJson,
@@ -78,23 +90,24 @@ struct FindingLabelJson<'a> {
     text: Option<String>,
 }
 
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 struct SourcePositionJson {
     line: usize,
     column: usize,
     offset: u32,
 }
 
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 struct SeverityCountsJson {
     errors: usize,
     warnings: usize,
     notes: usize,
+    allowed: usize,
 }
 
 impl From<SeverityCounts> for SeverityCountsJson {
-    fn from(SeverityCounts { errors, warnings, notes }: SeverityCounts) -> Self {
-        Self { errors, warnings, notes }
+    fn from(SeverityCounts { errors, warnings, notes, allowed }: SeverityCounts) -> Self {
+        Self { errors, warnings, notes, allowed }
     }
 }
 
@@ -102,6 +115,8 @@ fn to_finding_json(found: &Diagnostic) -> FindingJson<'_> {
     FindingJson {
         code: found.code.id(),
         severity: found.severity.to_string(),
+        allowed: found.is_allowed,
+        step: found.step,
         message: &found.message,
         help: found.help.as_deref(),
         labels: found.labels.iter().map(to_label_json).collect(),

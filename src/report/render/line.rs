@@ -6,6 +6,7 @@ use crate::presentation::safe_text;
 use std::io::{self, Write};
 
 /// Writes `file:line:column: CODE: message` for each finding, and `file: CODE: message` for one without a place.
+/// The message of a finding that `--allow` named begins with `allowed: `.
 ///
 /// The place is the first label's. Columns count bytes from 1. Line breaks in messages become blanks, so a line is a
 /// finding; `file` names the run's file for findings that have no place of their own.
@@ -37,9 +38,10 @@ pub(super) fn format_finding_line(found: &Diagnostic, file: Option<&str>) -> Str
         None => file.unwrap_or(NO_FILE).to_owned(),
     };
     format!(
-        "{}: {}: {}",
+        "{}: {}: {}{}",
         safe_text::to_safe_line(&place),
         found.code,
+        if found.is_allowed { "allowed: " } else { "" },
         safe_text::to_safe_line(&found.message)
     )
 }

@@ -1,6 +1,7 @@
 //! Findings as text: one format, one file.
 
 mod excerpt;
+pub mod finding_groups;
 pub mod human;
 pub mod json;
 pub mod line;
@@ -18,16 +19,21 @@ pub struct SeverityCounts {
     pub warnings: usize,
     /// Findings that were asked for.
     pub notes: usize,
+    /// Findings of any severity that `--allow` named; they are in no other count.
+    pub allowed: usize,
 }
 
 impl SeverityCounts {
     /// Counts findings.
     pub fn from_findings(diagnostics: &[Diagnostic]) -> Self {
-        let count = |severity| diagnostics.iter().filter(|found| found.severity == severity).count();
+        let stands =
+            |severity: Severity| move |found: &&Diagnostic| !found.is_allowed && found.severity == severity;
+        let count = |severity| diagnostics.iter().filter(stands(severity)).count();
         Self {
             errors: count(Severity::Error),
             warnings: count(Severity::Warning),
             notes: count(Severity::Note),
+            allowed: diagnostics.iter().filter(|found| found.is_allowed).count(),
         }
     }
 }
@@ -42,6 +48,16 @@ impl fmt::Display for SeverityCounts {
             separator = ", ";
         }
         if separator.is_empty() { f.write_str("no problems found") } else { Ok(()) }
+    }
+}
+
+/// Says how many findings there are, and which codes were allowed by hand: `1 error, 2 warnings; allowed by hand:
+/// 8 x CL0510`. Every output for people says it in these words.
+pub fn describe_counts(diagnostics: &[Diagnostic]) -> String {
+    let counts = SeverityCounts::from_findings(diagnostics);
+    match finding_groups::describe_allowed(diagnostics) {
+        Some(allowed) => format!("{counts}; allowed by hand: {allowed}"),
+        None => counts.to_string(),
     }
 }
 

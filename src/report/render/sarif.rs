@@ -8,8 +8,8 @@ use crate::presentation::safe_text;
 use crate::source::Source;
 use serde_sarif::sarif::{
     ArtifactLocation, Location, Message, MultiformatMessageString, PhysicalLocation, Region,
-    ReportingConfiguration, ReportingDescriptor, Result as Finding, ResultLevel, Run, Sarif, Tool,
-    ToolComponent,
+    ReportingConfiguration, ReportingDescriptor, Result as Finding, ResultLevel, Run, Sarif, Suppression,
+    Tool, ToolComponent,
 };
 use std::collections::BTreeSet;
 use std::io::{self, Write};
@@ -64,7 +64,16 @@ fn to_sarif_result(found: &Diagnostic, codes: &[DiagnosticCode], file: Option<&s
         .build();
     finding.rule_index = codes.binary_search(&found.code).ok().map(|index| index as i64);
     finding.related_locations = (!related.is_empty()).then_some(related);
+    // SARIF's word for what somebody decided to let pass: the finding stays in the log and counts no more.
+    finding.suppressions = found.is_allowed.then(|| vec![allowed_by_hand()]);
     finding
+}
+
+fn allowed_by_hand() -> Suppression {
+    Suppression::builder()
+        .kind(serde_json::Value::from("external"))
+        .justification("allowed by hand (--allow)")
+        .build()
 }
 
 /// The message, with the help where it says more than the rule's.

@@ -4,8 +4,8 @@
 //! whatever the file's unit. What is not known is an empty cell, `null` in JSON: the chip without teeth, forces without a material,
 //! all that needs the feed of a rapid whose speed nobody says. A motion in air has zeros, and no angles.
 //!
-//! The JSON is [`SimulationReport`] as it stands, with `"version": 1`; numbers are rounded to six decimals. `version` changes when a reader of
-//! the structure would have to, new keys may be added without.
+//! The JSON is [`SimulationReport`] as it stands, with `"version": 1`; numbers are rounded to six decimals. `findings` is the run's list. `version` changes when a
+//! reader of the structure would have to, new keys may be added without.
 
 mod motion_row;
 mod simulation_collector;
@@ -22,6 +22,7 @@ pub use target_comparison::TargetComparison;
 pub use text::to_text;
 
 use crate::diagnostic::{Diagnostic, Failure};
+use crate::report::render::json::FindingsJson;
 use crate::report::rounding::{serialize_rounded, serialize_rounded_option};
 use crate::report::table::{DisplayUnits, JsonColumns, RecordNumbers};
 use crate::simulation_run::{
@@ -218,7 +219,15 @@ fn serialize_motion_rows<S: Serializer>(motions: &MotionRows, serializer: S) -> 
     columns.serialize_rows(motions.named_rows(), serializer)
 }
 
-/// The simulation as one JSON document, indented and with a line end.
-pub fn to_json(simulated: &SimulationReport) -> String {
-    super::to_json_text(simulated)
+/// Writes the simulation as one JSON document, indented and with a line end. `findings` are those of the whole run, as the
+/// policy left them; they stand in it as `findings`.
+pub fn to_json(simulated: &SimulationReport, findings: &[Diagnostic]) -> String {
+    super::to_json_text(&SimulationDocument { simulated, findings: FindingsJson::from_findings(findings) })
+}
+
+#[derive(Serialize)]
+struct SimulationDocument<'a> {
+    #[serde(flatten)]
+    simulated: &'a SimulationReport,
+    findings: FindingsJson<'a>,
 }

@@ -15,6 +15,8 @@ pub struct MotionRow {
     pub tool: usize,
     /// Whether it is a rapid.
     pub rapid: bool,
+    /// Whether it is a crash: shank or holder stands in material, or a rapid takes some.
+    pub is_crash: bool,
     /// Length of the path, mm.
     pub length_mm: f64,
     /// Feed of the tool's tip, mm/min; of a rapid, the machine's.

@@ -111,9 +111,11 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         }
         if let Some(whole) = &whole {
             self.faults.collisions += usize::from(whole.contact.is_some());
+            row.is_crash = whole.contact.is_some();
             if whole.has_removed_material() && removed >= self.speck {
                 let stands = motion.spindle.as_deref().is_none_or(|spindle| !spindle.on);
                 self.faults.rapids_in_material += usize::from(motion.rapid);
+                row.is_crash |= motion.rapid;
                 self.faults.spindle_stands += usize::from(!motion.rapid && stands);
                 self.unknown.check_motion(program, motion, feed, rpm);
             }
@@ -214,7 +216,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         let program = self.machining.program();
         let acceleration = self.machining.setup().machine.max_acceleration.map(|most| most.get());
         self.faults.unknown_feeds = self.unknown.count;
-        let mut findings = self.unknown.into_findings(program);
+        let mut findings = self.unknown.into_findings();
         let gaps = self.machining.tooling().find_missing_teeth(program, self.machining.setup());
         // The rows can do without: the cells stay empty.
         findings.extend(gaps.into_iter().map(|gap| Diagnostic { severity: Severity::Warning, ..gap }));

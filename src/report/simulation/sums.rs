@@ -77,6 +77,10 @@ impl SimulationSums {
             self.feed_seconds += row.seconds.unwrap_or(0.0);
             self.untimed += usize::from(row.seconds.is_none());
         }
+        // A rapid through material is a crash, not a cut: what it would load is no peak of the program's cuts.
+        if row.rapid {
+            return;
+        }
         let line = row.line;
         let raise = |peak: &mut Option<SimulationPeak>, value: Option<f64>| {
             let value = value.filter(|value| *value > peak.map_or(0.0, |peak| peak.value));

@@ -1,18 +1,18 @@
-//! Cuts whose feed or speed is not known, as findings: a few with their places, the rest as a number.
+//! Cuts whose feed or speed is not known, as findings: one for each statement that is to blame.
 
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::Program;
 use crate::program::motion::Motion;
 use crate::source::Span;
-
-/// Findings that are told one by one.
-const TOLD: usize = 10;
+use std::collections::BTreeSet;
 
 /// Collects them.
 #[derive(Debug, Default)]
 pub(super) struct UnknownFeedCollector {
-    told: Vec<Diagnostic>,
-    first: Option<Span>,
+    found: Vec<Diagnostic>,
+    /// The statements that have a finding.
+    blamed: BTreeSet<Span>,
+    /// Motions that cut so.
     pub count: usize,
 }
 
@@ -46,24 +46,15 @@ impl UnknownFeedCollector {
         };
         self.count += 1;
         let span = program.statement(statement).origin();
-        self.first.get_or_insert(span);
-        // A feed that many motions cut with is told once.
-        let known = |found: &Diagnostic| found.labels.first().is_some_and(|label| label.span == span);
-        if self.told.len() < TOLD && !self.told.iter().any(known) {
+        // A feed that many motions cut with is reported once.
+        if self.blamed.insert(span) {
             let found = Diagnostic::new(codes::FEED_UNKNOWN, message);
-            self.told.push(found.with_label(program.source(), span, label));
+            self.found.push(found.with_label(program.source(), span, label));
         }
     }
 
-    /// All findings.
-    pub fn into_findings(mut self, program: &Program) -> Vec<Diagnostic> {
-        let rest = self.count - self.told.len().min(self.count);
-        if let Some(span) = self.first.filter(|_| rest > 0) {
-            let what = if rest == 1 { "motion cuts" } else { "motions cut" };
-            let message = format!("{rest} more {what} at a feed or a speed that is not known");
-            let found = Diagnostic::new(codes::FEED_UNKNOWN, message);
-            self.told.push(found.with_label(program.source(), span, "the first of them"));
-        }
-        self.told
+    /// Returns all findings.
+    pub fn into_findings(self) -> Vec<Diagnostic> {
+        self.found
     }
 }

@@ -179,7 +179,8 @@ impl<'r> LayerRunner<'r> {
         let turns = motion.from.axis.angle(&motion.to.axis) > SAME_AXIS;
         if motion.length() <= SAME_PLACE && !turns {
             let message = "this motion goes nowhere: place and axis are those before it".to_owned();
-            self.faults.add_finding(self.machining.program, motion, codes::STILL_MOTION, message, "stays");
+            let found = Diagnostic::new(codes::STILL_MOTION, message);
+            self.faults.add_finding(self.machining.program, motion, found, "stays");
             return Some(UncutReason::Still);
         }
         match cutter.and_then(|index| self.mills.get_mut(index)) {
@@ -236,7 +237,7 @@ impl<'r> LayerRunner<'r> {
     /// Returns all findings: those of motions, and one for each tool that is not a flat end mill.
     fn collect_findings(&mut self) -> Vec<Diagnostic> {
         let program = self.machining.program;
-        let mut findings = std::mem::take(&mut self.faults).collect_findings(program);
+        let mut findings = std::mem::take(&mut self.faults).into_findings();
         for (index, other) in self.mills.iter().enumerate() {
             let (Err(other), Some(tool)) = (other, self.machining.tooling.tool_of_cutter(index)) else {
                 continue;
@@ -275,7 +276,8 @@ fn check_layer_motion(
                 "{count} of the {all} pieces of this motion cannot be modelled, and the material that they would remove stays: {refusal}"
             ),
         };
-        faults.add_finding(machining.program, cut.motion, codes::CHIP_REFUSED, message, "left out");
+        let found = Diagnostic::new(codes::CHIP_REFUSED, message);
+        faults.add_finding(machining.program, cut.motion, found, "left out");
     }
     let radius = cut.cutter.and_then(|index| mills.get(index)).map_or(0.0, |mill| mill.radius_mm);
     let length = cut.motion.length() * machining.units.mm_per_unit();

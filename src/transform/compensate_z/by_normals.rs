@@ -8,7 +8,7 @@ use super::pass_writer::PassWriter;
 use super::report::{CompensateZReport, PassReport, PassReporter};
 use super::vertical_passes::find_cutting_runs;
 use super::written_passes;
-use crate::diagnostic::{Diagnostic, Failure, codes};
+use crate::diagnostic::{Failure, codes};
 use crate::program::Program;
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
@@ -16,9 +16,6 @@ use crate::transform::StepContext;
 use crate::write::ProgramEditor;
 use nalgebra::{Point3, Unit, Vector3};
 use std::ops::Range;
-
-/// Gouges that are told one by one.
-const TOLD: usize = 10;
 
 pub(super) fn compensate_by_normals(
     job: &CompensateZJob,
@@ -151,7 +148,7 @@ fn report_gouges(
     context: &mut StepContext<'_>,
 ) {
     let found = find_gouges(contacts, job.radius, job.tolerance);
-    for gouge in found.iter().take(TOLD) {
+    for gouge in &found {
         let (Some(motion), Some(neighbour)) = (owners.get(gouge.contact), owners.get(gouge.neighbour)) else {
             continue;
         };
@@ -164,11 +161,7 @@ fn report_gouges(
             let statement = place.program.statement(cut.last_statement());
             finding = finding.with_label(place.program.source(), statement.origin(), "is cut into");
         }
-        context.findings.push(finding);
-    }
-    if found.len() > TOLD {
-        let message = format!("{} more balls cut into other contact points", found.len() - TOLD);
-        context.findings.push(Diagnostic::new(codes::BALL_GOUGES, message));
+        context.findings.push(finding.with_magnitude(gouge.depth_mm));
     }
 }
 

@@ -8,7 +8,7 @@ use super::pass_writer::PassWriter;
 use super::report::{CompensateZReport, PassReport, PassReporter};
 use super::tip_clearance::lowest_tip_height_mm;
 use super::vertical_passes::{VerticalPass, find_vertical_passes};
-use crate::diagnostic::{Diagnostic, Failure, codes};
+use crate::diagnostic::{Failure, codes};
 use crate::program::Program;
 use crate::program::motion::Motion;
 use crate::surface::profile::{Chain, ChainPiece, Point};
@@ -16,9 +16,6 @@ use crate::transform::StepContext;
 use crate::write::ProgramEditor;
 use nalgebra::Point3;
 use rayon::prelude::*;
-
-/// Findings of one kind that are told one by one.
-const TOLD: usize = 10;
 
 /// What printing may add to gouge and gap, in the file's unit: both ends of a chord are off by half the fourth decimal.
 const PRINTED: f64 = 1e-4;
@@ -144,13 +141,8 @@ pub(super) fn to_drawing_points(chain: &Chain) -> Vec<(f64, f64)> {
 }
 
 fn report_unreachable(all: &[ProfilePass], place: &MotionFindings<'_>, context: &mut StepContext<'_>) {
-    let mut count = 0;
     for work in all {
         for part in &work.done.unreachable {
-            count += 1;
-            if count > TOLD {
-                continue;
-            }
             // A recovered profile has other pieces than the path.
             let owner = work
                 .owners
@@ -162,18 +154,10 @@ fn report_unreachable(all: &[ProfilePass], place: &MotionFindings<'_>, context: 
                 "the ball does not reach the profile from u = {:.3} to {:.3} mm along this pass: up to {:.3} mm are left",
                 part.from.u, part.to.u, part.left_mm
             );
-            context.findings.push(place.build_finding(
-                codes::UNREACHABLE,
-                message,
-                motion,
-                "not reached from here",
-                context,
-            ));
+            let label = "not reached from here";
+            let finding = place.build_finding(codes::UNREACHABLE, message, motion, label, context);
+            context.findings.push(finding.with_magnitude(part.left_mm));
         }
-    }
-    if count > TOLD {
-        let message = format!("{} more places that the ball does not reach", count - TOLD);
-        context.findings.push(Diagnostic::new(codes::UNREACHABLE, message));
     }
 }
 

@@ -15,6 +15,7 @@ mod parameters;
 mod plan;
 mod prove;
 mod step;
+mod target_slips;
 mod write;
 
 pub use limit::{FeedRules, FeedWindow, SplitRule};

@@ -4,7 +4,8 @@ use super::limit::FeedGoals;
 use super::measure::{LoadCriterion, LoadLimits, MeasuredBlocks, measure_blocks};
 use super::parameters::OptimizeFeed;
 use super::prove::{build_report, prove_targets};
-use super::write::{MOST_TOLD, OptimizedProgram, add_load_notes, plan_and_write_feeds};
+use super::target_slips::{warn_of_distant_targets, warn_of_thick_target, warn_of_unreached_targets};
+use super::write::{OptimizedProgram, add_load_notes, plan_and_write_feeds};
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::number::format_point;
 use crate::parameters::Positive;
@@ -55,6 +56,7 @@ impl Transform for OptimizeFeed {
         }
         // Assumptions and crashes are told once, of the program as it came.
         context.findings.extend(ran.findings);
+        warn_of_distant_targets(&job.goals, &before, context);
         let OptimizedProgram { mut program, excused, parts } =
             plan_and_write_feeds(&job.goals, program, &before, context)?;
         let told = std::mem::take(&mut context.findings);
@@ -62,6 +64,7 @@ impl Transform for OptimizeFeed {
         context.findings = told;
         let (after, _) = proof?;
         prove_targets(&job.goals, &program, &after, &excused, context)?;
+        warn_of_unreached_targets(&job.goals, &after, context);
         add_load_notes(&job.goals, (&mut program, context.step), &before, &after, &parts);
         context.add_report(build_report(&job.goals, &program, &before, &after, ran.resolution, context.step));
         Ok(program)
@@ -132,6 +135,7 @@ impl OptimizeFeedJob {
         } else {
             None
         };
+        warn_of_thick_target(&self.goals, machining.tooling(), context);
         let resolution = machining
             .choose_resolution(&self.options, self.engagement)
             .map_err(|failure| failure.map_findings(|found| self.label_resolution(found, context)))?;
@@ -151,14 +155,7 @@ impl OptimizeFeedJob {
             .map_err(|failure| failure.map_findings(|found| self.label_resolution(found, context)))?;
         selection.report_if_empty(context);
         if !measured.errors.is_empty() {
-            let mut errors = std::mem::take(&mut measured.errors);
-            let more = errors.len().saturating_sub(MOST_TOLD);
-            errors.truncate(MOST_TOLD);
-            if more > 0 {
-                let message = format!("{more} more motions cut with a feed or a speed that cannot be known");
-                errors.push(Diagnostic::new(codes::FEED_UNKNOWN, message));
-            }
-            return Err(errors.into());
+            return Err(std::mem::take(&mut measured.errors).into());
         }
         Ok((measured, ran))
     }

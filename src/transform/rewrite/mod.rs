@@ -94,7 +94,7 @@ impl Transform for Rewrite {
             }
         };
         if hits.is_empty() && self.selects_nothing(&program, context) {
-            report_nothing_selected("statement", context);
+            report_nothing_selected("statement", self.r#where.required, context);
             return Ok(program);
         }
         report_unused_rules(&rules, context);

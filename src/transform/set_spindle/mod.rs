@@ -4,6 +4,7 @@ mod speed_plan;
 
 use super::feed_plan::FeedPlan;
 use super::step_report::{TransformReport, to_json_value};
+use super::unit_slips::check_factor;
 use super::{SelectedStatements, StepContext, Transform};
 use crate::diagnostic::Failure;
 use crate::parameters::{Factor, Positive};
@@ -125,6 +126,9 @@ impl SetSpindle {
 /// ```
 impl Transform for SetSpindle {
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
+        if let SpindleSpeedChange::Scale(factor) = self.speed {
+            check_factor(factor.get(), &["speed", "scale"], context);
+        }
         let selected = SelectedStatements::select(&self.r#where, &program, "statement", context);
         report_speeds_of_cycles(&program, &selected, context);
         let plan = SpeedPlan::new(self.speed, &program, &selected, context);

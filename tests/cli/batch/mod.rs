@@ -124,7 +124,12 @@ fn every_file_is_what_apply_makes_of_it() {
 fn the_summary_and_the_results_tell_what_happened() {
     let shop = shop(4);
     write(shop.path(), "programs/bad.cls", "GOTO/1.0,2.0,x\n");
-    write(shop.path(), "programs/nothing.cls", "$$ only a comment\n");
+    write(
+        shop.path(),
+        "programs/nothing.cls",
+        "TOOL PATH/A,TOOL,T\nRAPID\nGOTO/0.0000,0.0000,50.0000\nEND-OF-PATH\n",
+    );
+    write(shop.path(), "programs/empty.cls", "$$ only a comment\n");
     let done = batch(shop.path(), "done", &["--jobs", "2"]).code(1);
     let mut settings = support::snapshots("cli");
     settings.add_filter(r"in \d+\.\d s", "in [seconds]");
@@ -136,7 +141,11 @@ fn the_summary_and_the_results_tell_what_happened() {
     assert!(!shop.path().join("done/bad.cls").exists());
     let quiet = batch(shop.path(), "done", &["-q", "--format", "line"]).code(1);
     assert_eq!(stdout(&quiet), "");
-    assert_eq!(stderr(&quiet), "programs/bad.cls:1:14: CL0003: `x` is not a number\n");
+    let lines = stderr(&quiet);
+    let mut lines: Vec<&str> = lines.lines().collect();
+    lines.sort_unstable();
+    let empty = "programs/empty.cls: CL0116: nothing moves in this program";
+    assert_eq!(lines, ["programs/bad.cls:1:14: CL0003: `x` is not a number", empty]);
 }
 
 #[test]

@@ -33,14 +33,14 @@ fn a_simulation_as_csv_and_json() {
     let found = without_forces();
     rounded_snapshots("report").bind(|| {
         insta::assert_snapshot!("simulation_csv", csv(&found));
-        insta::assert_snapshot!("simulation_json", to_json(&found));
+        insta::assert_snapshot!("simulation_json", to_json(&found, &[]));
     });
 }
 
 #[test]
 fn the_json_names_the_columns_of_the_csv() {
     let found = slot();
-    let json: serde_json::Value = serde_json::from_str(&to_json(&found)).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&to_json(&found, &[])).unwrap();
     let csv = csv(&found);
     let columns: std::collections::BTreeSet<&str> = csv.lines().next().unwrap().split(',').collect();
     let motions = json["motions"].as_array().unwrap();
@@ -58,7 +58,7 @@ fn the_number_of_threads_changes_no_byte() {
             let found = slot();
             let mut stl = Vec::new();
             stl_export::write_stl(&found.left, &mut stl).unwrap();
-            (csv(&found), to_json(&found), stl, draw_time_series(&[found.to_time_series("a")]).unwrap())
+            (csv(&found), to_json(&found, &[]), stl, draw_time_series(&[found.to_time_series("a")]).unwrap())
         })
     };
     let one = run(1);

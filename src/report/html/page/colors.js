@@ -6,6 +6,7 @@ const RAMP = [
   [246, 210, 30],
 ];
 const RAPID_COLOR = [190, 197, 205];
+const CRASH_COLOR = [230, 0, 0];
 const UNKNOWN_COLOR = [150, 155, 160];
 const CLASS_COLORS = [
   RAPID_COLOR, [86, 180, 233], [230, 120, 0], [0, 90, 181], [0, 158, 115], [204, 121, 167], [150, 60, 60],
@@ -32,8 +33,15 @@ function rangeOf(programs, quantity) {
   return low <= high ? [low, high] : [0, 1];
 }
 
-// How motions are coloured: `color(program, motion)` and what the legend says.
+// How motions are coloured: `color(program, motion)` and what the legend says. A crash is red in every mode.
 function coloring(mode, programs) {
+  const plain = plainColoring(mode, programs);
+  const crashes = programs.some((program) => program.flags.some((flags) => flags & CRASH));
+  const color = (program, motion) => program.flags[motion] & CRASH ? CRASH_COLOR : plain.color(program, motion);
+  return { ...plain, color, crashes };
+}
+
+function plainColoring(mode, programs) {
   const rapid = (program, motion) => program.flags[motion] & RAPID;
   const listed = (names, colors, index) => ({
     color: (program, motion) => colors[index(program, motion) % colors.length],
@@ -56,22 +64,25 @@ function coloring(mode, programs) {
 
 function showLegend(element, coloring) {
   element.replaceChildren();
-  if (coloring.range) {
-    const { title } = QUANTITIES[coloring.quantity];
-    const strip = document.createElement("canvas");
-    [strip.width, strip.height] = [256, 1];
-    const context = strip.getContext("2d");
-    rampTable.forEach(([r, g, b], i) => { context.fillStyle = `rgb(${r},${g},${b})`; context.fillRect(i, 0, 1, 1); });
-    const ends = document.createElement("div");
-    ends.className = "ends";
-    for (const value of coloring.range) ends.append(Object.assign(document.createElement("span"), { textContent: printed(coloring.quantity, value) }));
-    element.append(title, document.createElement("br"), strip, ends);
-    return;
-  }
-  for (const [name, [r, g, b]] of coloring.names) {
+  const named = (name, [r, g, b]) => {
     const line = document.createElement("div"), swatch = document.createElement("i");
     swatch.style.background = `rgb(${r},${g},${b})`;
     line.append(swatch, name);
     element.append(line);
-  }
+  };
+  if (coloring.range) showRange(element, coloring);
+  else coloring.names.forEach(([name, color]) => named(name, color));
+  if (coloring.crashes) named("crash: shank or holder in material, or rapid through it", CRASH_COLOR);
+}
+
+function showRange(element, coloring) {
+  const { title } = QUANTITIES[coloring.quantity];
+  const strip = document.createElement("canvas");
+  [strip.width, strip.height] = [256, 1];
+  const context = strip.getContext("2d");
+  rampTable.forEach(([r, g, b], i) => { context.fillStyle = `rgb(${r},${g},${b})`; context.fillRect(i, 0, 1, 1); });
+  const ends = document.createElement("div");
+  ends.className = "ends";
+  for (const value of coloring.range) ends.append(Object.assign(document.createElement("span"), { textContent: printed(coloring.quantity, value) }));
+  element.append(title, document.createElement("br"), strip, ends);
 }

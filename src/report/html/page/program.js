@@ -1,7 +1,7 @@
 // A program as its arrays tell it, and the places in it: motions, vertices, rows of the listing.
 
 const NONE = 0xffffffff;
-const RAPID = 1, JUMPS = 2;
+const RAPID = 1, JUMPS = 2, CRASH = 4;
 
 // Names, units and digits of what a motion has.
 const QUANTITIES = {

@@ -72,7 +72,8 @@ class PathLines {
 
   shows(segment) {
     const motion = this.motions[segment];
-    return motion <= this.limit && (this.rapids || !(this.program.flags[motion] & RAPID));
+    const flags = this.program.flags[motion];
+    return motion <= this.limit && (this.rapids || !(flags & RAPID) || flags & CRASH);
   }
 
   // The vertices to draw: every segment, and a coarse path that leaves points out where it goes on.
@@ -80,10 +81,11 @@ class PathLines {
     const step = this.step = Math.max(Math.ceil(this.count / COARSE_SEGMENTS), 1);
     const full = new Uint32Array(this.count * 2), coarse = [];
     let size = 0;
-    // Rapids first: where they go along a cut, the cut is seen.
-    for (const wanted of [RAPID, 0]) {
+    // Rapids first: where they go along a cut, the cut is seen. Crashes last: nothing covers them.
+    const layer = (flags) => flags & CRASH ? CRASH : flags & RAPID;
+    for (const wanted of [RAPID, 0, CRASH]) {
       for (let i = 0, run = 0; i < this.count; i++) {
-        if ((this.program.flags[this.motions[i]] & RAPID) !== wanted || !this.shows(i)) { run = 0; continue; }
+        if (layer(this.program.flags[this.motions[i]]) !== wanted || !this.shows(i)) { run = 0; continue; }
         full[size++] = 2 * i;
         full[size++] = 2 * i + 1;
         const goesOn = run > 0 && run < step && this.joins(i);

@@ -15,9 +15,6 @@ use std::ops::Range;
 /// What arithmetic makes of equal feeds, as a fraction.
 const NOISE: f64 = 1e-6;
 
-/// Findings of one kind that are told one by one.
-pub(in crate::transform::optimize_feed) const MOST_TOLD: usize = 10;
-
 /// The corrected program.
 pub(in crate::transform::optimize_feed) struct OptimizedProgram {
     pub program: Program,
@@ -118,19 +115,19 @@ fn report_below_minimum(
     planned: &BlockFeeds,
     context: &mut StepContext<'_>,
 ) {
-    for block in planned.below_minimum.iter().take(MOST_TOLD) {
+    // The place in the recipe is the same for all, and finding it reads the recipe.
+    let message = "the target is passed here at the lowest feed allowed";
+    let at_minimum = context.label_parameter(
+        Diagnostic::new(codes::BELOW_MINIMUM, message),
+        &["min_feed"],
+        "the lowest feed",
+    );
+    for block in &planned.below_minimum {
         let Some(measurement) = before.measurements.get(*block) else { continue };
         let span = program.statement(measurement.statement).origin();
-        let message = "the target is passed here at the lowest feed allowed";
-        let finding = Diagnostic::new(codes::BELOW_MINIMUM, message).with_label(
-            program.source(),
-            span,
-            "more than the target",
-        );
-        context.findings.push(context.label_parameter(finding, &["min_feed"], "the lowest feed"));
-    }
-    if let Some(more) = planned.below_minimum.len().checked_sub(MOST_TOLD).filter(|more| *more > 0) {
-        let message = format!("the target is passed at the lowest feed allowed on {more} more motions");
-        context.findings.push(Diagnostic::new(codes::BELOW_MINIMUM, message));
+        let mut finding = at_minimum.clone().with_label(program.source(), span, "more than the target");
+        // The place in the program is the primary one.
+        finding.labels.rotate_right(1);
+        context.findings.push(finding);
     }
 }

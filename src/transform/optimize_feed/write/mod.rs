@@ -7,6 +7,6 @@ mod motion_split;
 mod split_read_back;
 mod split_statements;
 
-pub(super) use feed_writer::{MOST_TOLD, OptimizedProgram, plan_and_write_feeds};
+pub(super) use feed_writer::{OptimizedProgram, plan_and_write_feeds};
 pub(super) use load_notes::add_load_notes;
 pub use motion_split::{SplitProgram, UnsplitReason, split_motions};

@@ -1,0 +1,127 @@
+//! Which endings the files of an output may have: what is in a file must be what its ending promises to the next program.
+
+use super::input_files::STANDARD;
+use std::path::Path;
+
+/// What an output holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OutputContent {
+    /// CL data, for a post.
+    Program,
+    /// An HTML page.
+    Page,
+    /// Markdown.
+    Markdown,
+    /// JSON.
+    Json,
+    /// A table.
+    Csv,
+    /// A mesh.
+    Stl,
+    /// Stock for the next program.
+    Stock,
+    /// A drawing as SVG alone.
+    Svg,
+    /// A drawing as SVG or PNG.
+    Drawing,
+}
+
+/// Endings of files that are no CL data: programs behind a post, and what other outputs have.
+const NO_PROGRAM: &[&str] = &[
+    "nc", "ngc", "cnc", "tap", "mpf", "spf", "h", "i", "eia", "gcode", "min", "pdf", "html", "htm", "md",
+    "json", "jsonl", "csv", "svg", "png", "stl", "clstock", "yaml", "yml", "zip",
+];
+
+impl OutputContent {
+    /// The endings that fit; the first is the usual one.
+    fn endings(self) -> &'static [&'static str] {
+        match self {
+            Self::Program => &[],
+            Self::Page => &["html", "htm"],
+            Self::Markdown => &["md", "markdown", "txt"],
+            Self::Json => &["json"],
+            Self::Csv => &["csv", "txt"],
+            Self::Stl => &["stl"],
+            Self::Stock => &["clstock"],
+            Self::Svg => &["svg"],
+            Self::Drawing => &["svg", "png"],
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Program => "CL data",
+            Self::Page => "an HTML page",
+            Self::Markdown => "Markdown",
+            Self::Json => "JSON",
+            Self::Csv => "a table (CSV)",
+            Self::Stl => "a mesh (STL)",
+            Self::Stock => "stock (clstock)",
+            Self::Svg => "a drawing (SVG)",
+            Self::Drawing => "a drawing (SVG or PNG)",
+        }
+    }
+}
+
+/// Finds the first output whose ending promises something else than what is written; says what to write instead. A file
+/// without an ending promises nothing.
+pub fn find_wrong_ending<'a>(
+    outputs: impl IntoIterator<Item = (&'static str, Option<&'a Path>, OutputContent)>,
+) -> Option<String> {
+    outputs.into_iter().find_map(|(option, path, content)| {
+        let path = path.filter(|path| *path != Path::new(STANDARD))?;
+        let ending = path.extension()?.to_string_lossy().to_lowercase();
+        let fits = match content {
+            OutputContent::Program => !NO_PROGRAM.contains(&ending.as_str()),
+            other => other.endings().contains(&ending.as_str()),
+        };
+        if fits {
+            return None;
+        }
+        let proposed: Vec<String> = content.endings().iter().map(|ending| format!(".{ending}")).collect();
+        let instead = match proposed.as_slice() {
+            [] => "the input's ending".to_owned(),
+            all => all.join(" or "),
+        };
+        let (shown, what) = (path.display(), content.name());
+        Some(format!("{option} writes {what}, and `{shown}` ends in .{ending}; give it {instead}"))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wrong(content: OutputContent, path: &str) -> Option<String> {
+        find_wrong_ending([("--option", Some(Path::new(path)), content)])
+    }
+
+    #[test]
+    fn an_ending_that_promises_something_else_is_refused() {
+        for (content, path) in [
+            (OutputContent::Page, "report.pdf"),
+            (OutputContent::Svg, "layers.png"),
+            (OutputContent::Program, "done/part.NC"),
+            (OutputContent::Json, "a.yaml"),
+            (OutputContent::Stl, "a.obj"),
+        ] {
+            let said = wrong(content, path).expect(path);
+            assert!(said.starts_with("--option writes ") && said.contains("give it "), "{said}");
+        }
+    }
+
+    #[test]
+    fn usual_endings_and_none_at_all_are_good() {
+        for (content, path) in [
+            (OutputContent::Page, "a.HTML"),
+            (OutputContent::Drawing, "a.png"),
+            (OutputContent::Program, "a.cls"),
+            (OutputContent::Program, "a.aptsource"),
+            (OutputContent::Program, "a.anything"),
+            (OutputContent::Json, "-"),
+            (OutputContent::Csv, "/dev/stdout"),
+        ] {
+            assert_eq!(wrong(content, path), None, "{path}");
+        }
+    }
+}
