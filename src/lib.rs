@@ -152,7 +152,7 @@ pub mod layered_chips;
 #[cfg(feature = "simulation")]
 pub mod parameters;
 #[cfg(feature = "simulation")]
-pub mod presentation;
+mod presentation;
 #[cfg(feature = "simulation")]
 pub mod recipe;
 #[cfg(feature = "simulation")]

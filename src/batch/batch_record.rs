@@ -55,7 +55,7 @@ pub struct StatementChangeCounts {
 
 impl StatementChangeCounts {
     /// Counts the statements that differ from the source.
-    pub fn count_changes(program: &Program) -> Self {
+    pub(crate) fn count_changes(program: &Program) -> Self {
         let mut changed = Self::default();
         for statement in program.statements() {
             match statement.change() {
@@ -68,11 +68,6 @@ impl StatementChangeCounts {
             }
         }
         changed
-    }
-
-    /// Whether nothing was changed.
-    pub fn is_unchanged(self) -> bool {
-        self == Self::default()
     }
 }
 
@@ -157,7 +152,7 @@ impl BatchRecord {
     }
 
     /// What identifies the record in its batch, and orders it.
-    pub fn sort_key(&self) -> (&PortablePath, &PortablePath) {
+    pub(crate) fn sort_key(&self) -> (&PortablePath, &PortablePath) {
         (&self.input, &self.output)
     }
 

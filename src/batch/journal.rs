@@ -89,7 +89,7 @@ impl LockedFolder {
     ///
     /// # Errors
     /// [`codes::OUTPUT_IN_USE`] if one is of another.
-    pub fn check_same_batch(&self, id: Digest) -> Result<(), Failure> {
+    pub(crate) fn check_same_batch(&self, id: Digest) -> Result<(), Failure> {
         for journal in self.list_running_journals() {
             if read_batch_id(&journal).is_some_and(|other| other != id) {
                 let message = format!(

@@ -16,7 +16,7 @@ pub const PER_LINE: u64 = 320;
 
 /// Bytes of memory for a comment before a line, where a recipe asks for them and changes every line: the texts before, the
 /// comment's own, its statement, and both read back. Measured on a program whose every number changes.
-pub const PER_COMMENT: u64 = 480;
+pub(crate) const PER_COMMENT: u64 = 480;
 
 /// Bytes of memory that a file takes however small it is.
 pub const LEAST: u64 = 4 << 20;
@@ -36,7 +36,7 @@ pub fn estimate_file_memory_bytes(path: &Path, bytes: u64) -> u64 {
 }
 
 /// What the comments of a recipe with `provenance: comments` may need beside that: one for every line.
-pub fn estimate_comment_memory_bytes(path: &Path, bytes: u64) -> u64 {
+pub(crate) fn estimate_comment_memory_bytes(path: &Path, bytes: u64) -> u64 {
     estimate_line_count(path, bytes).unwrap_or(0).saturating_mul(PER_COMMENT)
 }
 

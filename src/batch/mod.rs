@@ -41,7 +41,7 @@ pub use batch_record::{
 };
 pub use batch_run::{BatchOutcome, BatchRun, BatchWatcher};
 pub use file_run::report_input_changed;
-pub use journal::{BatchJournal, JournalEntry};
+pub(crate) use journal::{BatchJournal, JournalEntry};
 pub use output_folder::{LockedFolder, OutputFolder};
 pub use portable_path::PortablePath;
-pub use shard::Shard;
+pub use shard::{BadShard, Shard};

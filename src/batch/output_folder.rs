@@ -64,7 +64,7 @@ impl OutputFolder {
     }
 
     /// How this batch calls its temporary files.
-    pub fn temporary_files(&self) -> TemporaryFiles {
+    pub(crate) fn temporary_files(&self) -> TemporaryFiles {
         TemporaryFiles::for_owner(&match self.shard {
             None => "batch".to_owned(),
             Some(shard) => format!("batch-{}", shard.file_name_part()),

@@ -29,7 +29,7 @@ impl PortablePath {
     }
 
     /// The name in upper and lower case alike: on some disks `A.cls` and `a.cls` are one file. What is no UTF-8 stays.
-    pub fn fold_case(&self) -> Vec<u8> {
+    pub(crate) fn fold_case(&self) -> Vec<u8> {
         match std::str::from_utf8(&self.0) {
             Ok(text) => text.to_lowercase().into_bytes(),
             Err(_) => self.0.clone(),

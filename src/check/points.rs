@@ -2,9 +2,9 @@
 
 use super::{Lint, LintFindings};
 use crate::diagnostic::{Diagnostic, codes};
+use crate::program::MotionClass;
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
-use crate::program::motion_class::MotionClass;
 use crate::program::{Record, Statement, StatementId};
 
 /// Millimetres: a hundred metres.

@@ -4,8 +4,8 @@
 //! [`crate::engagement`] moves them through stock.
 
 mod cutter_model;
-pub mod meridian;
-pub mod teeth;
+mod meridian;
+pub(crate) mod teeth;
 
 pub use cutter_model::{CutterModel, NonCuttingCylinder, NonCuttingKind};
 pub use meridian::{Meridian, MeridianError, MeridianPoint};

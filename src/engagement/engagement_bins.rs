@@ -51,7 +51,7 @@ impl EngagementBin {
     };
 
     /// Merges the engagement of another piece, or of another column, in the same direction.
-    pub fn merge_bin(&mut self, other: &Self) {
+    pub(crate) fn merge_bin(&mut self, other: &Self) {
         self.low = self.low.min(other.low);
         self.high = self.high.max(other.high);
         self.thickness = self.thickness.max(other.thickness);
@@ -128,7 +128,7 @@ impl Engagement {
 
     /// Makes an engagement in which nothing is engaged, for a piece of path and a cutter with a radius and a
     /// flute length (mm).
-    pub fn empty_for_piece(piece: &PathPiece, size: [f64; 2]) -> Self {
+    pub(crate) fn empty_for_piece(piece: &PathPiece, size: [f64; 2]) -> Self {
         let travel = piece.to.point - piece.from.point;
         let length = travel.norm();
         let along = if length > 0.0 { travel.dot(&piece.from.axis) / length } else { 0.0 };
@@ -136,7 +136,7 @@ impl Engagement {
     }
 
     /// Adds a contact at an angle in radians from the feed's direction, positive to the left.
-    pub fn add_contact(&mut self, angle_rad: f64, contact: &EngagementBin) {
+    pub(crate) fn add_contact(&mut self, angle_rad: f64, contact: &EngagementBin) {
         if self.bins.is_empty() {
             self.bins = vec![EngagementBin::EMPTY; BINS];
         }
@@ -146,7 +146,7 @@ impl Engagement {
     }
 
     /// Adds the engagement of a following piece of the same motion.
-    pub fn append_piece(&mut self, other: &Self) {
+    pub(crate) fn append_piece(&mut self, other: &Self) {
         // The directions of travel are averaged, weighted by length.
         let whole = self.length_mm + other.length_mm;
         if whole > 0.0 {

@@ -6,15 +6,15 @@
 //! [`crate::simulation_run`] runs whole programs.
 
 mod bin_filling;
-pub mod chip_load;
-pub mod chip_thickness;
+mod chip_load;
+mod chip_thickness;
 mod cutting_coefficients;
-pub mod cutting_force;
+mod cutting_force;
 mod edge_elements;
 pub mod engagement_bins;
-pub mod exact_tooth_paths;
-pub mod immersion;
-pub mod load_limited_feed;
+mod exact_tooth_paths;
+mod immersion;
+mod load_limited_feed;
 mod path_linearizer;
 mod path_piece;
 mod simulation;
@@ -24,6 +24,7 @@ pub use cutting_coefficients::CuttingCoefficients;
 pub use cutting_force::{CuttingLoads, LoadModel};
 pub use engagement_bins::{Engagement, EngagementBin};
 pub use exact_tooth_paths::{ExactChipThickness, ToothMotion, ToothSampling, measure_exact_chips};
-pub use path_linearizer::{MotionPiece, PathLinearizer};
+pub use path_linearizer::MotionPiece;
+pub(crate) use path_linearizer::PathLinearizer;
 pub use path_piece::PathPiece;
 pub use simulation::Simulation;

@@ -25,7 +25,7 @@ pub struct MotionPiece {
 /// Motions in another frame than that of the program's first motion (NX's MSYS, a CSYS) are converted to it.
 /// Arcs and splines become chords that are at most `sagitta_mm` from the curve.
 #[derive(Debug, Clone)]
-pub struct PathLinearizer {
+pub(crate) struct PathLinearizer {
     mm_per_unit: f64,
     home: Option<Option<CoordinateFrame>>,
     /// The largest distance of a chord from its curve, mm.

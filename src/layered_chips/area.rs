@@ -9,7 +9,8 @@ mod grid_area;
 
 pub use clipper::Clipper;
 pub use grid::AreaGrid;
-pub use grid_area::{GridArea, GridBox};
+pub use grid_area::GridArea;
+pub(crate) use grid_area::GridBox;
 
 /// A connected area: an outer boundary and the holes in it. Points are x, y in mm. The outer boundary goes
 /// counter-clockwise and holes go clockwise; no boundary repeats its first point.

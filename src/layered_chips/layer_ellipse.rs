@@ -22,14 +22,14 @@ impl LayerEllipse {
 
     /// Returns the direction `v` with `M v = p - c` for a point p. It has the length 1 if p is on the
     /// ellipse.
-    pub fn direction_to(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn direction_to(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let ([cx, cy], [xx, xy, yy]) = (self.centre, self.shape);
         let (x, y, det) = (x - cx, y - cy, xx * yy - xy * xy);
         [(yy * x - xy * y) / det, (xx * y - xy * x) / det]
     }
 
     /// Returns the length of `dP/dtheta`, mm.
-    pub fn tangent_length_mm(&self, [cos, sin]: [f64; 2]) -> f64 {
+    pub(crate) fn tangent_length_mm(&self, [cos, sin]: [f64; 2]) -> f64 {
         // dP/dtheta = M (-sin theta, cos theta).
         let [xx, xy, yy] = self.shape;
         (xy * cos - xx * sin).hypot(yy * cos - xy * sin)

@@ -50,7 +50,7 @@ pub enum MillStepError {
 /// The largest angle between axis and vertical, degrees. A section is then nearly six times as long as the
 /// cutter is wide. If two axes are within this angle, all axes between them are too, since a cap smaller than
 /// a hemisphere contains the great circles between its points.
-pub const MOST_TILT_DEG: f64 = 80.0;
+pub(crate) const MOST_TILT_DEG: f64 = 80.0;
 
 /// The largest coordinate, mm.
 const FARTHEST: f64 = 1e5;

@@ -14,7 +14,7 @@ use primitive_sections::SectionedCylinder;
 use rayon::prelude::*;
 
 /// The most layers, which bounds the memory.
-pub const MOST_LAYERS: usize = 100_000;
+pub(crate) const MOST_LAYERS: usize = 100_000;
 
 /// The reason why a stock has no stack of layers.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]

@@ -68,12 +68,12 @@ impl Default for TemporaryFiles {
 
 impl TemporaryFiles {
     /// Makes names of the form `.clsmith-<owner>-*.tmp`.
-    pub fn for_owner(owner: &str) -> Self {
+    pub(crate) fn for_owner(owner: &str) -> Self {
         Self { prefix: format!(".clsmith-{owner}-") }
     }
 
     /// Returns whether a file is, by its name, a temporary file that a killed process may have left behind.
-    pub fn is_leftover(&self, name: &std::ffi::OsStr) -> bool {
+    pub(crate) fn is_leftover(&self, name: &std::ffi::OsStr) -> bool {
         let name = name.as_encoded_bytes();
         name.starts_with(self.prefix.as_bytes()) && name.ends_with(SUFFIX.as_bytes())
     }
@@ -97,7 +97,7 @@ impl TemporaryFiles {
     ///
     /// # Errors
     /// Returns the errors of [`write_atomically`].
-    pub fn write_file_to_end(
+    pub(crate) fn write_file_to_end(
         &self,
         path: &Path,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -115,7 +115,7 @@ impl TemporaryFiles {
     ///
     /// # Errors
     /// Returns the errors of [`write_atomically_unless`].
-    pub fn write_file(
+    pub(crate) fn write_file(
         &self,
         path: &Path,
         interrupt: &Interrupt,

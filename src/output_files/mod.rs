@@ -6,4 +6,5 @@ mod same_file;
 
 pub use atomic_write::{TemporaryFiles, write_atomically, write_atomically_unless, write_new_atomically};
 pub use interrupt::{Interrupt, WriteError};
-pub use same_file::{FileSet, is_same_file};
+pub(crate) use same_file::FileSet;
+pub use same_file::is_same_file;

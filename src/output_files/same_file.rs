@@ -18,7 +18,7 @@ pub fn is_same_file(a: &Path, b: &Path) -> bool {
 
 /// A set of files, to test [`is_same_file`] with any of them.
 #[derive(Debug, Clone, Default)]
-pub struct FileSet {
+pub(crate) struct FileSet {
     paths: BTreeSet<PathBuf>,
     inodes: BTreeSet<(u64, u64)>,
 }

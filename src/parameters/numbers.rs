@@ -113,7 +113,7 @@ radians! { Degrees Slope PointAngle HelixAngle }
 
 impl Fraction {
     /// 5 %.
-    pub const TWENTIETH: Self = Self(0.05);
+    pub(crate) const TWENTIETH: Self = Self(0.05);
 }
 
 impl NonNegative {

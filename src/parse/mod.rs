@@ -116,7 +116,7 @@ pub fn statement_numbers(text: &[u8]) -> Vec<(Range<usize>, f64)> {
 
 /// Returns the same for a text that is one plain GOTO line, as most statements are. Returns `None` for any
 /// other text, which only the grammar can read.
-pub fn plain_goto_numbers(text: &[u8]) -> Option<Vec<(Range<usize>, f64)>> {
+pub(crate) fn plain_goto_numbers(text: &[u8]) -> Option<Vec<(Range<usize>, f64)>> {
     shortcut::plain_goto_numbers(text)
 }
 
@@ -132,7 +132,7 @@ pub fn number_roles(record: &Record, text: &[u8]) -> Vec<NumberRole> {
 ///
 /// # Errors
 /// Returns the errors of [`read_record`], and an error if the text holds more than one statement.
-pub fn read_whole_record(text: &[u8]) -> Result<Record, BadRecord> {
+pub(crate) fn read_whole_record(text: &[u8]) -> Result<Record, BadRecord> {
     if let Some((goto, length)) = shortcut::read_plain_goto(text)
         && length == text.len()
     {

@@ -3,6 +3,6 @@
 //!
 //! Transforms describe themselves with it (`transform::TransformReport`), and `report` draws and prints it.
 
-pub mod path_panel;
+pub(crate) mod path_panel;
 pub(crate) mod safe_text;
 pub(crate) mod text_format;

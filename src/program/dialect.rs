@@ -136,7 +136,7 @@ impl fmt::Display for Dialect {
 
 /// Detects the dialect while statements pass by.
 #[derive(Debug, Default)]
-pub struct DialectDetector {
+pub(crate) struct DialectDetector {
     catia: bool,
     icam: bool,
     found: Option<Dialect>,

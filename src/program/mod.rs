@@ -12,7 +12,7 @@ mod edit;
 pub mod geometry;
 mod history;
 pub mod motion;
-pub mod motion_class;
+mod motion_class;
 pub mod operation;
 mod program_stamp;
 mod provenance_comments;
@@ -23,20 +23,21 @@ mod statement_id;
 mod statements;
 mod step_edits;
 mod syntax;
-pub mod units;
+pub(crate) mod units;
 
-pub use dialect::{ArcRule, Dialect, DialectDetector};
+pub(crate) use dialect::DialectDetector;
+pub use dialect::{ArcRule, Dialect};
 pub use history::StatementEdit;
 pub use motion_class::MotionClass;
-pub use provenance_comments::{OWN_WORD, ProvenanceComment};
+pub(crate) use provenance_comments::OWN_WORD;
+pub use provenance_comments::ProvenanceComment;
 pub use record::{NumberRole, Record};
 pub use record_kind::RecordKind;
 pub use statement::{Statement, StatementChange, StepId};
 pub use statement_id::{InsertionPoint, StatementId, StatementRange};
 pub use step_edits::StepEdits;
-pub use syntax::{
-    FieldGroup, FieldKind, StatementField, StatementKind, StatementSyntax, fold_text, join_broken,
-};
+pub use syntax::{FieldGroup, FieldKind, StatementField, StatementKind, StatementSyntax};
+pub(crate) use syntax::{fold_text, join_broken};
 pub use units::{Feed, FeedUnit, LengthUnit};
 
 use crate::source::{Source, Span};

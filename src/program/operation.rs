@@ -95,7 +95,7 @@ pub fn tool_name(program: &Program, statement: &Statement) -> Option<String> {
 }
 
 /// Reads bytes as UTF-8 or, if they are not, as Latin-1, in which every byte is a character.
-pub fn decode_text(bytes: &[u8]) -> String {
+pub(crate) fn decode_text(bytes: &[u8]) -> String {
     match std::str::from_utf8(bytes) {
         Ok(text) => text.to_owned(),
         Err(_) => bytes.iter().map(|&byte| char::from(byte)).collect(),

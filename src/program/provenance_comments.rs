@@ -11,7 +11,7 @@ pub enum ProvenanceComment {
 }
 
 /// The word with which such a comment begins, after the file's comment mark.
-pub const OWN_WORD: &str = "clsmith";
+pub(crate) const OWN_WORD: &str = "clsmith";
 
 impl ProvenanceComment {
     /// Returns the kind of a statement's text, or `None` if it is not such a comment.

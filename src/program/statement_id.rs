@@ -151,12 +151,12 @@ impl StatementRange {
     }
 
     /// Returns the range of one statement.
-    pub fn of_one(id: StatementId) -> Self {
+    pub(crate) fn of_one(id: StatementId) -> Self {
         Self { first: id, last: id }
     }
 
     /// Makes the range longer by the statement directly behind it; returns whether `next` is that one.
-    pub fn extend_by(&mut self, next: StatementId) -> bool {
+    pub(crate) fn extend_by(&mut self, next: StatementId) -> bool {
         let follows = self.last.index.checked_add(1) == Some(next.index);
         if follows {
             self.last = next;

@@ -139,7 +139,7 @@ fn collect_numbers(fields: &[StatementField], into: &mut Vec<(Range<usize>, f64)
 
 /// Returns a word, text or number without the breaks in it: the `$` at the end of a line, what follows it in
 /// that line, and the line end.
-pub fn join_broken(bytes: &[u8]) -> Cow<'_, [u8]> {
+pub(crate) fn join_broken(bytes: &[u8]) -> Cow<'_, [u8]> {
     if memchr::memchr2(b'\n', b'\r', bytes).is_none() {
         return Cow::Borrowed(bytes);
     }
@@ -158,7 +158,7 @@ pub fn join_broken(bytes: &[u8]) -> Cow<'_, [u8]> {
 
 /// Returns a text in upper case, with single blanks between words and no blanks around commas. Bytes from
 /// 0x80 on are read as Latin-1. Breaks in the text are left out.
-pub fn fold_text(bytes: &[u8]) -> String {
+pub(crate) fn fold_text(bytes: &[u8]) -> String {
     let bytes = &*join_broken(bytes);
     let mut text = String::with_capacity(bytes.len());
     let mut blank = false;

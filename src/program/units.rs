@@ -1,7 +1,7 @@
 //! This module holds the units of length, feed and spindle speed.
 
 /// The millimetres in an inch.
-pub const MM_PER_INCH: f64 = 25.4;
+pub(crate) const MM_PER_INCH: f64 = 25.4;
 
 /// Unit of lengths.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]

@@ -27,7 +27,7 @@ mod header_comments;
 mod stale_comments;
 
 pub use comment_format::WIDTH;
-pub use stale_comments::find_stale_comments;
+pub(crate) use stale_comments::find_stale_comments;
 
 use crate::diagnostic::Failure;
 use crate::fingerprint::RecipeFingerprint;

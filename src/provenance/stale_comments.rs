@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 /// A finding when steps changed records that carry comments of an earlier run, which now tell of other numbers than the file
 /// has. For a run that writes no comments of its own.
-pub fn find_stale_comments(program: &Program) -> Option<Diagnostic> {
+pub(crate) fn find_stale_comments(program: &Program) -> Option<Diagnostic> {
     let own = |statement: &Statement| {
         ProvenanceComment::from_text(program.statement_text(statement)) == Some(ProvenanceComment::Change)
     };

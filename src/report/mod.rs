@@ -22,7 +22,7 @@ pub mod stats;
 pub mod step_descriptions;
 pub mod surface_milling;
 mod svg_chart;
-pub mod table;
+pub(crate) mod table;
 pub mod unified_diff;
 
 pub(crate) use crate::presentation::text_format;

@@ -75,7 +75,7 @@ impl FileRef {
     }
 
     /// A finding about the file, at the place that names it.
-    pub fn make_finding(&self, code: DiagnosticCode, message: impl Into<String>) -> Diagnostic {
+    pub(crate) fn make_finding(&self, code: DiagnosticCode, message: impl Into<String>) -> Diagnostic {
         Diagnostic::new(code, message).with_label(self.place.source(), self.place.value_span(), "named here")
     }
 

@@ -16,7 +16,7 @@ const SAGITTA: (f64, f64) = (0.02, 0.002);
 
 /// Returns the largest distance of chords from their arcs and splines, mm, for columns that are `cell_mm`
 /// apart.
-pub fn chord_tolerance_mm(cell_mm: f64) -> f64 {
+pub(crate) fn chord_tolerance_mm(cell_mm: f64) -> f64 {
     (cell_mm * SAGITTA.0).min(SAGITTA.1)
 }
 

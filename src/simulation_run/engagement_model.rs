@@ -9,7 +9,7 @@ use crate::layered_chips::{FlatMill, measure_engagement};
 
 /// The model from which engagements are found.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum EngagementModel {
+pub(crate) enum EngagementModel {
     /// Columns, which work for any cutter.
     #[default]
     Dexels,
@@ -23,7 +23,7 @@ pub enum EngagementModel {
 
 /// The resolution at which the stock is divided.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum StockResolution {
+pub(crate) enum StockResolution {
     /// The distance of columns, mm.
     Cell(f64),
     /// The thickness of layers, mm.
@@ -32,7 +32,7 @@ pub enum StockResolution {
 
 /// The result of a run that finds engagements.
 #[derive(Debug)]
-pub struct EngagementRunResult {
+pub(crate) struct EngagementRunResult {
     /// The resolution of the run.
     pub resolution: StockResolution,
     /// The lowest corner of the box around the stock, mm.
@@ -53,7 +53,7 @@ impl Machining<'_> {
     ///
     /// # Errors
     /// For columns, returns the errors of [`Machining::estimate_cost`].
-    pub fn choose_resolution(
+    pub(crate) fn choose_resolution(
         &self,
         options: &SimulationRunOptions,
         source: EngagementModel,
@@ -79,7 +79,7 @@ impl Machining<'_> {
     /// for stock that cannot be divided in layers, and [`codes::NOT_IN_LAYERS`] for a motion that layers
     /// cannot model: such a motion has no engagement, and the material that it leaves would make later
     /// engagements wrong. Returns [`Failure::Interrupted`] if `watch` stopped the run.
-    pub fn find_engagements(
+    pub(crate) fn find_engagements(
         &self,
         options: &SimulationRunOptions,
         source: EngagementModel,

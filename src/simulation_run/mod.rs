@@ -18,8 +18,9 @@ mod tooling;
 mod watcher;
 
 pub use cost::{SimulationBudget, SimulationCost};
-pub use dexel_run::{DexelRunResult, EngagedMotion, chord_tolerance_mm};
-pub use engagement_model::{EngagementModel, EngagementRunResult, StockResolution};
+pub(crate) use dexel_run::chord_tolerance_mm;
+pub use dexel_run::{DexelRunResult, EngagedMotion};
+pub(crate) use engagement_model::{EngagementModel, EngagementRunResult, StockResolution};
 pub use tooling::Tooling;
 pub use watcher::{RunWatcher, SilentWatcher};
 

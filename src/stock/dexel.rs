@@ -9,10 +9,10 @@ use std::collections::BTreeMap;
 
 /// The number of rows in one band, which one thread processes at a time. It is fixed, so that sums do not
 /// depend on the number of threads.
-pub const BAND_ROWS: usize = 32;
+pub(crate) const BAND_ROWS: usize = 32;
 
 /// The least thickness of material that is kept, in mm. Thinner material is the rounding of heights.
-pub const THINNEST: f32 = 2e-5;
+pub(crate) const THINNEST: f32 = 2e-5;
 
 /// A solid interval of a column: its lower and its upper end, in mm above the grid's base.
 pub type DexelSpan = [f32; 2];
@@ -60,7 +60,7 @@ impl DexelGrid {
 
 /// A band of neighbouring rows.
 #[derive(Debug, Clone, PartialEq)]
-pub struct DexelBand {
+pub(crate) struct DexelBand {
     /// The index of its first row.
     pub first_row: usize,
     /// The number of columns in a row.
@@ -168,7 +168,7 @@ pub struct Dexels {
 
 impl Dexels {
     /// The memory of one column in bytes, without overhangs.
-    pub const BYTES_PER_COLUMN: usize = 2 * size_of::<f32>();
+    pub(crate) const BYTES_PER_COLUMN: usize = 2 * size_of::<f32>();
 
     /// Makes a grid of empty columns.
     pub fn with_empty_columns(layout: DexelGrid) -> Self {
@@ -194,12 +194,12 @@ impl Dexels {
     }
 
     /// Returns the bands in the order of their rows.
-    pub fn bands(&self) -> &[DexelBand] {
+    pub(crate) fn bands(&self) -> &[DexelBand] {
         &self.bands
     }
 
     /// Returns the bands for changing, so that each can be processed by its own thread.
-    pub fn bands_mut(&mut self) -> &mut [DexelBand] {
+    pub(crate) fn bands_mut(&mut self) -> &mut [DexelBand] {
         &mut self.bands
     }
 

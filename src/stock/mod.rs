@@ -6,19 +6,20 @@
 //! ([`target_deviation`]).
 
 mod axis_box;
-pub mod dexel;
+pub(crate) mod dexel;
 mod dexel_spans;
 mod dilate;
-pub mod mesh;
+mod mesh;
 mod raw_stock;
 mod solid_body;
 pub mod stl_export;
 mod stock_error;
 pub mod stock_file;
-pub mod target_deviation;
+mod target_deviation;
 
 pub use axis_box::AxisBox;
-pub use dexel::{DexelBand, DexelGrid, DexelSpan, Dexels};
+pub(crate) use dexel::DexelBand;
+pub use dexel::{DexelGrid, DexelSpan, Dexels};
 pub(crate) use dexel_spans::merge_span;
 pub use mesh::{Mesh, MeshError};
 pub use raw_stock::Stock;

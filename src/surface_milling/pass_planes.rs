@@ -1,7 +1,7 @@
 //! This module describes the parallel vertical planes of the passes.
 
 /// The most planes. A request for more is a mistake in the step.
-pub const MOST_PLANES: usize = 100_000;
+pub(crate) const MOST_PLANES: usize = 100_000;
 
 /// The direction of the planes: they contain z and a horizontal direction u.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,7 +30,7 @@ impl PassPlanes {
 
     /// Converts an offset to one that counts to the left of u, as in
     /// [`crate::surface::mesh_section::VerticalMeshSections`]. The inverse conversion is the same.
-    pub fn offset_to_left(&self, offset_mm: f64) -> f64 {
+    pub(crate) fn offset_to_left(&self, offset_mm: f64) -> f64 {
         if self.to_the_right { -offset_mm } else { offset_mm }
     }
 
@@ -50,7 +50,7 @@ impl PassPlanes {
     }
 
     /// Returns the coordinate u of a point.
-    pub fn distance_along(&self, [x, y]: [f64; 2]) -> f64 {
+    pub(crate) fn distance_along(&self, [x, y]: [f64; 2]) -> f64 {
         let [cos, sin] = self.direction();
         x * cos + y * sin
     }

@@ -7,7 +7,7 @@ const SAME_VECTOR: f64 = 1e-9;
 
 /// `p -> linear * p + offset`, where `linear` turns or mirrors but never scales.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Affine {
+pub(crate) struct Affine {
     /// Rotation, or rotation and mirror.
     pub linear: Matrix3<f64>,
     /// What is added after it.
@@ -84,7 +84,7 @@ impl Affine {
 }
 
 /// Whether two vectors are one, up to the noise of arithmetic.
-pub fn is_same_vector(a: Vector3<f64>, b: Vector3<f64>) -> bool {
+pub(crate) fn is_same_vector(a: Vector3<f64>, b: Vector3<f64>) -> bool {
     (a - b).norm() <= SAME_VECTOR
 }
 

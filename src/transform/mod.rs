@@ -4,19 +4,22 @@
 //! that fails leaves nothing half-edited to write.
 
 mod affine;
-pub mod feed_plan;
-pub mod motion_insertion;
+mod feed_plan;
+mod motion_insertion;
 mod motion_selection;
 mod recipe_run;
 mod stale_records;
 mod statement_numbers;
 mod statement_selection;
 mod step_context;
-pub mod step_report;
+mod step_report;
 mod unchanged_statements;
 pub mod unit_slips;
 
-pub use affine::Affine;
+pub use crate::presentation::path_panel::{PanelPath, PanelPathStyle, PathPanel};
+pub(crate) use affine::Affine;
+pub use feed_plan::FeedPlan;
+pub use motion_insertion::MotionInsertion;
 pub use motion_selection::MotionSelection;
 pub use move_origin::{DirectionSpec, MirrorSpec, MoveOriginTarget, RotationSpec, VectorSpec};
 pub use recipe_run::{RecipeOutcome, run_recipe, run_recipe_watched, run_steps};
@@ -36,7 +39,7 @@ use serde::Deserialize;
 pub type Recipe = crate::recipe::Recipe<Step>;
 
 /// The name under which reports list the comments of `provenance:`, which come after the last step.
-pub const PROVENANCE: &str = "provenance";
+pub(crate) const PROVENANCE: &str = "provenance";
 
 impl Recipe {
     /// Names for what changed a program, by [`StepId`]: the steps, and at last the comments, if the

@@ -15,6 +15,6 @@ mod undo_data;
 mod undo_patch;
 
 pub use block_checksums::BlockChecksums;
-pub use run_report::{CorrectedFile, FORMAT, FORMAT_VERSION, FileIdentity, RunReport};
+pub use run_report::{CorrectedFile, FileIdentity, RunReport};
 pub use undo_data::{RestoredOriginal, UndoData};
 pub use undo_patch::{UndoEdit, UndoPatch};

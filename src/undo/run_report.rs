@@ -11,10 +11,10 @@ use serde::{Deserialize, Serialize};
 use std::io::{self, Write};
 
 /// What the report calls itself.
-pub const FORMAT: &str = "clsmith run";
+pub(crate) const FORMAT: &str = "clsmith run";
 
 /// Version of the structure. It changes when a reader would have to; new keys may come without.
-pub const FORMAT_VERSION: u32 = 1;
+pub(crate) const FORMAT_VERSION: u32 = 1;
 
 /// The report of a run on one file.
 #[derive(Debug, Serialize)]

@@ -8,4 +8,4 @@ mod number_patch;
 
 pub use editor::{ProgramEditor, statement_syntax};
 pub use file_style::FileStyle;
-pub use number_patch::{FEED_SHARE, copy_with_numbers, patch_numbers};
+pub(crate) use number_patch::{FEED_SHARE, copy_with_numbers, patch_numbers};

@@ -11,7 +11,7 @@ use std::ops::Range;
 const NOISE: f64 = 1e-13;
 
 /// The fraction of a feed to which it is printed at least.
-pub const FEED_SHARE: f64 = 1e-3;
+pub(crate) const FEED_SHARE: f64 = 1e-3;
 
 /// The fewest decimals of a unit vector in a new statement. CATIA prints its start tangents with five.
 const DIRECTION_DECIMALS: usize = 5;
@@ -25,7 +25,7 @@ const LENGTH_DECIMALS: usize = 4;
 /// decimals, or get more if fewer would lose the edit. In dialects with columns they keep their column.
 /// Everything else stays unchanged. A value that is not finite is ignored; [`super::ProgramEditor`] refuses
 /// it. Every index must be that of a number of the text.
-pub fn patch_numbers(
+pub(crate) fn patch_numbers(
     text: &[u8],
     record: &Record,
     edits: &[(usize, f64)],
@@ -67,7 +67,7 @@ pub(super) fn patch_existing_numbers(
 /// The numbers are rounded to the decimals of the old ones, or to those of the file if it has more, but to at
 /// least four (unit vectors: five). So they are off by at most half of the last decimal. Values for numbers that
 /// the text does not have are left out: a GOTO without axis takes the point of one with axis.
-pub fn copy_with_numbers(
+pub(crate) fn copy_with_numbers(
     text: &[u8],
     record: &Record,
     values: &[(usize, f64)],

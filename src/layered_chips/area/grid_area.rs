@@ -14,7 +14,7 @@ pub struct GridArea {
 
 /// A box on the grid, with its sides included.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct GridBox {
+pub(crate) struct GridBox {
     pub(crate) low: [i32; 2],
     pub(crate) high: [i32; 2],
 }
@@ -53,7 +53,7 @@ impl GridArea {
     }
 
     /// Adds a boundary with points in mm.
-    pub fn add_boundary(&mut self, grid: &AreaGrid, border: &[[f64; 2]]) {
+    pub(crate) fn add_boundary(&mut self, grid: &AreaGrid, border: &[[f64; 2]]) {
         let start = self.borders.points.len();
         grid.add_grid_points(border, &mut self.borders.points);
         self.close_boundary(start);
@@ -65,7 +65,7 @@ impl GridArea {
     }
 
     /// Returns the number of vertices of all boundaries.
-    pub fn vertex_count(&self) -> usize {
+    pub(crate) fn vertex_count(&self) -> usize {
         self.borders.points.len()
     }
 
@@ -77,7 +77,7 @@ impl GridArea {
     }
 
     /// Returns the box around the area, or `None` if it is empty.
-    pub fn bounding_box(&self) -> Option<GridBox> {
+    pub(crate) fn bounding_box(&self) -> Option<GridBox> {
         let first = self.borders.points.first()?;
         let start = GridBox { low: [first.x, first.y], high: [first.x, first.y] };
         Some(self.borders.points.iter().fold(start, |GridBox { low: [x0, y0], high: [x1, y1] }, point| {

@@ -7,13 +7,13 @@
 
 mod circle_cells;
 mod moving_roots;
-pub mod time_segments;
-pub mod time_slabs;
+pub(crate) mod time_segments;
+mod time_slabs;
 
 use super::section_family::{DiagramCurve, SectionFamily};
 use super::trig_polynomial::AngleSinCos;
 use time_segments::{RootTrack, TimeSegment};
-use time_slabs::{EventProof, TopologyEvent};
+pub use time_slabs::{EventProof, TopologyEvent};
 
 /// The diagram of a step on a layer.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,7 +80,7 @@ impl BoundaryDiagram {
 
     /// Returns the segments of time between events. They cover the times from 0 to 1 if the diagram is
     /// resolved.
-    pub fn time_segments(&self) -> &[TimeSegment] {
+    pub(crate) fn time_segments(&self) -> &[TimeSegment] {
         &self.stretches
     }
 

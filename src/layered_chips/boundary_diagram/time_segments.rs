@@ -12,7 +12,7 @@ const SAME: f64 = 1e-6;
 
 /// A root through a whole segment of time.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RootTrack {
+pub(crate) struct RootTrack {
     /// The curve that the root belongs to.
     pub curve: DiagramCurve,
     /// Whether the curve rises with the angle at the root.
@@ -24,7 +24,7 @@ pub struct RootTrack {
 /// A segment of time from one event to the next. Within it roots neither appear nor disappear, and do not
 /// cross.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TimeSegment {
+pub(crate) struct TimeSegment {
     /// The beginning and the end.
     pub t: [f64; 2],
     /// The end of each of its slabs.
@@ -100,7 +100,7 @@ impl TimeSegment {
 }
 
 /// Returns the distance of two angles on the circle, radians.
-pub fn angular_distance(a: f64, b: f64) -> f64 {
+pub(crate) fn angular_distance(a: f64, b: f64) -> f64 {
     let d = (a - b).rem_euclid(TAU);
     d.min(TAU - d)
 }
@@ -110,7 +110,10 @@ pub fn angular_distance(a: f64, b: f64) -> f64 {
 ///
 /// Returns the segments and the events at their boundaries. Of several events next to each other one is kept:
 /// an open one before a fold, and a fold before one elsewhere.
-pub fn join_slabs(family: &SectionFamily, slabs: DiagramSlabs) -> (Vec<TimeSegment>, Vec<TopologyEvent>) {
+pub(crate) fn join_slabs(
+    family: &SectionFamily,
+    slabs: DiagramSlabs,
+) -> (Vec<TimeSegment>, Vec<TopologyEvent>) {
     let mut stretches: Vec<TimeSegment> = Vec::new();
     let mut events: Vec<TopologyEvent> = Vec::new();
     let mut waiting = slabs.events.into_iter().peekable();

@@ -31,7 +31,7 @@ const MOST_SLABS: usize = 4096;
 
 /// An interval of time in which the roots of all curves are functions of time that do not cross.
 #[derive(Debug, Clone, PartialEq)]
-pub struct DiagramSlab {
+pub(crate) struct DiagramSlab {
     /// The beginning and the end.
     pub t: [f64; 2],
     /// The roots of each curve, in the order of [`DiagramCurve::ALL`]. Those of the face are only found where
@@ -70,7 +70,7 @@ pub struct TopologyEvent {
 
 /// The slabs of a step and the events between them. Events next to each other in time are one event.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct DiagramSlabs {
+pub(crate) struct DiagramSlabs {
     /// The slabs in the order of time.
     pub slabs: Vec<DiagramSlab>,
     /// The events in the order of time.
@@ -81,7 +81,7 @@ pub struct DiagramSlabs {
 }
 
 /// Divides the whole step into slabs.
-pub fn cut_into_slabs(family: &SectionFamily) -> DiagramSlabs {
+pub(crate) fn cut_into_slabs(family: &SectionFamily) -> DiagramSlabs {
     let mut found = DiagramSlabs::default();
     let circle = CircleCells::new();
     let circles = CurveCells([circle.clone(), circle.clone(), circle.clone(), circle]);

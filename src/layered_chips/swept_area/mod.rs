@@ -13,7 +13,6 @@ mod section_outline;
 mod time_slices;
 
 pub use rim_directions::RimDirections;
-pub use section_outline::FluteEndCut;
 
 use super::boundary_diagram::BoundaryDiagram;
 use super::boundary_diagram::time_segments::TimeSegment;

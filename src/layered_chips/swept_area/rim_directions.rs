@@ -42,7 +42,7 @@ impl RimDirections {
     }
 
     /// Returns the number of directions.
-    pub fn direction_count(&self) -> usize {
+    pub(crate) fn direction_count(&self) -> usize {
         self.directions.len()
     }
 

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 
 /// The relation of an end of the flutes to the ellipse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FluteEndCut {
+pub(crate) enum FluteEndCut {
     /// The end cuts nothing off.
     Free,
     /// The end cuts everything off.

@@ -23,7 +23,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// Changes of one [`DifferenceKind`] that are listed; all are counted.
-pub const MOST_LISTED: usize = 500;
+pub(crate) const MOST_LISTED: usize = 500;
 
 /// What differs between two programs.
 ///

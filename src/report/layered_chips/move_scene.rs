@@ -34,7 +34,7 @@ pub struct MoveSceneLayer {
 
 impl MoveSceneLayer {
     /// Whether a height is in the layer.
-    pub fn contains_height(&self, z_mm: f64) -> bool {
+    pub(crate) fn contains_height(&self, z_mm: f64) -> bool {
         (z_mm - self.z_mm).abs() <= self.thickness_mm / 2.0
     }
 }

@@ -12,7 +12,7 @@ use std::fmt;
 
 /// How many findings of each severity there are.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct SeverityCounts {
+pub(crate) struct SeverityCounts {
     /// Findings that forbid writing.
     pub errors: usize,
     /// Findings that deserve a look.

@@ -27,8 +27,6 @@ pub enum ColumnUnit {
     Torque,
     /// Kilowatts.
     Power,
-    /// Revolutions per minute.
-    SpindleSpeed,
 }
 
 /// The unit of length that the values of a table are in, and the one that they are shown in.
@@ -47,11 +45,6 @@ impl DisplayUnits {
     /// Values in a unit that are shown in the same unit.
     pub fn unconverted(unit: LengthUnit) -> Self {
         Self { values_in: unit, shown_in: unit }
-    }
-
-    /// Values in mm that are shown in a unit.
-    pub fn from_mm(shown_in: LengthUnit) -> Self {
-        Self { values_in: LengthUnit::Mm, shown_in }
     }
 
     /// Converts a value of a column to what the reader sees. A value that is not converted keeps every bit.
@@ -88,13 +81,7 @@ impl ColumnUnit {
             Self::Length | Self::FeedPerMinute => 1,
             Self::Area => 2,
             Self::Volume | Self::RemovalRate => 3,
-            Self::None
-            | Self::Angle
-            | Self::Duration
-            | Self::Force
-            | Self::Torque
-            | Self::Power
-            | Self::SpindleSpeed => 0,
+            Self::None | Self::Angle | Self::Duration | Self::Force | Self::Torque | Self::Power => 0,
         }
     }
 
@@ -118,7 +105,6 @@ impl ColumnUnit {
             (Self::Force, _) => "_n",
             (Self::Torque, _) => "_nm",
             (Self::Power, _) => "_kw",
-            (Self::SpindleSpeed, _) => "_rpm",
         }
     }
 
@@ -142,7 +128,6 @@ impl ColumnUnit {
             (Self::Force, _) => "N",
             (Self::Torque, _) => "N m",
             (Self::Power, _) => "kW",
-            (Self::SpindleSpeed, _) => "rev/min",
         }
     }
 }
@@ -153,7 +138,7 @@ mod tests {
 
     #[test]
     fn values_in_mm_are_shown_in_inches() {
-        let units = DisplayUnits::from_mm(LengthUnit::Inch);
+        let units = DisplayUnits { shown_in: LengthUnit::Inch, ..DisplayUnits::MM };
         let near = |a: f64, b: f64| (a - b).abs() < 1e-12;
         assert!(near(units.convert(ColumnUnit::Length, 25.4), 1.0));
         assert!(near(units.convert(ColumnUnit::FeedPerMinute, 508.0), 20.0));

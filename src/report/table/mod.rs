@@ -19,7 +19,7 @@ mod tests;
 
 pub(crate) use before_after::{compare_figures, list_figures, print_change};
 pub(crate) use column::{Column, pick_columns};
-pub use column_unit::{ColumnUnit, DisplayUnits};
+pub(crate) use column_unit::{ColumnUnit, DisplayUnits};
 pub(crate) use printed_cell::TableLooks;
 pub(crate) use printed_table::PrintedTable;
 pub(crate) use record::{CsvTable, JsonColumns, RecordNumbers};

@@ -41,7 +41,7 @@ pub enum NotFlat {
 ///
 /// # Errors
 /// Returns the property that makes it no flat end mill.
-pub fn to_flat_mill(cutter: &CutterModel) -> Result<FlatMill, NotFlat> {
+pub(crate) fn to_flat_mill(cutter: &CutterModel) -> Result<FlatMill, NotFlat> {
     let profile = &cutter.profile;
     if profile.bottom_angle_rad() > NONE {
         return Err(NotFlat::Bottom { degrees: profile.bottom_angle_rad().to_degrees() });

@@ -12,7 +12,7 @@ mod flat_mills;
 mod layer_runner;
 mod stock_reach;
 
-pub use flat_mills::to_flat_mill;
+pub(crate) use flat_mills::to_flat_mill;
 
 use crate::diagnostic::Diagnostic;
 use crate::engagement::MotionPiece;

@@ -13,7 +13,7 @@ type Triangle = [Vector3<f64>; 3];
 
 /// The clearance of a path over a mesh, in mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PathClearance {
+pub(crate) struct PathClearance {
     /// The least distance of the mesh from the cutter's ray, minus the radius. It is negative if the mesh is
     /// inside the cutter.
     pub low_mm: f64,
@@ -27,7 +27,7 @@ pub struct PathClearance {
 
 /// A mesh that is sorted in square columns for a ball.
 #[derive(Debug, Clone)]
-pub struct BallClearanceField {
+pub(crate) struct BallClearanceField {
     radius: f64,
     columns: TriangleColumns,
     triangles: Vec<(Triangle, Vector3<f64>, Vector3<f64>)>,

@@ -17,7 +17,7 @@ mod path_following;
 mod simplify;
 mod triangle_columns;
 
-pub use ball_clearance::{BallClearanceField, PathClearance};
+pub(crate) use ball_clearance::BallClearanceField;
 pub use cutter_shape::{CutterShapeError, DropCutterShape};
 pub use path_deviation::{PathDeviation, measure_deviation};
 

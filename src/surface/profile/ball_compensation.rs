@@ -7,7 +7,7 @@ use super::rolling_ball::roll_ball;
 use super::upper_envelope::{UpperEnvelope, find_upper_envelope};
 
 /// The smallest radius of a ball, mm. It is a thousand times the largest distance between pieces of a chain.
-pub const SMALLEST_BALL: f64 = 1e-3;
+pub(crate) const SMALLEST_BALL: f64 = 1e-3;
 
 /// Two ends of a path that are closer than this (mm) are not joined by a line.
 const MEETS: f64 = 1e-10;

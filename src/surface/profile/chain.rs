@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 /// The end of a piece and the start of the next one are the same point if they are at most this far apart,
 /// mm.
-pub const CONNECTED: f64 = 1e-6;
+pub(crate) const CONNECTED: f64 = 1e-6;
 
 /// The largest coordinate and radius, mm. At ten kilometres a number still resolves 2e-9 mm.
 pub const LARGEST: f64 = 1e7;

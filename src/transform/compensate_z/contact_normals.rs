@@ -6,7 +6,7 @@ use rstar::primitives::GeomWithData;
 
 /// A contact point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BallContact {
+pub(crate) struct BallContact {
     /// The point of the part, mm.
     pub point: Point3<f64>,
     /// Its outward normal.
@@ -17,7 +17,7 @@ pub struct BallContact {
 
 /// A ball that cuts into a neighbour's contact point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BallGouge {
+pub(crate) struct BallGouge {
     /// The contact whose ball does (its place in the list).
     pub contact: usize,
     /// The contact that it cuts into.
@@ -40,7 +40,7 @@ impl BallContact {
 
 /// Balls that reach deeper than `tolerance` mm into the contact point nearest to their centre, in the order of the contacts. No
 /// other point of the path lies deeper in them.
-pub fn find_gouges(contacts: &[BallContact], radius: f64, tolerance: f64) -> Vec<BallGouge> {
+pub(crate) fn find_gouges(contacts: &[BallContact], radius: f64, tolerance: f64) -> Vec<BallGouge> {
     let points = contacts.iter().enumerate();
     let points = points.map(|(index, contact)| GeomWithData::new(tree_coordinates(contact.point), index));
     let tree = RTree::bulk_load(points.collect());

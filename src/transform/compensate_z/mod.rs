@@ -15,7 +15,7 @@ mod by_mesh;
 mod by_normals;
 mod by_profile;
 mod compensation_job;
-pub mod contact_normals;
+mod contact_normals;
 mod cutter_lowering;
 mod findings;
 mod lead_conflict;

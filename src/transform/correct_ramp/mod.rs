@@ -21,7 +21,7 @@ pub mod circumscribed_circle;
 mod detour;
 mod findings;
 mod level_motions;
-pub mod milled_area;
+mod milled_area;
 mod parameters;
 mod planned_ramp;
 mod polygon_containment;
@@ -40,6 +40,7 @@ mod report_text;
 mod step;
 pub mod tool_region;
 
+pub use milled_area::MilledArea;
 pub use parameters::{CorrectRamp, ImpossibleRampHandling, PlungeHandling, RampRegionSpec, RampToolSpec};
 pub use ramp_correction::{CorrectedRamp, ImpossibleCorrection, LengtheningMethod, RampTask, correct_ramp};
 pub use report::{CorrectRampReport, RampOutcome, RampReport};

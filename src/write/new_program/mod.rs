@@ -22,7 +22,7 @@ pub const WRITABLE: [Dialect; 3] = [Dialect::Nx, Dialect::Catia, Dialect::Creo];
 
 /// Returns the decimals of coordinates in a dialect's programs (measured; see [`WRITABLE`] for the dialects
 /// that are written).
-pub fn coordinate_decimals(dialect: Dialect) -> usize {
+pub(crate) fn coordinate_decimals(dialect: Dialect) -> usize {
     match dialect {
         Dialect::Catia => 5,
         Dialect::Creo => 10,
@@ -42,7 +42,7 @@ pub fn round_coordinate(value: f64, dialect: Dialect) -> f64 {
 }
 
 /// Returns a feed as the dialect prints it: with six decimals in Creo, four elsewhere.
-pub fn round_feed(value: f64, dialect: Dialect) -> f64 {
+pub(crate) fn round_feed(value: f64, dialect: Dialect) -> f64 {
     round_to_decimals(value, if dialect == Dialect::Creo { 6 } else { 4 })
 }
 
