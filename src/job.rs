@@ -14,7 +14,7 @@ use crate::recipe::Provenance;
 use crate::report::finding_policy::FindingPolicy;
 use crate::report::stats::ResolvedLengthUnit;
 use crate::setup::Setup;
-use crate::simulation_run::RunWatcher;
+use crate::simulation_run::{RunWatcher, SilentWatcher};
 use crate::source::{Source, Span};
 use crate::transform::{self, Recipe, RecipeOutcome, TransformReport, unit_slips};
 use std::collections::BTreeMap;
@@ -26,26 +26,20 @@ use std::sync::Arc;
 /// use clsmith::job::CorrectionJob;
 /// use clsmith::report::finding_policy::FindingPolicy;
 /// use clsmith::setup::Setup;
-/// use clsmith::simulation_run::SilentWatcher;
 /// use clsmith::source::Source;
 /// use clsmith::transform::Recipe;
 ///
 /// let text = b"version: 1\nsteps:\n  - scale_feed: { factor: 0.5 }\n";
 /// let recipe = Recipe::load(&Source::new("recipe.yaml", text.to_vec())?)?;
-/// let job = CorrectionJob {
-///     recipe: &recipe,
-///     setup: &Setup::default(),
-///     print: None,
-///     policy: &FindingPolicy::default(),
-///     dialect: None,
-///     watch: &SilentWatcher,
-/// };
+/// let (setup, policy) = (Setup::default(), FindingPolicy::default());
+/// let job = CorrectionJob::new(&recipe, &setup, &policy);
 /// let outcome = job.correct_source(&Source::new("part.cls", b"FEDRAT/MMPM,800.\nGOTO/0,0,0\n".to_vec())?)?;
 /// assert_eq!(outcome.program.to_bytes(), b"FEDRAT/MMPM,400.\nGOTO/0,0,0\n");
 /// // Nothing comes of a program with an error.
 /// assert!(job.correct_source(&Source::new("part.cls", b"GOTO/0,0,O\n".to_vec())?).is_err());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[non_exhaustive]
 pub struct CorrectionJob<'r> {
     /// The recipe.
     pub recipe: &'r Recipe,
@@ -70,6 +64,34 @@ pub struct JobOutcome {
     pub findings: Vec<Diagnostic>,
     /// What steps tell about themselves.
     pub reports: Vec<Box<dyn TransformReport>>,
+}
+
+impl<'r> CorrectionJob<'r> {
+    /// Makes a job that detects the dialect, has no fingerprint and is watched by nobody.
+    pub fn new(recipe: &'r Recipe, setup: &'r Setup, policy: &'r FindingPolicy) -> Self {
+        Self { recipe, setup, print: None, policy, dialect: None, watch: &SilentWatcher }
+    }
+
+    /// Returns the job with the recipe's fingerprint, which the header of a recipe with `provenance:` tells.
+    #[must_use]
+    pub fn with_print(mut self, print: impl Into<Option<&'r RecipeFingerprint>>) -> Self {
+        self.print = print.into();
+        self
+    }
+
+    /// Returns the job for programs of one dialect.
+    #[must_use]
+    pub fn with_dialect(mut self, dialect: impl Into<Option<Dialect>>) -> Self {
+        self.dialect = dialect.into();
+        self
+    }
+
+    /// Returns the job with somebody who watches steps that take long, and may stop them.
+    #[must_use]
+    pub fn with_watcher(mut self, watch: &'r dyn RunWatcher) -> Self {
+        self.watch = watch;
+        self
+    }
 }
 
 impl CorrectionJob<'_> {

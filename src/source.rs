@@ -81,6 +81,7 @@ pub struct Source {
 /// The file is too large for 32-bit spans.
 #[derive(Debug, Clone, Copy, thiserror::Error)]
 #[error("the file has {bytes} bytes; clsmith reads files below 4 GiB")]
+#[non_exhaustive]
 pub struct SourceTooLarge {
     /// The size of the refused file.
     pub bytes: usize,

@@ -36,16 +36,7 @@ fn recipe(path: &Path) -> (Recipe, Setup) {
 }
 
 fn run(recipe: &Recipe, setup: &Setup, source: &Arc<Source>) -> String {
-    let done = CorrectionJob {
-        recipe,
-        setup,
-        print: None,
-        policy: &FindingPolicy::default(),
-        dialect: None,
-        watch: &clsmith::simulation_run::SilentWatcher,
-    }
-    .correct_source(source)
-    .unwrap();
+    let done = CorrectionJob::new(recipe, setup, &FindingPolicy::default()).correct_source(source).unwrap();
     assert!(!done.findings.iter().any(Diagnostic::is_error), "{:?}", done.findings);
     let mut patch = Vec::new();
     clsmith::report::unified_diff::write_unified_diff(&mut patch, &done.program, &Default::default())

@@ -29,7 +29,7 @@ fuzz_target!(|bytes: &[u8]| {
     let part = Source::new("part.cls", PART.to_vec()).expect("a small file");
     let (setup, policy) = (Setup::default(), FindingPolicy::default());
     let watch = &SilentWatcher;
-    let job = CorrectionJob { recipe: &recipe, setup: &setup, print: None, policy: &policy, dialect: None, watch };
+    let job = CorrectionJob::new(&recipe, &setup, &policy).with_watcher(watch);
     let Ok(program) = job.correct_source(&part).map(|outcome| outcome.program) else { return };
     let again = Source::new("again.cls", program.to_bytes()).expect("a small file");
     let read = parse(&again, Some(program.dialect()));

@@ -56,6 +56,7 @@ impl PreparedRecipe {
 
 /// A file that is to be done.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct PlannedFile {
     /// Its job's place in the list.
     pub job: usize,

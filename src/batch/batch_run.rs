@@ -65,6 +65,7 @@ pub trait BatchWatcher: Sync {
 
 /// What came of a batch.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct BatchOutcome {
     /// What became of each file, sorted by name. Those that were not run are there, too.
     pub records: Vec<BatchRecord>,

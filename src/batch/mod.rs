@@ -4,7 +4,7 @@
 //! [`jobs_file`] says what is wanted. [`BatchPlan`] settles which file becomes which output, and refuses
 //! before anything runs: no two outputs meet, and no output is an input. Only the content of a file can make
 //! that file fail, and then it fails alone. [`Shard`] says which part this machine does, [`OutputFolder`]
-//! makes sure that nobody else writes there, [`BatchJournal`] knows what is done, and [`BatchRun`] does the
+//! makes sure that nobody else writes there, `BatchJournal` knows what is done, and [`BatchRun`] does the
 //! rest.
 //!
 //! Every file leaves a [`BatchRecord`]; [`batch_results`] writes the records, and [`merge`] puts those of

@@ -58,6 +58,7 @@ impl fmt::Display for Shard {
 
 /// Why a text names no shard.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum BadShard {
     /// It is not two numbers with a slash between them.
     #[error("a shard is written I/N: 1/8 to 8/8")]

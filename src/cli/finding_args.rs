@@ -64,13 +64,11 @@ impl FindingArgs {
     ) -> io::Result<()> {
         match self.format {
             FindingFormat::Human => {
-                let options = human::HumanRenderOptions {
-                    color: self.color.is_wanted(is_terminal),
-                    unicode: terminal::has_unicode(),
-                    width: terminal::width_columns(),
-                    per_code: self.max_per_code,
-                    ..human::HumanRenderOptions::default()
-                };
+                let options = human::HumanRenderOptions::default()
+                    .with_color(self.color.is_wanted(is_terminal))
+                    .with_unicode(terminal::has_unicode())
+                    .with_width(terminal::width_columns())
+                    .with_per_code(self.max_per_code);
                 human::render_human(out, findings, file, &options)
             }
             FindingFormat::Line => line::render_lines(out, findings, file),

@@ -49,6 +49,7 @@ pub struct NonCuttingCylinder {
 
 /// The part of a tool that does not cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum NonCuttingKind {
     /// The tool above its flutes.
     Shank,

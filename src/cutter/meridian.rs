@@ -58,6 +58,7 @@ pub struct MeridianPoint {
 
 /// The reason why numbers do not describe a meridian that can be simulated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum MeridianError {
     /// The diameter is not positive.
     #[error("the diameter is not positive")]

@@ -36,6 +36,7 @@ impl fmt::Display for Severity {
 
 /// A place in a file and what is to be seen there.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct DiagnosticLabel {
     /// The file: a CL file, a recipe, a setup file.
     pub source: Arc<Source>,
@@ -61,6 +62,7 @@ pub struct DiagnosticLabel {
 /// # Ok::<(), clsmith::source::SourceTooLarge>(())
 /// ```
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Diagnostic {
     /// Its entry in the catalogue.
     pub code: DiagnosticCode,

@@ -47,6 +47,7 @@ pub struct ToothSampling {
 
 /// The measured chips.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct ExactChipThickness {
     /// The thickest chip, mm.
     pub largest_mm: f64,

@@ -23,6 +23,7 @@ pub struct FlatMill {
 
 /// The reason why a piece of path cannot be modelled.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum MillStepError {
     /// The mill has no radius or no flutes, or its numbers are not finite.
     #[error("the tool has no diameter or no flutes")]

@@ -25,6 +25,7 @@ pub(super) const GRAZES: f64 = 1e-9;
 
 /// The functions of angle and time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum DiagramCurve {
     /// The determinant whose zeros are the envelope.
     Edge,

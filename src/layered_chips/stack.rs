@@ -18,6 +18,7 @@ pub(crate) const MOST_LAYERS: usize = 100_000;
 
 /// The reason why a stock has no stack of layers.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum LayerStackError {
     /// The layers have no thickness, or are thicker than the stock is high.
     #[error("a layer must have a thickness, and not more than the stock is high: {height} mm")]

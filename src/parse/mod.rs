@@ -20,6 +20,7 @@ use std::sync::Arc;
 
 /// The result of reading a file: always a program, and the findings on the way.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct ParsedProgram {
     /// The program; its statements tile the source.
     pub program: Program,

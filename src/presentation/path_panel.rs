@@ -28,6 +28,7 @@ pub struct PanelPath {
 
 /// How a path looks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum PanelPathStyle {
     /// As it was: grey.
     Before,

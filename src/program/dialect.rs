@@ -14,6 +14,7 @@ use std::fmt;
 /// assert_eq!(Dialect::ALL.map(Dialect::name).len(), 9);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
 pub enum Dialect {
     /// Siemens NX CLSF.
     Nx,
@@ -38,6 +39,7 @@ pub enum Dialect {
 
 /// The direction in which an arc turns about the printed axis of a CIRCLE.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ArcRule {
     /// Left-hand: about +z the arc is clockwise (measured: NX 1,143 of 1,143 tangent arcs, FF 53 of 53).
     LeftHand,

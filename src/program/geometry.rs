@@ -19,6 +19,7 @@ pub struct Pose {
 
 /// The path from one pose to the next.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum MotionPath {
     /// A straight line. If the axes differ, the axis turns at a constant rate (slerp).
     Line,

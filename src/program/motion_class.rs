@@ -9,6 +9,7 @@ use std::fmt;
     derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
     serde(rename_all = "snake_case")
 )]
+#[non_exhaustive]
 pub enum MotionClass {
     /// A rapid through the air.
     Rapid,

@@ -8,6 +8,7 @@ use super::{InsertionPoint, Program, Record, Statement, StatementId, StatementRa
 
 /// One operation.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Operation {
     /// The name, empty if the file has none. Bytes that are not UTF-8 are read as Latin-1.
     pub name: String,

@@ -5,6 +5,7 @@ use super::Record;
 /// The kind of a statement. It is coarser than [`Record`] and the same in every dialect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "simulation", derive(serde::Serialize), serde(rename_all = "snake_case"))]
+#[non_exhaustive]
 pub enum RecordKind {
     /// A point: `GOTO`, `FROM`, `GOHOME`, `GODLTA`.
     Point,

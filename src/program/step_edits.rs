@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 
 /// The statements that one step changed, counted by kind.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct StepEdits {
     /// The step.
     pub step: StepId,

@@ -9,6 +9,7 @@ use std::ops::Range;
 
 /// The form of the grammar that a statement has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum StatementKind {
     /// Only blanks.
     Blank,
@@ -45,6 +46,7 @@ pub struct StatementField {
 
 /// The content of a field.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum FieldKind {
     /// Nothing between two commas.
     Empty,

@@ -45,6 +45,7 @@ impl LengthUnit {
 
 /// The unit of a feed, as a word of the record gives it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum FeedUnit {
     /// `MMPM`: mm/min.
     MmPerMinute,

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 /// nothing stays as it is, byte for byte.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Provenance {
     /// Nothing.
     #[default]

@@ -27,6 +27,7 @@ use std::fmt;
 /// # Ok::<(), clsmith::report::finding_policy::FindingPolicyError>(())
 /// ```
 #[derive(Debug, Clone, Default)]
+#[non_exhaustive]
 pub struct FindingPolicy {
     /// Codes that are errors, whatever the catalogue says.
     pub deny: Vec<DiagnosticCode>,
@@ -70,6 +71,7 @@ const NEVER_SILENT: &[DiagnosticCode] = &[PASSED_ORIGINAL, EXIT_CODE_SHARED, LEA
 
 /// Why `--deny` and `--allow` make no policy.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum FindingPolicyError {
     /// A word is no code.
     #[error(transparent)]

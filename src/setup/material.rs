@@ -34,6 +34,7 @@ pub struct WorkMaterial {
 
 /// The material as the setup says it.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum MaterialChoice {
     /// Its coefficients.
     Given(WorkMaterial),

@@ -28,6 +28,7 @@ pub struct StockBody {
 
 /// What a body is.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum StockBodyShape {
     /// A block along the axes.
     Block {

@@ -7,6 +7,7 @@ use crate::stock::Dexels;
 
 /// The most that a run may cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct SimulationBudget {
     /// The memory of the stock in bytes.
     pub bytes: u64,
@@ -21,8 +22,25 @@ impl Default for SimulationBudget {
     }
 }
 
+impl SimulationBudget {
+    /// Returns the budget with another amount of memory, in bytes.
+    #[must_use]
+    pub fn with_bytes(mut self, bytes: u64) -> Self {
+        self.bytes = bytes;
+        self
+    }
+
+    /// Returns the budget with another number of times that columns are examined.
+    #[must_use]
+    pub fn with_visits(mut self, visits: f64) -> Self {
+        self.visits = visits;
+        self
+    }
+}
+
 /// The estimated cost of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct SimulationCost {
     /// The distance of columns, mm.
     pub cell_mm: f64,

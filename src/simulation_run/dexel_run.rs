@@ -22,6 +22,7 @@ pub(crate) fn chord_tolerance_mm(cell_mm: f64) -> f64 {
 
 /// A motion and its engagement.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct EngagedMotion<'a> {
     /// The motion.
     pub motion: &'a Motion,
@@ -45,6 +46,7 @@ impl EngagedMotion<'_> {
 
 /// The result of a run.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct DexelRunResult {
     /// The stock that is left.
     pub left: Dexels,

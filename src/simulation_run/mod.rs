@@ -32,6 +32,7 @@ use std::sync::Arc;
 
 /// The options of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct SimulationRunOptions {
     /// The distance of columns, mm; if not given, a fortieth of the smallest cutter's diameter.
     pub cell_mm: Option<f64>,
@@ -54,6 +55,36 @@ impl Default for SimulationRunOptions {
     }
 }
 
+impl SimulationRunOptions {
+    /// Returns the options with another distance of columns, mm.
+    #[must_use]
+    pub fn with_cell_mm(mut self, cell_mm: impl Into<Option<f64>>) -> Self {
+        self.cell_mm = cell_mm.into();
+        self
+    }
+
+    /// Returns the options with another longest piece, mm.
+    #[must_use]
+    pub fn with_longest_piece_mm(mut self, longest_piece_mm: f64) -> Self {
+        self.longest_piece_mm = longest_piece_mm;
+        self
+    }
+
+    /// Returns the options for a run that finds forces, or for one that does not.
+    #[must_use]
+    pub fn with_forces(mut self, forces: bool) -> Self {
+        self.forces = forces;
+        self
+    }
+
+    /// Returns the options with another budget.
+    #[must_use]
+    pub fn with_budget(mut self, budget: SimulationBudget) -> Self {
+        self.budget = budget;
+        self
+    }
+}
+
 /// A program that is ready to be machined.
 ///
 /// ```
@@ -71,7 +102,7 @@ impl Default for SimulationRunOptions {
 ///
 /// let mut assumptions = Vec::new();
 /// let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut assumptions)?;
-/// let options = SimulationRunOptions { cell_mm: Some(0.5), ..SimulationRunOptions::default() };
+/// let options = SimulationRunOptions::default().with_cell_mm(0.5);
 /// let mut removed_mm3 = 0.0;
 /// let result = machining.simulate_program(&options, &SilentWatcher, &mut |motion| {
 ///     removed_mm3 += motion.whole_engagement().map_or(0.0, |engagement| engagement.removed_mm3);

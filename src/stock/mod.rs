@@ -3,7 +3,7 @@
 //!
 //! Lengths are in mm in the workpiece frame, in which dexels stand along z. The stock that is left can be
 //! kept in a file ([`stock_file`]), written as a surface ([`stl_export`]) and compared with the target part
-//! ([`target_deviation`]).
+//! ([`TargetDeviation`]).
 
 mod axis_box;
 pub(crate) mod dexel;

@@ -4,6 +4,7 @@ use crate::stock::axis_box::FARTHEST;
 
 /// The reason why there is no stock to simulate.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StockError {
     /// The list of bodies is empty.
     #[error("the stock has no body")]

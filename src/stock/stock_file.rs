@@ -27,6 +27,7 @@ const CHECKSUM: usize = 4;
 
 /// The reason why bytes are not a `.clstock` file. `at` is the offset in the file.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StockFileError {
     /// The file was not written by this program, or was changed when it was sent as text.
     #[error("this is no .clstock file")]

@@ -24,6 +24,7 @@ const ROUNDING: f32 = 1e-4;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct TargetDeviation {
     /// The volume of the target's material that is missing, mm3.
     pub gouge_mm3: f64,
@@ -41,6 +42,7 @@ pub struct TargetDeviation {
 
 /// The reason why two solids cannot be compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum GridMismatch {
     /// Their columns do not stand in the same places.
     #[error("the columns of stock and target do not stand in the same places")]

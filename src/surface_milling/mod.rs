@@ -27,7 +27,7 @@ mod surface_proof;
 
 pub use make_program::make_surface_program;
 pub use pass_linking::PassPattern;
-pub use pass_planes::{PassPlanes, plane_offsets};
+pub use pass_planes::{MOST_PLANES, PassPlanes, plane_offsets};
 pub use profile_file::{load_profile, profile_schema};
 pub use section_profile::{ProfileCurve, SectionProfile, SectionProfileError};
 pub use surface_program::SurfaceProgram;

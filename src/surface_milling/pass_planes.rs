@@ -1,7 +1,7 @@
 //! This module describes the parallel vertical planes of the passes.
 
 /// The most planes. A request for more is a mistake in the step.
-pub(crate) const MOST_PLANES: usize = 100_000;
+pub const MOST_PLANES: usize = 100_000;
 
 /// The direction of the planes: they contain z and a horizontal direction u.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -26,6 +26,7 @@ pub struct SectionProfile {
 
 /// The reason why curves do not make a chain.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SectionProfileError {
     /// The pieces do not fit together.
     #[error(transparent)]

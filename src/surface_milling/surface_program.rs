@@ -12,6 +12,7 @@ const TOOL_LENGTH: f64 = 8.0;
 
 /// A program over a part, proved and read back.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct SurfaceProgram {
     /// The motions and words of the program.
     pub draft: ProgramDraft,

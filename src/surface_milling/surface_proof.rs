@@ -15,6 +15,7 @@ const MOST_SAMPLES: f64 = 2e6;
 
 /// The distances of a program's passes from the part, all in mm.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct SurfaceProof {
     /// The largest depth of the ball in the part; 0 if it never enters it.
     pub gouge_mm: f64,

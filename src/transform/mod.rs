@@ -26,7 +26,7 @@ pub use recipe_run::{RecipeOutcome, run_recipe, run_recipe_watched, run_steps};
 pub use rewrite::{RewriteRule, RuleFault};
 pub use statement_selection::{SelectedStatements, StatementSelection};
 pub use step_context::StepContext;
-pub use step_report::TransformReport;
+pub use step_report::{TransformReport, to_json_value};
 
 use crate::diagnostic::Failure;
 use crate::parameters::FilePath;
@@ -90,6 +90,7 @@ macro_rules! transforms {
         /// A step of a recipe: its name and its parameters.
         #[derive(Debug, Clone, Deserialize, JsonSchema)]
         #[serde(rename_all = "snake_case")]
+        #[non_exhaustive]
         pub enum Step {
             $(
                 #[doc = concat!("`", stringify!($name), "`.")]

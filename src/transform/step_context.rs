@@ -12,6 +12,7 @@ use crate::source::Span;
 use std::path::{Path, PathBuf};
 
 /// The surroundings of a running step.
+#[non_exhaustive]
 pub struct StepContext<'r> {
     /// The step.
     pub step: StepId,

@@ -41,7 +41,7 @@ impl Serialize for dyn TransformReport {
 }
 
 /// A value as JSON.
-pub(crate) fn to_json_value(value: &impl Serialize) -> serde_json::Value {
+pub fn to_json_value(value: &impl Serialize) -> serde_json::Value {
     let json = serde_json::to_value(value);
     // Reports are structs of numbers, names and lists; only a map whose keys are no text could fail.
     debug_assert!(json.is_ok(), "{json:?}");

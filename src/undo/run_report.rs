@@ -19,9 +19,9 @@ pub(crate) const FORMAT_VERSION: u32 = 1;
 /// The report of a run on one file.
 #[derive(Debug, Serialize)]
 pub struct RunReport<'r> {
-    /// [`FORMAT`].
+    /// What the file is, `clsmith run`.
     pub format: &'static str,
-    /// [`FORMAT_VERSION`].
+    /// The version of the format.
     pub version: u32,
     /// The version of clsmith.
     pub clsmith: &'static str,

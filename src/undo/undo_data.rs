@@ -49,6 +49,7 @@ pub struct UndoData {
 
 /// An original.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct RestoredOriginal {
     /// Its bytes.
     pub bytes: Vec<u8>,

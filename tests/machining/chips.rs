@@ -186,8 +186,7 @@ fn real(end: &str, tool: &str, units: LengthUnit, lines: usize) {
     let setup = Setup::load(&support::text(setup)).unwrap();
     let machining = Machining::new(&parsed.program, &setup, units, &mut Vec::new()).unwrap();
     let height = (bounds[1][2] - bounds[0][2]).max(1.0);
-    let options =
-        LayerRunOptions { lines: 1..=lines, tolerance_mm: 0.02, ..LayerRunOptions::new(height / 4.0) };
+    let options = LayerRunOptions::new(height / 4.0).with_lines(1..=lines).with_tolerance_mm(0.02);
     let (mut cutting, mut refused, mut removed) = (0, 0, 0.0);
     let ran = machining.simulate_layers(&options, &SilentWatcher, &mut |cut| {
         let volume = cut.volume_mm3();
@@ -227,11 +226,7 @@ fn the_options_of_the_simulation_stay_apart() {
         || machining.simulate_layers(&whole(), &SilentWatcher, &mut |_| {}).unwrap().left.volume_mm3();
     let before = chips();
     machining
-        .simulate_program(
-            &SimulationRunOptions { cell_mm: Some(0.5), ..SimulationRunOptions::default() },
-            &SilentWatcher,
-            &mut |_| {},
-        )
+        .simulate_program(&SimulationRunOptions::default().with_cell_mm(0.5), &SilentWatcher, &mut |_| {})
         .unwrap();
     assert_eq!(chips(), before);
 }

@@ -28,12 +28,7 @@ pub fn nx(tool: &str, body: &str) -> String {
 
 /// Runs a program; gives each feed motion's engagement, and what is left.
 pub fn machine(text: &str, setup: &str, cell: f64) -> (Vec<Engagement>, DexelRunResult) {
-    try_machine(
-        text,
-        setup,
-        SimulationRunOptions { cell_mm: Some(cell), forces: true, ..SimulationRunOptions::default() },
-    )
-    .unwrap()
+    try_machine(text, setup, SimulationRunOptions::default().with_cell_mm(cell).with_forces(true)).unwrap()
 }
 
 pub fn try_machine(

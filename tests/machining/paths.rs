@@ -138,13 +138,7 @@ fn an_allowance_is_material() {
 #[test]
 fn too_much_is_refused_before_it_begins() {
     let text = nx(FLAT, "GOTO/110.0000,0.0000,-3.0000\n");
-    let with = |cell: f64| {
-        try_machine(
-            &text,
-            SETUP,
-            SimulationRunOptions { cell_mm: Some(cell), ..SimulationRunOptions::default() },
-        )
-    };
+    let with = |cell: f64| try_machine(&text, SETUP, SimulationRunOptions::default().with_cell_mm(cell));
     assert_eq!(with(0.0005).unwrap_err()[0].code.id(), "CL0514");
     assert_eq!(with(2.0).unwrap_err()[0].code.id(), "CL0513");
 }

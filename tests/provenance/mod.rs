@@ -12,7 +12,6 @@ use clsmith::job::{CorrectionJob, JobOutcome};
 use clsmith::program::Program;
 use clsmith::report::finding_policy::FindingPolicy;
 use clsmith::setup::Setup;
-use clsmith::simulation_run::SilentWatcher;
 use clsmith::source::Source;
 use clsmith::transform::Recipe;
 use std::sync::Arc;
@@ -30,15 +29,7 @@ pub fn done(recipe_text: &str, source: &Arc<Source>) -> Result<JobOutcome, Failu
     let (recipe, print) = recipe(recipe_text);
     let setup = recipe.merge_setups(Setup::default(), Setup::default());
     let policy = FindingPolicy::default();
-    CorrectionJob {
-        recipe: &recipe,
-        setup: &setup,
-        print: Some(&print),
-        policy: &policy,
-        dialect: None,
-        watch: &SilentWatcher,
-    }
-    .correct_source(source)
+    CorrectionJob::new(&recipe, &setup, &policy).with_print(&print).correct_source(source)
 }
 
 /// The corrected program and what was found, which must be no error.

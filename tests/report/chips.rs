@@ -73,7 +73,7 @@ fn a_slot_has_its_areas_volumes_engagement_and_chip() {
 
 #[test]
 fn the_json_has_the_shape_that_it_shall_have() {
-    let keep = ChipReportOptions { borders: true, ..ChipReportOptions::default() };
+    let keep = ChipReportOptions::default().with_borders(true);
     // An island stands in the way of nothing: a ring-shaped path around it, cut in one arc.
     let found = report(&ring(), RING_SHOP, &options(1.0), keep).unwrap();
     let json: serde_json::Value = serde_json::from_str(&json(&found)).unwrap();
@@ -121,27 +121,25 @@ const RING_SHOP: &str = "stock: { block: { from: [0, 0, -10], to: [60, 40, 0] } 
 
 #[test]
 fn chips_as_text_csv_and_json() {
-    let found = slot(ChipReportOptions { borders: true, ..ChipReportOptions::default() });
+    let found = slot(ChipReportOptions::default().with_borders(true));
     snapshots("report").bind(|| {
         insta::assert_snapshot!("chips", to_text(&found));
         insta::assert_snapshot!("chips_csv", csv(&found));
     });
     // One motion is enough of the borders.
-    let options = LayerRunOptions { lines: 13..=13, ..options(2.0) };
-    let found =
-        report(SLOT, SHOP, &options, ChipReportOptions { borders: true, ..ChipReportOptions::default() })
-            .unwrap();
+    let options = options(2.0).with_lines(13..=13);
+    let found = report(SLOT, SHOP, &options, ChipReportOptions::default().with_borders(true)).unwrap();
     rounded_snapshots("report").bind(|| insta::assert_snapshot!("chips_json", json(&found)));
 }
 
 #[test]
 fn lines_before_are_cut_and_lines_after_are_not_run() {
     let whole = slot(ChipReportOptions::default());
-    let some = LayerRunOptions { lines: 13..=14, ..options(1.0) };
+    let some = options(1.0).with_lines(13..=14);
     let found = report(SLOT, SHOP, &some, ChipReportOptions::default()).unwrap();
     assert_eq!(found.rows.as_slice(), &whole.rows[2..4]);
     assert!(found.totals.left_mm3 > whole.totals.left_mm3 + 100.0);
-    let none = LayerRunOptions { lines: 100..=200, ..options(1.0) };
+    let none = options(1.0).with_lines(100..=200);
     let errors = report(SLOT, SHOP, &none, ChipReportOptions::default()).unwrap_err();
     assert_eq!(errors[0].code.id(), "CL0524");
 }
@@ -183,7 +181,7 @@ fn the_number_of_threads_changes_no_byte() {
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let found = slot(ChipReportOptions { borders: true, scenes: 2, at_z_mm: None });
+            let found = slot(ChipReportOptions::default().with_borders(true).with_scenes(2));
             let mut stl = Vec::new();
             write_stl(&found, &mut stl).unwrap();
             (
@@ -204,8 +202,8 @@ fn the_solid_has_the_chip_s_volume() {
     let found = report(
         SLOT,
         SHOP,
-        &LayerRunOptions { lines: 16..=16, ..options(0.5) },
-        ChipReportOptions { borders: true, ..ChipReportOptions::default() },
+        &options(0.5).with_lines(16..=16),
+        ChipReportOptions::default().with_borders(true),
     );
     let found = found.unwrap();
     let mut stl = Vec::new();
@@ -219,7 +217,7 @@ fn the_solid_has_the_chip_s_volume() {
 
 #[test]
 fn pictures_show_moves_and_layers() {
-    let found = slot(ChipReportOptions { borders: false, scenes: 3, at_z_mm: None });
+    let found = slot(ChipReportOptions::default().with_scenes(3));
     assert_eq!(found.scenes.iter().map(|scene| scene.line).collect::<Vec<_>>(), [12, 13, 14]);
     let drawn = draw_layers(&found, None).unwrap();
     for title in ["line 12, z -0.5", "line 14, z -1.5", "workpiece after the move"] {
@@ -230,6 +228,6 @@ fn pictures_show_moves_and_layers() {
     let diagrams = draw_diagrams(&found, Some(-1.2)).unwrap();
     assert!(diagrams.contains("line 13, z -1.5") && diagrams.contains("advances"));
     // Nothing is cut at this height.
-    let nothing = slot(ChipReportOptions { borders: false, scenes: 3, at_z_mm: Some(-5.0) });
+    let nothing = slot(ChipReportOptions::default().with_scenes(3).with_at_z_mm(-5.0));
     assert!(nothing.scenes.is_empty());
 }

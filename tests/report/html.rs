@@ -31,14 +31,8 @@ pub fn told<T>(
     let recipe = Recipe::load(&Source::new("recipe.yaml", text.into_bytes()).unwrap()).unwrap();
     let setup = if shop.is_empty() { Setup::default() } else { setup(shop) };
     let source = Source::new(name, part.to_vec()).unwrap();
-    let job = CorrectionJob {
-        recipe: &recipe,
-        setup: &setup,
-        print: None,
-        policy: &FindingPolicy::default(),
-        dialect: None,
-        watch: &SilentWatcher,
-    };
+    let policy = FindingPolicy::default();
+    let job = CorrectionJob::new(&recipe, &setup, &policy);
     let JobOutcome { program, findings, reports } = job.correct_source(&source).unwrap();
     let before = parse(&source, Some(program.dialect())).program;
     let subject = ComparisonSubject {

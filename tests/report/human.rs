@@ -26,9 +26,9 @@ fn one_finding_in_its_lines() {
             "one_finding",
             draw(std::slice::from_ref(&found), &HumanRenderOptions::default())
         );
-        let ascii = HumanRenderOptions { unicode: false, ..HumanRenderOptions::default() };
+        let ascii = HumanRenderOptions::default().with_unicode(false);
         insta::assert_snapshot!("one_finding_ascii", draw(std::slice::from_ref(&found), &ascii));
-        let color = HumanRenderOptions { color: true, ..HumanRenderOptions::default() };
+        let color = HumanRenderOptions::default().with_color(true);
         insta::assert_snapshot!("one_finding_color", draw(&[found], &color).replace('\u{1b}', "ESC"));
     });
 }
@@ -37,7 +37,7 @@ fn one_finding_in_its_lines() {
 fn ascii_without_colors_is_ascii_only() {
     let part = source("part.cls", PART);
     let found = finding(BAD_NUMBER, &part, "0..0000");
-    let options = HumanRenderOptions { unicode: false, ..HumanRenderOptions::default() };
+    let options = HumanRenderOptions::default().with_unicode(false);
     assert!(draw(&[found], &options).is_ascii());
 }
 
@@ -84,14 +84,14 @@ fn severities_and_a_finding_without_a_place() {
 fn more_than_the_cap_is_counted_not_shown() {
     let part = source("part.cls", PART);
     let found = vec![finding(MALFORMED, &part, "RAPID"); 7];
-    let options = HumanRenderOptions { per_code: 2, ..HumanRenderOptions::default() };
+    let options = HumanRenderOptions::default().with_per_code(2);
     let capped = draw(&found, &options);
     assert_eq!(capped.matches("error[CL0001]").count(), 2);
     assert!(
         capped.ends_with("5 more of CL0001, on line 3 (--max-per-code 0 shows all)\n\npart.cls: 7 errors\n"),
         "{capped}"
     );
-    let all = draw(&found, &HumanRenderOptions { per_code: 0, ..options });
+    let all = draw(&found, &options.with_per_code(0));
     assert_eq!(all.matches("error[CL0001]").count(), 7);
     assert!(!all.contains("more of"));
     let few = draw(&found[..3], &HumanRenderOptions { per_code: 1, ..options });
@@ -109,7 +109,7 @@ fn nothing_found_is_said() {
 #[test]
 fn a_long_message_is_wrapped() {
     let found = Diagnostic::new(UNREADABLE, "word ".repeat(60)).with_help("help ".repeat(60));
-    let narrow = HumanRenderOptions { width: 60, ..HumanRenderOptions::default() };
+    let narrow = HumanRenderOptions::default().with_width(60);
     let drawn = draw(&[found], &narrow);
     assert!(drawn.lines().all(|line| line.chars().count() <= 60), "{drawn}");
 }
@@ -129,7 +129,7 @@ proptest::proptest! {
         for (start, length) in spans {
             found = found.with_label(&part, Span::new(start, start + length), "here");
         }
-        let drawn = draw(&[found], &HumanRenderOptions { unicode, context_lines: context, ..HumanRenderOptions::default() });
+        let drawn = draw(&[found], &HumanRenderOptions::default().with_unicode(unicode).with_context_lines(context));
         // Not the one-line form that stands in when miette gives up.
         assert!(drawn.starts_with("error[CL0001]"), "{drawn}");
         assert!(!drawn.contains("Failed to read"), "{drawn}");

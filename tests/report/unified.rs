@@ -89,9 +89,9 @@ fn changes_in_a_file_with_every_oddity() {
         Edit::Insert(11, "$$ end".into()),
     ];
     let program = edited(source, &edits);
-    let patch = to_bytes(&program, &UnifiedDiffOptions { context: 1, ..UnifiedDiffOptions::default() });
+    let patch = to_bytes(&program, &UnifiedDiffOptions::default().with_context(1));
     assert_eq!(apply(source, &patch), program.to_bytes());
-    let display = UnifiedDiffOptions { context: 1, display: true, color: true };
+    let display = UnifiedDiffOptions::default().with_context(1).with_display(true).with_color(true);
     let shown = String::from_utf8(to_bytes(&program, &display)).unwrap();
     snapshots("report").bind(|| insta::assert_snapshot!("unified", shown));
 }
@@ -150,7 +150,7 @@ proptest! {
             source.truncate(source.trim_end().len());
         }
         let program = edited(source.as_bytes(), &edits);
-        let patch = to_bytes(&program, &UnifiedDiffOptions { context, ..UnifiedDiffOptions::default() });
+        let patch = to_bytes(&program, &UnifiedDiffOptions::default().with_context(context));
         prop_assert_eq!(apply(source.as_bytes(), &patch), program.to_bytes());
     }
 }

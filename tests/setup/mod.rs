@@ -42,7 +42,7 @@ fn tool(program: &str) -> ActiveTool {
 /// Findings as a person sees them.
 fn draw(found: &[Diagnostic]) -> String {
     let mut out = Vec::new();
-    let options = HumanRenderOptions { context_lines: 0, per_code: 0, ..HumanRenderOptions::default() };
+    let options = HumanRenderOptions::default().with_context_lines(0).with_per_code(0);
     render_human(&mut out, found, None, &options).unwrap();
     String::from_utf8(out).unwrap()
 }

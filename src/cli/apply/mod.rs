@@ -105,14 +105,10 @@ impl ApplyArgs {
         let outputs = CommandOutputs::default();
         let progress = CommandProgress::new(self.quiet, outputs.interrupt());
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
-        let job = CorrectionJob {
-            recipe: &recipe,
-            setup: &setup,
-            print: print.as_ref(),
-            policy: &policy,
-            dialect: self.dialect,
-            watch: &progress,
-        };
+        let job = CorrectionJob::new(&recipe, &setup, &policy)
+            .with_print(print.as_ref())
+            .with_dialect(self.dialect)
+            .with_watcher(&progress);
         let mut worst = CommandExit::Done;
         for input in &self.inputs {
             if outputs.interrupt().is_raised() {
@@ -204,7 +200,7 @@ impl ApplyArgs {
         let mut out = io::stdout().lock();
         let seen = terminal::is_stdout_terminal();
         let color = self.findings.color.is_wanted(seen);
-        let options = unified_diff::UnifiedDiffOptions { color, display: seen, ..Default::default() };
+        let options = unified_diff::UnifiedDiffOptions::default().with_color(color).with_display(seen);
         unified_diff::write_unified_diff(&mut out, program, &options)?;
         out.flush()
     }

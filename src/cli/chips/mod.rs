@@ -129,17 +129,13 @@ impl ChipsArgs {
         let program = under.read_program(&self.program, self.dialect)?;
         let units = ResolvedLengthUnit::from_program(&program, self.units).unit;
         let machining = Machining::new(&program, &setup, units, under.findings)?;
-        let options = LayerRunOptions {
-            tolerance_mm: self.tolerance,
-            lines: self.lines.clone(),
-            ..LayerRunOptions::new(self.layer)
-        };
+        let options =
+            LayerRunOptions::new(self.layer).with_tolerance_mm(self.tolerance).with_lines(self.lines.clone());
         let scenes = if self.svg.is_some() || self.diagram.is_some() { usize::from(self.moves) } else { 0 };
-        let keep = ChipReportOptions {
-            borders: self.json.is_some() || self.stl.is_some(),
-            scenes,
-            at_z_mm: self.at,
-        };
+        let keep = ChipReportOptions::default()
+            .with_borders(self.json.is_some() || self.stl.is_some())
+            .with_scenes(scenes)
+            .with_at_z_mm(self.at);
         under.progress.begin_bar(program.source().name());
         let mut report = ChipReport::simulate_layers(&machining, &options, keep, under.progress)?;
         under.findings.append(&mut report.findings);

@@ -210,11 +210,9 @@ impl SimulateArgs {
         let units = ResolvedLengthUnit::from_program(program, self.units).unit;
         let machining = Machining::new(program, setup, units, findings)?;
         let bytes = (self.budget * f64::from(1 << 30)) as u64;
-        let options = SimulationRunOptions {
-            cell_mm: self.cell,
-            budget: SimulationBudget { bytes, ..SimulationBudget::default() },
-            ..SimulationRunOptions::default()
-        };
+        let options = SimulationRunOptions::default()
+            .with_cell_mm(self.cell)
+            .with_budget(SimulationBudget::default().with_bytes(bytes));
         progress.begin_bar(program.source().name());
         Ok(SimulationReport::simulate_program(&machining, &options, progress)?)
     }

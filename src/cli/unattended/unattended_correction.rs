@@ -125,7 +125,10 @@ pub fn correct_unattended(
     };
     let used = LoggedRecipe { path: path.to_string_lossy().into_owned(), chosen_by: by, print };
     let print = Some(&used.print);
-    let job = CorrectionJob { recipe: &recipe, setup: &setup, print, policy, dialect: args.dialect, watch };
+    let job = CorrectionJob::new(&recipe, &setup, policy)
+        .with_print(print)
+        .with_dialect(args.dialect)
+        .with_watcher(watch);
     let JobOutcome { program, findings, reports } = match job.correct_source(source) {
         Ok(outcome) => outcome,
         Err(failure) => {

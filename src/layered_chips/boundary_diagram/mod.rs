@@ -3,7 +3,7 @@
 //!
 //! The curves are f = 0, whose parts are the branches of the envelope, and the angles at which an end of the
 //! flutes cuts off the ellipse, if the layer meets one. The topology of the curves is proved by interval
-//! arithmetic and not sampled: see [`time_slabs`].
+//! arithmetic and not sampled: see `time_slabs`.
 
 mod circle_cells;
 mod moving_roots;

@@ -25,6 +25,7 @@ use std::sync::Arc;
 
 /// One move of the tool.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Motion {
     /// The statements that make it, including deleted ones: from the first one that belongs to this motion
     /// alone (RAPID, CIRCLE, INDIRV, NURBS) to the one that ends it.

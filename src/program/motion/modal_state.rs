@@ -59,6 +59,7 @@ pub struct MotionProblem {
 
 /// The kinds of [`MotionProblem`].
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum MotionProblemKind {
     /// No motion follows a RAPID.
     RapidWithoutMotion,
@@ -82,6 +83,7 @@ pub enum MotionProblemKind {
 
 /// The whole modal state.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct ModalState {
     /// The pose of the tool, once it is known.
     pub pose: Option<Pose>,

@@ -6,6 +6,7 @@ use crate::program::units::{Feed, FeedUnit};
 
 /// The motions of the cycle in the hole.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum CycleKind {
     /// Down at feed and up at rapid (DRILL, CDRILL, CSINK, BRKCHP, DEEP, ...).
     Drill,

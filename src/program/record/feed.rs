@@ -15,6 +15,7 @@ pub enum SpindleDirection {
 
 /// The unit of a spindle speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum SpindleUnit {
     /// `RPM`, also if no unit is given.
     RevolutionsPerMinute,

@@ -5,6 +5,7 @@ use crate::program::syntax::{StatementKind, StatementSyntax};
 
 /// The word of a frame record, on which the meaning of its numbers depends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum FrameWord {
     /// NX `MSYS/`: origin, x axis, y axis (9 numbers).
     Msys,

@@ -41,6 +41,7 @@ use std::ops::Range;
 /// # Ok::<(), clsmith::source::SourceTooLarge>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum Record {
     /// The UTF-8 byte order mark before the first statement.
     ByteOrderMark,

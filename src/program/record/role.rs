@@ -5,6 +5,7 @@
 
 /// The role of one number. The numbers `0..=2` are the components x, y, z.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum NumberRole {
     /// A coordinate of a point in the program's frame; it moves, turns and scales.
     Point(u8),

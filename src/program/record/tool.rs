@@ -5,6 +5,7 @@ use crate::program::syntax::{FieldKind, StatementKind, StatementSyntax};
 
 /// The word that described a tool's shape, on which the meaning of its numbers depends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ToolWord {
     /// NX `TLDATA/MILL,D,corner radius,length,taper,tip`.
     TlDataMill,

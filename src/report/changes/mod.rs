@@ -35,6 +35,7 @@ use std::collections::BTreeMap;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct RecipeChanges {
     /// Version of the JSON structure: 1.
     pub version: u32,

@@ -7,6 +7,7 @@ use std::path::Path;
 
 /// What a part is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ComparedFileRole {
     /// The program as it was read.
     Input,

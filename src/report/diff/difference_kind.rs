@@ -9,6 +9,7 @@ use serde::Serialize;
 /// How a statement differs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum DifferenceKind {
     /// Written differently, the same meaning.
     Layout,

@@ -23,7 +23,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// Changes of one [`DifferenceKind`] that are listed; all are counted.
-pub(crate) const MOST_LISTED: usize = 500;
+pub const MOST_LISTED: usize = 500;
 
 /// What differs between two programs.
 ///
@@ -43,6 +43,7 @@ pub(crate) const MOST_LISTED: usize = 500;
 /// # Ok::<(), clsmith::source::SourceTooLarge>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ProgramDiff {
     /// Version of the JSON structure: 1.
     pub version: u32,

@@ -36,6 +36,7 @@ use crate::simulation_run::{Machining, RunWatcher};
 
 /// What is kept of a run besides its sums.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct ChipReportOptions {
     /// The borders of all pieces: JSON and STL need them. They take by far the most memory.
     pub borders: bool,
@@ -45,8 +46,32 @@ pub struct ChipReportOptions {
     pub at_z_mm: Option<f64>,
 }
 
+impl ChipReportOptions {
+    /// Returns the options that keep the borders of all pieces, or not.
+    #[must_use]
+    pub fn with_borders(mut self, borders: bool) -> Self {
+        self.borders = borders;
+        self
+    }
+
+    /// Returns the options that keep the workpiece around so many moves.
+    #[must_use]
+    pub fn with_scenes(mut self, scenes: usize) -> Self {
+        self.scenes = scenes;
+        self
+    }
+
+    /// Returns the options for moves that cut on the layer at a height, mm.
+    #[must_use]
+    pub fn with_at_z_mm(mut self, at_z_mm: impl Into<Option<f64>>) -> Self {
+        self.at_z_mm = at_z_mm.into();
+        self
+    }
+}
+
 /// The chips of a program.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct ChipReport {
     /// The file's name.
     pub file: String,

@@ -13,6 +13,7 @@ const CHORD_MM: f64 = 0.05;
 
 /// What goes up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum PlotQuantity {
     /// Feed.
     Feed,
@@ -80,6 +81,7 @@ impl PlotQuantity {
 
 /// What goes to the right.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum PlotAbscissa {
     /// Time. Motions whose time is not known take none.
     Time,

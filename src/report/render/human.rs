@@ -11,6 +11,7 @@ use std::io::{self, Write};
 
 /// How findings are drawn. The caller knows the terminal; this module does not ask it.
 #[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
 pub struct HumanRenderOptions {
     /// Whether to write ANSI colours.
     pub color: bool,
@@ -27,6 +28,43 @@ pub struct HumanRenderOptions {
 impl Default for HumanRenderOptions {
     fn default() -> Self {
         Self { color: false, unicode: true, width: 100, per_code: 1, context_lines: 1 }
+    }
+}
+
+impl HumanRenderOptions {
+    /// Returns the options with or without ANSI colours.
+    #[must_use]
+    pub fn with_color(mut self, color: bool) -> Self {
+        self.color = color;
+        self
+    }
+
+    /// Returns the options for lines and arrows in Unicode, or in ASCII.
+    #[must_use]
+    pub fn with_unicode(mut self, unicode: bool) -> Self {
+        self.unicode = unicode;
+        self
+    }
+
+    /// Returns the options for a terminal of so many columns.
+    #[must_use]
+    pub fn with_width(mut self, width: usize) -> Self {
+        self.width = width;
+        self
+    }
+
+    /// Returns the options that show so many findings of one code; 0 shows all.
+    #[must_use]
+    pub fn with_per_code(mut self, per_code: usize) -> Self {
+        self.per_code = per_code;
+        self
+    }
+
+    /// Returns the options that show so many lines before and after a labelled one.
+    #[must_use]
+    pub fn with_context_lines(mut self, context_lines: usize) -> Self {
+        self.context_lines = context_lines;
+        self
     }
 }
 

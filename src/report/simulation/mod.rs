@@ -48,7 +48,7 @@ use serde::{Serialize, Serializer};
 /// let part = b"LOAD/TOOL,3\nSPINDL/RPM,5000,CLW\nRAPID\nGOTO/-10,0,-2\nFEDRAT/MMPM,1000.\nGOTO/30,0,-2\n";
 /// let program = parse(&Source::new("part.cls", part.to_vec())?, None).program;
 /// let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new())?;
-/// let options = SimulationRunOptions { cell_mm: Some(0.5), ..SimulationRunOptions::default() };
+/// let options = SimulationRunOptions::default().with_cell_mm(0.5);
 /// let report = SimulationReport::simulate_program(&machining, &options, &SilentWatcher)?;
 /// let slot = report.motions.rows.last().expect("there is a row for each motion");
 /// assert!(slot.chip_thickness_mm.is_some_and(|chip| (chip - 0.05).abs() < 1e-3));
@@ -58,6 +58,7 @@ use serde::{Serialize, Serializer};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Serialize)]
+#[non_exhaustive]
 pub struct SimulationReport {
     /// Version of the JSON structure: 1.
     pub version: u32,

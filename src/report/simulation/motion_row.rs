@@ -6,6 +6,7 @@ use std::io::{self, Write};
 
 /// What a motion engaged and what the tool had to bear. `None` is not known.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct MotionRow {
     /// 1-based line of the statement that ends the motion; `None` for one that a step put in.
     pub line: Option<usize>,

@@ -39,6 +39,7 @@ use serde::Serialize;
 /// # Ok::<(), clsmith::source::SourceTooLarge>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ProgramStats {
     /// Version of the JSON structure: 1.
     pub version: u32,
@@ -107,6 +108,7 @@ pub struct ResolvedLengthUnit {
 /// How a file's unit is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum LengthUnitOrigin {
     /// A UNITS record.
     File,

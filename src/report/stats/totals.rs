@@ -7,6 +7,7 @@ use serde::Serialize;
 
 /// Sums over motions. Lengths in the file's unit, times in seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct MotionTotals {
     /// Motions; a first point, which comes from nowhere, is none.
     pub motions: usize,

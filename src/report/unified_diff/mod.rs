@@ -12,6 +12,7 @@ use std::io::{self, Write};
 
 /// How a unified diff is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct UnifiedDiffOptions {
     /// Unchanged lines around a change.
     pub context: usize,
@@ -25,6 +26,29 @@ pub struct UnifiedDiffOptions {
 impl Default for UnifiedDiffOptions {
     fn default() -> Self {
         Self { context: 3, color: false, display: false }
+    }
+}
+
+impl UnifiedDiffOptions {
+    /// Returns the options with so many unchanged lines around a change.
+    #[must_use]
+    pub fn with_context(mut self, context: usize) -> Self {
+        self.context = context;
+        self
+    }
+
+    /// Returns the options with or without ANSI colours.
+    #[must_use]
+    pub fn with_color(mut self, color: bool) -> Self {
+        self.color = color;
+        self
+    }
+
+    /// Returns the options for a terminal, or for a patch.
+    #[must_use]
+    pub fn with_display(mut self, display: bool) -> Self {
+        self.display = display;
+        self
     }
 }
 

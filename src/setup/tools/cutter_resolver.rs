@@ -18,6 +18,7 @@ const FLUTE_DIAMETERS: f64 = 4.0;
 
 /// A cutter, and what had to be assumed about it.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct ResolvedCutter {
     /// The cutter.
     pub cutter: CutterModel,

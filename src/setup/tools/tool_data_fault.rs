@@ -31,6 +31,7 @@ struct ToolGapSubject {
 
 /// What is missing or wrong.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum ToolDataFaultKind {
     /// Nobody says the diameter.
     Diameter,

@@ -23,6 +23,7 @@ use std::ops::RangeInclusive;
 
 /// The options of a run in layers.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct LayerRunOptions {
     /// The thickness of the layers, mm.
     pub layer_mm: f64,
@@ -49,10 +50,39 @@ impl LayerRunOptions {
             one_by_one: false,
         }
     }
+
+    /// Returns the options with another largest distance of chords from their curve, mm.
+    #[must_use]
+    pub fn with_tolerance_mm(mut self, tolerance_mm: f64) -> Self {
+        self.tolerance_mm = tolerance_mm;
+        self
+    }
+
+    /// Returns the options for the motions of some lines of the file.
+    #[must_use]
+    pub fn with_lines(mut self, lines: RangeInclusive<usize>) -> Self {
+        self.lines = lines;
+        self
+    }
+
+    /// Returns the options with another longest piece, mm.
+    #[must_use]
+    pub fn with_longest_piece_mm(mut self, longest_piece_mm: f64) -> Self {
+        self.longest_piece_mm = longest_piece_mm;
+        self
+    }
+
+    /// Returns the options for motions that are cut one by one, or together.
+    #[must_use]
+    pub fn with_one_by_one(mut self, one_by_one: bool) -> Self {
+        self.one_by_one = one_by_one;
+        self
+    }
 }
 
 /// The reason why a motion was not cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum UncutReason {
     /// Its tool is not a flat end mill.
     Tool,
@@ -64,6 +94,7 @@ pub enum UncutReason {
 
 /// A motion and its chips.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct MotionChips<'a> {
     /// The motion.
     pub motion: &'a Motion,
@@ -102,6 +133,7 @@ impl MotionChips<'_> {
 
 /// The result of a run in layers.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct LayerRunResult {
     /// The workpiece that is left.
     pub left: LayerStack,

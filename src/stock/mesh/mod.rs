@@ -31,6 +31,7 @@ pub struct Mesh {
 
 /// The reason why bytes or triangles are not a mesh that bounds a solid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum MeshError {
     /// The file is not an STL file, or it is damaged.
     #[error("this is no STL that can be read: {reason}")]

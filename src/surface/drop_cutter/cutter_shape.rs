@@ -19,6 +19,7 @@ pub struct DropCutterShape {
 
 /// The reason why numbers do not describe a cutter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum CutterShapeError {
     /// The diameter is not positive or not finite.
     #[error("the diameter is not a positive length")]

@@ -15,6 +15,7 @@ type Triangle = [Vector3<f64>; 3];
 
 /// The deviation of a path from a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct PathDeviation {
     /// The largest depth of the mesh in the cutter's solid, mm; 0 if it never enters it.
     pub gouge_mm: f64,

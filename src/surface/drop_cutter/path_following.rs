@@ -78,7 +78,7 @@ impl DropCutter {
     /// Returns the largest distance between samples in the view from above, mm, for a tolerance. It is a
     /// quarter of the radius, or less if a ball with the corner radius (with a flat end, the cutter's radius)
     /// would otherwise be off by more than a quarter of the tolerance.
-    pub(crate) fn largest_step_mm(&self, tolerance_mm: f64) -> f64 {
+    pub fn largest_step_mm(&self, tolerance_mm: f64) -> f64 {
         let corner = self.cutter().corner_radius_mm();
         let round = if corner > 0.0 { corner } else { self.cutter().radius_mm() };
         // The sagitta of a chord s on radius R is about s^2 / (8 R); it equals tolerance / 4 at s = sqrt(2 R

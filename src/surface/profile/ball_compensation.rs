@@ -7,7 +7,7 @@ use super::rolling_ball::roll_ball;
 use super::upper_envelope::{UpperEnvelope, find_upper_envelope};
 
 /// The smallest radius of a ball, mm. It is a thousand times the largest distance between pieces of a chain.
-pub(crate) const SMALLEST_BALL: f64 = 1e-3;
+pub const SMALLEST_BALL: f64 = 1e-3;
 
 /// Two ends of a path that are closer than this (mm) are not joined by a line.
 const MEETS: f64 = 1e-10;
@@ -18,6 +18,7 @@ const BESIDE: f64 = 1e-3;
 
 /// The reason why there is no path.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum BallCompensationError {
     /// The ball's radius cannot be used.
     #[error("a ball of radius {0} mm: it must be from {SMALLEST_BALL} to {LARGEST:e} mm")]

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 /// The end of a piece and the start of the next one are the same point if they are at most this far apart,
 /// mm.
-pub(crate) const CONNECTED: f64 = 1e-6;
+pub const CONNECTED: f64 = 1e-6;
 
 /// The largest coordinate and radius, mm. At ten kilometres a number still resolves 2e-9 mm.
 pub const LARGEST: f64 = 1e7;
@@ -19,6 +19,7 @@ pub struct Chain {
 
 /// The reason why pieces do not make a chain.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ChainError {
     /// There is no piece, or a polyline has fewer than two points.
     #[error("the chain has no piece")]

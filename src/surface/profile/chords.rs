@@ -36,6 +36,7 @@ pub enum ChordSide {
 
 /// The reason why there are no chords.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ChordError {
     /// The tolerance cannot be used.
     #[error("a tolerance of {0} mm: it must be from 0.000001 to {LARGEST:e} mm")]

@@ -33,8 +33,8 @@ mod tip_path_check;
 mod unreachable_parts;
 mod upper_envelope;
 
-pub use ball_compensation::{BallCompensationError, compensate_profile, recover_profile};
-pub use chain::{Chain, ChainError, LARGEST};
+pub use ball_compensation::{BallCompensationError, SMALLEST_BALL, compensate_profile, recover_profile};
+pub use chain::{CONNECTED, Chain, ChainError, LARGEST};
 pub use chain_piece::{ArcPiece, ChainPiece, LinePiece, Point};
 pub use chords::{ChordError, ChordSide, fit_chords};
 pub use ellipse_arc::EllipseArc;

@@ -16,6 +16,7 @@ pub struct NurbsCurve {
 
 /// The reason why numbers do not make a NURBS curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NurbsError {
     /// There are fewer control points than the degree needs, or the degree is 0.
     #[error("a curve of degree {degree} needs at least {} control points, not {controls}", degree + 1)]

@@ -8,6 +8,7 @@ const BLOCK: usize = 64;
 
 /// The deviation of a tip path from a profile, measured with samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct ProfileDeviation {
     /// The largest depth of the ball (or of the shank above it, as wide as the ball) in the profile, mm; 0 if
     /// there is none.

@@ -3,7 +3,7 @@
 //!
 //! [`vertical_passes`](self) finds the passes in the motions. A pass becomes a profile, and the tip follows
 //! the envelope of the ball over it (`pass_profile`); or the cutter is lowered onto a model along the pass;
-//! or every point moves by its own normal ([`contact_normals`]). `leads` moves what lies around passes,
+//! or every point moves by its own normal (`contact_normals`). `leads` moves what lies around passes,
 //! `pass_writer` writes it all, and the step measures what was written by other means.
 //!
 //! Around a pass nothing is guessed. Leads at feed move with their end, what stands straight above it stays

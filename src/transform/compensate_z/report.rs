@@ -7,6 +7,7 @@ use std::ops::Range;
 
 /// What the step did.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct CompensateZReport {
     /// What the cutter was compensated against: `profile`, `normals` or `mesh`.
     pub against: &'static str,
@@ -35,6 +36,7 @@ impl CompensateZReport {
 
 /// One pass; with normals, one operation.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct PassReport {
     /// Name of its operation; may be empty.
     pub operation: String,

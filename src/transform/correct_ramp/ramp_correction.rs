@@ -57,6 +57,7 @@ pub struct CorrectedRamp {
 
 /// Why a ramp cannot be corrected.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ImpossibleCorrection {
     /// Every longer ramp leaves the region.
     #[error("every way to make its legs {0:.3} mm long leaves the region where the tool may go")]

@@ -15,6 +15,7 @@ const LEAST_SWEEP: f64 = 270.0;
 
 /// Kinds of approach.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum RampKind {
     /// Straight legs, to and fro or around.
     Zigzag,

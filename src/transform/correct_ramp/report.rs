@@ -6,6 +6,7 @@ use serde::Serialize;
 
 /// What the step did.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct CorrectRampReport {
     /// Every ramp that the step means, in the order of the program.
     pub ramps: Vec<RampReport>,
@@ -13,6 +14,7 @@ pub struct CorrectRampReport {
 
 /// One ramp.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct RampReport {
     /// Name of its operation; may be empty.
     pub operation: String,

@@ -19,6 +19,7 @@ pub enum ToolRegion {
 
 /// Why corners make no region.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ToolRegionError {
     /// Fewer than three corners.
     #[error("a region needs three corners or more")]

@@ -80,7 +80,7 @@ fn a_run_that_costs_too_much_proposes_a_cell_that_fits() {
     let run = |cell: f64| {
         SimulationReport::simulate_program(
             &machining,
-            &SimulationRunOptions { cell_mm: Some(cell), ..SimulationRunOptions::default() },
+            &SimulationRunOptions::default().with_cell_mm(cell),
             &SilentWatcher,
         )
         .unwrap_err()

@@ -111,16 +111,8 @@ fn what_a_person_reads() {
         let policy = FindingPolicy::default();
         let setup = recipe.merge_setups(Setup::default(), Setup::default());
         let watch = &clsmith::simulation_run::SilentWatcher;
-        let done = CorrectionJob {
-            recipe: &recipe,
-            setup: &setup,
-            print: None,
-            policy: &policy,
-            dialect: None,
-            watch,
-        }
-        .correct_source(&source)
-        .unwrap();
+        let done =
+            CorrectionJob::new(&recipe, &setup, &policy).with_watcher(watch).correct_source(&source).unwrap();
         let program = done.program;
         assert!(is_program_changed(&program));
         let mut out = Vec::new();

@@ -32,11 +32,7 @@ fn chips(text: &str, step: &str) -> Vec<[f64; 2]> {
     let setup = Setup::load(&Source::new("shop.yaml", setup.into_bytes()).unwrap()).unwrap();
     let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new()).unwrap();
     let teeth = machining.tooling().cutters()[0].teeth.clone().unwrap();
-    let options = SimulationRunOptions {
-        cell_mm: Some(0.25),
-        longest_piece_mm: 1.0,
-        ..SimulationRunOptions::default()
-    };
+    let options = SimulationRunOptions::default().with_cell_mm(0.25).with_longest_piece_mm(1.0);
     let mut found = Vec::new();
     machining
         .simulate_program(&options, &SilentWatcher, &mut |cut| {

@@ -6,6 +6,7 @@ use serde::Deserialize;
 /// What loads the cutter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, serde::Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum LoadCriterion {
     /// Largest local uncut chip thickness, in the recipe's unit.
     #[default]

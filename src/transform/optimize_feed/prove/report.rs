@@ -5,6 +5,7 @@ use serde::Serialize;
 
 /// What the step did.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct OptimizeFeedReport {
     /// What the target is about.
     pub criterion: LoadCriterion,
@@ -37,6 +38,7 @@ pub struct OptimizeFeedReport {
 
 /// An operation, or all of them.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[non_exhaustive]
 pub struct OperationFeedReport {
     /// Its name; empty for the whole program.
     pub name: String,

@@ -27,6 +27,7 @@ pub struct SplitProgram {
 
 /// Why a motion is not split.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum UnsplitReason {
     /// A rapid has no feed to change.
     Rapid,
