@@ -212,7 +212,12 @@ pub use {job::CorrectionJob, report::finding_policy::FindingPolicy};
 
 pub use nalgebra;
 
-/// The examples of CONTRIBUTING.md, so that they compile and run as tests.
+/// The example of README.md, so that it compiles and runs as a test.
+#[cfg(all(doctest, feature = "simulation"))]
+#[doc = include_str!("../README.md")]
+pub struct ReadmeExample;
+
+/// The examples of CONTRIBUTING.md, likewise.
 #[cfg(all(doctest, feature = "simulation"))]
 #[doc = include_str!("../CONTRIBUTING.md")]
 pub struct ContributingExamples;

@@ -39,43 +39,20 @@ type PreparedGround<'a> = (PassGround<'a>, f64, f64, Option<(f64, f64)>);
 /// Makes the program over a part, proves it and reads it back.
 ///
 /// ```
-/// use clsmith::program::{Dialect, LengthUnit};
+/// use clsmith::program::Dialect;
 /// use clsmith::surface::profile::{Chain, Point};
 /// use clsmith::surface_milling::{
-///     PassHeights, PassPattern, PassPlanes, SectionProfile, SurfaceMillingOptions, SurfacePart,
-///     SurfaceProgramWords, make_surface_program,
+///     SectionProfile, SurfaceMillingOptions, SurfacePart, SurfaceProgramWords, make_surface_program,
 /// };
 ///
-/// let slope = Chain::from_points(&[Point::new(0.0, 0.0), Point::new(20.0, 0.0), Point::new(40.0, 10.0)])?;
-/// let options = SurfaceMillingOptions {
-///     planes: PassPlanes::ZX,
-///     range_mm: Some((0.0, 10.0)),
-///     step_mm: 0.5,
-///     radius_mm: 5.0,
-///     tolerance_mm: 0.005,
-///     against: PassHeights::Profile,
-///     pattern: PassPattern::ZigZag,
-///     arcs: false,
-///     floor_mm: None,
-///     clearance_mm: 10.0,
-///     approach_mm: 2.0,
-///     feed_mm_min: 800.0,
-///     plunge_feed_mm_min: 300.0,
-///     air_feed_mm_min: None,
-///     words: SurfaceProgramWords {
-///         dialect: Dialect::Nx,
-///         units: LengthUnit::Mm,
-///         name: "SLOPE".to_owned(),
-///         operation: "FINISH".to_owned(),
-///         tool: 1,
-///         tool_name: None,
-///         spindle_rpm: Some(8000.0),
-///         coolant: true,
-///     },
-/// };
-/// let made = make_surface_program(&SurfacePart::Profile(SectionProfile::from_chain(&slope)), &options)?;
+/// let slope = [Point::new(0.0, 0.0), Point::new(20.0, 0.0), Point::new(40.0, 10.0)];
+/// let slope = SectionProfile::from_chain(&Chain::from_points(&slope)?);
+/// let words = SurfaceProgramWords::new(Dialect::Nx, "SLOPE");
+/// let mut options = SurfaceMillingOptions::new(0.5, 5.0, 800.0, words);
+/// options.range_mm = Some((0.0, 10.0));
+/// let made = make_surface_program(&SurfacePart::Profile(slope), &options)?;
 /// assert!(made.proof.is_within(options.tolerance_mm));
-/// assert!(made.text.starts_with(b"TOOL PATH/FINISH"));
+/// assert!(made.text.starts_with(b"TOOL PATH/SECTION"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///

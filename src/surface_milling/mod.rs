@@ -91,6 +91,33 @@ pub struct SurfaceMillingOptions {
     pub words: SurfaceProgramWords,
 }
 
+impl SurfaceMillingOptions {
+    /// Returns the options for a ball over a part: the largest distance of planes, mm, the radius of the ball, mm,
+    /// and the feed of passes, mm/min.
+    ///
+    /// Everything else is as the command has it if it is not told: zigzag passes along x over all of the part,
+    /// within 0.01 mm of it, half the feed down from 2 mm above a pass, rapids 10 mm above the part, and no arcs.
+    pub fn new(step_mm: f64, radius_mm: f64, feed_mm_min: f64, words: SurfaceProgramWords) -> Self {
+        Self {
+            planes: PassPlanes::ZX,
+            range_mm: None,
+            step_mm,
+            radius_mm,
+            tolerance_mm: 0.01,
+            against: PassHeights::default(),
+            pattern: PassPattern::ZigZag,
+            arcs: false,
+            floor_mm: None,
+            clearance_mm: 10.0,
+            approach_mm: 2.0,
+            feed_mm_min,
+            plunge_feed_mm_min: feed_mm_min / 2.0,
+            air_feed_mm_min: None,
+            words,
+        }
+    }
+}
+
 /// The parts of a program besides its path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurfaceProgramWords {
@@ -110,4 +137,20 @@ pub struct SurfaceProgramWords {
     pub spindle_rpm: Option<f64>,
     /// Whether coolant is switched on.
     pub coolant: bool,
+}
+
+impl SurfaceProgramWords {
+    /// Returns the words of a program in millimetres for tool 1, without a spindle speed and without coolant.
+    pub fn new(dialect: Dialect, name: impl Into<String>) -> Self {
+        Self {
+            dialect,
+            units: LengthUnit::Mm,
+            name: name.into(),
+            operation: "SECTION".to_owned(),
+            tool: 1,
+            tool_name: None,
+            spindle_rpm: None,
+            coolant: false,
+        }
+    }
 }

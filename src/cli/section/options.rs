@@ -7,11 +7,6 @@ use clsmith::program::Dialect;
 use clsmith::surface_milling::{PassPlanes, SurfaceMillingOptions, SurfaceProgramWords};
 use std::path::Path;
 
-/// Lengths that are taken when none is given, mm.
-const TOLERANCE: f64 = 0.01;
-const CLEARANCE: f64 = 10.0;
-const APPROACH: f64 = 2.0;
-
 /// The smallest ball, step and tolerance, mm: below that, rounding is all there is.
 const SMALLEST: f64 = 1e-2;
 const FINEST: f64 = 1e-4;
@@ -82,31 +77,30 @@ impl SectionArgs {
         else {
             return Err(found.into());
         };
+        let words = SurfaceProgramWords::new(self.choose_dialect(), program_name(self.input_path()));
+        let left_out = SurfaceMillingOptions::new(step, radius, feed, words);
         Ok(SurfaceMillingOptions {
             planes,
             range_mm: range,
-            step_mm: step,
-            radius_mm: radius,
-            tolerance_mm: tolerance.unwrap_or(TOLERANCE),
+            tolerance_mm: tolerance.unwrap_or(left_out.tolerance_mm),
             against: self.against.into(),
             pattern: self.pattern.into(),
             arcs: self.arcs,
             floor_mm: floor,
-            clearance_mm: clearance.unwrap_or(CLEARANCE),
-            approach_mm: approach.unwrap_or(APPROACH),
-            feed_mm_min: feed,
-            plunge_feed_mm_min: plunge.unwrap_or(feed / 2.0),
+            clearance_mm: clearance.unwrap_or(left_out.clearance_mm),
+            approach_mm: approach.unwrap_or(left_out.approach_mm),
+            plunge_feed_mm_min: plunge.unwrap_or(left_out.plunge_feed_mm_min),
             air_feed_mm_min: air,
             words: SurfaceProgramWords {
-                dialect: self.choose_dialect(),
                 units: self.units,
-                name: program_name(self.input_path()),
-                operation: operation.unwrap_or_else(|| "SECTION".to_owned()),
+                operation: operation.unwrap_or(left_out.words.operation),
                 tool: self.tool,
                 tool_name,
                 spindle_rpm: spindle,
                 coolant: self.coolant,
+                ..left_out.words
             },
+            ..left_out
         })
     }
 
