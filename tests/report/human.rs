@@ -94,7 +94,7 @@ fn more_than_the_cap_is_counted_not_shown() {
     let all = draw(&found, &options.with_per_code(0));
     assert_eq!(all.matches("error[CL0001]").count(), 7);
     assert!(!all.contains("more of"));
-    let few = draw(&found[..3], &HumanRenderOptions { per_code: 1, ..options });
+    let few = draw(&found[..3], &options.with_per_code(1));
     assert_eq!(few.matches("error[CL0001]").count(), 3, "three are no wall");
 }
 
