@@ -9,7 +9,7 @@ pub enum CommandExit {
     Done,
     /// `diff`: the meanings differ.
     Differ,
-    /// Errors; nothing was written for the file they are in.
+    /// Errors; the program they are in was not written.
     Errors,
     /// The command line is wrong.
     Usage,

@@ -10,6 +10,7 @@ mod command_outputs;
 mod diff;
 mod finding_args;
 mod hook;
+mod init;
 mod input_files;
 mod measuring_command;
 mod output_endings;
@@ -55,7 +56,7 @@ Examples:
 
 Exit codes:
   0  done, nothing stands in the way (warnings may have been shown)
-  1  errors were found; nothing was written for the file they are in
+  1  errors were found; the program they are in was not written
   2  the command line is wrong
   3  `diff`: the programs differ in meaning
   124-127, 128+n  `hook`: the post was stopped, nothing was posted, it could not be started,
@@ -66,7 +67,7 @@ Exit codes:
 /// Reads, checks, corrects and writes cutter-location data: Siemens NX CLSF, CATIA APT, Creo NCL and kin.
 ///
 /// Stands between the CAM system's export and the post-processor. What a recipe does not change is written byte for byte;
-/// nothing is written while an error stands.
+/// no program is written while an error stands.
 #[derive(Debug, Parser)]
 #[command(name = "clsmith", version, after_help = EXAMPLES, max_term_width = 100)]
 struct Cli {
@@ -80,6 +81,7 @@ enum CliCommand {
     Batch(Box<batch::BatchArgs>),
     Merge(batch::MergeArgs),
     Check(check::CheckArgs),
+    Init(init::InitArgs),
     Stats(stats::StatsArgs),
     Simulate(simulate::SimulateArgs),
     Chips(Box<chips::ChipsArgs>),
@@ -104,6 +106,7 @@ pub fn run_command_line() -> ExitCode {
         CliCommand::Batch(command) => ("batch", Some(&command.findings), command.run()),
         CliCommand::Merge(command) => ("merge", Some(&command.findings), command.run()),
         CliCommand::Check(command) => ("check", Some(&command.findings), command.run()),
+        CliCommand::Init(command) => ("init", Some(&command.findings), command.run()),
         CliCommand::Stats(command) => ("stats", Some(&command.findings), command.run()),
         CliCommand::Simulate(command) => ("simulate", Some(&command.findings), command.run()),
         CliCommand::Chips(command) => ("chips", Some(&command.findings), command.run()),

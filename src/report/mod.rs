@@ -18,6 +18,7 @@ pub mod plot;
 pub mod render;
 mod rounding;
 pub mod simulation;
+pub mod starter_files;
 pub mod stats;
 pub mod step_descriptions;
 pub mod surface_milling;

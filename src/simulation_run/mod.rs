@@ -21,7 +21,7 @@ pub use cost::{SimulationBudget, SimulationCost};
 pub(crate) use dexel_run::chord_tolerance_mm;
 pub use dexel_run::{DexelRunResult, EngagedMotion};
 pub(crate) use engagement_model::{EngagementModel, EngagementRunResult, StockResolution};
-pub use tooling::Tooling;
+pub use tooling::{NeededTools, Tooling};
 pub use watcher::{RunWatcher, SilentWatcher};
 
 use crate::diagnostic::{Diagnostic, Failure};
@@ -131,10 +131,25 @@ impl<'p> Machining<'p> {
         units: LengthUnit,
         findings: &mut Vec<Diagnostic>,
     ) -> Result<Self, Failure> {
+        Self::for_tools(program, setup, units, &|_| true, findings)
+    }
+
+    /// As [`Machining::new`], for a run that asks for the cuts of some tools only. The shapes of the others may be
+    /// missing; then what they remove is taken to stay, and a finding says so.
+    ///
+    /// # Errors
+    /// Returns a finding for everything that is missing: the stock, and shapes of needed tools.
+    pub fn for_tools(
+        program: &'p Program,
+        setup: &'p Setup,
+        units: LengthUnit,
+        needed: NeededTools<'_>,
+        findings: &mut Vec<Diagnostic>,
+    ) -> Result<Self, Failure> {
         // Tools and stock are both examined before anything is returned, so that all that is missing is
         // reported at once.
         let mut errors = Vec::new();
-        let tooling = Tooling::from_program(program, setup, units, findings, &mut errors);
+        let tooling = Tooling::from_program(program, setup, units, needed, findings, &mut errors);
         // The faults of the tools and of the stock are reported at once.
         let stock =
             setup_stock::build_stock(setup).map_err(|failure| failure.after(std::mem::take(&mut errors)))?;

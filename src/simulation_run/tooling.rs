@@ -1,7 +1,7 @@
 //! This module finds the tools of a program and their cutters.
 
 use crate::cutter::CutterModel;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, codes};
 use crate::engagement::{CuttingCoefficients, LoadModel};
 use crate::program::motion::{ActiveTool, Motion};
 use crate::program::record::SpindleDirection;
@@ -17,6 +17,9 @@ pub struct Tooling {
     cutters: Vec<CutterModel>,
 }
 
+/// Says which tools a run needs data of.
+pub type NeededTools<'a> = &'a dyn Fn(&ActiveTool) -> bool;
+
 /// A tool that the program uses.
 #[derive(Debug, Clone)]
 struct UsedTool {
@@ -26,12 +29,13 @@ struct UsedTool {
 }
 
 impl Tooling {
-    /// Finds the tools of a program and resolves their cutters. Adds assumptions to `findings` and missing
-    /// shapes to `errors`.
+    /// Finds the tools of a program and resolves their cutters. Adds assumptions to `findings`, and missing
+    /// shapes of tools that are `needed` to `errors`.
     pub(super) fn from_program(
         program: &Program,
         setup: &Setup,
         units: LengthUnit,
+        needed: NeededTools<'_>,
         findings: &mut Vec<Diagnostic>,
         errors: &mut Vec<Diagnostic>,
     ) -> Self {
@@ -56,7 +60,10 @@ impl Tooling {
                 // Only a tool that cuts needs a shape. It is reported once, at its first motion at feed.
                 Err(gap) if !motion.rapid => {
                     gaps.push(Arc::clone(tool));
-                    errors.push(gap.diagnostic(program.source(), span));
+                    match needed(tool) {
+                        true => errors.push(gap.diagnostic(program.source(), span)),
+                        false => findings.push(note_left_material(tool, program, span)),
+                    }
                 }
                 Err(_) => {}
             }
@@ -87,9 +94,15 @@ impl Tooling {
         self.tools.get(cutter).map(|used| &used.tool)
     }
 
-    /// Returns a finding for each tool whose teeth are not known.
-    pub fn find_missing_teeth(&self, program: &Program, setup: &Setup) -> Vec<Diagnostic> {
-        let without = self.tools.iter().zip(&self.cutters).filter(|(_, cutter)| cutter.teeth.is_none());
+    /// Returns a finding for each needed tool whose teeth are not known.
+    pub fn find_missing_teeth(
+        &self,
+        program: &Program,
+        setup: &Setup,
+        needed: NeededTools<'_>,
+    ) -> Vec<Diagnostic> {
+        let used = self.tools.iter().zip(&self.cutters).filter(|(used, _)| needed(&used.tool));
+        let without = used.filter(|(_, cutter)| cutter.teeth.is_none());
         let gap = |(used, _): (&UsedTool, &CutterModel)| {
             setup.report_missing_teeth(&used.tool, program.source(), statement_span(program, used.statement))
         };
@@ -116,4 +129,13 @@ fn is_same_tool(a: &Arc<ActiveTool>, b: &Arc<ActiveTool>) -> bool {
 /// Returns where a statement is in the source, or an empty span if there is no such statement.
 pub(super) fn statement_span(program: &Program, statement: StatementId) -> Span {
     program.statement(statement).origin()
+}
+
+/// Notes that the cuts of a tool without a shape are left out. More material is the worse case for all other tools.
+fn note_left_material(tool: &ActiveTool, program: &Program, span: Span) -> Diagnostic {
+    let message = format!(
+        "the shape of {} is not known, and nothing asks for its cuts: what it removes is taken to stay, which is the worse case for the other tools",
+        tool.display_name()
+    );
+    Diagnostic::new(codes::ASSUMPTION, message).with_label(program.source(), span, "cuts from here")
 }

@@ -13,8 +13,8 @@ use std::collections::BTreeMap;
 /// Factors outside are unusual: nobody makes a program twenty times slower or ten times faster on purpose.
 const USUAL_FACTORS: std::ops::RangeInclusive<f64> = 0.05..=10.0;
 
-/// Factors outside are absurd.
-const POSSIBLE_FACTORS: std::ops::RangeInclusive<f64> = 0.001..=1000.0;
+/// Factors outside are absurd: a percentage that was not divided by 100 mostly is.
+const POSSIBLE_FACTORS: std::ops::RangeInclusive<f64> = 0.01..=50.0;
 
 /// A feed that is so many times the machine's highest is a slip of units (25.4) or of a decimal point, no request.
 const ABSURD_FEED: f64 = 20.0;

@@ -199,10 +199,20 @@ proptest! {
         let (family, rim) = (SectionFamily::new(&step, z), RimDirections::new(&step, 0.002));
         let diagram = BoundaryDiagram::new(&family);
         prop_assert!(diagram.is_resolved());
-        let (ours, slices) = (chip(&LayerSweptArea::new(&diagram, &rim)), chip(&LayerSweptArea::from_slices(&family, &rim, 60)));
-        let off = brute::area(&brute::difference(&ours, &slices)) + brute::area(&brute::difference(&slices, &ours));
+        let ours = chip(&LayerSweptArea::new(&diagram, &rim));
         // What is within the tolerance of the edges, and slices in which a section comes or goes.
         let edges = 0.002 * 8.0 * (radius + 8.0) / 0.5 + 0.05;
-        prop_assert!(off <= edges + 1e-3 * brute::area(&slices), "off by {off} of {}", brute::area(&slices));
+        // Where a corner of the section turns about the tip, slices leave a tooth between each two: the oracle is taken
+        // finer until it has converged, and an error of ours would stay.
+        let mut told = (f64::INFINITY, 0.0);
+        for count in [60, 480, 3840] {
+            let slices = chip(&LayerSweptArea::from_slices(&family, &rim, count));
+            let off = brute::area(&brute::difference(&ours, &slices)) + brute::area(&brute::difference(&slices, &ours));
+            told = (off, brute::area(&slices));
+            if off <= edges + 1e-3 * told.1 {
+                break;
+            }
+        }
+        prop_assert!(told.0 <= edges + 1e-3 * told.1, "off by {} of {}", told.0, told.1);
     }
 }

@@ -3,6 +3,8 @@
 mod apply;
 mod batch;
 mod chips;
+mod first_steps;
+mod gates;
 mod hook;
 mod hook_examples;
 mod one_list;

@@ -32,7 +32,7 @@ Examples:
 
 Chips are those of flat end mills in three and five axes; other tools are told and left out, and so are moves whose
 axis is more than 80 degrees from z. The setup says stock, tools and machine: see configs/README.md. Lengths of the
-command line are in mm. Outputs appear whole or not at all, never over an input, and not while an error stands.
+command line are in mm. Outputs appear whole or not at all, and never over an input.
 The columns of the CSV: line, operation, tool, length_mm, feed_mm_min, z_mm, thickness_mm, area_mm2, volume_mm3,
 inside_mm2, pieces, chip_thickness_mm, engaged_deg, arcs_deg. Thickness is the largest on the way, engagement that at the
 motion's end. An empty cell is a value that is not known, as engagement where the cutter has left the chip by then.";

@@ -37,7 +37,8 @@ Examples:
   clsmith simulate part.cls --setup shop.yaml --report loads.html   charts and the path in 3D, as a page
 
 The setup says stock, tools and material: see configs/README.md. Outputs appear whole or not at all, never
-over an input, and not while an error stands; a collision is one (`--allow CL0511` writes all the same).
+over an input. They are written also when errors were found (a collision is one), with exit code 1; only
+--save-stock is not. `--allow CL0511` lets collisions pass.
 The columns of the CSV: line, operation, tool, length_mm, feed_mm_min, chip_thickness_mm,
 removal_rate_mm3_min, axial_depth_mm, radial_depth_mm, engagement_start_deg, engagement_end_deg, force_n,
 torque_nm, power_kw. An empty cell is a value that is not known.";

@@ -55,7 +55,7 @@ super::area! {
          millimetres.";
     ABSURD_VALUE = "CL0312", Error, "a value that no machine can mean",
         "Correct the value; `--allow CL0312` lets it pass.",
-        "The value is so far from anything that is milled that it must be a slip: a factor outside 0.001 to 1000, a feed of more \
+        "The value is so far from anything that is milled that it must be a slip: a factor outside 0.01 to 50, a feed of more \
          than 20 times what the machine can do, a chip thicker than the tool's radius. Nothing is written while it stands.";
     FEED_ABOVE_MACHINE = "CL0313", Warning, "a feed above what the machine can do",
         "Put `clamp_feed: {}` behind the other steps, or correct `machine: { max_feed: ... }` in the setup.",

@@ -217,7 +217,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         let acceleration = self.machining.setup().machine.max_acceleration.map(|most| most.get());
         self.faults.unknown_feeds = self.unknown.count;
         let mut findings = self.unknown.into_findings();
-        let gaps = self.machining.tooling().find_missing_teeth(program, self.machining.setup());
+        let gaps = self.machining.tooling().find_missing_teeth(program, self.machining.setup(), &|_| true);
         // The rows can do without: the cells stay empty.
         findings.extend(gaps.into_iter().map(|gap| Diagnostic { severity: Severity::Warning, ..gap }));
         let mut assumptions = Vec::new();

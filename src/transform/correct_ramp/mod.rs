@@ -26,6 +26,7 @@ mod parameters;
 mod planned_ramp;
 mod polygon_containment;
 pub mod ramp;
+mod ramp_check;
 mod ramp_correction;
 mod ramp_cutter;
 pub mod ramp_kind;
@@ -42,5 +43,6 @@ pub mod tool_region;
 
 pub use milled_area::MilledArea;
 pub use parameters::{CorrectRamp, ImpossibleRampHandling, PlungeHandling, RampRegionSpec, RampToolSpec};
+pub use ramp_check::check_ramps;
 pub use ramp_correction::{CorrectedRamp, ImpossibleCorrection, LengtheningMethod, RampTask, correct_ramp};
 pub use report::{CorrectRampReport, RampOutcome, RampReport};

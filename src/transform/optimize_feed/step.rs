@@ -10,7 +10,7 @@ use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::number::format_point;
 use crate::parameters::Positive;
 use crate::program::Program;
-use crate::program::motion::Motion;
+use crate::program::motion::{ActiveTool, Motion};
 use crate::setup::Setup;
 use crate::simulation_run::{EngagementModel, EngagementRunResult, Machining, SimulationRunOptions};
 use crate::transform::{MotionSelection, StepContext, Transform};
@@ -115,7 +115,10 @@ impl OptimizeFeedJob {
     ) -> Result<(MeasuredBlocks, EngagementRunResult), Failure> {
         let setup: &Setup = context.setup;
         let mut notes = Vec::new();
-        let machining = Machining::new(program, setup, self.goals.units, &mut notes).map_err(|failure| {
+        // The cuts of other tools change the stock; data of them is welcome, and not demanded.
+        let needed = |tool: &ActiveTool| step.r#where.matches_tool(tool.number, tool.name.as_deref());
+        let machining = Machining::for_tools(program, setup, self.goals.units, &needed, &mut notes);
+        let machining = machining.map_err(|failure| {
             failure.map_findings(|found| {
                 if found.labels.is_empty() { self.label_step(found, context) } else { found }
             })
@@ -124,7 +127,7 @@ impl OptimizeFeedJob {
         let needs =
             |need: fn(LoadCriterion) -> bool| self.goals.limits.iter().any(|(criterion, _)| need(*criterion));
         if needs(LoadCriterion::needs_teeth) {
-            let gaps = machining.tooling().find_missing_teeth(program, setup);
+            let gaps = machining.tooling().find_missing_teeth(program, setup, &needed);
             if !gaps.is_empty() {
                 return Err(gaps.into());
             }
