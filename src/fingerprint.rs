@@ -1,6 +1,8 @@
-//! SHA-256 of what goes into a run, so that a log can prove and a batch can skip what was done with the same things.
+//! This module computes SHA-256 digests of everything that a run reads, so that a log can prove, and a batch
+//! can skip, what was done with the same files.
 //!
-//! [`Digest`] is of bytes; [`RecipeFingerprint`] of a recipe and every file that it depends on, by content and not by name.
+//! [`Digest`] is the digest of bytes. [`RecipeFingerprint`] is that of a recipe and every file on which it
+//! depends, by content and not by name.
 
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::setup::Setup;
@@ -16,10 +18,10 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::Arc;
 
-/// The version of clsmith that makes the results: another one may make others of the same files.
+/// The version of clsmith that makes the results. Another version may make other results from the same files.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// A SHA-256 digest; written as 64 hexadecimal digits, the same as `sha256sum` prints.
+/// A SHA-256 digest. It is written as 64 hexadecimal digits, as `sha256sum` prints it.
 ///
 /// ```
 /// use clsmith::fingerprint::Digest;
@@ -32,15 +34,15 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 pub struct Digest([u8; 32]);
 
 impl Digest {
-    /// The digest of bytes.
+    /// Computes the digest of bytes.
     pub fn from_bytes(bytes: &[u8]) -> Self {
         Self(Sha256::digest(bytes).into())
     }
 
-    /// The digest of all that a reader gives, without holding it in memory.
+    /// Computes the digest of everything that a reader returns, without holding it in memory.
     ///
     /// # Errors
-    /// What the reader says.
+    /// Returns the error of the reader.
     pub fn from_reader(mut reader: impl Read) -> io::Result<Self> {
         let mut hasher = Sha256::new();
         let mut chunk = vec![0; 256 * 1024];
@@ -54,22 +56,23 @@ impl Digest {
         }
     }
 
-    /// The digest of a file.
+    /// Computes the digest of a file.
     ///
     /// # Errors
-    /// What the operating system says.
+    /// Returns the error of the operating system.
     pub fn from_file(path: &Path) -> io::Result<Self> {
         Self::from_reader(File::open(path)?)
     }
 
-    /// The digest of bytes that come in chunks; how they are cut does not count.
+    /// Computes the digest of bytes that come in chunks. The sizes of the chunks do not matter.
     pub fn from_chunks<'a>(chunks: impl IntoIterator<Item = &'a [u8]>) -> Self {
         let mut hasher = Sha256::new();
         chunks.into_iter().for_each(|chunk| hasher.update(chunk));
         Self(hasher.finalize().into())
     }
 
-    /// The digest of a list: each part counts with its length, so moving a byte from one part to the next changes it.
+    /// Computes the digest of a list. Each part counts with its length, so moving a byte from one part to the
+    /// next changes it.
     pub fn from_parts<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> Self {
         let mut hasher = Sha256::new();
         for part in parts {
@@ -79,7 +82,7 @@ impl Digest {
         Self(hasher.finalize().into())
     }
 
-    /// The 32 bytes, for [`Digest::from_parts`].
+    /// Returns the 32 bytes, for [`Digest::from_parts`].
     pub fn bytes(&self) -> &[u8] {
         &self.0
     }
@@ -97,7 +100,7 @@ impl fmt::Debug for Digest {
     }
 }
 
-/// Text that is no SHA-256 digest.
+/// The error for a text that is no SHA-256 digest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("a SHA-256 digest has 64 hexadecimal digits")]
 pub struct DigestParseError;
@@ -129,16 +132,16 @@ impl<'de> Deserialize<'de> for Digest {
     }
 }
 
-/// A file that a recipe depends on.
+/// A file on which a recipe depends.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct FileFingerprint {
     /// Its path as it was opened.
     pub path: String,
-    /// Its content.
+    /// The digest of its content.
     pub sha256: Digest,
 }
 
-/// A recipe and all files it depends on.
+/// A recipe and all files on which it depends.
 ///
 /// ```
 /// use clsmith::fingerprint::{Digest, RecipeFingerprint};
@@ -157,18 +160,19 @@ pub struct FileFingerprint {
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct RecipeFingerprint {
-    /// The digest of all of them, in their order. Names do not count: a recipe that was moved is the same recipe.
+    /// The digest of all of them, in their order. Names do not count, so a recipe that was moved is the same
+    /// recipe.
     pub sha256: Digest,
     /// The recipe, its setup files, its material, its models and its stock.
     pub files: Vec<FileFingerprint>,
 }
 
 impl RecipeFingerprint {
-    /// The print of a recipe. `texts` are the files that were read for it and its setup, the recipe first; models and stock
-    /// that recipe and setup name are read here.
+    /// Computes the fingerprint of a recipe. `texts` are the files that were read for it and its setup, with
+    /// the recipe first. Models and stock that recipe and setup name are read here.
     ///
     /// # Errors
-    /// [`codes::UNREADABLE`] for a model or stock file that cannot be read.
+    /// Returns [`codes::UNREADABLE`] for a model or stock file that cannot be read.
     pub fn read_files(texts: &[Arc<Source>], recipe: &Recipe, setup: &Setup) -> Result<Self, Failure> {
         let read = |source: &Arc<Source>| FileFingerprint {
             path: source.name().to_owned(),
@@ -186,14 +190,14 @@ impl RecipeFingerprint {
         Ok(Self { sha256, files })
     }
 
-    /// What decides the result of a file: its content, this recipe, what the command line adds (dialect, codes denied), and the
-    /// version of clsmith.
+    /// Computes the key that decides the result of a file: its content, this recipe, what the command line
+    /// adds (dialect, denied codes), and the version of clsmith.
     pub fn result_key(&self, input: Digest, options: &str) -> Digest {
         Digest::from_parts([input.bytes(), self.sha256.bytes(), options.as_bytes(), VERSION.as_bytes()])
     }
 }
 
-/// Files that are no text: models of steps, and the stock.
+/// Returns files that are no text: models of steps, and the stock.
 fn list_binary_files(recipe: &Recipe, setup: &Setup) -> Vec<PathBuf> {
     let recipe_file = Path::new(recipe.source.name());
     let read = recipe.steps.iter().flat_map(|step| step.transform().reads());

@@ -1,5 +1,5 @@
-//! One program through one recipe: read it, correct it, read the result back and compare. `apply`, hooks,
-//! watches and batches share it.
+//! This module takes one program through one recipe: it reads it, corrects it, reads the result back and
+//! compares. `apply`, `hook`, `watch` and `batch` use it.
 //!
 //! The input is checked first; an error in it stops the job. The corrected program is read back as a whole before
 //! anything is written. Record by record it must be what the steps made of it. Then [`check`] looks at it, and each
@@ -20,7 +20,7 @@ use crate::transform::{self, Recipe, RecipeOutcome, TransformReport, unit_slips}
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// A recipe with everything it needs, ready for any number of files.
+/// A recipe with everything that it needs, ready for any number of files.
 ///
 /// ```
 /// use clsmith::job::CorrectionJob;
@@ -43,26 +43,27 @@ use std::sync::Arc;
 pub struct CorrectionJob<'r> {
     /// The recipe.
     pub recipe: &'r Recipe,
-    /// The setup that counts.
+    /// The setup in force.
     pub setup: &'r Setup,
-    /// The recipe's print, for the header of a recipe with `provenance:`; without it the header tells the recipe's name alone.
+    /// The fingerprint of the recipe, for the header of a recipe with `provenance:`. Without it, the header
+    /// only contains the name of the recipe.
     pub print: Option<&'r RecipeFingerprint>,
-    /// Which findings stop the job.
+    /// The policy that decides which findings stop the job.
     pub policy: &'r FindingPolicy,
-    /// The dialect, where it is forced.
+    /// The dialect, if it is forced.
     pub dialect: Option<Dialect>,
-    /// Who watches steps that take long.
+    /// The watcher of steps that take long.
     pub watch: &'r dyn RunWatcher,
 }
 
-/// What came of a file.
+/// The outcome for a file.
 #[derive(Debug)]
 pub struct JobOutcome {
-    /// The corrected program. It may be written: no error stands.
+    /// The corrected program. It may be written, because there is no error.
     pub program: Program,
-    /// What was found, as the policy leaves it; no errors.
+    /// The findings, as the policy has left them. None of them is an error.
     pub findings: Vec<Diagnostic>,
-    /// What steps tell about themselves.
+    /// What steps report about themselves.
     pub reports: Vec<Box<dyn TransformReport>>,
 }
 
@@ -213,7 +214,7 @@ impl KnownFindings {
     }
 }
 
-/// Where a statement comes from: its place in the original, and whether it stood there.
+/// The origin of a statement: its place in the original, and whether it was there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct StatementOrigin {
     start: u32,
@@ -227,7 +228,8 @@ impl StatementOrigin {
     }
 }
 
-/// From where on the text read back does not mean what the program's statements mean; the writer's proof.
+/// Returns the first statement whose meaning in the text read back differs from the program's. It proves the
+/// writer.
 fn find_first_difference(program: &Program, read_back: &Program) -> Option<InsertionPoint> {
     let mut live = program.live_statements();
     for (id, statement) in read_back.numbered_statements() {
@@ -238,12 +240,13 @@ fn find_first_difference(program: &Program, read_back: &Program) -> Option<Inser
     live.next().map(|_| read_back.end())
 }
 
-/// The statement that a finding in a freshly read program is about; `None` for the whole file.
+/// Returns the statement of a finding in a freshly read program. Returns `None` if the finding is about the
+/// whole file.
 fn find_statement_of_finding(program: &Program, found: &Diagnostic) -> Option<StatementId> {
     program.statement_at_offset(found.labels.first()?.span.start)
 }
 
-/// Whether any statement differs from the source.
+/// Returns whether any statement differs from the source.
 pub fn is_program_changed(program: &Program) -> bool {
     program.statements().iter().any(|statement| statement.change() != StatementChange::Untouched)
 }

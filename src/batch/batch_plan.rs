@@ -1,4 +1,5 @@
-//! Which file becomes which output. What cannot be right is refused here, before anything runs.
+//! This module plans which file becomes which output. It refuses everything that cannot be right before
+//! anything runs.
 
 use super::jobs_file::{BatchJobs, InputPattern, JobsFileLocation};
 use super::memory_budget;
@@ -15,24 +16,24 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
-/// A recipe with everything it needs, and digests of it.
+/// A recipe with everything that it needs, and digests of it.
 #[derive(Debug)]
 pub struct PreparedRecipe {
     /// The recipe as the batch names it.
     pub name: PortablePath,
     /// The recipe.
     pub recipe: Recipe,
-    /// The setup that counts.
+    /// The recipe that was read.
     pub setup: Setup,
-    /// All files that it depends on.
+    /// The digests of all files that it depends on.
     pub print: RecipeFingerprint,
 }
 
 impl PreparedRecipe {
-    /// Takes a recipe; `texts` are the files that were read for it and its setup, the recipe first.
+    /// Takes a recipe. `texts` are the files that were read for it and its setup, with the recipe first.
     ///
     /// # Errors
-    /// [`codes::UNREADABLE`] for a model or stock file that cannot be read.
+    /// Returns [`codes::UNREADABLE`] for a model or stock file that cannot be read.
     pub fn with_fingerprint(
         name: &Path,
         recipe: Recipe,
@@ -43,52 +44,53 @@ impl PreparedRecipe {
         Ok(Self { name: PortablePath::from_path(name), recipe, setup, print })
     }
 
-    /// The digest of the recipe's own text.
+    /// Returns the digest of the recipe's own text.
     pub(super) fn recipe_digest(&self) -> Digest {
         self.print.files.first().map_or(self.print.sha256, |file| file.sha256)
     }
 
-    /// The digest of all other files that the recipe depends on.
+    /// Returns the digest of all other files that the recipe depends on.
     pub(super) fn setup_digest(&self) -> Digest {
         Digest::from_parts(self.print.files.iter().skip(1).map(|file| file.sha256.bytes()))
     }
 }
 
-/// A file that is to be done.
+/// A file that will be processed.
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct PlannedFile {
-    /// Its job's place in the list.
+    /// The index of its job.
     pub job: usize,
     /// The path to open.
     pub path: PathBuf,
     /// The path as the batch names it.
     pub input: PortablePath,
-    /// The output below the output folder.
+    /// The path of the output below the output folder.
     pub output: PathBuf,
-    /// The same as a name.
+    /// The path of the output as a name.
     pub output_name: PortablePath,
-    /// Bytes in it when the batch was planned.
+    /// Its size in bytes when the batch was planned.
     pub size: u64,
-    /// Bytes of memory that it is taken to need.
+    /// The estimated need of memory, in bytes.
     pub need: u64,
 }
 
-/// All files of a batch, in the order of their names, and what is worth saying about finding them.
+/// All files of a batch in the order of their names, and the findings of the search for them.
 #[derive(Debug)]
 pub struct BatchPlan {
     /// The files.
     pub files: Vec<PlannedFile>,
-    /// Warnings: links in a circle.
+    /// Warnings about links that lead in a circle.
     pub findings: Vec<Diagnostic>,
 }
 
 impl BatchPlan {
-    /// Finds the files of all jobs. `read` are other files that the batch reads: recipes, setups, models.
+    /// Finds the files of all jobs. `read` are other files that the batch reads: recipes, setups and models.
     ///
     /// # Errors
-    /// Patterns that lead to nothing, outputs of one name, outputs that are inputs, lead out of the folder or are files of
-    /// the batch itself: all of them, the first twenty of a kind.
+    /// Returns findings about patterns that match nothing, outputs with the same name, and outputs that are
+    /// inputs, lead out of the folder or are files of the batch itself. All of them are reported, up to
+    /// twenty of a kind.
     pub fn plan_files(
         jobs: &BatchJobs,
         folder: &OutputFolder,
@@ -129,7 +131,8 @@ impl BatchPlan {
         if wrong.is_empty() { Ok(plan) } else { Err(wrong.into()) }
     }
 
-    /// Makes room for the comments of recipes that ask for them. `works` are the jobs' recipes, in their order.
+    /// Reserves memory for the comments of recipes that ask for them. `works` are the recipes of the jobs, in
+    /// their order.
     pub fn reserve_comment_memory(&mut self, works: &[PreparedRecipe]) {
         let asks =
             |job: usize| works.get(job).is_some_and(|work| work.recipe.provenance == Provenance::Comments);
@@ -139,12 +142,12 @@ impl BatchPlan {
         }
     }
 
-    /// Positions of the files that a shard does; all without one.
+    /// Returns the positions of the files that a shard processes. Without a shard these are all files.
     pub fn files_of_shard(&self, shard: Option<Shard>) -> Vec<usize> {
         (0..self.files.len()).filter(|&index| shard.is_none_or(|shard| shard.contains(index))).collect()
     }
 
-    /// Files of a shard that may need more than `memory` bytes: each runs while no other does.
+    /// Reports files of a shard that may need more than `memory` bytes. Each of them runs alone.
     pub fn find_over_budget(&self, shard: Option<Shard>, memory: u64) -> Vec<Diagnostic> {
         let mb = |bytes: u64| bytes.div_ceil(1_000_000);
         let files = self.files_of_shard(shard).into_iter().filter_map(|index| self.files.get(index));
@@ -162,8 +165,8 @@ impl BatchPlan {
             .collect()
     }
 
-    /// What identifies the batch: its files, outputs, recipes, options and clsmith's version. Shards of one batch have the
-    /// same; the content of CL files does not count.
+    /// Returns the id of the batch, which depends on its files, outputs, recipes, options and the version of
+    /// clsmith. Shards of the same batch have the same id. The content of CL files does not count.
     pub fn batch_id(&self, works: &[PreparedRecipe], options: &str) -> Digest {
         let mut parts = vec![VERSION.as_bytes(), options.as_bytes()];
         for file in &self.files {
@@ -173,7 +176,7 @@ impl BatchPlan {
         Digest::from_parts(parts)
     }
 
-    /// Two inputs for one output, or an output that is a folder of another.
+    /// Finds pairs of inputs with the same output, and outputs that are a folder of another output.
     fn find_output_collisions(&self, jobs: &BatchJobs) -> Vec<Diagnostic> {
         let mut outputs: BTreeMap<Vec<u8>, &PlannedFile> = BTreeMap::new();
         let mut wrong = Vec::new();
@@ -228,7 +231,7 @@ impl BatchPlan {
         .collect()
     }
 
-    /// Links in the output folder: what is written through them would land elsewhere.
+    /// Finds links in the output folder. Files that are written through them would be elsewhere.
     fn find_output_links(&self, folder: &OutputFolder) -> Vec<Diagnostic> {
         let mut seen = BTreeSet::new();
         let mut wrong = Vec::new();
@@ -243,12 +246,12 @@ impl BatchPlan {
         wrong
     }
 
-    /// Outputs under the names of the batch's own files.
+    /// Finds outputs with the names of the batch's own files.
     fn find_reserved_outputs(&self, folder: &OutputFolder, results: &Path) -> Vec<Diagnostic> {
         let mut ours = FileSet::default();
         let own = folder.reserved_paths();
         own.iter().map(PathBuf::as_path).chain([results]).for_each(|path| ours.insert(path));
-        // Where the folder does not exist yet, only spelling can be compared.
+        // If the folder does not exist yet, only the spelling of paths can be compared.
         let absolute = |path: &Path| std::path::absolute(path).ok();
         let spelt: BTreeSet<PathBuf> =
             own.iter().map(PathBuf::as_path).chain([results]).filter_map(absolute).collect();
@@ -258,7 +261,7 @@ impl BatchPlan {
         });
         hit.map(|file| {
             let message = format!(
-                "the output of {} is {}, where the batch keeps its own",
+                "the output of {} is {}, which is a file of the batch itself",
                 file.input, file.output_name
             );
             Diagnostic::new(codes::OUTPUTS_COLLIDE, message)
@@ -267,8 +270,7 @@ impl BatchPlan {
     }
 }
 
-/// A link stands where the output folder has a folder or file of its own.
-/// An output that a link would take out of its folder.
+/// Reports an output that a link would take out of its folder.
 pub fn report_outside_link(link: &Path) -> Diagnostic {
     let message =
         format!("{} is a link; what is written there would leave the output folder", link.display());
@@ -300,7 +302,7 @@ fn report_no_match(asked: &InputPattern, error: &NoMatchReason) -> Diagnostic {
     };
     match error {
         NoMatchReason::Nothing if written.contains(['*', '?', '[', '{']) => {
-            nothing(format!("no file fits `{written}`"), "leads to nothing")
+            nothing(format!("no file matches `{written}`"), "matches nothing")
         }
         NoMatchReason::Nothing => nothing(format!("there is no file {written}"), "no such file"),
         NoMatchReason::Folder => nothing(format!("{written} is a folder"), "a folder").with_help(format!(
@@ -312,7 +314,7 @@ fn report_no_match(asked: &InputPattern, error: &NoMatchReason) -> Diagnostic {
             place,
             codes::UNREADABLE,
             format!("{} cannot be read: {error}", path.display()),
-            "looked for by this",
+            "searched because of this",
         ),
     }
 }

@@ -1,4 +1,4 @@
-//! What became of a file.
+//! This module records what happened to a file.
 
 use super::PortablePath;
 use super::batch_plan::{PlannedFile, PreparedRecipe};
@@ -8,48 +8,48 @@ use crate::program::{Program, StatementChange};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// How a file ended.
+/// How the processing of a file ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FileOutcome {
-    /// Its output is written and differs from the input.
+    /// Its output was written and differs from the input.
     Corrected,
-    /// Its output is written and is the input, byte for byte.
+    /// Its output was written and equals the input byte for byte.
     Unchanged,
-    /// An error stands; nothing was written.
+    /// There was an error, and nothing was written.
     Failed,
-    /// Nobody began it, because another one failed and the batch was to stop then.
+    /// It was not processed, because another file failed and the batch stops then.
     NotRun,
 }
 
 impl FileOutcome {
-    /// Whether the output is there.
+    /// Returns whether the output exists.
     pub fn is_written(self) -> bool {
         matches!(self, Self::Corrected | Self::Unchanged)
     }
 }
 
-/// Digests of what went in and what came out.
+/// The digests of what was read and written.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileDigests {
-    /// Of the CL file; `None` if it was not read.
+    /// The digest of the CL file. It is `None` if the file was not read.
     pub input: Option<Digest>,
-    /// Of the recipe's text.
+    /// The digest of the recipe's text.
     pub recipe: Digest,
-    /// Of all other files that the recipe depends on: setup, material, models, stock.
+    /// The digest of all other files that the recipe depends on: setup, material, models and stock.
     pub setup: Digest,
-    /// Of the output; `None` if none was written.
+    /// The digest of the output. It is `None` if none was written.
     pub output: Option<Digest>,
 }
 
-/// How many statements the recipe changed.
+/// The number of statements that the recipe changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct StatementChangeCounts {
     /// Statements with a new text.
     pub edited: usize,
-    /// Statements put in.
+    /// Statements that were inserted.
     pub inserted: usize,
-    /// Statements of the file taken out.
+    /// Statements of the file that were deleted.
     pub deleted: usize,
 }
 
@@ -62,7 +62,7 @@ impl StatementChangeCounts {
                 StatementChange::Untouched => {}
                 StatementChange::Edited(_) => changed.edited += 1,
                 StatementChange::Inserted(_) => changed.inserted += 1,
-                // One step put it in, a later one took it out: the file never had it.
+                // A statement that one step inserted and a later one deleted was never in the file.
                 StatementChange::Deleted(_) if statement.origin().is_empty() => {}
                 StatementChange::Deleted(_) => changed.deleted += 1,
             }
@@ -71,21 +71,21 @@ impl StatementChangeCounts {
     }
 }
 
-/// How many findings there were.
+/// The number of findings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct BatchFindingCounts {
     /// Errors.
     pub errors: usize,
     /// Warnings.
     pub warnings: usize,
-    /// Notes; none unless they were asked for.
+    /// Notes; zero unless they were asked for.
     pub notes: usize,
     /// Findings of any severity that were allowed by hand; they are in no other count.
     #[serde(default)]
     pub allowed: usize,
 }
 
-/// Findings of one code and severity.
+/// The findings with the same code and severity.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct BatchFinding {
     /// The code: `CL0003`.
@@ -97,13 +97,15 @@ pub struct BatchFinding {
     pub allowed: bool,
     /// How many there are.
     pub count: usize,
-    /// The message of the first.
+    /// The message of the first one.
     pub first: String,
-    /// The line it is about, from 1; `None` if it is about the whole file, or about a line of another one.
+    /// The line of the first one, counted from 1. It is `None` if the finding is about the whole file, or
+    /// about a line of another file.
     pub line: Option<usize>,
 }
 
-/// What became of a file. Nothing in it depends on the machine, the threads or the order of files, but `seconds`.
+/// What happened to a file. Except for `seconds`, nothing in it depends on the machine, the threads or the
+/// order of files.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BatchRecord {
     /// The CL file, as the batch names it.
@@ -116,21 +118,22 @@ pub struct BatchRecord {
     pub outcome: FileOutcome,
     /// Digests.
     pub sha256: FileDigests,
-    /// The clsmith that did it.
+    /// The version of clsmith that processed it.
     pub version: String,
-    /// What the recipe changed.
+    /// The number of changed statements.
     pub changed: StatementChangeCounts,
-    /// How many findings there were.
+    /// The number of findings.
     pub counts: BatchFindingCounts,
-    /// Findings by code.
+    /// The findings by code.
     pub findings: Vec<BatchFinding>,
-    /// How long it took; only in journals, and in results on request.
+    /// The duration in seconds. It is only in journals, and in results on request.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seconds: Option<f64>,
 }
 
 impl BatchRecord {
-    /// A file of which nothing is known yet but how it ends if nothing more is learnt.
+    /// Makes the record of a file before it is processed, with the outcome that it keeps if nothing else
+    /// happens.
     pub(super) fn new(file: &PlannedFile, work: &PreparedRecipe, outcome: FileOutcome) -> Self {
         Self {
             input: file.input.clone(),
@@ -151,12 +154,12 @@ impl BatchRecord {
         }
     }
 
-    /// What identifies the record in its batch, and orders it.
+    /// Returns the key that identifies the record in its batch and defines the order of records.
     pub(crate) fn sort_key(&self) -> (&PortablePath, &PortablePath) {
         (&self.input, &self.output)
     }
 
-    /// Takes the findings down, as the policy left them.
+    /// Counts the findings, as the policy has left them.
     pub(super) fn count_findings(&mut self, findings: &[Diagnostic], source_name: &str) {
         let mut by_code: BTreeMap<(&str, Severity, bool), BatchFinding> = BTreeMap::new();
         for found in findings {

@@ -1,12 +1,13 @@
-//! Results in JSON Lines: a head, then a line for every file, sorted by name.
+//! This module writes and reads results in JSON Lines: a head, then a line for every file, sorted by name.
 //!
 //! ```json
 //! {"clsmith_batch":1,"version":"0.1.0","batch":"9f86…","files":2000,"shard":{"part":"2/8","files":250}}
 //! {"input":"programs/a.cls","output":"a.cls","recipe":"slow.yaml","outcome":"corrected","sha256":{…},…}
 //! ```
 //!
-//! `clsmith_batch` changes when a reader would have to; new keys may be added without. `batch` identifies the batch: shards of
-//! one have the same. `shard` is missing in the results of a whole batch. A line is a [`BatchRecord`].
+//! `clsmith_batch` changes when readers have to change. New keys may be added without that. `batch`
+//! identifies the batch, and its shards have it in common. The results of a whole batch have no `shard`. A
+//! line is a [`BatchRecord`].
 
 use super::{BatchRecord, Shard};
 use crate::diagnostic::{Diagnostic, Failure, codes};
@@ -18,18 +19,18 @@ use std::sync::Arc;
 /// The version of the format.
 const FORMAT: u32 = 1;
 
-/// The first line.
+/// The first line of results.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ResultsHead {
     /// The version of the format: 1.
     pub clsmith_batch: u32,
-    /// The clsmith that ran the batch.
+    /// The version of clsmith that ran the batch.
     pub version: String,
-    /// Which batch it is.
+    /// The id of the batch.
     pub batch: Digest,
-    /// How many files it has in all.
+    /// The number of files in the whole batch.
     pub files: usize,
-    /// Which part of it this is.
+    /// The part of the batch to which these results belong.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<ResultsShard>,
 }
@@ -40,19 +41,19 @@ pub struct ResultsShard {
     /// Which part.
     #[serde(with = "as_text")]
     pub part: Shard,
-    /// How many files it has.
+    /// The number of files in it.
     pub files: usize,
 }
 
 impl ResultsHead {
-    /// The head of a batch's results; `shard` and the number of its files if it is a part.
+    /// Makes the head of a batch's results. `shard` and the number of its files are given if it is a part.
     pub fn new(batch: Digest, files: usize, shard: Option<(Shard, usize)>) -> Self {
         let shard = shard.map(|(part, files)| ResultsShard { part, files });
         Self { clsmith_batch: FORMAT, version: VERSION.to_owned(), batch, files, shard }
     }
 }
 
-/// Head and records, read from a file.
+/// The head and the records that were read from a file.
 #[derive(Debug)]
 pub struct BatchResults {
     /// The file.
@@ -63,7 +64,8 @@ pub struct BatchResults {
     pub records: Vec<BatchRecord>,
 }
 
-/// The text of results. `records` are sorted; `times` tells whether their seconds are in it, which are never twice the same.
+/// Returns the text of results. `records` are sorted. `times` tells whether their seconds are included, which
+/// differ from run to run.
 pub fn results_to_bytes(head: &ResultsHead, records: &[BatchRecord], times: bool) -> Vec<u8> {
     let mut text = Vec::new();
     push_json_line(&mut text, head);
@@ -77,16 +79,16 @@ pub fn results_to_bytes(head: &ResultsHead, records: &[BatchRecord], times: bool
 }
 
 fn push_json_line(text: &mut Vec<u8>, line: &impl Serialize) {
-    // Into memory, and without maps: nothing here can fail.
+    // Writing structs into memory cannot fail.
     if serde_json::to_writer(&mut *text, line).is_ok() {
         text.push(b'\n');
     }
 }
 
-/// Reads results.
+/// Reads results from a file.
 ///
 /// # Errors
-/// [`codes::BAD_RESULTS`] at the first line that is none.
+/// Returns [`codes::BAD_RESULTS`] at the first line that is not valid.
 pub fn read_results(source: &Arc<Source>) -> Result<BatchResults, Failure> {
     let mut lines = (1..).map_while(|line| source.line_span(line)).filter(|span| !span.is_empty());
     let first = lines.next().unwrap_or_default();
@@ -107,7 +109,7 @@ fn parse_line<T: for<'de> Deserialize<'de>>(
     what: &str,
 ) -> Result<T, Failure> {
     let read = serde_json::from_slice(source.slice(span)).map_err(|error| {
-        // The place is in the label; serde counts lines within the line.
+        // The place is in the label. serde counts lines within the line, which would mislead.
         let why = error.to_string();
         let why = why.split(" at line ").next().unwrap_or_default();
         let message = format!("{} is no results file of a batch: {what}", source.name());

@@ -1,4 +1,4 @@
-//! All files of a batch, several at once.
+//! This module processes all files of a batch, several at the same time.
 
 use super::batch_plan::{BatchPlan, PlannedFile, PreparedRecipe};
 use super::file_run::{self, FileRunResult, FileRunSettings};
@@ -30,58 +30,61 @@ use std::sync::mpsc;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct BatchRun<'a> {
-    /// Which files.
+    /// The planned files.
     pub plan: &'a BatchPlan,
     /// The recipes, in the order of the jobs.
     pub works: &'a [PreparedRecipe],
-    /// Which findings stop a file.
+    /// The policy that decides which findings stop a file.
     pub policy: &'a FindingPolicy,
-    /// The dialect, where it is forced.
+    /// The dialect, if it is forced.
     pub dialect: Option<Dialect>,
-    /// What else decides results, in words: policy and dialect.
+    /// Everything else that decides results, in words: policy and dialect.
     pub options: &'a str,
-    /// Where outputs go.
+    /// The output folder.
     pub folder: &'a LockedFolder,
-    /// The threads: so many files at once, and what steps do in parallel.
+    /// The threads. Their number limits how many files are processed at the same time, together with the
+    /// parallel work of steps.
     pub pool: &'a rayon::ThreadPool,
-    /// Memory for all files together, in bytes.
+    /// The memory for all files together, in bytes.
     pub memory: u64,
-    /// Whether no file is begun after one has failed.
+    /// Whether no further file is begun after one has failed.
     pub fail_fast: bool,
-    /// Whether files that are done and unchanged are skipped.
+    /// Whether files that are finished and unchanged are skipped.
     pub resume: bool,
-    /// The wish to stop.
+    /// The request to stop.
     pub interrupt: &'a Interrupt,
 }
 
-/// Somebody who watches a batch; called from many threads.
+/// An observer of a batch. It is called from many threads.
 pub trait BatchWatcher: Sync {
-    /// A file begins; what is returned is told how far its steps are, and asked whether to stop.
+    /// Is called when a file begins. The returned watcher is informed about the progress of its steps, and is
+    /// asked whether to stop.
     fn begin_file(&self, file: &PlannedFile) -> Box<dyn simulation_run::RunWatcher + '_>;
 
-    /// A file has ended; `before` if it was done by an earlier run.
+    /// Is called when a file has ended. `before` is true if an earlier run has processed it.
     fn end_file(&self, file: &PlannedFile, record: &BatchRecord, findings: &[Diagnostic], before: bool);
 }
 
-/// What came of a batch.
+/// The outcome of a batch.
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct BatchOutcome {
-    /// What became of each file, sorted by name. Those that were not run are there, too.
+    /// The records of all files, sorted by name. Those that were not run are included.
     pub records: Vec<BatchRecord>,
-    /// How many were done by an earlier run.
+    /// The number of files that an earlier run has processed.
     pub before: usize,
     /// Findings about the batch itself.
     pub findings: Vec<Diagnostic>,
-    /// Whether somebody stopped it; `records` is then of no use, the journal is.
+    /// Whether the batch was stopped. Then only the journal is complete, not `records`.
     pub interrupted: bool,
 }
 
 impl BatchRun<'_> {
-    /// Runs it.
+    /// Runs the batch.
     ///
     /// # Errors
-    /// [`codes::UNWRITABLE`] if the journal cannot be begun, [`codes::OUTPUT_IN_USE`] if shards of another batch run.
+    /// Returns [`codes::UNWRITABLE`] if the journal cannot be begun, and [`codes::OUTPUT_IN_USE`] if shards
+    /// of another batch are running.
     pub fn run_batch(&self, watch: &dyn BatchWatcher) -> Result<BatchOutcome, Failure> {
         let id = self.plan.batch_id(self.works, self.options);
         let mine = self.plan.files_of_shard(self.folder.folder().shard());
@@ -104,30 +107,30 @@ impl BatchRun<'_> {
         let needs =
             mine.iter().filter_map(|&index| self.plan.files.get(index).map(|file| (index, file.need)));
         let queue = MemoryQueue::new(needs, self.memory);
-        let (tell, told) = mpsc::channel();
-        let work = |tell: mpsc::Sender<_>| {
+        let (sender, told) = mpsc::channel();
+        let work = |sender: mpsc::Sender<_>| {
             while let Some(ticket) = queue.take_next() {
-                // In the pool, so that all files and what their steps do in parallel have so many threads together; the
-                // wait for room is outside, where it keeps no thread from its work.
+                // Files run inside the pool, so that all files and the parallel work of their steps use that
+                // many threads together. Waiting for memory happens outside of it, where it blocks no thread.
                 let ended = self.pool.install(|| self.run_ticket(settings, &ticket, &known, &journal, watch));
                 let stop = ended.as_ref().is_none_or(|(_, end)| self.fail_fast && end.has_failed());
                 if stop || self.interrupt.is_raised() {
                     queue.close_queue();
                 }
                 if let Some(ended) = ended {
-                    // The receiver lives longer than this.
-                    let _ = tell.send(ended);
+                    // The receiver lives longer than this thread, so sending cannot fail.
+                    let _ = sender.send(ended);
                 }
             }
         };
         let work = &work;
         std::thread::scope(|scope| {
             for _ in 1..self.pool.current_num_threads().min(mine.len()) {
-                let tell = tell.clone();
-                // Where the system gives no more threads, those there are do it.
-                let _ = std::thread::Builder::new().spawn_scoped(scope, move || work(tell));
+                let sender = sender.clone();
+                // If the system gives no more threads, the existing ones do the work.
+                let _ = std::thread::Builder::new().spawn_scoped(scope, move || work(sender));
             }
-            work(tell);
+            work(sender);
         });
         Ok(self.gather_records(&mine, told.into_iter().collect()))
     }
@@ -142,7 +145,7 @@ impl BatchRun<'_> {
             .collect()
     }
 
-    /// Does the file of a ticket; `None` once somebody stopped the batch.
+    /// Processes the file of a ticket. Returns `None` once the batch was stopped.
     fn run_ticket(
         &self,
         settings: FileRunSettings<'_>,
@@ -189,7 +192,7 @@ impl BatchRun<'_> {
             ran.records.push(record);
             ran.findings.extend(lost.map(|error| {
                 let message = format!(
-                    "the journal cannot be written: {error}; --resume will do again what came after {}",
+                    "the journal cannot be written: {error}; --resume will repeat every file after {}",
                     file.input
                 );
                 Diagnostic::new(codes::UNWRITABLE, message)
@@ -198,19 +201,19 @@ impl BatchRun<'_> {
         ran
     }
 
-    /// Setups and models that are no longer what the results were made with.
+    /// Reports setups and models that have changed since they were read.
     fn find_changed_inputs(&self) -> Vec<Diagnostic> {
         let prints = self.works.iter().flat_map(|work| &work.print.files);
         let all: BTreeMap<&str, Digest> = prints.map(|file| (file.path.as_str(), file.sha256)).collect();
         let changed = all.into_iter().filter(|(path, then)| {
-            // Names that are no UTF-8 were opened by another path than is known here; they are left out.
+            // The path of a name that is not UTF-8 is not known here, so such names are skipped.
             Digest::from_file(Path::new(path)).is_ok_and(|now| now != *then)
         });
         changed
             .map(|(path, _)| {
                 let message = format!("{path} was changed while the batch ran");
                 Diagnostic::new(codes::INPUT_CHANGED, message)
-                    .with_help("Some files may have been done with the old one and some with the new: run the batch again, without --resume.")
+                    .with_help("Some files may have been processed with the old one and some with the new one. Run the batch again, without --resume.")
             })
             .collect()
     }

@@ -1,4 +1,5 @@
-//! One file of a batch: read, correct, look whether it is still the same, write.
+//! This module processes one file of a batch: it reads and corrects it, checks that it has not changed
+//! meanwhile, and writes it.
 
 use super::batch_plan::{PlannedFile, PreparedRecipe, report_outside_link};
 use super::{BatchRecord, FileOutcome, JournalEntry, LockedFolder, StatementChangeCounts};
@@ -15,7 +16,7 @@ use std::io::{self, Read, Write};
 use std::path::Path;
 use std::time::{Duration, Instant, SystemTime};
 
-/// What all files of a batch are done with.
+/// The settings that all files of a batch have in common.
 #[derive(Clone, Copy)]
 pub(super) struct FileRunSettings<'a> {
     pub policy: &'a FindingPolicy,
@@ -25,17 +26,18 @@ pub(super) struct FileRunSettings<'a> {
     pub interrupt: &'a Interrupt,
 }
 
-/// How a file ended.
+/// How the processing of a file ended.
 pub(super) enum FileRunResult {
-    /// It was done before, and nothing changed since.
+    /// An earlier run has processed it, and nothing has changed since.
     Before(BatchRecord),
-    /// It is done now. The key is there if its output is.
+    /// It was processed now. The key is given if its output was written.
     Now { record: BatchRecord, findings: Vec<Diagnostic>, key: Option<Digest> },
-    /// Somebody stopped the batch; nothing was written.
+    /// The batch was stopped, and nothing was written.
     Interrupted,
 }
 
-/// A file younger than this may be changed again within one tick of the file system's clock, so its time proves nothing.
+/// A file that is younger than this may be changed again within one tick of the file system's clock, so its
+/// time proves nothing.
 const YOUNG: Duration = Duration::from_secs(2);
 
 pub(super) fn run_file(
@@ -46,7 +48,7 @@ pub(super) fn run_file(
     watch: &dyn RunWatcher,
 ) -> FileRunResult {
     if let Some(done) = before.filter(|done| is_still_done(settings, file, work, done)) {
-        // A recipe that was moved is the same recipe; its name is the one of now.
+        // A recipe that was moved is still the same recipe, so only its name is updated.
         return FileRunResult::Before(BatchRecord { recipe: work.name.clone(), ..done.record.clone() });
     }
     let started = Instant::now();
@@ -63,7 +65,8 @@ pub(super) fn run_file(
     FileRunResult::Now { record, findings, key }
 }
 
-/// Whether input, recipe, options and version are those of then, and the output is still what was written.
+/// Returns whether input, recipe, options and version are still the same, and the output is still what was
+/// written.
 fn is_still_done(
     settings: FileRunSettings<'_>,
     file: &PlannedFile,
@@ -80,7 +83,7 @@ fn is_still_done(
         && Digest::from_file(&output).is_ok_and(|now| done.record.sha256.output == Some(now))
 }
 
-/// An input that somebody wrote to while it was read.
+/// Reports an input that was written to while it was read.
 pub fn report_input_changed(name: &str) -> Diagnostic {
     Diagnostic::new(codes::INPUT_CHANGED, format!("{name} was changed while it was read"))
 }
@@ -126,7 +129,7 @@ fn correct_file(
     Ok(findings)
 }
 
-/// What tells a file from a changed one without reading it.
+/// The data by which a changed file is recognized without reading it.
 #[derive(PartialEq)]
 struct InputStamp {
     size: u64,
@@ -140,9 +143,9 @@ impl InputStamp {
 }
 
 fn read_input(path: &Path) -> io::Result<(Vec<u8>, InputStamp)> {
-    // Looked at before it is opened: opening a pipe waits for somebody to write.
+    // The kind of the file is checked before it is opened, because opening a pipe would wait for a writer.
     if !fs::metadata(path)?.is_file() {
-        return Err(io::Error::other("it is no file"));
+        return Err(io::Error::other("it is not a file"));
     }
     let mut file = fs::File::open(path)?;
     let there = file.metadata()?;
@@ -151,7 +154,7 @@ fn read_input(path: &Path) -> io::Result<(Vec<u8>, InputStamp)> {
     Ok((bytes, InputStamp::from_metadata(&there)))
 }
 
-/// Whether a file is the one that was read, from `began` on.
+/// Returns whether a file is still the one that was read since `began`.
 fn is_unchanged(path: &Path, stamp: &InputStamp, began: SystemTime, digest: Digest) -> io::Result<bool> {
     if InputStamp::from_metadata(&fs::metadata(path)?) != *stamp {
         return Ok(false);
@@ -173,7 +176,7 @@ fn write_corrected(
     if let Some(parent) = target.parent() {
         fs::create_dir_all(parent).map_err(unwritable)?;
     }
-    // Again: somebody may have put a link there since the batch was planned.
+    // The path is checked again, because a link may have been put there since the batch was planned.
     let mut parts = file.output.ancestors().filter(|path| !path.as_os_str().is_empty());
     if let Some(link) = parts.find(|path| folder.is_link(path)) {
         return Err(report_outside_link(link).into());
@@ -185,7 +188,7 @@ fn write_corrected(
     })
 }
 
-/// Slices one after the other, to be read.
+/// Reads slices one after the other.
 struct ChunkReader<'p, I> {
     pieces: I,
     now: &'p [u8],

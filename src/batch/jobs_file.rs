@@ -1,4 +1,4 @@
-//! What a batch is asked to do: a jobs file, or the same from a command line.
+//! This module holds the jobs of a batch, from a jobs file or from a command line.
 
 use crate::diagnostic::{Diagnostic, DiagnosticCode, Failure, codes};
 use crate::parameters::FilePath;
@@ -11,38 +11,38 @@ use std::ffi::OsString;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
-/// What is asked for.
+/// The jobs of a batch.
 #[derive(Debug, Default)]
 pub struct BatchJobs {
-    /// The folder that relative paths in it begin in; empty for the one clsmith runs in.
+    /// The folder at which relative paths start. It is empty for the folder in which clsmith runs.
     pub base: PathBuf,
-    /// The output folder, where the file says it.
+    /// The output folder, if the file names it.
     pub out: Option<PathBuf>,
-    /// Recipes with their files.
+    /// The recipes with their files.
     pub jobs: Vec<BatchEntry>,
 }
 
-/// A recipe and the files it is for.
+/// A recipe and its files.
 #[derive(Debug)]
 pub struct BatchEntry {
-    /// The recipe's path, as written.
+    /// The path of the recipe, as written.
     pub recipe: PathBuf,
-    /// A setup file that overrides the recipe's setup, as written.
+    /// The path of a setup file that overrides the recipe's setup, as written.
     pub setup: Option<PathBuf>,
     /// Patterns for CL files, or their paths.
     pub files: Vec<InputPattern>,
-    /// The folder below the output folder; empty for the folder itself.
+    /// The folder for outputs below the output folder. It is empty for the output folder itself.
     pub below: PathBuf,
-    /// Where the job stands in the file.
+    /// The place of the job in the file.
     pub place: Option<JobsFileLocation>,
 }
 
-/// A pattern, and where it is written.
+/// A pattern, and the place where it is written.
 #[derive(Debug)]
 pub struct InputPattern {
     /// The pattern or path.
     pub written: OsString,
-    /// Its place, if it stands in a file.
+    /// Its place, if it is in a file.
     pub place: Option<JobsFileLocation>,
 }
 
@@ -56,7 +56,7 @@ pub struct JobsFileLocation {
 }
 
 impl JobsFileLocation {
-    /// A finding, at this place where there is one.
+    /// Makes a finding, at this place if there is one.
     pub(super) fn make_finding(
         place: Option<&Self>,
         code: DiagnosticCode,
@@ -71,12 +71,12 @@ impl JobsFileLocation {
     }
 }
 
-/// The jobs of a batch: which recipe for which files, and where the outputs go.
+/// The jobs of a batch: the recipes, their files, and the folder for outputs.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "clsmith jobs file", rename = "Jobs")]
 struct BatchJobsText {
-    /// The output folder, relative to this file's folder; `--out` overrides it.
+    /// The output folder, relative to this file's folder. `--out` overrides it.
     out: Option<FilePath>,
     /// The jobs.
     #[serde(deserialize_with = "deserialize_some")]
@@ -84,7 +84,7 @@ struct BatchJobsText {
     jobs: Vec<BatchEntryText>,
 }
 
-/// A recipe and the files it is for.
+/// A recipe and its files.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Job")]
@@ -93,8 +93,9 @@ struct BatchEntryText {
     recipe: FilePath,
     /// A setup file that overrides the recipe's setup, relative to this file's folder.
     setup: Option<FilePath>,
-    /// CL files or patterns for them, relative to this file's folder: `*` and `?` within a folder, `**` through all below.
-    /// Outputs keep the folders below the part in front of the first wildcard.
+    /// CL files or patterns for them, relative to this file's folder. `*` and `?` stay within a folder, and
+    /// `**` goes through all folders below. Outputs keep the folders below the part before the first
+    /// wildcard.
     #[serde(deserialize_with = "deserialize_some")]
     #[schemars(length(min = 1))]
     files: Vec<FilePath>,
@@ -108,15 +109,15 @@ fn deserialize_some<'de, T: Deserialize<'de>, D: serde::Deserializer<'de>>(
     Ok(deserialize_not_empty(deserializer)?.unwrap_or_default())
 }
 
-/// JSON schema of a jobs file, for editors.
+/// Returns the JSON schema of a jobs file, for editors.
 pub fn jobs_schema() -> serde_json::Value {
     schemars::schema_for!(BatchJobsText).to_value()
 }
 
-/// Reads a jobs file; `path` is its own.
+/// Reads a jobs file. `path` is its own path.
 ///
 /// # Errors
-/// Everything that is wrong with it, each at its place.
+/// Returns all its faults, each at its place.
 pub fn load_jobs(source: &Arc<Source>, path: &Path) -> Result<BatchJobs, Failure> {
     let document = YamlDocument::parse(source)?;
     let text: BatchJobsText = document.deserialize_checked(word_jobs_fault)?;
@@ -164,7 +165,7 @@ fn word_jobs_fault(finding: &LocatedYamlFault<'_>) -> Option<(DiagnosticCode, St
     Some((codes::WRONG_TYPE, message, help.to_owned()))
 }
 
-/// Whether a path, joined to a folder, stays in it: no root, no drive, no `..`.
+/// Returns whether a path that is joined to a folder stays inside: it has no root, no drive and no `..`.
 pub(super) fn is_inside_folder(path: &Path) -> bool {
     path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir))
 }

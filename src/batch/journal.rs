@@ -1,4 +1,4 @@
-//! What a batch has done, written down as it goes, so that one that was killed can go on.
+//! This module writes a journal of what a batch has done, so that a batch that was killed can be resumed.
 
 use super::{BatchRecord, LockedFolder, PortablePath};
 use crate::diagnostic::{Diagnostic, Failure, codes};
@@ -10,12 +10,13 @@ use std::io::{self, BufRead, BufReader, Write};
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
-/// A file that was done, and all that its result depends on.
+/// A file that was processed, and everything on which its result depends.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct JournalEntry {
-    /// Of input, recipe with its files, options and version: [`RecipeFingerprint::result_key`](crate::fingerprint::RecipeFingerprint::result_key).
+    /// The digest of the input, the recipe with its files, the options and the version:
+    /// [`RecipeFingerprint::result_key`](crate::fingerprint::RecipeFingerprint::result_key).
     pub key: Digest,
-    /// What became of it.
+    /// What happened to it.
     pub record: BatchRecord,
 }
 
@@ -25,23 +26,23 @@ struct JournalHead {
     batch: Digest,
 }
 
-/// The journal of a run: a line of JSON for every file, written when its output is.
+/// The journal of a run: a line of JSON for every file, which is written after its output.
 ///
-/// A line comes after its output is on the disk, so it never promises too much. It may be lost or torn by a power cut: then
-/// its file is done again.
+/// A line is only written when its output is on the disk, so it never claims too much. A power cut may lose
+/// or damage it; then its file is processed again.
 #[derive(Debug)]
 pub struct BatchJournal {
     file: Mutex<Option<File>>,
 }
 
 impl BatchJournal {
-    /// What was done in a folder before, by this shard or any other: the last word on each file.
+    /// Returns the newest entry of each file that was processed in a folder, by this shard or any other.
     pub fn read_entries(folder: &LockedFolder) -> BTreeMap<(PortablePath, PortablePath), JournalEntry> {
         let mut done = BTreeMap::new();
         for path in folder.folder().list_journals() {
             let Ok(file) = File::open(path) else { continue };
             for line in BufReader::new(file).split(b'\n').map_while(Result::ok) {
-                // What is no whole line was not finished.
+                // A line that is not complete was not finished.
                 if let Ok(entry) = serde_json::from_slice::<JournalEntry>(&line) {
                     done.insert((entry.record.input.clone(), entry.record.output.clone()), entry);
                 }
@@ -50,10 +51,10 @@ impl BatchJournal {
         done
     }
 
-    /// Begins the journal of a run with what is known to be done.
+    /// Begins the journal of a run with the entries of earlier runs.
     ///
     /// # Errors
-    /// What the operating system says.
+    /// Returns the error of the operating system.
     pub fn begin_journal<'d>(
         folder: &LockedFolder,
         batch: Digest,
@@ -64,7 +65,8 @@ impl BatchJournal {
         for done in known {
             text.extend(json_line(done)?);
         }
-        // At once: whoever is killed here has the old journal or the new one.
+        // The file is replaced in one operation, so a process that is killed here leaves the old journal or
+        // the new one.
         folder.folder().temporary_files().write_file_to_end(&path, |out| out.write_all(&text))?;
         Ok(Self { file: Mutex::new(Some(File::options().append(true).open(path)?)) })
     }
@@ -72,7 +74,7 @@ impl BatchJournal {
     /// Adds a file.
     ///
     /// # Errors
-    /// What the operating system says, once: after that nothing more is written.
+    /// Returns the error of the operating system once. After that nothing more is written.
     pub fn add_entry(&self, done: &JournalEntry) -> io::Result<()> {
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         let Some(open) = file.as_mut() else { return Ok(()) };
@@ -85,10 +87,11 @@ impl BatchJournal {
 }
 
 impl LockedFolder {
-    /// Whether other shards that run now are of the same batch; each says in its journal which it is of.
+    /// Checks that other shards that are running belong to the same batch. The journal of each shard states
+    /// its batch.
     ///
     /// # Errors
-    /// [`codes::OUTPUT_IN_USE`] if one is of another.
+    /// Returns [`codes::OUTPUT_IN_USE`] if one belongs to another batch.
     pub(crate) fn check_same_batch(&self, id: Digest) -> Result<(), Failure> {
         for journal in self.list_running_journals() {
             if read_batch_id(&journal).is_some_and(|other| other != id) {
@@ -104,7 +107,7 @@ impl LockedFolder {
     }
 }
 
-/// The batch that a journal is of.
+/// Returns the id of the batch to which a journal belongs.
 fn read_batch_id(path: &Path) -> Option<Digest> {
     let first = BufReader::new(File::open(path).ok()?).split(b'\n').next()?.ok()?;
     serde_json::from_slice::<JournalHead>(&first).ok().map(|head| head.batch)

@@ -1,48 +1,51 @@
-//! Memory: who may start, and who waits until there is room.
+//! This module distributes memory: it decides which file may start, and which waits until enough memory is
+//! free.
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::Path;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Bytes of memory for a byte of CL text: the file, the changed text, and that text read back.
+/// The bytes of memory for each byte of CL text: the file, the changed text, and that text read back.
 ///
-/// Measured on whole runs with steps that change every number (see ARCHITECTURE.md); what a simulation takes for its
-/// stock is not in it.
+/// It was measured on whole runs with steps that change every number (see benches/README.md). The memory of a
+/// simulation's stock is not included.
 pub const PER_BYTE: u64 = 4;
 
-/// Bytes of memory for a line: its statement, changed and read back, and lists that grow by doubling.
+/// The bytes of memory for each line: its statement, changed and read back, and lists that grow by doubling.
 pub const PER_LINE: u64 = 320;
 
-/// Bytes of memory for a comment before a line, where a recipe asks for them and changes every line: the texts before, the
-/// comment's own, its statement, and both read back. Measured on a program whose every number changes.
+/// The bytes of memory for a comment before a line, if a recipe asks for comments and changes every line: the
+/// old texts, the text of the comment, its statement, and both of them read back. It was measured on a
+/// program in which every number changes.
 pub(crate) const PER_COMMENT: u64 = 480;
 
-/// Bytes of memory that a file takes however small it is.
+/// The bytes of memory that even the smallest file needs.
 pub const LEAST: u64 = 4 << 20;
 
-/// So much of a file is looked at, in two places, to know how long its lines are.
+/// The number of bytes that are read in two places of a file to estimate the length of its lines.
 const SAMPLE: u64 = 64 * 1024;
 
-/// What a file of so many bytes and lines is taken to need, in bytes.
+/// Returns the estimated need of memory of a file, in bytes, by its bytes and lines.
 pub fn estimate_memory_bytes(bytes: u64, lines: u64) -> u64 {
     bytes.saturating_mul(PER_BYTE).saturating_add(lines.saturating_mul(PER_LINE)).saturating_add(LEAST)
 }
 
-/// What a file is taken to need, in bytes: from its size, and the lines in samples of it. One that cannot be read needs
-/// little.
+/// Returns the estimated need of memory of a file, in bytes, by its size and the lines in samples of it. A
+/// file that cannot be read needs little.
 pub fn estimate_file_memory_bytes(path: &Path, bytes: u64) -> u64 {
     estimate_memory_bytes(bytes, estimate_line_count(path, bytes).unwrap_or(0))
 }
 
-/// What the comments of a recipe with `provenance: comments` may need beside that: one for every line.
+/// Returns the additional memory that comments may need with `provenance: comments`, one comment for every
+/// line.
 pub(crate) fn estimate_comment_memory_bytes(path: &Path, bytes: u64) -> u64 {
     estimate_line_count(path, bytes).unwrap_or(0).saturating_mul(PER_COMMENT)
 }
 
-/// About how many lines a file has; rather too many.
+/// Estimates the number of lines of a file. The estimate is rather too high.
 fn estimate_line_count(path: &Path, bytes: u64) -> io::Result<u64> {
-    // Opening a pipe would wait for somebody to write.
+    // Opening a pipe would wait for a writer.
     if !std::fs::metadata(path)?.is_file() {
         return Ok(0);
     }
@@ -60,10 +63,10 @@ fn estimate_line_count(path: &Path, bytes: u64) -> io::Result<u64> {
     Ok((most * bytes as f64).ceil() as u64)
 }
 
-/// Files that wait, the largest first, and the room that is left.
+/// The files that wait, with the largest first, and the free memory.
 ///
-/// Large files start first, since the batch is not done before they are, and small ones fill what room they leave. A file
-/// that needs more than all there is runs when nothing else does.
+/// Large files start first, because the batch cannot end before they do, and small ones use the memory that
+/// remains. A file that needs more than the whole memory runs alone.
 #[derive(Debug)]
 pub struct MemoryQueue {
     state: Mutex<MemoryQueueState>,
@@ -79,18 +82,18 @@ struct MemoryQueueState {
     closed: bool,
 }
 
-/// The right to work on a file; room is given back when it is dropped.
+/// The permission to process a file. Its memory becomes free when the ticket is dropped.
 #[derive(Debug)]
 pub struct MemoryTicket<'q> {
     queue: &'q MemoryQueue,
-    /// Which file.
+    /// The index of the file.
     pub file: usize,
-    /// What it is taken to need.
+    /// Its estimated need of memory.
     pub need: u64,
 }
 
 impl MemoryQueue {
-    /// A queue of files, each with its need in bytes, for a budget in bytes.
+    /// Makes a queue of files, each with its need in bytes, for a budget in bytes.
     pub fn new(needs: impl IntoIterator<Item = (usize, u64)>, budget: u64) -> Self {
         let mut waiting: Vec<(usize, u64)> = needs.into_iter().collect();
         waiting.sort_by_key(|&(file, need)| (std::cmp::Reverse(need), file));
@@ -101,7 +104,8 @@ impl MemoryQueue {
         }
     }
 
-    /// The next file, once there is room for it; `None` when none is left or the queue is closed.
+    /// Returns the next file once there is enough memory for it. Returns `None` if no file is left or the
+    /// queue is closed.
     pub fn take_next(&self) -> Option<MemoryTicket<'_>> {
         let mut state = self.lock_state();
         loop {
@@ -120,14 +124,14 @@ impl MemoryQueue {
         }
     }
 
-    /// Lets nobody start any more; who runs, goes on.
+    /// Lets no further file start. Files that are running continue.
     pub fn close_queue(&self) {
         self.lock_state().closed = true;
         self.wake.notify_all();
     }
 
     fn lock_state(&self) -> MutexGuard<'_, MemoryQueueState> {
-        // The counters are right even if a thread died: they change in one go.
+        // The counters are right even if a thread has panicked, because they change under a single lock.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

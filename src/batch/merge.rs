@@ -1,14 +1,16 @@
-//! Results of shards put together.
+//! This module merges the results of shards.
 
 use super::batch_results::{BatchResults, ResultsHead};
 use super::{BatchRecord, FileOutcome, PortablePath, Shard};
 use crate::diagnostic::{Diagnostic, DiagnosticCode, Failure, codes};
 use std::collections::BTreeMap;
 
-/// The results of the whole batch: the same bytes as if one machine had done all of it.
+/// Returns the results of the whole batch. They are the same bytes as if one machine had processed
+/// everything.
 ///
 /// # Errors
-/// Parts of another batch or of another split, parts or files that are there twice, parts or files that are missing.
+/// Returns findings about parts of another batch or another split, and about parts or files that are repeated
+/// or missing.
 pub fn merge_results(parts: Vec<BatchResults>) -> Result<(ResultsHead, Vec<BatchRecord>), Failure> {
     let Some(first) = parts.first() else {
         return Err(report_missing("there are no results to merge".into()).into());
@@ -33,7 +35,7 @@ pub fn merge_results(parts: Vec<BatchResults>) -> Result<(ResultsHead, Vec<Batch
     wrong.extend(twice);
     wrong.extend(find_missing_shards(&parts, shard_count(first)));
     wrong.extend(parts.iter().filter_map(check_record_count));
-    // A part that is there twice has every file twice; one finding says it.
+    // A repeated part repeats all its files, so a single finding about the part is enough.
     if each_once {
         wrong.extend(find_repeated_files(&parts));
     }
@@ -80,7 +82,7 @@ fn find_repeated_shards(parts: &[BatchResults]) -> Vec<Diagnostic> {
                 shard_index(part),
                 shard_count(part)
             );
-            wrong.push(report_at_head(part, codes::NOT_ONE_BATCH, message, "there already"));
+            wrong.push(report_at_head(part, codes::NOT_ONE_BATCH, message, "repeated here"));
         }
     }
     wrong
@@ -100,7 +102,7 @@ fn check_record_count(part: &BatchResults) -> Option<Diagnostic> {
     let files = part.head.shard.as_ref().map_or(part.head.files, |shard| shard.files);
     let message = || format!("{} has {} of {files} files", part.source.name(), part.records.len());
     (files != part.records.len())
-        .then(|| report_at_head(part, codes::RESULTS_MISSING, message(), "more were promised"))
+        .then(|| report_at_head(part, codes::RESULTS_MISSING, message(), "the head announces more"))
 }
 
 fn find_repeated_files(parts: &[BatchResults]) -> Vec<Diagnostic> {

@@ -1,24 +1,24 @@
-//! Many files through recipes: what to do, in which order, within which memory, and how to go on after a
-//! power cut.
+//! This module processes many files with recipes: what to do, in which order, within which memory, and how to
+//! continue after a power cut.
 //!
-//! [`jobs_file`] says what is wanted. [`BatchPlan`] settles which file becomes which output, and refuses
-//! before anything runs: no two outputs meet, and no output is an input. Only the content of a file can make
-//! that file fail, and then it fails alone. [`Shard`] says which part this machine does, [`OutputFolder`]
-//! makes sure that nobody else writes there, `BatchJournal` knows what is done, and [`BatchRun`] does the
-//! rest.
+//! [`jobs_file`] holds what is requested. [`BatchPlan`] decides which file becomes which output, and refuses
+//! faults before anything runs: no two outputs coincide, and no output is an input. After that, only the
+//! content of a file can make it fail, and then only this file fails. [`Shard`] is the part for this machine,
+//! [`OutputFolder`] makes sure that nobody else writes there, `BatchJournal` knows what is done, and
+//! [`BatchRun`] does the rest.
 //!
-//! Every file leaves a [`BatchRecord`]; [`batch_results`] writes the records, and [`merge`] puts those of
-//! several shards together. Records say nothing about time, threads or order, so two runs of one batch can be
+//! Every file leaves a [`BatchRecord`]. [`batch_results`] writes the records, and [`merge`] merges those of
+//! several shards. Records contain nothing about time, threads or order, so two runs of the same batch can be
 //! compared byte for byte.
 //!
-//! The journal promises nothing that is not on the disk: a line follows its output, and a resumed run
-//! believes it only after the digests of input, recipe with its files, options, version and output agree. So
-//! the journal needs no sync, may be torn anywhere, and journals of other shards count as well.
+//! The journal claims nothing that is not on the disk: a line follows its output. A resumed run only relies
+//! on it after the digests of input, recipe with its files, options, version and output agree. So the journal
+//! needs no sync, may be damaged anywhere, and journals of other shards count as well.
 //!
 //! Files run inside one pool of threads, which their steps use too, so the number of threads is that of the
 //! whole batch. Files that wait for memory wait outside the pool. A shard takes every nth file of the sorted
-//! list, not a hash: shards are even to one file, and they are the same wherever the files are the same,
-//! which the batch's id in the results proves.
+//! list, and no hash is involved. So the sizes of shards differ by one file at most, and they are the same
+//! wherever the files are the same, which the batch's id in the results proves.
 
 mod batch_plan;
 mod batch_record;

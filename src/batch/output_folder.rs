@@ -1,4 +1,5 @@
-//! The output folder: what the batch keeps there for itself, and that nobody else writes to it meanwhile.
+//! This module holds the output folder with the batch's own files, and makes sure that nobody else writes to
+//! it meanwhile.
 
 use super::Shard;
 use crate::diagnostic::{Diagnostic, Failure, codes};
@@ -8,41 +9,41 @@ use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// An output folder, and the shard that is to be done.
+/// An output folder, and the shard that is processed.
 ///
-/// The batch keeps a lock (`.clsmith-batch.lock`) and a journal (`.clsmith-batch.journal`) in it; a shard has its own
-/// (`.clsmith-batch-2-of-8.lock`), so shards of one batch may share a folder.
+/// The batch keeps a lock (`.clsmith-batch.lock`) and a journal (`.clsmith-batch.journal`) in it. A shard has
+/// its own (`.clsmith-batch-2-of-8.lock`), so several shards of a batch can use the same folder.
 #[derive(Debug, Clone)]
 pub struct OutputFolder {
     root: PathBuf,
     shard: Option<Shard>,
 }
 
-/// An output folder that is ours until this is dropped, or the process ends, however it ends.
+/// An output folder that is locked until this is dropped or the process ends, in whatever way.
 #[derive(Debug)]
 pub struct LockedFolder {
     folder: OutputFolder,
-    // Closing a file gives its lock back.
+    // Closing a file releases its lock.
     _locks: Vec<File>,
 }
 
 impl OutputFolder {
-    /// A folder, which need not exist yet.
+    /// Makes an output folder, which need not exist yet.
     pub fn new(root: impl Into<PathBuf>, shard: Option<Shard>) -> Self {
         Self { root: root.into(), shard }
     }
 
-    /// Its path.
+    /// Returns its path.
     pub fn root(&self) -> &Path {
         &self.root
     }
 
-    /// The shard.
+    /// Returns the shard.
     pub fn shard(&self) -> Option<Shard> {
         self.shard
     }
 
-    /// Where results go if nobody says otherwise: `results.jsonl`, `results-2-of-8.jsonl`.
+    /// Returns the default path of results: `results.jsonl`, `results-2-of-8.jsonl`.
     pub fn results_path(&self) -> PathBuf {
         self.root.join(match self.shard {
             None => "results.jsonl".to_owned(),
@@ -50,8 +51,8 @@ impl OutputFolder {
         })
     }
 
-    /// Where results go that somebody wants in a file of this name: each shard's in one of its own beside it, `all-2-of-8.jsonl`,
-    /// for shards are given the same command line.
+    /// Returns the path of results with a given name. Every shard gets a file of its own beside it, such as
+    /// `all-2-of-8.jsonl`, because all shards have the same command line.
     pub fn shard_results_path(&self, path: &Path) -> PathBuf {
         let Some(shard) = self.shard else { return path.to_path_buf() };
         let mut name = path.file_stem().unwrap_or_default().to_os_string();
@@ -63,7 +64,7 @@ impl OutputFolder {
         path.with_file_name(name)
     }
 
-    /// How this batch calls its temporary files.
+    /// Returns how this batch names its temporary files.
     pub(crate) fn temporary_files(&self) -> TemporaryFiles {
         TemporaryFiles::for_owner(&match self.shard {
             None => "batch".to_owned(),
@@ -71,12 +72,12 @@ impl OutputFolder {
         })
     }
 
-    /// Whether a path below the folder is a symbolic link.
+    /// Returns whether a path below the folder is a symbolic link.
     pub(super) fn is_link(&self, below: &Path) -> bool {
         fs::symlink_metadata(self.root.join(below)).is_ok_and(|there| there.is_symlink())
     }
 
-    /// Files that no output may be.
+    /// Returns the files that must not be outputs.
     pub(super) fn reserved_paths(&self) -> Vec<PathBuf> {
         let whole = Self::new(&self.root, None);
         vec![self.journal_path(), self.lock_path(), whole.lock_path()]
@@ -86,15 +87,15 @@ impl OutputFolder {
         self.own_path("journal")
     }
 
-    /// Journals of all shards, of whatever splits: each tells what it did.
+    /// Returns the journals of all shards, of any split, because each of them records what it did.
     pub(super) fn list_journals(&self) -> Vec<PathBuf> {
         let names = fs::read_dir(&self.root).into_iter().flatten().flatten().map(|entry| entry.file_name());
         let is_one = |name: &std::ffi::OsString| {
             let name = name.as_encoded_bytes();
-            name.starts_with(OWN.as_bytes()) && name.ends_with(b".journal")
+            name.starts_with(OWN_FILE_PREFIX.as_bytes()) && name.ends_with(b".journal")
         };
         let mut found: Vec<PathBuf> = names.filter(is_one).map(|name| self.root.join(name)).collect();
-        // One's own last: it is the one that counts.
+        // The journal of this shard comes last, because it has priority.
         let own = self.journal_path();
         found.sort_by(|a, b| (*a == own, a).cmp(&(*b == own, b)));
         found
@@ -106,16 +107,16 @@ impl OutputFolder {
 
     fn own_path(&self, kind: &str) -> PathBuf {
         self.root.join(match self.shard {
-            None => format!("{OWN}.{kind}"),
-            Some(shard) => format!("{OWN}-{}.{kind}", shard.file_name_part()),
+            None => format!("{OWN_FILE_PREFIX}.{kind}"),
+            Some(shard) => format!("{OWN_FILE_PREFIX}-{}.{kind}", shard.file_name_part()),
         })
     }
 
-    /// Makes the folder, if it is not there, and takes it.
+    /// Creates the folder if it does not exist, and locks it.
     ///
     /// # Errors
-    /// [`codes::OUTPUT_IN_USE`] while another batch, or this shard, runs there; [`codes::UNWRITABLE`] if it cannot be made,
-    /// written to or locked.
+    /// Returns [`codes::OUTPUT_IN_USE`] while another batch, or this shard, runs there, and
+    /// [`codes::UNWRITABLE`] if the folder cannot be created, written to or locked.
     pub fn lock_folder(self) -> Result<LockedFolder, Failure> {
         fs::create_dir_all(&self.root).map_err(|error| report_unwritable(&self.root, &error))?;
         let whole = Self::new(&self.root, None).lock_path();
@@ -123,7 +124,7 @@ impl OutputFolder {
         match self.shard {
             None => locks.push(self.lock_one_file(&whole, File::try_lock)?),
             Some(_) => {
-                // Shards share the folder with each other, but not with a batch that does all of it.
+                // The lock is shared among shards, but not with a batch that processes everything.
                 locks.push(self.lock_one_file(&whole, File::try_lock_shared)?);
                 locks.push(self.lock_one_file(&self.lock_path(), File::try_lock)?);
             }
@@ -149,25 +150,25 @@ impl OutputFolder {
                 Err(Diagnostic::new(codes::OUTPUT_IN_USE, message).into())
             }
             Err(TryLockError::Error(error)) => Err(Diagnostic::new(codes::UNWRITABLE, format!("{} cannot be locked: {error}", path.display()))
-                    .with_help("The file system must know locks (flock); some network shares are mounted without. Choose another output folder.").into()),
+                    .with_help("The file system must support locks (flock), which some network drives do not. Choose another output folder.").into()),
         }
     }
 }
 
-/// What the batch's own files begin with.
-const OWN: &str = ".clsmith-batch";
+/// The beginning of the names of the batch's own files.
+const OWN_FILE_PREFIX: &str = ".clsmith-batch";
 
 fn report_unwritable(path: &Path, error: &io::Error) -> Failure {
     Diagnostic::new(codes::UNWRITABLE, format!("{} cannot be written: {error}", path.display())).into()
 }
 
 impl LockedFolder {
-    /// The folder.
+    /// Returns the folder.
     pub fn folder(&self) -> &OutputFolder {
         &self.folder
     }
 
-    /// Journals of other shards that run now.
+    /// Returns the journals of other shards that are running.
     pub(super) fn list_running_journals(&self) -> Vec<PathBuf> {
         let whole = OutputFolder::new(self.folder.root.clone(), None).lock_path();
         let runs = |journal: &PathBuf| {
@@ -181,8 +182,8 @@ impl LockedFolder {
         self.folder.list_journals().into_iter().filter(runs).collect()
     }
 
-    /// Removes temporary files that this batch left beside its outputs (below the folder) when it was killed; how many. Those of other shards stay: they may be in
-    /// use.
+    /// Removes temporary files that this batch left beside its outputs (below the folder) when it was killed.
+    /// Returns their number. Those of other shards stay, because they may be in use.
     pub fn remove_leftovers<'o>(&self, outputs: impl Iterator<Item = &'o Path>) -> usize {
         let temporaries = self.folder.temporary_files();
         let below = outputs.filter_map(Path::parent);

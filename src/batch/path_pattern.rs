@@ -1,7 +1,8 @@
-//! Patterns for files: `programs/**/*.cls`.
+//! This module expands patterns for files: `programs/**/*.cls`.
 //!
-//! Expanded here and not by a shell, so that it is the same on every system, the length of command lines is no limit, and
-//! the folders below the pattern's fixed part can be kept. globset matches bytes, so names need not be UTF-8.
+//! They are expanded here and not by a shell. So the result is the same on every system, the length of
+//! command lines does not matter, and the folders below the pattern's fixed part can be kept. globset matches
+//! bytes, so names need not be UTF-8.
 
 use globset::{GlobBuilder, GlobMatcher};
 use std::ffi::OsStr;
@@ -9,52 +10,52 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 use walkdir::WalkDir;
 
-/// What a pattern led to.
+/// The matches of a pattern.
 #[derive(Debug, Default)]
 pub(super) struct PatternMatches {
     pub files: Vec<MatchedFile>,
-    /// Links that lead back to a folder they are in, and that folder.
+    /// Links that lead back to a folder above them, with that folder.
     pub loops: Vec<(PathBuf, PathBuf)>,
 }
 
-/// A file that a pattern fits.
+/// A file that matches a pattern.
 #[derive(Debug)]
 pub(super) struct MatchedFile {
-    /// Its path, as the pattern begins.
+    /// Its path, which begins like the pattern.
     pub path: PathBuf,
     /// Its path below the pattern's fixed part.
     pub below: PathBuf,
 }
 
-/// Why a pattern leads to nothing.
+/// The reason why a pattern matches nothing.
 #[derive(Debug)]
 pub(super) enum NoMatchReason {
     /// It is no pattern.
     Bad(PathPatternError),
-    /// Nothing fits it.
+    /// Nothing matches it.
     Nothing,
     /// It is a folder.
     Folder,
-    /// A folder cannot be looked into.
+    /// A folder cannot be read.
     Unreadable(PathBuf, io::Error),
 }
 
-/// Why a text is no pattern.
+/// The reason why a text is no pattern.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum PathPatternError {
-    /// The path goes back behind a wildcard.
+    /// The path goes back after a wildcard.
     #[error("`.` and `..` may only stand in front of the first wildcard")]
     DotsAfterWildcard,
-    /// The wildcards are written wrongly.
+    /// The wildcards are not valid.
     #[error("{}", .0.kind())]
     Glob(#[from] globset::Error),
 }
 
-/// The files that a pattern fits, seen from the folder `base`; the folder `not_in` is not looked into.
+/// Returns the files that match a pattern, relative to the folder `base`. The folder `not_in` is skipped.
 ///
-/// What exists under the pattern's own name is that file, whatever characters it has. `*` and `?` stay within a folder, `**`
-/// goes through all below; hidden files and folders are found where the pattern names their dot. Links are followed, except
-/// in a circle.
+/// If a file has the pattern itself as its name, the pattern is that file, whatever characters it contains.
+/// `*` and `?` stay within a folder, and `**` goes through all folders below. Hidden files and folders are
+/// only found if the pattern names their dot. Links are followed, except in a circle.
 pub(super) fn find_files(
     base: &Path,
     written: &OsStr,
@@ -77,14 +78,14 @@ pub(super) fn find_files(
         return Err(NoMatchReason::Nothing);
     }
     let pattern = PathPattern::new(rest).map_err(NoMatchReason::Bad)?;
-    // By its parts: without the separator at its end.
+    // Taking the components removes the separator at the end.
     let fixed: PathBuf = Path::new(fixed).components().collect();
     let root: PathBuf = base.join(&fixed).components().collect();
     let found = walk_folder(&root, &fixed, &pattern, not_in)?;
     if found.files.is_empty() { Err(NoMatchReason::Nothing) } else { Ok(found) }
 }
 
-/// The folders in front of the first wildcard, and the rest.
+/// Returns the folders before the first wildcard, and the rest.
 fn split_at_wildcard(text: &str) -> (&str, &str) {
     let Some(wild) = text.find(['*', '?', '[', '{']) else { return (text, "") };
     let start = text.get(..wild).and_then(|head| head.rfind(std::path::is_separator)).map_or(0, |at| at + 1);
@@ -93,7 +94,7 @@ fn split_at_wildcard(text: &str) -> (&str, &str) {
 
 struct PathPattern {
     whole: GlobMatcher,
-    /// Parts of the pattern that begin with a dot.
+    /// The parts of the pattern that begin with a dot.
     hidden: Vec<GlobMatcher>,
     depth: usize,
 }
@@ -114,7 +115,7 @@ impl PathPattern {
         Ok(Self { whole, hidden, depth })
     }
 
-    /// Whether every hidden part of a path is one that the pattern names.
+    /// Returns whether the pattern names every hidden part of a path.
     fn allows_hidden(&self, below: &Path) -> bool {
         below.components().all(|part| match part {
             Component::Normal(name) if name.as_encoded_bytes().starts_with(b".") => {
@@ -135,7 +136,7 @@ fn walk_folder(
     pattern: &PathPattern,
     not_in: Option<&Path>,
 ) -> Result<PatternMatches, NoMatchReason> {
-    // The walk's own paths begin with this.
+    // The paths of the walk begin with this.
     let root = if root.as_os_str().is_empty() { Path::new(".") } else { root };
     let mut found = PatternMatches::default();
     let walk = WalkDir::new(root).follow_links(true).min_depth(1).max_depth(pattern.depth);
@@ -169,9 +170,9 @@ fn walk_folder(
 
 enum WalkFailure<'e> {
     Loop(PathBuf, PathBuf),
-    /// A link to nothing: reading it will say so.
+    /// A link without a target. Reading it will report the error.
     File(&'e Path),
-    /// Nothing of ours.
+    /// An entry that does not matter.
     Passed,
 }
 
@@ -192,7 +193,7 @@ fn classify_walk_error<'e>(
         return Ok(WalkFailure::File(path));
     }
     match error.io_error().map(|error| io::Error::new(error.kind(), error.to_string())) {
-        // The fixed part, or a folder that went away meanwhile.
+        // This is the fixed part, or a folder that was removed meanwhile.
         Some(error) if error.kind() == io::ErrorKind::NotFound => Ok(WalkFailure::Passed),
         Some(error) if matches!(error.kind(), io::ErrorKind::NotADirectory) => Ok(WalkFailure::Passed),
         Some(error) => Err(NoMatchReason::Unreadable(path.to_path_buf(), error)),

@@ -1,4 +1,4 @@
-//! Names of files, whatever their encoding.
+//! This module holds the names of files, whatever their encoding.
 
 use serde::de::{self, Deserialize, Deserializer};
 use serde::{Serialize, Serializer};
@@ -6,15 +6,16 @@ use std::borrow::Cow;
 use std::fmt;
 use std::path::Path;
 
-/// A path as journals and results carry it: no byte is lost, and the same on every machine.
+/// A path as journals and results contain it. No byte is lost, and it is the same on every machine.
 ///
-/// In JSON a name in UTF-8 is a string. One that is not is `{ "lossy": "part�.cls", "hex": "70617274ff2e636c73" }`: what people
-/// read, and the bytes of the name (WTF-8 on Windows). Folders are separated by `/`. Names are ordered by their bytes.
+/// In JSON, a name in UTF-8 is a string. Any other name is `{ "lossy": "part�.cls", "hex":
+/// "70617274ff2e636c73" }`: the text for people, and the bytes of the name (WTF-8 on Windows). Folders are
+/// separated by `/`. Names are ordered by their bytes.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PortablePath(Vec<u8>);
 
 impl PortablePath {
-    /// The name of a path.
+    /// Makes the name of a path.
     pub fn from_path(path: &Path) -> Self {
         let mut bytes = path.as_os_str().as_encoded_bytes().to_vec();
         if std::path::MAIN_SEPARATOR == '\\' {
@@ -23,12 +24,13 @@ impl PortablePath {
         Self(bytes)
     }
 
-    /// The bytes of the name.
+    /// Returns the bytes of the name.
     pub fn bytes(&self) -> &[u8] {
         &self.0
     }
 
-    /// The name in upper and lower case alike: on some disks `A.cls` and `a.cls` are one file. What is no UTF-8 stays.
+    /// Returns the name with upper and lower case made equal, because on some disks `A.cls` and `a.cls` are
+    /// the same file. Names that are not UTF-8 stay.
     pub(crate) fn fold_case(&self) -> Vec<u8> {
         match std::str::from_utf8(&self.0) {
             Ok(text) => text.to_lowercase().into_bytes(),
@@ -38,9 +40,9 @@ impl PortablePath {
 }
 
 impl fmt::Display for PortablePath {
-    /// For people: on one line, whatever the name holds.
+    /// Writes the name for people, on one line whatever it contains.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // A name must not be able to talk to the terminal.
+        // A name must not be able to send control characters to the terminal.
         f.write_str(&String::from_utf8_lossy(&self.0).replace(char::is_control, "?"))
     }
 }

@@ -1,13 +1,13 @@
-//! Which part of a batch this machine does.
+//! This module holds the part of a batch that a machine processes.
 
 use std::fmt;
 use std::str::FromStr;
 
-/// One of several parts of a batch, written `2/8`: counted from 1.
+/// One of several parts of a batch, written `2/8` and counted from 1.
 ///
-/// File k of the list sorted by name belongs to shard `k mod N`. So the parts are as many files, give or take one;
-/// neighbours, which are often alike, are spread; and every machine that sees the same files makes the same parts,
-/// whatever order its disk lists them in.
+/// File k of the list sorted by name belongs to shard `k mod N`. So the sizes of the parts differ by one file
+/// at most. Neighbours, which are often alike, are distributed. And every machine that sees the same files
+/// makes the same parts, whatever the order on its disk.
 ///
 /// ```
 /// use clsmith::batch::Shard;
@@ -24,27 +24,27 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// Part `index` of `count`; `None` unless `1 <= index <= count`.
+    /// Makes part `index` of `count`. Returns `None` unless `1 <= index <= count`.
     pub fn new(index: u32, count: u32) -> Option<Self> {
         (1..=count).contains(&index).then_some(Self { index, count })
     }
 
-    /// Which part, from 1.
+    /// Returns the index of the part, from 1.
     pub fn index(self) -> u32 {
         self.index
     }
 
-    /// How many parts there are.
+    /// Returns the number of parts.
     pub fn count(self) -> u32 {
         self.count
     }
 
-    /// Whether file `position` (from 0) of the sorted list belongs to this part.
+    /// Returns whether file `position` (from 0) of the sorted list belongs to this part.
     pub fn contains(self, position: usize) -> bool {
         position as u64 % u64::from(self.count) == u64::from(self.index - 1)
     }
 
-    /// As part of a file's name: `2-of-8`.
+    /// Returns the part as it occurs in file names: `2-of-8`.
     pub fn file_name_part(self) -> String {
         format!("{}-of-{}", self.index, self.count)
     }
@@ -56,7 +56,7 @@ impl fmt::Display for Shard {
     }
 }
 
-/// Why a text names no shard.
+/// The reason why a text names no shard.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BadShard {
@@ -64,9 +64,9 @@ pub enum BadShard {
     #[error("a shard is written I/N: 1/8 to 8/8")]
     NotTwoNumbers,
     /// The first shard has the number 1.
-    #[error("shards count from 1: 1/{count} to {count}/{count}; where the scheduler counts from 0, add 1")]
+    #[error("shards count from 1: 1/{count} to {count}/{count}; if the scheduler counts from 0, add 1")]
     CountedFromZero {
-        /// The number of shards that the text asks for.
+        /// The number of shards that the text requests.
         count: u32,
     },
     /// The number is larger than the count, or the count is too large.

@@ -1,4 +1,4 @@
-//! A batch for people.
+//! This module summarizes a batch for people.
 
 use super::{BatchRecord, FileOutcome};
 use crate::report::table::{Column, ColumnUnit, DisplayUnits, PrintedTable, TableLooks, TableValue};
@@ -6,11 +6,12 @@ use crate::report::text_format::{format_count, format_counted, format_duration};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// Files that failed are listed up to here.
-const LISTED: usize = 20;
+/// The largest number of failed files that are listed.
+const MOST_LISTED: usize = 20;
 
-/// The summary: how many files ended how, by recipe; findings by code; files that failed. `before` of them were done by
-/// an earlier run; `seconds` is how long this one took, if anybody knows.
+/// Returns the summary: the number of files by outcome and recipe, the findings by code, and the files that
+/// failed. An earlier run has processed `before` of them. `seconds` is the duration of this run, if it is
+/// known.
 pub fn summary_to_text(records: &[BatchRecord], before: usize, seconds: Option<f64>) -> String {
     let mut text = format_counted(records.len(), "file", "files");
     if let Some(seconds) = seconds {
@@ -32,7 +33,7 @@ pub fn summary_to_text(records: &[BatchRecord], before: usize, seconds: Option<f
     if !failed.is_empty() {
         text.push_str("\nFailed, and not written (what an earlier run wrote of them stays):\n");
     }
-    for record in failed.iter().take(LISTED) {
+    for record in failed.iter().take(MOST_LISTED) {
         let error = record.findings.iter().find(|found| found.severity == "error");
         let why = error.map_or(String::new(), |found| {
             let line = found.line.map_or(String::new(), |line| format!("line {line}: "));
@@ -40,13 +41,13 @@ pub fn summary_to_text(records: &[BatchRecord], before: usize, seconds: Option<f
         });
         let _ = writeln!(text, "  {}: {}", record.input, why.replace(char::is_control, "?"));
     }
-    if failed.len() > LISTED {
-        let _ = writeln!(text, "  and {} more", format_count((failed.len() - LISTED) as u64));
+    if failed.len() > MOST_LISTED {
+        let _ = writeln!(text, "  and {} more", format_count((failed.len() - MOST_LISTED) as u64));
     }
     text
 }
 
-/// The files of one recipe, or all of them.
+/// The files of one recipe, or of all recipes.
 struct RecipeRow<'a> {
     name: String,
     records: Vec<&'a BatchRecord>,

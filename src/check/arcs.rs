@@ -1,4 +1,4 @@
-//! Arcs, splines and rapids: what the motions found wrong, and arcs at rapid.
+//! This module checks arcs, splines and rapids: the problems that motions met, and arcs at rapid.
 
 use super::{Lint, LintFindings};
 use crate::diagnostic::{DiagnosticCode, codes};
@@ -20,10 +20,10 @@ pub(super) const CODES: &[DiagnosticCode] = &[
     codes::BROKEN_FRAME,
 ];
 
-/// Below this many millimetres no control refuses an arc.
+/// No control refuses an arc for an error below this, in mm.
 const REFUSED_FROM: f64 = 0.01;
 
-/// The problems that the state machine of motions reports.
+/// Reports the problems that the state machine of motions has met.
 #[derive(Default)]
 pub(super) struct MotionProblemLint;
 
@@ -45,19 +45,19 @@ impl Lint for MotionProblemLint {
             MotionProblemKind::ArcEndOffCircle(off) => return report_end_off_circle(at, *off, motion, found),
             MotionProblemKind::ArcStartOffCircle(off) => return report_radius_difference(at, *off, found),
             MotionProblemKind::UnknownStart => {
-                (codes::UNKNOWN_START, "it is not known where the tool is before this".to_owned(), "")
+                (codes::UNKNOWN_START, "the position of the tool before this is not known".to_owned(), "")
             }
             MotionProblemKind::TangentMismatch => {
-                let message = "the start direction and the arc do not fit each other".to_owned();
+                let message = "the start direction and the arc contradict each other".to_owned();
                 (codes::TANGENT_MISMATCH, message, "this arc, with the INDIRV before it")
             }
             MotionProblemKind::BrokenSpline => (
                 codes::BROKEN_SPLINE,
-                "the knots and control points of this spline do not fit".to_owned(),
+                "the knots and control points of this spline do not match".to_owned(),
                 "",
             ),
             MotionProblemKind::AssumedSense => {
-                let message = "nothing tells the sense of this arc; right-hand was assumed".to_owned();
+                let message = "nothing states the sense of this arc; right-hand was assumed".to_owned();
                 return found.report(
                     codes::ASSUMED_SENSE,
                     axis_span(at, found),
@@ -107,7 +107,7 @@ fn choose_code(code: DiagnosticCode, off: f64, found: &LintFindings<'_>) -> Diag
     if off < found.mm_to_file_unit(REFUSED_FROM) { codes::ARC_ROUGH } else { code }
 }
 
-/// Arcs and splines at rapid.
+/// Reports arcs and splines at rapid.
 #[derive(Default)]
 pub(super) struct RapidArcLint;
 

@@ -1,4 +1,4 @@
-//! Tool axes and axes of arcs: unit length, MULTAX, and jumps.
+//! This module checks tool axes and axes of arcs: their length, MULTAX, and jumps.
 
 use super::{Lint, LintFindings};
 use crate::diagnostic::codes;
@@ -8,13 +8,13 @@ use crate::program::{Dialect, Record, Statement, StatementId};
 use nalgebra::Vector3;
 use std::ops::Range;
 
-/// Rounding to three decimals, the coarsest that hand-written axes have, stays below this.
+/// Rounding to three decimals stays below this. Hand-written axes have at least three.
 const UNIT_TOLERANCE: f64 = 1e-3;
 
-/// Beyond this the numbers are no axis that was rounded or mistyped in its last digits, but something else.
+/// Numbers that are off by more than this are not an axis that was rounded or mistyped in its last digits.
 const NO_AXIS_FROM: f64 = 0.1;
 
-/// Axes that are no unit vectors.
+/// Reports axes that are no unit vectors.
 #[derive(Default)]
 pub(super) struct UnitAxisLint;
 
@@ -34,7 +34,7 @@ impl Lint for UnitAxisLint {
             Record::MoveArc(arc) => (&arc.axis, 3..6),
             _ => return,
         };
-        // Squares first: 1.6 million roots are saved in a large file.
+        // The square is compared first, which saves 1.6 million square roots in a large file.
         if (axis.norm_squared() - 1.0).abs() > UNIT_TOLERANCE {
             report_axis(id, axis, place, found);
         }
@@ -57,10 +57,10 @@ fn report_axis(id: StatementId, axis: &Vector3<f64>, place: Range<usize>, found:
     }
 }
 
-/// Axes closer than this (the sine of the angle, squared) are one axis: half a hundredth of a degree.
+/// Axes with a smaller squared sine of their angle are the same axis. It is half a hundredth of a degree.
 const SAME_AXIS: f64 = 1e-8;
 
-/// An axis that changes without MULTAX, in the dialects that write it.
+/// Reports an axis that changes without MULTAX, in the dialects that write it.
 #[derive(Default)]
 pub(super) struct MultaxLint {
     on: bool,
@@ -99,13 +99,14 @@ fn writes_multax(dialect: Dialect) -> bool {
     matches!(dialect, Dialect::Catia | Dialect::CatiaIcam | Dialect::Creo | Dialect::CreoGpost)
 }
 
-/// Cosine of 45 degrees: a feed motion that turns the axis farther is asked about.
+/// The cosine of 45 degrees. A feed motion that turns the axis farther is reported.
 const JUMP_COSINE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// Axes that turn far within one feed motion.
+/// Reports axes that turn far within one feed motion.
 #[derive(Default)]
 pub(super) struct AxisJumpLint {
-    /// The axis was set by a record of its own, or an operation begins: the next motion does not interpolate it.
+    /// Whether the axis was set by a record of its own, or an operation has begun. Then the next motion does
+    /// not interpolate it.
     set: bool,
 }
 
@@ -120,7 +121,7 @@ impl Lint for AxisJumpLint {
         }
         let (from, to) = (motion.from.axis, motion.to.axis);
         let cosine = from.dot(&to);
-        // Axes that are no axes have their own finding.
+        // Axes that are no unit vectors have a finding of their own.
         if cosine >= JUMP_COSINE
             || matches!(motion.path, MotionPath::Start)
             || from.norm() < 0.9

@@ -1,4 +1,4 @@
-//! Cutter compensation: left on, switched in an arc, on at rapid, changing sides.
+//! This module checks cutter compensation: left on, switched in an arc, on at rapid, changing sides.
 
 use super::{Lint, LintFindings};
 use crate::diagnostic::{DiagnosticCode, codes};
@@ -40,7 +40,7 @@ impl CompensationLint {
                 self.rapid_reported = false;
             }
             CutterCompensation::Off => self.switched = self.on.take().map(|_| id),
-            // The side comes with the next CUTCOM.
+            // The next CUTCOM states the side.
             CutterCompensation::Armed => {}
         }
     }

@@ -1,4 +1,4 @@
-//! Drilling cycles: left on, without holes, without depth.
+//! This module checks drilling cycles: left on, without holes, without depth.
 
 use super::{Lint, LintFindings};
 use crate::diagnostic::{DiagnosticCode, codes};
@@ -94,7 +94,8 @@ fn check_cycle(id: StatementId, cycle: &DrillingCycle, found: &mut LintFindings<
     }
 }
 
-/// The first number of the cycle with a value: which word governs it only the record's reader knows.
+/// Returns the place of the first number of the cycle with a value. Only the reader of the record knows which
+/// word governs it.
 fn number_span(id: StatementId, value: f64, found: &LintFindings<'_>) -> crate::source::Span {
     let numbers = found.statement_syntax(id).numbers();
     match numbers.iter().find(|(_, found)| *found == value) {

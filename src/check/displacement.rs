@@ -1,4 +1,5 @@
-//! What a step did to the points: moved, raised, turned, scaled, mirrored; found by comparing with the file as it was read.
+//! This module finds out what a step did to the points (moved, raised, rotated, scaled or mirrored) by
+//! comparing them with the file as it was read.
 
 use crate::number;
 use crate::program::geometry::SAME_POINT;
@@ -6,23 +7,25 @@ use crate::program::record::Goto;
 use crate::program::{Program, Record, Statement, StatementChange, StepId};
 use nalgebra::{Point3, Vector3};
 
-/// What happened to the points that a step signed.
+/// What happened to the points that a step has signed.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Displacement {
-    /// The program, or a part of it, was put elsewhere. A correction of some points, each in its own way, is no such move.
+    /// The program, or a part of it, was moved. A correction of some points, each in its own manner, is no
+    /// such move.
     pub(super) moved: bool,
-    /// It was, and at least one z is another.
+    /// It was moved, and at least one z has changed.
     pub(super) raised: bool,
-    /// Not all points moved alike: turned, scaled or bent.
+    /// Not all points moved alike: they were rotated, scaled or bent.
     pub(super) uneven: bool,
-    /// Most distances between points are others.
+    /// Most distances between points have changed.
     pub(super) scaled: bool,
     /// Left and right are swapped.
     pub(super) mirrored: bool,
 }
 
 impl Displacement {
-    /// Compares every point that `step` edited with the file's bytes. Linear, and without the grammar.
+    /// Compares every point that `step` edited with the bytes of the file. It takes linear time and does
+    /// without the grammar.
     pub(super) fn measure_step(program: &Program, step: StepId) -> Self {
         let mut tally = DisplacementTally {
             old_axis: Vector3::z(),
@@ -45,21 +48,22 @@ impl Displacement {
     }
 }
 
-/// A point before and after.
+/// A point before and after the step.
 #[derive(Clone, Copy)]
 struct PointPair {
     old: Point3<f64>,
     new: Point3<f64>,
 }
 
-/// What the comparison has counted so far.
+/// The counts of the comparison so far.
 #[derive(Default)]
 struct DisplacementTally {
-    /// Points of the program.
+    /// The number of points in the program.
     points: usize,
-    /// Those that are elsewhere.
+    /// The number of points that have moved.
     moved: usize,
-    /// Points that cannot be compared, and records that are no GOTO: a shift is the least that happened to them.
+    /// Whether there are points that cannot be compared, or records other than GOTO. These were shifted at
+    /// least.
     others: bool,
     raised: bool,
     uneven: bool,
@@ -67,10 +71,10 @@ struct DisplacementTally {
     last: [Option<PointPair>; 2],
     old_axis: Vector3<f64>,
     new_axis: Vector3<f64>,
-    /// Length of the moves that kept their length, and of those that did not.
+    /// The length of the moves that kept their length, and of those that did not.
     kept: f64,
     stretched: f64,
-    /// Turns (by area) that stayed on their side, and those that did not.
+    /// The area of the turns that kept their side, and of those that did not.
     same: f64,
     swapped: f64,
 }
@@ -101,8 +105,8 @@ impl DisplacementTally {
         self.last = [last, Some(pair)];
     }
 
-    /// A mirror turns the sign of axis · (a × b), a rotation does not. Weighed by area: the turns of nearly straight moves are
-    /// rounding.
+    /// A mirror reverses the sign of axis · (a × b), and a rotation does not. The turns are weighted by their
+    /// area, because the turns of nearly straight moves are rounding.
     fn add_turn(&mut self, old: Vector3<f64>, new: Vector3<f64>) {
         let (old, new) = (self.old_axis.dot(&old), self.new_axis.dot(&new));
         let area = old.abs().min(new.abs());
@@ -127,7 +131,7 @@ impl DisplacementTally {
     }
 }
 
-/// Point and axis of a GOTO as the file has it.
+/// Returns point and axis of a GOTO as the file has them.
 fn original_point(program: &Program, statement: &Statement) -> Option<(Point3<f64>, Option<Vector3<f64>>)> {
     let text = program.source().slice(statement.origin());
     let slash = memchr::memchr(b'/', text)?;

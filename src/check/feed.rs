@@ -1,4 +1,4 @@
-//! Feeds: missing, zero, implausible, per revolution of a spindle that stands, inverse time.
+//! This module checks feeds: missing, zero, implausible, per revolution of a spindle at rest, inverse time.
 
 use super::{Lint, LintFindings};
 use crate::diagnostic::{DiagnosticCode, codes};
@@ -14,14 +14,14 @@ pub(super) const CODES: &[DiagnosticCode] = &[
     codes::INVERSE_TIME,
 ];
 
-/// mm/min: rapids are below it on every machine.
+/// The largest plausible feed in mm/min. Rapids are below it on every machine.
 const FASTEST: f64 = 100_000.0;
-/// mm/min: a feed per revolution is below it, a feed per minute above.
+/// The smallest plausible feed per minute in mm/min. Numbers below it are feeds per revolution.
 const SLOWEST: f64 = 0.5;
-/// mm/rev: coarser than any thread.
+/// The largest plausible feed in mm/rev. It is coarser than any thread.
 const COARSEST: f64 = 25.0;
 
-/// Each FEDRAT (and each cycle's feed) is looked at once, at the first cut that uses it.
+/// Checks each FEDRAT (and each cycle's feed) once, at the first cut that uses it.
 #[derive(Default)]
 pub(super) struct FeedLint {
     missing: bool,
@@ -67,12 +67,12 @@ fn check_feed(feed: Feed, from: StatementId, motion: &Motion, found: &mut LintFi
     }
     if let Some(what) = describe_implausible(feed, found) {
         let span = found.role_span(from, NumberRole::Feed);
-        found.report(codes::IMPLAUSIBLE_FEED, span, format!("a feed of {what} is hardly meant"), "");
+        found.report(codes::IMPLAUSIBLE_FEED, span, format!("a feed of {what} is hardly intended"), "");
     }
     if unit.is_per_revolution() && !motion.spindle.as_ref().is_some_and(|spindle| spindle.on) {
         let at = (found.role_span(from, NumberRole::Feed), "per revolution");
         let cut = (found.end_point_span(motion), "no spindle turns at this motion");
-        let message = "the feed is per revolution, but the spindle stands";
+        let message = "the feed is per revolution, but the spindle does not turn";
         found.report_at_two_spans(codes::FEED_PER_REVOLUTION_WITHOUT_SPINDLE, message, at, cut);
     }
 }

@@ -1,4 +1,4 @@
-//! Text: what is readable here, but perhaps not for the post.
+//! This module checks text that is readable here, but perhaps not for the post.
 
 use super::{Lint, LintFindings};
 use crate::diagnostic::{DiagnosticCode, codes};
@@ -9,7 +9,7 @@ use crate::source::Span;
 pub(super) const LINE_CODES: &[DiagnosticCode] =
     &[codes::LONG_LINE, codes::MIXED_LINE_ENDS, codes::NO_LAST_LINE_END, codes::BYTE_ORDER_MARK];
 
-/// Missing commas and unusual numbers.
+/// Reports missing commas and unusual numbers.
 #[derive(Default)]
 pub(super) struct FieldLint;
 
@@ -57,8 +57,9 @@ impl Lint for FieldLint {
     }
 }
 
-/// Whether a statement may hold a missing comma or an unusual number: one pass over its bytes, so that the grammar is not
-/// run over every statement again. Says yes too often rather than too seldom.
+/// Returns whether a statement may contain a missing comma or an unusual number. A single pass over its bytes
+/// saves running the grammar over every statement again. The answer may be yes for a correct statement, but
+/// never no for a faulty one.
 fn is_suspect(text: &[u8]) -> bool {
     let Some(slash) = memchr::memchr(b'/', text) else { return false };
     let (mut before, mut ink, mut blank) = (b'/', b'/', false);
@@ -67,7 +68,7 @@ fn is_suspect(text: &[u8]) -> bool {
             b' ' | b'\t' => blank = true,
             b'+' => return true,
             b'E' | b'e' | b'D' | b'd' if before.is_ascii_digit() || before == b'.' => return true,
-            // The rest of the line is comment.
+            // The rest of the line is a comment.
             b'$' => (ink, blank) = (b',', false),
             b'\r' | b'\n' => blank = false,
             _ => {
@@ -82,10 +83,10 @@ fn is_suspect(text: &[u8]) -> bool {
     false
 }
 
-/// The columns that processors of CATIA and Creo files read.
+/// The number of columns that processors of CATIA and Creo files read.
 const COLUMNS: usize = 72;
 
-/// Long lines, and how lines end.
+/// Checks the length of lines, and how they end.
 #[derive(Default)]
 pub(super) struct LineLint {
     /// The first kind of line end: with CR or without.

@@ -1,4 +1,4 @@
-//! What lints report with: facts about the whole file, and precise places in it.
+//! This module gives lints what they report with: facts about the whole file, and exact places in it.
 
 use crate::diagnostic::{Diagnostic, DiagnosticCode};
 use crate::number::format_trimmed_number;
@@ -12,18 +12,18 @@ use crate::program::{
 use crate::source::Span;
 use std::ops::Range;
 
-/// What a lint may have to know of the whole file before it meets the statement in question.
+/// The facts about the whole file that a lint may need before it sees the statement in question.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct ProgramFacts {
-    /// A SPINDL stands somewhere.
+    /// Whether a SPINDL occurs in the file.
     pub(crate) spindle: bool,
-    /// A tool is loaded, named or described somewhere.
+    /// Whether a tool is loaded, named or described in the file.
     pub(crate) tool: bool,
-    /// Coolant is switched on somewhere.
+    /// Whether coolant is switched on in the file.
     pub(crate) coolant: bool,
-    /// A wire-erosion path: no spindle, no feed, no cutting edge.
+    /// Whether it is a wire-erosion path, which has no spindle, no feed and no cutting edge.
     pub(crate) wire: bool,
-    /// The unit of lengths, where the file says it.
+    /// The unit of lengths, if the file states it.
     pub(crate) units: Option<LengthUnit>,
 }
 
@@ -50,15 +50,15 @@ impl ProgramFacts {
     }
 }
 
-/// Whether a statement switches coolant on or off; `None` when it is no COOLNT, or one with an empty list (CATIA through
-/// ICAM), of which only the post knows what it means.
+/// Returns whether a statement switches coolant on or off. Returns `None` if it is no COOLNT, or one with an
+/// empty list (CATIA through ICAM), whose meaning only the post knows.
 pub(crate) fn coolant_switch(text: &[u8]) -> Option<bool> {
     let rest = text.trim_ascii_start().strip_prefix(b"COOLNT")?;
     let word = rest.trim_ascii_start().strip_prefix(b"/").unwrap_or_default().trim_ascii();
     (!word.is_empty()).then_some(word != b"OFF")
 }
 
-/// The findings so far, and how to point at statements.
+/// The findings so far, and the places of statements.
 #[derive(Debug)]
 pub(crate) struct LintFindings<'p> {
     pub(crate) program: &'p Program,
@@ -71,7 +71,7 @@ impl<'p> LintFindings<'p> {
         Self { program, facts: ProgramFacts::from_program(program), list: Vec::new() }
     }
 
-    /// The findings in the order of the file; those about the whole file last.
+    /// Returns the findings in the order of the file. Those about the whole file come last.
     pub(crate) fn finish(mut self) -> Vec<Diagnostic> {
         self.list.sort_by_key(|found| {
             (found.labels.first().map_or(u32::MAX, |label| label.span.start), found.code)
@@ -83,7 +83,7 @@ impl<'p> LintFindings<'p> {
         self.list.push(found);
     }
 
-    /// Reports one finding at one place.
+    /// Reports a finding at one place.
     pub(crate) fn report(
         &mut self,
         code: DiagnosticCode,
@@ -95,7 +95,7 @@ impl<'p> LintFindings<'p> {
         self.push(found);
     }
 
-    /// Reports one finding at two places, the first of them the primary.
+    /// Reports a finding at two places, the first of which is the primary one.
     pub(crate) fn report_at_two_spans(
         &mut self,
         code: DiagnosticCode,
@@ -110,17 +110,18 @@ impl<'p> LintFindings<'p> {
         self.push(found);
     }
 
-    /// The text of a statement as it stands.
+    /// Returns the text of a statement as it stands.
     pub(crate) fn statement_text(&self, id: StatementId) -> &'p [u8] {
         self.program.statement_text(self.program.statement(id))
     }
 
-    /// A statement, taken apart by the grammar. Slow: only where there is something to report.
+    /// Returns a statement, split into its parts by the grammar. It is slow, so it is only for statements
+    /// with a finding.
     pub(crate) fn statement_syntax(&self, id: StatementId) -> StatementSyntax<'p> {
         parse::syntax(self.statement_text(id))
     }
 
-    /// A statement's bytes in the source, without the blanks and line ends around them.
+    /// Returns a statement's bytes in the source, without the blanks and line ends around them.
     pub(crate) fn statement_span(&self, id: StatementId) -> Span {
         let statement = self.program.statement(id);
         let text = self.program.source().slice(statement.origin());
@@ -129,7 +130,8 @@ impl<'p> LintFindings<'p> {
         statement.origin().sub_span(start, end)
     }
 
-    /// A place in a statement's text. A statement that a step changed has no such place in the source: all of it is meant.
+    /// Returns the place in the source of a range in a statement's text. A statement that a step has changed
+    /// has no such place, so its whole place is returned.
     pub(crate) fn text_span(&self, id: StatementId, at: &Range<usize>) -> Span {
         let statement = self.program.statement(id);
         if statement.change() != StatementChange::Untouched || at.is_empty() {
@@ -138,12 +140,12 @@ impl<'p> LintFindings<'p> {
         statement.origin().sub_span(at.start, at.end)
     }
 
-    /// The major word of a statement.
+    /// Returns the place of a statement's major word.
     pub(crate) fn word_span(&self, id: StatementId) -> Span {
         self.text_span(id, &self.statement_syntax(id).word)
     }
 
-    /// The numbers of a statement from the first to the last of a range, as one place.
+    /// Returns the place from the first to the last of a range of a statement's numbers.
     pub(crate) fn numbers_span(&self, id: StatementId, range: Range<usize>) -> Span {
         let plain = plain_number_ranges(self.statement_text(id));
         let numbers = plain
@@ -155,7 +157,7 @@ impl<'p> LintFindings<'p> {
         }
     }
 
-    /// The first number of a statement that has a role.
+    /// Returns the place of a statement's first number with a role.
     pub(crate) fn role_span(&self, id: StatementId, role: NumberRole) -> Span {
         let syntax = self.statement_syntax(id);
         let roles = self.program.statement(id).record().number_roles(&syntax);
@@ -165,18 +167,20 @@ impl<'p> LintFindings<'p> {
         }
     }
 
-    /// The point that a motion ends with.
+    /// Returns the place of the point at which a motion ends.
     pub(crate) fn end_point_span(&self, motion: &Motion) -> Span {
         let at = motion.last_statement();
         match self.program.statement(at).record() {
-            // Centre, radius, the 2 of `2,INTOF` where it stands, and the two ends of the LINE.
+            // The numbers are centre, radius, the 2 of `2,INTOF` if there is one, and the two ends of the
+            // LINE.
             Record::DriveArc(arc) if arc.beyond_half => self.numbers_span(at, 8..11),
             Record::DriveArc(_) => self.numbers_span(at, 7..10),
             _ => self.numbers_span(at, 0..3),
         }
     }
 
-    /// Whether a motion is one at feed that goes somewhere. The way home is none: posts drive it as they like.
+    /// Returns whether a motion is at feed and goes somewhere. GOHOME does not count, because posts decide
+    /// how to drive it.
     pub(crate) fn is_cutting_motion(&self, motion: &Motion) -> bool {
         if motion.rapid {
             return false;
@@ -192,7 +196,7 @@ impl<'p> LintFindings<'p> {
         }
     }
 
-    /// A length with its unit, where the file says one.
+    /// Formats a length with its unit, if the file states one.
     pub(crate) fn format_length(&self, value: f64) -> String {
         let unit = match self.facts.units {
             Some(LengthUnit::Mm) => " mm",
@@ -202,14 +206,15 @@ impl<'p> LintFindings<'p> {
         format!("{}{unit}", format_trimmed_number(value, 4))
     }
 
-    /// A length in the file's unit from one in millimetres.
+    /// Converts a length from millimetres to the file's unit.
     pub(crate) fn mm_to_file_unit(&self, value: f64) -> f64 {
         value / self.facts.units.unwrap_or_default().mm_per_unit()
     }
 }
 
-/// Where the numbers of a plain GOTO stand, without the grammar: a file may have a finding in each of a million. `None` for
-/// anything that is not digits, commas and blanks after the slash, continued lines included.
+/// Returns the places of the numbers of a plain GOTO without the grammar, because a file may have a finding
+/// in each of a million statements. Returns `None` if there is anything but digits, commas and blanks after
+/// the slash, or if the statement is continued.
 fn plain_number_ranges(text: &[u8]) -> Option<Vec<Range<usize>>> {
     let slash = memchr::memchr(b'/', text)?;
     let rest = text.get(slash + 1..)?.trim_ascii_end();

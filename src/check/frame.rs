@@ -1,4 +1,4 @@
-//! Frames whose axes are not perpendicular unit vectors, or mirror.
+//! This module checks frames whose axes are no perpendicular unit vectors, or whose axes mirror.
 
 use super::{Lint, LintFindings};
 use crate::diagnostic::codes;
@@ -8,10 +8,10 @@ use crate::program::{Record, Statement, StatementId};
 use crate::source::Span;
 use nalgebra::Matrix3;
 
-/// Frames of records, and CATIA's in comments.
+/// Checks the frames of records, and those of CATIA in comments.
 #[derive(Default)]
 pub(super) struct FrameLint {
-    /// Rows of a CATIA0 matrix: their statements and numbers.
+    /// The rows of a CATIA0 matrix: their statements and numbers.
     rows: Option<Vec<(StatementId, [f64; 4])>>,
 }
 
@@ -21,7 +21,8 @@ impl Lint for FrameLint {
             Record::Frame(frame) => {
                 let axes = match (frame.word, frame.numbers.as_slice()) {
                     (FrameWord::Msys, [_, _, _, a, b, c, d, e, f]) => {
-                        // The third axis is the product of the others: two unit vectors at right angles make a frame.
+                        // The third axis is the cross product of the others, so two perpendicular unit
+                        // vectors make a frame.
                         let (x, y) = (nalgebra::Vector3::new(*a, *b, *c), nalgebra::Vector3::new(*d, *e, *f));
                         Matrix3::from_columns(&[x, y, x.cross(&y)])
                     }
@@ -51,7 +52,7 @@ impl Lint for FrameLint {
 
 fn check_axes(axes: &Matrix3<f64>, places: &[StatementId], found: &mut LintFindings<'_>) {
     let off = (axes.transpose() * axes - Matrix3::identity()).abs().max();
-    // The grammar is asked for the decimals only where they matter.
+    // The grammar is only asked for the decimals if they matter.
     if off > 1e-12 && off > rounding_tolerance(places, found) {
         let message = format!("the axes of this frame are off perpendicular unit vectors by {off:.6}");
         found.report(codes::FRAME_SKEWED, frame_span(places, found), message, "");
@@ -65,8 +66,9 @@ fn check_axes(axes: &Matrix3<f64>, places: &[StatementId], found: &mut LintFindi
     }
 }
 
-/// What rounding explains: each component is off by half its last decimal, and a product of two axes by twice the root of
-/// three of that. Three decimals are granted to files that cut their zeros.
+/// Returns the error that rounding explains. Each component is off by half its last decimal, and a product of
+/// two axes by twice the square root of three of that. Files that omit trailing zeros are assumed to have
+/// three decimals.
 fn rounding_tolerance(places: &[StatementId], found: &LintFindings<'_>) -> f64 {
     let of = |id: &StatementId| {
         let syntax = found.statement_syntax(*id);

@@ -1,8 +1,8 @@
-//! Checking: what a programmer wants to know before the post does.
+//! This module checks programs. It tells programmers what they want to know before the post is run.
 //!
-//! A lint is a file (or a small family in one) and one line in [`LINTS`]. All lints see the program once, together:
-//! statements in order, each motion after the statements that make it, and the problems that the motions met. Memory and
-//! time are linear; the grammar runs again only where there is something to point at.
+//! A lint is a file (or a small family in one) and one line in [`LINTS`]. All lints see the program in a
+//! single pass: statements in order, each motion after the statements that make it, and the problems that the
+//! motions met. Memory and time are linear. The grammar only runs again where there is something to point at.
 
 mod arcs;
 mod axis;
@@ -31,9 +31,10 @@ use crate::source::Source;
 use findings::LintFindings;
 use std::sync::Arc;
 
-/// Reads a file and checks it: the program, and everything that reading and checking find, reading first.
+/// Reads a file and checks it. Returns the program and the findings of reading and checking, with those of
+/// reading first.
 ///
-/// A file that is no CL data has the one finding that says so.
+/// A file that is no CL data has a single finding that says so.
 ///
 /// ```
 /// use clsmith::check::read_and_check;
@@ -57,13 +58,13 @@ pub fn read_and_check(source: &Arc<Source>, dialect: Option<Dialect>) -> (Progra
     (program, diagnostics)
 }
 
-/// One check, with what it has to remember of the program so far.
+/// A check, with its memory of the program so far.
 trait Lint {
-    /// A live statement, in order.
+    /// Checks a live statement. Statements come in order.
     fn check_statement(&mut self, _id: StatementId, _statement: &Statement, _found: &mut LintFindings<'_>) {}
-    /// A motion, after its statements.
+    /// Checks a motion, after its statements.
     fn check_motion(&mut self, _motion: &Motion, _found: &mut LintFindings<'_>) {}
-    /// A problem that the motions met; with the motion it belongs to, where there is one.
+    /// Checks a problem that the motions met, with the motion to which it belongs if there is one.
     fn check_problem(
         &mut self,
         _problem: &MotionProblem,
@@ -71,7 +72,7 @@ trait Lint {
         _found: &mut LintFindings<'_>,
     ) {
     }
-    /// The end of the program.
+    /// Checks the end of the program.
     fn finish(&mut self, _found: &mut LintFindings<'_>) {}
 }
 
@@ -82,12 +83,12 @@ pub struct LintRow {
     new: fn() -> Box<dyn Lint>,
 }
 
-/// A row of a lint that starts with nothing to remember.
+/// Makes a row for a lint that starts without memory.
 const fn lint_row<L: Lint + Default + 'static>(codes: &'static [DiagnosticCode]) -> LintRow {
     LintRow { codes, new: || Box::new(L::default()) }
 }
 
-/// Every lint. A new one is one line here, and its file.
+/// All lints. A new one needs a line here, and its file.
 pub const LINTS: &[LintRow] = &[
     lint_row::<arcs::MotionProblemLint>(arcs::CODES),
     lint_row::<arcs::RapidArcLint>(&[codes::RAPID_ARC]),
@@ -113,9 +114,9 @@ pub const LINTS: &[LintRow] = &[
     lint_row::<fields_and_lines::LineLint>(fields_and_lines::LINE_CODES),
 ];
 
-/// Checks a program. Findings come in the order of the file; those about the whole file come last.
+/// Checks a program. Findings come in the order of the file, and those about the whole file come last.
 ///
-/// What could not be read at all is not repeated here: [`crate::parse::parse`] has reported it.
+/// What could not be read at all is not repeated here, because [`crate::parse::parse`] has reported it.
 pub fn check_program(program: &Program) -> Vec<Diagnostic> {
     let mut found = LintFindings::new(program);
     let mut lints: Vec<Box<dyn Lint>> = LINTS.iter().map(|row| (row.new)()).collect();

@@ -1,4 +1,4 @@
-//! Points: repeated ones, ones far away, none at all, and a last one in the material.
+//! This module checks points: repeated ones, distant ones, none at all, and a last one in the material.
 
 use super::{Lint, LintFindings};
 use crate::diagnostic::{Diagnostic, codes};
@@ -7,10 +7,10 @@ use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::program::{Record, Statement, StatementId};
 
-/// Millimetres: a hundred metres.
+/// A hundred metres in mm.
 const FAR: f64 = 1e5;
 
-/// Repeated and distant points, and files without any.
+/// Reports repeated and distant points, and files without any.
 #[derive(Default)]
 pub(super) struct PointLint {
     moved: bool,
@@ -53,7 +53,8 @@ impl Lint for PointLint {
     }
 }
 
-/// Tools that are left in a cut. Only marked motions count: without marks a retract cannot be told from a cut.
+/// Reports tools that are left in a cut. Only marked motions count, because without marks a retract looks
+/// like a cut.
 #[derive(Default)]
 pub(super) struct LeftInCutLint {
     cut: Option<StatementId>,

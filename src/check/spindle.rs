@@ -1,4 +1,4 @@
-//! Spindle and coolant: cuts without them.
+//! This module reports cuts without spindle or coolant.
 
 use super::findings::coolant_switch;
 use super::{Lint, LintFindings};
@@ -9,7 +9,7 @@ use crate::program::{Record, Statement, StatementId};
 pub(super) const CODES: &[DiagnosticCode] =
     &[codes::CUT_WITHOUT_SPINDLE, codes::NO_SPINDLE, codes::ZERO_SPEED, codes::SPINDLE_NOT_RESTARTED];
 
-/// Cuts while the spindle stands.
+/// Reports cuts while the spindle does not turn.
 #[derive(Default)]
 pub(super) struct SpindleLint {
     /// The last SPINDL/OFF, while it is in force.
@@ -17,7 +17,7 @@ pub(super) struct SpindleLint {
     /// Whether the stop in force was reported.
     reported: bool,
     tool: Option<u32>,
-    /// A tool change, until SPINDL comes after it.
+    /// A tool change without a SPINDL after it yet.
     changed: Option<StatementId>,
 }
 
@@ -64,7 +64,7 @@ impl Lint for SpindleLint {
             );
         }
         self.reported = true;
-        let message = "the spindle stands at this feed motion";
+        let message = "the spindle does not turn at this feed motion";
         match self.off {
             _ if !found.facts.spindle => {
                 found.report(
@@ -88,7 +88,7 @@ impl Lint for SpindleLint {
     }
 }
 
-/// Cuts without the coolant that the file uses elsewhere.
+/// Reports cuts without the coolant that the file uses elsewhere.
 #[derive(Default)]
 pub(super) struct CoolantLint {
     on: bool,

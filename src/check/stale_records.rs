@@ -1,7 +1,8 @@
-//! Records that a step has left behind: they describe where the points were before it moved them.
+//! This module finds records that a step has left behind: they describe where the points were before it moved
+//! them.
 //!
-//! What counts as left behind is decided by what the step did to the points, seen by comparing them with the file as it was
-//! read, and by what the record means:
+//! Whether a record counts as left behind depends on what the step did to the points, which is found by
+//! comparing them with the file as it was read, and on what the record means:
 //!
 //! - MSYS: never. Points are printed in it, and moving them inside it is what such a step is for.
 //! - `$$*CATIA0`, `$$-> CSYS`, CAMERA: after any move. They tie the printed coordinates to the part and are already applied
@@ -12,8 +13,8 @@
 //!   the stock, which has no place: when the points did not all move alike.
 //! - Distances in a CYCLE: when the points were scaled. The side of CUTCOM: when they were mirrored.
 //!
-//! A record that the step itself edited was handled and is not reported. A step that corrects some points, each in its own way
-//! (ramps, leads), moves nothing in this sense; one that moves a whole operation does.
+//! A record that the step itself has edited is not reported. A step that corrects some points, each in its
+//! own manner (ramps, leads), moves nothing in this sense. One that moves a whole operation does.
 
 use super::displacement::Displacement;
 use super::findings::LintFindings;
@@ -26,10 +27,11 @@ use std::collections::BTreeSet;
 pub const STALE_CODES: &[DiagnosticCode] =
     &[codes::STALE_FRAME, codes::STALE_HEIGHT, codes::STALE_CYCLE, codes::STALE_COMPENSATION];
 
-/// The records that `step` should have changed with the points, and did not. Empty when it edited no point.
+/// Returns the records that `step` should have changed together with the points, but did not. The list is
+/// empty if it edited no point.
 ///
-/// Call it directly after the step: a later step signs what it edits anew. Points are compared with the file as it was read,
-/// not with the program before the step.
+/// It should be called directly after the step, because later steps sign what they edit. Points are compared
+/// with the file as it was read, not with the program before the step.
 pub fn find_stale_records(program: &Program, step: StepId) -> Vec<Diagnostic> {
     let displacement = Displacement::measure_step(program, step);
     let mut found = LintFindings::new(program);
@@ -72,7 +74,7 @@ fn explain_stale_record(
     Some(record)
 }
 
-/// Whether a record with coordinates of its own no longer fits the points.
+/// Returns why a record with coordinates of its own does not match the points any more.
 fn explain_stale_coordinates(text: &[u8], did: &Displacement) -> Option<&'static str> {
     let text = crate::program::fold_text(text.trim_ascii());
     let (word, rest) = text.split_once('/')?;
@@ -91,10 +93,10 @@ fn explain_stale_coordinates(text: &[u8], did: &Displacement) -> Option<&'static
     }
 }
 
-/// Cosine of about half a degree.
+/// The cosine of about half a degree.
 const SAME_AXIS: f64 = 0.999_96;
 
-/// SolidWorks' frames whose z axis no longer is the tool axis of the points.
+/// Reports SolidWorks' frames whose z axis is not the tool axis of the points any more.
 fn report_turned_frames(step: StepId, found: &mut LintFindings<'_>) {
     let program = found.program;
     if program.dialect() != Dialect::SolidWorks {
@@ -125,7 +127,8 @@ mod tests {
 
     const STEP: StepId = StepId(3);
 
-    /// The codes that are stale after each GOTO was put through `change`, and the texts they point at.
+    /// Returns the codes that are stale after each GOTO was put through `change`, and the texts they point
+    /// at.
     fn after(text: &str, change: impl Fn([f64; 6]) -> [f64; 6]) -> Vec<(&'static str, String)> {
         let source = Source::new("part", text.as_bytes().to_vec()).unwrap();
         let mut program = parse(&source, None).program;
@@ -168,7 +171,7 @@ mod tests {
 
     const SQUARE: &str = "GOTO/0.0,0.0,0.0\nGOTO/9.0,0.0,0.0\nGOTO/9.0,9.0,0.0\nGOTO/0.0,9.0,4.0\n";
 
-    /// Which of the changes leave a record behind, in the order shift, raise, turn, scale, mirror.
+    /// Returns which of the changes leave a record behind, in the order shift, raise, turn, scale, mirror.
     fn left_by(head: &str, code: &'static str) -> [bool; 5] {
         let text = format!("{head}{SQUARE}");
         let changes: [fn([f64; 6]) -> [f64; 6]; 5] = [shift, raise, turn, scale, mirror];

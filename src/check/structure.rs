@@ -1,11 +1,11 @@
-//! Structure: operations that are open or empty, and the end of the program.
+//! This module checks structure: operations that are open or empty, and the end of the program.
 
 use super::{Lint, LintFindings};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::motion::Motion;
 use crate::program::{Dialect, Record, Statement, StatementId, operation};
 
-/// Operations that are not closed or do nothing, in the dialects that close them.
+/// Reports operations that are not closed or do nothing, in the dialects that close them.
 #[derive(Default)]
 pub(super) struct OperationLint {
     open: Option<StatementId>,
@@ -56,18 +56,18 @@ fn quoted_operation_name(at: StatementId, found: &LintFindings<'_>) -> String {
     name.filter(|name| !name.is_empty()).map(|name| format!(" `{name}`")).unwrap_or_default()
 }
 
-/// CATIA marks the end of an operation in the PC's language only.
+/// Returns whether the dialect closes operations. CATIA only marks their end in the language of the PC.
 fn closes_operations(dialect: Dialect) -> bool {
     matches!(dialect, Dialect::Nx | Dialect::Creo | Dialect::CreoGpost | Dialect::CamWorks)
 }
 
-/// FINI: missing, or with something after it.
+/// Reports a missing FINI, and statements after it.
 #[derive(Default)]
 pub(super) struct ProgramEndLint {
     end: Option<StatementId>,
-    /// The first statement after the end, and how many there are.
+    /// The first statement after the end, and their number.
     after: Option<(StatementId, usize)>,
-    /// How many of them move the tool.
+    /// The number of these that move the tool.
     motions: usize,
 }
 

@@ -1,4 +1,4 @@
-//! Tools: none, without a shape, with an impossible one, with two, with two numbers.
+//! This module checks tools: none, without a shape, with an impossible one, with two, with two numbers.
 
 use super::{Lint, LintFindings};
 use crate::diagnostic::{DiagnosticCode, codes};
@@ -16,19 +16,19 @@ pub(super) const CODES: &[DiagnosticCode] = &[
     codes::TOOL_SHAPES_DIFFER,
 ];
 
-/// Shapes closer than this (in the file's unit) are one: the fourth decimal.
+/// Dimensions that differ by less than this (in the file's unit) are equal. It is the fourth decimal.
 const SAME_SHAPE: f64 = 1e-4;
 
-/// The tools that cut, looked at once each time they change.
+/// Checks the tools that cut, once each time they change.
 #[derive(Default)]
 pub(super) struct ToolShapeLint {
     none_reported: bool,
     last: Option<Arc<ActiveTool>>,
-    /// The statement of the shape in force.
+    /// The statement that gives the shape in force.
     data: Option<StatementId>,
-    /// Whether the shape in force has cut.
+    /// Whether the tool has cut with the shape in force.
     used: bool,
-    /// Whether the shape in force is that of an earlier tool.
+    /// Whether the shape in force belongs to an earlier tool.
     outdated: bool,
     /// Whether a turret has turned since the last tool number.
     turret: bool,
@@ -45,7 +45,8 @@ impl Lint for ToolShapeLint {
                 self.outdated |= self.used && other;
                 self.turret = false;
             }
-            // A lathe's turret turns to a tool that has no number of its own here: the number in force is another tool's.
+            // The turret of a lathe turns to a tool without a number here, so the number in force belongs to
+            // another tool.
             Record::Known
                 if found.program.statement_text(statement).trim_ascii_start().starts_with(b"TURRET") =>
             {
@@ -71,7 +72,7 @@ impl Lint for ToolShapeLint {
             (None, _) if self.without_shape.insert(tool.number) => {
                 let name =
                     tool.number.map_or_else(|| "this tool".to_owned(), |number| format!("tool {number}"));
-                let message = format!("the file does not tell the shape of {name}");
+                let message = format!("the file does not give the shape of {name}");
                 found.report(
                     codes::TOOL_SHAPE_MISSING,
                     found.end_point_span(motion),
@@ -142,7 +143,7 @@ fn report_impossible_shape(data: &ToolData, at: StatementId, found: &mut LintFin
         found.report(codes::IMPOSSIBLE_TOOL, span, "a tool without a diameter cuts", "no diameter");
     } else if let Some(corner) = data.corner_radius.filter(|corner| *corner > diameter / 2.0 + SAME_SHAPE) {
         let message = format!(
-            "a corner radius of {} does not fit a diameter of {}",
+            "a corner radius of {} is impossible for a diameter of {}",
             found.format_length(corner),
             found.format_length(diameter)
         );
@@ -155,7 +156,7 @@ fn report_impossible_shape(data: &ToolData, at: StatementId, found: &mut LintFin
     }
 }
 
-/// TOOLNO and the load after it.
+/// Compares TOOLNO with the load after it.
 #[derive(Default)]
 pub(super) struct ToolNumberLint {
     named: Option<(u32, StatementId)>,

@@ -1,11 +1,11 @@
-//! Units of lengths and feeds that contradict each other.
+//! This module finds units of lengths and feeds that contradict each other.
 
 use super::{Lint, LintFindings};
 use crate::diagnostic::codes;
 use crate::program::motion::Motion;
 use crate::program::{LengthUnit, NumberRole, Record, Statement, StatementId};
 
-/// UNITS records.
+/// Checks UNITS records.
 #[derive(Default)]
 pub(super) struct LengthUnitLint {
     stated: Option<(LengthUnit, StatementId)>,
@@ -44,7 +44,7 @@ impl Lint for LengthUnitLint {
     }
 }
 
-/// Feeds in another unit than the lengths, or than the feeds before.
+/// Reports feeds in another unit than the lengths, or than the feeds before.
 #[derive(Default)]
 pub(super) struct FeedUnitLint {
     first: Option<LengthUnit>,
@@ -59,7 +59,7 @@ impl Lint for FeedUnitLint {
             _ => None,
         };
         let Some(unit) = feed.and_then(|feed| feed.unit) else { return };
-        // PERMIN and PERREV take the file's unit and cannot contradict it.
+        // PERMIN and PERREV have the file's unit and cannot contradict it.
         let (Some(mm), Some(inch)) = (unit.length_unit(LengthUnit::Mm), unit.length_unit(LengthUnit::Inch))
         else {
             return;

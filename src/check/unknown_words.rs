@@ -1,11 +1,11 @@
-//! Words that clsmith does not know.
+//! This module reports words that clsmith does not know.
 
 use super::{Lint, LintFindings};
 use crate::diagnostic::codes;
 use crate::program::{Record, Statement, StatementId};
 
-/// Words whose loss changes what the machine does.
-const MATTER: &[&str] = &[
+/// Words without which the machine would do something else.
+const IMPORTANT_WORDS: &[&str] = &[
     "GOTO",
     "FROM",
     "GOHOME",
@@ -41,7 +41,7 @@ const MATTER: &[&str] = &[
     "END-OF-PATH",
 ];
 
-/// Unknown words, and those that look like a slip.
+/// Reports unknown words, and those that are probably misspelt.
 #[derive(Default)]
 pub(super) struct UnknownWordLint {
     ended: bool,
@@ -50,14 +50,14 @@ pub(super) struct UnknownWordLint {
 impl Lint for UnknownWordLint {
     fn check_statement(&mut self, id: StatementId, statement: &Statement, found: &mut LintFindings<'_>) {
         self.ended |= matches!(statement.record(), Record::ProgramEnd);
-        // What stands after the end has its own finding.
+        // Statements after the end of the program have a finding of their own.
         if self.ended || !matches!(statement.record(), Record::Other) {
             return;
         }
         let syntax = found.statement_syntax(id);
         let major = syntax.major_word();
         let span = found.text_span(id, &syntax.word);
-        let meant = MATTER.iter().find(|word| strsim::osa_distance(&major, word) == 1);
+        let meant = IMPORTANT_WORDS.iter().find(|word| strsim::osa_distance(&major, word) == 1);
         match meant {
             Some(word) => {
                 let message = format!("`{major}` is not known; did you mean `{word}`?");

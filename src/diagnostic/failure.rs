@@ -1,12 +1,13 @@
-//! How a function of the library fails: with findings, or because somebody asked it to stop.
+//! This module tells how a function of the library fails: with findings, or because it was asked to stop.
 
 use super::Diagnostic;
 use std::fmt;
 
-/// Why a function of the library ended without a result.
+/// The reason why a function of the library ended without a result.
 ///
-/// Every function that can end with findings or by an interruption returns `Result<T, Failure>`. An interruption
-/// is never a finding: it travels as [`Failure::Interrupted`] from where it is noticed up to the command.
+/// Every function that can end with findings or by an interruption returns `Result<T, Failure>`. An
+/// interruption is never a finding: it travels as [`Failure::Interrupted`] from where it is noticed up to the
+/// command.
 ///
 /// ```
 /// use clsmith::diagnostic::{Diagnostic, Failure, codes};
@@ -19,15 +20,15 @@ use std::fmt;
 /// ```
 #[derive(Debug, Clone)]
 pub enum Failure {
-    /// What stands in the way, in the order in which it was found; never empty. Findings of lower severity that
-    /// were made on the way may stand before the errors.
+    /// The findings that prevented a result, in the order in which they were found. There is at least one.
+    /// Findings of lower severity that were made earlier may come before the errors.
     Found(Vec<Diagnostic>),
-    /// Somebody asked the work to stop (Ctrl-C). Nothing is wrong, and nothing is told.
+    /// The work was asked to stop (Ctrl-C). Nothing is wrong, and nothing is reported.
     Interrupted,
 }
 
 impl Failure {
-    /// Puts findings that were made before the failure in front of it. An interruption stays one.
+    /// Puts findings that were made before the failure in front of it. An interruption stays an interruption.
     #[must_use]
     pub fn after(self, mut earlier: Vec<Diagnostic>) -> Self {
         match self {
@@ -39,7 +40,8 @@ impl Failure {
         }
     }
 
-    /// Changes every finding, to add the place of a caller to it, say. An interruption stays one.
+    /// Changes every finding, for example to add the place of a caller. An interruption stays an
+    /// interruption.
     #[must_use]
     pub fn map_findings(self, change: impl FnMut(Diagnostic) -> Diagnostic) -> Self {
         match self {
@@ -48,7 +50,7 @@ impl Failure {
         }
     }
 
-    /// The findings; none after an interruption.
+    /// Returns the findings. An interruption has none.
     pub fn into_findings(self) -> Vec<Diagnostic> {
         match self {
             Self::Found(found) => found,
@@ -56,7 +58,7 @@ impl Failure {
         }
     }
 
-    /// The findings; none after an interruption.
+    /// Returns the findings. An interruption has none.
     pub fn findings(&self) -> &[Diagnostic] {
         match self {
             Self::Found(found) => found,
@@ -79,12 +81,12 @@ impl From<Box<Diagnostic>> for Failure {
 
 impl From<Vec<Diagnostic>> for Failure {
     fn from(found: Vec<Diagnostic>) -> Self {
-        debug_assert!(!found.is_empty(), "who fails says why");
+        debug_assert!(!found.is_empty(), "a failure has findings");
         Self::Found(found)
     }
 }
 
-/// The messages of all findings, a line each; for programs that have no renderer of findings.
+/// Writes the messages of all findings, one on each line, for programs without a renderer of findings.
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -1,4 +1,5 @@
-//! Diagnostics as plain data: a code from the catalogue, a message, and labels into files.
+//! This module holds diagnostics as plain data: a code from the catalogue, a message, and labels that point
+//! into files.
 //!
 //! Nothing here prints. `report::render` turns diagnostics into text for people, JSON or SARIF.
 
@@ -13,14 +14,14 @@ use crate::source::{Source, Span};
 use std::fmt;
 use std::sync::Arc;
 
-/// How bad it is. Nothing is written while an [`Severity::Error`] stands.
+/// The severity of a finding. Nothing is written while there is an [`Severity::Error`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
-    /// Worth knowing; off unless asked for.
+    /// It is worth knowing. Notes are only shown on request.
     Note,
-    /// The program may do something its author did not mean.
+    /// The program may do something that its author did not intend.
     Warning,
-    /// The program or recipe is wrong; nothing is written.
+    /// The program or the recipe is wrong, and nothing is written.
     Error,
 }
 
@@ -34,19 +35,19 @@ impl fmt::Display for Severity {
     }
 }
 
-/// A place in a file and what is to be seen there.
+/// A place in a file, with a text about it.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct DiagnosticLabel {
-    /// The file: a CL file, a recipe, a setup file.
+    /// The file: a CL file, a recipe or a setup file.
     pub source: Arc<Source>,
-    /// The bytes meant.
+    /// The bytes that are meant.
     pub span: Span,
-    /// What is to be seen there; may be empty.
+    /// The text about the place, which may be empty.
     pub message: String,
 }
 
-/// One finding, with its places. The first label is the primary one.
+/// A finding with its places. The first label is the primary one.
 ///
 /// ```
 /// use clsmith::diagnostic::{Diagnostic, codes};
@@ -66,13 +67,13 @@ pub struct DiagnosticLabel {
 pub struct Diagnostic {
     /// Its entry in the catalogue.
     pub code: DiagnosticCode,
-    /// The catalogue's severity, unless `--deny` or `--allow` changed it.
+    /// The severity of the catalogue, unless `--deny` or `--allow` has changed it.
     pub severity: Severity,
-    /// One sentence, specific to this finding.
+    /// A sentence about this particular finding.
     pub message: String,
-    /// Where; empty for findings about a whole file or run.
+    /// The places. They are empty for findings about a whole file or run.
     pub labels: Vec<DiagnosticLabel>,
-    /// What to do; the catalogue's help unless the finding knows better.
+    /// What to do. It is the help of the catalogue, unless the finding has a better one.
     pub help: Option<String>,
     /// Whether `--allow` named its code. It is then counted and shown as allowed by hand, and stops nothing.
     pub is_allowed: bool,
@@ -84,7 +85,7 @@ pub struct Diagnostic {
 }
 
 impl Diagnostic {
-    /// A finding with the catalogue's severity and help.
+    /// Makes a finding with the severity and the help of the catalogue.
     pub fn new(code: DiagnosticCode, message: impl Into<String>) -> Self {
         let help = (!code.help().is_empty()).then(|| code.help().to_owned());
         Self {
@@ -99,14 +100,14 @@ impl Diagnostic {
         }
     }
 
-    /// Adds a place; the first one added is the primary.
+    /// Adds a place. The first one that is added is the primary one.
     #[must_use]
     pub fn with_label(mut self, source: &Arc<Source>, span: Span, message: impl Into<String>) -> Self {
         self.labels.push(DiagnosticLabel { source: Arc::clone(source), span, message: message.into() });
         self
     }
 
-    /// Replaces the catalogue's help by one that fits this finding.
+    /// Replaces the help of the catalogue by a help for this finding.
     #[must_use]
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());

@@ -38,19 +38,20 @@ impl Interrupt {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// Returns an error if a stop was requested. [`WriteError`] recognizes it, since `Write` knows `io::Error` alone.
+    /// Returns an error if a stop was requested. [`WriteError`] recognizes it, since `Write` knows
+    /// `io::Error` alone.
     pub(super) fn check(&self) -> io::Result<()> {
         if self.is_raised() { Err(io::Error::other(WriteInterrupted)) } else { Ok(()) }
     }
 }
 
-/// Why a file was not written.
+/// The reason why a file was not written.
 #[derive(Debug, thiserror::Error)]
 pub enum WriteError {
     /// A stop was requested.
     #[error("stopped before the file was complete")]
     Interrupted,
-    /// The system or the writer of the content says so.
+    /// The error came from the system or from the writer of the content.
     #[error(transparent)]
     Io(io::Error),
 }

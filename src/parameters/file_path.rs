@@ -1,4 +1,4 @@
-//! Paths of files that a recipe or setup file names.
+//! This module holds the paths of files that a recipe or a setup file names.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer, Visitor};
@@ -6,22 +6,22 @@ use std::borrow::Cow;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// A path as it is written: relative to the folder of the file that names it, or absolute. Never empty.
+/// A path as it is written: relative to the folder of the file that names it, or absolute. It is never empty.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FilePath(String);
 
 impl FilePath {
-    /// Takes a path; `None` for the empty text.
+    /// Makes a path. Returns `None` for the empty text.
     pub fn new(text: &str) -> Option<Self> {
         (!text.trim().is_empty()).then(|| Self(text.to_owned()))
     }
 
-    /// The path as it was written.
+    /// Returns the path as it was written.
     pub fn as_str(&self) -> &str {
         &self.0
     }
 
-    /// The path, seen from where clsmith runs; `named_in` is the path of the file that names it.
+    /// Returns the path as seen from where clsmith runs. `named_in` is the path of the file that names it.
     pub fn resolve_beside(&self, named_in: &Path) -> PathBuf {
         named_in.parent().unwrap_or(Path::new("")).join(&self.0)
     }

@@ -1,7 +1,8 @@
-//! Values that are right once they are read: numbers with a range, units, name patterns, paths.
+//! This module holds values that are valid once they are read: numbers with a range, units, name patterns and
+//! paths.
 //!
-//! A parameter of type [`Positive`] needs no check in the transform that uses it. The check happens while the YAML is read,
-//! so the error points at the number itself; the JSON schema tells editors the same range.
+//! A parameter of type [`Positive`] needs no check in the transform that uses it. The check happens while the
+//! YAML is read, so the error points at the number itself. The JSON schema gives editors the same range.
 //!
 //! ```
 //! use clsmith::parameters::{Factor, NonNegative, Positive};

@@ -1,4 +1,4 @@
-//! Patterns for names of operations and tools.
+//! This module holds patterns for the names of operations and tools.
 
 use globset::{GlobBuilder, GlobMatcher};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -7,8 +7,9 @@ use serde::{Serialize, Serializer};
 use std::borrow::Cow;
 use std::fmt;
 
-/// A name with wildcards: `*` is any text, `?` any character, `[AB]` one of them, `{A,B}` either text, `\` takes the next
-/// character as it is. Upper and lower case differ. Outside ASCII, use `*` rather than `?`: globset counts bytes there.
+/// A name with wildcards. `*` matches any text, `?` any character, `[AB]` one of these characters, `{A,B}`
+/// either text, and `\` takes the next character literally. Upper and lower case differ. Outside ASCII, use
+/// `*` rather than `?`, because globset counts bytes.
 ///
 /// ```
 /// use clsmith::parameters::Glob;
@@ -23,7 +24,7 @@ pub struct Glob {
     matcher: GlobMatcher,
 }
 
-/// Why text is no pattern.
+/// The reason why a text is no pattern.
 #[derive(Debug, Clone, thiserror::Error)]
 #[error("{0}")]
 pub struct GlobError(String);
@@ -31,23 +32,23 @@ pub struct GlobError(String);
 impl Glob {
     /// Compiles a pattern.
     ///
-    /// # Errors
-    /// [`GlobError`] for an open bracket or brace and the like, and for the empty text, which no name matches.
+    /// Returns [`GlobError`] for an open bracket or brace and similar faults, and for the empty text, which
+    /// matches no name.
     pub fn new(text: &str) -> Result<Self, GlobError> {
         if text.is_empty() {
-            return Err(GlobError("an empty pattern fits no name".to_owned()));
+            return Err(GlobError("an empty pattern matches no name".to_owned()));
         }
         let glob = GlobBuilder::new(text).literal_separator(false).backslash_escape(true).build();
         let glob = glob.map_err(|error| GlobError(error.kind().to_string()))?;
         Ok(Self { text: text.to_owned(), matcher: glob.compile_matcher() })
     }
 
-    /// The pattern as it was written.
+    /// Returns the pattern as it was written.
     pub fn as_str(&self) -> &str {
         &self.text
     }
 
-    /// Whether a whole name fits.
+    /// Returns whether the pattern matches a whole name.
     pub fn matches_name(&self, name: &str) -> bool {
         self.matcher.is_match(name)
     }
@@ -95,7 +96,7 @@ impl Visitor<'_> for GlobVisitor {
         Glob::parse_scalar(text)
     }
     fn visit_u64<E: de::Error>(self, value: u64) -> Result<Glob, E> {
-        // The text may have been `007`; only its author knows.
+        // The text may have been `007`, so the help cannot give the name.
         let help = "A name that looks like a number needs quotes.";
         Err(E::custom(format!("expected a name or pattern, found the number {value}\n{help}")))
     }
@@ -124,12 +125,12 @@ impl JsonSchema for Glob {
 pub enum ToolPattern {
     /// The tool with this number.
     Number(u32),
-    /// Every tool whose name fits.
+    /// Every tool whose name matches.
     Name(Glob),
 }
 
 impl ToolPattern {
-    /// Whether a tool fits, given what the CL file says about it.
+    /// Returns whether a tool matches, by its number and name in the CL file.
     pub fn matches_tool(&self, number: Option<u32>, name: Option<&str>) -> bool {
         match self {
             Self::Number(wanted) => number == Some(*wanted),

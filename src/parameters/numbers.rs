@@ -1,4 +1,4 @@
-//! Numbers with a range.
+//! This module holds numbers with a range.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer, Unexpected, Visitor};
@@ -6,7 +6,7 @@ use serde::{Serialize, Serializer};
 use std::borrow::Cow;
 use std::fmt;
 
-/// Writes a number type: its range as a phrase, as a check and as JSON schema keywords.
+/// Writes a number type. The range is given as a phrase, as a check and as JSON schema keywords.
 macro_rules! number {
     ($(#[$doc:meta])* $name:ident, $phrase:literal, |$value:ident| $fits:expr, { $($schema:tt)* }) => {
         $(#[$doc])*
@@ -14,12 +14,12 @@ macro_rules! number {
         pub struct $name(f64);
 
         impl $name {
-            #[doc = concat!("The value as ", $phrase, "; `None` if it is not.")]
+            #[doc = concat!("Makes ", $phrase, ". Returns `None` for other values.")]
             pub fn new($value: f64) -> Option<Self> {
                 ($value.is_finite() && $fits).then_some(Self($value))
             }
 
-            /// The number.
+            /// Returns the number.
             pub fn get(self) -> f64 {
                 self.0
             }
@@ -58,51 +58,52 @@ macro_rules! number {
 }
 
 number! {
-    /// A finite number greater than 0: a length, a feed, a diameter.
+    /// A finite number greater than 0, for example a length, a feed or a diameter.
     Positive, "a number greater than 0", |value| value > 0.0, { "exclusiveMinimum": 0 }
 }
 number! {
-    /// A finite number, 0 or more: a clearance, a tolerance that may be none.
+    /// A finite number of 0 or more, for example a clearance, or a tolerance that may be zero.
     NonNegative, "a number, 0 or more", |value| value >= 0.0, { "minimum": 0 }
 }
 number! {
-    /// Any finite number: a coordinate, an offset.
+    /// Any finite number, for example a coordinate or an offset.
     Finite, "a number", |value| value.is_finite(), { }
 }
 number! {
-    /// A share from 0 to 1, both included. 50 % is 0.5.
+    /// A fraction from 0 to 1, including both. For example, 50 % is 0.5.
     Fraction, "a number from 0 to 1", |value| (0.0..=1.0).contains(&value), { "minimum": 0, "maximum": 1 }
 }
 number! {
-    /// An angle in degrees, any finite number.
+    /// An angle in degrees, which may be any finite number.
     Degrees, "an angle in degrees", |value| value.is_finite(), { }
 }
 number! {
-    /// What something is multiplied by: greater than 0.
+    /// A factor greater than 0.
     Factor, "a factor greater than 0", |value| value > 0.0, { "exclusiveMinimum": 0 }
 }
 
 number! {
-    /// An angle in degrees against a plane or an axis that it never becomes square to: a taper, a cutter's bottom.
+    /// An angle in degrees between a line and a plane or an axis to which it is never perpendicular, for
+    /// example a taper or the bottom of a cutter.
     Slope, "an angle from 0 to below 90 degrees", |value| (0.0..90.0).contains(&value),
     { "minimum": 0, "exclusiveMaximum": 90 }
 }
 number! {
-    /// The full point angle of a drill in degrees; 180 is flat.
+    /// The full point angle of a drill in degrees. A flat bottom has 180.
     PointAngle, "an angle above 0 and up to 180 degrees", |value| value > 0.0 && value <= 180.0,
     { "exclusiveMinimum": 0, "maximum": 180 }
 }
 number! {
-    /// The helix angle of teeth in degrees; negative for a left-hand helix.
+    /// The helix angle of teeth in degrees. It is negative for a left-hand helix.
     HelixAngle, "an angle between -90 and 90 degrees", |value| value.abs() < 90.0,
     { "exclusiveMinimum": -90, "exclusiveMaximum": 90 }
 }
 
-/// What angles in degrees have in common.
+/// Adds the conversion to radians to types of angles in degrees.
 macro_rules! radians {
     ($($name:ident)*) => {
         $(impl $name {
-            /// The angle in radians.
+            /// Returns the angle in radians.
             pub fn radians(self) -> f64 {
                 self.0.to_radians()
             }
@@ -112,16 +113,17 @@ macro_rules! radians {
 radians! { Degrees Slope PointAngle HelixAngle }
 
 impl Fraction {
-    /// 5 %.
+    /// The fraction 5 %.
     pub(crate) const TWENTIETH: Self = Self(0.05);
 }
 
 impl NonNegative {
-    /// One unit.
+    /// The number 1.
     pub const ONE: Self = Self(1.0);
 }
 
-/// Reads a number and checks its range where the number stands: an error made later points at the whole map.
+/// Reads a number and checks its range at the number itself. A later check would make the error point at the
+/// whole map.
 struct NumberVisitor<T> {
     phrase: &'static str,
     make: fn(f64) -> Option<T>,
@@ -156,11 +158,11 @@ impl<T> Visitor<'_> for NumberVisitor<T> {
     }
 }
 
-/// What to do about text that is nearly a number.
+/// Returns what to do about a text that is nearly a number.
 fn suggest_number(text: &str) -> Option<String> {
     let text = text.trim();
     if let Ok(value) = text.parse::<f64>() {
-        // YAML keeps a number as text if it is too large for one.
+        // YAML keeps a number as text if it is too large.
         if value.is_infinite() && text.contains(|c: char| c.is_ascii_digit()) {
             return Some("The number is too large.".to_owned());
         }
@@ -180,7 +182,7 @@ fn suggest_number(text: &str) -> Option<String> {
     }
     Some(match unit {
         "%" => format!(
-            "Write a share of 1 for a percentage: {} for {number} %.",
+            "Write a percentage as a fraction of 1: {} for {number} %.",
             number.parse::<f64>().ok()? / 100.0
         ),
         "°" | "deg" => format!("Write only the number: {number}."),
@@ -188,17 +190,17 @@ fn suggest_number(text: &str) -> Option<String> {
     })
 }
 
-/// A whole number, 1 or more: of teeth, of passes.
+/// A whole number of 1 or more, for example of teeth or passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct PositiveCount(u32);
 
 impl PositiveCount {
-    /// The value as a count; `None` for 0.
+    /// Makes a count. Returns `None` for 0.
     pub fn new(value: u32) -> Option<Self> {
         (value > 0).then_some(Self(value))
     }
 
-    /// The number.
+    /// Returns the number.
     pub fn get(self) -> u32 {
         self.0
     }

@@ -1,5 +1,5 @@
-//! What people are shown, as data and plain text, before any report decides where it stands: numbers and tables as
-//! text, text that is safe to show, and line drawings as points.
+//! This module holds what people are shown as data and plain text, before a report decides where it appears:
+//! numbers and tables as text, text that is safe to show, and line drawings as points.
 //!
 //! Transforms describe themselves with it (`transform::TransformReport`), and `report` draws and prints it.
 

@@ -1,41 +1,41 @@
-//! Line drawings as data: panels, each with a few paths laid over each other.
+//! This module holds line drawings as data: panels, each with a few paths on top of each other.
 
-/// One drawing.
+/// A drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathPanel {
-    /// What stands above it.
+    /// The title above it.
     pub title: String,
-    /// What goes to the right.
+    /// The label of the horizontal axis.
     pub right: &'static str,
-    /// What goes up.
+    /// The label of the vertical axis.
     pub up: &'static str,
-    /// Whether both directions have one scale.
+    /// Whether both axes have the same scale.
     pub one_scale: bool,
-    /// The paths; later ones are drawn over earlier ones.
+    /// The paths. Later ones are drawn over earlier ones.
     pub paths: Vec<PanelPath>,
 }
 
 /// A path in a panel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PanelPath {
-    /// Its name in the legend; none when empty.
+    /// Its name in the legend. It has no entry there if the name is empty.
     pub name: String,
-    /// How it looks.
+    /// The style in which it is drawn.
     pub look: PanelPathStyle,
     /// Its points.
     pub points: Vec<(f64, f64)>,
 }
 
-/// How a path looks.
+/// The style of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PanelPathStyle {
-    /// As it was: grey.
+    /// The path before a change, in grey.
     Before,
-    /// As it is: blue, its points marked.
+    /// The path after a change, in blue with marked points.
     After,
-    /// What it is compared with: black and thin.
+    /// A path for comparison, as a thin black line.
     Reference,
-    /// A wrong way: red.
+    /// A wrong path, in red.
     Wrong,
 }

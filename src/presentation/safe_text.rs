@@ -1,11 +1,11 @@
-//! Any bytes as text that is safe to show.
+//! This module makes text that is safe to show from any bytes.
 //!
-//! CL files come in many 8-bit encodings and do not say which. Valid UTF-8 is read as such, any other byte as the Latin-1
-//! character of its value, so every byte shows and none is merged with another.
+//! CL files come in many 8-bit encodings and do not state which. Valid UTF-8 is read as such, and any other
+//! byte as the Latin-1 character of its value. So every byte is shown, and none is merged with another.
 
 use crate::source::{Source, Span};
 
-/// The characters of a text in an unknown encoding, each with its number of bytes.
+/// Returns the characters of a text in an unknown encoding, each with its number of bytes.
 pub(crate) fn decode_characters(bytes: &[u8]) -> impl Iterator<Item = (char, usize)> + '_ {
     bytes.utf8_chunks().flat_map(|chunk| {
         let valid = chunk.valid().chars().map(|c| (c, c.len_utf8()));
@@ -13,9 +13,9 @@ pub(crate) fn decode_characters(bytes: &[u8]) -> impl Iterator<Item = (char, usi
     })
 }
 
-/// A stand-in for characters that would be invisible, move the cursor or reverse the line.
+/// Returns a replacement for characters that would be invisible, move the cursor or reverse the line.
 ///
-/// A comment in a CL file must not be able to talk to the terminal.
+/// A comment in a CL file must not be able to send commands to the terminal.
 pub(crate) fn to_visible_character(c: char, unicode: bool) -> char {
     let hidden = c.is_control()
         || matches!(c, '\u{ad}' | '\u{61c}' | '\u{feff}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}')
@@ -30,7 +30,7 @@ pub(crate) fn to_visible_character(c: char, unicode: bool) -> char {
     }
 }
 
-/// A message made safe, its line breaks kept.
+/// Returns a message that is safe to show, with its line breaks.
 pub(crate) fn to_safe_paragraph(text: &str, unicode: bool) -> String {
     text.replace("\r\n", "\n")
         .chars()
@@ -38,13 +38,14 @@ pub(crate) fn to_safe_paragraph(text: &str, unicode: bool) -> String {
         .collect()
 }
 
-/// A message made safe and folded into one line.
+/// Returns a message that is safe to show, in a single line.
 pub(crate) fn to_safe_line(text: &str) -> String {
     let words: Vec<&str> = text.split(['\n', '\r']).map(str::trim).filter(|part| !part.is_empty()).collect();
     words.join(" ").chars().map(|c| to_visible_character(c, true)).collect()
 }
 
-/// The span inside its file and without the line end it closes with, which nobody needs underlined.
+/// Returns the part of a span that lies inside its file, without the line end at its end, which should not be
+/// underlined.
 pub(crate) fn trim_line_end(source: &Source, span: Span) -> Span {
     let length = source.bytes().len();
     let (start, end) = (span.to_range().start.min(length), span.to_range().end.min(length));

@@ -1,10 +1,11 @@
-//! Numbers and tables for people.
+//! This module formats numbers and tables for people.
 
 use crate::number::{format_fixed_number, format_trimmed_number, group_thousands};
 use crate::program::LengthUnit;
 use std::fmt::Write;
 
-/// Joins cells to columns; the first column is left-aligned, others right. Rows are indented by two blanks.
+/// Joins cells to columns. The first column is left-aligned, the others are right-aligned. Rows are indented
+/// by two blanks.
 pub(crate) fn format_table(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |column: usize| {
@@ -26,27 +27,28 @@ pub(crate) fn format_table(rows: &[Vec<String>]) -> String {
     out
 }
 
-/// `1234567` as `1,234,567`.
+/// Formats `1234567` as `1,234,567`.
 pub(crate) fn format_count(value: u64) -> String {
     group_thousands(&value.to_string())
 }
 
-/// A number with a fixed number of decimals and its thousands set apart; never `-0`.
+/// Formats a number with a fixed number of decimals and grouped thousands. The result is never `-0`.
 pub(crate) fn format_fixed(value: f64, decimals: usize) -> String {
     group_thousands(&format_fixed_number(value, decimals))
 }
 
-/// A number without trailing zeros, its thousands set apart.
+/// Formats a number without trailing zeros, with grouped thousands.
 pub(crate) fn format_trimmed(value: f64, most_decimals: usize) -> String {
     group_thousands(&format_trimmed_number(value, most_decimals))
 }
 
-/// A number with at most three decimals and no trailing zeros, its thousands set apart.
+/// Formats a number with at most three decimals and no trailing zeros, with grouped thousands.
 pub(crate) fn format_short(value: f64) -> String {
     format_trimmed(value, 3)
 }
 
-/// A length for a sentence: metres from 10 m on in metric files, else the file's unit.
+/// Formats a length for a sentence. In metric files, it is in metres from 10 m on, otherwise in the file's
+/// unit.
 pub(crate) fn format_length(value: f64, unit: LengthUnit) -> String {
     match unit {
         LengthUnit::Mm if value.abs() >= 10_000.0 => format!("{} m", format_fixed(value / 1000.0, 1)),
@@ -54,7 +56,7 @@ pub(crate) fn format_length(value: f64, unit: LengthUnit) -> String {
     }
 }
 
-/// `mm` or `in`.
+/// Returns `mm` or `in`.
 pub(crate) fn unit_name(unit: LengthUnit) -> &'static str {
     match unit {
         LengthUnit::Mm => "mm",
@@ -62,7 +64,7 @@ pub(crate) fn unit_name(unit: LengthUnit) -> &'static str {
     }
 }
 
-/// Seconds as `4.2 s`, `29:55` or `1:02:03`.
+/// Formats seconds as `4.2 s`, `29:55` or `1:02:03`.
 pub(crate) fn format_duration(seconds: f64) -> String {
     if !seconds.is_finite() {
         return "?".to_owned();
@@ -78,7 +80,7 @@ pub(crate) fn format_duration(seconds: f64) -> String {
     }
 }
 
-/// `3 arcs`, `1 arc`.
+/// Formats a number with its noun: `3 arcs`, `1 arc`.
 pub(crate) fn format_counted(number: usize, one: &str, many: &str) -> String {
     format!("{} {}", format_count(number as u64), if number == 1 { one } else { many })
 }

@@ -1,4 +1,4 @@
-//! The comments before changed records.
+//! This module writes the comments before changed records.
 
 use super::comment_format::{self, WIDTH};
 use super::comment_places::CommentPlaces;
@@ -9,15 +9,16 @@ use crate::program::{
 };
 use crate::transform::Recipe;
 
-/// What is to be put in, and what goes for it.
+/// The comments that are inserted, and those that are replaced.
 #[derive(Default)]
 pub(super) struct ChangeComments {
     pub(super) lines: Vec<CommentLine>,
-    /// Comments of earlier runs that go along with their record, because something was put in between.
+    /// Comments of earlier runs that move with their record, because something was inserted between them.
     pub(super) moved: Vec<StatementId>,
 }
 
-/// A line for each step that changed a record, one for records that a step put in or took out in a row.
+/// Writes a line for each step that changed a record, and one for consecutive records that a step inserted or
+/// deleted.
 pub(super) fn write_change_comments(
     program: &Program,
     places: &CommentPlaces,
@@ -30,7 +31,7 @@ pub(super) fn write_change_comments(
         feeds: feeds_before_steps::FeedsBeforeSteps::new(recipe.steps.len()),
         run: None,
         earlier: Vec::new(),
-        parted: false,
+        separated: false,
         found: ChangeComments::default(),
     };
     for (id, statement) in program.numbered_statements() {
@@ -40,13 +41,13 @@ pub(super) fn write_change_comments(
     writer.found
 }
 
-/// Records in a row that one step put in, or took out.
+/// Consecutive records that one step inserted or deleted.
 struct RecordRun {
     by: StepId,
     put_in: bool,
     first: StatementId,
     count: usize,
-    /// What is said of a single one, from the longest to the shortest.
+    /// The texts for a single record, from the longest to the shortest.
     single: Vec<String>,
     note: Option<String>,
 }
@@ -57,10 +58,10 @@ struct ChangeCommentWriter<'p> {
     recipe: &'p Recipe,
     feeds: feeds_before_steps::FeedsBeforeSteps,
     run: Option<RecordRun>,
-    /// Comments of earlier runs that no record has followed yet.
+    /// Comments of earlier runs after which no record has come yet.
     earlier: Vec<StatementId>,
-    /// Whether something was put in after them.
-    parted: bool,
+    /// Whether something was inserted after them.
+    separated: bool,
     found: ChangeComments,
 }
 
@@ -81,7 +82,7 @@ impl ChangeCommentWriter<'_> {
                 self.write_edits(id, statement, by);
             }
             StatementChange::Inserted(by) => self.visit_inserted(id, statement, by),
-            // One step put it in, this one took it out: the file never had it.
+            // A statement that one step inserted and this one deleted was never in the file.
             StatementChange::Deleted(_) if statement.origin().is_empty() => return,
             StatementChange::Deleted(by) => self.visit_deleted(id, statement, by),
         }
@@ -108,15 +109,15 @@ impl ChangeCommentWriter<'_> {
     fn write_edit(&mut self, id: StatementId, statement: &Statement, edit: &StatementEdit<'_>) {
         let before = edit.before.unwrap_or_default();
         let name = self.record_name(id, statement);
-        let room = self.columns_left(edit.by);
+        let width = self.columns_left(edit.by);
         let with_note = |note: String| {
-            let left = room.saturating_sub(name.len() + note.len());
+            let left = width.saturating_sub(name.len() + note.len());
             let difference =
                 change_wording::describe_difference(statement.record(), before, edit.after, left);
             format!("{name}{difference}{note}")
         };
         let texts = comment_format::note_variants(edit.note).into_iter().map(with_note).collect();
-        self.push_line(id, edit.by, &comment_format::first_fitting(texts, room));
+        self.push_line(id, edit.by, &comment_format::first_fitting(texts, width));
     }
 
     fn visit_inserted(&mut self, id: StatementId, statement: &Statement, by: StepId) {
@@ -127,7 +128,7 @@ impl ChangeCommentWriter<'_> {
         let is_feed = matches!(statement.record(), Record::Feed(_));
         let alone = is_feed || !later.is_empty();
         if !self.earlier.is_empty() {
-            self.parted = true;
+            self.separated = true;
         }
         match &mut self.run {
             Some(run) if run.put_in && run.by == by && !alone => run.count += 1,
@@ -150,7 +151,7 @@ impl ChangeCommentWriter<'_> {
         }
     }
 
-    /// What a FEDRAT that was put in changes: in full, and without `put in` for where room is scant.
+    /// Describes what an inserted FEDRAT changes: in full, and without `put in` where few columns are left.
     fn describe_inserted_feed(&self, record: &Record, text: &[u8], by: StepId) -> Option<[String; 2]> {
         let new = feeds_before_steps::printed_feed(record, text)?;
         let old = self.feeds.feed_before_step(by)?;
@@ -166,8 +167,8 @@ impl ChangeCommentWriter<'_> {
             _ => {
                 self.end_run();
                 let text = change_wording::to_one_line(self.program.source().slice(statement.origin()));
-                let room = self.columns_left(by).saturating_sub("taken out: ".len());
-                let single = vec![format!("taken out: {}", comment_format::shorten_middle(&text, room))];
+                let width = self.columns_left(by).saturating_sub("taken out: ".len());
+                let single = vec![format!("taken out: {}", comment_format::shorten_middle(&text, width))];
                 self.run = Some(RecordRun { by, put_in: false, first: id, count: 1, single, note: None });
             }
         }
@@ -178,22 +179,23 @@ impl ChangeCommentWriter<'_> {
         let done = if run.put_in { "put in" } else { "taken out" };
         let what = if run.count == 1 { run.single } else { vec![format!("{} records {done}", run.count)] };
         let notes = comment_format::note_variants(run.note.as_deref());
-        // `put in` goes before any of the note does.
+        // The note is only shortened after `put in` was left out.
         let texts = notes.iter().flat_map(|note| what.iter().map(move |what| format!("{what}{note}")));
         let text = comment_format::first_fitting(texts.collect(), self.columns_left(run.by));
         self.push_line(run.first, run.by, &text);
     }
 
-    /// Comments of an earlier run stay with the record that they are about, where one was put in between.
+    /// Keeps comments of an earlier run with their record, if one was inserted between them.
     fn keep_earlier_comments(&mut self, id: StatementId, statement: &Statement) {
         if matches!(statement.change(), StatementChange::Inserted(_)) {
             return;
         }
         let earlier = std::mem::take(&mut self.earlier);
         let to = self.places.comment_position(id);
-        let parted = std::mem::take(&mut self.parted);
+        let separated = std::mem::take(&mut self.separated);
         let first = earlier.first().copied();
-        if !parted || first.is_none_or(|first| to <= first.before() || !self.has_inserted_between(first, to))
+        if !separated
+            || first.is_none_or(|first| to <= first.before() || !self.has_inserted_between(first, to))
         {
             return;
         }
@@ -206,13 +208,13 @@ impl ChangeCommentWriter<'_> {
         self.found.moved.extend(earlier);
     }
 
-    /// Whether a live record that was put in stands between two statements.
+    /// Returns whether a live inserted record lies between two statements.
     fn has_inserted_between(&self, from: StatementId, to: InsertionPoint) -> bool {
         let between = self.program.statements_between(from.before(), to);
         between.iter().any(|statement| matches!(statement.change(), StatementChange::Inserted(_)))
     }
 
-    /// The record's name with a blank, where its comments do not stand directly before it.
+    /// Returns the record's name and a blank, if its comments are not directly before it.
     fn record_name(&self, id: StatementId, statement: &Statement) -> String {
         if self.places.comment_position(id) == id.before() {
             return String::new();

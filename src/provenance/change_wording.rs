@@ -1,28 +1,28 @@
-//! What an edit changed, in a few words.
+//! This module words what an edit has changed, in a few words.
 
 use super::comment_format::{shorten_middle, to_printable_ascii};
 use crate::parse;
 use crate::program::{NumberRole, Record, StatementKind, fold_text};
 
-/// Longest name that a record is called by.
-const NAME: usize = 20;
+/// The length of the longest name that is used for a record.
+const LONGEST_NAME: usize = 20;
 
-/// What is different between two texts of one record, in at most so many columns: the numbers that changed, as they are
-/// printed, or what was there before.
-pub(super) fn describe_difference(record: &Record, before: &[u8], after: &[u8], room: usize) -> String {
+/// Describes the difference between two texts of a record, in at most `width` columns: the numbers that
+/// changed as they are printed, or what was there before.
+pub(super) fn describe_difference(record: &Record, before: &[u8], after: &[u8], width: usize) -> String {
     match list_changed_numbers(record, before, after) {
-        Some(changed) if !changed.is_empty() => join_fitting(&changed, room),
-        _ => format!("was {}", shorten_middle(&to_one_line(before), room.saturating_sub("was ".len()))),
+        Some(changed) if !changed.is_empty() => join_fitting(&changed, width),
+        _ => format!("was {}", shorten_middle(&to_one_line(before), width.saturating_sub("was ".len()))),
     }
 }
 
-/// A record's text in one line, without its line end and doubled blanks.
+/// Returns a record's text in one line, without its line end and repeated blanks.
 pub(super) fn to_one_line(text: &[u8]) -> String {
     let text = String::from_utf8_lossy(text);
     to_printable_ascii(&text.split_whitespace().collect::<Vec<_>>().join(" "))
 }
 
-/// What a record is called where its comment does not stand directly before it.
+/// Returns the name of a record, for a comment that is not directly before it.
 pub(super) fn record_name(record: &Record, text: &[u8]) -> String {
     let syntax = parse::syntax(text);
     let name = match (record, syntax.form) {
@@ -30,10 +30,10 @@ pub(super) fn record_name(record: &Record, text: &[u8]) -> String {
         (_, StatementKind::Numbers) => "point".to_owned(),
         _ => fold_text(syntax.bytes_at(&syntax.word)),
     };
-    shorten_middle(&to_printable_ascii(&name), NAME)
+    shorten_middle(&to_printable_ascii(&name), LONGEST_NAME)
 }
 
-/// The numbers that differ, each with its letter; `None` where more than numbers differs.
+/// Returns the numbers that differ, each with its letter. Returns `None` if more than numbers differs.
 fn list_changed_numbers(record: &Record, before: &[u8], after: &[u8]) -> Option<Vec<String>> {
     let (old, new) = (parse::statement_numbers(before), parse::statement_numbers(after));
     let places =
@@ -55,7 +55,7 @@ fn list_changed_numbers(record: &Record, before: &[u8], after: &[u8]) -> Option<
     Some(found)
 }
 
-/// A text without its numbers and blanks.
+/// Returns the parts of a text between its numbers, without blanks.
 fn text_between_numbers(text: &[u8], numbers: &[std::ops::Range<usize>]) -> Vec<Vec<u8>> {
     let starts = std::iter::once(0).chain(numbers.iter().map(|at| at.end));
     let ends = numbers.iter().map(|at| at.start).chain([text.len()]);
@@ -81,15 +81,15 @@ fn role_letter(role: NumberRole) -> Option<&'static str> {
     letters.get(usize::from(axis)).copied()
 }
 
-/// As many as fit, and how many more there are.
-fn join_fitting(changed: &[String], room: usize) -> String {
+/// Joins as many texts as fit, and the number of those that are left out.
+fn join_fitting(changed: &[String], width: usize) -> String {
     let mut out = String::new();
     for (index, one) in changed.iter().enumerate() {
         let comma = if index == 0 { "" } else { ", " };
         let left = changed.len() - index - 1;
-        // Room for the count of those that are left out.
+        // This leaves columns for the number of texts that are left out.
         let reserve = if left > 0 { ", 99 more".len() } else { 0 };
-        if index > 0 && out.len() + comma.len() + one.len() + reserve > room {
+        if index > 0 && out.len() + comma.len() + one.len() + reserve > width {
             out.push_str(&format!(", {} more", left + 1));
             return out;
         }

@@ -1,12 +1,13 @@
-//! How a dialect writes a comment, and what may stand in one.
+//! This module writes comments in the form of a dialect, with the characters that are allowed in them.
 
 use crate::program::{Dialect, OWN_WORD};
 
-/// Columns of a comment: what readers of CATIA and Creo files take, and all others take, too.
+/// The columns of a comment. Readers of CATIA and Creo files accept so many, and all others do, too.
 pub const WIDTH: usize = 72;
 
-/// What a comment begins with. G-POST's input has `REMARK` where all others have the standard's `$$`; SolidWorks, CAMWorks and
-/// Makino write no comments of their own, and their INSERT and PPRINT may reach the NC program.
+/// Returns the beginning of a comment. G-POST's input has `REMARK` where all others have `$$` of the
+/// standard. SolidWorks, CAMWorks and Makino write no comments of their own, and their INSERT and PPRINT may
+/// reach the NC program.
 fn comment_mark(dialect: Dialect) -> &'static str {
     match dialect {
         Dialect::CreoGpost => "REMARK",
@@ -14,18 +15,20 @@ fn comment_mark(dialect: Dialect) -> &'static str {
     }
 }
 
-/// What every comment of clsmith's begins with.
+/// Returns the beginning of every comment of clsmith.
 pub(super) fn comment_prefix(dialect: Dialect) -> String {
     format!("{} {OWN_WORD} ", comment_mark(dialect))
 }
 
-/// A comment of one line. Callers make their text fit; what is still too long loses whole parts at its end.
+/// Makes a comment of one line. Callers make their text fit. A text that is still too long loses whole parts
+/// at its end.
 pub(super) fn comment_line(dialect: Dialect, text: &str) -> Vec<u8> {
     let line = format!("{}{}", comment_prefix(dialect), to_printable_ascii(text));
     drop_last_parts(&line).trim_end().as_bytes().to_vec()
 }
 
-/// As many parts (`, `) of an ASCII line as fit; of a single one that is too long as many words, for half a number is another.
+/// Returns as many parts (separated by `, `) of an ASCII line as fit. If the first part alone is too long, as
+/// many words are returned, because half a number would be another number.
 fn drop_last_parts(line: &str) -> &str {
     let mut kept = line;
     while kept.len() > WIDTH {
@@ -35,13 +38,15 @@ fn drop_last_parts(line: &str) -> &str {
     kept
 }
 
-/// The first text that fits into so many columns, or the last one. `texts` go from the longest to the shortest.
-pub(super) fn first_fitting(texts: Vec<String>, room: usize) -> String {
+/// Returns the first text that fits into `width` columns, or the last one. `texts` go from the longest to the
+/// shortest.
+pub(super) fn first_fitting(texts: Vec<String>, width: usize) -> String {
     let last = texts.last().cloned().unwrap_or_default();
-    texts.into_iter().find(|text| text.chars().count() <= room).unwrap_or(last)
+    texts.into_iter().find(|text| text.chars().count() <= width).unwrap_or(last)
 }
 
-/// What may follow a text, from the longest to the shortest: a note, of `h 0.040 -> 0.065 mm` then `h 0.065 mm` alone, nothing.
+/// Returns what may follow a text, from the longest to the shortest: a note, its second half (of `h 0.040 ->
+/// 0.065 mm` the text `h 0.065 mm`), and nothing.
 pub(super) fn note_variants(note: Option<&str>) -> Vec<String> {
     let Some(note) = note else { return vec![String::new()] };
     let short = note.split_once(' ').zip(note.split_once(" -> "));
@@ -49,13 +54,14 @@ pub(super) fn note_variants(note: Option<&str>) -> Vec<String> {
     [Some(format!(", {note}")), short, Some(String::new())].into_iter().flatten().collect()
 }
 
-/// Text of the user or of the file as a comment can hold it: the printable characters of ASCII, which stand in every code page,
-/// without `$`, which continues lines even in comments of some readers. Everything else becomes `?`.
+/// Returns a text of the user or of the file as a comment can contain it: the printable characters of ASCII,
+/// which every code page has, without `$`, which continues lines even in comments for some readers.
+/// Everything else becomes `?`.
 pub(super) fn to_printable_ascii(text: &str) -> String {
     text.chars().map(|c| if matches!(c, ' '..='~') && c != '$' { c } else { '?' }).collect()
 }
 
-/// Text cut in its middle, so that its beginning and its end stay.
+/// Shortens a text in its middle, so that its beginning and its end stay.
 pub(super) fn shorten_middle(text: &str, width: usize) -> String {
     let count = text.chars().count();
     if count <= width {

@@ -1,17 +1,19 @@
-//! Where a comment may stand: directly before a record, but never inside a group that readers expect in one piece.
+//! This module finds where a comment may stand: directly before a record, but never inside a group that
+//! readers expect in one piece.
 
 use crate::parse;
 use crate::program::{Dialect, InsertionPoint, Program, ProvenanceComment, Record, Statement, StatementId};
 
-/// For each statement of a program, where its comments stand.
+/// The places of comments for each statement of a program.
 pub(super) struct CommentPlaces {
-    /// Before each statement itself, or before the first of its group; of a deleted one, where those of the next live one stand.
+    /// The place before each statement itself, or before the first one of its group. A deleted statement has
+    /// the place of the next live one.
     places: Vec<InsertionPoint>,
     header: InsertionPoint,
 }
 
 impl CommentPlaces {
-    /// Looks at a whole program.
+    /// Finds the places for a whole program.
     pub(super) fn from_program(program: &Program) -> Self {
         let places = program.statement_ids().map(StatementId::before).collect();
         let mut found = Self { places, header: program.start() };
@@ -39,14 +41,14 @@ impl CommentPlaces {
         found
     }
 
-    /// Where comments about a statement stand.
+    /// Returns the place of comments about a statement.
     pub(super) fn comment_position(&self, id: StatementId) -> InsertionPoint {
         let place = self.places.get(id.index()).copied();
-        debug_assert!(place.is_some(), "{id:?} is of another program");
+        debug_assert!(place.is_some(), "{id:?} belongs to another program");
         place.unwrap_or(id.before())
     }
 
-    /// Where the header stands.
+    /// Returns the place of the header.
     pub(super) fn header_position(&self) -> InsertionPoint {
         self.header
     }
@@ -54,12 +56,12 @@ impl CommentPlaces {
     fn move_comments(&mut self, id: StatementId, to: InsertionPoint) {
         match self.places.get_mut(id.index()) {
             Some(place) => *place = to,
-            None => debug_assert!(false, "{id:?} is of another program"),
+            None => debug_assert!(false, "{id:?} belongs to another program"),
         }
     }
 
-    /// The head of an NX operation, TOOL PATH to MSYS, stays in one piece, and nothing comes before it, where no operation is:
-    /// what is to say about it stands after it, beside NX's own `$$ centerline data`.
+    /// Keeps the head of an NX operation, from TOOL PATH to MSYS, in one piece, with nothing before it, where
+    /// no operation is. Comments about it come after it, beside NX's own `$$ centerline data`.
     fn move_behind_heads(&mut self, program: &Program) {
         let mut head: Vec<StatementId> = Vec::new();
         for (id, statement) in program.live_statements() {
@@ -76,23 +78,23 @@ impl CommentPlaces {
     }
 }
 
-/// Whether no comment may come between two statements that follow each other.
+/// Returns whether no comment may come between two consecutive statements.
 fn must_stay_together(program: &Program, above: &Statement, below: &Statement) -> bool {
     let dialect = program.dialect();
     let text = program.statement_text(above).trim_ascii_start();
     let starts = |words: &[&[u8]]| words.iter().any(|word| text.starts_with(word));
     let goes_on = match above.record() {
-        // What announces a motion, and the motion.
+        // A record that announces a motion belongs to the motion.
         Record::Circle(_) | Record::MoveArc(_) | Record::StartDirection(_) | Record::Rapid => true,
         Record::Nurbs | Record::Knot(_) => true,
         Record::Control(_) => matches!(below.record(), Record::Control(_) | Record::Knot(_)),
         Record::DriveArc(_) => matches!(below.record(), Record::DriveArc(_) | Record::StartDirection(_)),
         Record::Cycle(_) | Record::CycleOn => true,
-        // CATIA's frame: the mark, a name, three rows.
+        // CATIA's frame consists of the mark, a name and three rows.
         Record::FrameMark => true,
-        // CATIA's arcs: tolerances, AUTOPS, then pairs of INDIRV and TLON.
+        // CATIA's arcs consist of tolerances, AUTOPS, and pairs of INDIRV and TLON.
         Record::Known => dialect.has_columns() && starts(&[b"AUTOPS", b"INTOL", b"OUTTOL"]),
-        // Makino's and CAMWorks' labels are about the record that follows.
+        // Labels of Makino and CAMWorks belong to the record that follows.
         Record::Marked(_) | Record::Text => match dialect {
             Dialect::MakinoFf => starts(&[b"PPRINT/MOTION"]),
             Dialect::CamWorks => matches!(above.record(), Record::Marked(_)),
@@ -103,7 +105,7 @@ fn must_stay_together(program: &Program, above: &Statement, below: &Statement) -
     goes_on
         || match below.record() {
             Record::MatrixRow(_) => true,
-            // A line of bare numbers goes on with the GOTO before it.
+            // A line of bare numbers continues the GOTO before it.
             Record::Points(_) => program
                 .statement_text(below)
                 .trim_ascii_start()
@@ -113,8 +115,9 @@ fn must_stay_together(program: &Program, above: &Statement, below: &Statement) -
         }
 }
 
-/// Where systems have comments of their own: after NX's first head; after PARTNO; after the record that Makino and CAMWorks files
-/// must begin with; else before the first record that is no comment. Headers of earlier runs come first.
+/// Returns the place where systems have comments of their own: after NX's first head, after PARTNO, after the
+/// record with which Makino and CAMWorks files must begin, or else before the first record that is no
+/// comment. Headers of earlier runs come first.
 fn find_header_position(program: &Program, places: &CommentPlaces) -> InsertionPoint {
     let mut found = None;
     for (id, statement) in program.live_statements() {
@@ -152,7 +155,7 @@ fn find_header_position(program: &Program, places: &CommentPlaces) -> InsertionP
             .find(|(_, statement)| !says_nothing(statement.record()))
             .map(|(id, _)| id.before())
     };
-    // A file of comments alone has its header before them.
+    // A file that only consists of comments has its header before them.
     let from = found.or_else(first).unwrap_or(program.start());
     let own = |statement: &Statement| {
         ProvenanceComment::from_text(program.statement_text(statement)) == Some(ProvenanceComment::Header)

@@ -1,4 +1,5 @@
-//! Which feed was in force before a step, for what is said of a FEDRAT that the step put in.
+//! This module remembers which feed was in force before a step, for the comment about a FEDRAT that the step
+//! has inserted.
 
 use crate::parse;
 use crate::program::{NumberRole, Program, Record, Statement, StatementChange, StepId};
@@ -13,12 +14,12 @@ impl FeedsBeforeSteps {
         Self { before: vec![None; steps] }
     }
 
-    /// The feed that was in force here before a step.
+    /// Returns the feed that was in force here before a step.
     pub(super) fn feed_before_step(&self, step: StepId) -> Option<&str> {
         self.before.get(usize::from(step.0))?.as_deref()
     }
 
-    /// Goes past a statement.
+    /// Notes the feed of a statement.
     pub(super) fn pass_statement(&mut self, program: &Program, statement: &Statement) {
         if !matches!(statement.record(), Record::Feed(_)) {
             return;
@@ -40,7 +41,7 @@ impl FeedsBeforeSteps {
     }
 }
 
-/// The feed of a FEDRAT as it is printed.
+/// Returns the feed of a FEDRAT as it is printed.
 pub(super) fn printed_feed(record: &Record, text: &[u8]) -> Option<String> {
     let roles = parse::number_roles(record, text);
     let mut numbers = parse::statement_numbers(text).into_iter().zip(roles);

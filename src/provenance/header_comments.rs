@@ -1,4 +1,4 @@
-//! The header: which clsmith, which recipe, which input.
+//! This module writes the header: the version of clsmith, the recipe and the input.
 
 use super::CommentLine;
 use super::comment_format::{self, WIDTH};
@@ -7,7 +7,8 @@ use crate::fingerprint::{Digest, RecipeFingerprint, VERSION};
 use crate::program::Program;
 use crate::transform::Recipe;
 
-/// The header's lines. Names stand without their folders, and no time is told: the same run writes the same bytes anywhere.
+/// Returns the lines of the header. Names have no folders and there is no time in it, so the same run writes
+/// the same bytes anywhere.
 pub(super) fn header_lines(
     program: &Program,
     places: &CommentPlaces,
@@ -23,11 +24,12 @@ pub(super) fn header_lines(
             comment_format::shorten_middle(&printable_file_name(name), room.saturating_sub(what.len() + 1))
         ));
         let Some(digest) = digest.map(|digest| digest.to_string()) else { return };
-        // 64 digits are more than fit into a line.
+        // The 64 digits do not fit into one line.
         let (first, second) = digest.split_at_checked(digest.len() / 2).unwrap_or_default();
         texts.extend([first, second].map(|half| format!("{hashed} sha256 {half}")));
     };
-    // What the print is of, so that nobody compares it with the digest of the recipe's text alone.
+    // The text tells what the fingerprint covers, so that nobody compares it with the digest of the recipe's
+    // text alone.
     named("recipe", recipe.source.name(), "recipe and files", print.map(|print| print.sha256));
     named("input", program.source().name(), "input", Some(Digest::from_bytes(program.source().bytes())));
     let at = places.header_position();

@@ -1,22 +1,24 @@
-//! Comments in the corrected program that tell what was done: a header, and a line before each changed
-//! record.
+//! This module inserts comments into the corrected program that tell what was done: a header, and a line
+//! before each changed record.
 //!
-//! [`add_comments`] runs after the last step. It puts comments in through the same gate as the steps and
+//! [`add_comments`] runs after the last step. It inserts comments through the same gate as the steps and
 //! signs them with a step of their own ([`Recipe::provenance_step`]), so reports, diffs and the read-back
 //! count them like any other change.
 //!
-//! A program that no step changed gets no comment, so a second run that finds nothing to do writes the same
-//! bytes. A run that changes something puts its lines below those of earlier runs. Earlier lines stay, and
-//! nobody reads numbers from them: together they are the file's history, and each run can be undone in turn.
+//! A program that no step has changed gets no comment, so a second run that finds nothing to do writes the
+//! same bytes. A run that changes something puts its lines below those of earlier runs. Earlier lines stay,
+//! and no program reads numbers from them: together they are the history of the file, and each run can be
+//! undone in turn.
 //!
 //! A record's lines stand directly before it, or before the group that a reader takes in one piece
 //! (`comment_places`): what announces a motion and the motion itself, CATIA's matrix and AUTOPS, Makino's
-//! labels, points that continue a GOTO. The lines of a record in the head of an NX operation stand behind
-//! that head, beside NX's own comment, and name the record. Records that one step put in or took out in a row
-//! share one line.
+//! labels, and points that continue a GOTO. The lines of a record in the head of an NX operation come after
+//! that head, beside NX's own comment, and name the record. Consecutive records that one step inserted or
+//! deleted have a single line.
 //!
-//! A line has at most 72 columns of ASCII without `$`, in every dialect: the narrowest reader takes that in
-//! every code page. G-POST gets `REMARK`, all others `$$`; INSERT and PPRINT might reach the NC program.
+//! A line has at most 72 columns of ASCII without `$`, in every dialect, because the narrowest reader accepts
+//! that in every code page. G-POST gets `REMARK`, all others `$$`. INSERT and PPRINT might reach the NC
+//! program.
 
 mod change_comments;
 mod change_wording;
@@ -37,14 +39,14 @@ use crate::transform::Recipe;
 use crate::write::ProgramEditor;
 use comment_places::CommentPlaces;
 
-/// A comment and the place where it is put in.
+/// A comment and the place where it is inserted.
 struct CommentLine {
     at: InsertionPoint,
     text: Vec<u8>,
 }
 
-/// Adds the comments that the recipe asks for to what its steps made of a program. Without a print, the header tells the
-/// recipe's name alone.
+/// Adds the comments that the recipe asks for to the program that its steps have made. Without a fingerprint,
+/// the header only contains the name of the recipe.
 ///
 /// ```
 /// use clsmith::parse::parse;
@@ -63,7 +65,7 @@ struct CommentLine {
 /// ```
 ///
 /// # Errors
-/// When a comment would not read back as one; that is a fault of clsmith.
+/// Returns an error if a comment would not read back as one, which would be a fault of clsmith.
 pub fn add_comments(
     program: Program,
     recipe: &Recipe,

@@ -1,12 +1,12 @@
-//! Comments of an earlier run that a run without comments makes untrue.
+//! This module finds comments of an earlier run that a run without comments makes untrue.
 
 use super::comment_places::CommentPlaces;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::{Program, ProvenanceComment, Statement, StatementChange};
 use std::collections::BTreeSet;
 
-/// A finding when steps changed records that carry comments of an earlier run, which now tell of other numbers than the file
-/// has. For a run that writes no comments of its own.
+/// Returns a finding if steps have changed records with comments of an earlier run. These comments then name
+/// other numbers than the file has. It is for a run that writes no comments of its own.
 pub(crate) fn find_stale_comments(program: &Program) -> Option<Diagnostic> {
     let own = |statement: &Statement| {
         ProvenanceComment::from_text(program.statement_text(statement)) == Some(ProvenanceComment::Change)
@@ -31,8 +31,10 @@ pub(crate) fn find_stale_comments(program: &Program) -> Option<Diagnostic> {
     let (_, first) = hit.next()?;
     let more = hit.count();
     let message = match more {
-        0 => "an earlier run's comment tells of this record as it was then".to_owned(),
-        more => format!("earlier runs' comments tell of this record and {more} more as they were then"),
+        0 => "the comment of an earlier run describes an older state of this record".to_owned(),
+        more => {
+            format!("the comments of earlier runs describe an older state of this record and of {more} more")
+        }
     };
     Some(Diagnostic::new(codes::STALE_COMMENTS, message).with_label(
         program.source(),

@@ -1,7 +1,7 @@
-//! Recipes: which transforms to apply, with which parameters, written in YAML.
+//! This module reads recipes, which state in YAML which transforms are applied with which parameters.
 //!
-//! A [`Recipe`] is generic over its steps, which are the transforms' business; this module knows the frame around them, and
-//! where in the file each of them stands.
+//! A [`Recipe`] is generic over its steps, which are the business of the transforms. This module knows the
+//! keys around them, and the place of each of them in the file.
 
 mod motion_filter;
 mod provenance;
@@ -50,17 +50,17 @@ use std::sync::{Arc, OnceLock};
 pub struct Recipe<S> {
     /// The file it was read from, for diagnostics that point into it.
     pub source: Arc<Source>,
-    /// The version of the rules it was written by.
+    /// The file from which it was read. Diagnostics point into it.
     pub version: u32,
-    /// The unit of every length in it; feeds are in this unit per minute.
+    /// The version of the rules by which it was written.
     pub units: LengthUnit,
-    /// A setup file, relative to the recipe's folder; see [`Recipe::load_setup_file`].
+    /// The unit of every length in it. Feeds are in this unit per minute.
     pub setup_file: Option<String>,
-    /// The recipe's own `setup:`, in millimetres; see [`Recipe::merge_setups`].
+    /// The path of a setup file, relative to the recipe's folder; see [`Recipe::load_setup_file`].
     pub setup: Setup,
     /// What the corrected file says about its run.
     pub provenance: Provenance,
-    /// The steps in the order in which they are applied.
+    /// What the corrected file states about its run.
     pub steps: Vec<S>,
     document: Arc<YamlDocument>,
     step_places: Vec<OnceLock<Span>>,
@@ -70,7 +70,8 @@ impl<S: DeserializeOwned> Recipe<S> {
     /// Reads a recipe.
     ///
     /// # Errors
-    /// Everything that is wrong with it, in the order of the text, each at its exact key or value; at most 20 findings.
+    /// Returns all faults in the order of the text, each at its exact key or value. At most 20 findings are
+    /// returned.
     pub fn load(source: &Arc<Source>) -> Result<Self, Failure> {
         let document = YamlDocument::parse(source)?;
         let text: RecipeText<S> = document
@@ -94,7 +95,8 @@ impl<S: DeserializeOwned> Recipe<S> {
     }
 }
 
-/// In a recipe of another version, the version is all that is wrong: the rest was written by rules unknown here.
+/// Keeps only the finding about the version if that is unknown, because the rest was written by unknown
+/// rules.
 fn keep_version_finding(document: &YamlDocument, failure: Failure) -> Failure {
     let Failure::Found(mut found) = failure else { return failure };
     if document.value_span(&[YamlPathSegment::Key("version")]).is_some()
@@ -106,28 +108,33 @@ fn keep_version_finding(document: &YamlDocument, failure: Failure) -> Failure {
 }
 
 impl<S> Recipe<S> {
-    /// Where a value stands; a key without a value stands for it. `None` if the recipe does not say it.
+    /// Returns the place of a value. For a key without a value, it is the place of the key. Returns `None` if
+    /// the recipe does not contain it.
     pub fn value_span(&self, path: &[YamlPathSegment<'_>]) -> Option<Span> {
         self.document.value_span(path)
     }
 
-    /// Where the key of a value stands. `None` if the recipe does not say it.
+    /// Returns the place of a value's key. Returns `None` if the recipe does not contain it.
     pub fn key_span(&self, path: &[YamlPathSegment<'_>]) -> Option<Span> {
         self.document.key_span(path)
     }
 
-    /// The name of a step, as written: `scale_feed`. Looked up once and then remembered.
+    /// Returns the place of a step's name as it was written: `scale_feed`. It is searched once and then
+    /// remembered.
     ///
-    /// A step that does not exist stands at the start of the file, so that a diagnostic is never lost for want of a place.
+    /// A step that does not exist is placed at the start of the file, so that a diagnostic is never lost for
+    /// want of a place.
     pub fn step_span(&self, index: usize) -> Span {
         let find = || self.find_step_span(index).unwrap_or_default();
         self.step_places.get(index).map_or_else(find, |place| *place.get_or_init(find))
     }
 
-    /// A parameter of a step: the keys below the step's name, elements of lists by number (`"0"`). What the recipe does not
-    /// say stands where the nearest thing it does say stands, in the end at the step's name.
+    /// Returns the place of a parameter of a step. It is given by the keys below the step's name, and
+    /// elements of lists by their index (`"0"`). If the recipe does not contain it, the place of the nearest
+    /// key above it is returned, in the end that of the step's name.
     ///
-    /// Each call reads the recipe's text again: ask once per step, not once per finding.
+    /// Each call reads the text of the recipe again, so it should be called once per step, not once per
+    /// finding.
     pub fn step_value_span(&self, index: usize, keys: &[&str]) -> Span {
         let step = [YamlPathSegment::Key("steps"), YamlPathSegment::Index(index)];
         let Some(name) = self.document.list_keys(&step).first().copied() else {
@@ -156,12 +163,12 @@ impl<S> Recipe<S> {
         }
     }
 
-    /// Reads the setup file that the recipe names; an empty setup if it names none.
+    /// Reads the setup file that the recipe names. Returns an empty setup if it names none.
     ///
-    /// `read` gets the path as written and returns the file, or why it cannot be read.
+    /// `read` gets the path as written. It returns the file, or the reason why it cannot be read.
     ///
     /// # Errors
-    /// [`codes::SETUP_FILE`] at the path in the recipe, or what is wrong in the setup file.
+    /// Returns [`codes::SETUP_FILE`] at the path in the recipe, or the faults of the setup file.
     pub fn load_setup_file(
         &self,
         read: impl FnOnce(&str) -> Result<Arc<Source>, SourceReadError>,
@@ -175,7 +182,8 @@ impl<S> Recipe<S> {
         Setup::load(&source)
     }
 
-    /// The setup that counts: field by field, the command line's, else the recipe's, else the setup file's.
+    /// Merges setups field by field. The command line has priority over the recipe, and the recipe over the
+    /// setup file.
     pub fn merge_setups(&self, setup_file: Setup, command_line: Setup) -> Setup {
         command_line.override_base(self.setup.clone()).override_base(setup_file)
     }

@@ -1,4 +1,4 @@
-//! `where:` — which part of a program a step applies to.
+//! This module holds `where:`, which states to which part of a program a step applies.
 
 use super::parameters::{Glob, NonNegative, Positive, ToolPattern};
 use crate::program::MotionClass;
@@ -10,7 +10,7 @@ use serde::de::{Deserializer, Error as _};
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MotionFilter {
-    /// Names of operations; `*` and `?` are wildcards.
+    /// Names of operations. `*` and `?` are wildcards.
     #[serde(default, deserialize_with = "deserialize_not_empty")]
     #[schemars(length(min = 1))]
     pub operations: Option<Vec<Glob>>,
@@ -18,11 +18,12 @@ pub struct MotionFilter {
     #[serde(default, deserialize_with = "deserialize_not_empty")]
     #[schemars(length(min = 1))]
     pub tools: Option<Vec<ToolPattern>>,
-    /// Kinds of motion.
+    /// Classes of motion.
     #[serde(default, deserialize_with = "deserialize_not_empty")]
     #[schemars(length(min = 1))]
     pub motions: Option<Vec<MotionClass>>,
-    /// Range of the programmed feed, in the recipe's unit per minute. Motions without a feed do not fit.
+    /// The range of the programmed feed, in the recipe's unit per minute. Motions without a feed do not
+    /// match.
     #[serde(default, deserialize_with = "deserialize_feed_range")]
     pub feed: Option<FeedRange>,
     /// Whether it is an error if nothing in the program fits, which is the rule: a step that selects nothing is most often
@@ -41,28 +42,28 @@ pub(super) fn default_required() -> bool {
     true
 }
 
-/// A range of feeds, both ends included.
+/// A range of feeds, including both ends.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FeedRange {
-    /// Lowest feed that fits, in the recipe's unit per minute.
+    /// The lowest feed that matches, in the recipe's unit per minute.
     pub min: Option<NonNegative>,
-    /// Highest feed that fits, in the recipe's unit per minute.
+    /// The highest feed that matches, in the recipe's unit per minute.
     pub max: Option<Positive>,
 }
 
-/// What is known about a motion when a step asks whether it is meant.
+/// The data of a motion by which a step decides whether it is meant.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct MotionFacts<'a> {
-    /// Name of the operation it belongs to.
+    /// The name of its operation.
     pub operation: Option<&'a str>,
-    /// Number of the tool in the spindle.
+    /// The number of the tool in the spindle.
     pub tool_number: Option<u32>,
-    /// Name of the tool in the spindle.
+    /// The name of the tool in the spindle.
     pub tool_name: Option<&'a str>,
-    /// What the motion is for.
+    /// The class of the motion.
     pub motion: Option<MotionClass>,
-    /// Programmed feed, in the recipe's unit per minute; `None` for rapids.
+    /// The programmed feed, in the recipe's unit per minute. It is `None` for rapids.
     pub feed: Option<f64>,
 }
 
@@ -102,17 +103,17 @@ impl MotionFilter {
             && self.matches_kind(facts.motion, facts.feed)
     }
 
-    /// Whether an operation of this name is meant.
+    /// Returns whether an operation of this name is meant.
     pub fn matches_operation(&self, name: Option<&str>) -> bool {
         is_unset_or_any(&self.operations, |glob| name.is_some_and(|name| glob.matches_name(name)))
     }
 
-    /// Whether a tool is meant, given what the file says about it.
+    /// Returns whether a tool is meant, by its number and name in the file.
     pub fn matches_tool(&self, number: Option<u32>, name: Option<&str>) -> bool {
         is_unset_or_any(&self.tools, |tool| tool.matches_tool(number, name))
     }
 
-    /// Whether a motion of this class and feed is meant, whatever its operation and tool.
+    /// Returns whether a motion of this class and feed is meant, whatever its operation and tool.
     pub fn matches_kind(&self, class: Option<MotionClass>, feed: Option<f64>) -> bool {
         is_unset_or_any(&self.motions, |&wanted| class == Some(wanted))
             && self.feed.is_none_or(|range| feed.is_some_and(|feed| range.contains(feed)))
@@ -130,13 +131,13 @@ fn is_unset_or_any<T>(wanted: &Option<Vec<T>>, fits: impl FnMut(&T) -> bool) -> 
 }
 
 impl FeedRange {
-    /// Whether a feed lies in the range.
+    /// Returns whether a feed lies in the range.
     pub fn contains(self, feed: f64) -> bool {
         self.min.is_none_or(|min| feed >= min.get()) && self.max.is_none_or(|max| feed <= max.get())
     }
 }
 
-/// Lists that must select something if they are given.
+/// Reads a list that must have at least one element if it is given.
 pub(crate) fn deserialize_not_empty<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<Option<Vec<T>>, D::Error> {

@@ -1,29 +1,30 @@
-//! `provenance:` of a recipe.
+//! This module holds `provenance:` of a recipe.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What the corrected file says about the run that made it, in comments of its own form. A file in which the recipe changes
-/// nothing stays as it is, byte for byte.
+/// What the corrected file states about the run that made it, in comments of its own form. A file in which
+/// the recipe changes nothing stays byte for byte.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Provenance {
-    /// Nothing.
+    /// No comments.
     #[default]
     None,
-    /// A header: version of clsmith, name and hash of the recipe, name and hash of the input.
+    /// A header with the version of clsmith, the name and hash of the recipe, and the name and hash of the
+    /// input.
     Header,
-    /// The header, and before each changed record a comment with the step and what it changed:
-    /// `$$ clsmith scale_feed: 250.0000 -> 200.0000`.
+    /// The header, and a comment before each changed record with the step and its change: `$$ clsmith
+    /// scale_feed: 250.0000 -> 200.0000`.
     Comments,
 }
 
 impl Provenance {
-    /// All of them, the least first.
+    /// All choices, with the smallest first.
     pub const ALL: [Self; 3] = [Self::None, Self::Header, Self::Comments];
 
-    /// As it stands in a recipe.
+    /// Returns the name of the choice in a recipe.
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "none",

@@ -1,4 +1,5 @@
-//! Faults that mean something particular in a recipe: its version, and the names of its steps.
+//! This module words faults that have a particular meaning in a recipe: its version, and the names of its
+//! steps.
 
 use crate::diagnostic::{DiagnosticCode, codes};
 use crate::yaml::{LocatedYamlFault, YamlFaultKind, YamlPathSegment, suggest_names};
@@ -6,7 +7,7 @@ use crate::yaml::{LocatedYamlFault, YamlFaultKind, YamlPathSegment, suggest_name
 pub(super) fn word_recipe_fault(finding: &LocatedYamlFault<'_>) -> Option<(DiagnosticCode, String, String)> {
     match (finding.kind, finding.path) {
         (YamlFaultKind::Missing { name: "version" }, []) => {
-            let message = "the recipe does not say its version".to_owned();
+            let message = "the recipe does not state its version".to_owned();
             Some((codes::RECIPE_VERSION, message, codes::RECIPE_VERSION.help().to_owned()))
         }
         (YamlFaultKind::Missing { name: "steps" }, []) => {
@@ -24,7 +25,7 @@ pub(super) fn word_recipe_fault(finding: &LocatedYamlFault<'_>) -> Option<(Diagn
         }
         (YamlFaultKind::Type { found, .. }, []) => {
             let message = format!("a recipe is a map of keys (`version:`, `steps:`), found {found}");
-            let help = "A recipe starts with `version: 1`. Was another file given in its place?";
+            let help = "A recipe begins with `version: 1`. Check that the right file was given.";
             Some((codes::WRONG_TYPE, message, help.to_owned()))
         }
         (YamlFaultKind::Type { found, .. }, [YamlPathSegment::Key("steps"), YamlPathSegment::Index(_)]) => {
@@ -43,7 +44,8 @@ pub(super) fn word_recipe_fault(finding: &LocatedYamlFault<'_>) -> Option<(Diagn
     }
 }
 
-/// Whether an unknown choice is the step itself, by its key or as a bare word, and not one of its settings.
+/// Returns whether an unknown choice is the step itself, by its key or as a bare word, and not one of its
+/// settings.
 fn is_step(path: &[YamlPathSegment<'_>], name: &str) -> bool {
     match path.get(2) {
         None => true,

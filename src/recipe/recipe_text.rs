@@ -1,4 +1,4 @@
-//! A recipe as it is written: what serde reads, and what the JSON schema tells editors.
+//! This module holds a recipe as it is written: what serde reads, and what the JSON schema gives editors.
 
 use super::Provenance;
 use super::parameters::LengthUnit;
@@ -8,29 +8,29 @@ use serde::de::{self, Deserialize, Deserializer, Unexpected, Visitor};
 use std::borrow::Cow;
 use std::fmt;
 
-/// A recipe: the transforms to apply to CL data, in order, with their parameters.
+/// A recipe: the transforms that are applied to CL data in order, with their parameters.
 #[derive(Debug, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "clsmith recipe", rename = "Recipe")]
 pub(super) struct RecipeText<S> {
-    /// The version of the rules this recipe is written by: 1.
+    /// The version of the rules by which this recipe is written: 1.
     pub version: RecipeVersion,
-    /// The unit of every length in this recipe; feeds are in this unit per minute.
+    /// The unit of every length in this recipe. Feeds are in this unit per minute.
     #[serde(default)]
     pub units: LengthUnit,
-    /// A file with the keys of `setup`, relative to this recipe's folder; what `setup` says overrides it.
+    /// A file with the keys of `setup`, relative to this recipe's folder. Keys of `setup` override it.
     pub setup_file: Option<String>,
-    /// What stands around the program: machine, stock, tools, material.
+    /// The data around the program: machine, stock, tools and material.
     #[serde(default)]
     pub setup: SetupText,
-    /// What the corrected file says about the run that made it.
+    /// What the corrected file states about the run that made it.
     #[serde(default)]
     pub provenance: Provenance,
-    /// The transforms, applied one after the other.
+    /// The transforms, which are applied one after the other.
     pub steps: Vec<S>,
 }
 
-/// JSON schema of a recipe with steps of type `S`, for editors.
+/// Returns the JSON schema of a recipe with steps of type `S`, for editors.
 ///
 /// ```
 /// use clsmith::recipe::recipe_schema;
@@ -48,7 +48,7 @@ pub fn recipe_schema<S: JsonSchema>() -> serde_json::Value {
 pub(super) struct RecipeVersion(u32);
 
 impl RecipeVersion {
-    /// The only one so far.
+    /// The only version so far.
     const KNOWN: u32 = 1;
 
     pub fn get(self) -> u32 {

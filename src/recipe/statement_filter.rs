@@ -1,4 +1,4 @@
-//! `where:` of steps that change statements, or whole operations.
+//! This module holds `where:` of steps that change statements or whole operations.
 
 use super::motion_filter::{MotionFilter, default_required, deserialize_not_empty};
 use super::parameters::{Glob, ToolPattern};
@@ -10,11 +10,12 @@ use serde::Deserialize;
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StatementFilter {
-    /// Names of operations; `*` and `?` are wildcards. What stands before the first operation belongs to it.
+    /// Names of operations. `*` and `?` are wildcards. Statements before the first operation belong to it.
     #[serde(default, deserialize_with = "deserialize_not_empty")]
     #[schemars(length(min = 1))]
     pub operations: Option<Vec<Glob>>,
-    /// Numbers or names of tools: the tool in force behind the statement, so a LOAD/TOOL belongs to the tool that it loads.
+    /// Numbers or names of tools. The tool in force after the statement counts, so a LOAD/TOOL belongs to the
+    /// tool that it loads.
     #[serde(default, deserialize_with = "deserialize_not_empty")]
     #[schemars(length(min = 1))]
     pub tools: Option<Vec<ToolPattern>>,
@@ -31,7 +32,7 @@ impl Default for StatementFilter {
 }
 
 impl StatementFilter {
-    /// Whether it leaves anything out.
+    /// Returns whether it selects everything.
     pub fn is_everything(&self) -> bool {
         self.operations.is_none() && self.tools.is_none()
     }
@@ -48,7 +49,7 @@ impl From<&StatementFilter> for MotionFilter {
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OperationFilter {
-    /// Names of operations; `*` and `?` are wildcards.
+    /// Names of operations. `*` and `?` are wildcards.
     #[serde(default, deserialize_with = "deserialize_not_empty")]
     #[schemars(length(min = 1))]
     pub operations: Option<Vec<Glob>>,

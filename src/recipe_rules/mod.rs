@@ -1,6 +1,9 @@
-//! Which recipe a program gets: a file of rules over machine, tool, operation and file name; the first that fits wins.
+//! This module decides which recipe a program gets. A file has rules over machine, tool, operation and file
+//! name, and the first rule that matches counts.
 //!
-//! So one hook serves a shop. [`RecipeRules::load`] reads the file, [`RecipeRuleFacts::from_program`] looks into a program, [`RecipeRules::choose_recipe`] decides.
+//! So a single hook serves a whole shop. [`RecipeRules::load`] reads the file,
+//! [`RecipeRuleFacts::from_program`] reads the facts of a program, and [`RecipeRules::choose_recipe`]
+//! decides.
 
 mod rule_facts;
 mod rules_text;
@@ -37,14 +40,14 @@ pub struct RecipeRules {
     otherwise: RecipeFallback,
 }
 
-/// What a program must be like, and the recipe it then gets.
+/// The conditions on a program, and the recipe that it gets then.
 #[derive(Debug)]
 struct RecipeRule {
     when: RecipeRuleCondition,
     job: RecipeAndSetup,
 }
 
-/// What a program must be like: all that is given must fit, of each list one.
+/// The conditions on a program. All of them must match, and at least one element of each list.
 #[derive(Debug)]
 struct RecipeRuleCondition {
     machine: Option<Vec<Glob>>,
@@ -60,7 +63,7 @@ struct RecipeAndSetup {
     setup: Option<FilePath>,
 }
 
-/// What becomes of a program that no rule fits.
+/// What happens to a program that no rule matches.
 #[derive(Debug)]
 enum RecipeFallback {
     Recipe(RecipeAndSetup),
@@ -68,7 +71,7 @@ enum RecipeFallback {
     Stop,
 }
 
-/// What becomes of a program.
+/// What happens to a program.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum RecipeChoice {
     /// It is corrected.
@@ -77,10 +80,10 @@ pub enum RecipeChoice {
         recipe: PathBuf,
         /// The setup file that overrides the recipe's, likewise.
         setup: Option<PathBuf>,
-        /// What chose it, for people: `rule 2` or `otherwise`.
+        /// The rule that chose it, named for people: `rule 2` or `otherwise`.
         by: String,
     },
-    /// It goes on as it is.
+    /// It passes unchanged.
     Pass,
 }
 
@@ -88,15 +91,15 @@ impl RecipeRules {
     /// Reads a file of rules. The recipes that it names are not opened.
     ///
     /// # Errors
-    /// Everything that is wrong with the file, each at its place.
+    /// Returns all faults of the file, each at its place.
     pub fn load(source: &Arc<Source>) -> Result<Self, Failure> {
         rules_text::load_rules(source)
     }
 
-    /// What becomes of a program.
+    /// Decides what happens to a program.
     ///
     /// # Errors
-    /// [`codes::NO_RULE`] when no rule fits and `otherwise` does not say what to do then, or says `stop`.
+    /// Returns [`codes::NO_RULE`] if no rule matches and `otherwise` is missing or `stop`.
     pub fn choose_recipe(&self, facts: &RecipeRuleFacts) -> Result<RecipeChoice, Failure> {
         for (index, rule) in self.rules.iter().enumerate() {
             if rule.when.matches_facts(facts) {
@@ -110,7 +113,7 @@ impl RecipeRules {
         }
     }
 
-    /// Every recipe that a rule may choose, with its setup.
+    /// Returns every recipe that a rule may choose, with its setup.
     pub fn list_choices(&self) -> Vec<RecipeChoice> {
         let rules = self.rules.iter().enumerate();
         let mut all: Vec<RecipeChoice> =
@@ -128,7 +131,7 @@ impl RecipeRules {
     }
 
     fn report_no_rule(&self, facts: &RecipeRuleFacts) -> Diagnostic {
-        let message = format!("no rule fits this program: {facts}");
+        let message = format!("no rule matches this program: {facts}");
         let span = self.key_span("otherwise").or_else(|| self.key_span("rules")).unwrap_or_default();
         Diagnostic::new(codes::NO_RULE, message).with_label(&self.source, span, "none of these, then stop")
     }

@@ -1,28 +1,29 @@
-//! What rules ask of a program.
+//! This module reads the facts of a program that rules refer to.
 
 use crate::parse;
 use crate::program::operation::{decode_text, find_operations};
 use crate::program::{Program, Record, StatementField};
 use std::fmt;
 
-/// How many names a message lists of each kind.
-const SHOWN: usize = 4;
+/// The number of names of each kind that a message lists.
+const MOST_SHOWN: usize = 4;
 
-/// What rules ask of a program. Names that are no UTF-8 stand as Latin-1; that of the file with `?` for such bytes.
+/// The facts of a program that rules refer to. Names that are not UTF-8 are read as Latin-1. In the name of
+/// the file, such bytes become `?`.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct RecipeRuleFacts {
-    /// Name of the file, without its folder.
+    /// The name of the file, without its folder.
     pub file: String,
-    /// Every `MACHIN/` record: its first field, and all of them without blanks (`UNCX01` and `UNCX01,1`).
+    /// Every `MACHIN/` record: its first field, and all its fields without blanks (`UNCX01` and `UNCX01,1`).
     pub machines: Vec<String>,
     /// Number and name of every tool that moves.
     pub tools: Vec<(Option<u32>, Option<String>)>,
-    /// Names of all operations.
+    /// The names of all operations.
     pub operations: Vec<String>,
 }
 
 impl RecipeRuleFacts {
-    /// Looks into a program. `file` is the name of its file, without the folder.
+    /// Reads the facts of a program. `file` is the name of its file, without the folder.
     pub fn from_program(file: impl Into<String>, program: &Program) -> Self {
         let mut facts = Self { file: file.into(), ..Self::default() };
         for (_, statement) in program.live_statements() {
@@ -80,10 +81,10 @@ impl fmt::Display for RecipeRuleFacts {
         for (kind, names) in
             [("machine", &self.machines), ("tools", &tools), ("operations", &self.operations)]
         {
-            let shown = names.get(..SHOWN.min(names.len())).unwrap_or_default().join(", ");
-            let more = names.len().saturating_sub(SHOWN);
+            let shown = names.get(..MOST_SHOWN.min(names.len())).unwrap_or_default().join(", ");
+            let more = names.len().saturating_sub(MOST_SHOWN);
             match (names.len(), more) {
-                (0, _) => write!(f, "; {kind}: not said")?,
+                (0, _) => write!(f, "; {kind}: not stated")?,
                 (_, 0) => write!(f, "; {kind}: {shown}")?,
                 _ => write!(f, "; {kind}: {shown} and {more} more")?,
             }

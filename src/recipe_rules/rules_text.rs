@@ -1,4 +1,4 @@
-//! Rules as they are written: what serde reads, and what the JSON schema tells editors.
+//! This module holds rules as they are written: what serde reads, and what the JSON schema gives editors.
 
 use super::{RecipeAndSetup, RecipeFallback, RecipeRule, RecipeRuleCondition, RecipeRules};
 use crate::diagnostic::{DiagnosticCode, Failure, codes};
@@ -13,16 +13,18 @@ use std::fmt;
 use std::marker::PhantomData;
 use std::sync::Arc;
 
-/// Which recipe a program gets, for `clsmith hook --select` and `clsmith watch --select`: the first rule that fits wins.
+/// Which recipe a program gets, for `clsmith hook --select` and `clsmith watch --select`. The first rule that
+/// matches counts.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "clsmith recipe selection", rename = "Selection")]
 struct RecipeRulesText {
-    /// The rules, looked at from the first to the last.
+    /// The rules, which are tried from the first to the last.
     #[serde(deserialize_with = "deserialize_rules")]
     #[schemars(length(min = 1))]
     rules: Vec<RecipeRuleText>,
-    /// What becomes of a program that no rule fits: `stop` (also when left out), `pass` (it goes on as it is), or a recipe.
+    /// What happens to a program that no rule matches: `stop` (also when it is left out), `pass` (it passes
+    /// unchanged), or a recipe.
     #[serde(default)]
     otherwise: RecipeFallbackText,
 }
@@ -32,7 +34,7 @@ struct RecipeRulesText {
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Rule")]
 struct RecipeRuleText {
-    /// What the program must be like. All that is given must fit; of a list, one has to.
+    /// The conditions on the program. All given keys must match, and at least one element of each list.
     #[serde(deserialize_with = "deserialize_condition")]
     when: RecipeRuleConditionText,
     /// The recipe, relative to this file's folder.
@@ -41,7 +43,7 @@ struct RecipeRuleText {
     setup: Option<FilePath>,
 }
 
-/// What a program must be like.
+/// The conditions on a program.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "When", extend("minProperties" = 1))]
@@ -56,11 +58,11 @@ struct RecipeRuleConditionText {
     file: Option<OneOrMorePatterns<Glob>>,
 }
 
-/// What becomes of a program that no rule fits.
+/// What happens to a program that no rule matches.
 #[derive(Debug, Default, JsonSchema)]
 #[schemars(untagged, rename = "Otherwise")]
 enum RecipeFallbackText {
-    /// It stops the run, or goes on as it is.
+    /// It stops the run, or passes unchanged.
     Word(FallbackWordText),
     /// It is corrected by this recipe.
     Recipe(FallbackRecipeText),
@@ -76,7 +78,7 @@ enum RecipeFallbackText {
 enum FallbackWordText {
     /// It stops the run.
     Stop,
-    /// It goes on as it is.
+    /// It passes unchanged.
     Pass,
 }
 
@@ -108,7 +110,7 @@ impl<T> OneOrMorePatterns<T> {
     }
 }
 
-/// JSON schema of a file of rules.
+/// Returns the JSON schema of a file of rules.
 pub fn rules_schema() -> serde_json::Value {
     schemars::schema_for!(RecipeRulesText).to_value()
 }
@@ -135,13 +137,13 @@ pub(super) fn load_rules(source: &Arc<Source>) -> Result<RecipeRules, Failure> {
     Ok(RecipeRules { source: Arc::clone(source), rules: rules.collect(), otherwise, document })
 }
 
-/// A recipe given in place of the rules is told by name.
+/// Words the fault when a recipe was given in place of the rules.
 fn word_rules_fault(finding: &LocatedYamlFault<'_>) -> Option<(DiagnosticCode, String, String)> {
     match (finding.kind, finding.path) {
         (YamlFaultKind::Missing { name: "rules" }, []) | (YamlFaultKind::Type { .. }, []) => {
             let message = "the selection has no `rules`".to_owned();
             let help = "A selection is a list `rules:` of `- when: { file: \"*.cls\" }` with `recipe: name.yaml` below. For one \
-                        recipe for all programs give `--recipe` instead.";
+                        recipe for all programs, give `--recipe` instead.";
             Some((codes::MISSING_KEY, message, help.to_owned()))
         }
         (YamlFaultKind::UnknownKey { name, .. }, [YamlPathSegment::Key(_)]) if name == "steps" => {
@@ -156,7 +158,7 @@ fn deserialize_rules<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<R
     let rules = Vec::deserialize(deserializer)?;
     if rules.is_empty() {
         return Err(de::Error::custom(
-            "there is no rule\nFor one recipe for all programs give `--recipe` instead.",
+            "there is no rule\nFor one recipe for all programs, give `--recipe` instead.",
         ));
     }
     Ok(rules)
@@ -170,8 +172,8 @@ fn deserialize_condition<'de, D: Deserializer<'de>>(
         matches!(when, RecipeRuleConditionText { machine: None, tool: None, operation: None, file: None });
     if is_empty {
         return Err(de::Error::custom(
-            "`when` asks for nothing, so every program fits\nSay machine, tool, operation or file; a recipe for all others \
-             stands under `otherwise`.",
+            "`when` has no condition, so every program matches\nAdd machine, tool, operation or file; a recipe for all others \
+             belongs under `otherwise`.",
         ));
     }
     Ok(when)

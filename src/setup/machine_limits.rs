@@ -1,22 +1,22 @@
-//! The machine and its limits.
+//! This module holds the machine and its limits.
 
 use crate::parameters::{LengthUnit, Positive};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// A machine's limits; what is not known is `None`, and does not limit.
+/// The limits of a machine. A limit that is not known is `None`, and does not apply.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MachineLimits {
-    /// Highest programmed feed, in mm/min.
+    /// The highest programmed feed, in mm/min.
     pub max_feed: Option<Positive>,
-    /// Speed of rapid motions, in mm/min.
+    /// The speed of rapid motions, in mm/min.
     pub rapid_feed: Option<Positive>,
-    /// How fast the feed can change along the path, in (mm/min)/s.
+    /// The largest change of feed along the path, in (mm/min)/s.
     pub max_acceleration: Option<Positive>,
 }
 
 impl MachineLimits {
-    /// This machine where it says something, `base` where it does not.
+    /// Returns the limits of this machine, and those of `base` where this one has none.
     pub(super) fn override_base(self, base: Self) -> Self {
         Self {
             max_feed: self.max_feed.or(base.max_feed),
@@ -26,22 +26,23 @@ impl MachineLimits {
     }
 }
 
-/// A machine's limits, in the file's unit.
+/// The limits of a machine, in the file's unit.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Machine")]
 pub(super) struct MachineText {
-    /// Highest programmed feed, in the file's unit per minute.
+    /// The highest programmed feed, in the file's unit per minute.
     max_feed: Option<Positive>,
-    /// Speed of rapid motions, in the file's unit per minute.
+    /// The speed of rapid motions, in the file's unit per minute.
     rapid_feed: Option<Positive>,
-    /// How fast the feed can change along the path: in the file's unit per minute, each second. 1000 takes 3 s from a
-    /// standstill to a feed of 3000.
+    /// The largest change of feed along the path, in the file's unit per minute and second. With 1000, the
+    /// machine needs 3 s from standstill to a feed of 3000.
     max_acceleration: Option<Positive>,
 }
 
 impl MachineText {
-    /// In millimetres. Only numbers near the largest `f64` leave the range when converted; they limit nothing.
+    /// Converts the limits to millimetres. Only numbers near the largest `f64` leave the range in the
+    /// conversion, and these limit nothing.
     pub(super) fn check_limits(self, units: LengthUnit) -> MachineLimits {
         let to_mm = |value: Option<Positive>| {
             value.and_then(|value| Positive::new(value.get() * units.mm_per_unit()))

@@ -1,4 +1,5 @@
-//! The work material: its cutting coefficients, given in the setup or in a file of their own.
+//! This module holds the work material with its cutting coefficients, which are given in the setup or in a
+//! file of their own.
 
 use super::setup_reader::SetupReader;
 use super::stock::FileRef;
@@ -26,49 +27,49 @@ use std::sync::Arc;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct WorkMaterial {
-    /// What it is called.
+    /// The name of the material.
     pub name: Option<String>,
-    /// Its cutting coefficients in N/mm2 and N/mm.
+    /// The cutting coefficients in N/mm2 and N/mm.
     pub coefficients: CuttingCoefficients,
 }
 
-/// The material as the setup says it.
+/// The material as the setup gives it.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum MaterialChoice {
     /// Its coefficients.
     Given(WorkMaterial),
-    /// A file with them, which nobody has read yet: [`Setup::read_material_file`].
+    /// A file with the coefficients, which was not read yet; see [`Setup::read_material_file`].
     File(FileRef),
 }
 
-/// Radial to tangential cutting coefficient where only the tangential one is known: of steel with usual rake angles.
+/// The ratio of the radial to the tangential cutting coefficient, when only the tangential one is known. It
+/// holds for steel and usual rake angles.
 const RADIAL: f64 = 0.3;
-/// Axial to tangential cutting coefficient, likewise.
+/// The ratio of the axial to the tangential cutting coefficient, under the same conditions.
 const AXIAL: f64 = 0.2;
 
 impl WorkMaterial {
     /// Reads a material file.
     ///
-    /// # Errors
-    /// Everything that is wrong with the file, each at its place.
+    /// Returns all faults of the file, each at its place.
     pub fn load(source: &Arc<Source>) -> Result<Self, Failure> {
         let document = YamlDocument::parse(source)?;
         let text: MaterialFileText = document.deserialize_checked(|_| None)?;
         Ok(text.into_material())
     }
 
-    /// JSON schema of a material file, for editors.
+    /// Returns the JSON schema of a material file, for editors.
     pub fn schema() -> serde_json::Value {
         schemars::schema_for!(MaterialFileText).to_value()
     }
 }
 
 impl Setup {
-    /// The setup with its material file read, where it names one; `read` gets the path as seen from where clsmith runs.
+    /// Reads the material file if the setup names one. `read` gets the path as seen from where clsmith runs.
     ///
     /// # Errors
-    /// [`codes::MATERIAL_FILE`] where the file is named, or what is wrong in it.
+    /// Returns [`codes::MATERIAL_FILE`] where the file is named, or the faults of the file.
     pub fn read_material_file(
         mut self,
         read: impl FnOnce(&Path) -> Result<Arc<Source>, SourceReadError>,
@@ -83,11 +84,11 @@ impl Setup {
         Ok(self)
     }
 
-    /// The material.
+    /// Returns the material.
     ///
     /// # Errors
-    /// [`codes::MATERIAL_MISSING`] when the setup says none, [`codes::MATERIAL_FILE`] when it names a file that nobody
-    /// has read.
+    /// Returns [`codes::MATERIAL_MISSING`] if the setup has none, and [`codes::MATERIAL_FILE`] if it names a
+    /// file that was not read.
     pub fn require_material(&self) -> Result<&WorkMaterial, Failure> {
         match &self.material {
             Some(MaterialChoice::Given(material)) => Ok(material),
@@ -105,26 +106,26 @@ impl Setup {
     }
 }
 
-/// A material file: cutting coefficients of the mechanistic force model. An edge element of length dl that cuts a chip
-/// of thickness h takes the tangential force (k_tc h + k_te) dl, and radial and axial alike. N and mm, whatever
-/// `units:` is elsewhere.
+/// A material file: the cutting coefficients of the mechanistic force model. An edge element of length dl
+/// that cuts a chip of thickness h takes the tangential force (k_tc h + k_te) dl, and the radial and axial
+/// forces alike. The numbers are in N and mm, whatever `units:` is elsewhere.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "clsmith material file", rename = "MaterialFile")]
 struct MaterialFileText {
-    /// What it is called.
+    /// The name of the material.
     name: Option<String>,
-    /// Tangential cutting coefficient in N/mm2.
+    /// The tangential cutting coefficient in N/mm2.
     k_tc: Positive,
-    /// Tangential edge coefficient in N/mm; 0 if not given.
+    /// The tangential edge coefficient in N/mm; 0 when it is left out.
     k_te: Option<NonNegative>,
-    /// Radial cutting coefficient in N/mm2; 0.3 k_tc if not given.
+    /// The radial cutting coefficient in N/mm2; 0.3 k_tc when it is left out.
     k_rc: Option<NonNegative>,
-    /// Radial edge coefficient in N/mm; k_te if not given.
+    /// The radial edge coefficient in N/mm; k_te when it is left out.
     k_re: Option<NonNegative>,
-    /// Axial cutting coefficient in N/mm2; 0.2 k_tc if not given.
+    /// The axial cutting coefficient in N/mm2; 0.2 k_tc when it is left out.
     k_ac: Option<Finite>,
-    /// Axial edge coefficient in N/mm; 0 if not given.
+    /// The axial edge coefficient in N/mm; 0 when it is left out.
     k_ae: Option<Finite>,
 }
 
@@ -144,32 +145,32 @@ impl MaterialFileText {
     }
 }
 
-/// The material that is cut: a `file` with cutting coefficients, or the coefficients themselves, of which only `k_tc`
-/// is required. N and mm, whatever `units` is.
+/// The work material: a `file` with cutting coefficients, or the coefficients themselves, of which only
+/// `k_tc` is required. The numbers are in N and mm, whatever `units` is.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Material", extend("oneOf" = [{ "required": ["file"] }, { "required": ["k_tc"] }]))]
 pub(super) struct MaterialText {
     /// A file with the other keys, relative to this file's folder.
     file: Option<FilePath>,
-    /// What it is called.
+    /// The name of the material.
     name: Option<String>,
-    /// Tangential cutting coefficient in N/mm2.
+    /// The tangential cutting coefficient in N/mm2.
     k_tc: Option<Positive>,
-    /// Tangential edge coefficient in N/mm; 0 if not given.
+    /// The tangential edge coefficient in N/mm; 0 when it is left out.
     k_te: Option<NonNegative>,
-    /// Radial cutting coefficient in N/mm2; 0.3 k_tc if not given.
+    /// The radial cutting coefficient in N/mm2; 0.3 k_tc when it is left out.
     k_rc: Option<NonNegative>,
-    /// Radial edge coefficient in N/mm; k_te if not given.
+    /// The radial edge coefficient in N/mm; k_te when it is left out.
     k_re: Option<NonNegative>,
-    /// Axial cutting coefficient in N/mm2; 0.2 k_tc if not given.
+    /// The axial cutting coefficient in N/mm2; 0.2 k_tc when it is left out.
     k_ac: Option<Finite>,
-    /// Axial edge coefficient in N/mm; 0 if not given.
+    /// The axial edge coefficient in N/mm; 0 when it is left out.
     k_ae: Option<Finite>,
 }
 
 impl MaterialText {
-    /// The material; `None` when something is wrong, which the reader then knows.
+    /// Checks the material. Returns `None` if it has a fault, which the reader then holds.
     pub(super) fn check_material(
         self,
         reader: &mut SetupReader,
@@ -204,7 +205,7 @@ impl MaterialText {
         }
     }
 
-    /// The first key beside `file` that is given.
+    /// Returns the first key that is given in addition to `file`.
     fn first_given_key(&self) -> Option<&'static str> {
         let keys = [
             (self.name.is_some(), "name"),

@@ -1,8 +1,9 @@
-//! What stands around the program: machine, stock, tools, material.
+//! This module holds the data around the program: machine, stock, tools and material.
 //!
-//! The same keys come from the recipe's `setup:`, from a setup file, or both; whoever is closer to the job wins, field
-//! by field ([`Setup::override_base`]). A setup is a description: lengths in millimetres, files by their paths, everything with
-//! its [`YamlLocation`]. [`Setup::resolve_cutter`] makes a tool that can be simulated of what the CL file and the setup say together.
+//! The same keys come from the recipe's `setup:`, from a setup file, or from both. The one that is closer to
+//! the job has priority, field by field ([`Setup::override_base`]). A setup is a description: lengths are in
+//! millimetres, files are given by their paths, and everything has its [`YamlLocation`].
+//! [`Setup::resolve_cutter`] makes a tool that can be simulated from the CL file and the setup.
 
 mod machine_limits;
 mod material;
@@ -25,7 +26,7 @@ use crate::source::Source;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The setup of a job. Lengths in millimetres, whatever the unit of the file it came from.
+/// The setup of a job. Lengths are in millimetres, whatever the unit of the file.
 ///
 /// ```
 /// use clsmith::setup::Setup;
@@ -46,25 +47,26 @@ use std::sync::Arc;
 pub struct Setup {
     /// The machine.
     pub machine: MachineLimits,
-    /// What there is before the first cut.
+    /// The stock before the first cut.
     pub stock: Option<SetupStock>,
-    /// What is said about tools; the first entry that fits a tool counts.
+    /// The tool entries. The first entry that matches a tool counts.
     pub tools: Vec<ToolEntry>,
-    /// The material that is cut.
+    /// The work material.
     pub material: Option<MaterialChoice>,
 }
 
 impl Setup {
-    /// Reads a setup file: `units:` and the keys of a recipe's `setup:` beside it. Files that it names are not opened.
+    /// Reads a setup file, which has `units:` and the keys of a recipe's `setup:`. Files that it names are
+    /// not opened.
     ///
     /// # Errors
-    /// Everything that is wrong with the file, each at its place.
+    /// Returns all faults of the file, each at its place.
     pub fn load(source: &Arc<Source>) -> Result<Self, Failure> {
         setup_text::load_setup(source)
     }
 
-    /// This setup where it says something, `base` where it does not. Stock and material go as a whole; of tools, the
-    /// entries of this setup come first.
+    /// Returns this setup, with `base` where this one has no value. Stock and material are taken as a whole.
+    /// The tool entries of this setup come first.
     #[must_use]
     pub fn override_base(self, base: Self) -> Self {
         let mut tools = self.tools;
@@ -77,13 +79,13 @@ impl Setup {
         }
     }
 
-    /// The stock.
+    /// Returns the stock.
     ///
     /// # Errors
-    /// [`codes::STOCK_MISSING`] when the setup says none.
+    /// Returns [`codes::STOCK_MISSING`] if the setup has none.
     pub fn require_stock(&self) -> Result<&SetupStock, Failure> {
         let missing = || {
-            let message = "a simulation needs the stock, and the setup says none";
+            let message = "a simulation needs the stock, and the setup has none";
             let help = "Add it under `setup:`, in the coordinates of the CL file: \
                         `stock: { block: { from: [x, y, z], to: [x, y, z] } }`, or `cylinder`, `stl`, `file`.";
             Diagnostic::new(codes::STOCK_MISSING, message).with_help(help)
@@ -91,7 +93,7 @@ impl Setup {
         Ok(self.stock.as_ref().ok_or_else(missing)?)
     }
 
-    /// The files that its stock is read from.
+    /// Returns the files from which the stock is read.
     pub fn stock_files(&self) -> impl Iterator<Item = &Path> {
         let bodies = self.stock.iter().flat_map(|stock| &stock.bodies);
         bodies.filter_map(|body| match &body.shape {
@@ -100,7 +102,7 @@ impl Setup {
         })
     }
 
-    /// The files that it names: stock and material.
+    /// Returns the files that the setup names: stock and material.
     pub fn referenced_files(&self) -> impl Iterator<Item = &Path> {
         let material = self.material.iter().filter_map(|material| match material {
             MaterialChoice::File(file) => Some(file.path.as_path()),
@@ -109,7 +111,7 @@ impl Setup {
         self.stock_files().chain(material)
     }
 
-    /// JSON schema of a setup file, for editors.
+    /// Returns the JSON schema of a setup file, for editors.
     pub fn schema() -> serde_json::Value {
         setup_text::setup_file_schema()
     }

@@ -1,19 +1,20 @@
-//! What turns a setup's text into values in millimetres, and collects what is wrong with it.
+//! This module converts the text of a setup into values in millimetres and collects its faults.
 
 use super::YamlLocation;
 use crate::diagnostic::{Diagnostic, DiagnosticCode, Failure, codes};
 use crate::parameters::{LengthUnit, Positive};
 
-/// Who made more mistakes than this fixes the first ones first; each costs a reading of the file.
-const MOST: usize = 20;
+/// The largest number of faults that are reported. More are of little use, and each costs reading the file
+/// again.
+const MOST_FAULTS: usize = 20;
 
-/// A kilometre in millimetres: whoever writes more has mixed up something, and the simulation need not cope with it.
-const LARGEST: f64 = 1e6;
+/// A kilometre in millimetres. A larger number is a mistake, and the simulation does not have to handle it.
+const LARGEST_LENGTH_MM: f64 = 1e6;
 
-/// A micrometre in millimetres: no tool and no stock is smaller.
-pub(super) const SMALLEST: f64 = 1e-3;
+/// A micrometre in millimetres. No tool and no stock is smaller.
+pub(super) const SMALLEST_SIZE_MM: f64 = 1e-3;
 
-/// Reads one recipe's or setup file's `setup`.
+/// Reads the `setup` of a recipe or of a setup file.
 pub(super) struct SetupReader {
     pub units: LengthUnit,
     found: Vec<Diagnostic>,
@@ -24,26 +25,26 @@ impl SetupReader {
         Self { units, found: Vec::new() }
     }
 
-    /// A length in millimetres.
+    /// Returns a length in millimetres.
     pub fn length_mm(&mut self, value: f64, place: impl FnOnce() -> YamlLocation) -> f64 {
         let value_mm = value * self.units.mm_per_unit();
-        if value_mm.abs() <= LARGEST {
+        if value_mm.abs() <= LARGEST_LENGTH_MM {
             return value_mm;
         }
         self.add_fault(place, "this is more than a kilometre", "too large", "Compare it with `units:`.");
-        LARGEST.copysign(value_mm)
+        LARGEST_LENGTH_MM.copysign(value_mm)
     }
 
-    /// The size of something in millimetres.
+    /// Returns the size of something in millimetres.
     pub fn size_mm(&mut self, value: Positive, place: impl Fn() -> YamlLocation) -> f64 {
         let value_mm = self.length_mm(value.get(), &place);
-        if value.get() * self.units.mm_per_unit() < SMALLEST {
+        if value.get() * self.units.mm_per_unit() < SMALLEST_SIZE_MM {
             self.add_fault(place, "this is less than a micrometre", "too small", "Compare it with `units:`.");
         }
         value_mm
     }
 
-    /// A size that may be missing, in millimetres; it stands at `key` of `place`.
+    /// Returns a size that may be missing, in millimetres. It stands at `key` of `place`.
     pub fn optional_size_mm(
         &mut self,
         value: Option<Positive>,
@@ -53,7 +54,7 @@ impl SetupReader {
         value.map(|value| self.size_mm(value, || place.at_key(key)))
     }
 
-    /// A length that may be missing, in millimetres; it stands at `key` of `place`.
+    /// Returns a length that may be missing, in millimetres. It stands at `key` of `place`.
     pub fn optional_length_mm(
         &mut self,
         value: Option<f64>,
@@ -63,7 +64,7 @@ impl SetupReader {
         value.map(|value| self.length_mm(value, || place.at_key(key)))
     }
 
-    /// Adds a fault of a value.
+    /// Adds the fault of a value.
     pub fn add_fault(
         &mut self,
         place: impl FnOnce() -> YamlLocation,
@@ -71,14 +72,14 @@ impl SetupReader {
         label: &str,
         help: impl Into<String>,
     ) {
-        if self.found.len() < MOST {
+        if self.found.len() < MOST_FAULTS {
             let place = place();
             let fault = Diagnostic::new(codes::BAD_VALUE, message).with_help(help);
             self.found.push(fault.with_label(place.source(), place.value_span(), label));
         }
     }
 
-    /// Adds a fault that lies in a key rather than in its value, with other keys that it goes against.
+    /// Adds a fault that lies in a key and not in its value, with the other keys that contradict it.
     pub fn add_key_fault(
         &mut self,
         code: DiagnosticCode,
@@ -86,7 +87,7 @@ impl SetupReader {
         help: &str,
         keys: &[(YamlLocation, &str)],
     ) {
-        if self.found.len() < MOST {
+        if self.found.len() < MOST_FAULTS {
             let fault = Diagnostic::new(code, message).with_help(help);
             self.found.push(keys.iter().fold(fault, |fault, (place, label)| {
                 fault.with_label(place.source(), place.key_span(), *label)
@@ -94,7 +95,7 @@ impl SetupReader {
         }
     }
 
-    /// The value, unless something was wrong.
+    /// Returns the value, or the faults if there are any.
     pub fn finish_value<T>(mut self, value: T) -> Result<T, Failure> {
         if self.found.is_empty() {
             return Ok(value);

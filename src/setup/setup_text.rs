@@ -1,4 +1,4 @@
-//! A setup as it is written: what serde reads, and what the JSON schema tells editors.
+//! This module holds a setup as it is written: what serde reads, and what the JSON schema gives editors.
 
 use super::machine_limits::MachineText;
 use super::material::MaterialText;
@@ -19,22 +19,22 @@ use std::sync::Arc;
 #[serde(deny_unknown_fields, rename_all = "snake_case")]
 #[schemars(title = "clsmith setup file")]
 struct SetupFileText {
-    /// The unit of every length in this file; feeds are in this unit per minute.
+    /// The unit of every length in this file. Feeds are in this unit per minute.
     #[serde(default)]
     units: LengthUnit,
     /// The machine and its limits.
     #[serde(default)]
     machine: MachineText,
-    /// What there is before the first cut.
+    /// The stock before the first cut.
     stock: Option<StockText>,
-    /// What the CL file does not say about tools; the first entry that fits a tool counts.
+    /// What the CL file does not state about tools. The first entry that matches a tool counts.
     #[serde(default)]
     tools: Option<Vec<ToolText>>,
-    /// The material that is cut.
+    /// The work material.
     material: Option<MaterialText>,
 }
 
-/// What stands around the program: machine, stock, tools, material.
+/// The data around the program: machine, stock, tools and material.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Setup")]
@@ -42,11 +42,11 @@ pub(crate) struct SetupText {
     /// The machine and its limits.
     #[serde(default)]
     machine: MachineText,
-    /// What there is before the first cut.
+    /// The stock before the first cut.
     stock: Option<StockText>,
-    /// What the CL file does not say about tools; the first entry that fits a tool counts.
+    /// What the CL file does not state about tools. The first entry that matches a tool counts.
     tools: Option<Vec<ToolText>>,
-    /// The material that is cut.
+    /// The work material.
     material: Option<MaterialText>,
 }
 
@@ -58,16 +58,17 @@ pub(super) fn load_setup(source: &Arc<Source>) -> Result<Setup, Failure> {
         .check_setup(units, YamlLocation::new(&Arc::new(document), &[]))
 }
 
-/// JSON schema of a setup file.
+/// Returns the JSON schema of a setup file.
 pub(super) fn setup_file_schema() -> serde_json::Value {
     schemars::schema_for!(SetupFileText).to_value()
 }
 
 impl SetupText {
-    /// The setup in millimetres, with its places.
+    /// Returns the setup in millimetres, with its places.
     ///
     /// # Errors
-    /// What serde cannot see: values that are right by themselves and do not fit together. At most 20 findings.
+    /// Returns the faults that serde cannot find: values that are valid by themselves, but do not fit
+    /// together. At most 20 findings are returned.
     pub(crate) fn check_setup(self, units: LengthUnit, place: YamlLocation) -> Result<Setup, Failure> {
         let mut reader = SetupReader::new(units);
         let list = place.at_key("tools");

@@ -1,86 +1,88 @@
-//! The stock: a description of it, which the simulation builds solids from.
+//! This module describes the stock, from which the simulation builds solids.
 
 use super::YamlLocation;
 use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
 use crate::parameters::{FilePath, LengthUnit};
 use std::path::{Path, PathBuf};
 
-/// What there is before the first cut, in the coordinates that the CL file prints (those of its frame).
+/// The stock before the first cut, in the coordinates that the CL file prints (those of its frame).
 #[derive(Debug, Clone, PartialEq)]
 pub struct SetupStock {
-    /// Its bodies; the stock is all of them together. Never empty.
+    /// Its bodies, at least one. The stock is the union of all of them.
     pub bodies: Vec<StockBody>,
-    /// How much thicker than described it may be, in mm, 0 or more: the skin of a casting. The simulation grows the
-    /// stock by it, so that skin is not taken for air.
+    /// How much thicker than described it may be in mm, 0 or more: the skin of a casting. The simulation adds
+    /// it to the stock, so that skin is not taken for air.
     pub allowance_mm: f64,
-    /// Where the setup says it.
+    /// The place of the stock in the setup.
     pub place: YamlLocation,
 }
 
 /// One body of the stock.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StockBody {
-    /// What it is.
+    /// The shape of the body.
     pub shape: StockBodyShape,
-    /// Where the setup says it.
+    /// The place of the body in the setup.
     pub place: YamlLocation,
 }
 
-/// What a body is.
+/// The shape of a body.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum StockBodyShape {
     /// A block along the axes.
     Block {
-        /// Its lowest corner, mm.
+        /// Its lowest vertex, in mm.
         low: [f64; 3],
-        /// Its highest corner, mm; above `low` in every axis.
+        /// Its highest vertex, in mm. It is above `low` in every axis.
         high: [f64; 3],
     },
     /// A cylinder in any direction.
     Cylinder {
-        /// Diameter, mm.
+        /// The diameter, in mm.
         diameter: f64,
-        /// Centre of one end, mm.
+        /// The centre of one end, in mm.
         from: [f64; 3],
-        /// Centre of the other end, mm.
+        /// The centre of the other end, in mm.
         to: [f64; 3],
     },
     /// A closed surface.
     Stl {
         /// The STL file.
         file: FileRef,
-        /// The unit of its numbers, for STL says none: that of the file that names it.
+        /// The unit of its numbers, which STL does not state. It is the unit of the file that names it.
         units: LengthUnit,
     },
-    /// What an earlier run has left.
+    /// The stock that an earlier run has left.
     Saved(FileRef),
 }
 
 /// A file that a setup names.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FileRef {
-    /// The path seen from where clsmith runs: relative paths begin at the folder of the file that names it.
+    /// The path as seen from where clsmith runs. Relative paths start at the folder of the file that names
+    /// it.
     pub path: PathBuf,
     /// The path as it is written.
     pub written: String,
-    /// Where it is written.
+    /// The place where it is written.
     pub place: YamlLocation,
 }
 
 impl FileRef {
-    /// A file named at a place.
+    /// Makes a reference to a file that is named at a place.
     pub(super) fn new(path: &FilePath, place: YamlLocation) -> Self {
         let full = path.resolve_beside(Path::new(place.source().name()));
         Self { path: full, written: path.as_str().to_owned(), place }
     }
 
-    /// A finding about the file, at the place that names it.
+    /// Makes a finding about the file, at the place that names it.
     pub(crate) fn make_finding(&self, code: DiagnosticCode, message: impl Into<String>) -> Diagnostic {
         Diagnostic::new(code, message).with_label(self.place.source(), self.place.value_span(), "named here")
     }
 
-    /// [`codes::STOCK_FILE`]: a file of the stock that cannot be used, and why.
+    /// Makes the finding [`codes::STOCK_FILE`] about a file of the stock that cannot be used, with the
+    /// reason.
     pub fn make_stock_finding(&self, reason: &str) -> Diagnostic {
         self.make_finding(
             codes::STOCK_FILE,

@@ -1,15 +1,15 @@
-//! The stock as it is written.
+//! This module holds the stock as it is written.
 
 use super::YamlLocation;
-use super::setup_reader::{SMALLEST, SetupReader};
+use super::setup_reader::{SMALLEST_SIZE_MM, SetupReader};
 use super::stock::{FileRef, SetupStock, StockBody, StockBodyShape};
 use crate::diagnostic::codes;
 use crate::parameters::{FilePath, Finite, NonNegative, Positive};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// What there is before the first cut, in the coordinates of the CL file: exactly one of `block`, `cylinder`, `stl`,
-/// `file`, or `bodies`.
+/// The stock before the first cut, in the coordinates of the CL file. Exactly one of `block`, `cylinder`,
+/// `stl`, `file` and `bodies` is given.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(
@@ -23,42 +23,43 @@ use serde::Deserialize;
     ])
 )]
 pub(super) struct StockText {
-    /// A block along the axes, by two opposite corners.
+    /// A block along the axes, given by two opposite vertices.
     block: Option<BlockText>,
-    /// A cylinder in any direction, by the centres of its ends.
+    /// A cylinder in any direction, given by the centres of its ends.
     cylinder: Option<CylinderText>,
-    /// An STL file, relative to this file's folder; its numbers are in this file's unit.
+    /// An STL file, relative to this file's folder. Its numbers are in this file's unit.
     stl: Option<FilePath>,
     /// A .clstock file that an earlier run has saved, relative to this file's folder.
     file: Option<FilePath>,
-    /// Several of them; the stock is all of them together.
+    /// Several bodies. The stock is the union of all of them.
     #[schemars(length(min = 1))]
     bodies: Option<Vec<BodyText>>,
-    /// How much thicker than described the stock may be: the skin of a casting, which must not be taken for air.
+    /// How much thicker than described the stock may be: the skin of a casting, which must not be taken for
+    /// air.
     allowance: Option<NonNegative>,
 }
 
-/// A block along the axes, by two opposite corners.
+/// A block along the axes, given by two opposite vertices.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Block")]
 struct BlockText {
-    /// One corner: x, y, z.
+    /// One vertex: x, y, z.
     from: [Finite; 3],
-    /// The opposite corner: x, y, z.
+    /// The opposite vertex: x, y, z.
     to: [Finite; 3],
 }
 
-/// A cylinder in any direction, by the centres of its ends.
+/// A cylinder in any direction, given by the centres of its ends.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Cylinder")]
 struct CylinderText {
-    /// Diameter.
+    /// The diameter.
     diameter: Positive,
-    /// Centre of one end: x, y, z.
+    /// The centre of one end: x, y, z.
     from: [Finite; 3],
-    /// Centre of the other end: x, y, z.
+    /// The centre of the other end: x, y, z.
     to: [Finite; 3],
 }
 
@@ -67,18 +68,18 @@ struct CylinderText {
 #[serde(rename_all = "snake_case")]
 #[schemars(rename = "Body")]
 enum BodyText {
-    /// A block along the axes, by two opposite corners.
+    /// A block along the axes, given by two opposite vertices.
     Block(BlockText),
-    /// A cylinder in any direction, by the centres of its ends.
+    /// A cylinder in any direction, given by the centres of its ends.
     Cylinder(CylinderText),
-    /// An STL file, relative to this file's folder; its numbers are in this file's unit.
+    /// An STL file, relative to this file's folder. Its numbers are in this file's unit.
     Stl(FilePath),
     /// A .clstock file that an earlier run has saved, relative to this file's folder.
     File(FilePath),
 }
 
 impl StockText {
-    /// The stock in millimetres; `None` when something is wrong, which the reader then knows.
+    /// Returns the stock in millimetres. Returns `None` if it has a fault, which the reader then holds.
     pub(super) fn check_stock(self, reader: &mut SetupReader, place: YamlLocation) -> Option<SetupStock> {
         let allowance_mm = reader
             .optional_length_mm(self.allowance.map(NonNegative::get), &place, "allowance")
@@ -165,10 +166,10 @@ impl BlockText {
             if *low > *high {
                 std::mem::swap(low, high);
             }
-            if *high - *low < SMALLEST {
+            if *high - *low < SMALLEST_SIZE_MM {
                 let message =
                     format!("the block has no size in {name}: `from` and `to` have the same {name}");
-                let help = "`from` and `to` are opposite corners; they differ in x, y and z.";
+                let help = "`from` and `to` are opposite vertices, so they differ in x, y and z.";
                 reader.add_fault(|| place.at_key("to").at_index(index), message, "as in `from`", help);
             }
         }
@@ -182,7 +183,7 @@ impl CylinderText {
         let (from, to) =
             (check_point_mm(self.from, reader, place, "from"), check_point_mm(self.to, reader, place, "to"));
         let length = from.iter().zip(&to).map(|(from, to)| (to - from).powi(2)).sum::<f64>().sqrt();
-        if length < SMALLEST {
+        if length < SMALLEST_SIZE_MM {
             let message = "the cylinder has no length: `from` and `to` are the same point";
             let help = "`from` and `to` are the centres of its two ends.";
             reader.add_fault(|| place.at_key("to"), message, "as `from`", help);

@@ -1,13 +1,14 @@
-//! Where a setup says something.
+//! This module tells where a setup states something.
 
 use crate::source::{Source, Span};
 use crate::yaml::{YamlDocument, YamlPathSegment};
 use std::sync::Arc;
 
-/// The place of a value in the recipe or setup file that says it.
+/// The place of a value in the recipe or setup file that states it.
 ///
-/// Found when it is asked for, by reading the file's text again: ask for diagnostics only. Two places are always equal,
-/// so that two setups that say the same are, wherever they say it.
+/// It is only found when it is asked for, by reading the text of the file again, so it is meant for
+/// diagnostics. Two places always compare as equal, so that two setups with the same values are equal,
+/// wherever they state them.
 #[derive(Debug, Clone)]
 pub struct YamlLocation {
     document: Arc<YamlDocument>,
@@ -19,18 +20,18 @@ impl YamlLocation {
         Self { document: Arc::clone(document), path: path.to_vec() }
     }
 
-    /// The file.
+    /// Returns the file.
     pub fn source(&self) -> &Arc<Source> {
         self.document.source()
     }
 
-    /// The bytes of the value; of a block of lines, the first. A value that is not said stands where the nearest thing
-    /// around it does.
+    /// Returns the bytes of the value. For a block of lines, these are the bytes of the first line. A value
+    /// that is not given is placed at the nearest key around it.
     pub fn value_span(&self) -> Span {
         self.nearest_span(|path| self.document.value_span(path))
     }
 
-    /// The bytes of the value's key; of a list element, those of the value.
+    /// Returns the bytes of the value's key. For a list element, these are the bytes of its value.
     pub fn key_span(&self) -> Span {
         self.nearest_span(|path| self.document.key_span(path))
     }

@@ -1,32 +1,34 @@
-//! Rigid transforms with or without a mirror: what `move_origin` does to points, vectors and the axes of arcs.
+//! This module holds rigid transforms with or without a mirror. They say what `move_origin` does to points,
+//! vectors and the axes of arcs.
 
 use nalgebra::{Matrix3, Point3, Unit, Vector3};
 
-/// Vectors closer than this are one: far below the last decimal that any dialect prints of an axis.
+/// Vectors that differ by less than this are equal. It is far below the last decimal that any dialect prints
+/// of an axis.
 const SAME_VECTOR: f64 = 1e-9;
 
-/// `p -> linear * p + offset`, where `linear` turns or mirrors but never scales.
+/// A transform `p -> linear * p + offset`, where `linear` rotates or mirrors but never scales.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Affine {
-    /// Rotation, or rotation and mirror.
+    /// The rotation, or the rotation and mirror.
     pub linear: Matrix3<f64>,
-    /// What is added after it.
+    /// The displacement that is added after it.
     pub offset: Vector3<f64>,
 }
 
 impl Affine {
-    /// Nothing moves.
+    /// Makes the transform that moves nothing.
     pub fn identity() -> Self {
         Self { linear: Matrix3::identity(), offset: Vector3::zeros() }
     }
 
-    /// Every point moves by the same step.
+    /// Makes the transform that displaces every point by the same vector.
     pub fn translation(offset: Vector3<f64>) -> Self {
         Self { linear: Matrix3::identity(), offset }
     }
 
-    /// A turn, right-hand about an axis through a point. Quarter turns about x, y or z are exact: their matrix holds only
-    /// 0, 1 and -1.
+    /// Makes a right-handed rotation about an axis through a point. Rotations by quarter turns about x, y or
+    /// z are exact: their matrix holds only 0, 1 and -1.
     pub fn rotation(axis: Unit<Vector3<f64>>, degrees: f64, about: Vector3<f64>) -> Self {
         let (sine, cosine) = exact_sine_cosine(degrees);
         let outer = axis.into_inner() * axis.transpose();
@@ -34,61 +36,62 @@ impl Affine {
         Self { linear, offset: about - linear * about }
     }
 
-    /// A mirror in the plane through a point.
+    /// Makes a mirror in the plane through a point.
     pub fn mirror(normal: Unit<Vector3<f64>>, through: Vector3<f64>) -> Self {
         let linear = Matrix3::identity() - normal.into_inner() * normal.transpose() * 2.0;
         Self { linear, offset: through - linear * through }
     }
 
-    /// This, and then another.
+    /// Returns the transform that does this one first and `next` after it.
     #[must_use]
     pub fn then(self, next: Self) -> Self {
         Self { linear: next.linear * self.linear, offset: next.linear * self.offset + next.offset }
     }
 
-    /// A point.
+    /// Transforms a point.
     pub fn transform_point(&self, point: Point3<f64>) -> Point3<f64> {
         Point3::from(self.linear * point.coords + self.offset)
     }
 
-    /// A step or a direction: it does not move.
+    /// Transforms a displacement or a direction. These are rotated and mirrored, but not moved by the offset.
     pub fn transform_vector(&self, vector: Vector3<f64>) -> Vector3<f64> {
         self.linear * vector
     }
 
-    /// The axis of an arc. It is a pseudo-vector: a mirror turns it over, so that the arc runs the other way round.
+    /// Transforms the axis of an arc. The axis is a pseudo-vector: a mirror reverses it, because it reverses
+    /// the sense in which the arc runs.
     pub fn transform_arc_axis(&self, axis: Vector3<f64>) -> Vector3<f64> {
         let turned = self.linear * axis;
         if self.has_mirror() { -turned } else { turned }
     }
 
-    /// Whether left and right change places.
+    /// Returns whether the transform swaps left and right.
     pub fn has_mirror(&self) -> bool {
         self.linear.determinant() < 0.0
     }
 
-    /// Whether directions change at all.
+    /// Returns whether the transform changes any direction.
     pub fn changes_directions(&self) -> bool {
         self.linear != Matrix3::identity()
     }
 
-    /// Whether nothing changes at all.
+    /// Returns whether the transform changes nothing at all.
     pub fn is_identity(&self) -> bool {
         *self == Self::identity()
     }
 
-    /// Whether a direction stays as it is.
+    /// Returns whether the transform leaves a direction unchanged.
     pub fn keeps_direction(&self, direction: Vector3<f64>) -> bool {
         is_same_vector(self.transform_vector(direction), direction)
     }
 }
 
-/// Whether two vectors are one, up to the noise of arithmetic.
+/// Returns whether two vectors are equal up to rounding errors.
 pub(crate) fn is_same_vector(a: Vector3<f64>, b: Vector3<f64>) -> bool {
     (a - b).norm() <= SAME_VECTOR
 }
 
-/// Sine and cosine; exact for quarter turns, where `f64::sin_cos` leaves 6e-17.
+/// Returns the sine and cosine of an angle. Quarter turns are exact, where `f64::sin_cos` would leave 6e-17.
 fn exact_sine_cosine(degrees: f64) -> (f64, f64) {
     let turn = degrees.rem_euclid(360.0);
     if turn == 0.0 {

@@ -1,4 +1,4 @@
-//! `clamp_feed`: keeps programmed feeds within limits.
+//! `clamp_feed` keeps programmed feeds within limits.
 //!
 //! A limit holds as printed: the new feed is rounded to the allowed side of the limit.
 
@@ -12,21 +12,24 @@ use crate::write::ProgramEditor;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// Keeps programmed feeds between a lowest and a highest.
+/// Keeps programmed feeds between a lowest and a highest feed.
 ///
-/// Limits are in the recipe's unit per minute. A feed per revolution is compared at the spindle speed in force, an inverse-time
-/// feed at the length of its motion, and both are written back in their own unit; where the speed is not known the feed stays
-/// and is reported. Without `max`, the machine's `max_feed` from the setup is the highest. Rapids are not touched.
+/// The limits are in the recipe's unit per minute. A feed per revolution is compared at the spindle speed in
+/// force, an inverse-time feed over the length of its motion. Both are written back in their own unit. Where
+/// the spindle speed is not known, the feed stays and is reported. Without `max`, the highest feed is the
+/// `max_feed` of the machine in the setup. Rapids are not touched.
 ///
-/// A changed feed is rounded to the side of the limit that is allowed. Idempotent: a second run changes nothing.
+/// A changed feed is rounded to the allowed side of the limit. The step is idempotent: a second run changes
+/// nothing.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ClampFeed {
-    /// Lowest feed, in the recipe's unit per minute.
+    /// The lowest feed, in the recipe's unit per minute.
     pub min: Option<Positive>,
-    /// Highest feed, in the recipe's unit per minute; else the machine's `max_feed`.
+    /// The highest feed, in the recipe's unit per minute. Without it, the machine's `max_feed` from the setup
+    /// counts.
     pub max: Option<Positive>,
-    /// Which motions; all when it is left out.
+    /// Which motions are meant; all of them when it is left out.
     #[serde(default)]
     pub r#where: MotionFilter,
 }
@@ -60,14 +63,16 @@ impl Transform for ClampFeed {
         let max = self.max.map(Positive::get).or(machine).unwrap_or(f64::INFINITY);
         if self.min.is_none() && max.is_infinite() {
             return Err(context.step_failure(
-                "neither `min` nor `max` is given, and the setup has no `machine: { max_feed: ... }`",
+                "neither `min` nor `max` is given, and the machine of the setup has no highest feed; add `max: 3000` \
+                 to this step, or `machine: { max_feed: 10000 }` to the setup",
                 &[],
             ));
         }
         if min > max {
-            return Err(
-                context.step_failure(format!("the lowest feed {min} is above the highest {max}"), &["min"])
-            );
+            return Err(context.step_failure(
+                format!("the lowest feed {min} is above the highest feed {max}; set `min` to {max} or less"),
+                &["min"],
+            ));
         }
         let file = context.file_length_unit(&program);
         let mut selection = MotionSelection::new(&self.r#where, &program, context);
@@ -86,7 +91,7 @@ impl Transform for ClampFeed {
         });
         selection.report_if_empty(context);
         for statement in unknown {
-            let message = "this feed cannot be compared with the limits: it is zero, or per revolution with no spindle speed in rev/min";
+            let message = "this feed cannot be compared with the limits: it is zero, or it is per revolution and no spindle speed in rev/min is known";
             context.report_unchanged(message, &program, statement);
         }
         let mut editor = ProgramEditor::new(program, context.step);
@@ -95,14 +100,15 @@ impl Transform for ClampFeed {
     }
 }
 
-/// Limits may be passed by this share: what arithmetic makes of equal numbers.
+/// A limit may be exceeded by this fraction, because equal numbers differ by that much after arithmetic.
 const NOISE: f64 = 1e-9;
 
-/// The feed that keeps the limits and can be printed as it is; `None` when the programmed one does.
+/// Returns the feed that keeps the limits and is printed exactly. Returns `None` if the programmed feed
+/// already keeps them.
 ///
-/// `actual` is the feed in the limits' unit. A limit falls between two printed feeds when the units differ (0.25 mm/rev, 500
-/// mm/min at 3000 rev/min): then the lower one is taken at the highest limit and the upper one at the lowest, so that no limit is
-/// passed and a second run finds nothing to change.
+/// `actual` is the feed in the limits' unit. When the units differ, a limit falls between two printed feeds
+/// (0.25 mm/rev, 500 mm/min at 3000 rev/min). Then the lower one is taken at the highest limit and the upper
+/// one at the lowest limit. So no limit is exceeded, and a second run finds nothing to change.
 fn clamp_to_limits(feed: f64, actual: f64, (min, max): (f64, f64), decimals: usize) -> Option<f64> {
     let rate = actual / feed;
     let (too_low, too_high) = (min * (1.0 - NOISE), max * (1.0 + NOISE));
@@ -116,7 +122,7 @@ fn clamp_to_limits(feed: f64, actual: f64, (min, max): (f64, f64), decimals: usi
     let inside = if actual > max { nearest - 1.0 } else { nearest + 1.0 };
     let steps = match passes(nearest) {
         false => nearest,
-        // Between two limits so close together that no printed feed lies between them, the highest counts.
+        // When the limits are so close together that no printed feed lies between them, the highest counts.
         true if inside / power * rate > too_high => nearest - 1.0,
         true => inside,
     };

@@ -1,8 +1,10 @@
-//! Writing feeds: which FEDRATs to change and where to put new ones, when motions want other feeds than the programmed.
+//! This module writes feeds. When motions want other feeds than the programmed ones, it decides which FEDRATs
+//! to change and where to insert new ones.
 //!
-//! A FEDRAT governs the feed motions up to the next one. It takes the feed that its first motion wants; where a later motion
-//! wants another, a FEDRAT in the form of the governing one goes in front of the first statement of that motion. The next
-//! FEDRAT of the file sets its own feed anyway, so programmed feeds come back by themselves.
+//! A FEDRAT governs the feed motions up to the next one. It takes the feed that its first motion wants. Where
+//! a later motion wants another feed, a FEDRAT in the form of the governing one is inserted before the first
+//! statement of that motion. The next FEDRAT of the file sets its own feed, so programmed feeds return by
+//! themselves.
 
 use super::motion_insertion::MotionInsertion;
 use super::statement_numbers::{major_word, strip_remark};
@@ -14,12 +16,13 @@ use crate::program::{NumberRole, Program, Record, StatementId, StatementKind};
 use crate::source::Span;
 use crate::write::{FEED_SHARE, ProgramEditor};
 
-/// What a motion wants: the place it starts at, what governs its feed, and the feed in the governing record's unit.
+/// The feed that a motion wants, in the unit of the record that governs it.
 #[derive(Debug, Clone, Copy)]
 struct WantedFeed {
-    /// First statement of the motion, or of the first of several that share a statement.
+    /// The first statement of the motion, or of the first of several motions that have a statement in common.
     first: StatementId,
-    /// Last statement of the motion; the GOTO of a point in a line of bare numbers. Points of one GOTO share it.
+    /// The last statement of the motion. The points of one GOTO have it in common, even those in lines of
+    /// bare numbers.
     last: StatementId,
     /// The FEDRAT or CYCLE in force.
     governor: StatementId,
@@ -33,12 +36,14 @@ pub struct FeedPlan {
 }
 
 impl FeedPlan {
-    /// Asks every feed motion of a program. `want` gives the feed in the motion's own unit, `None` for the programmed one.
+    /// Asks `want` for the feed of every feed motion of a program, in the motion's own unit. `None` means the
+    /// programmed feed.
     pub fn for_motions(program: &Program, mut want: impl FnMut(&Motion) -> Option<f64>) -> Self {
         Self::for_numbered_motions(program, |_, motion| want(motion))
     }
 
-    /// As [`FeedPlan::for_motions`]; `want` is told the motion's number among all motions of the program, too.
+    /// Does the same as [`FeedPlan::for_motions`], but `want` also gets the index of the motion among all
+    /// motions of the program.
     pub fn for_numbered_motions(
         program: &Program,
         mut want: impl FnMut(usize, &Motion) -> Option<f64>,
@@ -57,7 +62,7 @@ impl FeedPlan {
         Self { wishes }
     }
 
-    /// The statements that govern a feed motion.
+    /// Returns the statements that govern a feed motion.
     pub fn governing_statements(&self) -> std::collections::BTreeSet<StatementId> {
         self.wishes.iter().map(|wish| wish.governor).collect()
     }
@@ -65,7 +70,7 @@ impl FeedPlan {
     /// Writes the feeds.
     ///
     /// # Errors
-    /// When a feed cannot be printed as a record that reads back.
+    /// Returns an error if a feed cannot be printed as a record that reads back.
     pub fn write_feeds(
         mut self,
         editor: &mut ProgramEditor,
@@ -73,8 +78,8 @@ impl FeedPlan {
     ) -> Result<(), Failure> {
         findings.extend(describe_unknown_feeds(editor.program()));
         self.unify_statement_feeds(editor.program(), findings);
-        // A FEDRAT comes back after any number of cycles with feeds of their own, and a cycle after FEDRATs; of each kind only
-        // the newest can.
+        // After any number of cycles with feeds of their own, a FEDRAT is in force again, and a cycle after
+        // FEDRATs. So only the newest of each kind has to be remembered.
         let (mut fedrat, mut cycle): (Option<FeedInForce>, Option<FeedInForce>) = (None, None);
         for wish in &self.wishes {
             let governor = wish.governor;
@@ -107,7 +112,7 @@ impl FeedPlan {
         Ok(())
     }
 
-    /// Points of one GOTO cannot have feeds of their own: the lowest holds for all.
+    /// Gives all points of one GOTO the lowest of their feeds, because one statement cannot have several.
     fn unify_statement_feeds(&mut self, program: &Program, findings: &mut Vec<Diagnostic>) {
         let mut start = 0;
         while let Some(wish) = self.wishes.get(start).copied() {
@@ -124,11 +129,11 @@ impl FeedPlan {
     }
 }
 
-/// A FEDRAT or CYCLE that was given its feed, and the feed that was written last in its place.
+/// A FEDRAT or CYCLE that was given its feed, and the feed that was last written in its place.
 struct FeedInForce {
     governor: StatementId,
     feed: f64,
-    /// `None` for a CYCLE, of which no second one can be put between holes.
+    /// It is `None` for a CYCLE, because no second one can be inserted between holes.
     template: Option<FedratTemplate>,
 }
 
@@ -139,7 +144,8 @@ fn is_cycle(program: &Program, statement: StatementId) -> bool {
 /// Gives a FEDRAT or CYCLE another feed.
 ///
 /// # Errors
-/// When the statement states no feed, and when the feed cannot be printed as a record that reads back.
+/// Returns an error if the statement states no feed, or if the feed cannot be printed as a record that reads
+/// back.
 pub fn set_feed(editor: &mut ProgramEditor, statement: StatementId, feed: f64) -> Result<(), Failure> {
     let program = editor.program();
     let Some(number) = feed_number_indices(program, statement).next() else {
@@ -151,21 +157,22 @@ pub fn set_feed(editor: &mut ProgramEditor, statement: StatementId, feed: f64) -
     editor.set_numbers(statement, &[(number, feed)])
 }
 
-/// How many decimals a feed must have so that it is printed exactly: its own, or so many that the writer's tolerance is below
-/// the last of them.
+/// Returns how many decimals a feed needs so that it is printed exactly: its own, or so many that the
+/// writer's tolerance is below the last one.
 pub(super) fn printed_decimals(feed: f64, own: usize) -> i32 {
     let tolerance = (feed * FEED_SHARE).min(5e-5);
     (own as i32).max((-tolerance.log10()).floor() as i32).min(15)
 }
 
-/// A feed rounded down to what is printed exactly, with its own decimals or as many as the writer's tolerance asks for.
+/// Rounds a feed down to a value that is printed exactly, with its own decimals or as many as the writer's
+/// tolerance requires.
 pub(super) fn round_feed_down(feed: f64, own: usize) -> f64 {
     let power = 10f64.powi(printed_decimals(feed, own));
     let down = (feed * power * (1.0 + 1e-12)).floor() / power;
     if down > 0.0 { down } else { feed }
 }
 
-/// Decimals of the feed that a statement prints.
+/// Returns the number of decimals of the feed that a statement prints.
 pub(super) fn decimals_of_feed(program: &Program, statement: StatementId) -> usize {
     let found = program.statement(statement);
     let text = program.statement_text(found);
@@ -175,14 +182,14 @@ pub(super) fn decimals_of_feed(program: &Program, statement: StatementId) -> usi
     feed.and_then(|at| text.get(at)).map_or(0, number::count_decimals)
 }
 
-/// Which numbers of a statement are feeds.
+/// Returns the indices of the numbers of a statement that are feeds.
 fn feed_number_indices(program: &Program, statement: StatementId) -> impl Iterator<Item = usize> {
     let found = program.statement(statement);
     let roles = parse::number_roles(found.record(), program.statement_text(found));
     roles.into_iter().enumerate().filter(|(_, role)| *role == NumberRole::Feed).map(|(number, _)| number)
 }
 
-/// A FEDRAT of the file as a form for new ones: its bytes without comment and line end, and where its number stands.
+/// A FEDRAT of the file on which new ones are modelled: its bytes without comment and line end.
 struct FedratTemplate {
     text: Vec<u8>,
 }
@@ -212,7 +219,8 @@ fn statement_span(program: &Program, statement: StatementId) -> Span {
     program.statement(statement).origin()
 }
 
-/// FEDRATs in words of a post (`FEDRAT/9000,FPM`, `FEDRAT/RAPID`): what they set is not known, so no step can change it.
+/// Reports FEDRATs in the words of a post (`FEDRAT/9000,FPM`, `FEDRAT/RAPID`). It is not known what they set,
+/// so no step can change it.
 fn describe_unknown_feeds(program: &Program) -> Option<Diagnostic> {
     let mut unknown = program.live_statements().filter(|(_, statement)| {
         matches!(statement.record(), Record::Known)
@@ -230,7 +238,7 @@ fn describe_unknown_feeds(program: &Program) -> Option<Diagnostic> {
 fn describe_shared_statement(program: &Program, statement: StatementId) -> Diagnostic {
     Diagnostic::new(
         codes::NOT_CHANGED,
-        "the points of this GOTO want different feeds; the lowest is used for all of them",
+        "the points of this GOTO would need different feeds; the lowest is used for all of them",
     )
     .with_label(program.source(), statement_span(program, statement), "several points in one statement")
 }
@@ -238,7 +246,7 @@ fn describe_shared_statement(program: &Program, statement: StatementId) -> Diagn
 fn describe_further_feeds(program: &Program, statement: StatementId) -> Diagnostic {
     Diagnostic::new(
         codes::NOT_CHANGED,
-        "this record has several feeds; only the first, at which the tool goes in, is changed",
+        "this record has several feeds; only the first, at which the tool enters, is changed",
     )
     .with_label(program.source(), statement_span(program, statement), "more than one feed")
 }
@@ -246,7 +254,7 @@ fn describe_further_feeds(program: &Program, statement: StatementId) -> Diagnost
 fn describe_kept_cycle_feed(program: &Program, statement: StatementId) -> Diagnostic {
     Diagnostic::new(
         codes::NOT_CHANGED,
-        "holes of one CYCLE want different feeds; those of the first hole are kept",
+        "the holes of one CYCLE would need different feeds; the feed of the first hole is used for all of them",
     )
     .with_label(
         program.source(),

@@ -1,7 +1,7 @@
-//! Transforms: what recipe steps do to a program.
+//! This module holds the transforms: what recipe steps do to a program.
 //!
-//! A transform is one file, one line in the list below, and one test file. It takes the program by value, so a step
-//! that fails leaves nothing half-edited to write.
+//! A transform is one file, one line in the list below, and one test file. It takes the program by value, so
+//! a step that fails leaves no half-edited program behind.
 
 mod affine;
 mod feed_plan;
@@ -38,18 +38,18 @@ use serde::Deserialize;
 /// A recipe of clsmith's own steps.
 pub type Recipe = crate::recipe::Recipe<Step>;
 
-/// The name under which reports list the comments of `provenance:`, which come after the last step.
+/// The name under which reports list the comments of `provenance:`, which are added after the last step.
 pub(crate) const PROVENANCE: &str = "provenance";
 
 impl Recipe {
-    /// Names for what changed a program, by [`StepId`]: the steps, and at last the comments, if the
-    /// recipe asks for any.
+    /// Returns the names of everything that changes a program, by [`StepId`]: the steps, and then the
+    /// comments if the recipe asks for any.
     pub fn step_names(&self) -> Vec<&'static str> {
         let comments = (self.provenance != Provenance::None).then_some(PROVENANCE);
         self.steps.iter().map(Step::name).chain(comments).collect()
     }
 
-    /// The step after the last one, which signs the comments.
+    /// Returns the step after the last one, which signs the comments.
     pub fn provenance_step(&self) -> StepId {
         step_id(self.steps.len())
     }
@@ -59,27 +59,29 @@ fn step_id(index: usize) -> StepId {
     StepId(u16::try_from(index).unwrap_or(u16::MAX))
 }
 
-/// What a step does. A struct of parameters implements it.
+/// The action of a step. The struct of its parameters implements it.
 pub trait Transform {
     /// Changes the program.
     ///
     /// # Errors
-    /// Diagnostics with their places in the recipe and in the CL file, or an interruption. The program is gone with them.
+    /// Returns diagnostics with their places in the recipe and in the CL file, or an interruption. The
+    /// program is lost then.
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure>;
 
-    /// Whether lengths or feeds among its parameters are in the recipe's unit, so that it matters which one that is.
+    /// Returns whether some of its parameters are lengths or feeds in the recipe's unit, so that this unit
+    /// matters.
     fn measures(&self) -> bool {
         false
     }
 
-    /// The files that it reads beside the program.
+    /// Returns the files that it reads besides the program.
     fn reads(&self) -> Vec<&FilePath> {
         Vec::new()
     }
 }
 
-/// Writes the list of transforms as modules, as the step enum of recipes and as a table of names. The module's name is the
-/// step's name in recipes.
+/// Writes the list of transforms as modules, as the step enum of recipes and as a table of names. The name of
+/// the module is the name of the step in recipes.
 macro_rules! transforms {
     ($($access:vis mod $name:ident => $step:ident,)*) => {
         $(
@@ -98,18 +100,18 @@ macro_rules! transforms {
             )*
         }
 
-        /// Names of all transforms, in the order of the list.
+        /// The names of all transforms, in the order of the list.
         pub const NAMES: &[&str] = &[$(stringify!($name)),*];
 
         impl Step {
-            /// The step's name in a recipe.
+            /// Returns the name of the step in a recipe.
             pub fn name(&self) -> &'static str {
                 match self {
                     $(Self::$step(_) => stringify!($name),)*
                 }
             }
 
-            /// What it does.
+            /// Returns the action of the step.
             pub fn transform(&self) -> &dyn Transform {
                 match self {
                     $(Self::$step(step) => step,)*
@@ -117,7 +119,7 @@ macro_rules! transforms {
             }
         }
 
-        /// The JSON schema of a transform's parameters; its descriptions are the doc comments.
+        /// Returns the JSON schema of a transform's parameters. Its descriptions are the doc comments.
         pub fn schema_of(name: &str) -> Option<schemars::Schema> {
             match name {
                 $(stringify!($name) => Some(schemars::schema_for!($step)),)*
@@ -127,7 +129,8 @@ macro_rules! transforms {
     };
 }
 
-// The one list: module and type of each transform. CONTRIBUTING.md tells what else a new one needs.
+// This is the only list: the module and the type of each transform. CONTRIBUTING.md describes what else a new
+// one needs.
 transforms! {
     mod scale_feed => ScaleFeed,
     mod clamp_feed => ClampFeed,

@@ -1,9 +1,10 @@
-//! Where a statement may be put in front of a motion.
+//! This module finds where a statement may be inserted before a motion.
 
 use crate::program::motion::Motion;
 use crate::program::{Program, Record, StatementId, StatementRange};
 
-/// Finds the statement that stands in front of each motion. Motions are asked for in their order.
+/// Finds the statements of each motion before which another one may be inserted. Motions have to be asked for
+/// in their order.
 #[derive(Debug)]
 pub struct MotionInsertion<'p> {
     program: &'p Program,
@@ -11,14 +12,15 @@ pub struct MotionInsertion<'p> {
 }
 
 impl<'p> MotionInsertion<'p> {
-    /// For the motions of a program.
+    /// Prepares the search for the motions of a program.
     pub fn new(program: &'p Program) -> Self {
         Self { program, found: None }
     }
 
-    /// Returns the statements of the next motion, or of several that cannot be parted: what shall hold for them is
-    /// put in before the first, and the last is their GOTO. Points of one GOTO share what announces the first of them: a RAPID must not be
-    /// parted from it, nor lines of bare numbers from their GOTO.
+    /// Returns the statements of the next motion, or of several motions that cannot be separated. A statement
+    /// that governs them is inserted before the first one, and the last one is their GOTO. The points of one
+    /// GOTO have in common what announces the first of them: a RAPID must not be separated from them, nor
+    /// lines of bare numbers from their GOTO.
     pub fn find_statements(&mut self, motion: &Motion) -> StatementRange {
         let end = motion.last_statement();
         match self.found {
@@ -28,7 +30,7 @@ impl<'p> MotionInsertion<'p> {
     }
 }
 
-/// Whether a statement is a line of bare numbers, which goes on with the GOTO before it.
+/// Returns whether a statement is a line of bare numbers that continues the GOTO before it.
 fn is_continuation_line(program: &Program, statement: StatementId) -> bool {
     let found = program.statement(statement);
     let first = program.statement_text(found).trim_ascii_start().first();

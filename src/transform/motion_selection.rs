@@ -1,4 +1,4 @@
-//! `where:` applied to the motions of one program.
+//! This module applies `where:` to the motions of a program.
 
 use super::StepContext;
 use super::statement_selection::report_nothing_selected;
@@ -6,7 +6,7 @@ use crate::program::motion::Motion;
 use crate::program::{LengthUnit, Program, operation};
 use crate::recipe::{MotionFacts, MotionFilter};
 
-/// Decides motion by motion whether a step means it.
+/// Decides for each motion whether a step means it.
 #[derive(Debug)]
 pub struct MotionSelection<'w> {
     wanted: &'w MotionFilter,
@@ -17,7 +17,7 @@ pub struct MotionSelection<'w> {
 }
 
 impl<'w> MotionSelection<'w> {
-    /// The selection of a step in a program.
+    /// Prepares the selection of a step in a program.
     pub fn new(wanted: &'w MotionFilter, program: &Program, context: &StepContext<'_>) -> Self {
         let everything = wanted.is_everything();
         let operations =
@@ -25,19 +25,19 @@ impl<'w> MotionSelection<'w> {
         Self { wanted, everything, operations, file: context.file_length_unit(program), selected: 0 }
     }
 
-    /// Whether the step has no `where` at all.
+    /// Returns whether the step has no `where`.
     pub fn is_everything(&self) -> bool {
         self.everything
     }
 
-    /// Whether a motion is meant.
+    /// Returns whether the step means a motion.
     pub fn contains(&mut self, motion: &Motion, context: &StepContext<'_>) -> bool {
         let selected = self.everything || self.wanted.matches_motion(&self.motion_facts(motion, context));
         self.selected += usize::from(selected);
         selected
     }
 
-    /// A warning when nothing was meant.
+    /// Reports a warning if no motion was meant.
     pub fn report_if_empty(&self, context: &mut StepContext<'_>) {
         if self.selected == 0 && !self.everything {
             report_nothing_selected("motion", self.wanted.required, context);

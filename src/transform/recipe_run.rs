@@ -1,4 +1,4 @@
-//! Running the steps of a recipe, or transforms that were built in Rust, on a program.
+//! This module runs the steps of a recipe, or transforms that were built in Rust, on a program.
 
 use super::{Recipe, Step, StepContext, Transform, TransformReport, step_id};
 use crate::diagnostic::{Diagnostic, Failure, codes};
@@ -7,14 +7,14 @@ use crate::recipe::{Provenance, YamlPathSegment};
 use crate::setup::Setup;
 use crate::simulation_run::{RunWatcher, SilentWatcher};
 
-/// What a recipe made of a program.
+/// The result of a recipe for a program.
 #[derive(Debug)]
 pub struct RecipeOutcome {
     /// The program after the last step.
     pub program: Program,
-    /// Findings of the steps that are no reason to stop.
+    /// Findings of the steps that do not stop them.
     pub findings: Vec<Diagnostic>,
-    /// What steps tell about themselves, in the order of the steps.
+    /// What the steps report about themselves, in the order of the steps.
     pub reports: Vec<Box<dyn TransformReport>>,
 }
 
@@ -37,15 +37,16 @@ pub struct RecipeOutcome {
 /// ```
 ///
 /// # Errors
-/// What stopped a step, after the findings of the steps before it; [`Failure::Interrupted`] when somebody stopped it.
+/// Returns what stopped a step, after the findings of the steps before it, or [`Failure::Interrupted`] if
+/// somebody stopped it.
 pub fn run_recipe(recipe: &Recipe, setup: &Setup, program: Program) -> Result<RecipeOutcome, Failure> {
     run_recipe_watched(recipe, setup, program, &SilentWatcher)
 }
 
-/// As [`run_recipe`], with somebody who is told how far long steps are.
+/// Does the same as [`run_recipe`], with a watcher that is informed about the progress of long steps.
 ///
 /// # Errors
-/// As [`run_recipe`].
+/// Returns the errors of [`run_recipe`].
 pub fn run_recipe_watched(
     recipe: &Recipe,
     setup: &Setup,
@@ -61,9 +62,10 @@ pub fn run_recipe_watched(
     run.apply_steps(program, findings)
 }
 
-/// Applies transforms that were built in Rust, in order. `units` is the unit of lengths among their parameters.
+/// Applies transforms that were built in Rust, in order. `units` is the unit of lengths among their
+/// parameters.
 ///
-/// Findings about a parameter have no place then, for there is no recipe that they could point into.
+/// Findings about a parameter then have no place, because there is no recipe to which they could point.
 ///
 /// ```
 /// use clsmith::parameters::{Factor, Positive};
@@ -82,7 +84,7 @@ pub fn run_recipe_watched(
 /// ```
 ///
 /// # Errors
-/// As [`run_recipe`].
+/// Returns the errors of [`run_recipe`].
 pub fn run_steps(
     steps: &[&dyn Transform],
     units: LengthUnit,
@@ -93,7 +95,7 @@ pub fn run_steps(
     run.apply_steps(program, Vec::new())
 }
 
-/// Steps to be applied one after the other, and what stands around them.
+/// Steps that are applied one after the other, and their surroundings.
 struct StepSequence<'r> {
     steps: &'r [&'r dyn Transform],
     units: LengthUnit,
@@ -124,7 +126,7 @@ impl StepSequence<'_> {
             match applied {
                 Ok(changed) => {
                     program = changed;
-                    // Before the next step signs the same statements.
+                    // The history is recorded before the next step signs the same statements.
                     program.close_step(context.step);
                 }
                 Err(failure) => {
@@ -137,7 +139,7 @@ impl StepSequence<'_> {
     }
 }
 
-/// A recipe that says no unit, has lengths or feeds, and meets a program in inches.
+/// Returns a note if a recipe states no unit, has lengths or feeds, and meets a program in inches.
 fn find_unsaid_units(recipe: &Recipe, program: &Program) -> Option<Diagnostic> {
     let said = recipe.value_span(&[YamlPathSegment::Key("units")]).is_some();
     let index = recipe.steps.iter().position(|step| step.transform().measures())?;

@@ -1,4 +1,4 @@
-//! `scale_feed`: programmed feeds times a factor.
+//! `scale_feed` multiplies programmed feeds by a factor.
 
 use super::feed_plan::{self, FeedPlan};
 use super::unit_slips::check_factor;
@@ -13,23 +13,24 @@ use serde::Deserialize;
 
 /// Multiplies programmed feeds by a factor.
 ///
-/// Every feed unit is scaled in its own: mm/min, inch/min, per revolution, inverse time. Feeds of drilling cycles
-/// (`CYCLE/...,MMPM,250`) are scaled like others; rapids are not. With `where`, only the selected motions change: a FEDRAT in the
-/// file's own form goes in front of a motion whose feed differs from the one before it, and the programmed feed comes back after.
+/// Every feed is scaled in its own unit: mm/min, inch/min, per revolution or inverse time. Feeds of drilling
+/// cycles (`CYCLE/...,MMPM,250`) are scaled like others, but rapids are not. With `where`, only the selected
+/// motions change: a FEDRAT in the file's own form is inserted before a motion whose feed differs from the
+/// one before it, and the programmed feed returns after it.
 ///
-/// Not idempotent: a second run multiplies again.
+/// The step is not idempotent: a second run multiplies again.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ScaleFeed {
-    /// What feeds are multiplied by; above 0. 0.8 makes them a fifth slower.
+    /// The factor by which feeds are multiplied, above 0. For example, 0.8 makes them a fifth slower.
     pub factor: Factor,
-    /// Which motions; all when it is left out.
+    /// Which motions are meant; all of them when it is left out.
     #[serde(default)]
     pub r#where: MotionFilter,
 }
 
 impl ScaleFeed {
-    /// The step for all motions.
+    /// Makes the step for all motions.
     pub fn new(factor: Factor) -> Self {
         Self { factor, r#where: MotionFilter::default() }
     }
@@ -71,7 +72,8 @@ impl Transform for ScaleFeed {
         let mut editor = ProgramEditor::new(program, context.step);
         plan.write_feeds(&mut editor, &mut context.findings)?;
         if selection.is_everything() {
-            // A FEDRAT that no motion uses still sets the machine's feed; left behind it would surprise.
+            // A FEDRAT that no motion uses still sets the machine's feed, so it would be a surprise if it
+            // stayed.
             for id in editor.program().statement_ids().filter(|id| !governors.contains(id)) {
                 if let Some(feed) = stated_feed(editor.program().statement(id)) {
                     feed_plan::set_feed(&mut editor, id, feed * factor)?;
@@ -82,7 +84,7 @@ impl Transform for ScaleFeed {
     }
 }
 
-/// The feed that a live statement states.
+/// Returns the feed that a live statement states.
 fn stated_feed(statement: &Statement) -> Option<f64> {
     match statement.record() {
         _ if !statement.is_live() => None,

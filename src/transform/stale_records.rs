@@ -1,6 +1,7 @@
-//! Records that a step makes untrue: heights, boxes and frames that only the CAM system or the post understands.
+//! This module reports records that a step makes untrue: heights, boxes and frames that only the CAM system
+//! or the post understands.
 //!
-//! A step that moves or rescales the path reports them, one finding for each kind, at the first record of it.
+//! A step that moves or rescales the path reports them, with one finding for each kind at its first record.
 
 use super::statement_numbers::major_word;
 use super::{Affine, StepContext};
@@ -9,10 +10,10 @@ use crate::parse;
 use crate::program::record::{FrameRecord, FrameWord};
 use crate::program::{Program, Record, StatementId};
 
-/// A kind of record that has become stale, and why.
+/// A kind of record that has become stale, and the reason.
 type StaleRecord = (&'static str, &'static str);
 
-/// Reports what no longer fits after the points moved.
+/// Reports records that do not fit any more after the points have moved.
 pub fn report_stale_after_move(program: &Program, place: &Affine, context: &mut StepContext<'_>) {
     let turns = place.changes_directions();
     let height = place.linear.row(2) != nalgebra::RowVector3::new(0.0, 0.0, 1.0) || place.offset.z != 0.0;
@@ -42,7 +43,7 @@ pub fn report_stale_after_move(program: &Program, place: &Affine, context: &mut 
     });
 }
 
-/// Reports what is still in the old unit after lengths were converted.
+/// Reports records that are still in the old unit after lengths were converted.
 pub fn report_stale_after_conversion(program: &Program, context: &mut StepContext<'_>) {
     report_stale_records(program, context, |record, text| match record {
         Record::Text if is_escape_height(text) => {
@@ -58,7 +59,7 @@ pub fn report_stale_after_conversion(program: &Program, context: &mut StepContex
 
 fn explain_stale_frame(frame: &FrameRecord, turns: bool) -> Option<StaleRecord> {
     match frame.word {
-        // Points that move in their frame are what was asked for.
+        // Points that move within their frame are intended.
         FrameWord::Msys => None,
         FrameWord::Csys => Some((
             "CSYS",
@@ -100,7 +101,7 @@ fn report_stale_records(
 fn stale_finding(program: &Program, id: StatementId, message: &str, context: &StepContext<'_>) -> Diagnostic {
     let span = program.statement(id).origin();
     let finding =
-        Diagnostic::new(codes::STALE_RECORD, message).with_label(program.source(), span, "left as it is");
+        Diagnostic::new(codes::STALE_RECORD, message).with_label(program.source(), span, "left unchanged");
     context.label_step(finding, "by this step")
 }
 
@@ -116,7 +117,7 @@ fn is_stock_size(text: &[u8]) -> bool {
     text_behind_slash(text).starts_with("STOCK SIZE")
 }
 
-/// What stands behind the word of a free text (`PPRINT/ESCAPE-HEIGHT,50.0`), in upper case.
+/// Returns the text after the word of a free text (`PPRINT/ESCAPE-HEIGHT,50.0`), in upper case.
 fn text_behind_slash(text: &[u8]) -> String {
     let rest = text.iter().position(|byte| *byte == b'/').and_then(|at| text.get(at + 1..));
     crate::program::fold_text(rest.unwrap_or_default().trim_ascii())

@@ -1,7 +1,7 @@
-//! The numbers of a statement with what they are, for transforms that change geometry.
+//! This module reads the numbers of a statement with their roles, for transforms that change geometry.
 //!
-//! Roles come from the records ([`crate::program::NumberRole`]). Two of them hang on what stands before the statement: whether a
-//! long GOTO holds axes (MULTAX), and which row of a CATIA matrix a comment is.
+//! Roles come from the records ([`crate::program::NumberRole`]). Two of them depend on what stands before the
+//! statement: whether a long GOTO holds axes (MULTAX), and which row of a CATIA matrix a comment is.
 
 use crate::diagnostic::Failure;
 use crate::number::{self, NumberFormat};
@@ -11,10 +11,12 @@ use crate::program::{FieldKind, NumberRole, Record, StatementId};
 use crate::write::{ProgramEditor, copy_with_numbers};
 use nalgebra::Vector3;
 
-/// A matrix in the comments of a CATIA file prints unit vectors with 5 decimals; turned ones need as many as an NX frame.
+/// The tolerance of a matrix in the comments of a CATIA file. It prints unit vectors with 5 decimals, but
+/// rotated ones need as many as an NX frame.
 const MATRIX_TOLERANCE: f64 = 5e-8;
 
-/// The roles of a statement's numbers. A GOTO of several points holds axes only under MULTAX, as motions read it.
+/// Returns the roles of a statement's numbers. A GOTO of several points only holds axes under MULTAX, as
+/// motions read it.
 pub fn number_roles(record: &Record, text: &[u8], multi_axis: bool) -> Vec<NumberRole> {
     match record {
         Record::Points(numbers) if !has_contact_normal(numbers) && has_tool_axes(numbers) && !multi_axis => {
@@ -24,8 +26,8 @@ pub fn number_roles(record: &Record, text: &[u8], multi_axis: bool) -> Vec<Numbe
     }
 }
 
-/// Gives every point and vector among the numbers a new value: `change` gets the role of its first component, and gives
-/// `None` for what stays. The result is what [`ProgramEditor::set_numbers`] takes.
+/// Gives every point and vector among the numbers a new value. `change` gets the role of the first component,
+/// and returns `None` if the triple stays. The result is meant for [`ProgramEditor::set_numbers`].
 pub fn map_triples(
     values: &[f64],
     roles: &[NumberRole],
@@ -47,7 +49,7 @@ pub fn map_triples(
     edits
 }
 
-/// Counts the rows of CATIA's matrix: three after each `$$*CATIA0`, with nothing but comments between.
+/// Counts the rows of CATIA's matrix: three after each `$$*CATIA0`, with only comments between them.
 #[derive(Debug, Default)]
 pub struct MatrixRowCounter {
     open: bool,
@@ -55,7 +57,7 @@ pub struct MatrixRowCounter {
 }
 
 impl MatrixRowCounter {
-    /// Takes notice of a record; the number of the row (0 to 2) when it is one.
+    /// Reads a record. Returns the index of the row (0 to 2) if it is one.
     pub fn observe_record(&mut self, record: &Record) -> Option<u8> {
         match record {
             Record::FrameMark => *self = Self { open: true, next: 0 },
@@ -72,11 +74,10 @@ impl MatrixRowCounter {
     }
 }
 
-/// Gives numbers of a matrix row in a comment new values, in their columns: only blanks separate them, so at least one
-/// stays.
+/// Gives numbers of a matrix row in a comment new values in their columns. Numbers are only separated by
+/// blanks, so at least one blank stays.
 ///
-/// # Errors
-/// When the row does not read back.
+/// Returns an error if the row does not read back.
 pub fn set_matrix_row(
     editor: &mut ProgramEditor,
     id: StatementId,
@@ -109,14 +110,15 @@ pub fn set_matrix_row(
     if parts.is_empty() { Ok(()) } else { editor.replace_parts(id, &parts) }
 }
 
-/// The major word of a statement in upper case, without asking the grammar: for lists of words.
+/// Returns the major word of a statement in upper case, without the cost of the grammar. It is meant for
+/// comparisons with lists of words.
 pub fn major_word(text: &[u8]) -> String {
     let text = text.trim_ascii_start();
     let end = text.iter().position(|byte| matches!(byte, b'/' | b'$' | b'\r' | b'\n')).unwrap_or(text.len());
     crate::program::fold_text(text.get(..end).unwrap_or_default().trim_ascii_end())
 }
 
-/// A statement's text without remark and line end.
+/// Returns a statement's text without remark and line end.
 pub fn strip_remark(text: &[u8]) -> Vec<u8> {
     let syntax = parse::syntax(text);
     let end = match (&syntax.remark, syntax.fields.last()) {
@@ -127,10 +129,10 @@ pub fn strip_remark(text: &[u8]) -> Vec<u8> {
     syntax.text.get(..end).unwrap_or_default().to_vec()
 }
 
-/// Takes a statement out; a remark at its end stays, as a comment of its own.
+/// Deletes a statement. A remark at its end stays as a comment of its own.
 ///
 /// # Errors
-/// When the comment does not read back.
+/// Returns an error if the comment does not read back.
 pub fn delete_keeping_remark(editor: &mut ProgramEditor, statement: StatementId) -> Result<(), Failure> {
     let program = editor.program();
     let found = program.statement(statement);
@@ -142,18 +144,18 @@ pub fn delete_keeping_remark(editor: &mut ProgramEditor, statement: StatementId)
     }
 }
 
-/// A coordinate as a file prints it: more decimals than it has elsewhere tell a machine nothing.
+/// Rounds a coordinate to the decimals that a file prints. A machine gains nothing from more decimals.
 pub fn round_to_decimals(value: f64, decimals: usize) -> f64 {
     let power = 10f64.powi(decimals as i32);
     (value * power).round() / power
 }
 
-/// Pairs of numbers' indices from `first` on and their new values.
+/// Returns pairs of the numbers' indices, from `first` on, and their new values.
 pub fn pair_with_indices(first: usize, values: impl IntoIterator<Item = f64>) -> Vec<(usize, f64)> {
     values.into_iter().enumerate().map(|(index, value)| (first + index, value)).collect()
 }
 
-/// A statement's text with other numbers and without its remark, for a new statement in its form.
+/// Returns a statement's text with other numbers and without its remark, as a new statement in its form.
 pub fn copy_statement(editor: &ProgramEditor, statement: StatementId, numbers: &[(usize, f64)]) -> Vec<u8> {
     let program = editor.program();
     let found = program.statement(statement);

@@ -1,11 +1,11 @@
-//! `where:` applied to the statements of one program, also to those that are no motion.
+//! This module applies `where:` to the statements of a program, including those that are no motion.
 //!
-//! Every statement stands in an operation, and under the tool that is in force behind it: a LOAD/TOOL belongs to the tool
-//! that it loads. What stands before the first operation belongs to it.
+//! Every statement belongs to an operation, and to the tool that is in force after it: a LOAD/TOOL belongs to
+//! the tool that it loads. Statements before the first operation belong to that operation.
 //!
-//! A statement that makes motions (a GOTO, and the RAPID or CIRCLE that announces it) has their classes and feeds. Any
-//! other (SPINDL, COOLNT, LOAD, CYCLE, FEDRAT) may govern many motions or none, so it has neither: a `where` with
-//! `motions` or `feed` never means it.
+//! A statement that makes motions (a GOTO, and the RAPID or CIRCLE that announces it) has their classes and
+//! feeds. Any other statement (SPINDL, COOLNT, LOAD, CYCLE, FEDRAT) may govern many motions or none, so it
+//! has neither. A `where` with `motions` or `feed` never means it.
 
 use super::StepContext;
 use super::step_context::feed_per_minute;
@@ -16,12 +16,12 @@ use crate::program::{LengthUnit, Program, StatementId, StatementRange};
 use crate::recipe::MotionFilter;
 use std::collections::VecDeque;
 
-/// Decides statement by statement, in their order, whether a step means it.
+/// Decides for each statement, in order, whether a step means it.
 pub struct StatementSelection<'p> {
     wanted: MotionFilter,
     operations: Vec<Operation>,
     operation: usize,
-    /// The state machine as far as statements were asked for, which knows the tool in force.
+    /// The state machine up to the last statement that was asked for. It knows the tool in force.
     tools: Motions<'p>,
     /// The last statement that `tools` has read.
     read: Option<StatementId>,
@@ -31,7 +31,7 @@ pub struct StatementSelection<'p> {
 }
 
 impl<'p> StatementSelection<'p> {
-    /// The selection of a step in a program.
+    /// Prepares the selection of a step in a program.
     pub fn new(wanted: impl Into<MotionFilter>, program: &'p Program, context: &StepContext<'_>) -> Self {
         let wanted = wanted.into();
         let operations = match wanted.operations {
@@ -50,7 +50,8 @@ impl<'p> StatementSelection<'p> {
         }
     }
 
-    /// Whether a statement is meant. Statements are asked for in their order; those that are left out cost little.
+    /// Returns whether a statement is meant. Statements have to be asked for in their order; skipping some
+    /// costs little.
     pub fn contains(&mut self, statement: StatementId) -> bool {
         self.is_in_operation(statement) && self.is_under_tool(statement) && self.makes_motion(statement)
     }
@@ -95,15 +96,16 @@ fn ends_before(operation: &Operation, statement: StatementId) -> bool {
     operation.statements.is_none_or(|statements| statements.last() < statement)
 }
 
-/// The motions of a program, to be asked for by their statements.
+/// The motions of a program, found by their statements.
 struct StatementMotions<'p> {
     ahead: Motions<'p>,
-    /// Motions that do not end before the statement asked for last.
+    /// The motions that do not end before the statement that was last asked for.
     found: VecDeque<Motion>,
 }
 
 impl StatementMotions<'_> {
-    /// The motions that a statement makes: the points of a GOTO, the moves of a hole. Statements are asked for in their order.
+    /// Returns the motions that a statement makes: the points of a GOTO, or the moves of a hole. Statements
+    /// have to be asked for in their order.
     fn find_motions(&mut self, statement: StatementId) -> impl Iterator<Item = &Motion> {
         while self.found.front().is_some_and(|motion| motion.statements.last() < statement) {
             self.found.pop_front();
@@ -118,17 +120,17 @@ impl StatementMotions<'_> {
     }
 }
 
-/// The statements that a step means, to be asked for in any order and while the program changes: ids are those of the
-/// program that the selection was made in.
+/// The statements that a step means. They can be asked for in any order and while the program changes,
+/// because ids are those of the program in which the selection was made.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SelectedStatements {
-    /// In order, without gaps between neighbours that are meant.
+    /// The ranges of selected statements, in order. Neighbouring selected statements are in the same range.
     ranges: Vec<StatementRange>,
 }
 
 impl SelectedStatements {
-    /// The statements of a program that a step means, with a warning when there are none. `kind` is what `where` selects:
-    /// `statement`, `operation`.
+    /// Selects the statements of a program that a step means. It reports a warning if there are none. `kind`
+    /// is what `where` selects: `statement` or `operation`.
     pub fn select(
         wanted: impl Into<MotionFilter>,
         program: &Program,
@@ -148,13 +150,13 @@ impl SelectedStatements {
         Self { ranges }
     }
 
-    /// Whether a statement is meant.
+    /// Returns whether a statement is selected.
     pub fn contains(&self, statement: StatementId) -> bool {
         let after = self.ranges.partition_point(|range| range.last() < statement);
         self.ranges.get(after).is_some_and(|range| range.contains(statement))
     }
 
-    /// Whether none is meant.
+    /// Returns whether no statement is selected.
     pub fn is_empty(&self) -> bool {
         self.ranges.is_empty()
     }

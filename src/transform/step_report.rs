@@ -1,32 +1,32 @@
-//! What a step tells about itself beyond findings.
+//! This module holds what a step reports about itself besides findings.
 
 use crate::presentation::path_panel::PathPanel;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::any::Any;
 use std::fmt::Debug;
 
-/// What a transform tells about one run of it. It makes one in `apply` and hands it to
-/// [`StepContext::add_report`](super::StepContext::add_report); a transform that has nothing to tell makes none.
+/// The report of a transform about one run. It makes the report in `apply` and passes it to
+/// [`StepContext::add_report`](super::StepContext::add_report). A transform without a report makes none.
 ///
-/// Serialized it is `{ step name: value }`.
+/// The serialized form is `{ step name: value }`.
 pub trait TransformReport: Any + Debug + Send + Sync {
-    /// The name of the step in recipes, under which the report stands in JSON.
+    /// Returns the name of the step in recipes, under which the report stands in JSON.
     fn step_name(&self) -> &'static str;
 
-    /// The report for people: lines that end in a line end, the first of them empty.
+    /// Returns the report for people. It consists of whole lines, the first of which is empty.
     fn to_text(&self) -> String;
 
-    /// The report as a JSON value; [`to_json_value`] makes it from what serde can write.
+    /// Returns the report as a JSON value. [`to_json_value`] makes it from what serde can write.
     fn to_json(&self) -> serde_json::Value;
 
-    /// What it draws.
+    /// Returns the drawings of the report.
     fn build_panels(&self) -> Vec<PathPanel> {
         Vec::new()
     }
 }
 
 impl dyn TransformReport {
-    /// The report as its own type; `None` when it is of another step.
+    /// Returns the report as its own type. Returns `None` if it belongs to another step.
     pub fn downcast_ref<T: TransformReport>(&self) -> Option<&T> {
         (self as &dyn Any).downcast_ref()
     }
@@ -40,10 +40,10 @@ impl Serialize for dyn TransformReport {
     }
 }
 
-/// A value as JSON.
+/// Converts a value to JSON.
 pub fn to_json_value(value: &impl Serialize) -> serde_json::Value {
     let json = serde_json::to_value(value);
-    // Reports are structs of numbers, names and lists; only a map whose keys are no text could fail.
+    // Reports are structs of numbers, names and lists. Only a map whose keys are no text could fail.
     debug_assert!(json.is_ok(), "{json:?}");
     json.unwrap_or_default()
 }

@@ -1,12 +1,14 @@
-//! Statements that a geometric step cannot change because nothing says what their numbers are.
+//! This module reports statements that a geometric step cannot change, because it is not known what their
+//! numbers mean.
 
 use super::StepContext;
 use super::statement_numbers::major_word;
 use crate::parse;
 use crate::program::{FieldKind, Program, Record, StatementId};
 
-/// Reports unknown words with numbers that may be places or lengths, one finding for each word, and statements that could not
-/// be read, one finding for all of them. `meant` says which statements the step changes; `verb` what it does to them.
+/// Reports unknown words with numbers that may be points or lengths, with one finding for each word, and
+/// statements that could not be read, with one finding for all of them. `meant` tells which statements the
+/// step changes, and `verb` is what it does to them.
 pub fn report_unchanged_statements(
     program: &Program,
     meant: impl Fn(StatementId) -> bool,
@@ -24,7 +26,7 @@ pub fn report_unchanged_statements(
                 if may_hold_lengths(text) && !words.contains(&word) {
                     context.report_unchanged(
                         format!(
-                            "`{word}` is no word clsmith knows: if its numbers are places or lengths, they are not {verb}"
+                            "clsmith does not know the word `{word}`: if its numbers are points or lengths, they are not {verb}"
                         ),
                         program,
                         id,
@@ -45,8 +47,8 @@ pub fn report_unchanged_statements(
     }
 }
 
-/// Whether numbers of an unknown statement look like lengths: one has a decimal point, or three stand together. Tool numbers,
-/// registers and counts have none of it.
+/// Returns whether numbers of an unknown statement look like lengths: one has a decimal point, or three stand
+/// together. Tool numbers, registers and counts do not.
 fn may_hold_lengths(text: &[u8]) -> bool {
     let syntax = parse::syntax(text);
     let numbers = syntax.numbers();

@@ -1,4 +1,4 @@
-//! Checksums of a file piece by piece, to say where another one differs.
+//! This module computes checksums of a file block by block, which show where another file differs.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -6,26 +6,26 @@ use serde::de::{self, Deserialize, Deserializer};
 use serde::{Serialize, Serializer};
 use std::ops::Range;
 
-/// Bytes of a piece: some 25 lines.
-const BLOCK: usize = 1024;
+/// The number of bytes in a block, about 25 lines.
+const BLOCK_BYTES: usize = 1024;
 
-/// CRC-32 of every 1024 bytes of a file; four bytes each, as base64 in JSON.
+/// The CRC-32 of every 1024 bytes of a file. Each has four bytes, and JSON contains them in base64.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BlockChecksums(Vec<u32>);
 
 impl BlockChecksums {
-    /// The checksums of bytes that come in chunks; how they are cut does not count.
+    /// Computes the checksums of bytes that come in chunks. The sizes of the chunks do not matter.
     pub fn from_chunks<'a>(chunks: impl IntoIterator<Item = &'a [u8]>) -> Self {
         let mut found = Vec::new();
         let mut hasher = crc32fast::Hasher::new();
         let mut filled = 0;
         for mut chunk in chunks {
             while !chunk.is_empty() {
-                let (now, rest) = chunk.split_at_checked(BLOCK - filled).unwrap_or((chunk, &[]));
+                let (now, rest) = chunk.split_at_checked(BLOCK_BYTES - filled).unwrap_or((chunk, &[]));
                 hasher.update(now);
                 filled += now.len();
                 chunk = rest;
-                if filled == BLOCK {
+                if filled == BLOCK_BYTES {
                     found.push(std::mem::take(&mut hasher).finalize());
                     filled = 0;
                 }
@@ -37,13 +37,13 @@ impl BlockChecksums {
         Self(found)
     }
 
-    /// Between which bytes another file differs first, as far as the checksums tell; empty at its end when it goes on or ends
-    /// there.
+    /// Returns the range of bytes in which another file first differs, as far as the checksums show it. The
+    /// range is empty at the end of a file that only continues or ends there.
     pub fn find_first_difference(&self, other: &[u8]) -> Range<usize> {
         let theirs = Self::from_chunks([other]);
         let same = self.0.iter().zip(&theirs.0).take_while(|(ours, theirs)| ours == theirs).count();
-        let start = (same * BLOCK).min(other.len());
-        start..(start + BLOCK).min(other.len())
+        let start = (same * BLOCK_BYTES).min(other.len());
+        start..(start + BLOCK_BYTES).min(other.len())
     }
 }
 

@@ -1,13 +1,13 @@
-//! The way back from a corrected file to the original, by the report of the run (`apply --json`).
+//! This module restores the original from a corrected file, by the report of the run (`apply --json`).
 //!
 //! [`RunReport`] is what is written: what the run did, for other programs, and for undo the old bytes of
-//! every place that differs ([`UndoPatch`]), the digests of both files, and checksums along the corrected
-//! one. [`UndoData`] is what is read of it. It gives the original back, byte for byte, from exactly the file
-//! that the run wrote; for any other file it says from where on the two differ.
+//! every place that differs ([`UndoPatch`]), the digests of both files, and checksums of the corrected one.
+//! [`UndoData`] is what is read from it. It restores the original byte for byte from exactly the file that
+//! the run wrote. For any other file, it reports where the two begin to differ.
 //!
-//! The report holds old bytes only. The digests make sure that the file is the one that was written and that
-//! the result is the one that was read, so nothing between them can be wrong. The checksums, one for each
-//! KiB, only say where another file differs.
+//! The report only contains old bytes. The digests make sure that the file is the one that was written and
+//! that the result is the one that was read, so nothing between them can be wrong. The checksums, one for
+//! each KiB, only show where another file differs.
 
 mod block_checksums;
 mod run_report;

@@ -1,4 +1,4 @@
-//! What a run did, as JSON: for other programs, and for undo.
+//! This module writes what a run did as JSON, for other programs and for undo.
 
 use super::{BlockChecksums, UndoPatch};
 use crate::diagnostic::Diagnostic;
@@ -10,10 +10,10 @@ use crate::report::render::json::FindingsJson;
 use serde::{Deserialize, Serialize};
 use std::io::{self, Write};
 
-/// What the report calls itself.
+/// The name of the format.
 pub(crate) const FORMAT: &str = "clsmith run";
 
-/// Version of the structure. It changes when a reader would have to; new keys may come without.
+/// The version of the format. It changes when readers have to change. New keys may be added without that.
 pub(crate) const FORMAT_VERSION: u32 = 1;
 
 /// The report of a run on one file.
@@ -25,15 +25,15 @@ pub struct RunReport<'r> {
     pub version: u32,
     /// The version of clsmith.
     pub clsmith: &'static str,
-    /// The file as it came.
+    /// The file as it was read.
     pub input: FileIdentity,
     /// The file as it was written.
     pub output: CorrectedFile,
     /// The recipe and all files that it depends on.
     pub recipe: &'r RecipeFingerprint,
-    /// What the output says about the run.
+    /// What the output states about the run.
     pub provenance: Provenance,
-    /// What each step changed, lengths and times.
+    /// The changes of each step, with lengths and times.
     pub changes: &'r RecipeChanges,
     /// What was found, as every other output of the run has it.
     pub findings: FindingsJson<'r>,
@@ -41,32 +41,33 @@ pub struct RunReport<'r> {
     pub undo: UndoPatch,
 }
 
-/// A file: its name as the run knew it, its size and its digest.
+/// A file: its name in the run, its size and its digest.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileIdentity {
     /// The path as it was opened.
     pub file: String,
-    /// Bytes.
+    /// Its size in bytes.
     pub bytes: usize,
-    /// Digest.
+    /// Its digest.
     pub sha256: Digest,
 }
 
 /// The corrected file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CorrectedFile {
-    /// Where it was written; `None` where it was not (`--dry-run`), or on standard output.
+    /// The path where it was written. It is `None` if it was not written (`--dry-run`), or went to standard
+    /// output.
     pub file: Option<String>,
-    /// Bytes.
+    /// Its size in bytes.
     pub bytes: usize,
-    /// Digest.
+    /// Its digest.
     pub sha256: Digest,
-    /// Checksums of each 1024 bytes.
+    /// The checksums of each 1024 bytes.
     pub crc32: BlockChecksums,
 }
 
 impl<'r> RunReport<'r> {
-    /// The report of what steps made of a program, written to `file`.
+    /// Makes the report of what steps have made of a program that is written to `file`.
     pub fn from_program(
         program: &Program,
         file: Option<String>,
@@ -108,7 +109,7 @@ impl<'r> RunReport<'r> {
     /// Writes it as one line of JSON.
     ///
     /// # Errors
-    /// What the writer says.
+    /// Returns the error of the writer.
     pub fn write_json(&self, out: &mut dyn Write) -> io::Result<()> {
         serde_json::to_writer(&mut *out, self)?;
         out.write_all(b"\n")

@@ -1,4 +1,4 @@
-//! Reading a report, and giving the original back.
+//! This module reads a report and restores the original.
 
 use super::UndoPatch;
 use super::run_report::{CorrectedFile, FORMAT, FORMAT_VERSION, FileIdentity};
@@ -9,7 +9,7 @@ use serde::Deserialize;
 use serde_json::Value;
 use std::sync::Arc;
 
-/// What undo has to know of a run.
+/// The data of a run that undo needs.
 ///
 /// ```
 /// use clsmith::fingerprint::RecipeFingerprint;
@@ -39,15 +39,15 @@ use std::sync::Arc;
 /// ```
 #[derive(Debug, Clone, Deserialize)]
 pub struct UndoData {
-    /// The file as it came.
+    /// The file as it was read.
     pub input: FileIdentity,
     /// The file as it was written.
     pub output: CorrectedFile,
-    /// The way back.
+    /// The old bytes that restore the original.
     pub undo: UndoPatch,
 }
 
-/// An original.
+/// An original that was restored.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct RestoredOriginal {
@@ -55,11 +55,12 @@ pub struct RestoredOriginal {
     pub bytes: Vec<u8>,
     /// Its digest, which is the one in the report.
     pub sha256: Digest,
-    /// How many places differ.
+    /// The number of places that differ.
     pub places: usize,
 }
 
-/// What every version of the report has, and what tells the other files of clsmith; `version` is text in some of them.
+/// The keys that every version of the report has, and those that identify other files of clsmith. `version`
+/// is a text in some of them.
 #[derive(Deserialize)]
 struct RunReportHead {
     format: Option<Value>,
@@ -72,10 +73,11 @@ impl UndoData {
     /// Reads the report of a run.
     ///
     /// # Errors
-    /// [`codes::NO_RUN_REPORT`] for anything else, [`codes::NEWER_RUN_REPORT`] for one of a clsmith to come.
+    /// Returns [`codes::NO_RUN_REPORT`] for any other file, and [`codes::NEWER_RUN_REPORT`] for the report of
+    /// a newer clsmith.
     pub fn read_report(report: &Arc<Source>) -> Result<Self, Failure> {
         let bytes = report.bytes();
-        // Only the first value: results of batches and logs have one on each line.
+        // Only the first value is read, because results of batches and logs have one on each line.
         let head = RunReportHead::deserialize(&mut serde_json::Deserializer::from_slice(bytes))
             .map_err(|error| report_unreadable(report, &error))?;
         if head.format.as_ref().and_then(Value::as_str) != Some(FORMAT) {
@@ -96,16 +98,16 @@ impl UndoData {
                 let found = Diagnostic::new(codes::NEWER_RUN_REPORT, message);
                 return Err(found.with_label(report, Span::new(0, 0), "").into());
             }
-            None => return Err(report_no_run_report(report, 0, "the report does not say its version")),
+            None => return Err(report_no_run_report(report, 0, "the report does not state its version")),
         }
         serde_json::from_slice(bytes).map_err(|error| report_unreadable(report, &error))
     }
 
-    /// The original of a corrected file.
+    /// Restores the original of a corrected file.
     ///
     /// # Errors
-    /// [`codes::OTHER_FILE`] when it is not, byte for byte, the file that the run wrote, from the place where it differs;
-    /// [`codes::BAD_UNDO`] when what comes out is not the original.
+    /// Returns [`codes::OTHER_FILE`] at the first difference if the file is not byte for byte the one that
+    /// the run wrote, and [`codes::BAD_UNDO`] if the result is not the original.
     pub fn restore_original(
         &self,
         corrected: &Arc<Source>,
@@ -118,24 +120,24 @@ impl UndoData {
         let bytes = self.undo.restore_bytes(corrected.bytes());
         let bytes =
             bytes.filter(|bytes| Digest::from_bytes(bytes) == self.input.sha256).ok_or_else(|| {
-                let message = "what the report has of the original does not give the file that it names";
+                let message = "the old bytes in the report do not restore the file that it names";
                 let found = Diagnostic::new(codes::BAD_UNDO, message);
                 found.with_label(report, Span::new(0, 0), "changed since the run wrote it")
             })?;
         Ok(RestoredOriginal { bytes, sha256: self.input.sha256, places: self.undo.0.len() })
     }
 
-    /// Why a file is not the one that the run wrote.
+    /// Explains why a file is not the one that the run wrote.
     fn explain_other_file(&self, file: &Arc<Source>, digest: Digest) -> Failure {
         if digest == self.input.sha256 {
             let message = "this is the original already, as it was before the run";
-            let help = "There is nothing to undo; was the corrected file meant?";
+            let help = "There is nothing to undo. Give the corrected file.";
             return Diagnostic::new(codes::OTHER_FILE, message).with_help(help).into();
         }
         if let Some(ends) = self.detect_line_ends(file.bytes()) {
             let message =
                 format!("only the line ends differ from the file that the run wrote: here they are {ends}");
-            let help = "An editor, a version control system or a transfer in text mode has changed them; take the file that clsmith wrote.";
+            let help = "An editor, a version control system or a transfer in text mode has changed them. Give the file that clsmith wrote.";
             return Diagnostic::new(codes::OTHER_FILE, message).with_help(help).into();
         }
         let at = self.output.crc32.find_first_difference(file.bytes());
@@ -162,7 +164,7 @@ impl UndoData {
         Diagnostic::new(codes::OTHER_FILE, message).with_label(file, span, label).into()
     }
 
-    /// What the line ends are, where nothing else differs.
+    /// Returns the kind of line ends, if nothing else differs.
     fn detect_line_ends(&self, bytes: &[u8]) -> Option<&'static str> {
         let mut lf = Vec::with_capacity(bytes.len());
         let mut before = 0;
@@ -195,7 +197,7 @@ fn report_unreadable(report: &Arc<Source>, error: &serde_json::Error) -> Failure
     let line = report.line_span(error.line().max(1)).unwrap_or_default();
     let at = (line.start as usize + error.column().saturating_sub(1)).min(report.bytes().len());
     let message = match error.classify() {
-        serde_json::error::Category::Eof => "the report ends in the middle: it was cut off".to_owned(),
+        serde_json::error::Category::Eof => "the report is incomplete: it ends in the middle".to_owned(),
         serde_json::error::Category::Data => format!("the report of a run lacks what undo needs: {error}"),
         _ => format!("this is no JSON: {error}"),
     };

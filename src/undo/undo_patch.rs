@@ -1,4 +1,4 @@
-//! The way back as places in the corrected file, each with the bytes that were there.
+//! This module holds the places of the corrected file that differ, each with the old bytes.
 
 use crate::program::{Program, StatementChange};
 use base64::Engine;
@@ -7,18 +7,19 @@ use serde::de::{self, Deserialize, Deserializer};
 use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 
-/// A place in the corrected file and what the original has instead.
+/// A place in the corrected file, and the bytes of the original there.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UndoEdit {
-    /// First byte in the corrected file, from 0.
+    /// The first byte in the corrected file, counted from 0.
     pub at: usize,
-    /// Bytes of the corrected file that go.
+    /// The number of bytes of the corrected file that are removed.
     pub length: usize,
-    /// Bytes of the original that come. In JSON `was`, or `was_base64` where they are no UTF-8.
+    /// The bytes of the original that replace them. In JSON they are `was`, or `was_base64` if they are not
+    /// UTF-8.
     pub was: Vec<u8>,
 }
 
-/// All places that differ, from the first to the last; what touches is one place.
+/// All places that differ, in order. Adjacent places are joined.
 ///
 /// ```
 /// use clsmith::parse::parse;
@@ -42,7 +43,7 @@ pub struct UndoEdit {
 pub struct UndoPatch(pub Vec<UndoEdit>);
 
 impl UndoPatch {
-    /// The way back from a program as it stands to the file it was read from.
+    /// Computes the patch from a program in its current state back to the file from which it was read.
     pub fn from_program(program: &Program) -> Self {
         let mut places = Vec::new();
         let mut open: Option<UndoEdit> = None;
@@ -59,12 +60,12 @@ impl UndoPatch {
             at += length;
         }
         places.extend(open);
-        // One step put it in, another took it out.
+        // A statement that one step inserted and another one deleted leaves no difference.
         places.retain(|place| place.length > 0 || !place.was.is_empty());
         Self(places)
     }
 
-    /// The original; `None` when the places do not lie in the file one after the other.
+    /// Restores the original. Returns `None` if the places are not in the file in order.
     pub fn restore_bytes(&self, corrected: &[u8]) -> Option<Vec<u8>> {
         let mut out = Vec::with_capacity(corrected.len());
         let mut copied = 0;
@@ -91,7 +92,7 @@ impl Serialize for UndoEdit {
     }
 }
 
-/// A place as it stands in JSON.
+/// A place as it is written in JSON.
 #[derive(serde::Deserialize)]
 struct UndoEditText {
     at: usize,

@@ -1,4 +1,5 @@
-//! Faults in words: which code, which message, what is underlined, and what was probably meant.
+//! This module words faults: it gives each the code, the message, the place that is underlined, and a
+//! suggestion of what was probably meant.
 
 use super::fault_words::{find_similar_name, join_choices, quote_text};
 use super::yaml_fault::{YamlFault, YamlFaultKind};
@@ -7,15 +8,16 @@ use super::{KeyOrValue, YamlDocument, YamlPathSegment};
 use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
 use crate::source::Span;
 
-/// A fault with the way to it, for [`FaultWording`] to look at.
+/// A fault with the path to it, which [`FaultWording`] examines.
 pub(crate) struct LocatedYamlFault<'f> {
     /// What is wrong.
     pub kind: &'f YamlFaultKind,
-    /// The way to the value, from the root. For an unknown key, that key is the last segment.
+    /// The path to the value, from the root. For an unknown key, that key is the last segment.
     pub path: &'f [YamlPathSegment<'f>],
 }
 
-/// What a kind of file says about some of its faults: the code, the message and the help to use instead of the usual.
+/// The wording that a kind of file has for some of its faults: the code, the message and the help that
+/// replace the usual ones.
 pub(crate) type FaultWording = fn(&LocatedYamlFault<'_>) -> Option<(DiagnosticCode, String, String)>;
 
 pub(super) fn render_fault(document: &YamlDocument, fault: &YamlFault, special: FaultWording) -> Diagnostic {
@@ -42,7 +44,7 @@ pub(super) fn render_fault(document: &YamlDocument, fault: &YamlFault, special: 
     diagnostic.with_label(&document.source, span, label)
 }
 
-/// `owner` is what misses a key, in words.
+/// Words a fault. `owner` names what misses a key.
 fn word_fault(
     kind: &YamlFaultKind,
     path: &[YamlPathSegment<'_>],
@@ -63,13 +65,13 @@ fn word_fault(
         YamlFaultKind::UnknownChoice { name, expected } => {
             let help = suggest_names(name, expected, "Choose");
             let owner = match path.split_last() {
-                // As a key, the name is the end of its own way.
+                // An unknown choice that is written as a key is the last segment of its own path.
                 Some((YamlPathSegment::Key(key), parent)) if key == name => parent,
                 _ => path,
             };
             let message = match find_value_name(owner) {
-                Some(owner) => format!("{} is no choice for `{owner}`", quote_text(name)),
-                None => format!("{} is no choice here", quote_text(name)),
+                Some(owner) => format!("{} is not a choice for `{owner}`", quote_text(name)),
+                None => format!("{} is not a choice here", quote_text(name)),
             };
             (codes::UNKNOWN_CHOICE, message, Some(help), "not one of the choices".into())
         }
@@ -120,7 +122,7 @@ fn prefix_name(path: &[YamlPathSegment<'_>], message: &str) -> String {
     }
 }
 
-/// What a value is called: its key, or the key of the list it is in.
+/// Returns the name of a value: its key, or the key of the list that contains it.
 fn find_value_name<'a>(path: &[YamlPathSegment<'a>]) -> Option<&'a str> {
     path.iter().rev().find_map(|segment| match segment {
         YamlPathSegment::Key(key) => Some(*key),
@@ -128,7 +130,7 @@ fn find_value_name<'a>(path: &[YamlPathSegment<'a>]) -> Option<&'a str> {
     })
 }
 
-/// `Did you mean …?`, or the names there are.
+/// Returns `Did you mean …?`, or the list of possible names.
 pub(crate) fn suggest_names(name: &str, expected: &[&str], listing: &str) -> String {
     match find_similar_name(name, expected) {
         Some(near) => format!("Did you mean `{near}`?"),
@@ -151,7 +153,8 @@ fn list_path_segments<'d>(document: &'d YamlDocument, path: &[usize]) -> Vec<Yam
         .collect()
 }
 
-/// What to underline: the key or the value itself; for something missing, the key that it is missing under.
+/// Returns the place to underline: the key or the value itself. For something missing, it is the key under
+/// which it is missing.
 fn find_fault_span(document: &YamlDocument, fault: &YamlFault) -> Span {
     let path = fault.path.as_slice();
     let node = document.root.node_at_path(path);

@@ -1,8 +1,8 @@
-//! serde's terms in a machinist's words.
+//! This module translates serde's terms into the words of a machinist.
 
 use serde::de::{Expected, Unexpected};
 
-/// What was found: `the text `5 mm``, `the number 5`, `a list`.
+/// Words what was found: `the text `5 mm``, `the number 5`, `a list`.
 pub(super) fn describe_found(found: Unexpected<'_>) -> String {
     match found {
         Unexpected::Bool(value) => format!("`{value}`"),
@@ -21,7 +21,7 @@ pub(super) fn describe_found(found: Unexpected<'_>) -> String {
     }
 }
 
-/// What was expected: serde names Rust types, which say nothing to who writes recipes.
+/// Words what was expected. serde names Rust types, which mean nothing to people who write recipes.
 pub(super) fn describe_expected(expected: &dyn Expected) -> String {
     let text = expected.to_string();
     let plain = match text.as_str() {
@@ -44,12 +44,12 @@ fn describe_array(text: &str) -> Option<String> {
     Some(format!("a list of {}", count_elements(count.parse().ok()?)))
 }
 
-/// `1 element`, `2 elements`.
+/// Words a number of elements: `1 element`, `2 elements`.
 pub(super) fn count_elements(count: usize) -> String {
     format!("{count} element{}", if count == 1 { "" } else { "s" })
 }
 
-/// Text between backticks, shortened, on one line.
+/// Returns the text between backticks, shortened and on one line.
 pub(super) fn quote_text(text: &str) -> String {
     const MOST: usize = 40;
     let line: String = text.chars().take(MOST).map(|c| if c.is_control() { ' ' } else { c }).collect();
@@ -57,7 +57,7 @@ pub(super) fn quote_text(text: &str) -> String {
     format!("`{line}{more}`")
 }
 
-/// `a`, `a or b`, `a, b or c`, each between backticks.
+/// Joins names with commas and `or`, each between backticks: `a`, `a or b`, `a, b or c`.
 pub(super) fn join_choices(names: &[&str]) -> String {
     let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
     match names.split_last() {
@@ -67,14 +67,14 @@ pub(super) fn join_choices(names: &[&str]) -> String {
     }
 }
 
-/// The known name that was most likely meant.
+/// Returns the known name that was most likely meant.
 pub(super) fn find_similar_name<'n>(typed: &str, known: &[&'n str]) -> Option<&'n str> {
     let plain = |name: &str| name.to_lowercase().replace(['-', ' '], "_");
     let typed = plain(typed);
     let allowed = 1 + typed.chars().count() / 4;
     let near = |name: &&&str| {
         let distance = strsim::damerau_levenshtein(&typed, &plain(name));
-        // A short name is within two edits of every other short name.
+        // Two edits turn any short name into any other, so the distance must also be shorter than the name.
         distance <= allowed && distance < name.chars().count()
     };
     known.iter().filter(near).min_by_key(|name| strsim::damerau_levenshtein(&typed, &plain(name))).copied()

@@ -1,8 +1,10 @@
-//! YAML files that people write by hand: read, checked against a type, every fault at its exact place.
+//! This module reads YAML files that people write by hand, checks them against a type, and reports every
+//! fault at its exact place.
 //!
-//! [`YamlDocument::parse`] turns text into a tree or says why it is no YAML;
-//! [`YamlDocument::deserialize_checked`] turns the tree into a type and reports all it finds, not only the first fault; [`YamlDocument::value_span`] says where a value stands, at any time later.
-//! Recipes and setup files go through here; nothing here knows what is in them.
+//! [`YamlDocument::parse`] turns text into a tree, or says why it is no YAML. [`YamlDocument::deserialize_checked`]
+//! turns the tree into a type and reports all faults, not only the first. [`YamlDocument::value_span`]
+//! returns the place of a value at any time later. Recipes and setup files are read by this module, which
+//! knows nothing of their content.
 
 mod fault_diagnostics;
 mod fault_words;
@@ -24,19 +26,19 @@ use std::fmt;
 use std::sync::Arc;
 use yaml_tree::YamlNode;
 
-/// A step of the way from the root of a document to one of its values.
+/// A segment of the path from the root of a document to one of its values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum YamlPathSegment<'a> {
     /// The value of a key.
     Key(&'a str),
-    /// An element of a list, from 0.
+    /// An element of a list, counted from 0.
     Index(usize),
 }
 
-/// A file as a tree of values with places.
+/// A file as a tree of values with their places.
 pub(crate) struct YamlDocument {
     source: Arc<Source>,
-    /// Length of the byte order mark.
+    /// The length of the byte order mark.
     base: usize,
     root: YamlNode,
 }
@@ -45,24 +47,25 @@ impl YamlDocument {
     /// Reads the text.
     ///
     /// # Errors
-    /// The one reason why the bytes are not a YAML document.
+    /// Returns the reason why the bytes are not a YAML document.
     pub fn parse(source: &Arc<Source>) -> Result<Self, Failure> {
         let (text, base) = yaml_syntax::check_text(source)?;
         let root = yaml_syntax::parse_tree(source, text, base)?;
         Ok(Self { source: Arc::clone(source), base, root })
     }
 
-    /// The file it was read from.
+    /// Returns the file from which it was read.
     pub fn source(&self) -> &Arc<Source> {
         &self.source
     }
 
-    /// Where a value stands; an empty value stands at its key. `None` if there is no such value.
+    /// Returns the place of a value. An empty value has the place of its key. Returns `None` if there is no
+    /// such value.
     pub fn value_span(&self, path: &[YamlPathSegment<'_>]) -> Option<Span> {
         self.node_span(&self.resolve_path(path)?, KeyOrValue::Value)
     }
 
-    /// Where the key of a value stands; list elements have none and stand where the value does.
+    /// Returns the place of a value's key. List elements have no key, so the place of the value is returned.
     pub fn key_span(&self, path: &[YamlPathSegment<'_>]) -> Option<Span> {
         let numbers = self.resolve_path(path)?;
         let part = if matches!(path.last(), Some(YamlPathSegment::Key(_))) {
@@ -73,7 +76,7 @@ impl YamlDocument {
         self.node_span(&numbers, part)
     }
 
-    /// The keys of the map at the end of a path.
+    /// Returns the keys of the map at the end of a path.
     pub fn list_keys(&self, path: &[YamlPathSegment<'_>]) -> Vec<&str> {
         match self.resolve_path(path).and_then(|numbers| self.root.node_at_path(&numbers)) {
             Some(YamlNode::Map(entries)) => entries.iter().map(|entry| entry.key.as_str()).collect(),
@@ -116,7 +119,7 @@ impl YamlDocument {
             _ => None,
         };
         let span = node_location::find_node_span(text, offset, plain);
-        // `- ` with nothing behind it: the dash is all there is to see.
+        // An element `- ` without a value only shows its dash.
         let dash = text.get(..span.to_range().start).map(|before| before.trim_end().len());
         Some(match dash {
             Some(end) if span.is_empty() && end > 0 => Span::new(self.base + end - 1, self.base + end),

@@ -1,6 +1,8 @@
-//! Checks the tree against a type: a serde deserializer whose errors know the entry they came from.
+//! This module checks the tree against a type. It is a serde deserializer whose errors know the entry from
+//! which they came.
 //!
-//! A choice (enum) with settings is a map of one key, its name; a bare name stands for the choice with no settings given.
+//! A choice (enum) with settings is a map with a single key, its name. A bare name is the choice without
+//! settings.
 
 use super::fault_words;
 use super::yaml_fault::{YamlFault, YamlFaultKind};
@@ -45,7 +47,7 @@ impl<'de> Deserializer<'de> for NodeDeserializer<'_> {
                 visitor.visit_map(NodeMapAccess { entries: entries.iter(), value: None })
             }
             YamlNode::List(items) => {
-                // Arrays stop reading at their length and would not notice what follows.
+                // Arrays stop reading at their length and would not notice further elements.
                 let expected = fault_words::describe_expected(&visitor);
                 let mut access = NodeListAccess { items: items.iter() };
                 let value = visitor.visit_seq(&mut access)?;
@@ -72,7 +74,8 @@ impl<'de> Deserializer<'de> for NodeDeserializer<'_> {
         visitor.visit_newtype_struct(self)
     }
 
-    /// `machine:` with every line below it commented out is a machine of which nothing is said.
+    /// Returns a key such as `machine:` with all lines below it commented out is read as a struct without
+    /// values.
     fn deserialize_struct<V: Visitor<'de>>(
         self,
         _: &'static str,
@@ -161,7 +164,7 @@ impl<'de> de::MapAccess<'de> for NodeMapAccess<'_> {
     }
 }
 
-/// A choice by name, with its settings if it came as a map.
+/// A choice by name, with its settings if it was a map.
 struct NamedChoice<'n> {
     name: &'n str,
     settings: Option<&'n YamlMapEntry>,

@@ -1,9 +1,10 @@
-//! How far a YAML key or value reaches, from where it starts: what a diagnostic underlines.
+//! This module measures how far a YAML key or value extends from its start. A diagnostic underlines that
+//! range.
 //!
-//! The text is known to be valid YAML here, and a wrong answer only underlines too much or too little, so these functions
-//! know just enough of YAML: quotes, brackets, anchors and comments.
+//! The text is known to be valid YAML here, and a wrong result only underlines too much or too little. So
+//! these functions know only as much of YAML as they need: quotes, brackets, anchors and comments.
 
-/// Skips `&anchor` and `!tag` in front of a node.
+/// Skips `&anchor` and `!tag` before a node.
 pub(super) fn skip_anchor_and_tag(text: &str, offset: usize) -> usize {
     let mut at = offset;
     while let Some(rest) = text.get(at..).filter(|rest| rest.starts_with(['&', '!'])) {
@@ -27,8 +28,9 @@ fn skip_blanks_and_comments(text: &str) -> usize {
     }
 }
 
-/// The length of the node at the start of `text`: all of a quoted scalar or bracketed collection, the first line of a
-/// block collection or block scalar. `plain` is what an unquoted scalar of text reads as.
+/// Returns the length of the node at the start of `text`. It is the whole of a quoted scalar or a bracketed
+/// collection, and the first line of a block collection or a block scalar. `plain` is the text of an unquoted
+/// scalar.
 pub(super) fn measure_node(text: &str, plain: Option<&str>) -> usize {
     match text.as_bytes().first() {
         Some(b'"') => measure_quoted(text, b'"'),
@@ -42,7 +44,8 @@ pub(super) fn measure_node(text: &str, plain: Option<&str>) -> usize {
     }
 }
 
-/// A number, `true`, `null`: ends where YAML ends a word, in brackets or out of them. `None` for `key: value`, `- item`.
+/// Returns the length of a number, `true` or `null`, which ends where YAML ends a word inside or outside of
+/// brackets. Returns `None` for `key: value` and `- item`.
 fn measure_first_word(text: &str) -> Option<usize> {
     let end = text.find([' ', '\t', '\r', '\n', ',', ']', '}']).unwrap_or(text.len());
     let word = text.get(..end)?;

@@ -1,7 +1,8 @@
-//! Where in the text a node of the tree stands.
+//! This module finds the place of a node of the tree in the text.
 //!
-//! serde_yaml tells places only in errors, so a place is found by walking down to the node and failing there. Each
-//! question reads the text once more; recipes are small, and questions are asked only for diagnostics.
+//! serde_yaml only gives places in errors. So a place is found by descending to the node and failing there on
+//! purpose. Each search reads the text once more, but recipes are small, and places are only needed for
+//! diagnostics.
 
 use super::node_length;
 use crate::source::Span;
@@ -10,28 +11,29 @@ use serde::de::{
 };
 use std::fmt;
 
-/// Which part of the last entry of a path is meant.
+/// The part of a path's last entry that is meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum KeyOrValue {
     Key,
     Value,
 }
 
-/// The offset at which the node at the end of `path` starts, anchor and all.
+/// Returns the offset at which the node at the end of `path` starts, including its anchor.
 pub(super) fn find_node_offset(text: &str, path: &[usize], part: KeyOrValue) -> Option<usize> {
     let document = serde_yaml::Deserializer::from_str(text).next()?;
     let error = NodeSeeker { path, part }.deserialize(document).err()?;
     Some(error.location()?.index().min(text.len()))
 }
 
-/// The offset at which the second document of a stream starts.
+/// Returns the offset at which the second document of a stream starts.
 pub(super) fn find_second_document(text: &str) -> Option<usize> {
     let document = serde_yaml::Deserializer::from_str(text).nth(1)?;
     let error = NodeSeeker { path: &[], part: KeyOrValue::Value }.deserialize(document).err()?;
     Some(error.location()?.index().min(text.len()))
 }
 
-/// The bytes of the key or value that starts at `offset`; `plain` is its text if it is a scalar of text.
+/// Returns the bytes of the key or value that starts at `offset`. `plain` is its text if it is a scalar of
+/// text.
 pub(super) fn find_node_span(text: &str, offset: usize, plain: Option<&str>) -> Span {
     let start = node_length::skip_anchor_and_tag(text, offset);
     let end = start + node_length::measure_node(text.get(start..).unwrap_or_default(), plain);

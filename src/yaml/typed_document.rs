@@ -1,7 +1,7 @@
-//! A tree checked against a type, past the first fault.
+//! This module checks a tree against a type and continues after the first fault.
 //!
-//! serde stops at the first fault. So the faulty entry is taken out of the tree and the rest is checked again; a fault that
-//! only exists because something was taken out is not reported.
+//! serde stops at the first fault. So the faulty entry is removed from the tree, and the rest is checked
+//! again. A fault that only exists because something was removed is not reported.
 
 use super::fault_diagnostics::{self, FaultWording};
 use super::node_deserializer::NodeDeserializer;
@@ -11,14 +11,15 @@ use super::{KeyOrValue, YamlDocument, fault_words};
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use serde::de::DeserializeOwned;
 
-/// Who made more mistakes than this fixes the first ones first.
-const MOST: usize = 20;
+/// The largest number of faults that are reported. After so many, the first ones should be fixed first.
+const MOST_FAULTS: usize = 20;
 
 impl YamlDocument {
-    /// The document as a `T`. `special` words the faults that mean something particular in this kind of file.
+    /// Converts the document to a `T`. `special` words the faults that have a particular meaning in this kind
+    /// of file.
     ///
     /// # Errors
-    /// Everything that is wrong, in the order of the text; at most 20 findings.
+    /// Returns all faults in the order of the text, at most 20 findings.
     pub fn deserialize_checked<T: DeserializeOwned>(&self, special: FaultWording) -> Result<T, Failure> {
         let mut tree = self.root.clone();
         let mut found = self.find_duplicate_keys();
@@ -26,7 +27,7 @@ impl YamlDocument {
             tree.remove_at_path(&[path.as_slice(), &[later]].concat());
         }
         let mut removed: Vec<Vec<usize>> = Vec::new();
-        while found.len() < MOST {
+        while found.len() < MOST_FAULTS {
             let fault = match T::deserialize(NodeDeserializer(&tree)) {
                 Ok(value) if found.is_empty() => return Ok(value),
                 Ok(_) => break,
@@ -48,7 +49,8 @@ impl YamlDocument {
         Err(found.into())
     }
 
-    /// Whether the node is only wrong because something in it was taken out: the key itself, or a misspelling of it.
+    /// Returns whether a fault only follows from a removed entry: the missing key itself was removed, or a
+    /// misspelling of it.
     fn follows_from(&self, fault: &YamlFault, removed: &[Vec<usize>]) -> bool {
         let mut inside = removed.iter().filter_map(|path| {
             let (last, parent) = path.split_last()?;
@@ -70,7 +72,9 @@ impl YamlDocument {
 
     fn find_duplicate_keys(&self) -> Vec<Diagnostic> {
         let mut found = Vec::new();
-        for (path, first, later) in yaml_tree::find_duplicate_entries(&self.root).into_iter().take(MOST) {
+        for (path, first, later) in
+            yaml_tree::find_duplicate_entries(&self.root).into_iter().take(MOST_FAULTS)
+        {
             let key = |index| {
                 self.node_span(&[path.as_slice(), &[index]].concat(), KeyOrValue::Key).unwrap_or_default()
             };

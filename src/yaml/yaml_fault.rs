@@ -1,32 +1,33 @@
-//! What serde found wrong with a value, kept as data until it is put in words.
+//! This module holds the faults that serde finds in a value, as data that is put into words later.
 
 use super::fault_words;
 use serde::de::{self, Expected, Unexpected};
 use std::fmt;
 
-/// What is wrong.
+/// The kinds of fault.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum YamlFaultKind {
-    /// A key that the map does not have.
+    /// The map has no such key.
     UnknownKey { name: String, expected: &'static [&'static str] },
-    /// A name that is none of the choices.
+    /// The name is none of the choices.
     UnknownChoice { name: String, expected: &'static [&'static str] },
-    /// A key that has to be there and is not.
+    /// A required key is missing.
     Missing { name: &'static str },
-    /// Text where a number belongs, and the like.
+    /// The type is wrong, for example text in place of a number.
     Type { found: String, expected: String },
-    /// The right type with a wrong value: the message, and help if the type knows any.
+    /// The type is right, but the value is wrong. It has the message, and a help if the type provides one.
     Value { message: String, help: Option<String> },
-    /// A choice with settings is written as one name with its settings below; here are none, or several.
+    /// A choice with settings is written as a single name with its settings below. Here there is no name, or
+    /// there are several.
     NotOneName { names: Vec<String> },
 }
 
-/// What is wrong, and where: numbers of the entries on the way from the root, innermost first.
+/// A fault and its place: the indices of the entries on the path from the root, with the innermost first.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct YamlFault {
     pub kind: YamlFaultKind,
     pub path: Vec<usize>,
-    /// Whether the key of the last entry is meant rather than its value.
+    /// Whether the key of the last entry is meant, not its value.
     pub at_key: bool,
 }
 
@@ -35,13 +36,13 @@ impl YamlFault {
         Self { kind, path: Vec::new(), at_key: false }
     }
 
-    /// The fault, seen from the parent: it lies in the value of entry `index`.
+    /// Returns the fault as seen from the parent, when it lies in the value of entry `index`.
     pub fn in_value_of(mut self, index: usize) -> Self {
         self.path.push(index);
         self
     }
 
-    /// The fault, seen from the parent: it is the key of entry `index`.
+    /// Returns the fault as seen from the parent, when it is the key of entry `index`.
     pub fn in_key_of(mut self, index: usize) -> Self {
         self.at_key = true;
         self.path.push(index);
@@ -58,7 +59,7 @@ impl fmt::Display for YamlFault {
 impl std::error::Error for YamlFault {}
 
 impl de::Error for YamlFault {
-    /// A message; what follows its first line break is help.
+    /// Makes a fault from a message. Text after its first line break is the help.
     fn custom<T: fmt::Display>(message: T) -> Self {
         let text = message.to_string();
         let (message, help) = match text.split_once('\n') {

@@ -1,4 +1,5 @@
-//! Refusals before any value is looked at: bytes that are no text, text that is no YAML, YAML that is not ours.
+//! This module refuses files before any value is read: bytes that are no text, text that is no YAML, and
+//! features of YAML that are not supported.
 
 use super::node_location;
 use super::yaml_tree::{YamlNode, YamlRefusal, YamlTreeBuilder};
@@ -7,14 +8,16 @@ use crate::source::{Source, Span};
 use serde::de::DeserializeSeed;
 use std::sync::Arc;
 
-/// The largest file read; a recipe of this size would have some 20 000 steps.
-pub const LARGEST: usize = 1 << 20;
+/// The largest file that is read. A recipe of this size would have about 20 000 steps.
+pub const LARGEST_FILE_BYTES: usize = 1 << 20;
 
-/// serde_yaml does not count the byte order mark, so it reads the text behind it.
+/// Checks that the bytes are text. Returns the text after the byte order mark, and the length of that mark,
+/// because serde_yaml does not count it.
 pub(super) fn check_text(source: &Arc<Source>) -> Result<(&str, usize), Failure> {
     let bytes = source.bytes();
-    if bytes.len() > LARGEST {
-        let message = format!("the file has {} bytes; recipes and setup files are below 1 MiB", bytes.len());
+    if bytes.len() > LARGEST_FILE_BYTES {
+        let message =
+            format!("the file has {} bytes, but recipes and setup files must be below 1 MiB", bytes.len());
         return Err(Diagnostic::new(codes::YAML_TOO_LARGE, message)
             .with_label(source, Span::new(0, 0), "")
             .into());
@@ -43,10 +46,11 @@ pub(super) fn check_text(source: &Arc<Source>) -> Result<(&str, usize), Failure>
     Ok((text, base))
 }
 
-/// The bracket that is the first of too many open ones.
+/// Returns the first bracket that exceeds the allowed nesting.
 ///
-/// libyaml's time grows with the open brackets times the length of the text, long before serde_yaml counts its 128 levels.
-/// Brackets in quotes are counted too; a thousand of those that never close are no recipe either.
+/// The time of libyaml grows with the number of open brackets times the length of the text, long before
+/// serde_yaml counts its 128 levels. Brackets in quotes are counted, too, but a text with a thousand brackets
+/// that never close is no recipe either.
 fn find_excess_bracket(text: &str) -> Option<usize> {
     const MOST: usize = 1000;
     let mut open = 0_usize;
@@ -68,13 +72,13 @@ fn report_too_deep(source: &Arc<Source>, here: Span) -> Diagnostic {
     )
 }
 
-/// What YAML 1.2 calls printable.
+/// Returns whether YAML 1.2 calls a character printable.
 fn is_printable(c: char) -> bool {
     matches!(c, '\t' | '\n' | '\r' | ' '..='~' | '\u{85}' | '\u{a0}'..='\u{fffd}' | '\u{10000}'..)
         && c != '\u{feff}'
 }
 
-/// Reads the one document of a file.
+/// Reads the only document of a file.
 pub(super) fn parse_tree(source: &Arc<Source>, text: &str, base: usize) -> Result<YamlNode, Failure> {
     let builder = YamlTreeBuilder::new();
     let mut documents = serde_yaml::Deserializer::from_str(text);
@@ -95,7 +99,7 @@ pub(super) fn parse_tree(source: &Arc<Source>, text: &str, base: usize) -> Resul
 }
 
 fn report_empty_file(source: &Arc<Source>) -> Diagnostic {
-    Diagnostic::new(codes::YAML_EMPTY, "the file says nothing").with_label(source, Span::new(0, 0), "")
+    Diagnostic::new(codes::YAML_EMPTY, "the file is empty").with_label(source, Span::new(0, 0), "")
 }
 
 fn report_second_document(source: &Arc<Source>, text: &str, base: usize) -> Diagnostic {
@@ -143,12 +147,12 @@ fn explain_refusal(
 fn report_alias_bomb(source: &Arc<Source>, here: Span) -> Diagnostic {
     Diagnostic::new(
         codes::YAML_TOO_LARGE,
-        "aliases (`*name`) repeat so much that the file grows out of bounds",
+        "aliases (`*name`) repeat so much that the file would become too large",
     )
     .with_label(source, here, "while repeating this")
 }
 
-/// What libyaml says, and what it mostly means: the first fragment found in its words decides.
+/// The messages of libyaml with what they usually mean. The first fragment that occurs in a message decides.
 const HINTS: &[(&str, &str, &str)] = &[
     (
         "unknown anchor",
@@ -184,12 +188,12 @@ const HINTS: &[(&str, &str, &str)] = &[
     (
         "did not find expected ',' or",
         "a bracket is not closed, or a comma is missing",
-        "Write `{ a: 1, b: 2 }` and `[1, 2]`; each bracket needs its partner.",
+        "Write `{ a: 1, b: 2 }` and `[1, 2]`. Close every bracket that you open.",
     ),
     (
         "did not find expected key",
-        "the line does not fit the lines above it",
-        "Compare its indentation with the lines it belongs to.",
+        "the line does not match the lines above it",
+        "Compare its indentation with that of the lines to which it belongs.",
     ),
     (
         "did not find expected '-' indicator",
@@ -204,7 +208,7 @@ const HINTS: &[(&str, &str, &str)] = &[
     (
         "unknown escape character",
         "an unknown escape in a quoted text",
-        "In double quotes, write `\\\\` for one backslash; single quotes take it as it is.",
+        "In double quotes, write `\\\\` for one backslash. Within single quotes, it needs no escape.",
     ),
 ];
 
@@ -230,7 +234,7 @@ fn explain_syntax_error(source: &Arc<Source>, text: &str, base: usize, at: usize
             .with_label(source, here, "here");
     };
     let diagnostic = Diagnostic::new(codes::YAML_SYNTAX, *message).with_help(*help);
-    // What is left open is noticed far behind; the place to look at is where it was opened.
+    // An open quote or bracket is only noticed far behind it, so the place where it was opened is shown.
     match find_open_bracket(text, words).filter(|_| UNCLOSED.contains(fragment)) {
         Some(start) => diagnostic
             .with_label(source, character_span(text, base, start), "opened here")
@@ -239,7 +243,7 @@ fn explain_syntax_error(source: &Arc<Source>, text: &str, base: usize, at: usize
     }
 }
 
-/// The offset of the second place that libyaml names: where what it was reading starts.
+/// Returns the offset of the second place that libyaml names: the start of what it was reading.
 fn find_open_bracket(text: &str, words: &str) -> Option<usize> {
     let (_, context) = words.split_once(", while ")?;
     let (_, place) = context.split_once(" at line ")?;
@@ -250,7 +254,8 @@ fn find_open_bracket(text: &str, words: &str) -> Option<usize> {
     Some(start + offset)
 }
 
-/// The character at an offset; at the end of a line or the file, the last one in front of it.
+/// Returns the character at an offset. At the end of a line or of the file, it is the last character before
+/// it.
 fn character_span(text: &str, base: usize, at: usize) -> Span {
     let at = (0..=at).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);
     let rest = text.get(at..).unwrap_or_default();

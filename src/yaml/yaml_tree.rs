@@ -1,13 +1,14 @@
-//! A YAML document as a tree that still knows which entry each node was.
+//! This module holds a YAML document as a tree whose nodes know which entry they were in the text.
 //!
-//! serde_yaml reads the text; the tree keeps duplicate keys, which a map type would swallow, and the number of every
-//! entry, so that a fault found later can be traced back to its bytes even after faulty entries were taken out.
+//! serde_yaml reads the text. The tree keeps duplicate keys, which a map type would lose, and the index of
+//! every entry. So a fault that is found later can be traced to its bytes, even after faulty entries were
+//! removed.
 
 use serde::de::{DeserializeSeed, Deserializer, EnumAccess, MapAccess, SeqAccess, Visitor};
 use std::cell::Cell;
 use std::fmt;
 
-/// One value of the document.
+/// A value of the document.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum YamlNode {
     Null,
@@ -20,14 +21,14 @@ pub(super) enum YamlNode {
     Map(Vec<YamlMapEntry>),
 }
 
-/// An element of a list, and which one it was in the text.
+/// An element of a list, with its index in the text.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct YamlListItem {
     pub index: usize,
     pub value: YamlNode,
 }
 
-/// A key with its value, and which entry of the map it was in the text.
+/// A key with its value, and the index of the entry in the text.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct YamlMapEntry {
     pub index: usize,
@@ -36,7 +37,7 @@ pub(super) struct YamlMapEntry {
 }
 
 impl YamlNode {
-    /// The child that was entry `index` in the text.
+    /// Returns the child that was entry `index` in the text.
     pub fn child_at(&self, index: usize) -> Option<&YamlNode> {
         match self {
             Self::List(items) => items.iter().find(|item| item.index == index).map(|item| &item.value),
@@ -45,7 +46,7 @@ impl YamlNode {
         }
     }
 
-    /// The entry that was number `index` of the map in the text.
+    /// Returns the entry that was number `index` of the map in the text.
     pub fn entry_at(&self, index: usize) -> Option<&YamlMapEntry> {
         match self {
             Self::Map(entries) => entries.iter().find(|entry| entry.index == index),
@@ -53,7 +54,7 @@ impl YamlNode {
         }
     }
 
-    /// The entry with a key; the first of duplicates.
+    /// Returns the entry with a key; the first one if there are duplicates.
     pub fn find_entry(&self, key: &str) -> Option<&YamlMapEntry> {
         match self {
             Self::Map(entries) => entries.iter().find(|entry| entry.key == key),
@@ -61,12 +62,12 @@ impl YamlNode {
         }
     }
 
-    /// The node at the end of a path of entry numbers.
+    /// Returns the node at the end of a path of entry indices.
     pub fn node_at_path(&self, path: &[usize]) -> Option<&YamlNode> {
         path.iter().try_fold(self, |node, &index| node.child_at(index))
     }
 
-    /// Takes the node at the end of a path out of the tree; says whether there was one.
+    /// Removes the node at the end of a path from the tree. Returns whether there was one.
     pub fn remove_at_path(&mut self, path: &[usize]) -> bool {
         let Some((&index, rest)) = path.split_first() else { return false };
         if rest.is_empty() {
@@ -99,12 +100,12 @@ impl YamlNode {
     }
 }
 
-/// Why the tree was not built, apart from what serde_yaml itself refuses.
+/// The reason why the tree was not built, apart from what serde_yaml itself refuses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum YamlRefusal {
-    /// `!tag value`.
+    /// A tag: `!tag value`.
     Tag,
-    /// A list or map where a key belongs.
+    /// A list or a map in place of a key.
     Key,
     /// Aliases that repeat so much that the document grows past [`YamlTreeBuilder::BUDGET`].
     Bomb,
@@ -117,14 +118,15 @@ pub(super) struct YamlTreeBuilder {
 }
 
 impl YamlTreeBuilder {
-    /// Nodes plus bytes of text. serde_yaml bounds how often aliases are followed, not how much each brings along.
+    /// The largest sum of nodes and bytes of text. serde_yaml limits how often aliases are followed, but not
+    /// how much each of them adds.
     pub const BUDGET: usize = 2 << 20;
 
     pub fn new() -> Self {
         Self { budget: Cell::new(Self::BUDGET), refusal: Cell::new(None) }
     }
 
-    /// Why building failed, if it was not for the YAML text itself.
+    /// Returns the reason why building failed, unless the YAML text itself was the reason.
     pub fn refusal(&self) -> Option<YamlRefusal> {
         self.refusal.get()
     }
@@ -202,7 +204,7 @@ impl<'de> Visitor<'de> for &YamlTreeBuilder {
     }
 }
 
-/// Any scalar can be a key, by its text: `1:` and `true:` are the keys `1` and `true`.
+/// Reads a key. Any scalar can be a key by its text: `1:` and `true:` are the keys `1` and `true`.
 struct YamlKeyBuilder<'b>(&'b YamlTreeBuilder);
 
 impl<'de> DeserializeSeed<'de> for YamlKeyBuilder<'_> {
@@ -228,7 +230,8 @@ impl<'de> Visitor<'de> for YamlKeyBuilder<'_> {
     }
 }
 
-/// Entries whose key stands twice in one map: the path of the map, the first entry's number and the later one's.
+/// Returns the entries whose key occurs twice in a map: the path of the map, and the indices of the first and
+/// the later entry.
 pub(super) fn find_duplicate_entries(root: &YamlNode) -> Vec<(Vec<usize>, usize, usize)> {
     let mut found = Vec::new();
     collect_duplicate_entries(root, &mut Vec::new(), &mut found);

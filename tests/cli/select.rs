@@ -123,7 +123,7 @@ fn the_choice_is_told_and_paths_are_beside_the_selection() {
 fn a_wrong_selection_is_underlined() {
     for (text, code, said) in [
         ("rules:\n- when: { fiel: \"*\" }\n  recipe: a.yaml\n", "CL0204", "`file`"),
-        ("rules:\n- when: {}\n  recipe: a.yaml\n", "CL0207", "asks for nothing"),
+        ("rules:\n- when: {}\n  recipe: a.yaml\n", "CL0207", "has no condition"),
         ("rules: []\n", "CL0207", "there is no rule"),
         ("rules:\n- when: { tool: [] }\n  recipe: a.yaml\n", "CL0207", "an empty list fits nothing"),
         ("rules:\n- when: { machine: \"[\" }\n  recipe: a.yaml\n", "CL0207", "no name pattern"),

@@ -224,7 +224,7 @@ fn the_policy_knows_every_script_and_lets_nothing_else_run() {
 #[test]
 fn what_is_not_known_is_said() {
     let page = page("part.cls", SLOT.as_bytes(), SLOWER, "");
-    assert!(page.contains("a simulation needs the stock, and the setup says none"));
+    assert!(page.contains("a simulation needs the stock, and the setup has none"));
     assert!(page.contains("rapids take no time"));
     assert!(!page.contains("data-array=\"after.chip\"") && !page.contains("data-array=\"stock\""));
     // No tool that the simulation could take: said as well, and no reason to fail.

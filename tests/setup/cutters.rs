@@ -26,8 +26,8 @@ fn a_mill_of_nx() {
     assert_eq!(
         found.assumptions,
         [
-            "flute length 60 mm: the CL file says only how long the tool is",
-            "no holder: setup.tools says none"
+            "flute length 60 mm: the CL file only gives the length of the tool",
+            "no holder: setup.tools gives none"
         ]
     );
 }
@@ -65,10 +65,10 @@ fn creo_says_only_the_diameter() {
         found.assumptions,
         [
             "a flat bottom (tip 0): neither the CL file nor setup.tools says its angle",
-            "corner radius 0: neither the CL file nor setup.tools says one",
-            "taper 0: neither the CL file nor setup.tools says one",
-            "flute length 50.8 mm: neither the CL file nor setup.tools says one",
-            "no holder: setup.tools says none",
+            "corner radius 0: neither the CL file nor setup.tools gives one",
+            "taper 0: neither the CL file nor setup.tools gives one",
+            "flute length 50.8 mm: neither the CL file nor setup.tools gives one",
+            "no holder: setup.tools gives none",
         ]
     );
 }

@@ -84,7 +84,7 @@ fn what_is_no_report_is_said_to_be_none() {
         (b"<!doctype html><html></html>", "a page for people"),
         (b"# Summary", "no JSON"),
         (b"{\"version\":1}", "not the report of a run"),
-        (b"{\"format\":\"clsmith run\"}", "does not say its version"),
+        (b"{\"format\":\"clsmith run\"}", "does not state its version"),
         (b"{\"format\":\"clsmith run\",\"version\":1}", "lacks what undo needs: missing field `input`"),
         (b"{\"clsmith_batch\":1,\"version\":\"0.1.0\"}\n{\"file\":\"a.cls\"}\n", "results of a batch"),
         (b"{\"version\":1,\"command\":\"watch\"}\n{\"version\":1}\n", "this is a log"),

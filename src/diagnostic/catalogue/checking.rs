@@ -1,7 +1,7 @@
 //! Codes of checking (`CL01xx`): what is readable, but not what a program should do.
 //!
-//! 010x arcs and points, 011x axes, 012x feed and spindle, 013x tools, 014x compensation and cycles, 015x structure, 016x
-//! units, 017x text, 018x records that a step has left behind.
+//! 010x arcs and points, 011x axes, 012x feed and spindle, 013x tools, 014x compensation and cycles, 015x
+//! structure, 016x units, 017x text, 018x records that a step has left behind.
 
 super::area! {
     RAPID_WITHOUT_MOTION = "CL0100", Warning, "a RAPID without a motion",
@@ -28,7 +28,7 @@ super::area! {
         "Export with more decimals, or set the control's circle tolerance to suit.",
         "The distances of the arc's start and end from its axis, or the printed radius, differ by more than rounding to \
          four decimals explains, but by less than 0.01 mm. Controls with a tight circle tolerance refuse such a block.";
-    UNKNOWN_START = "CL0105", Error, "an arc, spline or step from a place that nothing has told",
+    UNKNOWN_START = "CL0105", Error, "an arc, a spline or a GODLTA from an unknown position",
         "Begin with a FROM or GOTO; after a bare GOHOME, GOTO a point before the arc.",
         "An arc and a step (GODLTA) start where the tool is, and no statement before it says where that is: the file starts \
          with it, or a GOHOME without coordinates went before. The machine would start it from wherever it stands. \
@@ -43,9 +43,9 @@ super::area! {
         "A NURBS block has a row of rising knots and two control points more than knots (measured in every NX file). Here \
          the counts do not fit, the knots fall, or a CNTRL stands without NURBS: a line was lost. Until it is repaired \
          clsmith sees a straight move to the last control point.";
-    ASSUMED_SENSE = "CL0108", Note, "nothing tells the sense of an arc",
+    ASSUMED_SENSE = "CL0108", Note, "the sense of an arc is not stated",
         "Compare the arc with the CAM system's display; `--dialect` sets the rule of a known system.",
-        "The axis of a CIRCLE is left-hand in NX and right-hand in SolidWorks, and others write a word. This file tells \
+        "The axis of a CIRCLE is left-hand in NX and right-hand in SolidWorks, and others write a word. This file states \
          nothing, and the motion before the arc is not tangent to it, so clsmith has assumed right-hand: axis +z is \
          counter-clockwise.";
     RAPID_ARC = "CL0109", Warning, "an arc or spline at rapid",
@@ -103,7 +103,7 @@ super::area! {
         "Check the number and whether it is meant per minute or per revolution.",
         "Feeds above 100 m/min, above 25 mm/rev or below 0.5 mm/min are taken as slips: a lost decimal point, MMPR for MMPM \
          (250 mm per revolution) or MMPM for MMPR (0.1 mm per minute). Nothing is changed; the finding only asks.";
-    FEED_PER_REVOLUTION_WITHOUT_SPINDLE = "CL0123", Warning, "a feed per revolution while the spindle stands",
+    FEED_PER_REVOLUTION_WITHOUT_SPINDLE = "CL0123", Warning, "a feed per revolution while the spindle does not turn",
         "Put SPINDL before the cut, or give the feed per minute.",
         "The feed is per revolution (MMPR, IPR, PERREV), and at the motion that uses it no spindle turns. The axes wait for \
          a revolution that never comes, or the post computes a feed of zero.";
@@ -111,7 +111,7 @@ super::area! {
         "Make sure the post repeats it in every block (G93).",
         "The feed says how many such motions fit into a minute, not a speed. It belongs to one motion, and must stand with \
          each: after a change of point spacing (by a transform, too) it is another speed.";
-    CUT_WITHOUT_SPINDLE = "CL0125", Warning, "a feed motion while the spindle stands",
+    CUT_WITHOUT_SPINDLE = "CL0125", Warning, "a feed motion while the spindle does not turn",
         "Put SPINDL before the first cut, and after every SPINDL/OFF.",
         "The file starts its spindle elsewhere, but at this feed motion it has not been started yet, or was switched off. \
          Probing and broaching do so on purpose; for everything else it is a broken tool. Reported once for each stop.";
@@ -141,7 +141,7 @@ super::area! {
         "Let the setup sheet or the recipe (`setup: tools:`) say which tool it is.",
         "No LOAD, LOADTL, TOOLNO, TLDATA or CUTTER is in the file. The post writes no tool change, and whatever needs the \
          shape of the tool (simulation, chip thickness) needs it from the recipe.";
-    TOOL_SHAPE_MISSING = "CL0132", Note, "a tool whose shape the file does not tell",
+    TOOL_SHAPE_MISSING = "CL0132", Note, "a tool whose shape the file does not give",
         "Give its shape in the recipe (`setup: tools:`) where a step needs it.",
         "The tool is loaded by number, but no TLDATA or CUTTER describes it. That suffices for the post; simulation and \
          feed optimisation need the diameter.";
@@ -165,7 +165,7 @@ super::area! {
     CUTCOM_AT_ARC = "CL0141", Warning, "cutter compensation is switched in an arc",
         "Add a straight lead-in (or lead-out) longer than the tool's radius, and switch there.",
         "The motion after CUTCOM is an arc. Controls switch compensation on and off along a straight move only and stop \
-         with an alarm in an arc (Fanuc 034, Sinumerik 10750 and kin).";
+         with an alarm in an arc (Fanuc 034, Sinumerik 10750 and others).";
     CUTCOM_RAPID = "CL0142", Warning, "a rapid while cutter compensation is on",
         "Switch compensation off (CUTCOM/OFF) on a feed move before the rapid.",
         "The tool leaves at rapid with compensation still on. The control looks ahead over the rapid for the next contour \
@@ -274,9 +274,9 @@ super::area! {
 
     STALE_FRAME = "CL0180", Warning, "a frame describes the points before they were moved",
         "Change the frame too if the step re-expressed the program for another datum.",
-        "A step has moved the points and left this frame as it was. `$$*CATIA0`, `$$-> CSYS` and CAMERA tell how the part \
-         lies to the printed coordinates, and were applied when these were computed; SolidWorks' CSYS has the tool axis as \
-         its z. Whoever reads it now finds the old place. MSYS is not meant: moving points inside it is what such a step is \
+        "A step has moved the points and left this frame unchanged. `$$*CATIA0`, `$$-> CSYS` and CAMERA state how the part \
+         lies in the printed coordinates, and were applied when these were computed; SolidWorks' CSYS has the tool axis as \
+         its z. A post that reads it now finds the old place. MSYS is not meant: moving points inside it is what such a step is \
          for.";
     STALE_HEIGHT = "CL0181", Warning, "a height or extent describes the points before they were moved",
         "Correct the number to the new place; a transform does not know what the post makes of it.",
@@ -284,7 +284,7 @@ super::area! {
          (CLEARP), the escape height or least height of Makino FF, the stock's box (BOX) or size (INSERT/Stock Size). The \
          retract may now end inside the part.";
     STALE_CYCLE = "CL0182", Warning, "a cycle keeps its distances although the points were scaled",
-        "Scale FEDTO, RAPTO and their kin with the points.",
+        "Scale FEDTO, RAPTO and the other distances with the points.",
         "Depth, clearance and retract of a cycle are distances from the hole's point. The step changed the distances \
          between points, but not these.";
     STALE_COMPENSATION = "CL0183", Error, "a mirrored path keeps the side of its cutter compensation",

@@ -2,15 +2,15 @@
 
 super::area! {
     UNREADABLE = "CL0401", Error, "a file that cannot be read",
-        "Check the path and that you may read the file; a network share may have gone away.",
+        "Check the path and that you may read the file; a network drive may be disconnected.",
         "The operating system refused to hand over the file, and the message says why. The usual reasons: a typing error in \
          the name or in `setup_file:`, a path meant from another folder, a folder given where a file belongs, a file that \
-         the CAM system still holds open, or a network share that is not mounted on this machine.\n\n\
+         the CAM system still holds open, or a network drive that is not mounted on this machine.\n\n\
          Nothing is written: a run that misses one of its inputs is not the run you asked for.";
     UNWRITABLE = "CL0402", Error, "an output that cannot be written",
-        "Check that the folder exists, that you may write to it and that the disk has room.",
+        "Check that the folder exists, that you may write to it and that the disk is not full.",
         "An output is first written in full beside its place, under a name like `.clsmith-Xa81Qz.tmp`, and takes its name \
-         only once every byte is on the disk. Somewhere on that way the operating system said no: the folder does not \
+         only once every byte is on the disk. One of these operations was refused by the operating system: the folder does not \
          exist, it or the file is write-protected, the disk or your quota is full, or another program holds the old file \
          open.\n\n\
          What stood there before still stands there, whole: clsmith does not leave half a program where a machine could \
@@ -27,11 +27,11 @@ super::area! {
         "The output's path leads to a file this run reads: the CL file, the recipe or a setup file. Two different names can \
          lead to one file, by a symbolic link, a hard link or another spelling of the path.\n\n\
          The export is the only proof of what the CAM system meant. A correction applied to its own result corrects twice: \
-         a feed scaled by 0.8 and scaled again runs at 0.64, and nothing in the file tells. So the input always stays and \
+         a feed scaled by 0.8 and scaled again runs at 0.64, and nothing in the file shows it. So the input always stays and \
          the output goes beside it; this cannot be allowed away.";
     PASSED_ORIGINAL = "CL0410", Warning, "the untouched program was handed on",
-        "Correct what the errors above name, export and post again; do not run the program before somebody has looked at it.",
-        "The hook could not correct the program, for the errors shown before this one, and it was told to go on all the same \
+        "Correct what the errors above name, export and post again; do not run the program before somebody has checked it.",
+        "The hook could not correct the program, for the errors shown before this one, and its options say to continue all the same \
          (`--on-error pass-original`). So the post got the CAM system's export as it was, byte for byte. What the recipe is there \
          for, a feed limit or a safe ramp, is missing from the program that now goes to the machine. The log says so, too: \
          its outcome is `passed_original`.";
@@ -48,25 +48,25 @@ super::area! {
          No shell is involved, so what only a shell knows (an alias, a built-in command) cannot be named here. No post ran. The exit \
          code is 126, as of a shell.";
     POST_TIMED_OUT = "CL0413", Error, "the post-processor took too long and was stopped",
-        "Look why it hangs (a question that nobody answers, a licence that does not come); allow more by `--timeout`.",
+        "Find out why it hangs (it waits for an answer or for a licence), or allow more time by `--timeout`.",
         "The post-processor had not ended when the time of `--timeout` was over, so it was asked to end and two seconds later \
          killed, together with every process that it had started. What it left beside the corrected program is thrown away, \
          since half a program must not reach a machine; what it wrote elsewhere by its own means still stands there: do not use \
          it. Its standard input is empty, so a post that asks a question gets no answer. The exit code is 124.";
     POST_KILLED = "CL0414", Error, "the post-processor was ended by a signal",
-        "It crashed or somebody stopped it: look at its own messages above, and do not use what it wrote.",
+        "It crashed or somebody stopped it. Read its own messages above, and do not use what it wrote.",
         "The post-processor did not end by itself: it crashed, ran out of memory, or was killed. What it left beside the corrected \
          program is thrown away, since half a program must not reach a machine. The exit code is 128 and the number of the signal: \
          139 for a segmentation fault, 137 for a kill.";
     EXIT_CODE_SHARED = "CL0415", Warning, "the post-processor ended with a code that the hook uses, too",
-        "Read this run's line of `--log`: `outcome` and `post` tell the two apart.",
+        "Read this run's line of `--log`: `outcome` and `post` show which of the two it was.",
         "The hook ends with the post's own exit code, and with 124 to 127 or above 128 where no post ended by itself. This time the \
-         post itself ended with such a code, so a script that only looks at the number may misread it. The messages and the log do \
+         post itself ended with such a code, so a script that only checks the number may misread it. The messages and the log do \
          not: where the hook stopped, one of the codes CL0411 to CL0414 or the recipe's errors stand here instead of this one.";
     NO_RULE = "CL0416", Error, "no rule chooses a recipe for a program",
         "Add a rule that fits, or say what else to do: `otherwise: pass`, or `otherwise: { recipe: name.yaml }`.",
         "The program was compared with every rule of the selection, from the first to the last, and none fits; `otherwise` is \
-         `stop`, or is not said, which means the same. The finding tells what the program says of itself. Names are compared in \
+         `stop`, or is left out, which means the same. The finding lists what the program states about itself. Names are compared in \
          whole, upper and lower case differ, and `*` stands for any text; a program without a MACHIN record, such as any of \
          NX, has no machine that a rule could ask for.";
     WATCHED_FOLDERS = "CL0417", Error, "folders of a watch that lie in each other",
@@ -75,7 +75,7 @@ super::area! {
          watched folder lies in one for outputs. What the watch writes would then be taken for a new export and corrected \
          again: a feed scaled by 0.8 would be scaled by 0.64 next, and so on. Links are followed before folders are compared.";
     WATCHED_ALREADY = "CL0418", Error, "another watch is at work in a folder",
-        "Stop the other one first; on a share it may run on another machine.",
+        "Stop the other one first. On a network drive, it may run on another machine.",
         "A watch holds a lock, `.clsmith-watch.lock`, in the folder that it watches and in the one that it writes to, as long as \
          it runs. Two of them would correct every export twice and move refused ones away from under each other. The lock is \
          the operating system's, so it ends with its process however that dies, and the empty file that remains means nothing.";
@@ -125,7 +125,7 @@ super::area! {
          is free. This one needs more than all of it, so it runs while no other does, and may take more memory than was \
          granted. On a cluster such a job may be killed by the scheduler: ask for more memory there, too.";
     LINK_LOOP = "CL0426", Warning, "a link to a folder that it is in",
-        "Remove the link if nobody needs it.",
+        "Remove the link if it is not needed.",
         "While looking for files, a symbolic link led back to a folder on its own path. Following it would find the same \
          files again and again under ever longer names, so it was passed by; every file is still found under its short \
          name.";
@@ -138,7 +138,7 @@ super::area! {
         "Merge one results file for each shard of one batch.",
         "Results can be merged when they are of one batch (the same files, recipes, setups, options and version of clsmith), of \
          one split (all of `--shard …/8`), and each part is given once. If machines saw different files or had different \
-         recipes, they did not do one batch, and nobody knows what the whole would be.";
+         recipes, they did not process the same batch, and a merged result would have no meaning.";
     RESULTS_MISSING = "CL0429", Error, "results of a batch that are not complete",
         "Run the missing shards, with --resume, and merge again.",
         "A shard of the batch, or a file of a shard, is not among the results: a machine has not finished, was stopped, or \
@@ -155,12 +155,12 @@ super::area! {
         "The report's structure has a version, and this one is higher than what this clsmith knows. Its undo may need what this clsmith \
          cannot read, and guessing would give a program that looks right. The key `clsmith` in the report names the version that \
          wrote it.";
-    OTHER_FILE = "CL0432", Error, "a file that is not the one that the report tells of",
+    OTHER_FILE = "CL0432", Error, "a file that does not belong to the report",
         "Find the file that the run wrote, or the report that belongs to this file; nothing is written meanwhile.",
         "The report names the SHA-256 of the file that the run wrote, and this file has another: it was edited afterwards, corrected once \
          more, or belongs to another report. Putting old bytes at their places in it would mix two programs. The report has a \
          checksum of each 1024 bytes, so the finding says between which lines the first difference lies; line ends that something \
-         converted on the way are told apart.\n\n\
+         converted are reported as such.\n\n\
          After two runs, undo the second with its report first, and its result with the report of the first.";
     BAD_UNDO = "CL0433", Error, "a report that does not give the original back",
         "Take the original itself; clsmith never writes over its input.",
@@ -169,7 +169,7 @@ super::area! {
          it. Nothing is written, since a program that is nearly the original is worse than none.";
     STALE_COMMENTS = "CL0434", Warning, "comments of an earlier run that are not true any more",
         "Let this recipe say `provenance: comments`, too; its own lines then follow the earlier ones.",
-        "The file was corrected before by a recipe with `provenance: comments`, so comments in it tell what that run changed: \
+        "The file was corrected before by a recipe with `provenance: comments`, so comments in it state what that run changed: \
          `$$ clsmith scale_feed: 250.0000 -> 200.0000`. This run has changed some of the same records again and was not asked for comments, so the \
          numbers there are not those of the records below them. clsmith does not take comments out of a file by itself. With \
          `provenance: comments` in this recipe, or `--provenance comments`, the new lines stand below the earlier ones and the file tells \

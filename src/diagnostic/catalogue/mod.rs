@@ -1,6 +1,7 @@
-//! The catalogue: every code clsmith can report, each with one line of meaning, help and a long explanation.
+//! This module is the catalogue: every code that clsmith can report, each with a line of meaning, a help and
+//! a long explanation.
 //!
-//! A new code is one row in the file of its area. Codes are stable: a retired one is never used again.
+//! A new code is a row in the file of its area. Codes are stable: a retired one is never used again.
 
 mod checking;
 mod files;
@@ -16,40 +17,40 @@ use std::fmt;
 /// A row of the catalogue.
 #[derive(Debug)]
 pub struct CatalogueEntry {
-    /// `CL0001`.
+    /// The id of the code: `CL0001`.
     pub id: &'static str,
-    /// Severity unless changed on the command line.
+    /// The severity, unless it is changed on the command line.
     pub severity: Severity,
-    /// One line: what the code says.
+    /// The meaning of the code, in one line.
     pub meaning: &'static str,
-    /// What to do about it, in a sentence; may be empty.
+    /// What to do about it, in a sentence. It may be empty.
     pub help: &'static str,
-    /// A few paragraphs for `clsmith explain`.
+    /// An explanation of a few paragraphs for `clsmith explain`.
     pub explanation: &'static str,
 }
 
-/// A code of the catalogue; cheap to copy and compare.
+/// A code of the catalogue. It is cheap to copy and compare.
 #[derive(Clone, Copy)]
 pub struct DiagnosticCode(&'static CatalogueEntry);
 
 impl DiagnosticCode {
-    /// `CL0001`.
+    /// Returns the id: `CL0001`.
     pub fn id(self) -> &'static str {
         self.0.id
     }
-    /// Severity unless changed on the command line.
+    /// Returns the severity, unless it is changed on the command line.
     pub fn severity(self) -> Severity {
         self.0.severity
     }
-    /// One line: what the code says.
+    /// Returns the meaning of the code, in one line.
     pub fn meaning(self) -> &'static str {
         self.0.meaning
     }
-    /// What to do about it; may be empty.
+    /// Returns what to do about it. It may be empty.
     pub fn help(self) -> &'static str {
         self.0.help
     }
-    /// A few paragraphs for `clsmith explain`.
+    /// Returns an explanation of a few paragraphs for `clsmith explain`.
     pub fn explanation(self) -> &'static str {
         self.0.explanation
     }
@@ -87,7 +88,7 @@ impl fmt::Display for DiagnosticCode {
     }
 }
 
-/// Writes one area of the catalogue: constants to report with, and the rows to list.
+/// Writes an area of the catalogue: the constants to report with, and the rows to list.
 macro_rules! area {
     ($($name:ident = $id:literal, $severity:ident, $meaning:literal, $help:literal, $explanation:literal;)*) => {
         $(
@@ -109,7 +110,7 @@ pub(crate) const fn code_of_entry(entry: &'static CatalogueEntry) -> DiagnosticC
     DiagnosticCode(entry)
 }
 
-/// Constants for all codes, by name.
+/// The constants for all codes, by name.
 pub mod codes {
     pub use super::checking::*;
     pub use super::files::*;
@@ -120,7 +121,7 @@ pub mod codes {
     pub use super::surfaces::*;
 }
 
-/// Every code, area by area, in the order of their ids.
+/// All codes, area by area, in the order of their ids.
 pub const CATALOGUE: &[&[DiagnosticCode]] = &[
     reading::ROWS,
     checking::ROWS,
@@ -131,7 +132,7 @@ pub const CATALOGUE: &[&[DiagnosticCode]] = &[
     surfaces::ROWS,
 ];
 
-/// Looks a code up by its id, in any case.
+/// Returns the code with an id, in upper or lower case.
 ///
 /// ```
 /// use clsmith::diagnostic::{Severity, find_code};

@@ -38,12 +38,12 @@ super::area! {
         "Write the value plainly.",
         "YAML can do more than recipes need: tags (`!name`), and whole lists or maps as keys. clsmith refuses them, because \
          they are usually typing mistakes: `!` or `{` in front of text that should be in quotes. Anchors and aliases \
-         (`&name`, `*name`) are allowed, for a `where:` that several steps share.";
+         (`&name`, `*name`) are allowed, for a `where:` that several steps have in common.";
     UNKNOWN_KEY = "CL0210", Error, "an unknown key",
         "See `clsmith schema` for all keys.",
         "The key is not one of those that can stand here. It is an error rather than a warning because a misspelt limit is \
          no limit: with `max_fed: 3000` ignored, the tool runs at whatever feed the file has. If the spelling is right, \
-         look at the indentation: a key one level too far out belongs to another map.";
+         check the indentation: a key one level too far out belongs to another map.";
     UNKNOWN_STEP = "CL0211", Error, "an unknown step",
         "`clsmith transforms` lists the steps there are.",
         "A recipe's `steps:` is a list of transforms, each by its name. This name is none of them. If it was copied from \
@@ -65,7 +65,7 @@ super::area! {
          \x20 operations: [100] -> operations: [\"100\"] a name that is only digits needs quotes";
     BAD_VALUE = "CL0215", Error, "a value out of its range",
         "Choose a value in the range that is asked for.",
-        "The value is of the right kind but makes no sense here: a negative depth, a factor of zero, a share above one, an \
+        "The value is of the right kind but makes no sense here: a negative depth, a factor of zero, a fraction above one, an \
          infinite feed, a list of the wrong length, a name pattern with an open bracket. Each number's range belongs to the \
          number, so it is checked before anything is read or cut.";
     RECIPE_VERSION = "CL0216", Error, "the recipe's version is missing or not known",

@@ -2,7 +2,7 @@
 
 super::area! {
     UNREADABLE_EDIT = "CL0301", Error, "a step would write something that is no CL statement",
-        "Look at the step's parameters; for `rewrite`, at the text of its rules.",
+        "Check the parameters of the step; for `rewrite`, check the text of its rules.",
         "Every text that a step makes is read back by the same grammar that read the file, before anything is written. This \
          one is not a well-formed statement: a rule of `rewrite` builds a broken record, or a number became too large to \
          print. The run stops here and nothing is written.";
@@ -30,7 +30,7 @@ super::area! {
         "Make sure that the post reads the matrix in the comments; else change the points: `change: points`.",
         "CATIA writes the frame of a program in comments (`$$*CATIA0`). The step moved that frame and left the points as they \
          are. A post that reads the matrix machines the part in the new place; one that skips comments machines it in the old \
-         one, and nothing at the machine tells the difference until the tool is in the vise.";
+         one, and nobody at the machine sees the difference until the tool is in the vise.";
     UNITS_DIFFER_FROM_RECIPE = "CL0307", Warning, "a recipe without `units` and a program in inches",
         "Write `units: inch` or `units: mm` into the recipe, whichever its numbers are meant in.",
         "The recipe says no `units`, so its lengths and feeds are in millimetres, but the program is in inches. clsmith converts: \
@@ -66,24 +66,24 @@ super::area! {
         "`optimize_feed` raises feeds until the load reaches its target. Here the highest feed allowed was reached first \
          everywhere, so the target decides nothing.";
     RAMP_OUT_OF_LIMITS = "CL0320", Warning, "a ramp is too short or too steep for an indexable cutter",
-        "The step corrects it; look at the new points with `--diff`.",
+        "The step corrects it; `--diff` shows the new points.",
         "An indexable cutter does not cut within D - 2r around its axis (D its diameter, r the radius of the inserts' bottom \
          circle). On a leg shorter than D - 2r a core is left standing under it, on a descent steeper than atan(h / (D - 2r)), h \
          the inserts' cutting height, the core rises above the inserts: either way the body of the cutter rubs on it and the \
-         cutter breaks. The finding tells the ramp's shortest leg and steepest angle against the limits; lengths are measured \
+         cutter breaks. The finding gives the ramp's shortest leg and steepest angle with their limits; lengths are measured \
          across the tool axis, of a helix its diameter.";
     RAMP_IMPOSSIBLE = "CL0321", Error, "a ramp that an indexable cutter does not survive cannot be corrected",
-        "Widen `region`, choose a smaller cutter, give the ramp room in the CAM system, or say `if_impossible: keep`.",
+        "Widen `region`, choose a smaller cutter, make space for the ramp in the CAM system, or set `if_impossible: keep`.",
         "Every longer ramp was tried: on the circle through the ramp's ends, on its mirror side, along the chord between the ends, and \
          along the operation's first cutting pass. None of them stays where the tool may go, or the statements of the ramp cannot \
          be written anew, or no cutting follows at the level where the descent ends, so that nothing says what it is for. A ramp is \
          never corrected in part: nothing is written. With `if_impossible: keep` it stays as it was and is reported as CL0322.";
     RAMP_KEPT = "CL0322", Warning, "a ramp that an indexable cutter does not survive was kept",
-        "Do not run it with this cutter as it stands: correct it in the CAM system, or give `region` more room.",
+        "Do not run it with this cutter as it stands: correct it in the CAM system, or widen `region`.",
         "The ramp is too short or too steep for the cutter and could not be corrected, and the recipe says `if_impossible: keep`, or \
          it is a straight descent and the recipe says `plunges: keep`. It stands as the CAM system wrote it. A descent beside the \
          stock does no harm; one in material breaks an indexable cutter.";
-    NO_INSERTS = "CL0323", Note, "ramps of a tool without inserts were not looked at",
+    NO_INSERTS = "CL0323", Note, "ramps of a tool without inserts were not checked",
         "If it is an indexable cutter, say so: `insert: { height: ..., radius: ... }` for it under `setup.tools`.",
         "The limits of `correct_ramp` are those of indexable cutters, which do not cut at their centre. The step says no `tool:`, and no \
          entry of `setup.tools` that fits this tool has an `insert:`, so it is taken for a solid cutter that may go down as its CAM \
@@ -92,10 +92,10 @@ super::area! {
         "Finish it with a smaller ball, or accept what is left.",
         "A ball touches a profile only where nothing beside keeps it away: a fillet or corner tighter than its radius, and anything below \
          an overhang, is left standing. The compensated path goes over such a place without cutting into its sides. The finding \
-         tells where along the pass (u counts from its beginning) and how much is left.";
+         gives the range along the pass (u counts from its beginning) and how much is left.";
     BALL_GOUGES = "CL0331", Error, "the compensated cutter cuts into the part",
         "Use a smaller ball there, or change the tool axis or the path in the CAM system.",
         "With contact normals every point is compensated by itself, and nothing in it knows its neighbours: where the part is \
-         hollower than the ball, the ball that touches one point cuts into another. The finding tells both and the depth. Against a model it is \
+         hollower than the ball, the ball that touches one point cuts into another. The finding shows both points and the depth. Against a model it is \
          found between passes, where a link or rapid was programmed too low. Nothing is written while it stands.";
 }

@@ -8,7 +8,7 @@ super::area! {
          \x20 setup:\n\
          \x20   tools:\n\
          \x20     - { match: { number: 3 }, diameter: 10, corner_radius: 1, flute_length: 22 }\n\n\
-         A diameter is never guessed. Corner radius, taper and angle of the bottom count as 0 when nobody says them, \
+         A diameter is never guessed. Corner radius, taper and angle of the bottom count as 0 when neither file gives them, \
          and a note (CL0505) says so. A shape that cannot be is nearly always a typing mistake or a wrong unit: a \
          corner radius larger than half the diameter, flutes that end below the corner. Lathe tools and wires are no \
          milling cutters; leave their operations to another program.";
@@ -42,7 +42,7 @@ super::area! {
          assumed for which tool.";
     MATERIAL_MISSING = "CL0506", Error, "cutting forces without a material",
         "Add `material:` to the recipe's `setup:`, or to a setup file.",
-        "Forces are computed from cutting coefficients of the material, and nobody says which it is:\n\n\
+        "Forces are computed from cutting coefficients of the material, but no material is given:\n\n\
          \x20 material: { file: steel-c45.yaml }\n\
          \x20 material: { k_tc: 1900 }\n\n\
          Files for common materials are in `configs/materials`. Their numbers are typical ones from the literature; \
@@ -54,14 +54,14 @@ super::area! {
          started in.";
     RAPID_THROUGH_STOCK = "CL0510", Error, "a rapid goes through material",
         "Lift the rapid or make it a feed move; or correct the stock, if there is nothing there.",
-        "In the simulation a rapid motion removes material: on the machine that is a crash at full speed. Where the stock in the          setup is larger than the part in the vise, say it as it is (an earlier operation's result can be saved with \
+        "In the simulation a rapid motion removes material: on the machine that is a crash at full speed. Where the stock in the setup is larger than the part in the vise, say it as it is (an earlier operation's result can be saved with \
          `--save-stock` and given as `stock: { file: ... }`). Less than a cell's cube is not reported.";
     COLLISION = "CL0511", Error, "shank or holder in material",
         "Take a longer tool, or describe flutes, shank and holder as they are under `setup.tools`.",
         "What stands above the flutes does not cut. On this motion it stands in material that is still there at that moment, so it \
          would be pushed into it. Depth is measured along the tool, and less than half a tenth or a cell does not count. \
-         Flutes whose length nobody says are taken from the CL data's tool length, or as four diameters.";
-    SPINDLE_STANDS = "CL0512", Error, "cutting while the spindle stands",
+         Flutes of unknown length are taken from the CL data's tool length, or as four diameters.";
+    SPINDLE_STANDS = "CL0512", Error, "cutting while the spindle does not turn",
         "Put a SPINDL record before the first cut, or a `rewrite` step that does.",
         "The tool removes material, and no SPINDL with a speed and a sense is in force, or the last one switched it off. A milling \
          cutter that does not turn breaks. It is also what a speed in metres a minute looks like to a simulation: chip thickness \
@@ -93,7 +93,7 @@ super::area! {
         "After the program, material is missing that the target part has, further from what is left than the tolerance. Either a motion \
          goes too deep, or target and program do not stand in the same coordinates or unit: then everything is far off. Thickness is \
          measured along z, so a wall that is a little too far in appears with its whole height. The target's surface is as exact \
-         as its triangles: a chord tolerance of the STL that is coarser than `--tolerance` looks like a gouge.";
+         as its triangles: a chord tolerance of the STL that is coarser than `--tolerance` appears as a gouge.";
     NO_FLAT_MILL = "CL0520", Warning, "a tool whose chips in layers cannot be modelled",
         "Simulate it with `clsmith simulate`; or say its shape under `setup.tools`, if it is a flat end mill after all.",
         "`clsmith chips` knows the section of a layer with a cylinder that ends in a flat disc: an ellipse, cut off by a chord. \
@@ -105,7 +105,7 @@ super::area! {
         "A layer cuts a cylinder in an ellipse as long as the diameter divided by the cosine of the axis' angle to z. Near 90 degrees it \
          has no end, so `clsmith chips` stops at 80 degrees; and where an axis turns by half a turn between two points, nobody can \
          tell which way. The motion is left out: what it would remove stays in the workpiece and is part of later chips, if any. \
-         Motions that cannot reach the stock are not told. For a part that is milled from its side, write the program in coordinates whose z \
+         Motions that cannot reach the stock are not reported. For a part that is milled from its side, write the program in coordinates whose z \
          stands along most of the axes (`move_origin`).";
     STILL_MOTION = "CL0522", Note, "a motion that goes nowhere",
         "Delete the repeated point, or leave it: it cuts nothing.",
@@ -125,7 +125,7 @@ super::area! {
         "Give a height inside a layer that one of the moves cuts; the JSON and the CSV list them.",
         "`--at Z` chooses the layer that a picture shows by a height in mm, in the coordinates of the stock. None of the moves that are asked \
          for removes anything on the layer with this height, or the stock has no layer there.";
-    NOT_IN_LAYERS = "CL0526", Error, "a motion whose engagement layers cannot tell",
+    NOT_IN_LAYERS = "CL0526", Error, "a motion whose engagement layers cannot compute",
         "Leave out `engagement: layers`: the columns know every cutter and every axis.",
         "With `engagement: layers` feeds are made from the exact chips of flat end mills, layer by layer. A tool with a corner radius, a ball, \
          a taper or a point has no such chip, nor has a motion whose axis is more than 80 degrees from z or turns by half a turn. Nothing \

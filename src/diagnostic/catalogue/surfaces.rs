@@ -8,7 +8,7 @@ super::area! {
          tolerance and feeds are greater than 0. The place that is shown is the option in the command line.";
     MODEL_FILE = "CL0602", Error, "a model that cannot be gone over",
         "The file must be a closed STL; its numbers are in the unit of `--units`.",
-        "The STL file cannot be read, has no triangle, or is not closed. A mesh with a hole has no inside, so nobody can say where its \
+        "The STL file cannot be read, has no triangle, or is not closed. A mesh with a hole has no inside, so it is undefined where its \
          top is and what a cutter would gouge. Most CAM and mesh programs have a command that closes holes and turns triangles that \
          face the wrong way.";
     NOTHING_TO_SURFACE = "CL0603", Error, "no plane has anything to go over",
@@ -18,7 +18,7 @@ super::area! {
          unless `--floor` says another), passes end.";
     NOT_WITHIN_TOLERANCE = "CL0604", Error, "passes that are farther from the part than the tolerance",
         "Of a part that is not the same in all planes, make heights over the whole mesh: `--against mesh`.",
-        "After the program was made, every pass was looked at again with other means: distances of the ball from the profile's or the \
+        "After the program was made, every pass was measured again by another method: distances of the ball from the profile's or the \
          mesh's own points, which know nothing of how the passes came about. The deepest gouge or the largest gap is more than \
          `--tolerance`, so nothing is written. With `--against profile` that is what happens on a part that is not the same in all \
          planes: the ball touches beside the plane first, and gouges there (`--allow CL0604` writes it all the same). Otherwise please \

@@ -1,9 +1,10 @@
-//! A cutter for the simulation: what the CL file tells, completed and overridden by the setup.
+//! This module makes a cutter for the simulation from the data of the CL file, completed and overridden by
+//! the setup.
 
 use super::file_tool_data::FileToolData;
 use super::tool_data_fault::{ToolDataFault, ToolDataFaultKind, format_dimension};
 use super::tool_entry::ToolEntry;
-use super::tool_text::SAME;
+use super::tool_text::LENGTH_TOLERANCE_MM;
 use crate::cutter::{CutterModel, Meridian, NonCuttingCylinder, NonCuttingKind};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::LengthUnit;
@@ -12,24 +13,24 @@ use crate::setup::Setup;
 use crate::source::{Source, Span};
 use std::sync::Arc;
 
-/// Flutes of unknown length are this many diameters long: more than those of any cutter whose flutes would matter to
-/// the path.
+/// Flutes of unknown length are assumed to be so many diameters long. That is more than the flutes of any
+/// cutter for which they would matter to the path.
 const FLUTE_DIAMETERS: f64 = 4.0;
 
-/// A cutter, and what had to be assumed about it.
+/// A cutter, and the assumptions about it.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct ResolvedCutter {
     /// The cutter.
     pub cutter: CutterModel,
-    /// What neither the CL file nor the setup says, each as `corner radius 0: neither the CL file nor setup.tools says
-    /// one`.
+    /// What neither the CL file nor the setup states, each in words such as `corner radius 0: neither the CL
+    /// file nor setup.tools gives one`.
     pub assumptions: Vec<String>,
 }
 
 impl ResolvedCutter {
-    /// One note ([`codes::ASSUMPTION`]) about everything assumed of a tool, at a place of the CL file that uses it;
-    /// `None` when nothing was.
+    /// Makes a note ([`codes::ASSUMPTION`]) about all assumptions for a tool, at a place of the CL file that
+    /// uses it. Returns `None` if nothing was assumed.
     pub fn note_assumptions(
         &self,
         tool: &ActiveTool,
@@ -45,10 +46,10 @@ impl ResolvedCutter {
 }
 
 impl Setup {
-    /// The cutter that a tool of the CL file is, in millimetres; `units` are the CL file's. Teeth are `None` where the
-    /// setup does not say how many ([`Setup::report_missing_teeth`]).
+    /// Makes the cutter for a tool of the CL file, in millimetres. `units` is the unit of the CL file. Teeth
+    /// are `None` if the setup does not state their number ([`Setup::report_missing_teeth`]).
     ///
-    /// Worth calling once for each distinct tool, not for each motion.
+    /// The call is expensive, so it should be made once for each distinct tool, not for each motion.
     ///
     /// ```
     /// use clsmith::parse::parse;
@@ -70,7 +71,8 @@ impl Setup {
     /// ```
     ///
     /// # Errors
-    /// [`ToolDataFault`] when the diameter is unknown, the numbers make no cutter, or it is no milling cutter.
+    /// Returns [`ToolDataFault`] if the diameter is unknown, if the numbers make no cutter, or if it is no
+    /// milling cutter.
     pub fn resolve_cutter(
         &self,
         tool: &ActiveTool,
@@ -125,7 +127,7 @@ impl CutterResolver<'_> {
         let collars = self.resolve_shank_and_holder(&profile)?;
         let teeth = self.entry.and_then(|entry| entry.teeth.clone());
         if teeth.is_some() && self.entry.is_some_and(|entry| !entry.helix_is_told) {
-            self.assumptions.push("helix 0: setup.tools says none".to_owned());
+            self.assumptions.push("helix 0: setup.tools gives none".to_owned());
         }
         Ok(ResolvedCutter { cutter: CutterModel { profile, collars, teeth }, assumptions: self.assumptions })
     }
@@ -134,13 +136,14 @@ impl CutterResolver<'_> {
         ToolDataFault::new(self.tool, self.entry, kind)
     }
 
-    /// Takes 0 for something that nobody says.
+    /// Assumes 0 for a value that neither file states.
     fn assume_zero(&mut self, what: &str, none: &str) -> f64 {
-        self.assumptions.push(format!("{what}: neither the CL file nor setup.tools says {none}"));
+        self.assumptions.push(format!("{what}: neither the CL file nor setup.tools gives {none}"));
         0.0
     }
 
-    /// The corner radius, without what printing has rounded off that of a ball.
+    /// Returns the corner radius. If it differs from a ball's only by the rounding of printed numbers, it is
+    /// the radius of the ball.
     fn snap_to_ball_mm(&self, diameter: f64, corner: f64) -> f64 {
         let half = diameter / 2.0;
         if corner > 0.0 && (corner - half).abs() <= self.told.rounding_mm { half } else { corner }
@@ -153,19 +156,19 @@ impl CutterResolver<'_> {
         }
         let shank_end = self.entry.and_then(|entry| entry.shank).map(|shank| shank.length_mm);
         let (length, why) = match (self.told.length_mm, shank_end) {
-            (Some(length), Some(end)) if length > end => (end, "setup.tools says only where the shank ends"),
-            (Some(length), _) => (length, "the CL file says only how long the tool is"),
-            (None, Some(end)) => (end, "setup.tools says only where the shank ends"),
+            (Some(length), Some(end)) if length > end => (end, "setup.tools only gives the end of the shank"),
+            (Some(length), _) => (length, "the CL file only gives the length of the tool"),
+            (None, Some(end)) => (end, "setup.tools only gives the end of the shank"),
             (None, None) => {
                 let bottom = diameter / 2.0 * tip.tan();
-                (FLUTE_DIAMETERS * diameter + bottom, "neither the CL file nor setup.tools says one")
+                (FLUTE_DIAMETERS * diameter + bottom, "neither the CL file nor setup.tools gives one")
             }
         };
         self.assumptions.push(format!("flute length {} mm: {why}", format_dimension(length)));
         length
     }
 
-    /// Shank and holder.
+    /// Adds shank and holder.
     fn resolve_shank_and_holder(
         &mut self,
         profile: &Meridian,
@@ -173,23 +176,23 @@ impl CutterResolver<'_> {
         let flutes = profile.height_mm();
         let (shank, holder) = self.entry.map_or((None, None), |entry| (entry.shank, entry.holder));
         let (radius, end) = match (shank, self.told.length_mm) {
-            (Some(shank), _) if shank.length_mm < flutes - SAME => {
+            (Some(shank), _) if shank.length_mm < flutes - LENGTH_TOLERANCE_MM => {
                 let (flute_length, length) = (flutes, shank.length_mm);
                 return Err(self.make_gap(ToolDataFaultKind::Shank { flute_length, length }));
             }
             (Some(shank), _) => (shank.diameter_mm / 2.0, shank.length_mm),
-            (None, Some(length)) if length > flutes + SAME => {
+            (None, Some(length)) if length > flutes + LENGTH_TOLERANCE_MM => {
                 let (diameter, length_text) =
                     (format_dimension(2.0 * profile.radius_mm()), format_dimension(length));
                 self.assumptions.push(format!(
-                    "a shank of {diameter} mm up to {length_text} mm, as thick as the cutter: setup.tools says none"
+                    "a shank of {diameter} mm up to {length_text} mm, as thick as the cutter: setup.tools gives none"
                 ));
                 (profile.radius_mm(), length)
             }
             (None, _) => (profile.radius_mm(), flutes),
         };
         let mut collars = Vec::new();
-        if end > flutes + SAME {
+        if end > flutes + LENGTH_TOLERANCE_MM {
             collars.push(NonCuttingCylinder {
                 kind: NonCuttingKind::Shank,
                 radius_mm: radius,
@@ -204,7 +207,7 @@ impl CutterResolver<'_> {
                 from_mm: end,
                 to_mm: end + holder.length_mm,
             }),
-            None => self.assumptions.push("no holder: setup.tools says none".to_owned()),
+            None => self.assumptions.push("no holder: setup.tools gives none".to_owned()),
         }
         Ok(collars)
     }

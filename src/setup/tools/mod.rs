@@ -1,4 +1,5 @@
-//! Tools: what the setup says about them, and what comes of it together with the CL file.
+//! This module holds tools: what the setup states about them, and the cutters that follow from it and the CL
+//! file.
 
 mod cutter_resolver;
 mod file_tool_data;

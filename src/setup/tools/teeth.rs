@@ -1,4 +1,4 @@
-//! Teeth as they are written: how many, how far apart, how true they run.
+//! This module holds teeth as they are written: their number, their pitch and their runout.
 
 use crate::cutter::Teeth;
 use crate::parameters::{Finite, HelixAngle, NonNegative, Positive, PositiveCount};
@@ -9,14 +9,14 @@ use serde::de::{self, Deserialize, Deserializer, SeqAccess, Unexpected, Visitor}
 use std::borrow::Cow;
 use std::fmt;
 
-/// How far in degrees pitch angles may miss the full turn: catalogues print them to a tenth, and a cutter has few
-/// teeth.
+/// How far the sum of the pitch angles may differ from 360 degrees. Catalogues print them to a tenth, and a
+/// cutter has few teeth.
 const TURN_TOLERANCE: f64 = 0.5;
 
-/// No cutter has more teeth; a larger number is a mistake.
+/// No cutter has more teeth. A larger number is a mistake.
 const MOST_TEETH: usize = 1000;
 
-/// Angles in degrees from each tooth to the next; they make a full turn.
+/// The angles in degrees from each tooth to the next. Their sum is 360.
 #[derive(Debug, Clone)]
 pub(super) struct PitchText(Vec<f64>);
 
@@ -29,8 +29,9 @@ impl<'de> Deserialize<'de> for PitchText {
         }
         let sum: f64 = angles.iter().sum();
         if (sum - 360.0).abs() > TURN_TOLERANCE {
-            let message = format!("the angles between the teeth make {sum:.1} degrees together\n");
-            let help = "From each tooth to the next, and from the last to the first, they make 360.";
+            let message = format!("the angles between the teeth add up to {sum:.1} degrees\n");
+            let help =
+                "From each tooth to the next, and from the last to the first, they must add up to 360.";
             return Err(de::Error::custom(message + help));
         }
         Ok(Self(angles))
@@ -49,12 +50,12 @@ impl JsonSchema for PitchText {
     }
 }
 
-/// How true the teeth run, in the file's unit.
+/// The runout of the teeth, in the file's unit.
 #[derive(Debug, Clone)]
 pub(super) enum RunoutText {
-    /// The cutter runs this far off the axis, towards its first tooth.
+    /// The cutter is eccentric by this, towards its first tooth.
     Eccentric(f64),
-    /// How far each tooth stands out.
+    /// The radial offset of each tooth.
     EachTooth(Vec<f64>),
 }
 
@@ -118,7 +119,7 @@ impl JsonSchema for RunoutText {
     }
 }
 
-/// What an entry says about its teeth.
+/// The data of an entry about its teeth.
 pub(super) struct TeethText<'a> {
     pub teeth: Option<PositiveCount>,
     pub pitch: Option<&'a PitchText>,
@@ -126,7 +127,8 @@ pub(super) struct TeethText<'a> {
     pub runout: Option<&'a RunoutText>,
 }
 
-/// The teeth of an entry; `None` when it does not say how many, or says it wrongly, which the reader then knows.
+/// Checks the teeth of an entry. Returns `None` if their number is missing, or if it has a fault, which the
+/// reader then holds.
 pub(super) fn check_teeth(
     text: &TeethText<'_>,
     reader: &mut SetupReader,
@@ -149,7 +151,7 @@ pub(super) fn check_teeth(
             || place.at_key(first),
             message,
             "too many",
-            "Write how many cutting edges go around the tool.",
+            "Write the number of cutting edges around the tool.",
         );
         return None;
     }
@@ -161,7 +163,8 @@ pub(super) fn check_teeth(
     }
     let pitch = match text.pitch {
         Some(pitch) => {
-            // Written from each tooth to the next; the simulation counts from each to the one before.
+            // The angles are written from each tooth to the next, but the simulation counts from each tooth
+            // to the previous one.
             let mut angles: Vec<f64> = pitch.0.iter().map(|angle| angle.to_radians()).collect();
             angles.rotate_right(1);
             angles
@@ -183,7 +186,7 @@ pub(super) fn check_teeth(
     Teeth::unevenly_spaced(pitch, runout, text.helix.map_or(0.0, |helix| helix.radians()))
 }
 
-/// Radial offsets of the teeth of a cutter that runs off the axis by `offset`, towards its first tooth.
+/// Returns the radial offsets of the teeth of a cutter that is eccentric by `offset` towards its first tooth.
 fn eccentric_runout_mm(offset: f64, pitch: &[f64]) -> Vec<f64> {
     let mut angle = 0.0;
     pitch

@@ -1,4 +1,4 @@
-//! What is missing before a tool can be simulated, and what to write where to fill it.
+//! This module reports which data of a tool is missing for a simulation, and what to write where.
 
 use super::tool_entry::ToolEntry;
 use crate::cutter::MeridianError;
@@ -10,10 +10,10 @@ use crate::source::{Source, Span};
 use std::fmt::Write;
 use std::sync::Arc;
 
-/// Why a tool cannot be simulated.
+/// The reason why a tool cannot be simulated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToolDataFault {
-    /// What is missing or wrong.
+    /// The fault of the data.
     pub kind: ToolDataFaultKind,
     tool: Box<ToolGapSubject>,
 }
@@ -21,25 +21,25 @@ pub struct ToolDataFault {
 /// The tool that a finding is about.
 #[derive(Debug, Clone, PartialEq)]
 struct ToolGapSubject {
-    /// `tool 3`.
+    /// The tool in words: `tool 3`.
     called: String,
-    /// `{ number: 3 }`.
+    /// The entry that matches it: `{ number: 3 }`.
     matches: String,
     /// The setup's entry for the tool.
     entry: Option<YamlLocation>,
 }
 
-/// What is missing or wrong.
+/// The fault of a tool's data.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum ToolDataFaultKind {
-    /// Nobody says the diameter.
+    /// Neither file states the diameter.
     Diameter,
     /// The CL file describes a lathe tool, a wire or the like.
     NoMillingCutter,
-    /// The numbers make no cutter; lengths in mm, angles in degrees.
+    /// The numbers make no cutter. Lengths are in mm, angles in degrees.
     Shape {
-        /// Why.
+        /// The reason.
         error: MeridianError,
         /// The diameter.
         diameter: f64,
@@ -47,16 +47,16 @@ pub enum ToolDataFaultKind {
         corner_radius: f64,
         /// The length of the flutes.
         flute_length: f64,
-        /// The flank's angle against the axis.
+        /// The angle between flank and axis.
         taper: f64,
-        /// The bottom's angle against the plane.
+        /// The angle between the bottom and the plane across the axis.
         tip: f64,
     },
-    /// The shank ends below the end of the flutes; lengths in mm from the tip.
+    /// The shank ends below the end of the flutes. Lengths are in mm from the tip.
     Shank {
         /// The length of the flutes.
         flute_length: f64,
-        /// Where the shank ends.
+        /// The end of the shank.
         length: f64,
     },
 }
@@ -66,8 +66,8 @@ impl ToolDataFault {
         Self { kind, tool: Box::new(ToolGapSubject::new(tool, entry)) }
     }
 
-    /// The gap as a finding ([`codes::TOOL_SHAPE`]) at the statement of the CL file that needs the tool, and at the
-    /// setup's entry for it.
+    /// Makes a finding ([`codes::TOOL_SHAPE`]) at the statement of the CL file that needs the tool, and at
+    /// the setup's entry for it.
     pub fn diagnostic(&self, source: &Arc<Source>, span: Span) -> Diagnostic {
         let called = &self.tool.called;
         let (message, keys) = match self.kind {
@@ -121,7 +121,7 @@ impl ToolDataFault {
         };
         let help = match self.kind {
             ToolDataFaultKind::NoMillingCutter => format!(
-                "Simulate its operations elsewhere; or, if it is one after all, describe it: {}",
+                "Simulate its operations elsewhere. If it is a milling cutter after all, describe it: {}",
                 self.tool.yaml_snippet(&keys)
             ),
             _ => self.tool.word_help(&keys),
@@ -138,11 +138,11 @@ impl ToolGapSubject {
         Self { called: tool.display_name(), matches: exact_tool_match(tool), entry }
     }
 
-    /// What to write where.
+    /// Words what to write where.
     fn word_help(&self, keys: &str) -> String {
         match &self.entry {
-            Some(_) => format!("Say `{keys}` in the entry that fits this tool."),
-            None => format!("Say it under `setup:`: {}", self.yaml_snippet(keys)),
+            Some(_) => format!("Add `{keys}` to the entry that matches this tool."),
+            None => format!("Add it under `setup:`: {}", self.yaml_snippet(keys)),
         }
     }
 
@@ -161,16 +161,16 @@ impl ToolGapSubject {
 }
 
 impl Setup {
-    /// That chip thickness or forces need the number of teeth of a tool ([`codes::TEETH_MISSING`]), at the statement of
-    /// the CL file that uses it.
+    /// Reports that chip thickness or forces need the number of teeth of a tool ([`codes::TEETH_MISSING`]),
+    /// at the statement of the CL file that uses it.
     pub fn report_missing_teeth(&self, tool: &ActiveTool, source: &Arc<Source>, span: Span) -> Diagnostic {
         let tool = ToolGapSubject::new(tool, self.find_tool_entry(tool));
         let message = format!("chip thickness needs the number of teeth of {}", tool.called);
         let help = match &tool.entry {
             Some(_) => {
-                "Add `teeth: 4`, or as many as there are, to the entry that fits this tool.".to_owned()
+                "Add `teeth: 4`, with the real number, to the entry that matches this tool.".to_owned()
             }
-            None => format!("Say it under `setup:`: {}", tool.yaml_snippet("teeth: 4")),
+            None => format!("Add it under `setup:`: {}", tool.yaml_snippet("teeth: 4")),
         };
         tool.label_entry(Diagnostic::new(codes::TEETH_MISSING, message).with_help(help).with_label(
             source,
@@ -180,14 +180,14 @@ impl Setup {
     }
 }
 
-/// What `match` fits exactly this tool.
+/// Returns the `match` that only matches this tool.
 fn exact_tool_match(tool: &ActiveTool) -> String {
     match (tool.number, &tool.name) {
         (Some(number), _) => format!("{{ number: {number} }}"),
         (None, Some(name)) => {
             let mut pattern = String::new();
             for character in name.chars() {
-                // In single quotes a quote is written twice; wildcards take a backslash.
+                // Within single quotes, a quote is written twice. Wildcards get a backslash.
                 let _ = match character {
                     '\'' => write!(pattern, "''"),
                     '*' | '?' | '[' | ']' | '{' | '}' | '\\' => write!(pattern, "\\{character}"),
@@ -200,7 +200,7 @@ fn exact_tool_match(tool: &ActiveTool) -> String {
     }
 }
 
-/// A length or an angle of a tool with at most four decimals.
+/// Formats a length or an angle of a tool with at most four decimals.
 pub(super) fn format_dimension(value: f64) -> String {
     format_trimmed_number(value, 4)
 }

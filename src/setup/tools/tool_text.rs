@@ -1,4 +1,4 @@
-//! An entry of `tools:` as it is written.
+//! This module holds an entry of `tools:` as it is written.
 
 use super::teeth::{PitchText, RunoutText, TeethText, check_teeth};
 use super::tool_entry::{CutterInsert, ToolCylinder, ToolEntry};
@@ -10,53 +10,57 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use std::f64::consts::FRAC_PI_2;
 
-/// Lengths in mm that differ by less are equal: far below any tool's tolerance, far above rounding.
-pub(super) const SAME: f64 = 1e-6;
+/// Lengths in mm that differ by less are equal. This is far below any tool's tolerance and far above
+/// rounding.
+pub(super) const LENGTH_TOLERANCE_MM: f64 = 1e-6;
 
-/// What the CL file does not say about the tools that `match` fits, or says wrongly.
+/// What the CL file does not state, or states wrongly, about the tools that `match` matches.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Tool")]
 pub(crate) struct ToolText {
-    /// Which tools are meant; `{}` for every tool.
+    /// The tools that are meant; `{}` for every tool.
     #[serde(rename = "match")]
     matches: ToolMatchText,
-    /// Diameter, where the lines of bottom and flank meet.
+    /// The diameter, where the lines of bottom and flank meet.
     diameter: Option<Positive>,
-    /// Corner radius; half the diameter for a ball-nose cutter.
+    /// The corner radius. For a ball-nose cutter it is half the diameter.
     corner_radius: Option<NonNegative>,
-    /// Angle of the flank against the axis in degrees; the cutter widens upwards.
+    /// The angle between flank and axis in degrees. The cutter widens upwards.
     taper: Option<Slope>,
-    /// Angle of the bottom against the plane in degrees: 0 is flat, 31 a drill of 118. Not together with `point`.
+    /// The angle between the bottom and the plane across the axis in degrees: 0 for a flat one, 31 for a
+    /// drill of 118. It excludes `point`.
     tip: Option<Slope>,
-    /// A drill's full point angle in degrees, 118 or 140. Not together with `tip`.
+    /// The full point angle of a drill in degrees, for example 118 or 140. It excludes `tip`.
     point: Option<PointAngle>,
-    /// Length of the flutes from the tip.
+    /// The length of the flutes from the tip.
     flute_length: Option<Positive>,
-    /// The shank above the flutes; it must not touch material.
+    /// The shank above the flutes, which must not touch material.
     shank: Option<ShankText>,
-    /// The holder above the shank; it must not touch material.
+    /// The holder above the shank, which must not touch material.
     holder: Option<HolderText>,
-    /// How many teeth.
+    /// The number of teeth.
     teeth: Option<PositiveCount>,
-    /// Angles in degrees from each tooth to the next, the last to the first; they make 360. Even if not given.
+    /// The angles in degrees from each tooth to the next, and from the last to the first. They add up to 360.
+    /// The pitch is even when it is left out.
     pitch: Option<PitchText>,
-    /// Helix angle of the teeth in degrees; negative for a left-hand helix.
+    /// The helix angle of the teeth in degrees. It is negative for a left-hand helix.
     helix: Option<HelixAngle>,
-    /// How far the whole cutter runs off its axis, towards the first tooth; or a list: how far each tooth stands out.
+    /// The eccentricity of the whole cutter towards its first tooth, or a list with the radial offset of each
+    /// tooth.
     runout: Option<RunoutText>,
-    /// The inserts of an indexable cutter, for its ramping limits.
+    /// The inserts of an indexable cutter, which limit its ramps.
     insert: Option<InsertText>,
 }
 
-/// Which tools are meant; what is given must all fit, and `{}` fits every tool.
+/// The tools that are meant. All given keys must match, and `{}` matches every tool.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "ToolMatch")]
 struct ToolMatchText {
-    /// The tool's number.
+    /// The number of the tool.
     number: Option<u32>,
-    /// The tool's name; `*` and `?` are wildcards.
+    /// The name of the tool. `*` and `?` are wildcards.
     name: Option<Glob>,
 }
 
@@ -65,9 +69,9 @@ struct ToolMatchText {
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Shank")]
 struct ShankText {
-    /// Diameter.
+    /// The diameter.
     diameter: Positive,
-    /// From the tip of the tool to the end of the shank.
+    /// The length from the tip of the tool to the end of the shank.
     length: Positive,
 }
 
@@ -76,9 +80,9 @@ struct ShankText {
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Holder")]
 struct HolderText {
-    /// Diameter.
+    /// The diameter.
     diameter: Positive,
-    /// From the end of the shank to the end of the holder.
+    /// The length from the end of the shank to the end of the holder.
     length: Positive,
 }
 
@@ -87,14 +91,14 @@ struct HolderText {
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Insert")]
 struct InsertText {
-    /// Cutting height of an insert.
+    /// The cutting height of an insert.
     height: Positive,
-    /// Radius of the insert's bottom circle; the cutter does not cut within its diameter less twice this.
+    /// The radius of the insert's bottom circle. The cutter does not cut within its diameter less twice this.
     radius: Positive,
 }
 
 impl ToolText {
-    /// The entry in millimetres and radians.
+    /// Returns the entry in millimetres and radians.
     pub(crate) fn check_tool(self, reader: &mut SetupReader, place: YamlLocation) -> ToolEntry {
         let teeth = TeethText {
             teeth: self.teeth,
@@ -105,7 +109,7 @@ impl ToolText {
         let teeth = check_teeth(&teeth, reader, &place);
         if self.tip.is_some() && self.point.is_some() {
             let message = "the bottom's angle is given twice, by `tip` and by `point`".to_owned();
-            let help = "Keep one: a point angle of 118 is a `tip` of 31, half of what is missing to 180.";
+            let help = "Keep one of them. A point angle of 118 is a `tip` of (180 - 118) / 2 = 31.";
             let keys = [(place.at_key("point"), "given again here"), (place.at_key("tip"), "and here")];
             reader.add_key_fault(codes::BAD_VALUE, message, help, &keys);
         }
@@ -145,18 +149,19 @@ impl ToolText {
 }
 
 impl ToolEntry {
-    /// Reports lengths of one entry that cannot be of one tool. What the CL file adds is looked at when both are known.
+    /// Reports lengths of an entry that cannot belong to the same tool. What the CL file adds is checked when
+    /// both are known.
     fn check_lengths(&self, reader: &mut SetupReader) {
         let place = &self.place;
         if let (Some(diameter), Some(corner)) = (self.diameter_mm, self.corner_radius_mm)
-            && corner > diameter / 2.0 + SAME
+            && corner > diameter / 2.0 + LENGTH_TOLERANCE_MM
         {
-            let help = "A ball-nose cutter has a corner radius of half its diameter; none has a larger one.";
+            let help = "A ball-nose cutter has a corner radius of half its diameter, and no cutter has a larger one.";
             let message = "the corner radius is larger than half the diameter";
             reader.add_fault(|| place.at_key("corner_radius"), message, "too large", help);
         }
         if let (Some(flutes), Some(shank)) = (self.flute_length_mm, self.shank)
-            && shank.length_mm < flutes - SAME
+            && shank.length_mm < flutes - LENGTH_TOLERANCE_MM
         {
             let help = "The shank's length counts from the tip of the tool, flutes included.";
             let message = "the shank ends below the end of the flutes";
@@ -168,9 +173,9 @@ impl ToolEntry {
             );
         }
         if let (Some(diameter), Some(insert)) = (self.diameter_mm, self.insert)
-            && insert.radius_mm > diameter / 2.0 + SAME
+            && insert.radius_mm > diameter / 2.0 + LENGTH_TOLERANCE_MM
         {
-            let help = "The inserts go around inside the cutter's diameter.";
+            let help = "The inserts rotate inside the cutter's diameter.";
             let message = "the insert's radius is larger than half the diameter";
             reader.add_fault(|| place.at_key("insert").at_key("radius"), message, "too large", help);
         }

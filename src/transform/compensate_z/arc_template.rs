@@ -1,4 +1,4 @@
-//! The records that new arcs are modelled on.
+//! This module finds the records that new arcs are modelled on.
 
 use crate::diagnostic::Failure;
 use crate::program::record::{ArcSense, Circle};
@@ -8,21 +8,22 @@ use crate::transform::statement_numbers::{copy_statement, major_word, pair_with_
 use crate::write::ProgramEditor;
 use nalgebra::{Point3, Vector3};
 
-/// How a file says an arc.
+/// The records with which a file states an arc.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ArcTemplate {
     /// CIRCLE and GOTO.
     Circle {
         statement: StatementId,
         has_radius: bool,
-        /// 1 where the printed axis is right-hand, -1 where it is left-hand.
+        /// It is 1 where the printed axis is right-handed, and -1 where it is left-handed.
         hand: f64,
     },
-    /// CATIA's INDIRV and TLON, after AUTOPS where the file has that.
+    /// CATIA's INDIRV and TLON, with AUTOPS before them where the file has that.
     Drive { auto: Option<StatementId>, direction: StatementId, drive: StatementId },
 }
 
-/// The first arc of the file whose sense is known.
+/// Returns the records of the first arc whose sense of rotation is known. Returns `None` if the file has
+/// none.
 pub(super) fn find_arc_template(program: &Program) -> Option<ArcTemplate> {
     let hand = match program.dialect().arc_rule() {
         ArcRule::LeftHand => -1.0,
@@ -38,7 +39,7 @@ pub(super) fn find_arc_template(program: &Program) -> Option<ArcTemplate> {
     })
 }
 
-/// A TLON of half a turn or less, which has no INTOF: ten numbers.
+/// Returns the first TLON of half a turn or less. It has ten numbers and no INTOF.
 fn find_drive_template(program: &Program) -> Option<ArcTemplate> {
     let (mut auto, mut direction, mut drive) = (None, None, None);
     for (statement, found) in program.live_statements() {
@@ -59,10 +60,11 @@ fn find_drive_template(program: &Program) -> Option<ArcTemplate> {
 }
 
 impl ArcTemplate {
-    /// Puts in an arc of half a turn or less; whether its end still has to be told by a GOTO. Lengths of the file are `mm` long.
+    /// Inserts an arc of half a turn or less before a statement. Returns whether a GOTO must follow that
+    /// states the end of the arc.
     ///
     /// # Errors
-    /// When a new statement does not read back.
+    /// Returns an error if a new statement does not read back.
     pub fn insert_arc(
         &self,
         editor: &mut ProgramEditor,
@@ -72,13 +74,15 @@ impl ArcTemplate {
         before: StatementId,
     ) -> Result<bool, Failure> {
         let space = |point: Point| plane.to_space(point);
-        let way = |u: f64, z: f64| (space(Point::new(u, z)) - space(Point::default())).map(zero_out_rounding);
+        let displacement =
+            |u: f64, z: f64| (space(Point::new(u, z)) - space(Point::default())).map(zero_out_rounding);
         let place = |point: Point3<f64>| -> [f64; 3] { (point / mm_per_unit).coords.into() };
         let centre = place(space(arc.centre));
         match *self {
             Self::Circle { statement, has_radius, hand } => {
-                // From +u towards +z is right-hand about u x z.
-                let axis = way(1.0, 0.0).cross(&way(0.0, 1.0)) * (arc.sweep_rad.signum() * hand);
+                // A rotation from +u towards +z is right-handed about u x z.
+                let axis =
+                    displacement(1.0, 0.0).cross(&displacement(0.0, 1.0)) * (arc.sweep_rad.signum() * hand);
                 let mut numbers = pair_with_indices(0, centre);
                 numbers.extend(pair_with_indices(3, <[f64; 3]>::from(axis.map(zero_out_rounding))));
                 if has_radius {
@@ -89,7 +93,7 @@ impl ArcTemplate {
             }
             Self::Drive { auto, direction, drive } => {
                 let tangent = ChainPiece::Arc(*arc).direction_at(0.0);
-                let tangent: Vector3<f64> = way(tangent.u, tangent.z).normalize();
+                let tangent: Vector3<f64> = displacement(tangent.u, tangent.z).normalize();
                 let mut numbers = pair_with_indices(0, centre);
                 numbers.push((3, arc.radius_mm / mm_per_unit));
                 numbers.extend(pair_with_indices(4, centre));
@@ -112,7 +116,7 @@ impl ArcTemplate {
     }
 }
 
-/// What is nothing but rounding is printed without a sign.
+/// Replaces rounding noise by zero, because the number would otherwise be printed as zero with a sign.
 fn zero_out_rounding(part: f64) -> f64 {
     if part.abs() < 1e-9 { 0.0 } else { part }
 }

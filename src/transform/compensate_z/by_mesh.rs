@@ -1,4 +1,4 @@
-//! Compensation against a model: the cutter lowered onto it along each pass.
+//! This module compensates against a model: it lowers the cutter onto the model along each pass.
 
 use super::compensation_job::CompensateZJob;
 use super::cutter_lowering::{lower_cutter, project_from_above};
@@ -23,19 +23,19 @@ use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Places at which written passes are looked at, all together: more would take minutes.
-const LOOKS: f64 = 1e6;
+/// The number of points at which all written passes together are measured. More points would take minutes.
+const MEASURED_POINTS: f64 = 1e6;
 
-/// Points this far above where the cutter would stand (mm) are in the air.
-const AIR: f64 = 0.5;
+/// Points that are higher than this (mm) above the cutter's lowest position are in the air.
+const AIR_CLEARANCE: f64 = 0.5;
 
 /// What printing may add to gouge and gap, in the file's unit.
 const PRINTED: f64 = 1e-4;
 
-/// A pass on its way.
+/// A pass while it is compensated.
 struct MeshPass {
     run: Range<usize>,
-    /// The tip's new points, for each motion.
+    /// The new points of the tip, for each motion.
     points: Vec<Vec<[f64; 3]>>,
     start: [f64; 3],
 }
@@ -52,7 +52,7 @@ pub(super) fn compensate_by_mesh(
     let place = MotionFindings { program: &program, motions };
     let tilted = |(motion, meant): (&Motion, &bool)| *meant && (motion.to.axis - Vector3::z()).amax() > 1e-6;
     if let Some(at) = motions.iter().zip(meant).position(tilted) {
-        let message = "the cutter is lowered along z, and here the tool axis is another";
+        let message = "the cutter can only be lowered along z, but the tool axis has another direction here";
         return Err(place.build_failure(message.to_owned(), at, "tilted", context));
     }
     let mesh = read_mesh(path, mm_per_unit, context)?;
@@ -67,7 +67,7 @@ pub(super) fn compensate_by_mesh(
     let all: Vec<MeshPass> = made.into_iter().flatten().collect();
     let beside = count - all.len();
     if all.is_empty() {
-        let message = "nothing of the model lies under the passes; is it in the coordinates and the unit of the CL file?";
+        let message = "nothing of the model lies under the passes; check that it has the coordinates and the unit of the CL file";
         return Err(context.step_failure(message, &["against", "mesh"]));
     }
     let lift = Vector3::z() * if job.centre { job.radius } else { 0.0 };
@@ -95,9 +95,10 @@ pub(super) fn compensate_by_mesh(
     for work in &all {
         let points =
             work.points.iter().map(|own| own.iter().map(|at| Point3::from(*at) + lift).collect()).collect();
-        let written = writer.write_points(&mut editor, work.run.clone(), points)?;
         let place = MotionFindings { program: &original, motions };
-        written.map_err(|why| place.describe_unwritable_motion(why, work.run.start, context))?;
+        writer
+            .write_points(&mut editor, work.run.clone(), points)
+            .map_err(|fault| place.describe_write_fault(fault, work.run.start, context))?;
     }
     write_leads(&writer, &mut editor, motions, &ends, &moved, mm_per_unit, &original, context)?;
     let program = editor.finish()?;
@@ -115,8 +116,8 @@ pub(super) fn compensate_by_mesh(
     Ok((program, report))
 }
 
-/// The motions that are meant and touch the model: one that is higher at either end than the cutter could stand there is a link, a retract or
-/// a plunge.
+/// Returns for each motion whether it is meant and touches the model. A motion that is higher at either end
+/// than the cutter can be there is a link, a retract or a plunge.
 fn find_contact_motions(
     job: &CompensateZJob,
     motions: &[Motion],
@@ -124,12 +125,13 @@ fn find_contact_motions(
     cutter: &DropCutter,
 ) -> Vec<bool> {
     let mm_per_unit = job.file.mm_per_unit();
-    // A larger ball than this one stood higher on slopes.
-    let room = AIR + 2.0 * job.was.map_or(0.0, |was| (was - job.radius).abs());
+    // If the path was made for a larger ball, its tip is higher on slopes: by at most the difference of the
+    // radii times (1 / cos - 1), which the factor 2 covers up to 70 degrees.
+    let clearance = AIR_CLEARANCE + 2.0 * job.was.map_or(0.0, |was| (was - job.radius).abs());
     let lift = if job.was_centre { job.was.unwrap_or(0.0) } else { 0.0 };
     let above = |point: Point3<f64>| {
         let at = point * mm_per_unit;
-        cutter.drop_at(at.x, at.y).is_some_and(|drop| at.z - lift > drop.tip_z_mm + room)
+        cutter.drop_at(at.x, at.y).is_some_and(|drop| at.z - lift > drop.tip_z_mm + clearance)
     };
     let touches =
         |(motion, meant): (&Motion, &bool)| *meant && !above(motion.from.point) && !above(motion.to.point);
@@ -155,13 +157,13 @@ fn make_mesh_pass(
     run: Range<usize>,
     cutter: &DropCutter,
 ) -> Option<MeshPass> {
-    // Printing has a little of the tolerance.
+    // Printing takes the rest of the tolerance.
     let tolerance = 0.8 * job.tolerance;
     let seen = project_from_above(motions, &run, job.file.mm_per_unit(), tolerance);
     let lines: Vec<Vec<[f64; 2]>> = seen.into_iter().map(|(_, line)| line).collect();
     let mut points = lower_cutter(cutter, &lines, tolerance)?;
     let start = *points.first()?.first()?;
-    // Each motion begins where the one before ends.
+    // Each motion begins where the previous one ends.
     let mut reached = start;
     for own in &mut points {
         if own.first().is_some_and(|first| is_same_point(first, &reached)) {
@@ -189,7 +191,7 @@ impl MeshPass {
     }
 }
 
-/// Measures the written passes in space.
+/// Measures the written passes in space and enters gouge and gap in the reports.
 #[allow(clippy::too_many_arguments)] // one call, and a struct would only rename them
 fn prove_mesh_passes(
     job: &CompensateZJob,
@@ -218,7 +220,7 @@ fn prove_mesh_passes(
         report.gap_mm = Some(found.gap_mm);
         if found.gouge_mm > job.tolerance + PRINTED * mm_per_unit {
             let message = format!(
-                "measured again, this pass gouges the model by {:.4} mm at {}: more than the tolerance of {} mm",
+                "measured again, this pass gouges the model by {:.4} mm at {}, which is more than the tolerance of {} mm",
                 found.gouge_mm,
                 format_point(found.gouge_at_mm, 3),
                 job.tolerance
@@ -229,7 +231,7 @@ fn prove_mesh_passes(
     Ok(())
 }
 
-/// Looks at paths in space by other means than they were made.
+/// Measures paths in space by another method than the one that made them.
 fn measure_tip_paths(
     job: &CompensateZJob,
     mesh: &Mesh,
@@ -237,7 +239,8 @@ fn measure_tip_paths(
     paths: &[Vec<[f64; 3]>],
 ) -> Vec<Option<PathDeviation>> {
     if job.corner == job.radius {
-        // Between two places, a ball passes what is free at both by no more than a tenth of the tolerance.
+        // A ball that is free at two points d apart can dip between them into a sharp edge by the sagitta d^2
+        // / (8 R). The step below keeps that to a tenth of the tolerance.
         let error = job.tolerance / 10.0;
         let step = (8.0 * job.radius * error).sqrt();
         let space = BallClearanceField::new(mesh, job.radius);
@@ -255,7 +258,7 @@ fn measure_tip_paths(
         return paths.par_iter().map(one).collect();
     }
     let length: f64 = paths.iter().flat_map(|path| path.windows(2)).map(segment_length).sum();
-    let resolution = job.tolerance.max(length / LOOKS);
+    let resolution = job.tolerance.max(length / MEASURED_POINTS);
     paths.par_iter().map(|path| measure_deviation(mesh, cutter, path, resolution)).collect()
 }
 
@@ -266,7 +269,7 @@ fn segment_length(pair: &[[f64; 3]]) -> f64 {
     }
 }
 
-/// Motions between passes that go through the model.
+/// Reports motions between passes that go through the model.
 fn report_gouging_links(
     job: &CompensateZJob,
     cutter: &DropCutter,
@@ -302,7 +305,8 @@ fn report_gouging_links(
     }
 }
 
-/// How far below the lowest height a straight move goes, looked at every eighth of the cutter's radius.
+/// Returns how far a straight move goes below the lowest allowed height. It is measured at every eighth of
+/// the cutter's radius.
 fn deepest_gouge_mm(
     job: &CompensateZJob,
     cutter: &DropCutter,

@@ -1,4 +1,4 @@
-//! Compensation by contact normals: each point moves by its own.
+//! This module compensates by contact normals: it moves each point along its own normal.
 
 use super::compensation_job::CompensateZJob;
 use super::contact_normals::{BallContact, find_gouges};
@@ -32,7 +32,8 @@ pub(super) fn compensate_by_normals(
     for index in runs.iter().cloned().flatten() {
         let Some(motion) = motions.get(index) else { continue };
         if !matches!(motion.path, MotionPath::Line) {
-            let message = "an arc or spline has no contact normal at each of its points; compensate it `against: profile`";
+            let message =
+                "an arc or spline has no contact normals between its ends; compensate it `against: profile`";
             return Err(place.build_failure(message.to_owned(), index, "no straight motion", context));
         }
         let contact = job.find_contact(motion, mm_per_unit).ok_or_else(|| {
@@ -41,8 +42,7 @@ pub(super) fn compensate_by_normals(
             place.build_failure(message.to_owned(), index, "no normal", context)
         })?;
         if contact.normal.dot(&contact.axis) < -1e-6 {
-            let message =
-                "the contact normal points away from the tool, into the part: the ball would come from below";
+            let message = "the contact normal points away from the tool, into the part, so the ball would touch from below";
             return Err(place.build_failure(message.to_owned(), index, "points down", context));
         }
         contacts.push(contact);
@@ -86,7 +86,7 @@ pub(super) fn compensate_by_normals(
         .map_err(|motion| place.build_failure(wrong.to_owned(), motion, "from here on", context))?;
     for (index, contact) in ranges.into_iter().flatten().zip(&contacts) {
         let read = after.get(index).map(|motion| motion.to.point * mm_per_unit);
-        // Half of the fourth decimal in each direction.
+        // Printing rounds by half of the fourth decimal in each direction.
         if read.is_none_or(|read| (read - new(contact)).amax() > 1e-4 * mm_per_unit) {
             return Err(place.build_failure(
                 wrong.to_owned(),
@@ -102,7 +102,7 @@ pub(super) fn compensate_by_normals(
 }
 
 impl CompensateZJob {
-    /// The contact that a motion ends at; `None` without a normal.
+    /// Returns the contact at the end of a motion. Returns `None` if the motion has no normal.
     fn find_contact(&self, motion: &Motion, mm_per_unit: f64) -> Option<BallContact> {
         let normal = Unit::try_new(motion.normal?, 1e-9)?;
         let axis = Unit::try_new(motion.to.axis, 1e-9)?;
@@ -117,7 +117,7 @@ impl CompensateZJob {
     }
 }
 
-/// A run's ends as they are to be.
+/// Returns a run with its compensated ends.
 fn move_run_ends(
     job: &CompensateZJob,
     motions: &[Motion],
@@ -130,7 +130,7 @@ fn move_run_ends(
     let at = |index: usize| owners.binary_search(&index).ok().and_then(|place| contacts.get(place));
     let (first, last) = (at(run.start)?, at(run.end.checked_sub(1)?)?);
     let before = run.start.checked_sub(1).and_then(|before| motions.get(before));
-    // The point before the first contact moves by its own normal, if it has one, and else not at all.
+    // The point before the first contact moves by its own normal. Without a normal it only follows the lift.
     let own = before.and_then(|motion| job.find_contact(motion, mm_per_unit));
     let start = match (own, before) {
         (Some(own), _) => new(&own),
@@ -165,7 +165,8 @@ fn report_gouges(
     }
 }
 
-/// The reports of runs: of their balls, the deepest gouge of a contact point.
+/// Builds the reports of the runs. The gouge of a run is the deepest cut of one of its balls into another
+/// contact point.
 fn build_reports(
     job: &CompensateZJob,
     runs: &[Range<usize>],

@@ -1,4 +1,4 @@
-//! Compensation against the passes themselves.
+//! This module compensates each pass against its own profile.
 
 use super::compensation_job::CompensateZJob;
 use super::findings::MotionFindings;
@@ -20,12 +20,12 @@ use rayon::prelude::*;
 /// What printing may add to gouge and gap, in the file's unit: both ends of a chord are off by half the fourth decimal.
 const PRINTED: f64 = 1e-4;
 
-/// A pass on its way.
+/// A pass while it is compensated.
 struct ProfilePass {
     pass: VerticalPass,
     owners: Vec<usize>,
     done: CompensatedPass,
-    /// The path as its points will be, tip or centre.
+    /// The path as its points will be written: the tip or the centre of the ball.
     path: Chain,
 }
 
@@ -78,9 +78,10 @@ pub(super) fn compensate_by_profile(
     let mut editor = ProgramEditor::new(program, context.step);
     for work in &all {
         let contact = job.was.is_none();
-        let written = writer.write_pass(&mut editor, &work.pass, &work.path, (job.radius, contact))?;
         let place = MotionFindings { program: &original, motions };
-        written.map_err(|why| place.describe_unwritable_motion(why, work.pass.motions.start, context))?;
+        writer
+            .write_pass(&mut editor, &work.pass, &work.path, (job.radius, contact))
+            .map_err(|fault| place.describe_write_fault(fault, work.pass.motions.start, context))?;
     }
     write_leads(&writer, &mut editor, motions, &ends, &moved, mm_per_unit, &original, context)?;
     let program = editor.finish()?;
@@ -123,7 +124,7 @@ impl ProfilePass {
     }
 }
 
-/// A chain as points, arcs every few degrees.
+/// Returns a chain as points for a drawing, with points every few degrees on arcs.
 pub(super) fn to_drawing_points(chain: &Chain) -> Vec<(f64, f64)> {
     let start = chain.start();
     let mut points = vec![(start.u, start.z)];
@@ -161,7 +162,7 @@ fn report_unreachable(all: &[ProfilePass], place: &MotionFindings<'_>, context: 
     }
 }
 
-/// Measures the written passes.
+/// Measures the written passes and enters the results in the reports.
 #[allow(clippy::too_many_arguments)] // one call, and a struct would only rename them
 fn prove_profile_passes(
     program: &Program,
@@ -208,7 +209,7 @@ fn prove_profile_passes(
         let allowed = ball.tolerance + PRINTED * mm_per_unit + verdict.bound_mm;
         if verdict.gouge_mm > allowed || verdict.gap_mm > allowed {
             let message = format!(
-                "measured again, this pass gouges by {:.4} mm and leaves a gap of {:.4} mm: more than the tolerance of {} mm",
+                "measured again, this pass gouges by {:.4} mm and leaves a gap of {:.4} mm, which is more than the tolerance of {} mm",
                 verdict.gouge_mm, verdict.gap_mm, ball.tolerance
             );
             return Err(place.build_failure(message, first, "the pass", context));
@@ -221,13 +222,14 @@ fn count_written_pieces(path: &Chain) -> usize {
     super::pass_writer::split_long_arcs(path).len()
 }
 
-/// Each point moved by the normal of its own piece: what must not be driven, for comparison.
+/// Returns the path that moving each point by the normal of its own piece would give. It is drawn for
+/// comparison and must not be driven, for it crosses itself in concave vertices.
 fn naive_offset_points(contact: &Chain, radius: f64) -> Vec<(f64, f64)> {
     let forward = if contact.end().u >= contact.start().u { 1.0 } else { -1.0 };
-    let moved = |piece: &ChainPiece, share: f64| {
-        let (at, way) = (piece.point_at(share), piece.direction_at(share));
-        let length = way.u.hypot(way.z).max(1e-12);
-        let (nu, nz) = (-way.z / length * forward, way.u / length * forward);
+    let moved = |piece: &ChainPiece, fraction: f64| {
+        let (at, tangent) = (piece.point_at(fraction), piece.direction_at(fraction));
+        let length = tangent.u.hypot(tangent.z).max(1e-12);
+        let (nu, nz) = (-tangent.z / length * forward, tangent.u / length * forward);
         (at.u + radius * nu, at.z + radius * (nz - 1.0))
     };
     let of = |piece: &ChainPiece| {

@@ -1,4 +1,4 @@
-//! The parameters of the step in millimetres, with the cutter that the passes are for.
+//! This module holds the parameters of the step in millimetres, with the cutter that the passes are for.
 
 use super::findings::MotionFindings;
 use super::parameters::{ArcOutput, CompensateZ, CompensationReference, InputPointKind, OutputPointKind};
@@ -9,16 +9,16 @@ use crate::program::{LengthUnit, Program};
 use crate::transform::StepContext;
 use std::sync::Arc;
 
-/// Allowed gouge and gap where the recipe says none, mm.
+/// The allowed gouge and gap when the recipe gives none, in mm.
 const TOLERANCE: f64 = 0.005;
 
 /// The parameters in millimetres.
 pub(super) struct CompensateZJob {
-    /// Half the cutter's diameter.
+    /// Half of the cutter's diameter.
     pub radius: f64,
-    /// Its corner radius.
+    /// The cutter's corner radius.
     pub corner: f64,
-    /// Radius of the ball that the path was made for.
+    /// The radius of the ball that the path was made for.
     pub was: Option<f64>,
     pub was_centre: bool,
     pub centre: bool,
@@ -37,11 +37,11 @@ impl CompensateZJob {
         match (step.input, was) {
             (InputPointKind::Contact, Some(_)) => {
                 let message =
-                    "`was_radius` belongs to a path made for a ball: `input: tip` or `input: centre`";
+                    "`was_radius` needs a path that was made for a ball: add `input: tip` or `input: centre`";
                 return Err(context.step_failure(message, &["was_radius"]));
             }
             (InputPointKind::Tip | InputPointKind::Centre, None) => {
-                let message = "the path was made for a ball, and `was_radius` does not say for which";
+                let message = "the path was made for a ball of unknown radius; add `was_radius: 5` (the radius of that ball)";
                 return Err(context.step_failure(message, &["input"]));
             }
             _ => {}
@@ -63,13 +63,15 @@ impl CompensateZJob {
         })
     }
 
-    /// How much higher what lies around passes goes, mm: tips that become centres rise by the radius.
+    /// Returns how much higher everything around the passes has to be, in mm. When tips become centres, it
+    /// rises by the radius.
     pub fn lift_mm(&self) -> f64 {
         let was = if self.was_centre { self.was.unwrap_or(0.0) } else { 0.0 };
         if self.centre { (self.radius - was).max(0.0) } else { 0.0 }
     }
 
-    /// Takes the cutter from the tool of the motions, which must be one, unless the step says the radius.
+    /// Takes the cutter from the tool of the motions, unless the step gives the radius. The motions must have
+    /// a single tool.
     pub fn take_tool_cutter(
         &mut self,
         program: &Program,
@@ -88,7 +90,7 @@ impl CompensateZJob {
             .zip(meant)
             .position(|(motion, meant)| *meant && !is_same_tool(&motion.tool, &tool));
         if let Some(other) = other {
-            let message = "the step means passes of several tools; say `radius`, or name one tool by `where`";
+            let message = "the step means passes of several tools; add `radius` to the step, or select one tool by `where: { tools: [5] }`";
             return Err(place.build_failure(message.to_owned(), other, "another tool", context));
         }
         let none = ActiveTool::default();
@@ -96,24 +98,27 @@ impl CompensateZJob {
         let entry = context.setup.find_tool_entry(used);
         let data = used.data.as_ref();
         let scale = self.file.mm_per_unit();
-        let told =
+        let known =
             |of_setup: Option<f64>, of_file: Option<f64>| of_setup.or(of_file.map(|value| value * scale));
-        let diameter = told(entry.and_then(|entry| entry.diameter_mm), data.and_then(|data| data.diameter));
+        let diameter = known(entry.and_then(|entry| entry.diameter_mm), data.and_then(|data| data.diameter));
         let corner =
-            told(entry.and_then(|entry| entry.corner_radius_mm), data.and_then(|data| data.corner_radius));
+            known(entry.and_then(|entry| entry.corner_radius_mm), data.and_then(|data| data.corner_radius));
         let called = used.display_name();
         let Some(diameter) = diameter.filter(|diameter| *diameter > 0.0) else {
             let message = format!(
-                "the radius is not known: neither the step nor the setup nor the CL file says that of {called}"
+                "the radius of {called} is not known: neither the step, nor the setup, nor the CL file gives it. \
+                 Add `radius: 5` to the step, or `diameter: 10` to the tool under `setup: {{ tools: }}`"
             );
             return Err(place.build_failure(message, first, "its first cut", context));
         };
         let (radius, corner) = (diameter / 2.0, corner.unwrap_or(0.0));
-        // Files print four decimals, so a ball's corner may miss half its diameter by that.
+        // Files print four decimals, so the corner radius of a ball may differ from half its diameter by
+        // that.
         let ball = (corner - radius).abs() <= 1e-4 * scale;
         if self.needs_ball && !ball {
             let message = format!(
-                "{called} is no ball: its diameter is {diameter} mm and its corner radius {corner} mm; say `radius` if it is one"
+                "{called} is no ball: its diameter is {diameter} mm and its corner radius {corner} mm. If it is one \
+                 all the same, add `radius: {radius}` to the step"
             );
             return Err(place.build_failure(message, first, "its first cut", context));
         }

@@ -1,45 +1,46 @@
-//! Points with contact normals: each moves by its own, `Ps = Pc + R (n - a)`.
+//! This module moves points with contact normals: `Ps = Pc + R (n - a)` (Dragoi 2009), with the contact point
+//! Pc, the ball's radius R, the outward normal n and the tool axis a.
 
 use nalgebra::{Point3, Unit, Vector3};
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
-/// A contact point.
+/// A contact point of a ball.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct BallContact {
-    /// The point of the part, mm.
+    /// The point on the part, in mm.
     pub point: Point3<f64>,
-    /// Its outward normal.
+    /// The outward normal of the part there.
     pub normal: Unit<Vector3<f64>>,
-    /// The tool axis.
+    /// The tool axis, from the tip into the holder.
     pub axis: Unit<Vector3<f64>>,
 }
 
-/// A ball that cuts into a neighbour's contact point.
+/// A ball that cuts into another contact point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct BallGouge {
-    /// The contact whose ball does (its place in the list).
+    /// The index of the contact at which the ball stands.
     pub contact: usize,
-    /// The contact that it cuts into.
+    /// The index of the contact that it cuts into.
     pub neighbour: usize,
-    /// How deep, mm.
+    /// The depth of the cut, in mm.
     pub depth_mm: f64,
 }
 
 impl BallContact {
-    /// Centre of a ball of `radius` mm that touches here.
+    /// Returns the centre of a ball of `radius` mm that touches here.
     pub fn ball_centre(&self, radius: f64) -> Point3<f64> {
         self.point + self.normal.into_inner() * radius
     }
 
-    /// Its tip: `Pc + R (n - a)`.
+    /// Returns the tip of that ball: `Pc + R (n - a)`.
     pub fn ball_tip(&self, radius: f64) -> Point3<f64> {
         self.ball_centre(radius) - self.axis.into_inner() * radius
     }
 }
 
-/// Balls that reach deeper than `tolerance` mm into the contact point nearest to their centre, in the order of the contacts. No
-/// other point of the path lies deeper in them.
+/// Returns the balls that reach deeper than `tolerance` mm into the contact point nearest to their centre, in
+/// the order of the contacts. No other point of the path can lie deeper in such a ball.
 pub(crate) fn find_gouges(contacts: &[BallContact], radius: f64, tolerance: f64) -> Vec<BallGouge> {
     let points = contacts.iter().enumerate();
     let points = points.map(|(index, contact)| GeomWithData::new(tree_coordinates(contact.point), index));

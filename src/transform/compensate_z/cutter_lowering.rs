@@ -1,11 +1,12 @@
-//! A pass over a model: the cutter lowered onto it along the pass seen from above.
+//! This module lowers the cutter onto a model along a pass, as seen from above.
 
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::surface::drop_cutter::DropCutter;
 use std::ops::Range;
 
-/// The way of a pass seen from above, mm: the ends of its motions, and points between them where it curves.
+/// Returns each motion of a pass as seen from above, in mm: its ends, and points between them where it
+/// curves.
 pub(super) fn project_from_above(
     motions: &[Motion],
     pass: &Range<usize>,
@@ -32,8 +33,9 @@ pub(super) fn project_from_above(
     pass.clone().filter_map(one).collect()
 }
 
-/// The tip's path over a model along lines seen from above, an answer for each line; where nothing lies under the cutter it goes straight
-/// from where there was something to where there is again. `None` when nothing lies under the whole pass.
+/// Returns the path of the tip over a model along lines seen from above, one path for each line. Where
+/// nothing lies under the cutter, the path goes straight to the next point that has the model under it.
+/// Returns `None` if nothing lies under the whole pass.
 pub(super) fn lower_cutter(
     cutter: &DropCutter,
     lines: &[Vec<[f64; 2]>],
@@ -44,7 +46,7 @@ pub(super) fn lower_cutter(
         found.push(cutter.follow_line(line, tolerance).into_iter().flatten().collect());
     }
     let first = found.iter().flatten().next().copied()?;
-    // Motions that nothing lies under end at the height the path has there.
+    // A motion with nothing of the model under its end keeps the height that the path has reached.
     let mut height = first[2];
     for (line, path) in lines.iter().zip(&mut found) {
         let Some([x, y]) = line.last().copied() else { continue };

@@ -1,15 +1,15 @@
-//! What the step says.
+//! This module words the findings of the step.
 
 use super::lead_conflict::LeadConflict;
 use super::pass_profile::PassFault;
-use super::pass_writer::UnwritableMotion;
+use super::pass_writer::{UnwritableMotion, WriteFault};
 use super::vertical_passes::NoPassReason;
 use crate::diagnostic::{Diagnostic, DiagnosticCode, Failure, codes};
 use crate::program::Program;
 use crate::program::motion::Motion;
 use crate::transform::StepContext;
 
-/// A program and its motions.
+/// A program and its motions, to which findings refer.
 #[derive(Clone, Copy)]
 pub(super) struct MotionFindings<'a> {
     pub program: &'a Program,
@@ -17,7 +17,7 @@ pub(super) struct MotionFindings<'a> {
 }
 
 impl MotionFindings<'_> {
-    /// A finding at the statement that ends a motion, and at the step.
+    /// Builds a finding at the statement that ends a motion, and at the step.
     pub fn build_finding(
         &self,
         code: DiagnosticCode,
@@ -32,12 +32,12 @@ impl MotionFindings<'_> {
                 let statement = self.program.statement(motion.last_statement());
                 finding = finding.with_label(self.program.source(), statement.origin(), label);
             }
-            None => debug_assert!(false, "motion {motion} of {} is told of", self.motions.len()),
+            None => debug_assert!(false, "motion {motion} of {} does not exist", self.motions.len()),
         }
         context.label_step(finding, "by this step")
     }
 
-    /// Why the step cannot go on, at a motion.
+    /// Builds the failure that stops the step at a motion.
     pub fn build_failure(
         &self,
         message: String,
@@ -52,8 +52,7 @@ impl MotionFindings<'_> {
         match why {
             NoPassReason::LeavesPlane(motion) => {
                 let help = "Name the finishing passes by `where`, or compensate `against: { mesh: ... }` or `normals`, which need no planes.";
-                let message =
-                    "the path is not made of passes in vertical planes: here it leaves the plane of its pass";
+                let message = "the path does not consist of passes in vertical planes: here it leaves the plane of its pass";
                 self.build_finding(
                     codes::STEP_FAILED,
                     message.to_owned(),
@@ -65,16 +64,15 @@ impl MotionFindings<'_> {
                 .into()
             }
             NoPassReason::TurnsBack(motion) => {
-                let help = "A pass goes one way. Put a link or a retract between two passes in one plane, or compensate `against: { mesh: ... }`.";
-                let message =
-                    "the path turns back in the plane of its pass: here it goes over what it has been over";
+                let help = "A pass runs in one direction. Put a link or a retract between two passes in one plane, or compensate `against: { mesh: ... }`.";
+                let message = "the path turns back in the plane of its pass: from here it runs over the same profile again";
                 self.build_finding(codes::STEP_FAILED, message.to_owned(), motion, "goes back", context)
                     .with_help(help)
                     .into()
             }
             NoPassReason::AxisTurns(motion) => {
-                let help = "With a turning axis, compensate `against: normals`.";
-                let message = "the tool axis turns within a pass, so the pass has no plane along it";
+                let help = "Compensate a path with a turning axis `against: normals`.";
+                let message = "the tool axis turns within a pass, so no plane holds the pass and the axis";
                 self.build_finding(codes::STEP_FAILED, message.to_owned(), motion, "turns the axis", context)
                     .with_help(help)
                     .into()
@@ -86,18 +84,18 @@ impl MotionFindings<'_> {
         let (motion, message, help) = match why {
             LeadConflict::Rapid(motion) => (
                 motion,
-                "a pass begins where this rapid ends, and the rapid would have to end elsewhere",
-                "Go down to the pass at feed, straight along the tool axis; or mark cuts and leads (PAINT/COLOR), so that a lead is not taken for a cut.",
+                "a pass begins where this rapid ends, and compensation would move that point",
+                "Go down to the pass at feed, straight along the tool axis. Or mark cuts and leads (PAINT/COLOR), so that a lead is not taken for a cut.",
             ),
             LeadConflict::Excluded(motion) => (
                 motion,
-                "a pass goes on from or into this cut, which `where` leaves out, so their common point cannot move",
-                "Select both, or neither.",
+                "this cut continues a pass or leads into one, but `where` leaves it out, so their common point cannot move",
+                "Let `where` select both motions, or neither of them.",
             ),
             LeadConflict::Fixed(motion) => (
                 motion,
-                "a pass begins here, at a place that its operation cannot move (another operation's last point, or FROM)",
-                "Let the operation go to the start of its pass by a motion of its own.",
+                "a pass begins at this point, which its operation cannot move (it is another operation's last point, or a FROM)",
+                "Add a motion to the operation that goes to the start of its pass.",
             ),
         };
         self.build_finding(codes::STEP_FAILED, message.to_owned(), motion, "here", context)
@@ -114,6 +112,19 @@ impl MotionFindings<'_> {
                 "the pass",
                 context,
             ),
+        }
+    }
+
+    /// Words the reason why a motion could not be written. A failure of the editor stays as it is.
+    pub fn describe_write_fault(
+        &self,
+        fault: WriteFault,
+        motion: usize,
+        context: &StepContext<'_>,
+    ) -> Failure {
+        match fault {
+            WriteFault::Unwritable(why) => self.describe_unwritable_motion(why, motion, context),
+            WriteFault::Failed(failure) => failure,
         }
     }
 

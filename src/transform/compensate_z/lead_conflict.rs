@@ -1,12 +1,12 @@
-//! The reasons why what is around a pass cannot go with it.
+//! This module names the reasons why motions around a pass cannot follow it.
 
-/// Why what is around a pass cannot go with it; the motion.
+/// The reason why motions around a pass cannot follow it, with the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum LeadConflict {
     /// The pass begins where a rapid ends.
     Rapid(usize),
-    /// The pass goes on from, or into, a cut that is not meant.
+    /// The pass continues, or leads into, a cut that the step does not mean.
     Excluded(usize),
-    /// The pass begins at a place that is not its operation's to move.
+    /// The pass begins at a point that its operation must not move.
     Fixed(usize),
 }

@@ -1,9 +1,10 @@
-//! Leads, links and rapids around passes: they move with the ends of their passes, and never below them.
+//! This module moves the leads, links and rapids around passes with the ends of their passes, and never below
+//! them.
 
 use super::findings::MotionFindings;
 use super::lead_conflict::LeadConflict;
 use super::pass_writer::PassWriter;
-use super::vertical_passes::{UPRIGHT, is_cutting};
+use super::vertical_passes::{STRAIGHT_DOWN, is_cutting};
 use crate::diagnostic::Failure;
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
@@ -14,27 +15,28 @@ use nalgebra::{Point3, Vector3};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// A pass whose ends have moved; mm.
+/// A pass whose ends have moved, in mm.
 #[derive(Debug, Clone)]
 pub(super) struct MovedPass {
     /// Its motions.
     pub motions: Range<usize>,
-    /// Where it starts now.
+    /// Its new start.
     pub start: Point3<f64>,
-    /// Where it ends now.
+    /// Its new end.
     pub end: Point3<f64>,
 }
 
 /// What is known about the motions around passes.
 pub(super) struct PassSurroundings<'a> {
     pub motions: &'a [Motion],
-    /// Length of the file's unit, mm.
+    /// The length of the file's unit, in mm.
     pub mm_per_unit: f64,
-    /// How much higher (mm, along the axis) everything around passes goes: the ball's radius where tips become centres.
+    /// How much higher everything around passes has to be, in mm along the axis. It is the ball's radius
+    /// where tips become centres.
     pub lift_mm: f64,
     /// Which motions cannot end elsewhere: FROM and GOHOME.
     pub fixed: Vec<bool>,
-    /// Which motions cut, but are not meant.
+    /// Which motions cut, but are not meant by the step.
     pub excluded: Vec<bool>,
 }
 
@@ -51,8 +53,10 @@ impl<'a> PassSurroundings<'a> {
             matches!(record, Record::From(_) | Record::GoHome(_))
         };
         let excluded = |(motion, meant): (&Motion, &bool)| {
-            let way = motion.to.point - motion.from.point;
-            let upright = (way - motion.to.axis * way.dot(&motion.to.axis)).norm() * mm_per_unit <= UPRIGHT;
+            let displacement = motion.to.point - motion.from.point;
+            let upright = (displacement - motion.to.axis * displacement.dot(&motion.to.axis)).norm()
+                * mm_per_unit
+                <= STRAIGHT_DOWN;
             !*meant && is_cutting(motion) && (motion.class_is_told || !upright)
         };
         Self {
@@ -84,13 +88,14 @@ impl<'a> PassSurroundings<'a> {
         self.motions.get(index).map(|motion| motion.operation)
     }
 
-    /// Whether the motion before a pass can bring the tool to its new start, and the one after it take it from its end.
+    /// Checks that the motion before a pass can reach its new start, and that the motion after it can leave
+    /// from its new end.
     fn check_pass_ends(&self, pass: &MovedPass) -> Result<(), LeadConflict> {
         let own = self.operation_index(pass.motions.start);
         let Some(before) = pass.motions.start.checked_sub(1) else {
             return Err(LeadConflict::Fixed(pass.motions.start));
         };
-        // An end that stays where it was needs nobody to move.
+        // An end that does not move asks nothing of its neighbours.
         let same =
             |new: Point3<f64>, old: Option<Point3<f64>>| old.is_some_and(|old| (new - old).norm() <= 1e-6);
         let last = pass.motions.end.checked_sub(1).and_then(|last| self.end_point_mm(last));
@@ -112,25 +117,24 @@ impl<'a> PassSurroundings<'a> {
             .motions
             .get(before)
             .is_some_and(|motion| motion.rapid || matches!(motion.path, MotionPath::Start));
-        let way = pass.start - self.end_point_mm(before).unwrap_or(pass.start);
+        let displacement = pass.start - self.end_point_mm(before).unwrap_or(pass.start);
         let up = self.tool_axis(before);
-        let across = (way - up * way.dot(&up)).norm();
-        if rapid && (way.dot(&up) < -1e-6 || across > 1e-6) {
+        let across = (displacement - up * displacement.dot(&up)).norm();
+        if rapid && (displacement.dot(&up) < -1e-6 || across > 1e-6) {
             return Err(LeadConflict::Rapid(before));
         }
         Ok(())
     }
 }
 
-/// New ends of motions around passes, by the motion's index; mm. `height` is the lowest that the tip may go at a place, where that is
-/// known.
+/// Returns the new ends of motions around passes, in mm, by the motion's index. `height` is the lowest height
+/// of the tip at a point, where that is known.
 ///
-/// Straight above an end of a pass, points stay straight above it. Leads at feed move as one with their end. What lies between two
-/// passes at feed moves with both, in proportion. Everything else of the operation stays where it is, but for its height. No rapid
-/// ends lower than it did.
+/// Points straight above an end of a pass stay straight above it. Leads at feed are displaced like the end of
+/// their pass. A link at feed between two passes is displaced in proportion to both. Everything else of the
+/// operation keeps its place and only changes its height. No rapid ends lower than before.
 ///
-/// # Errors
-/// [`LeadConflict`] where that would move what is not to be moved.
+/// Returns [`LeadConflict`] if a motion would have to move that must not be moved.
 pub(super) fn move_surroundings(
     around: &PassSurroundings<'_>,
     passes: &[MovedPass],
@@ -148,7 +152,7 @@ pub(super) fn move_surroundings(
         move_between_passes(around, (Some(pass), next), pass.motions.end..until, &mut ends);
     }
     for (index, end) in &mut ends {
-        // The start of a pass is what was computed for it.
+        // The start of a pass was computed for it and must not be lifted.
         if passes.iter().any(|pass| pass.motions.start == index + 1) {
             continue;
         }
@@ -158,7 +162,7 @@ pub(super) fn move_surroundings(
             around.end_point_mm(*index).filter(|_| rapid).map(|old| old.coords.dot(&up) + around.lift_mm);
         let least = height(*end).into_iter().chain(old).fold(f64::NEG_INFINITY, f64::max);
         let low = least - end.coords.dot(&up);
-        // Rounding of the path itself is no reason to leave it.
+        // Rounding of the path itself is no reason to lift a point.
         if low > 1e-6 {
             *end += up * low;
         }
@@ -166,7 +170,7 @@ pub(super) fn move_surroundings(
     Ok(ends)
 }
 
-/// The motions between two passes (or before the first, or after the last).
+/// Moves the motions between two passes, before the first pass or after the last one.
 fn move_between_passes(
     around: &PassSurroundings<'_>,
     (left, reached): (Option<&MovedPass>, Option<&MovedPass>),
@@ -216,26 +220,29 @@ fn move_between_passes(
             break;
         }
         let wanted = shift_with_pass(at, (old, ahead.start), around.tool_axis(index), above, around.lift_mm);
-        let share = (index + 1 - range.start) as f64 / range.len() as f64;
+        let fraction = (index + 1 - range.start) as f64 / range.len() as f64;
         let link = !motion.rapid && !above && index + 1 < ahead.motions.start;
         let new = match (ends.get(&index), behind.get(&index)) {
-            // A link at feed goes evenly from one end to the other; what stands straight above the end behind stays there.
-            (Some(other), Some(false)) if link => other + (wanted - other) * share,
+            // A link at feed changes evenly from one displacement to the other. A point straight above the
+            // end of the previous pass stays above that.
+            (Some(other), Some(false)) if link => other + (wanted - other) * fraction,
             (Some(other), Some(true)) if !above => *other,
             _ => wanted,
         };
         ends.insert(index, new);
-        // The motion that leads here decides whether the point before it is part of the lead.
+        // The motion that leads to this point decides whether the previous point is part of the lead.
         lead &= !motion.rapid;
     }
 }
 
 fn is_straight_above(at: Point3<f64>, end: Point3<f64>, up: Vector3<f64>) -> bool {
-    let way = at - end;
-    (way - up * way.dot(&up)).norm() <= UPRIGHT
+    let displacement = at - end;
+    (displacement - up * displacement.dot(&up)).norm() <= STRAIGHT_DOWN
 }
 
-/// A point that goes with the end of a pass: straight above it at its own height (`lift` higher), or as one with it; never below it.
+/// Displaces a point with the end of a pass. A point straight above the end keeps its own height (raised by
+/// `lift`), any other is displaced like the end. The point never gets below the new end if it was not below
+/// the old one.
 fn shift_with_pass(
     at: Point3<f64>,
     (old, new): (Point3<f64>, Point3<f64>),
@@ -243,17 +250,18 @@ fn shift_with_pass(
     above: bool,
     lift: f64,
 ) -> Point3<f64> {
-    if (at - old).norm() <= UPRIGHT {
+    if (at - old).norm() <= STRAIGHT_DOWN {
         return new;
     }
-    let way = new - old;
-    let wanted = if above { at + (way - up * way.dot(&up)) + up * lift } else { at + way };
+    let displacement = new - old;
+    let wanted =
+        if above { at + (displacement - up * displacement.dot(&up)) + up * lift } else { at + displacement };
     let lower = (new - wanted).dot(&up);
-    // What was above the end stays above it.
-    if (at - old).dot(&up) >= -UPRIGHT && lower > 0.0 { wanted + up * lower } else { wanted }
+    // A point that was above the end stays above it.
+    if (at - old).dot(&up) >= -STRAIGHT_DOWN && lower > 0.0 { wanted + up * lower } else { wanted }
 }
 
-/// Writes the ends around passes.
+/// Writes the new ends of the motions around passes.
 #[allow(clippy::too_many_arguments)] // one call, and a struct would only rename them
 pub(super) fn write_leads(
     writer: &PassWriter<'_>,
@@ -285,9 +293,10 @@ pub(super) fn write_leads(
     for index in touched {
         let old = motions.get(index).map_or_else(Point3::origin, |motion| motion.to.point * mm_per_unit);
         let end = ends.get(&index).copied().unwrap_or(old);
-        let written = writer.move_end(editor, index, end, start_of(index))?;
         let place = MotionFindings { program: original, motions };
-        written.map_err(|why| place.describe_unwritable_motion(why, index, context))?;
+        writer
+            .move_end(editor, index, end, start_of(index))
+            .map_err(|fault| place.describe_write_fault(fault, index, context))?;
     }
     Ok(())
 }

@@ -2,13 +2,13 @@
 //! (Dragoi 2009).
 //!
 //! [`vertical_passes`](self) finds the passes in the motions. A pass becomes a profile, and the tip follows
-//! the envelope of the ball over it (`pass_profile`); or the cutter is lowered onto a model along the pass;
-//! or every point moves by its own normal (`contact_normals`). `leads` moves what lies around passes,
-//! `pass_writer` writes it all, and the step measures what was written by other means.
+//! the envelope of the ball over it (`pass_profile`). Or the cutter is lowered onto a model along the pass.
+//! Or every point is displaced along its own normal (`contact_normals`). `leads` moves the motions around
+//! passes, `pass_writer` writes everything, and the step measures what was written by another method.
 //!
-//! Around a pass nothing is guessed. Leads at feed move with their end, what stands straight above it stays
-//! above it, and no rapid ends lower than it did. Other operations, and cuts that `where` leaves out, stay.
-//! Where that cannot be, the step refuses and says where.
+//! Nothing is guessed around a pass. Leads at feed are displaced like their end, points straight above an end
+//! stay above it, and no rapid ends lower than before. Other operations and cuts that `where` leaves out
+//! stay. Where that is impossible, the step stops and reports the place.
 
 mod arc_template;
 mod by_mesh;

@@ -1,6 +1,6 @@
-//! Ends of motions around passes, in the CL text.
+//! This module writes new ends of motions around passes into the CL text.
 
-use super::pass_writer::{PassWriter, UnwritableMotion, delete_announcements, is_motion_record};
+use super::pass_writer::{PassWriter, UnwritableMotion, WriteFault, delete_announcements, is_motion_record};
 use crate::diagnostic::Failure;
 use crate::parse;
 use crate::program::geometry::MotionPath;
@@ -11,20 +11,20 @@ use crate::write::ProgramEditor;
 use nalgebra::{Point3, Vector3};
 
 impl PassWriter<'_> {
-    /// Gives a motion that stays another end; an arc whose ends no longer move alike becomes straight.
+    /// Gives a motion another end. An arc whose two ends are not displaced alike becomes straight.
     ///
     /// # Errors
-    /// When a statement does not read back, and for records that cannot be moved.
+    /// Returns an error if a statement does not read back, and for records that cannot be moved.
     pub fn move_end(
         &self,
         editor: &mut ProgramEditor,
         index: usize,
         end: Point3<f64>,
         start: Point3<f64>,
-    ) -> Result<Result<(), UnwritableMotion>, Failure> {
+    ) -> Result<(), WriteFault> {
         let Some(motion) = self.motions.get(index) else {
-            debug_assert!(false, "motion {index} of {} gets another end", self.motions.len());
-            return Ok(Err(UnwritableMotion::NoGoto));
+            debug_assert!(false, "motion {index} of {} does not exist", self.motions.len());
+            return Err(UnwritableMotion::NoGoto.into());
         };
         let (by, from) =
             (end - motion.to.point * self.mm_per_unit, start - motion.from.point * self.mm_per_unit);
@@ -32,38 +32,36 @@ impl PassWriter<'_> {
         let moves = |by: Vector3<f64>| by.amax() > 1e-9;
         let record = editor.program().statement(last).record();
         if moves(from) && matches!(record, Record::GoDelta(_)) {
-            // A step from a place that has moved would end elsewhere.
-            return Ok(Err(UnwritableMotion::NoGoto));
+            // GODLTA states a displacement, so it would end elsewhere when its start has moved.
+            return Err(UnwritableMotion::NoGoto.into());
         }
         match &motion.path {
             MotionPath::Line | MotionPath::Start if moves(by) => {
                 editor.set_numbers(last, &self.point_numbers(end))?;
             }
             MotionPath::Arc(_) if moves(by) || moves(from) => {
-                if let Err(why) = self.check_writable(editor.program(), index) {
-                    return Ok(Err(why));
-                }
+                self.check_writable(editor.program(), index)?;
                 if (by - from).amax() <= 1e-6 {
                     self.shift_points(editor, motion, by)?;
                 } else if matches!(editor.program().statement(last).record(), Record::Goto(_)) {
                     delete_announcements(editor, motion)?;
                     editor.set_numbers(last, &self.point_numbers(end))?;
                 } else {
-                    return Ok(Err(UnwritableMotion::Arc));
+                    return Err(UnwritableMotion::Arc.into());
                 }
             }
             MotionPath::Spline(_) if moves(by) || moves(from) => {
                 if (by - from).amax() > 1e-6 {
-                    return Ok(Err(UnwritableMotion::Arc));
+                    return Err(UnwritableMotion::Arc.into());
                 }
                 self.shift_points(editor, motion, by)?;
             }
             _ => {}
         }
-        Ok(Ok(()))
+        Ok(())
     }
 
-    /// Moves all points of a motion's statements.
+    /// Displaces all points of a motion's statements.
     fn shift_points(
         &self,
         editor: &mut ProgramEditor,

@@ -1,46 +1,52 @@
-//! The parameters of `compensate_z`.
+//! This module holds the parameters of `compensate_z`.
 
 use crate::parameters::{FilePath, Positive};
 use crate::recipe::MotionFilter;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// Puts the tip of a ball-nose cutter where the ball touches the part, for a path that was programmed on the part itself.
+/// Puts the tip of a ball-nose cutter where the ball touches the part, for a path that was programmed on the
+/// part itself.
 ///
-/// The points of such a path are contact points; driven as they are, the ball cuts too deep on every slope. `against: profile` takes each
-/// pass in a vertical plane (between its leads, links and rapids) as the part's profile and writes the envelope of the ball over
-/// it: no gouge in hollow corners, arcs about sharp ones, as few chords as the tolerance allows, arcs where the file has one to
-/// write them like. `against: normals` moves each point by its own contact normal (nine-value GOTO), in three to five axes.
-/// `against: { mesh: part.stl }` lowers the cutter onto a model along the pass seen from above, so that heights are right in
-/// space; there it may be a bull-nose or flat cutter, too.
+/// The points of such a path are contact points. If the tip is driven to them, the ball cuts too deep on
+/// every slope. `against: profile` takes each pass in a vertical plane (between its leads, links and rapids)
+/// as the profile of the part and writes the envelope of the ball over it. That gives no gouge in concave
+/// corners, arcs around sharp ones, as few chords as the tolerance allows, and arcs where the file has an arc
+/// to model them on. `against: normals` moves each point along its own contact normal (GOTO with nine
+/// values), in three to five axes. `against: { mesh: part.stl }` lowers the cutter onto a model along the
+/// pass as seen from above, so that the heights are right in space. There, the cutter may also be a bull-nose
+/// or a flat one.
 ///
-/// With `input: tip` (or `centre`) the path was made for a ball of `was_radius`: its contact is recovered and compensated anew, for a
-/// reground cutter. Leads, links and rapids move with the ends of their passes. The result is measured by other means than it
-/// was made, and the step fails when gouge or gap pass the tolerance.
+/// With `input: tip` (or `centre`), the path was made for a ball of `was_radius`. Its contact points are
+/// recovered and compensated anew, for example for a reground cutter. Leads, links and rapids move with the
+/// ends of their passes. The result is measured by another method than the one that made it, and the step
+/// fails if gouge or gap exceed the tolerance.
 ///
-/// Not idempotent with `input: contact`: a second run would take tips for contacts.
+/// The step is not idempotent with `input: contact`: a second run would take tips for contact points.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CompensateZ {
-    /// Radius of the ball, in the recipe's unit; else that of the tool in the setup or in the CL file.
+    /// The radius of the ball, in the recipe's unit. Without it, the radius of the tool in the setup or in
+    /// the CL file counts.
     pub radius: Option<Positive>,
-    /// What the points of the path are.
+    /// What the points of the path are: contact points, tips or centres.
     #[serde(default)]
     pub input: InputPointKind,
-    /// What they shall be.
+    /// What the points of the path become: tips or centres.
     #[serde(default)]
     pub output: OutputPointKind,
-    /// Radius of the ball that the path was made for, where `input` is `tip` or `centre`; in the recipe's unit.
+    /// The radius of the ball that the path was made for, in the recipe's unit. It is needed with `input:
+    /// tip` or `input: centre`.
     pub was_radius: Option<Positive>,
-    /// Allowed gouge and gap, in the recipe's unit; 0.005 mm when left out.
+    /// The allowed gouge and gap, in the recipe's unit; 0.005 mm when it is left out.
     pub tolerance: Option<Positive>,
-    /// What the cutter is compensated against.
+    /// What the cutter is compensated against: the profile of the pass, contact normals or a model.
     #[serde(default)]
     pub against: CompensationReference,
-    /// Whether arcs are written as arcs where the file has a record for them.
+    /// Whether arcs are written as arcs where the file has a record for them, or as chords.
     #[serde(default)]
     pub arcs: ArcOutput,
-    /// Which motions; all cuts when it is left out.
+    /// Which motions are meant; all cuts when it is left out.
     #[serde(default)]
     pub r#where: MotionFilter,
 }
@@ -49,23 +55,23 @@ pub struct CompensateZ {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum InputPointKind {
-    /// Points of the part, where the cutter shall touch it.
+    /// The points lie on the part, where the cutter has to touch it.
     #[default]
     Contact,
-    /// The tip (south pole) of the ball `was_radius`.
+    /// The points are the tip (south pole) of the ball of `was_radius`.
     Tip,
-    /// The centre of the ball `was_radius`.
+    /// The points are the centre of the ball of `was_radius`.
     Centre,
 }
 
-/// What points become.
+/// What the points of the path become.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum OutputPointKind {
-    /// The tip (south pole) of the cutter.
+    /// They become the tip (south pole) of the cutter.
     #[default]
     Tip,
-    /// The centre of the ball.
+    /// They become the centre of the ball.
     Centre,
 }
 
@@ -73,20 +79,22 @@ pub enum OutputPointKind {
 #[derive(Debug, Clone, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CompensationReference {
-    /// The pass itself, as the part's profile in its vertical plane.
+    /// The pass itself is the profile of the part in its vertical plane.
     #[default]
     Profile,
-    /// The contact normals of the points.
+    /// Each point has its own contact normal.
     Normals,
-    /// An STL file, relative to the recipe, in the coordinates and unit of the CL file.
+    /// An STL file is the model, in the coordinates and the unit of the CL file. Its path is relative to the
+    /// recipe.
     Mesh(FilePath),
 }
 
-/// Whether arcs are written as arcs.
+/// How arcs are written.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ArcOutput {
-    /// Where the file has an arc that tells its sense to write them like: a CIRCLE (NX, SolidWorks, Makino), or INDIRV and TLON (CATIA).
+    /// As arcs, if the file has an arc of known sense on which they can be modelled: a CIRCLE (NX,
+    /// SolidWorks, Makino), or INDIRV and TLON (CATIA). Otherwise they become chords.
     #[default]
     Keep,
     /// As chords.

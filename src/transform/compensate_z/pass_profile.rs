@@ -1,4 +1,4 @@
-//! A pass as a profile, and the path of the ball over it.
+//! This module turns a pass into a profile and computes the path of the ball over it.
 
 use super::vertical_passes::{NoPassReason, VerticalPass};
 use crate::program::geometry::MotionPath;
@@ -10,27 +10,27 @@ use crate::surface::profile::{
 };
 use std::fmt;
 
-/// Curves become chords within this share of the tolerance; the path made of them has the rest.
+/// Curves become chords within this fraction of the tolerance. The path that is made of them has the rest.
 const CURVES: f64 = 0.1;
 
-/// Chords keep to this share of the tolerance; printing and curves have the rest.
+/// Chords stay within this fraction of the tolerance. Printing and curves have the rest.
 const CHORDS: f64 = 0.8;
 
-/// Steep lines that lean by no more than this (mm) are upright.
+/// Steep lines that lean by no more than this (mm) are vertical.
 const PRINTED_WALL: f64 = 2e-3;
 
-/// What a pass is compensated by, mm.
+/// The data by which a pass is compensated, in mm.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CompensatingBall {
-    /// Its radius.
+    /// The radius of the ball.
     pub radius: f64,
-    /// Radius of the ball whose tip the path is; `None` for a path of contact points.
+    /// The radius of the ball whose tip the path is. It is `None` for a path of contact points.
     pub was: Option<f64>,
-    /// Whether the points of the path are that ball's centres.
+    /// Whether the points of the path are the centres of that ball.
     pub was_centre: bool,
-    /// Whether the result is the path of its centre.
+    /// Whether the result is the path of the ball's centre.
     pub centre: bool,
-    /// Allowed gouge and gap.
+    /// The allowed gouge and gap.
     pub tolerance: f64,
     /// Whether arcs stay arcs.
     pub arcs: bool,
@@ -39,17 +39,17 @@ pub(super) struct CompensatingBall {
 /// A compensated pass.
 #[derive(Debug, Clone)]
 pub(super) struct CompensatedPass {
-    /// The part as the ball shall touch it.
+    /// The profile of the part where the ball has to touch it.
     pub contact: Chain,
-    /// Tip of the exact path, before chords were made of it.
+    /// The exact path of the tip, before it was approximated by chords.
     pub exact: Chain,
     /// The path as it is to be written.
     pub path: Chain,
-    /// What the ball cannot touch.
+    /// The parts of the profile that the ball cannot touch.
     pub unreachable: Vec<UnreachablePart>,
 }
 
-/// Why a pass cannot be compensated.
+/// The reason why a pass cannot be compensated.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum PassFault {
     Pass(NoPassReason),
@@ -65,10 +65,11 @@ impl fmt::Display for PassFault {
     }
 }
 
-/// The motions of a pass as a chain of its plane, and for each piece the motion that it comes from.
+/// Builds the chain of a pass in its plane. Returns the chain, and for each of its pieces the motion that it
+/// comes from.
 ///
 /// # Errors
-/// [`PassFault`] at an arc that is no arc of the plane, and at a spline that cannot be read.
+/// Returns [`PassFault`] at an arc that is no arc of the plane, and at a spline that cannot be read.
 pub(super) fn build_chain(
     motions: &[Motion],
     pass: &VerticalPass,
@@ -81,12 +82,14 @@ pub(super) fn build_chain(
     for index in pass.motions.clone() {
         let Some(motion) = motions.get(index) else { continue };
         let flat = |point: nalgebra::Point3<f64>| pass.plane.to_plane(point * mm_per_unit);
-        // Each piece begins exactly where the one before ends: printing puts them up to a last digit apart.
+        // Each piece begins exactly where the previous one ends. Printed ends may be up to a last digit
+        // apart.
         let from = reached.unwrap_or_else(|| flat(motion.from.point));
         let mut to = flat(motion.to.point);
         match &motion.path {
             MotionPath::Line | MotionPath::Start => {
-                // A wall that leans by printed digits alone is a wall; the other side of it is another pass.
+                // A wall that leans by printed digits only is vertical. A wall that leans backwards would
+                // belong to another pass.
                 if (to.u - from.u).abs() <= PRINTED_WALL && (to.z - from.z).abs() > 10.0 * PRINTED_WALL {
                     to.u = from.u;
                 }
@@ -119,7 +122,8 @@ pub(super) fn build_chain(
     Ok((chain, owners))
 }
 
-/// The arc of the nearest centre that goes exactly from one point to another; itself where they are one.
+/// Fits an arc to exact ends: its centre is moved onto their perpendicular bisector by the shortest distance.
+/// If the ends coincide, the arc is returned unchanged.
 fn fit_arc_to_ends(arc: &ArcPiece, from: Point, to: Point) -> ArcPiece {
     let (du, dz) = (to.u - from.u, to.z - from.z);
     let chord = du.hypot(dz);
@@ -137,7 +141,8 @@ fn fit_arc_to_ends(arc: &ArcPiece, from: Point, to: Point) -> ArcPiece {
     ArcPiece { centre, radius_mm: from.distance(centre), start_rad: start, sweep_rad: sweep }
 }
 
-/// An arc of space as one of the plane; `None` when its axis is not the plane's normal, or it climbs along it.
+/// Projects an arc of space into the plane. Returns `None` if its axis is not the plane's normal, or if it
+/// climbs along its axis.
 fn project_arc(
     arc: &crate::program::geometry::CircularArc,
     plane: &ProfilePlane,
@@ -148,7 +153,8 @@ fn project_arc(
     let (spoke, tangent) = ((start.u - centre.u, start.z - centre.z), (ahead.u - start.u, ahead.z - start.z));
     let turn = spoke.0 * tangent.1 - spoke.1 * tangent.0;
     let radius = start.distance(centre);
-    // In its own plane the tangent is square to the spoke and as long.
+    // In its own plane, the tangent is perpendicular to the spoke and as long. So |spoke x tangent| = R^2,
+    // and it is smaller by the cosine of the tilt when the arc lies in another plane.
     let lies = (turn.abs() - radius * radius).abs() <= 1e-4 * radius * radius;
     (lies && arc.rise.abs() * mm_per_unit <= 1e-3).then(|| ArcPiece {
         centre,
@@ -160,8 +166,7 @@ fn project_arc(
 
 /// Compensates a pass.
 ///
-/// # Errors
-/// [`PassFault`].
+/// Returns [`PassFault`] if the profile cannot be recovered, compensated or approximated.
 pub(super) fn compensate_pass(path: &Chain, ball: &CompensatingBall) -> Result<CompensatedPass, PassFault> {
     let geometry = |why: String| PassFault::Geometry(why);
     let contact = match ball.was {
@@ -179,18 +184,20 @@ pub(super) fn compensate_pass(path: &Chain, ball: &CompensatingBall) -> Result<C
     Ok(CompensatedPass { contact, exact, path, unreachable })
 }
 
-/// The tip's chain of a path that was written for a ball's tip or centre.
+/// Returns the chain of the tip for a path that was written for the ball's tip or centre.
 pub(super) fn tip_chain(path: &Chain, ball: &CompensatingBall) -> Chain {
     if ball.centre { path.centre_to_tip(ball.radius) } else { path.clone() }
 }
 
-/// Looks at a written path by other means, at places a fifth of the tolerance's chord apart.
+/// Measures a written path by another method than the one that made it. The points are half a chord apart: a
+/// chord with the tolerance as its sagitta has the length sqrt(8 R t).
 pub(super) fn measure_tip_chain(contact: &Chain, tip: &Chain, ball: &CompensatingBall) -> ProfileDeviation {
     let step = (2.0 * ball.radius * ball.tolerance).sqrt() / 4.0;
     check_tip_path(contact, tip, ball.radius, step)
 }
 
-/// The slope angle's sine of a profile beside a point, for what a ball's tip moves by there.
+/// Returns the sine of the profile's slope angle at a point, as the mean of both sides. A ball's tip is
+/// displaced along the pass by R times this sine.
 pub(super) fn slope_sine(from: Point, at: Point, to: Point) -> f64 {
     let angle = |a: Point, b: Point| {
         let (du, dz) = (b.u - a.u, b.z - a.z);

@@ -1,4 +1,4 @@
-//! Compensated passes, and what lies around them, in the CL text.
+//! This module writes compensated passes, and the motions around them, into the CL text.
 
 use super::arc_template::{ArcTemplate, find_arc_template};
 use super::pass_profile::slope_sine;
@@ -16,20 +16,41 @@ use nalgebra::Point3;
 use std::f64::consts::PI;
 use std::ops::Range;
 
-/// Why the statements of a path cannot be given other points.
+/// The reason why the statements of a motion cannot be given other points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub(super) enum UnwritableMotion {
-    #[error("its point shares a statement with others, or is told by a record that says more than a point")]
+    #[error("its point shares a statement with others, or stands in a record that states more than a point")]
     NoGoto,
-    #[error("its arc or spline is told by records that cannot be moved")]
+    #[error("its arc or spline stands in records that cannot be moved")]
     Arc,
 }
 
-/// Writes points for one program.
+/// The reason why a motion or a pass was not written.
+#[derive(Debug)]
+pub(super) enum WriteFault {
+    /// Its statements cannot be given other points.
+    Unwritable(UnwritableMotion),
+    /// An edit failed, for example because a statement does not read back.
+    Failed(Failure),
+}
+
+impl From<UnwritableMotion> for WriteFault {
+    fn from(why: UnwritableMotion) -> Self {
+        Self::Unwritable(why)
+    }
+}
+
+impl From<Failure> for WriteFault {
+    fn from(failure: Failure) -> Self {
+        Self::Failed(failure)
+    }
+}
+
+/// Writes points into one program.
 pub(super) struct PassWriter<'a> {
     pub(super) motions: &'a [Motion],
     pub(super) mm_per_unit: f64,
-    /// Decimals of the file's coordinates, four at least.
+    /// The decimals of the file's coordinates, at least four.
     decimals: usize,
     arc: Option<ArcTemplate>,
 }
@@ -40,15 +61,15 @@ impl<'a> PassWriter<'a> {
         Self { motions, mm_per_unit, decimals, arc: find_arc_template(program) }
     }
 
-    /// Whether arcs can be said.
+    /// Returns whether the file has records that state arcs.
     pub fn has_arcs(&self) -> bool {
         self.arc.is_some()
     }
 
-    /// Whether a motion's statements can be given other points.
+    /// Checks that a motion's statements can be given other points.
     ///
     /// # Errors
-    /// [`UnwritableMotion`].
+    /// Returns [`UnwritableMotion`] if they cannot.
     pub fn check_writable(&self, program: &Program, index: usize) -> Result<(), UnwritableMotion> {
         let motion = self.motions.get(index).ok_or(UnwritableMotion::NoGoto)?;
         let last = motion.last_statement();
@@ -78,20 +99,20 @@ impl<'a> PassWriter<'a> {
         )
     }
 
-    /// Writes a compensated pass over the statements of the old one. What stands between them stays, and comes after the new points
-    /// whose contacts came before it.
+    /// Writes a compensated pass over the statements of the old one. Statements between its motions stay.
+    /// They come after the new points whose contacts came before them.
     ///
     /// # Errors
-    /// When a statement does not read back; `Ok(Err)` when there is no GOTO to model new ones on.
+    /// Returns [`WriteFault`] if a statement does not read back, or if there is no GOTO to model new ones on.
     pub fn write_pass(
         &self,
         editor: &mut ProgramEditor,
         pass: &VerticalPass,
         path: &Chain,
         (radius, contact): (f64, bool),
-    ) -> Result<Result<(), UnwritableMotion>, Failure> {
+    ) -> Result<(), WriteFault> {
         let Some(goto) = self.find_goto(editor.program(), &pass.motions) else {
-            return Ok(Err(UnwritableMotion::NoGoto));
+            return Err(UnwritableMotion::NoGoto.into());
         };
         let breaks = self.find_motion_breaks(pass, path, if contact { radius } else { 0.0 });
         let forward = if path.end().u >= path.start().u { 1.0 } else { -1.0 };
@@ -110,21 +131,22 @@ impl<'a> PassWriter<'a> {
             }
             self.replace_motion(editor, motion, &own, &pass.plane, goto)?;
         }
-        Ok(Ok(()))
+        Ok(())
     }
 
-    /// Writes a pass as straight moves to points, a list for each of its motions; with an empty one the motion goes.
+    /// Writes a pass as straight moves to points, with a list for each of its motions. A motion with an empty
+    /// list is deleted.
     ///
     /// # Errors
-    /// As [`PassWriter::write_pass`].
+    /// Returns the errors of [`PassWriter::write_pass`].
     pub fn write_points(
         &self,
         editor: &mut ProgramEditor,
         motions: Range<usize>,
         points: Vec<Vec<Point3<f64>>>,
-    ) -> Result<Result<(), UnwritableMotion>, Failure> {
+    ) -> Result<(), WriteFault> {
         let Some(goto) = self.find_goto(editor.program(), &motions) else {
-            return Ok(Err(UnwritableMotion::NoGoto));
+            return Err(UnwritableMotion::NoGoto.into());
         };
         for (index, own) in motions.zip(points) {
             let Some(motion) = self.motions.get(index) else { continue };
@@ -139,10 +161,10 @@ impl<'a> PassWriter<'a> {
             }
             self.keep_end(editor, motion, kept.copied())?;
         }
-        Ok(Ok(()))
+        Ok(())
     }
 
-    /// Gives a motion's last statement another end, or takes the motion out.
+    /// Gives a motion's last statement another end, or deletes the motion.
     fn keep_end(
         &self,
         editor: &mut ProgramEditor,
@@ -158,7 +180,8 @@ impl<'a> PassWriter<'a> {
         }
     }
 
-    /// A GOTO of one point that new ones are modelled on: of the pass, else the nearest before or after it in its operation.
+    /// Finds a GOTO of one point on which new ones are modelled: one of the pass, else the nearest one before
+    /// or after it.
     fn find_goto(&self, program: &Program, pass: &Range<usize>) -> Option<StatementId> {
         let is_goto = |index: &usize| {
             self.motions.get(*index).is_some_and(|motion| {
@@ -173,7 +196,8 @@ impl<'a> PassWriter<'a> {
         self.motions.get(index).map(Motion::last_statement)
     }
 
-    /// How far along the pass the tip has come (in the path's direction) when the contact reaches the end of each motion.
+    /// Returns for each motion how far the tip has come along the pass, in the path's direction, when the
+    /// contact reaches the end of the motion. The tip lags behind the contact by R sin(slope).
     fn find_motion_breaks(&self, pass: &VerticalPass, path: &Chain, radius: f64) -> Vec<f64> {
         let forward = if path.end().u >= path.start().u { 1.0 } else { -1.0 };
         let flat = |point: Point3<f64>| pass.plane.to_plane(point * self.mm_per_unit);
@@ -190,7 +214,7 @@ impl<'a> PassWriter<'a> {
         breaks
     }
 
-    /// Puts pieces in the place of a motion.
+    /// Replaces a motion by pieces of the new path.
     fn replace_motion(
         &self,
         editor: &mut ProgramEditor,
@@ -228,27 +252,27 @@ impl<'a> PassWriter<'a> {
     }
 }
 
-/// Whether a motion is a line that one GOTO says.
+/// Returns whether a motion is a line that a single GOTO states.
 fn is_line(program: &Program, motion: &Motion) -> bool {
     let record = program.statement(motion.last_statement()).record();
     matches!(motion.path, MotionPath::Line) && matches!(record, Record::Goto(_))
 }
 
-/// The pieces, arcs of more than half a turn in two.
+/// Returns the pieces of a path, with every arc of more than half a turn split in two.
 pub(super) fn split_long_arcs(path: &Chain) -> Vec<ChainPiece> {
-    let halve = |piece: &ChainPiece| match piece {
+    let split = |piece: &ChainPiece| match piece {
         ChainPiece::Arc(arc) if arc.sweep_rad.abs() > PI => {
             vec![piece.sub_piece(0.0, 0.5), piece.sub_piece(0.5, 1.0)]
         }
         _ => vec![*piece],
     };
-    path.pieces().iter().flat_map(halve).collect()
+    path.pieces().iter().flat_map(split).collect()
 }
 
-/// Takes out what announces an arc or spline.
+/// Deletes the records that announce an arc or a spline.
 ///
 /// # Errors
-/// As [`ProgramEditor::delete_statement`].
+/// Returns the errors of [`ProgramEditor::delete_statement`].
 pub(super) fn delete_announcements(editor: &mut ProgramEditor, motion: &Motion) -> Result<(), Failure> {
     for id in motion.statements.ids().rev().skip(1) {
         let found = editor.program().statement(id);

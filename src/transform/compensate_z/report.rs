@@ -1,30 +1,30 @@
-//! What `compensate_z` did, in numbers.
+//! This module holds the figures of what `compensate_z` did.
 
 use crate::program::motion::Motion;
 use crate::program::{Program, operation};
 use serde::Serialize;
 use std::ops::Range;
 
-/// What the step did.
+/// The figures of one run of the step.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct CompensateZReport {
     /// What the cutter was compensated against: `profile`, `normals` or `mesh`.
     pub against: &'static str,
-    /// Radius of the ball, mm; of another cutter half its diameter.
+    /// The radius of the ball, in mm. For another cutter it is half of the diameter.
     pub radius_mm: f64,
-    /// Corner radius of the cutter, mm: the same for a ball.
+    /// The corner radius of the cutter, in mm. For a ball it equals the radius.
     pub corner_radius_mm: f64,
-    /// Allowed gouge and gap, mm.
+    /// The allowed gouge and gap, in mm.
     pub tolerance_mm: f64,
     /// The passes, in the order of the program.
     pub passes: Vec<PassReport>,
-    /// Passes that were left as they are, for they lie beside the model.
+    /// The number of passes that were left unchanged, because they lie beside the model.
     pub beside: usize,
 }
 
 impl CompensateZReport {
-    /// A report without passes yet.
+    /// Makes a report without passes.
     pub(super) fn new(
         against: &'static str,
         (radius_mm, corner_radius_mm): (f64, f64),
@@ -34,36 +34,36 @@ impl CompensateZReport {
     }
 }
 
-/// One pass; with normals, one operation.
+/// The figures of one pass, or of one operation when compensating by normals.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PassReport {
-    /// Name of its operation; may be empty.
+    /// The name of its operation, which may be empty.
     pub operation: String,
-    /// Line of its first statement.
+    /// The line of its first statement.
     pub line: u64,
-    /// Motions before.
+    /// The number of motions before the step.
     pub motions_before: usize,
-    /// Motions after.
+    /// The number of motions after the step.
     pub motions_after: usize,
-    /// Deepest gouge, measured in what was written, mm.
+    /// The deepest gouge in mm, measured in what was written.
     pub gouge_mm: f64,
-    /// Largest gap, mm; `None` where it is not measured (normals).
+    /// The largest gap in mm. It is `None` where it is not measured (normals).
     pub gap_mm: Option<f64>,
-    /// What the ball cannot reach: the most that is left, mm.
+    /// The largest thickness of material that the ball leaves because it cannot reach it, in mm.
     pub left_mm: f64,
-    /// The part's profile in the plane of the pass.
+    /// The profile of the part in the plane of the pass.
     #[serde(skip)]
     pub profile: Vec<(f64, f64)>,
     /// The path as it was written, in the plane of the pass.
     #[serde(skip)]
     pub path: Vec<(f64, f64)>,
-    /// What moving each point by its own normal would have made of it.
+    /// The path that moving each point along its own normal would give.
     #[serde(skip)]
     pub naive: Vec<(f64, f64)>,
 }
 
-/// Names the operations of a program for the reports of its passes.
+/// Names the operations of a program in the reports of its passes.
 pub(super) struct PassReporter<'a> {
     program: &'a Program,
     motions: &'a [Motion],
@@ -77,7 +77,7 @@ impl<'a> PassReporter<'a> {
         Self { program, motions, operations }
     }
 
-    /// The report of a pass before anything was measured.
+    /// Makes the report of a pass, before anything is measured.
     pub fn start_report(&self, motions: &Range<usize>, after: usize) -> PassReport {
         let first = self.motions.get(motions.start);
         debug_assert!(first.is_some(), "a pass has motions");

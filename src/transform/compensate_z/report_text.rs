@@ -1,4 +1,4 @@
-//! What `compensate_z` did, as a table and as drawings.
+//! This module shows what `compensate_z` did, as a table and as drawings.
 
 use super::report::{CompensateZReport, PassReport};
 use crate::presentation::path_panel::{PanelPath, PanelPathStyle, PathPanel};
@@ -7,11 +7,11 @@ use crate::presentation::text_format::{format_fixed, format_short, format_table}
 use crate::transform::step_report::{TransformReport, to_json_value};
 use std::fmt::Write;
 
-/// Passes told one by one at most.
-const TOLD: usize = 12;
+/// The largest number of passes that have a row of their own.
+const MOST_ROWS: usize = 12;
 
-/// Passes drawn at most.
-const DRAWN: usize = 4;
+/// The largest number of passes that are drawn.
+const MOST_DRAWN: usize = 4;
 
 impl TransformReport for CompensateZReport {
     fn step_name(&self) -> &'static str {
@@ -26,11 +26,11 @@ impl TransformReport for CompensateZReport {
         to_json_value(self)
     }
 
-    /// The first passes as the paper draws them: the profile, the path that moving point by point would give, and
-    /// the compensated path.
+    /// Draws the first passes as the paper does: the profile, the path that moving it point by point would
+    /// give, and the compensated path.
     fn build_panels(&self) -> Vec<PathPanel> {
         let drawn = self.passes.iter().filter(|pass| !pass.path.is_empty());
-        drawn.take(DRAWN).map(build_pass_panel).collect()
+        drawn.take(MOST_DRAWN).map(build_pass_panel).collect()
     }
 }
 
@@ -50,13 +50,13 @@ fn describe_passes(report: &CompensateZReport) -> String {
             .map(str::to_owned)
             .to_vec(),
     ];
-    rows.extend(report.passes.iter().take(TOLD).map(pass_cells));
+    rows.extend(report.passes.iter().take(MOST_ROWS).map(pass_cells));
     if report.passes.len() > 1 {
         rows.push(pass_cells(&summarize_passes(report)));
     }
     out.push_str(&format_table(&rows));
-    if report.passes.len() > TOLD {
-        let _ = writeln!(out, "  {} passes, {TOLD} of them shown", report.passes.len());
+    if report.passes.len() > MOST_ROWS {
+        let _ = writeln!(out, "  {} passes, {MOST_ROWS} of them shown", report.passes.len());
     }
     if report.beside > 0 {
         let _ = writeln!(out, "  {} passes lie beside the model and were left as they are", report.beside);

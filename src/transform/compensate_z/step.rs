@@ -1,4 +1,4 @@
-//! The step: find passes, compensate, write, measure what was written.
+//! This module runs the step: it finds passes, compensates them, writes them and measures what was written.
 
 use super::compensation_job::CompensateZJob;
 use super::parameters::{CompensateZ, CompensationReference};

@@ -1,10 +1,11 @@
-//! How low the tool may go around passes, as far as their profiles tell.
+//! This module tells how low the tool may go around passes, as far as their profiles show it.
 
 use crate::surface::profile::{Chain, ChainPiece, Point, ProfilePlane};
 use nalgebra::Point3;
 
-/// The lowest that the tip may go at a place that lies in the plane of a pass, given as the planes and their exact paths of the tip; `lift`
-/// (mm) higher for the centre. Counted along the tool axis; `None` where no pass is.
+/// Returns the lowest height of the tip along the tool axis at a point that lies in the plane of a pass.
+/// Passes are given as their planes and the exact paths of the tip. `lift` (mm) is added for the centre of
+/// the ball. Returns `None` if no pass lies there.
 pub(super) fn lowest_tip_height_mm<'a>(
     passes: impl Iterator<Item = (&'a ProfilePlane, &'a Chain)>,
     lift: f64,
@@ -26,7 +27,8 @@ pub(super) fn lowest_tip_height_mm<'a>(
     passes.filter_map(one).reduce(f64::max)
 }
 
-/// The highest point of a piece at `u`; arcs by their chords of a hundredth, which is for clearance alone.
+/// Returns the highest point of a piece at `u`. Arcs are approximated by a hundred chords, which is enough
+/// for clearance.
 fn highest_z_at(piece: &ChainPiece, u: f64) -> Option<f64> {
     let count = if matches!(piece, ChainPiece::Arc(_)) { 100 } else { 1 };
     let point = |part: usize| piece.point_at(part as f64 / count as f64);

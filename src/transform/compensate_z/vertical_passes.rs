@@ -1,4 +1,4 @@
-//! Passes in vertical planes: which motions they are, and what lies between them.
+//! This module finds passes in vertical planes: which motions form them, and what lies between them.
 
 use crate::program::MotionClass;
 use crate::program::geometry::MotionPath;
@@ -7,39 +7,39 @@ use crate::surface::profile::ProfilePlane;
 use nalgebra::{Point3, Vector3};
 use std::ops::Range;
 
-/// Points this near to a plane (mm) lie in it: a few of the last digits that files print.
+/// Points that are this near to a plane (mm) lie in it. That is a few of the last digits that files print.
 const IN_PLANE: f64 = 2e-3;
 
-/// Moves shorter than this across the axis (mm) go straight up or down.
-pub(super) const UPRIGHT: f64 = 1e-3;
+/// Moves that are shorter than this across the axis (mm) go straight up or down.
+pub(super) const STRAIGHT_DOWN: f64 = 1e-3;
 
-/// Directions within this angle (radians) are parallel.
+/// Directions that differ by less than this angle (radians) are parallel.
 const PARALLEL: f64 = 0.02;
 
-/// A pass.
+/// A pass in a vertical plane.
 #[derive(Debug, Clone)]
 pub(super) struct VerticalPass {
     /// Its motions.
     pub motions: Range<usize>,
-    /// Its plane; mm, u along the pass.
+    /// Its plane, in mm, with u along the pass.
     pub plane: ProfilePlane,
 }
 
-/// Why a path is not made of passes.
+/// The reason why a path does not consist of passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum NoPassReason {
     /// A motion leaves the plane of its pass.
     LeavesPlane(usize),
     /// A motion goes back over its pass.
     TurnsBack(usize),
-    /// The tool axis turns in it.
+    /// The tool axis turns within the pass.
     AxisTurns(usize),
 }
 
-/// The passes among motions; `meant` says which motions cut. Everything else is left to links.
+/// Finds the passes among motions. `meant` tells which motions cut. All other motions are links.
 ///
 /// # Errors
-/// [`NoPassReason`] where cutting does not keep to vertical planes.
+/// Returns [`NoPassReason`] if the cutting motions do not keep to vertical planes.
 pub(super) fn find_vertical_passes(
     motions: &[Motion],
     meant: &[bool],
@@ -52,8 +52,8 @@ pub(super) fn find_vertical_passes(
     Ok(found)
 }
 
-/// Runs of motions that cut one after the other, without the straight way down to them and up from them where the file does not mark
-/// what motions are for.
+/// Finds the runs of consecutive cutting motions. Straight plunges and retracts at their ends are left out,
+/// unless the file marks them as cuts.
 pub(super) fn find_cutting_runs(motions: &[Motion], meant: &[bool], mm_per_unit: f64) -> Vec<Range<usize>> {
     let mut found = Vec::new();
     let mut index = 0;
@@ -77,34 +77,35 @@ pub(super) fn find_cutting_runs(motions: &[Motion], meant: &[bool], mm_per_unit:
     found
 }
 
-/// A run without the straight way down to it and up from it, where the file does not mark them as cuts, or where it comes from a rapid
-/// or goes on as one.
+/// Removes straight plunges and retracts from the ends of a run. They are removed where the file does not
+/// mark what motions are for, and where they adjoin a rapid.
 fn trim_plunge_and_retract(motions: &[Motion], mut run: Range<usize>, mm_per_unit: f64) -> Range<usize> {
     let rapid = |index: Option<usize>| {
         index
             .and_then(|index| motions.get(index))
             .is_none_or(|motion| motion.rapid || matches!(motion.path, MotionPath::Start))
     };
-    let upright = |index: usize, up: bool, beside_rapid: bool| {
+    let vertical = |index: usize, up: bool, beside_rapid: bool| {
         motions.get(index).is_some_and(|motion| {
-            let way = (motion.to.point - motion.from.point) * mm_per_unit;
-            let along = way.dot(&motion.to.axis);
+            let displacement = (motion.to.point - motion.from.point) * mm_per_unit;
+            let along = displacement.dot(&motion.to.axis);
             (!motion.class_is_told || beside_rapid)
                 && matches!(motion.path, MotionPath::Line)
-                && (way - motion.to.axis * along).norm() <= UPRIGHT
+                && (displacement - motion.to.axis * along).norm() <= STRAIGHT_DOWN
                 && (if up { along >= 0.0 } else { along <= 0.0 })
         })
     };
-    while !run.is_empty() && upright(run.start, false, rapid(run.start.checked_sub(1))) {
+    while !run.is_empty() && vertical(run.start, false, rapid(run.start.checked_sub(1))) {
         run.start += 1;
     }
-    while !run.is_empty() && upright(run.end - 1, true, rapid(Some(run.end))) {
+    while !run.is_empty() && vertical(run.end - 1, true, rapid(Some(run.end))) {
         run.end -= 1;
     }
     run
 }
 
-/// A stretch of a run in one vertical plane; no plane for an arc that lies across.
+/// A segment of a run that lies in one vertical plane. It has no plane if it is an arc across every vertical
+/// plane.
 struct PlanarRun {
     motions: Range<usize>,
     plane: Option<(ProfilePlane, Vector3<f64>)>,
@@ -127,23 +128,23 @@ fn passes_of_run(
     if let Some(at) = all.iter().position(|motion| turns(&motion)) {
         return Err(NoPassReason::AxisTurns(run.start + at));
     }
-    let stretches = split_into_planar_runs(motions, run, mm_per_unit);
-    let main = find_main_direction(&stretches);
+    let segments = split_into_planar_runs(motions, run, mm_per_unit);
+    let main = find_main_direction(&segments);
     let along =
-        |stretch: &PlanarRun| stretch.plane.is_some_and(|(_, direction)| is_parallel(direction, main));
+        |segment: &PlanarRun| segment.plane.is_some_and(|(_, direction)| is_parallel(direction, main));
     let (passes, links): (Vec<&PlanarRun>, Vec<&PlanarRun>) =
-        stretches.iter().partition(|stretch| along(stretch));
-    let sum = |all: &[&PlanarRun]| all.iter().map(|stretch| stretch.length).sum::<f64>();
-    // Links are short beside passes; where they are not, the path has no passes.
+        segments.iter().partition(|segment| along(segment));
+    let sum = |all: &[&PlanarRun]| all.iter().map(|segment| segment.length).sum::<f64>();
+    // Links are short compared with passes. Where they are not, the path has no passes.
     if sum(&links) > 0.5 * sum(&passes)
         && let Some(link) = links.first()
     {
         return Err(NoPassReason::LeavesPlane(link.motions.start));
     }
     let mut found = Vec::new();
-    for stretch in passes {
-        let Some((plane, _)) = stretch.plane else { continue };
-        let motions_of = trim_plunge_and_retract(motions, stretch.motions.clone(), mm_per_unit);
+    for segment in passes {
+        let Some((plane, _)) = segment.plane else { continue };
+        let motions_of = trim_plunge_and_retract(motions, segment.motions.clone(), mm_per_unit);
         if let Some(back) = find_turn_back(motions, &motions_of, &plane, mm_per_unit) {
             return Err(NoPassReason::TurnsBack(back));
         }
@@ -154,7 +155,8 @@ fn passes_of_run(
     Ok(found)
 }
 
-/// Where a pass goes back over more than a quarter of its width; less is an overhang of its profile.
+/// Returns the motion at which a pass runs back over more than a quarter of its width. A shorter return is an
+/// overhang of its profile.
 fn find_turn_back(
     motions: &[Motion],
     range: &Range<usize>,
@@ -173,31 +175,31 @@ fn find_turn_back(
     if f64::min(forward, back) <= 0.25 * (high - low) {
         return None;
     }
-    let way = if all
+    let direction = if all
         .iter()
         .map(ends)
-        .find(|[from, to]| (to - from).abs() > UPRIGHT)
+        .find(|[from, to]| (to - from).abs() > STRAIGHT_DOWN)
         .is_some_and(|[from, to]| to > from)
     {
         1.0
     } else {
         -1.0
     };
-    let first = all.iter().map(ends).position(|[from, to]| (to - from) * way < -UPRIGHT)?;
+    let first = all.iter().map(ends).position(|[from, to]| (to - from) * direction < -STRAIGHT_DOWN)?;
     Some(range.start + first)
 }
 
-/// The direction of the longest sum of parallel stretches.
-fn find_main_direction(stretches: &[PlanarRun]) -> Vector3<f64> {
+/// Returns the direction in which the segments have the largest total length.
+fn find_main_direction(segments: &[PlanarRun]) -> Vector3<f64> {
     let mut sums: Vec<(Vector3<f64>, f64)> = Vec::new();
-    for stretch in stretches {
-        let Some((_, direction)) = stretch.plane else { continue };
+    for segment in segments {
+        let Some((_, direction)) = segment.plane else { continue };
         match sums.iter_mut().find(|(known, _)| is_parallel(*known, direction)) {
-            Some((_, sum)) => *sum += stretch.length,
-            None => sums.push((direction, stretch.length)),
+            Some((_, sum)) => *sum += segment.length,
+            None => sums.push((direction, segment.length)),
         }
     }
-    // The first of equals, so that the same path always has the same passes.
+    // Of equal sums the first counts, so that the same path always has the same passes.
     let longest = sums.into_iter().reduce(|one, next| if next.1 > one.1 * (1.0 + 1e-9) { next } else { one });
     longest.map_or_else(Vector3::zeros, |(direction, _)| direction)
 }
@@ -219,7 +221,8 @@ fn split_into_planar_runs(motions: &[Motion], run: Range<usize>, mm_per_unit: f6
     found
 }
 
-/// The longest stretch from `start` in one plane, and its plane; at least one motion.
+/// Returns the end of the longest segment from `start` that lies in one plane, and its plane. The segment has
+/// at least one motion.
 fn find_planar_run(
     motions: &[Motion],
     start: usize,
@@ -239,11 +242,12 @@ fn find_planar_run(
             .map(|point| point * mm_per_unit)
             .collect();
         if !is_in_plane(&plane, &points) {
-            // A short beginning tells the direction badly, a farther point better.
+            // A short beginning gives the direction inaccurately, so the plane is fitted again to a farther
+            // point.
             let better = fit_plane(origin, up, &points);
-            let upright = plane.is_none() && better.is_none() && matches!(motion.path, MotionPath::Line);
+            let vertical = plane.is_none() && better.is_none() && matches!(motion.path, MotionPath::Line);
             let fits = is_in_plane(&better, &points) && is_in_plane(&better, &seen);
-            if !(upright || fits) {
+            if !(vertical || fits) {
                 break;
             }
             plane = better.or(plane);
@@ -259,25 +263,27 @@ fn is_in_plane(plane: &Option<(ProfilePlane, Vector3<f64>)>, points: &[Point3<f6
     points.iter().all(|point| plane.signed_distance_mm(*point).abs() <= IN_PLANE)
 }
 
-/// The plane through a point along the axis and through the farthest of others; `None` where all are above each other.
+/// Returns the plane through a point that holds the axis and the farthest of some points. Returns `None` if
+/// all points lie above each other.
 fn fit_plane(
     origin: Point3<f64>,
     up: Vector3<f64>,
     points: &[Point3<f64>],
 ) -> Option<(ProfilePlane, Vector3<f64>)> {
     let across = |point: &Point3<f64>| {
-        let way = point - origin;
-        way - up * way.dot(&up)
+        let offset = point - origin;
+        offset - up * offset.dot(&up)
     };
     let far =
         points.iter().map(across).reduce(|one, next| if next.norm() > one.norm() { next } else { one })?;
-    if far.norm() <= UPRIGHT {
+    if far.norm() <= STRAIGHT_DOWN {
         return None;
     }
     Some((ProfilePlane::new(origin, far, up)?, far.normalize()))
 }
 
-/// Whether a motion cuts, as far as its class tells: what the file marks as a cut, and everything at feed that it does not mark.
+/// Returns whether a motion cuts, as far as its class tells. The file's marks count; without a mark, every
+/// motion at feed cuts.
 pub(super) fn is_cutting(motion: &Motion) -> bool {
     !motion.rapid
         && motion.hole.is_none()

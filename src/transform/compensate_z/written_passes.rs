@@ -1,13 +1,13 @@
-//! Where the written passes are among the motions read back.
+//! This module finds the written passes among the motions that were read back.
 
 use crate::program::motion::Motion;
 use std::ops::Range;
 
-/// For each pass (its old motions, and how many it should have now) its motions among the new ones. What lies between passes has to
-/// be as many motions as before, of the same classes.
+/// Finds each pass among the new motions. A pass is given by its old motions and by the number of motions
+/// that it should have now. Between passes there have to be as many motions as before, of the same classes.
 ///
 /// # Errors
-/// The old motion from which on it does not fit.
+/// Returns the old motion from which on the program does not fit.
 pub(super) fn find_written_passes<'a>(
     before: &[Motion],
     after: &[Motion],

@@ -1,4 +1,4 @@
-//! `convert_units`: a program in millimetres or inches, in the other unit.
+//! `convert_units` converts a program between millimetres and inches.
 
 mod statement_pass;
 mod unit_conversion;
@@ -14,27 +14,30 @@ use unit_conversion::UnitConversion;
 
 /// Converts a program to millimetres or inches.
 ///
-/// All that has a length is converted: points, radii, tool shapes, cycle distances, tolerances, boxes, the origins of frames.
-/// Angles, directions, knots, counts and times stay. Feeds change with their words (`MMPM` and `IPM`, `MMPR` and `IPR`; PERMIN
-/// and feeds without a word in value, inverse time not at all), surface speeds with theirs (`SMM`, `SFM`), and the unit record is
-/// rewritten in the file's own spelling. From millimetres to inches, numbers get two decimals more (up to eight), so that
-/// converting back gives the same places within 0.0001 mm.
+/// Everything with a length is converted: points, radii, tool shapes, cycle distances, tolerances, boxes and
+/// the origins of frames. Angles, directions, knots, counts and times stay. Feeds change with their words:
+/// `MMPM` and `IPM` swap, and so do `MMPR` and `IPR`. PERMIN and feeds without a word change their value, and
+/// inverse-time feeds stay. Surface speeds change with their words (`SMM`, `SFM`). The unit record is
+/// rewritten in the file's own spelling. From millimetres to inches, numbers get two decimals more (up to
+/// eight), so that converting back gives the same points within 0.0001 mm.
 ///
-/// The old unit is the one that the file states; a file that states none needs `from`. No unit record is put into such a file.
+/// The old unit is the one that the file states. A file that states none needs `from`. No unit record is
+/// added to such a file.
 ///
-/// Idempotent where the file states its unit: a program that already has the unit is left as it is. A file that states none is
-/// refused when its feeds name the new unit already.
+/// The step is idempotent where the file states its unit: a program that already has the unit is left
+/// unchanged. A file that states no unit is refused if its feeds already name the new unit.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ConvertUnits {
-    /// The unit that the program is to have.
+    /// The unit that the program will have.
     pub to: LengthUnit,
-    /// The unit that it has; only needed where the file does not say it (NX, CATIA), and an error where it says another.
+    /// The unit that the program has now. It is only needed where the file does not state it (NX, CATIA), and
+    /// an error where the file states another.
     pub from: Option<LengthUnit>,
 }
 
 impl ConvertUnits {
-    /// The step for a file that states its unit.
+    /// Makes the step for a file that states its unit.
     pub fn new(to: LengthUnit) -> Self {
         Self { to, from: None }
     }
@@ -63,12 +66,12 @@ impl Transform for ConvertUnits {
         let Some(from) = stated.or(self.from) else {
             let finding = context.step_finding(
                 codes::STEP_FAILED,
-                "the file does not say what unit its lengths have, and neither does the step",
+                "the file does not state the unit of its lengths, and neither does the step",
                 &[],
                 "asked for here",
             );
             return Err(finding.with_help(
-                "Add `from: mm` or `from: inch`. Feeds in MMPM or IPM and the sizes of the tools tell which.",
+                "Add `from: mm` or `from: inch`. Feeds in MMPM or IPM and the sizes of the tools show which one is right.",
             ).into());
         };
         if from == self.to {
@@ -77,9 +80,9 @@ impl Transform for ConvertUnits {
         if stated.is_none() && program.feed_length_unit() == Some(self.to) {
             let finding = context.step_finding(
                 codes::STEP_FAILED,
-                "the feeds of this file name the new unit already, so the file seems to be converted",
+                "the feeds of this file already name the new unit, so the file seems to be converted",
                 &["from"],
-                "says that it is not",
+                "the step assumes that it is not",
             );
             return Err(finding.with_help(
                 "A second conversion would put every point off by a factor of 25.4. If the lengths really are in the old unit, give the feeds \
@@ -103,7 +106,7 @@ impl Transform for ConvertUnits {
 }
 
 impl ConvertUnits {
-    /// The unit that the file states, if all its records and the step agree.
+    /// Returns the unit that the file states. All its unit records and the step must agree.
     fn check_stated_unit(
         &self,
         program: &Program,
@@ -113,11 +116,11 @@ impl ConvertUnits {
         for (id, statement) in program.live_statements() {
             let Record::Units(unit) = statement.record() else { continue };
             if stated.is_some_and(|before| before != *unit) {
-                let message = "the file changes its unit on the way; which of its lengths have which unit is not clear enough";
+                let message = "the file changes its unit between statements, so it is not clear which lengths have which unit";
                 return Err(context.statement_failure(message, program, id, "another unit than before"));
             }
             if self.from.is_some_and(|from| from != *unit) {
-                let message = "`from` says another unit than the file itself";
+                let message = "`from` names another unit than the file itself; remove `from`, or correct it";
                 return Err(context.statement_failure(message, program, id, "the file's unit"));
             }
             stated = Some(*unit);

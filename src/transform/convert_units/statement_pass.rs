@@ -1,4 +1,4 @@
-//! The pass over the statements: each number by its role.
+//! This module converts statements one by one, each number by its role.
 
 use super::unit_conversion::UnitConversion;
 use super::unit_words;
@@ -10,7 +10,8 @@ use crate::transform::StepContext;
 use crate::transform::statement_numbers::{self, MatrixRowCounter, major_word, set_matrix_row};
 use crate::write::{self, ProgramEditor};
 
-/// Known words whose numbers are lengths only their post understands; a zero is the same in every unit.
+/// Known words whose numbers may be lengths that only their post understands. A zero is the same in every
+/// unit.
 const LENGTHS_OF_POSTS: &[&str] = &[
     "CLRSRF", "FACEMILL", "GOCLER", "LEADER", "MCHTOL", "PIVOTZ", "PLUNGE", "PSIS", "RETRCT", "SAFETY",
     "SHIFT", "SMOOTH", "THREAD", "TRACUT", "TURRET", "WCORN",
@@ -18,8 +19,7 @@ const LENGTHS_OF_POSTS: &[&str] = &[
 
 /// Converts every statement.
 ///
-/// # Errors
-/// When a statement does not read back.
+/// Returns an error if a statement does not read back.
 pub fn convert_statements(
     editor: &mut ProgramEditor,
     conversion: UnitConversion,
@@ -76,7 +76,7 @@ pub fn convert_statements(
     Ok(())
 }
 
-/// The new values of a statement's numbers.
+/// Returns the new values of a statement's numbers.
 fn compute_edits(
     editor: &ProgramEditor,
     id: StatementId,
@@ -125,7 +125,7 @@ fn compute_edits(
     edits
 }
 
-/// Reports what holds lengths in a form that is not understood, once for each word.
+/// Reports statements with lengths in a form that is not understood, once for each word.
 fn report_unconverted(
     editor: &ProgramEditor,
     id: StatementId,
@@ -157,7 +157,7 @@ fn report_unconverted(
                     *value != 0.0 && text.get(at.clone()).is_some_and(|it| it.contains(&b'.'))
                 }) =>
         {
-            "the numbers of this word are its post's business and may be lengths: they are not converted"
+            "only the post understands the numbers of this word, and they may be lengths: they are not converted"
         }
         _ => return,
     };

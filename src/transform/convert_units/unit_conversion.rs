@@ -1,8 +1,8 @@
-//! From one unit to another.
+//! This module converts values from one unit to another.
 
 use crate::program::{FeedUnit, LengthUnit};
 
-/// Metres in a foot.
+/// The number of metres in a foot.
 const METRES_PER_FOOT: f64 = 0.3048;
 
 /// A conversion between two units that differ.
@@ -15,13 +15,14 @@ pub struct UnitConversion {
 }
 
 impl UnitConversion {
-    /// A length, or a feed in units of the file, in the new unit. The division by 25.4 rounds once, as a multiplication by
-    /// 1/25.4 would not.
+    /// Converts a length, or a feed in units of the file. Dividing by 25.4 rounds once, where multiplying by
+    /// 1/25.4 would round twice.
     pub fn convert_length(self, value: f64) -> f64 {
         value * self.from.mm_per_unit() / self.to.mm_per_unit()
     }
 
-    /// Decimals that a number needs beyond its own: 0.01 mm is 0.0004 in, so two keep half of the last decimal.
+    /// Returns how many decimals a number needs beyond its own. 0.01 mm is 0.0004 in, so two more keep half
+    /// of the last decimal.
     pub fn extra_decimals(self) -> usize {
         match self.to {
             LengthUnit::Inch => 2,
@@ -29,8 +30,8 @@ impl UnitConversion {
         }
     }
 
-    /// What becomes of a feed in a unit (`None`: in units of the file per minute): its new word where that changes, and whether
-    /// its value is converted.
+    /// Returns how a feed in a unit changes (`None` is the file's unit per minute): its new word where that
+    /// changes, and whether its value is converted.
     pub fn convert_feed_unit(self, unit: Option<FeedUnit>) -> (Option<FeedUnit>, bool) {
         let unit = unit.unwrap_or(FeedUnit::PerMinute);
         if unit.length_unit(self.from) != Some(self.from) {
@@ -46,7 +47,7 @@ impl UnitConversion {
         (word, true)
     }
 
-    /// A surface speed: m/min to ft/min, or back.
+    /// Converts a surface speed from m/min to ft/min, or back.
     pub fn convert_surface_speed(self, value: f64) -> f64 {
         match self.to {
             LengthUnit::Inch => value / METRES_PER_FOOT,

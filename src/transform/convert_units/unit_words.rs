@@ -1,4 +1,4 @@
-//! Words that name units: of the file, of feeds, of surface speeds.
+//! This module handles the words that name the units of the file, of feeds and of surface speeds.
 
 use super::unit_conversion::UnitConversion;
 use crate::diagnostic::Failure;
@@ -8,8 +8,8 @@ use crate::program::{
 use crate::write::{self, ProgramEditor};
 use std::ops::Range;
 
-/// The numbers of a statement that are feeds, with the unit word that governs each: the one before it, else the only one of
-/// the record (CATIA writes it behind).
+/// Returns the numbers of a statement that are feeds, with the unit word that governs each of them. That is
+/// the word before the number, or the only one of the record (CATIA writes it after the number).
 pub fn find_feeds(syntax: &StatementSyntax<'_>) -> Vec<(usize, Option<FeedUnit>)> {
     let units = find_feed_words(syntax);
     let mut found = Vec::new();
@@ -20,10 +20,10 @@ pub fn find_feeds(syntax: &StatementSyntax<'_>) -> Vec<(usize, Option<FeedUnit>)
     found
 }
 
-/// Gives the unit words of feeds their new names.
+/// Replaces the unit words of feeds by their new names.
 ///
 /// # Errors
-/// When the new text does not read back.
+/// Returns an error if the new text does not read back.
 pub fn swap_feed_words(
     editor: &mut ProgramEditor,
     id: StatementId,
@@ -37,10 +37,10 @@ pub fn swap_feed_words(
     replace_words(editor, id, parts)
 }
 
-/// Gives the unit word of a surface speed its new name.
+/// Replaces the unit word of a surface speed by its new name.
 ///
 /// # Errors
-/// When the new text does not read back.
+/// Returns an error if the new text does not read back.
 pub fn swap_speed_word(editor: &mut ProgramEditor, id: StatementId, to: LengthUnit) -> Result<(), Failure> {
     let (old, new) = match to {
         LengthUnit::Inch => ("SMM", "SFM"),
@@ -51,10 +51,10 @@ pub fn swap_speed_word(editor: &mut ProgramEditor, id: StatementId, to: LengthUn
     replace_words(editor, id, parts)
 }
 
-/// Names the new unit in a UNITS record, whose word keeps its own spelling.
+/// Writes the new unit into a UNITS record. Its word keeps its own spelling.
 ///
 /// # Errors
-/// When the new text does not read back.
+/// Returns an error if the new text does not read back.
 pub fn swap_units(editor: &mut ProgramEditor, id: StatementId, to: LengthUnit) -> Result<(), Failure> {
     let syntax = write::statement_syntax(editor.program(), id);
     let name = match to {
@@ -69,7 +69,7 @@ fn find_feed_words(syntax: &StatementSyntax<'_>) -> Vec<(Range<usize>, FeedUnit)
     split_words(syntax).filter_map(|(at, word)| FeedUnit::from_word(&word).map(|unit| (at, unit))).collect()
 }
 
-/// The words of all fields. A field may hold several where a comma is missing (CAMWorks).
+/// Returns the words of all fields. A field may hold several words where a comma is missing (CAMWorks).
 fn split_words<'s>(syntax: &'s StatementSyntax<'_>) -> impl Iterator<Item = (Range<usize>, String)> + 's {
     let of_field = |field: &'s StatementField| {
         let bytes = syntax.bytes_at(&field.at);

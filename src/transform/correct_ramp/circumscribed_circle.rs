@@ -1,4 +1,4 @@
-//! Longer legs on a circumscribed circle (Zhou 2020, "ramp length correction").
+//! This module lengthens legs on a circumscribed circle (Zhou 2020, "ramp length correction").
 
 use nalgebra::{Point2, Rotation2, Vector2};
 use std::f64::consts::{PI, TAU};
@@ -6,14 +6,14 @@ use std::f64::consts::{PI, TAU};
 /// The side of the chord P1-Pn on which the circle bulges.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BulgeSide {
-    /// Left of P1 -> Pn; around a closed ramp counter-clockwise.
+    /// Left of P1 -> Pn. A closed ramp then runs counter-clockwise.
     Left,
-    /// Right of P1 -> Pn; around a closed ramp clockwise.
+    /// Right of P1 -> Pn. A closed ramp then runs clockwise.
     Right,
 }
 
 impl BulgeSide {
-    /// The other one.
+    /// Returns the other side.
     #[must_use]
     pub fn mirrored(self) -> Self {
         match self {
@@ -23,11 +23,13 @@ impl BulgeSide {
     }
 }
 
-/// Angle of the arc P1..Pn (radians, in `(0, 2 pi)`) on which `legs` equal chords have the length `leg`, over a chord `s`.
+/// Returns the angle of the arc P1..Pn (radians, in `(0, 2 pi)`) on which `legs` equal chords have the length
+/// `leg`, over a chord of length `s`.
 ///
-/// With e the signed distance of the centre, the arc is 180 deg + 2 atan(2e/s), and the paper's two cases are one equation:
-/// `leg = s sin(arc / 2 legs) / sin(arc / 2)`, which grows with the arc from `s / legs` to infinity. `None` when `leg` is not
-/// above `s / legs`: then the points lie on the chord.
+/// With e as the signed distance of the centre from the chord, the arc is 180 deg + 2 atan(2e/s). The two
+/// cases of the paper then become one equation, `leg = s sin(arc / 2 legs) / sin(arc / 2)`. Its right side
+/// grows with the arc from `s / legs` to infinity. Returns `None` if `leg` is not above `s / legs`, because
+/// then the points lie on the chord.
 pub fn find_arc_angle(s: f64, leg: f64, legs: usize) -> Option<f64> {
     let count = legs as f64;
     if leg * count <= s * (1.0 + 1e-12) {
@@ -35,7 +37,8 @@ pub fn find_arc_angle(s: f64, leg: f64, legs: usize) -> Option<f64> {
     }
     let too_short = |arc: f64| s * (arc / (2.0 * count)).sin() < leg * (arc / 2.0).sin();
     let (mut low, mut high) = (0.0, TAU);
-    // Halving until the doubles between are used up: 60 times at most.
+    // The right side grows with the arc, so bisection finds it. After 60 steps no double lies between the
+    // bounds.
     for _ in 0..64 {
         let middle = 0.5 * (low + high);
         if middle <= low || middle >= high {
@@ -46,10 +49,10 @@ pub fn find_arc_angle(s: f64, leg: f64, legs: usize) -> Option<f64> {
     Some(high)
 }
 
-/// P1..Pn with P2..Pn-1 on a circle through P1 and Pn, every leg as long as `leg` (mm).
+/// Places P2..Pn-1 on a circle through P1 and Pn, so that every leg is as long as `leg` (mm).
 ///
-/// `points` are P1..Pn across the axis, at least three: one leg cannot be lengthened. On the chord itself when `leg` is
-/// `s / legs` or less.
+/// `points` are P1..Pn across the tool axis. There have to be at least three, because a single leg cannot be
+/// lengthened. If `leg` is `s / legs` or less, the points lie on the chord itself.
 pub fn place_on_circle(
     points: &[Point2<f64>],
     leg: f64,
@@ -60,7 +63,7 @@ pub fn place_on_circle(
     let legs = points.len().checked_sub(1).filter(|legs| *legs > 1)?;
     let chord = if closed { Vector2::zeros() } else { last - first };
     let s = chord.norm();
-    let along = |share: f64| first + (last - first) * share;
+    let along = |fraction: f64| first + (last - first) * fraction;
     let (sweep, centre) = if closed {
         let radius = leg / (2.0 * (PI / legs as f64).sin());
         let (towards, side) = find_centre_direction(points, side)?;
@@ -72,11 +75,12 @@ pub fn place_on_circle(
         let radius = leg / (2.0 * (arc / (2.0 * legs as f64)).sin());
         let left = Vector2::new(-chord.y, chord.x) / s;
         let (bulge, sweep) = match side {
-            // Over the left side, the path turns right.
+            // When the arc bulges to the left of P1 -> Pn, the path along it turns right.
             BulgeSide::Left => (left, -arc),
             BulgeSide::Right => (-left, arc),
         };
-        // e = -R cos(arc / 2): positive on the bulge's side for more than half a turn.
+        // The centre lies on the perpendicular bisector at e = -R cos(arc / 2), which is positive on the
+        // bulge's side if the arc is more than half a turn.
         (sweep, along(0.5) - bulge * (radius * (arc / 2.0).cos()))
     };
     let spoke = first - centre;
@@ -84,7 +88,8 @@ pub fn place_on_circle(
     Some(std::iter::once(first).chain(inner).chain([last]).collect())
 }
 
-/// The centre's direction from P1 of a closed ramp: towards the mean of P2..Pn-1 and in the ramp's own sense, or both mirrored.
+/// Returns the direction of the centre from P1 for a closed ramp, and the side. It points towards the mean of
+/// P2..Pn-1 if the ramp keeps its own sense. Otherwise both are mirrored.
 fn find_centre_direction(points: &[Point2<f64>], side: BulgeSide) -> Option<(Vector2<f64>, BulgeSide)> {
     let first = *points.first()?;
     let inner = points.get(1..points.len().checked_sub(1)?)?;
@@ -95,8 +100,8 @@ fn find_centre_direction(points: &[Point2<f64>], side: BulgeSide) -> Option<(Vec
     Some(if side == find_own_side(points, true) { (towards, side) } else { (-towards, side) })
 }
 
-/// The side of a ramp's own points P2..Pn-1; of a closed one its turning sense. Where they lie on both sides the sign of the area of
-/// P1..Pn decides, and collinear ones bulge to the left.
+/// Returns the side on which a ramp's own points P2..Pn-1 lie; for a closed ramp, its sense of rotation. If
+/// they lie on both sides, the sign of the area of P1..Pn decides. Collinear points bulge to the left.
 pub fn find_own_side(points: &[Point2<f64>], closed: bool) -> BulgeSide {
     let (Some(first), Some(last)) = (points.first(), points.last()) else { return BulgeSide::Left };
     let chord = last - first;
@@ -111,7 +116,8 @@ pub fn find_own_side(points: &[Point2<f64>], closed: bool) -> BulgeSide {
         }
     }
     let area: f64 = points.windows(2).map(|pair| twice_area(first, pair)).sum();
-    // A way around counter-clockwise goes below its chord, and around a closed ramp to the left.
+    // A counter-clockwise path runs on the right of its chord, but a closed ramp that is counter-clockwise
+    // turns left.
     match (area > 0.0, closed) {
         (true, false) => BulgeSide::Right,
         (true, true) => BulgeSide::Left,

@@ -1,14 +1,17 @@
-//! Longer ramps where the circle does not fit: two or three long legs along a line, and wider helices.
+//! This module makes longer ramps where the circle does not fit: two or three long legs along a line, and
+//! wider helices.
 
 use super::ramp::{NOTHING, Ramp, RampStep};
 use super::ramp_kind::Helix;
 use super::ramp_passes::build_helix_steps;
 use nalgebra::{Point2, Point3, Vector2};
 
-/// Chords of a widened helix need not be narrower than this, degrees: on a circle of 1 m they are within 0.2 um.
+/// Chords of a widened helix need not be narrower than this angle (degrees). On a circle of 1 m radius, such
+/// chords are within 0.4 um of it.
 const NARROWEST_CHORD: f64 = 0.1;
 
-/// A ramp over turning points across the axis, its height shared out by length.
+/// Builds a ramp over turning points across the axis. Its height is divided in proportion to the lengths of
+/// the legs.
 fn build_over_turns(ramp: &Ramp, turns: &[Point2<f64>]) -> Option<Ramp> {
     let (start, end) = (ramp.start, ramp.end_point());
     let places: Vec<Point2<f64>> =
@@ -34,8 +37,9 @@ fn build_over_turns(ramp: &Ramp, turns: &[Point2<f64>]) -> Option<Ramp> {
     Ramp::from_points(&points)
 }
 
-/// Ramps along the chord P1-Pn with legs of at least `least` (mm): the chord itself where it is long enough, else beyond its end and
-/// back, from behind its start, and to and fro over both. The shortest comes first. None for a closed ramp.
+/// Returns ramps along the chord P1-Pn with legs of at least `least` (mm), the shortest first. If the chord
+/// is long enough, the ramp runs along it. Otherwise the ramp runs beyond the end and back, or starts
+/// backwards, or does both. A closed ramp has no chord, so the list is empty.
 pub fn lengthen_along_chord(ramp: &Ramp, least: f64) -> Vec<Ramp> {
     let (start, end) = (ramp.start.xy(), ramp.end_point().xy());
     let s = (end - start).norm();
@@ -48,23 +52,25 @@ pub fn lengthen_along_chord(ramp: &Ramp, least: f64) -> Vec<Ramp> {
     turns.iter().filter_map(|turns| build_over_turns(ramp, turns)).collect()
 }
 
-/// A ramp out along a direction from Pn, no farther than both legs need, and back to Pn: where the operation's first cutting pass
-/// will go anyway.
+/// Returns a ramp from P1 to a point beyond Pn in a direction, and back to Pn. The operation's first cutting
+/// pass runs there anyway. The point is no farther away than both legs need.
 pub fn lengthen_along_pass(ramp: &Ramp, direction: Vector2<f64>, least: f64) -> Option<Ramp> {
-    let direction = direction.try_normalize(1e-9).filter(|way| way.iter().all(|value| value.is_finite()))?;
+    let direction =
+        direction.try_normalize(1e-9).filter(|vector| vector.iter().all(|value| value.is_finite()))?;
     let back = ramp.end_point().xy() - ramp.start.xy();
     let reach = if (back + direction * least).norm() >= least {
         least
     } else {
-        // |back + t direction| = least: too short between the roots, and `least` lies there.
+        // Both legs need |back + t direction| >= least and t >= least. The quadratic equation t^2 + 2 half t
+        // + rest = 0 has `least` between its roots here, so the larger root is the shortest detour.
         let (half, rest) = (back.dot(&direction), back.norm_squared() - least * least);
         (half * half - rest).max(0.0).sqrt() - half
     };
     build_over_turns(ramp, &[ramp.end_point().xy() + direction * reach])
 }
 
-/// The helix about the same axis with radius `radius` (mm): a level link from P1 out to it, and one from its end to Pn. Chords stay
-/// as close to their circle as they were.
+/// Returns the helix about the same axis with the radius `radius` (mm). A level link leads from P1 out to it,
+/// and another one from its end to Pn. Its chords stay as close to their circle as before.
 pub fn widen_helix(ramp: &Ramp, helix: &Helix, radius: f64) -> Ramp {
     let ratio = radius / helix.radius;
     let out = |point: Point3<f64>| {
@@ -74,7 +80,8 @@ pub fn widen_helix(ramp: &Ramp, helix: &Helix, radius: f64) -> Ramp {
     let widest_step = if helix.arcs {
         helix.widest_step
     } else {
-        // A chord's distance from its circle is 2 R sin^2(sweep / 4).
+        // The distance of a chord from its circle is R (1 - cos(sweep / 2)) = 2 R sin^2(sweep / 4). It stays
+        // the same if the sine shrinks with the square root of the radius.
         let narrowed = 4.0 * ((helix.widest_step / 4.0).sin() / ratio.sqrt()).asin();
         narrowed.max(NARROWEST_CHORD.to_radians().min(helix.widest_step))
     };

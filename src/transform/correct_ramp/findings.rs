@@ -1,4 +1,4 @@
-//! What the step says about ramps.
+//! This module words the findings about ramps.
 
 use super::ramp_correction::{CorrectedRamp, LengtheningMethod};
 use super::ramp_search::FoundRamp;
@@ -20,19 +20,19 @@ pub(super) struct RampFindings<'a> {
 impl RampFindings<'_> {
     fn statement_span(&self, motion: usize, end: bool) -> Span {
         let Some(motion) = self.motions.get(motion) else {
-            debug_assert!(false, "motion {motion} of {} is told of", self.motions.len());
+            debug_assert!(false, "motion {motion} of {} does not exist", self.motions.len());
             return Span::default();
         };
         let statement = if end { motion.statements.last() } else { motion.statements.first() };
         self.program.statement(statement).origin()
     }
 
-    /// Where the ramp begins in the source.
+    /// Returns the place where the ramp begins in the source.
     pub fn begin_span(&self) -> Span {
         self.statement_span(self.found.motions.start, false)
     }
 
-    /// A finding at the ramp's first and last statement, and at the step.
+    /// Builds a finding at the ramp's first and last statement, and at the step.
     fn build_finding(&self, code: DiagnosticCode, message: String, context: &StepContext<'_>) -> Diagnostic {
         let range = &self.found.motions;
         let last = range.end.saturating_sub(1);
@@ -47,7 +47,8 @@ impl RampFindings<'_> {
     }
 }
 
-/// `a zigzag of POCKET has a leg of 12.000 mm (at least 38.000) and descends at 9.2 degrees (at most 7.5)`.
+/// Words how a ramp violates its limits: `a zigzag of POCKET has a leg of 12.000 mm (at least 38.000)
+/// and descends at 9.2 degrees (at most 7.5)`.
 fn describe_violation(report: &RampReport) -> String {
     let before = &report.before;
     let what = match report.kind {
@@ -75,7 +76,7 @@ fn describe_violation(report: &RampReport) -> String {
     format!("{what}{of} {}", faults.join(" and "))
 }
 
-/// A ramp out of limits that is corrected, and how.
+/// Describes a ramp that violates its limits and is corrected, and how.
 pub(super) fn describe_corrected_ramp(
     place: &RampFindings<'_>,
     report: &RampReport,
@@ -87,7 +88,7 @@ pub(super) fn describe_corrected_ramp(
         LengtheningMethod::No => {}
         LengtheningMethod::Circle => how.push("its turning points lie on a circle through its ends".to_owned()),
         LengtheningMethod::MirroredCircle => how.push(
-            "its turning points lie on a circle through its ends, on the other side, since the near one leaves the region"
+            "its turning points lie on a circle through its ends, on the other side, because the near side leaves the region"
                 .to_owned(),
         ),
         LengtheningMethod::WidenedHelix => how.push("the helix is wider".to_owned()),
@@ -105,7 +106,7 @@ pub(super) fn describe_corrected_ramp(
                     LengtheningMethod::AlongChord | LengtheningMethod::AlongPass
                 ) =>
             {
-                format!("{} turns are put in", done.passes - 1)
+                format!("{} turns are inserted", done.passes - 1)
             }
             _ => format!("it descends in {} passes", done.passes),
         });
@@ -114,7 +115,7 @@ pub(super) fn describe_corrected_ramp(
     place.build_finding(codes::RAMP_OUT_OF_LIMITS, describe_violation(report), context).with_help(help)
 }
 
-/// A ramp out of limits that is not corrected.
+/// Describes a ramp that violates its limits and is not corrected.
 pub(super) fn describe_impossible_ramp(
     place: &RampFindings<'_>,
     report: &RampReport,
@@ -130,7 +131,7 @@ pub(super) fn describe_impossible_ramp(
     )
 }
 
-/// A tool that nothing says has inserts: an error when no ramp can be judged, else a note.
+/// Describes a tool without known inserts. It is an error if no ramp can be judged, otherwise a note.
 pub(super) fn describe_missing_inserts(
     program: &Program,
     first: StatementId,
@@ -141,19 +142,20 @@ pub(super) fn describe_missing_inserts(
     let called = tool.map_or_else(|| "the tool".to_owned(), ActiveTool::display_name);
     if error {
         let message = format!(
-            "neither the step nor `setup.tools` says which inserts {called} has, so no ramp can be judged"
+            "neither the step nor `setup.tools` gives the inserts of {called}, so no ramp can be judged"
         );
         let found = context.statement_finding(message, program, first, "its first ramp");
-        let help = "Say `tool: { insert_height: ..., insert_radius: ... }` in the step, or `insert: { height: ..., radius: ... }` \
-                    for the tool under `setup.tools`.";
+        let help = "Add `tool: { insert_height: ..., insert_radius: ... }` to the step, or `insert: { height: ..., radius: ... }` \
+                    to the tool under `setup.tools`.";
         return found.with_help(help);
     }
-    let message = format!("the ramps of {called} are left as they are: nothing says that it has inserts");
+    let message =
+        format!("the ramps of {called} are left unchanged, because nothing says that it has inserts");
     let span = program.statement(first).origin();
     Diagnostic::new(codes::NO_INSERTS, message).with_label(program.source(), span, "its first ramp")
 }
 
-/// A ramp that could not be written, or not proven; `place` is where it begins in the source.
+/// Describes a ramp that could not be written or proven. `place` is where it begins in the source.
 pub(super) fn describe_unproven_ramp(
     program: &Program,
     place: Span,

@@ -1,4 +1,4 @@
-//! What an operation cuts at a ramp's level.
+//! This module collects what an operation cuts at the level of a ramp.
 
 use super::milled_area::MilledArea;
 use super::ramp_search::{FoundRamp, LEVEL, is_level, to_tool_frame_mm};
@@ -7,10 +7,10 @@ use crate::program::motion::Motion;
 use nalgebra::{Point2, Rotation3};
 use std::collections::HashMap;
 
-/// An operation and a tool axis, to six decimals.
+/// An operation and a tool axis, rounded to six decimals.
 type LevelKey = (usize, [i64; 3]);
 
-/// The level motions of operations, found once for each operation and tool axis.
+/// The level motions of operations, which are searched once for each operation and tool axis.
 pub(super) struct LevelMotions<'m> {
     motions: &'m [Motion],
     mm_per_unit: f64,
@@ -22,13 +22,13 @@ impl<'m> LevelMotions<'m> {
         Self { motions, mm_per_unit, known: HashMap::new() }
     }
 
-    /// The hull of what a ramp's operation cuts at the level of its end, and of the ramp itself.
+    /// Returns the convex hull of the ramp and of everything that its operation cuts at the level of its end.
     pub fn level_hull(&mut self, found: &FoundRamp) -> ToolRegion {
         ToolRegion::from_hull(self.level_paths(found).into_iter().flatten())
     }
 
-    /// Where a tool of a radius (mm) covers nothing but what the operation cuts at the level of the ramp's end, or the ramp itself; looked at
-    /// within `reach` (mm) of the ramp.
+    /// Returns the region in which a tool of a radius (mm) covers only what the operation cuts at the level
+    /// of the ramp's end, or what the ramp itself covers. It is computed within `reach` (mm) of the ramp.
     pub fn milled_region(&mut self, found: &FoundRamp, radius: f64, reach: f64) -> ToolRegion {
         ToolRegion::Milled(MilledArea::new(
             &self.level_paths(found),
@@ -38,7 +38,8 @@ impl<'m> LevelMotions<'m> {
         ))
     }
 
-    /// The paths of what is cut at the level of a ramp's end, motions that go on from each other joined, and the ramp's own.
+    /// Returns the paths of everything that is cut at the level of a ramp's end, and the path of the ramp
+    /// itself. Consecutive motions are joined.
     fn level_paths(&mut self, found: &FoundRamp) -> Vec<Vec<Point2<f64>>> {
         let end = found.ramp.end_point().z;
         let (motions, mm, frame) = (self.motions, self.mm_per_unit, found.frame);
@@ -63,7 +64,7 @@ impl<'m> LevelMotions<'m> {
         paths
     }
 
-    /// Heights of the operation's level motions at feed, ascending, with their indices.
+    /// Returns the heights of the operation's level motions at feed in ascending order, with their indices.
     fn level_heights(&mut self, found: &FoundRamp) -> &[(f64, usize)] {
         let axis = (found.frame.inverse() * nalgebra::Vector3::z()).map(|part| (part * 1e6).round() as i64);
         let key = (found.operation, axis.into());

@@ -1,4 +1,5 @@
-//! Where an operation's own cutting reaches: the tool's centre may go wherever its disc covers nothing that the operation leaves.
+//! This module computes the area that an operation mills anyway. The tool's centre may be wherever its disc
+//! covers nothing that the operation leaves.
 
 use super::polygon_containment::contains_line;
 use geo::buffer::{BufferStyle, LineCap, LineJoin};
@@ -7,17 +8,19 @@ use geo::{
 };
 use nalgebra::Point2;
 
-/// Rounded corners of buffers are polygons with steps of this angle (radians): off by a radius over 800.
+/// The angle between the vertices (radians) of the polygons that replace the arcs of buffers. They are off by
+/// a radius over 800.
 const STEP: f64 = 0.1;
 
-/// The tool may cover this much (mm) that is not covered by the operation, or this share of its radius: what polygons for circles make.
+/// The tool may cover this much (mm), or this fraction of its radius, that the operation does not cover. That
+/// is the error of replacing circles by polygons.
 const MARGIN: f64 = 0.05;
-const SHARE: f64 = 1.0 / 400.0;
+const MARGIN_FRACTION: f64 = 1.0 / 400.0;
 
-/// Chords within this (mm) of a path stand for it.
-const COARSE: f64 = 0.01;
+/// Chords within this distance of a path (mm) replace it.
+const CHORD_TOLERANCE: f64 = 0.01;
 
-/// The area within reach of a ramp that an operation's cuts at one level leave to the tool's centre.
+/// The area near a ramp that the cuts of an operation at one level leave to the tool's centre.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MilledArea {
     free: MultiPolygon,
@@ -25,11 +28,11 @@ pub struct MilledArea {
 }
 
 impl MilledArea {
-    /// The area for a tool of `radius` (mm) along paths across its axis, arcs as samples; within `reach` (mm) of `around`, farther away
-    /// nothing is free.
+    /// Computes the area for a tool of `radius` (mm) along paths across its axis, with arcs given as samples.
+    /// It covers `reach` (mm) around the path `around`. Farther away nothing is free.
     ///
-    /// What the tool covers along the paths is shrunk by its radius: a morphological closing of the paths, which lies between
-    /// them and their hull.
+    /// The area that the tool covers along the paths is shrunk by its radius. This is a morphological closing
+    /// of the paths, which lies between the paths and their convex hull.
     pub fn new(paths: &[Vec<Point2<f64>>], radius: f64, around: &[Point2<f64>], reach: f64) -> Self {
         let at = |point: &Point2<f64>| Coord { x: point.x, y: point.y };
         let own: LineString = around.iter().map(at).collect();
@@ -42,7 +45,7 @@ impl MilledArea {
         let mut near: Vec<LineString> = Vec::new();
         for path in paths {
             let whole: LineString = path.iter().map(at).collect();
-            let whole = whole.simplify(COARSE);
+            let whole = whole.simplify(CHORD_TOLERANCE);
             let mut open: Vec<Coord> = Vec::new();
             for line in whole.lines() {
                 if !line.intersects(&seen) {
@@ -60,15 +63,18 @@ impl MilledArea {
         if near.is_empty() {
             return Self { free: MultiPolygon::new(Vec::new()), reach };
         }
+        // Dilation by the radius gives what the tool covers; erosion by the radius gives its possible
+        // centres. The erosion is a little smaller, so that a path lies inside its own closing in spite of
+        // the polygons.
         let style = |distance: f64| {
             BufferStyle::new(distance).line_cap(LineCap::Round(STEP)).line_join(LineJoin::Round(STEP))
         };
         let covered = MultiLineString(near).buffer_with_style(style(radius));
-        let free = covered.buffer_with_style(style(MARGIN.max(radius * SHARE) - radius));
+        let free = covered.buffer_with_style(style(MARGIN.max(radius * MARGIN_FRACTION) - radius));
         Self { free, reach }
     }
 
-    /// Whether the tool's centre may go along a path.
+    /// Returns whether the tool's centre may go along a path.
     pub fn contains_path(&self, path: &[Point2<f64>]) -> bool {
         let all: LineString = path.iter().map(|at| (at.x, at.y)).collect();
         let inside = |line: Line| {

@@ -1,21 +1,21 @@
-//! `correct_ramp`: ramp approaches that an indexable cutter survives (Zhou 2020).
+//! `correct_ramp` makes ramp approaches that an indexable cutter survives (Zhou 2020).
 //!
-//! `ramp_search` reads ramps from motions. The geometry knows no text: [`ramp`] is a ramp, [`ramp_limits`]
-//! what the cutter allows, and [`correct_ramp()`] makes the ramp keep these limits ([`circumscribed_circle`],
-//! [`ramp_passes`], detours, inside a [`tool_region`]). `ramp_writer` puts the new points into the CL text,
-//! and the step measures them again.
+//! `ramp_search` reads ramps from motions. The geometry modules know no text: [`ramp`] is a ramp,
+//! [`ramp_limits`] holds what the cutter allows, and [`correct_ramp()`] makes the ramp keep these limits
+//! ([`circumscribed_circle`], [`ramp_passes`], detours, inside a [`tool_region`]). `ramp_writer` writes the
+//! new points into the CL text, and the step measures them again.
 //!
-//! A ramp is known by what follows it: it is a descent at feed after which the tool cuts on at the level it
-//! came down to. Marks of the file (engage) count before geometry. Without marks an operation must cut level,
-//! since on a surface any descent may be a cut.
+//! A ramp is recognized by what follows it: it is a descent at feed after which the tool continues to cut at
+//! the level that it has reached. Marks of the file (engage) have priority over geometry. Without marks, an
+//! operation must mostly cut level, because on a surface any descent may be a cut.
 //!
 //! A corrected ramp stays where its operation mills anyway: inside the paths at the ramp's level, grown by
-//! the tool's radius and shrunk by it again (a closing). The convex hull, which the paper takes, spans
+//! the tool's radius and shrunk by it again (a closing). The convex hull, which the paper uses, covers
 //! islands and, around an outside contour, the part itself.
 //!
-//! New points stand before the old ones, where the feed that the ramp starts with is in force. Where the feed
-//! gets slower on the way down, all new points come where it is slowest. A ramp whose feed rises, or under
-//! CUTCOM, is not corrected.
+//! New points are inserted before the old ones, where the feed at the start of the ramp is in force. If the
+//! feed decreases during the descent, all new points are inserted where it is lowest. A ramp whose feed
+//! increases, or that is under CUTCOM, is not corrected.
 
 pub mod circumscribed_circle;
 mod detour;

@@ -1,12 +1,13 @@
-//! Whether a line lies in a polygon.
+//! This module tells whether a line lies in a polygon.
 
 use geo::line_intersection::{LineIntersection, line_intersection};
 use geo::{Contains, Distance, Euclidean, Line, LineString, Polygon};
 
-/// Points this far outside (mm) are on the border: below what any dialect prints.
+/// Points that are this far outside (mm) still count as on the boundary. It is below what any dialect prints.
 const BOUNDARY: f64 = 1e-5;
 
-/// Between its crossings with the border a line is inside or outside as a whole, so the middles tell.
+/// Returns whether a line lies in a polygon. Between two crossings with the boundary, a line is inside or
+/// outside as a whole. So testing the middles of these segments is enough.
 pub(super) fn contains_line(polygon: &Polygon, line: Line) -> bool {
     let delta = line.delta();
     let length_squared = delta.x * delta.x + delta.y * delta.y;

@@ -1,69 +1,70 @@
-//! A ramp as geometry: where it starts, and its steps down to the floor.
+//! This module describes a ramp as geometry: its start, and its steps down to the floor.
 //!
-//! Everything is in millimetres and in the tool's frame: z along the tool axis, the ramp descends.
+//! Everything is in millimetres and in the tool's frame: z runs along the tool axis, and the ramp descends.
 
 use geo::{ConvexHull, LineString, MultiPoint};
 use nalgebra::{Point2, Point3, Vector2};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// Directions that differ by more than this (degrees) make a turning point; less is the bend of a curve that chords approximate.
+/// Directions that differ by more than this (degrees) make a turning point. A smaller difference is the bend
+/// of a curve that chords approximate.
 const CORNER: f64 = 20.0;
 
 /// Steps shorter than this across the axis (mm) go straight down.
 pub(super) const NOTHING: f64 = 1e-3;
 
-/// Points of a leg that lie this close to its chord (mm) make it straight.
+/// A leg is straight if its points lie this close to its chord (mm).
 const STRAIGHT: f64 = 0.01;
 
-/// Coordinates beyond this (mm) belong to no machine, and their squares and hulls are not to be trusted.
+/// Coordinates beyond this (mm) belong to no machine. Their squares and hulls would not be reliable.
 const FARTHEST: f64 = 1e9;
 
-/// A ramp: P1 and the steps to P2..Pn.
+/// A ramp: its start P1 and the steps to P2..Pn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ramp {
-    /// P1, where the tool starts to descend in the material.
+    /// P1, where the tool begins to descend in the material.
     pub start: Point3<f64>,
-    /// The way down; never empty where a ramp was found.
+    /// The steps down. A ramp that was found has at least one.
     pub steps: Vec<RampStep>,
 }
 
-/// A straight step or an arc about the tool axis.
+/// A straight step, or an arc about the tool axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RampStep {
-    /// Where it ends.
+    /// The end of the step.
     pub to: Point3<f64>,
-    /// Its arc; `None` for a straight step.
+    /// The arc of the step. It is `None` for a straight step.
     pub bend: Option<RampArc>,
 }
 
 /// The arc of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RampArc {
-    /// Centre.
+    /// The centre of the arc.
     pub centre: Point2<f64>,
-    /// Radians, counter-clockwise positive.
+    /// The sweep in radians, positive counter-clockwise.
     pub sweep: f64,
 }
 
-/// The run between two turning points.
+/// A leg: the steps between two turning points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RampLeg {
-    /// Its steps.
+    /// The indices of its steps.
     pub steps: Range<usize>,
-    /// Largest distance of two of its points across the axis; of a straight leg its length.
+    /// The largest distance between two of its points across the axis. For a straight leg it is the length.
     pub extent: f64,
     /// Whether it is straight.
     pub straight: bool,
 }
 
 impl RampStep {
-    /// A straight step.
+    /// Makes a straight step.
     pub fn straight_to(to: Point3<f64>) -> Self {
         Self { to, bend: None }
     }
 
-    /// Length across the axis from where the step starts.
+    /// Returns the length across the axis, from where the step starts.
     pub fn length_across_mm(&self, from: Point3<f64>) -> f64 {
         match self.bend {
             None => (self.to.xy() - from.xy()).norm(),
@@ -71,12 +72,13 @@ impl RampStep {
         }
     }
 
-    /// Directions across the axis in which it starts and ends; `None` when it goes straight down.
+    /// Returns the directions across the axis in which the step starts and ends. Returns `None` if it goes
+    /// straight down.
     fn end_directions(&self, from: Point3<f64>) -> Option<[Vector2<f64>; 2]> {
         match self.bend {
             None => {
-                let way = self.to.xy() - from.xy();
-                (way.norm() > NOTHING).then(|| [way.normalize(); 2])
+                let offset = self.to.xy() - from.xy();
+                (offset.norm() > NOTHING).then(|| [offset.normalize(); 2])
             }
             Some(bend) => {
                 let tangent = |at: Point2<f64>| {
@@ -88,7 +90,9 @@ impl RampStep {
         }
     }
 
-    /// Points along it across the axis, its start left out; arcs every 5 degrees. Of many turns the first and what the last is more.
+    /// Returns points along the step across the axis, without its start. Arcs have a point every 5 degrees.
+    /// An arc of many turns is sampled for one turn and the remainder, because the other turns repeat the
+    /// same points.
     pub fn sample_points_across(&self, from: Point3<f64>) -> Vec<Point2<f64>> {
         let Some(bend) = self.bend else { return vec![self.to.xy()] };
         let turns = bend.sweep.abs();
@@ -104,7 +108,7 @@ impl RampStep {
 }
 
 impl Ramp {
-    /// A ramp of straight steps through points; `None` for fewer than two.
+    /// Makes a ramp of straight steps through points. Returns `None` for fewer than two points.
     pub fn from_points(points: &[Point3<f64>]) -> Option<Self> {
         let (start, rest) = points.split_first()?;
         (!rest.is_empty()).then(|| Self {
@@ -113,35 +117,37 @@ impl Ramp {
         })
     }
 
-    /// Pn.
+    /// Returns Pn.
     pub fn end_point(&self) -> Point3<f64> {
         self.steps.last().map_or(self.start, |step| step.to)
     }
 
-    /// How far it descends.
+    /// Returns how far the ramp descends.
     pub fn height_mm(&self) -> f64 {
         self.start.z - self.end_point().z
     }
 
-    /// Each step with where it starts.
+    /// Returns each step with its start.
     pub fn steps_with_starts(&self) -> impl Iterator<Item = (Point3<f64>, &RampStep)> {
         let starts = std::iter::once(self.start).chain(self.steps.iter().map(|step| step.to));
         starts.zip(&self.steps)
     }
 
-    /// P1..Pn with the points between.
+    /// Returns P1..Pn and the points between them.
     pub fn points(&self) -> impl Iterator<Item = Point3<f64>> {
         std::iter::once(self.start).chain(self.steps.iter().map(|step| step.to))
     }
 
-    /// The point before the step of that index, from P1 on; Pn behind the last.
+    /// Returns the point before the step with an index. For index 0 it is P1, and after the last step it is
+    /// Pn.
     pub(super) fn point_before_step(&self, index: usize) -> Point3<f64> {
         index
             .checked_sub(1)
             .map_or(self.start, |before| self.steps.get(before).map_or(self.end_point(), |step| step.to))
     }
 
-    /// The steps from the first that descends to the last; those before and after are level links.
+    /// Returns the steps from the first one that descends to the last one. The steps before and after them
+    /// are level links.
     pub(super) fn descending_steps(&self) -> Range<usize> {
         let down = |index: &usize| self.point_before_step(*index).z > self.point_before_step(index + 1).z;
         let mut found = (0..self.steps.len()).filter(down);
@@ -151,33 +157,33 @@ impl Ramp {
         }
     }
 
-    /// The way across the axis from P1 to Pn; arcs are sampled.
+    /// Returns the path across the axis from P1 to Pn, with sampled arcs.
     pub(super) fn path_across(&self) -> Vec<Point2<f64>> {
         let mut path = vec![self.start.xy()];
         path.extend(self.steps_with_starts().flat_map(|(from, step)| step.sample_points_across(from)));
         path
     }
 
-    /// Whether all its coordinates and angles are numbers of a sensible size.
+    /// Returns whether all coordinates and angles are numbers of a plausible size.
     pub(super) fn is_sensible(&self) -> bool {
         let bends = self.steps.iter().filter_map(|step| step.bend);
         let bends = bends.flat_map(|bend| [bend.centre.x, bend.centre.y, bend.sweep]);
         self.points().flat_map(|point| [point.x, point.y, point.z]).chain(bends).all(is_sensible)
     }
 
-    /// Whether it ends above or below where it starts.
+    /// Returns whether the ramp ends directly above or below its start.
     pub fn is_closed(&self) -> bool {
         (self.end_point().xy() - self.start.xy()).norm() <= NOTHING
     }
 
-    /// Length of the path.
+    /// Returns the length of the path.
     pub fn length_mm(&self) -> f64 {
         self.steps_with_starts()
             .map(|(from, step)| step.length_across_mm(from).hypot(step.to.z - from.z))
             .sum()
     }
 
-    /// Tangent of the steepest step's angle; infinite where it goes straight down.
+    /// Returns the tangent of the steepest step's angle. It is infinite if a step goes straight down.
     pub fn steepest_slope(&self) -> f64 {
         let slope = |(from, step): (Point3<f64>, &RampStep)| {
             let (down, across) = (from.z - step.to.z, step.length_across_mm(from));
@@ -192,13 +198,13 @@ impl Ramp {
         self.steps_with_starts().map(slope).fold(0.0, f64::max)
     }
 
-    /// The legs that descend, in order.
+    /// Returns the legs that descend, in order.
     pub fn descending_legs(&self) -> Vec<RampLeg> {
         let mut bounds = vec![0];
         let mut before: Option<Option<Vector2<f64>>> = None;
         for (index, (from, step)) in self.steps_with_starts().enumerate() {
             let directions = step.end_directions(from);
-            // A point given twice is no turning point.
+            // A repeated point is no turning point.
             if directions.is_none() && (from.z - step.to.z).abs() <= NOTHING {
                 continue;
             }
@@ -237,8 +243,8 @@ impl Ramp {
         let chord = last - first;
         let beside = |point: &Point2<f64>| {
             let along = chord.try_normalize(NOTHING).unwrap_or_default();
-            let way = point - first;
-            (way - along * along.dot(&way)).norm()
+            let offset = point - first;
+            (offset - along * along.dot(&offset)).norm()
         };
         let straight = points.iter().all(|point| beside(point) <= STRAIGHT);
         let extent = if straight { chord.norm() } else { largest_distance(&points) };
@@ -246,27 +252,28 @@ impl Ramp {
     }
 }
 
-/// Whether a coordinate (mm) or an angle is a number of a sensible size: a hull takes no others.
+/// Returns whether a coordinate (mm) or an angle is a number of a plausible size. The convex hull accepts no
+/// others.
 pub(super) fn is_sensible(value: f64) -> bool {
     value.abs() <= FARTHEST
 }
 
-/// Largest distance between two of the points.
+/// Returns the largest distance between two of the points. Only vertices of the convex hull can have it.
 fn largest_distance(points: &[Point2<f64>]) -> f64 {
     let sensible = points.iter().filter(|point| is_sensible(point.x) && is_sensible(point.y));
     let all: MultiPoint = sensible.map(|point| geo::Point::new(point.x, point.y)).collect();
     let hull: LineString = all.convex_hull().exterior().clone();
-    let corners: Vec<Point2<f64>> = hull.coords().map(|at| Point2::new(at.x, at.y)).collect();
+    let vertices: Vec<Point2<f64>> = hull.coords().map(|at| Point2::new(at.x, at.y)).collect();
     let mut widest = 0.0f64;
-    for (index, one) in corners.iter().enumerate() {
-        for other in corners.iter().skip(index + 1) {
+    for (index, one) in vertices.iter().enumerate() {
+        for other in vertices.iter().skip(index + 1) {
             widest = widest.max((other - one).norm());
         }
     }
     widest
 }
 
-/// The direction that an angle of a full circle leaves over, in `[0, 2 pi)`.
+/// Returns an angle reduced to `[0, 2 pi)`.
 pub(super) fn wrap_angle(angle: f64) -> f64 {
     angle.rem_euclid(TAU)
 }

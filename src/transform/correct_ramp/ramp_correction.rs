@@ -1,4 +1,5 @@
-//! One ramp corrected: length, then height, then layers, inside the region.
+//! This module corrects a single ramp: first its length, then its height, then its layers, all inside the
+//! region.
 
 use super::circumscribed_circle::{find_own_side, place_on_circle};
 use super::detour::{lengthen_along_chord, lengthen_along_pass, widen_helix};
@@ -9,18 +10,20 @@ use super::ramp_passes::{TooManyPasses, add_passes_or_turns, compress_heights};
 use super::tool_region::ToolRegion;
 use nalgebra::{Point2, Point3, Vector2};
 
-/// What a ramp is corrected by. Lengths in mm, in the tool's frame.
+/// The data by which a ramp is corrected. Lengths are in mm, in the tool's frame.
 #[derive(Debug, Clone, Copy)]
 pub struct RampTask<'a> {
-    /// The cutter's limits.
+    /// The limits of the cutter.
     pub limits: RampLimits,
-    /// Height above the ramp's end at which it may begin: depth of cut and clearance (h1'); `None` keeps its own.
+    /// The height above the ramp's end at which it may begin: depth of cut plus clearance (h1'). With `None`,
+    /// it begins where it did before.
     pub begin: Option<f64>,
-    /// Where the tool may go.
+    /// The region in which the tool may move.
     pub region: &'a ToolRegion,
-    /// Directions in which the operation cuts on from the ramp's end, the first pass first.
+    /// The directions in which the operation cuts from the ramp's end, with the first pass first.
     pub passes: &'a [Vector2<f64>],
-    /// How far printed coordinates may be off: legs are made that much longer, so that they keep the limit as printed.
+    /// How far printed coordinates may be off. Legs are made longer by this, so that they keep the limit as
+    /// printed.
     pub rounding: f64,
 }
 
@@ -30,15 +33,15 @@ pub struct RampTask<'a> {
 pub enum LengtheningMethod {
     /// It was long enough.
     No,
-    /// Its turning points moved onto the circumscribed circle.
+    /// Its turning points were moved onto the circumscribed circle.
     Circle,
-    /// Onto the circle's mirror image, since the circle left the region.
+    /// Its turning points were moved onto the mirrored circle, because the circle left the region.
     MirroredCircle,
-    /// The helix became wider.
+    /// The helix was widened.
     WidenedHelix,
-    /// Long legs along the chord from start to end.
+    /// It got long legs along the chord from start to end.
     AlongChord,
-    /// Long legs along the first cutting pass.
+    /// It got long legs along the first cutting pass.
     AlongPass,
 }
 
@@ -47,40 +50,41 @@ pub enum LengtheningMethod {
 pub struct CorrectedRamp {
     /// The ramp.
     pub ramp: Ramp,
-    /// How it became longer.
+    /// How it was lengthened.
     pub lengthened: LengtheningMethod,
-    /// Ratio nu of the compression; 1 for none.
+    /// The ratio nu of the compression; 1 if it was not compressed.
     pub compression: f64,
-    /// How many times it goes over its path; of a helix 1 and its additional turns.
+    /// How many times it runs over its path. For a helix it is 1 plus the number of added turns.
     pub passes: usize,
 }
 
-/// Why a ramp cannot be corrected.
+/// The reason why a ramp cannot be corrected.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ImpossibleCorrection {
     /// Every longer ramp leaves the region.
-    #[error("every way to make its legs {0:.3} mm long leaves the region where the tool may go")]
+    #[error("every longer path with legs of {0:.3} mm leaves the region where the tool may go")]
     Region(f64),
-    /// No direction to be longer in.
+    /// There is no direction in which to lengthen it.
     #[error("it has one leg only, and no chord or cutting pass to lengthen it along")]
     NoDirection,
-    /// So flat a limit that no sensible number of layers keeps it.
+    /// The limit is so flat that it would need too many layers.
     #[error("it would need {0:.0} passes to be shallow enough")]
     TooMany(f64),
-    /// Its own path is too short for its printed decimals, or one of its coordinates or limits is no
-    /// number of a sensible size.
+    /// Its own path is too short for its printed decimals, or one of its coordinates or limits is no number
+    /// of a plausible size.
     #[error("it cannot be made to keep the limits")]
     Limits,
 }
 
-/// The corrected ramp; `None` when it keeps the limits as it is.
+/// Corrects a ramp. Returns `None` if it already keeps the limits.
 ///
-/// Order: length, compression (only when a step is too steep and the ramp begins too high), layers. P1 keeps its place across the
-/// axis and Pn its place altogether; the result descends all the way and keeps both limits.
+/// The length is corrected first. Then the ramp is compressed, if a step is too steep and the ramp begins too
+/// high. Then layers are added. P1 stays where it is across the axis, and Pn stays altogether. The result
+/// descends all the way and keeps both limits.
 ///
 /// # Errors
-/// [`ImpossibleCorrection`]; a ramp is never corrected in part.
+/// Returns [`ImpossibleCorrection`]. A ramp is never corrected in part.
 pub fn correct_ramp(ramp: &Ramp, task: &RampTask<'_>) -> Result<Option<CorrectedRamp>, ImpossibleCorrection> {
     let numbers = [task.limits.shortest_leg, task.limits.steepest, task.rounding];
     if !ramp.is_sensible() || !numbers.into_iter().all(is_sensible) {
@@ -112,7 +116,7 @@ pub fn correct_ramp(ramp: &Ramp, task: &RampTask<'_>) -> Result<Option<Corrected
     Err(why)
 }
 
-/// Longer ramps in the order in which they are tried.
+/// Returns longer ramps in the order in which they are tried.
 fn find_longer_ramps(ramp: &Ramp, least: f64, passes: &[Vector2<f64>]) -> Vec<(LengtheningMethod, Ramp)> {
     let mut found = Vec::new();
     match RampKind::classify_ramp(ramp) {
@@ -144,7 +148,8 @@ fn find_longer_ramps(ramp: &Ramp, least: f64, passes: &[Vector2<f64>]) -> Vec<(L
     found
 }
 
-/// P1..Pn: the turning points between straight legs that descend. Level legs have no part in it, but Pn stays Pn.
+/// Returns P1..Pn: the ends of the ramp, and the turning points between its straight descending legs. Level
+/// legs are left out.
 fn find_turning_points(ramp: &Ramp) -> Vec<Point3<f64>> {
     let legs = ramp.descending_legs();
     let inner =
@@ -152,7 +157,7 @@ fn find_turning_points(ramp: &Ramp) -> Vec<Point3<f64>> {
     std::iter::once(ramp.start).chain(inner).chain([ramp.end_point()]).collect()
 }
 
-/// New places across the axis with the old heights; P1 and Pn as they were.
+/// Raises new points across the axis to the old heights. P1 and Pn stay as they were.
 fn restore_heights(places: &[Point2<f64>], points: &[Point3<f64>]) -> Option<Ramp> {
     let raised = places.iter().zip(points).map(|(place, point)| Point3::new(place.x, place.y, point.z));
     let mut raised: Vec<Point3<f64>> = raised.collect();
@@ -162,8 +167,9 @@ fn restore_heights(places: &[Point2<f64>], points: &[Point3<f64>]) -> Option<Ram
     Ramp::from_points(&raised)
 }
 
-/// The same turning points with an even slope between them, where every leg is straight: an arc in a vertical plane, say, is steep only
-/// where it begins. `None` where the ramp has no other points, or level legs.
+/// Makes the slope even between the turning points, where every leg is straight. An arc in a vertical plane,
+/// for example, is only steep where it begins. Returns `None` if that would add points, or if the ramp has
+/// level legs.
 fn straighten_legs(ramp: &Ramp) -> Option<Ramp> {
     let descending: usize = ramp.descending_legs().iter().map(|leg| leg.steps.len()).sum();
     if RampKind::classify_ramp(ramp) != RampKind::Zigzag || descending < ramp.steps.len() {

@@ -1,4 +1,4 @@
-//! The cutter of a ramp: from the step, the setup, and the CL file.
+//! This module finds the cutter of a ramp in the step, the setup and the CL file.
 
 use super::parameters::CorrectRamp;
 use super::ramp_limits::IndexableCutter;
@@ -8,17 +8,17 @@ use crate::program::LengthUnit;
 use crate::program::motion::ActiveTool;
 use crate::transform::StepContext;
 
-/// What is known about a tool.
+/// The data that is known about a tool.
 pub(super) enum RampCutter {
-    /// Everything.
+    /// All dimensions are known.
     Indexable(IndexableCutter),
-    /// Nothing says that it has inserts.
+    /// Nothing says that the tool has inserts.
     Solid,
-    /// Something is missing.
+    /// A dimension is missing.
     Unknown(Box<Diagnostic>),
 }
 
-/// The cutter that a tool is; mm.
+/// Finds the cutter that a tool is, in mm.
 pub(super) fn resolve_ramp_cutter(
     step: &CorrectRamp,
     tool: &ActiveTool,
@@ -48,7 +48,7 @@ pub(super) fn resolve_ramp_cutter(
         let called = tool.display_name();
         let message = format!("{what} of {called} is not known, and its ramps cannot be judged without it");
         let help = format!(
-            "Say `tool: {{ {key}: ... }}` in the step, or complete `setup.tools` for the tool, there as \
+            "Add `tool: {{ {key}: ... }}` to the step, or complete the tool under `setup.tools`, there as \
              `diameter` and `insert: {{ height, radius }}`."
         );
         RampCutter::Unknown(Box::new(

@@ -1,19 +1,20 @@
-//! What kind of approach a ramp is.
+//! This module tells which kind of approach a ramp is.
 
 use super::ramp::{NOTHING, Ramp, RampArc, wrap_angle};
 use nalgebra::{Matrix3, Point2, Vector2, Vector3};
 use std::f64::consts::TAU;
 
-/// Points of a helix lie this close to its circle, mm, or within a thousandth of its radius.
+/// The points of a helix lie this close to its circle (mm), or within a thousandth of its radius.
 const ROUND: f64 = 0.01;
 
-/// A chord of a helix sweeps at most this, degrees: an octagon is the coarsest polygon that is a circle.
+/// A chord of a helix sweeps at most this angle (degrees). An octagon is the coarsest polygon that counts as
+/// a circle.
 const WIDEST_CHORD: f64 = 46.0;
 
-/// Least sweep of a helix, degrees; less is a curved leg.
+/// The least sweep of a helix, in degrees. Less is a curved leg.
 const LEAST_SWEEP: f64 = 270.0;
 
-/// Kinds of approach.
+/// The kinds of approach.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum RampKind {
@@ -21,29 +22,29 @@ pub enum RampKind {
     Zigzag,
     /// Turns of a circle, as arcs or chords.
     Helix(Helix),
-    /// Along the shape that is cut: legs with curves.
+    /// Legs with curves, along the shape that is cut.
     AlongShape,
     /// Straight down.
     Plunge,
 }
 
-/// The circle that a helix goes around.
+/// The circle of a helix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Helix {
     /// Its axis.
     pub centre: Point2<f64>,
     /// Its radius, mm.
     pub radius: f64,
-    /// Radians from start to end, counter-clockwise positive.
+    /// The sweep from start to end in radians, positive counter-clockwise.
     pub sweep: f64,
-    /// Largest sweep of one of its steps, radians.
+    /// The largest sweep of one of its steps, in radians.
     pub widest_step: f64,
-    /// Whether its steps are arcs.
+    /// Whether its steps are arcs, not chords.
     pub arcs: bool,
 }
 
 impl RampKind {
-    /// The kind of a ramp.
+    /// Classifies a ramp.
     pub fn classify_ramp(ramp: &Ramp) -> Self {
         if ramp.steps_with_starts().all(|(from, step)| step.length_across_mm(from) <= NOTHING) {
             return Self::Plunge;
@@ -54,7 +55,7 @@ impl RampKind {
         if ramp.descending_legs().iter().all(|leg| leg.straight) { Self::Zigzag } else { Self::AlongShape }
     }
 
-    /// Its name for people.
+    /// Returns the name for people.
     pub fn display_name(self) -> &'static str {
         match self {
             Self::Zigzag => "zigzag",
@@ -65,8 +66,8 @@ impl RampKind {
     }
 }
 
-/// The descending part of the ramp as a helix; level steps before and after it are links to a widened one. What is level within
-/// it goes around too.
+/// Fits a helix to the descending part of the ramp. Level steps before and after it are links to a widened
+/// helix. Level steps inside it belong to the circle.
 fn fit_helix(ramp: &Ramp) -> Option<Helix> {
     let descent = ramp.descending_steps();
     let inside = ramp.steps_with_starts().skip(descent.start).take(descent.len());
@@ -105,18 +106,20 @@ fn fit_helix(ramp: &Ramp) -> Option<Helix> {
     (sweep.abs() >= LEAST_SWEEP.to_radians()).then_some(Helix { centre, radius, sweep, widest_step, arcs })
 }
 
-/// The turn from one spoke to the next, in `(-pi, pi]`.
+/// Returns the angle from one spoke to the next, in `(-pi, pi]`.
 fn signed_turn(from: Vector2<f64>, to: Vector2<f64>) -> f64 {
     let angle = wrap_angle(to.y.atan2(to.x) - from.y.atan2(from.x));
     if angle > TAU / 2.0 { angle - TAU } else { angle }
 }
 
-/// The centre of the circle that fits points best (algebraic least squares, Kasa 1976), about their mean; `None` for fewer
-/// than four or when they lie on a line.
+/// Returns the centre of the circle that fits the points best (algebraic least squares, Kasa 1976). Returns
+/// `None` for fewer than four points, or if they lie on a line.
 fn fit_circle_centre(points: &[Point2<f64>]) -> Option<Point2<f64>> {
     if points.len() < 4 {
         return None;
     }
+    // Kasa's equation x^2 + y^2 = 2 a x + 2 b y + c is linear in a, b and c. About the mean of the points its
+    // normal equations are well conditioned, however far the circle is from the origin.
     let mean = points.iter().map(|point| point.coords).sum::<Vector2<f64>>() / points.len() as f64;
     let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
     for point in points {

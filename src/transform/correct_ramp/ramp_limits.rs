@@ -1,10 +1,10 @@
-//! What an indexable cutter allows (Zhou 2020, eqs. (1) and (2)).
+//! This module holds what an indexable cutter allows (Zhou 2020, eqs. (1) and (2)).
 
 use super::ramp::Ramp;
 use super::ramp_kind::RampKind;
 use std::fmt;
 
-/// An indexable cutter. It does not cut within `diameter - 2 insert_radius` around its axis.
+/// The diameter D, in mm.
 ///
 /// ```
 /// use clsmith::transform::correct_ramp::ramp_limits::IndexableCutter;
@@ -17,40 +17,41 @@ use std::fmt;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IndexableCutter {
-    /// Diameter D, mm.
+    /// The diameter D, in mm.
     pub diameter: f64,
-    /// Radius r of the insert's bottom circle, mm.
+    /// The radius r of the insert's bottom circle, in mm.
     pub insert_radius: f64,
-    /// Cutting height h_ic of the insert, mm.
+    /// The cutting height h_ic of the insert, in mm.
     pub insert_height: f64,
 }
 
-/// A cutter whose inserts reach to its centre, or beyond: it cuts everywhere, and the method has no limit for it.
+/// A cutter whose inserts reach its centre or beyond. It cuts everywhere, and the method sets no limit for
+/// it.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
     "a cutter of {diameter} mm with inserts of radius {insert_radius} mm cuts up to its centre: D - 2r is not above 0"
 )]
 pub struct CutsToCentre {
-    /// Its diameter, mm.
+    /// Its diameter, in mm.
     pub diameter: f64,
-    /// Radius of its inserts, mm.
+    /// The radius of its inserts, in mm.
     pub insert_radius: f64,
 }
 
-/// Shortest leg and steepest angle.
+/// The shortest leg and the steepest angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RampLimits {
-    /// l_min: shortest leg across the axis, and smallest diameter of a helix; mm.
+    /// l_min: the shortest leg across the axis, and the smallest diameter of a helix, in mm.
     pub shortest_leg: f64,
-    /// tan a_lim: tangent of the steepest angle.
+    /// tan a_lim: the tangent of the steepest angle.
     pub steepest: f64,
 }
 
 impl IndexableCutter {
-    /// The limits: l_min = D - 2r, a_lim = atan(h_ic / (D - 2r)).
+    /// Computes the limits l_min = D - 2r and a_lim = atan(h_ic / (D - 2r)).
     ///
     /// # Errors
-    /// [`CutsToCentre`] when D - 2r is not a positive number.
+    /// Returns [`CutsToCentre`] if D - 2r is not a positive number.
     pub fn ramp_limits(&self) -> Result<RampLimits, CutsToCentre> {
         let blind = self.diameter - 2.0 * self.insert_radius;
         if blind.is_nan() || blind <= 1e-9 {
@@ -61,18 +62,18 @@ impl IndexableCutter {
     }
 }
 
-/// What a ramp measures.
+/// The measurements of a ramp.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct RampMeasurement {
-    /// How many legs descend.
+    /// The number of legs that descend.
     pub legs: usize,
-    /// Its shortest leg, of a helix its diameter; mm.
+    /// The shortest leg, or the diameter of a helix, in mm.
     pub shortest_leg_mm: f64,
-    /// Its steepest angle, degrees.
+    /// The steepest angle, in degrees.
     pub steepest_degrees: f64,
-    /// How far it descends, mm.
+    /// How far it descends, in mm.
     pub height_mm: f64,
-    /// Length of its path, mm.
+    /// The length of its path, in mm.
     pub length_mm: f64,
 }
 
@@ -94,13 +95,13 @@ impl RampMeasurement {
     }
 }
 
-/// Whether a ramp keeps the limits. `rounding` (mm) is how far printed coordinates may be off: a leg may be that much shorter, a
-/// step that much deeper, since no file can say it better.
+/// Returns whether a ramp keeps the limits. `rounding` (mm) is how far printed coordinates may be off. A leg
+/// may be shorter by that, and a step deeper, because no file can state it better.
 pub fn is_within_limits(ramp: &Ramp, limits: &RampLimits, rounding: f64) -> bool {
     is_long_enough(ramp, limits, rounding) && is_shallow_enough(ramp, limits, rounding)
 }
 
-/// Whether every leg is long enough.
+/// Returns whether every leg is long enough.
 pub fn is_long_enough(ramp: &Ramp, limits: &RampLimits, rounding: f64) -> bool {
     let least = limits.shortest_leg - rounding - 1e-9;
     match RampKind::classify_ramp(ramp) {
@@ -109,7 +110,7 @@ pub fn is_long_enough(ramp: &Ramp, limits: &RampLimits, rounding: f64) -> bool {
     }
 }
 
-/// Whether no step is too steep.
+/// Returns whether no step is too steep.
 pub fn is_shallow_enough(ramp: &Ramp, limits: &RampLimits, rounding: f64) -> bool {
     ramp.steps_with_starts().all(|(from, step)| {
         let most = limits.steepest * step.length_across_mm(from);

@@ -1,15 +1,16 @@
-//! Ramps as drawings: from above, and their height along the way.
+//! This module draws ramps from above, and their height along the path.
 
 use super::report::{CorrectRampReport, RampOutcome, RampReport};
 use crate::presentation::path_panel::{PanelPath, PanelPathStyle, PathPanel};
 
-/// Ramps drawn at most.
-const DRAWN: usize = 12;
+/// The largest number of ramps that are drawn.
+const MOST_DRAWN: usize = 12;
 
-/// Two panels for each ramp that was corrected: across the tool axis, and height along the path, with the steepest slope allowed.
+/// Draws two panels for each corrected ramp: the view along the tool axis, and the height along the path with
+/// the steepest allowed slope.
 pub(super) fn build_ramp_panels(report: &CorrectRampReport) -> Vec<PathPanel> {
     let corrected = report.ramps.iter().filter(|ramp| ramp.outcome == RampOutcome::Corrected);
-    corrected.take(DRAWN).flat_map(|ramp| [build_top_view(ramp), build_height_panel(ramp)]).collect()
+    corrected.take(MOST_DRAWN).flat_map(|ramp| [build_top_view(ramp), build_height_panel(ramp)]).collect()
 }
 
 fn panel_title(ramp: &RampReport) -> String {
@@ -41,7 +42,7 @@ fn build_height_panel(ramp: &RampReport) -> PathPanel {
     let after = unroll_heights(&ramp.path_after);
     let end = before.last().map_or(0.0, |last| last.1);
     let height = before.first().map_or(0.0, |first| first.1) - end;
-    // The steepest slope allowed, up to the height where the ramp began.
+    // The line of the steepest allowed slope ends at the height where the ramp began.
     let across = height / ramp.limit_degrees.to_radians().tan();
     let limit = vec![(0.0, end + height), (across, end)];
     let path = |name: &str, look: PanelPathStyle, points: Vec<(f64, f64)>| PanelPath {
@@ -50,8 +51,8 @@ fn build_height_panel(ramp: &RampReport) -> PathPanel {
         points,
     };
     PathPanel {
-        title: "height along the way".to_owned(),
-        right: "way across the tool axis, mm",
+        title: "height along the path".to_owned(),
+        right: "distance across the tool axis, mm",
         up: "z, mm",
         one_scale: false,
         paths: vec![
@@ -66,7 +67,7 @@ fn build_height_panel(ramp: &RampReport) -> PathPanel {
     }
 }
 
-/// Height over the way gone across the axis.
+/// Returns the height over the distance covered across the axis.
 fn unroll_heights(path: &[[f64; 3]]) -> Vec<(f64, f64)> {
     let mut gone = 0.0;
     let mut last: Option<[f64; 3]> = None;

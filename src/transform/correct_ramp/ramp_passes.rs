@@ -1,4 +1,5 @@
-//! Shallower ramps: equal-ratio compression, then more layers (Zhou 2020, "ramp angle correction").
+//! This module makes ramps shallower by equal-ratio compression, then by more layers (Zhou 2020, "ramp angle
+//! correction").
 
 use super::ramp::{Ramp, RampArc, RampStep};
 use super::ramp_kind::{Helix, RampKind};
@@ -7,17 +8,18 @@ use super::tool_region::ToolRegion;
 use nalgebra::{Point3, Rotation2};
 use std::f64::consts::TAU;
 
-/// More passes than this are no correction but another operation.
+/// A ramp with more passes than this is no correction but another operation.
 pub const MOST_PASSES: usize = 1000;
 
-/// Rounding up takes this little for nothing, so that a ramp on the limit gets no pass too many.
+/// When counts are rounded up, an excess of this size is ignored, so that a ramp on the limit gets no extra
+/// pass.
 const SLACK: f64 = 1e-9;
 
-/// A ramp would need this many passes.
+/// The error of a ramp that would need this many passes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TooManyPasses(pub f64);
 
-/// The ramp with its heights above the end multiplied by `ratio` (nu): `z' = z_n + nu (z - z_n)`.
+/// Multiplies the heights above the end by `ratio` (nu): `z' = z_n + nu (z - z_n)`.
 pub fn compress_heights(ramp: &Ramp, ratio: f64) -> Ramp {
     let end = ramp.end_point().z;
     let lower = |point: Point3<f64>| Point3::new(point.x, point.y, end + ratio * (point.z - end));
@@ -25,10 +27,11 @@ pub fn compress_heights(ramp: &Ramp, ratio: f64) -> Ramp {
     Ramp { start: lower(ramp.start), steps }
 }
 
-/// How many passes keep the limit: `1 + w` around a closed ramp, `1 + 2 w` to and fro over an open one.
+/// Returns how many passes keep the limit: `1 + w` around a closed ramp, `1 + 2 w` to and fro over an open
+/// one.
 ///
 /// # Errors
-/// [`TooManyPasses`] above [`MOST_PASSES`], and for a ramp that goes straight down.
+/// Returns [`TooManyPasses`] above [`MOST_PASSES`], and for a ramp that goes straight down.
 pub fn count_passes(steepest: f64, limit: f64, closed: bool) -> Result<usize, TooManyPasses> {
     let ratio = limit / steepest;
     if ratio >= 1.0 - SLACK {
@@ -40,8 +43,8 @@ pub fn count_passes(steepest: f64, limit: f64, closed: bool) -> Result<usize, To
     if passes <= MOST_PASSES as f64 { Ok(passes as usize) } else { Err(TooManyPasses(passes)) }
 }
 
-/// The ramp in passes (at least one) that share its height: around again where it is closed, forward, back and forward where it is
-/// open.
+/// Divides the height of a ramp among passes (at least one). A closed ramp runs around again. An open one
+/// runs forward, back and forward.
 pub fn repeat_in_passes(ramp: &Ramp, passes: usize) -> Ramp {
     let passes = passes.max(1);
     let (closed, height, top) = (ramp.is_closed(), ramp.height_mm(), ramp.start.z);
@@ -49,7 +52,7 @@ pub fn repeat_in_passes(ramp: &Ramp, passes: usize) -> Ramp {
     let count = passes as f64;
     let mut steps = Vec::with_capacity(ramp.steps.len() * passes);
     for pass in 0..passes {
-        let at = |share: f64| top - height * (pass as f64 + share) / count;
+        let at = |fraction: f64| top - height * (pass as f64 + fraction) / count;
         if pass % 2 == 0 || closed {
             steps.extend(ramp.steps.iter().map(|step| {
                 let to = Point3::new(step.to.x, step.to.y, at(fallen(step.to.z)));
@@ -65,18 +68,19 @@ pub fn repeat_in_passes(ramp: &Ramp, passes: usize) -> Ramp {
             steps.extend(back);
         }
     }
-    // The sum of the passes is the whole, to the bit.
+    // Rounding errors of the sum must not move the end of the ramp.
     if let Some(last) = steps.last_mut() {
         last.to = ramp.end_point();
     }
     Ramp { start: ramp.start, steps }
 }
 
-/// The ramp no steeper than the limit (`rounding` as in [`is_shallow_enough`]), by more passes or, of a helix, more turns; and how many
-/// passes it has. Where more turns leave the region, a helix too gets passes over its own path.
+/// Makes the ramp no steeper than the limit (`rounding` as in [`is_shallow_enough`]) by more passes, or for a
+/// helix by more turns. Returns the ramp and its number of passes. Where more turns leave the region, a
+/// helix, too, gets passes over its own path.
 ///
 /// # Errors
-/// [`TooManyPasses`].
+/// Returns [`TooManyPasses`].
 pub fn add_passes_or_turns(
     ramp: &Ramp,
     limits: &RampLimits,
@@ -87,7 +91,8 @@ pub fn add_passes_or_turns(
     if fits(ramp) {
         return Ok((ramp.clone(), 1));
     }
-    // Ends that are a little off their circle, or off one another, make some step shorter than in the first pass: then one more.
+    // Ends that are slightly off their circle, or off each other, make some step shorter than in the first
+    // pass. Then one more turn is needed.
     if let RampKind::Helix(helix) = RampKind::classify_ramp(ramp) {
         let more = count_added_turns(ramp, &helix, limits)?;
         let found = [more, more + 1].map(|more| (add_turns(ramp, &helix, more), 1 + more));
@@ -107,9 +112,9 @@ pub fn add_passes_or_turns(
     Ok((repeat_in_passes(ramp, more), more))
 }
 
-/// How many whole turns more a helix needs.
+/// Returns how many whole turns a helix needs in addition.
 fn count_added_turns(ramp: &Ramp, helix: &Helix, limits: &RampLimits) -> Result<usize, TooManyPasses> {
-    // Chords are shorter than their arcs, hence steeper.
+    // A chord of sweep 2h is shorter than its arc by sin(h) / h, and so it is steeper.
     let half = helix.widest_step / 2.0;
     let chords = if helix.arcs || half <= 0.0 { 1.0 } else { half.sin() / half };
     let needed = ramp.height_mm() / (helix.radius * chords * limits.steepest);
@@ -118,7 +123,7 @@ fn count_added_turns(ramp: &Ramp, helix: &Helix, limits: &RampLimits) -> Result<
     if turns <= MOST_PASSES as f64 { Ok(more as usize) } else { Err(TooManyPasses(turns)) }
 }
 
-/// A helix with whole turns more: each is a layer of its own, and its ends stay where they are.
+/// Adds whole turns to a helix. Each is a layer of its own, and the ends stay.
 fn add_turns(ramp: &Ramp, helix: &Helix, more: usize) -> Ramp {
     let longer = Helix { sweep: helix.sweep + TAU * more as f64 * helix.sweep.signum(), ..*helix };
     let descent = ramp.descending_steps();
@@ -132,17 +137,18 @@ fn add_turns(ramp: &Ramp, helix: &Helix, more: usize) -> Ramp {
     Ramp { start: ramp.start, steps }
 }
 
-/// The steps of a helix from `start` down to `end`, none wider than its widest step; both lie on its circle.
+/// Returns the steps of a helix from `start` down to `end`, none of them wider than its widest step. Both
+/// points lie on its circle.
 pub fn build_helix_steps(helix: &Helix, start: Point3<f64>, end: Point3<f64>) -> Vec<RampStep> {
     let count = (helix.sweep.abs() / helix.widest_step - 1e-6).ceil().max(1.0) as usize;
     let spoke = start.xy() - helix.centre;
-    let share = |index: usize| index as f64 / count as f64;
+    let fraction = |index: usize| index as f64 / count as f64;
     let point = |index: usize| {
         if index == count {
             return end;
         }
-        let at = helix.centre + Rotation2::new(helix.sweep * share(index)) * spoke;
-        Point3::new(at.x, at.y, start.z + (end.z - start.z) * share(index))
+        let at = helix.centre + Rotation2::new(helix.sweep * fraction(index)) * spoke;
+        Point3::new(at.x, at.y, start.z + (end.z - start.z) * fraction(index))
     };
     let bend = helix.arcs.then_some(RampArc { centre: helix.centre, sweep: helix.sweep / count as f64 });
     (1..=count).map(|index| RampStep { to: point(index), bend }).collect()

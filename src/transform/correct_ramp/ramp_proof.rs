@@ -1,4 +1,5 @@
-//! Whether the corrected ramps read back as they were meant, and keep the limits as written.
+//! This module checks that the corrected ramps read back as planned, and that they keep the limits as
+//! written.
 
 use super::planned_ramp::PlannedRamp;
 use super::ramp::Ramp;
@@ -9,7 +10,7 @@ use super::report::RampReport;
 use crate::program::motion::Motion;
 use crate::program::{LengthUnit, Program};
 
-/// Why a written ramp is not what was meant.
+/// The reason why a written ramp is not as planned.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub(super) enum RampProofError {
     #[error("the program with the new points does not read back with the motions it should have")]
@@ -27,7 +28,7 @@ pub(super) enum RampProofError {
 /// Compares the written program with the plans and completes the reports.
 ///
 /// # Errors
-/// The plan that is to blame, and why.
+/// Returns the plan that does not fit, and the reason.
 pub(super) fn prove_ramps(
     program: &Program,
     before: &[Motion],
@@ -43,7 +44,7 @@ pub(super) fn prove_ramps(
         let fault = |why: RampProofError| (index, why);
         let range = &plan.found.motions;
         let gap = range.start.checked_sub(old).ok_or(fault(RampProofError::Count))?;
-        // The motion before a ramp may end lower than it did.
+        // The motion before a ramp may end lower than before, so it is not compared.
         let same = gap - usize::from(written.lowered && gap > 0);
         check_same_motions(before, after.as_slice(), (old, new), same).map_err(fault)?;
         let start = new + gap + usize::from(written.lead);
@@ -135,7 +136,7 @@ fn complete_report(
     }
 }
 
-/// A ramp as points to draw, arcs in steps.
+/// Returns a ramp as points for a drawing, with sampled arcs.
 pub(super) fn to_drawing_points(ramp: &Ramp) -> Vec<[f64; 3]> {
     let mut points = vec![ramp.start.coords.into()];
     for (from, step) in ramp.steps_with_starts() {

@@ -1,8 +1,8 @@
-//! Ramps in the motions of a program.
+//! This module finds ramps in the motions of a program.
 //!
-//! A ramp is a run of descending feed motions after which the tool cuts on at the level it came down to. Where the file marks its
-//! motions, only those marked as engaging count; else an operation must cut level for the most part, since on surfaces any
-//! descent may be a cut.
+//! A ramp is a run of descending feed motions after which the tool continues to cut at the level that it has
+//! reached. Where the file marks its motions, only those marked as engaging count. Otherwise an operation
+//! must mostly cut level, because on surfaces any descent may be a cut.
 
 use super::ramp::{NOTHING, Ramp, RampArc, RampStep};
 use crate::program::MotionClass;
@@ -12,41 +12,42 @@ use crate::program::record::{SpindleUnit, ToolWord};
 use nalgebra::{Point3, Rotation3, Vector2, Vector3};
 use std::ops::Range;
 
-/// Heights that differ by less than this (mm) are one level.
+/// Heights that differ by less than this (mm) are the same level.
 pub(super) const LEVEL: f64 = 1e-3;
 
-/// A motion that goes down by more than this (mm) descends: half of the fourth decimal. Chords of a gentle helix fall little more.
+/// A motion descends if it goes down by more than this (mm). It is half of the fourth decimal, and chords of
+/// a gentle helix fall little more.
 const FALLS: f64 = 5e-5;
 
 /// A descent of less than this (mm) is the rounding of a level.
 const LEAST_HEIGHT: f64 = 0.01;
 
-/// The least share of level cuts among an operation's level and rising ones ([`survey_operations`]): below it,
-/// descents that the file does not mark are no ramps.
-const LEAST_LEVEL_SHARE: f64 = 0.8;
+/// The least fraction of level path (`OperationSurvey`) that an unmarked operation needs, so that its
+/// descents count as ramps.
+const LEAST_LEVEL_FRACTION: f64 = 0.8;
 
-/// Axes whose components differ by less are one.
+/// Axes whose components differ by less than this are the same axis.
 const SAME_AXIS: f64 = 1e-6;
 
-/// A ramp of a program.
+/// A ramp found in a program.
 #[derive(Debug, Clone)]
 pub(super) struct FoundRamp {
     /// Its motions.
     pub motions: Range<usize>,
     /// Its operation.
     pub operation: usize,
-    /// From the program's frame into the tool's.
+    /// The rotation from the program's frame into the tool's frame.
     pub frame: Rotation3<f64>,
     /// The ramp, in mm.
     pub ramp: Ramp,
-    /// Whether cutting goes on at its end level.
+    /// Whether cutting continues at the level of its end.
     pub has_level: bool,
-    /// The directions in which it does, the first pass first.
+    /// The directions in which cutting continues, with the first pass first.
     pub passes: Vec<Vector2<f64>>,
 }
 
-/// Looks for ramps; `mm` is one unit of the file. `begin` is the height above its end from which a descent may be in material,
-/// where that is known.
+/// Finds the ramps among motions. `mm_per_unit` is the length of one unit of the file. `begin` is the height
+/// above its end from which a descent may be in material, where that is known.
 pub(super) fn find_ramps(motions: &[Motion], mm_per_unit: f64, begin: Option<f64>) -> Vec<FoundRamp> {
     let operations = survey_operations(motions, mm_per_unit);
     let mut found = Vec::new();
@@ -75,7 +76,7 @@ pub(super) fn find_ramps(motions: &[Motion], mm_per_unit: f64, begin: Option<f64
     found
 }
 
-/// The ramp of a run of descending motions; `None` when it is none.
+/// Reads a run of descending motions as a ramp. Returns `None` if it is none.
 fn find_ramp_in_run(
     motions: &[Motion],
     mut run: Range<usize>,
@@ -89,14 +90,14 @@ fn find_ramp_in_run(
         start: to_tool_frame_mm(first.from, &frame, mm_per_unit),
         steps: all.iter().flat_map(|motion| read_steps(motion, &frame, mm_per_unit)).collect(),
     };
-    // A straight way down before the slope begins is the approach, as far as it stays above the material.
+    // A straight descent before the slope is the approach, as long as it stays above the material.
     let end = ramp.end_point().z;
     let above = |z: f64| begin.is_none_or(|begin| z - end >= begin - LEVEL);
     let lead = ramp
         .steps_with_starts()
         .take_while(|(from, step)| step.length_across_mm(*from) <= NOTHING && above(step.to.z))
         .count();
-    // Straight motions are one step each, so the first steps are the first motions.
+    // A straight motion is a single step, so the first steps are the first motions.
     if lead > 0 && lead < ramp.steps.len() {
         ramp.start = ramp.steps.get(lead - 1)?.to;
         ramp.steps.drain(..lead);
@@ -104,7 +105,7 @@ fn find_ramp_in_run(
     }
     let passes = find_pass_directions(motions, run.end, first, &frame, mm_per_unit);
     let has_level = !passes.is_empty();
-    // A marked engage that leads onto a surface is no ramp either.
+    // A marked engage motion that leads onto a surface is no ramp either.
     let next = motions
         .get(run.end..)
         .unwrap_or_default()
@@ -119,11 +120,12 @@ fn find_ramp_in_run(
     Some(FoundRamp { operation: first.operation, motions: run, frame, ramp, has_level, passes })
 }
 
-/// Whether a motion may be part of a ramp: a descent at feed, with the axis at rest, that is no drilling and no turning.
+/// Returns whether a motion may be part of a ramp. It must be a descent at feed with a constant axis, neither
+/// drilling nor turning.
 fn is_candidate(motion: &Motion, mm_per_unit: f64) -> bool {
-    let told_otherwise = motion.class_is_told && motion.class != MotionClass::Engage;
+    let marked_otherwise = motion.class_is_told && motion.class != MotionClass::Engage;
     !motion.rapid
-        && !told_otherwise
+        && !marked_otherwise
         && motion.hole.is_none()
         && motion.class != MotionClass::Drill
         && !matches!(motion.path, MotionPath::Start)
@@ -132,7 +134,7 @@ fn is_candidate(motion: &Motion, mm_per_unit: f64) -> bool {
         && rise_along_axis(motion) * mm_per_unit < -FALLS
 }
 
-/// A lathe: the spindle keeps a surface speed, or the tool is none that mills.
+/// Returns whether a motion is on a lathe: the spindle keeps a surface speed, or the tool is no milling tool.
 pub(super) fn is_turning(motion: &Motion) -> bool {
     let surface_speed = motion
         .spindle
@@ -142,7 +144,7 @@ pub(super) fn is_turning(motion: &Motion) -> bool {
     surface_speed || data.is_some_and(|data| data.word == ToolWord::TlDataOther)
 }
 
-/// How far a motion goes up along the tool axis, in the file's unit.
+/// Returns how far a motion goes up along the tool axis, in the file's unit.
 fn rise_along_axis(motion: &Motion) -> f64 {
     (motion.to.point - motion.from.point).dot(&motion.from.axis)
 }
@@ -151,7 +153,8 @@ fn has_same_axis(one: &Motion, other: &Motion) -> bool {
     (one.from.axis - other.from.axis).amax() <= SAME_AXIS
 }
 
-/// The rotation that stands the tool axis upright; none at all where it is. A tool upside down has no natural one: about x.
+/// Returns the rotation that makes the tool axis vertical. For an axis that points down it is half a turn
+/// about x, because no shortest rotation exists there.
 pub(super) fn tool_frame_rotation(axis: Vector3<f64>) -> Option<Rotation3<f64>> {
     if (axis - Vector3::z()).amax() <= SAME_AXIS {
         return Some(Rotation3::identity());
@@ -160,12 +163,13 @@ pub(super) fn tool_frame_rotation(axis: Vector3<f64>) -> Option<Rotation3<f64>> 
         .or_else(|| Some(Rotation3::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)))
 }
 
-/// A point in the tool's frame, mm.
+/// Returns a point in the tool's frame, in mm.
 pub(super) fn to_tool_frame_mm(pose: Pose, frame: &Rotation3<f64>, mm_per_unit: f64) -> Point3<f64> {
     frame * (pose.point * mm_per_unit)
 }
 
-/// Motions as a ramp in the tool's frame, whatever their slope; `None` where one of them is no line or arc about the tool axis.
+/// Reads motions as a ramp in the tool's frame, whatever their slope. Returns `None` if one of them is
+/// neither a line nor an arc about the tool axis.
 pub(super) fn read_ramp(motions: &[Motion], frame: &Rotation3<f64>, mm_per_unit: f64) -> Option<Ramp> {
     let start = to_tool_frame_mm(motions.first()?.from, frame, mm_per_unit);
     let steps: Vec<RampStep> =
@@ -173,7 +177,8 @@ pub(super) fn read_ramp(motions: &[Motion], frame: &Rotation3<f64>, mm_per_unit:
     (steps.len() == motions.len()).then_some(Ramp { start, steps })
 }
 
-/// A motion as a step in the tool's frame; `None` for an arc about another axis and for a spline.
+/// Reads a motion as a step in the tool's frame. Returns `None` for an arc about another axis and for a
+/// spline.
 fn read_step(motion: &Motion, frame: &Rotation3<f64>, mm_per_unit: f64) -> Option<RampStep> {
     let to = to_tool_frame_mm(motion.to, frame, mm_per_unit);
     match &motion.path {
@@ -190,7 +195,7 @@ fn read_step(motion: &Motion, frame: &Rotation3<f64>, mm_per_unit: f64) -> Optio
     }
 }
 
-/// A motion as steps: what is no line or arc about the tool axis in chords.
+/// Reads a motion as steps. A curve that is no arc about the tool axis becomes chords.
 fn read_steps(motion: &Motion, frame: &Rotation3<f64>, mm_per_unit: f64) -> Vec<RampStep> {
     match read_step(motion, frame, mm_per_unit) {
         Some(step) => vec![step],
@@ -201,8 +206,10 @@ fn read_steps(motion: &Motion, frame: &Rotation3<f64>, mm_per_unit: f64) -> Vec<
     }
 }
 
-/// The directions in which cutting goes on at the level where a ramp ends: of the first pass (the first motion marked as a cut, or as
-/// long as a lead never is), of the lead to it, and their opposites. Empty when nothing goes on at that level.
+/// Returns the directions in which cutting continues at the level where a ramp ends: the direction of the
+/// first pass, of the lead to it, and their opposites. The first pass is the first motion marked as a cut, or
+/// else the longest of the motions that follow, because leads are short. The list is empty if nothing
+/// continues at that level.
 fn find_pass_directions(
     motions: &[Motion],
     end: usize,
@@ -215,18 +222,21 @@ fn find_pass_directions(
         .unwrap_or_default()
         .iter()
         .filter(|motion| motion.length() * mm_per_unit > NOTHING);
-    let level: Vec<&Motion> =
-        rest.take_while(|motion| continues_at_level(motion, first, mm_per_unit)).take(LOOKED_AT).collect();
-    let told = level.iter().find(|motion| motion.class_is_told && motion.class == MotionClass::Cut);
+    let level: Vec<&Motion> = rest
+        .take_while(|motion| continues_at_level(motion, first, mm_per_unit))
+        .take(MOST_FOLLOWING)
+        .collect();
+    let marked = level.iter().find(|motion| motion.class_is_told && motion.class == MotionClass::Cut);
     let longest =
         level.iter().copied().reduce(|one, next| if next.length() > one.length() { next } else { one });
-    let wanted = told.copied().or(longest).into_iter().chain(level.first().copied());
+    let wanted = marked.copied().or(longest).into_iter().chain(level.first().copied());
     let ahead: Vec<Vector2<f64>> = wanted.filter_map(|motion| find_start_direction(motion, frame)).collect();
     ahead.iter().copied().chain(ahead.iter().map(|direction| -direction)).collect()
 }
 
-/// Motions after a ramp among which its first pass is looked for: leads and corners come before it.
-const LOOKED_AT: usize = 8;
+/// The number of motions after a ramp among which its first pass is searched. Leads and rounded corners come
+/// before it.
+const MOST_FOLLOWING: usize = 8;
 
 fn continues_at_level(motion: &Motion, first: &Motion, mm_per_unit: f64) -> bool {
     !motion.rapid
@@ -247,7 +257,7 @@ fn find_start_direction(motion: &Motion, frame: &Rotation3<f64>) -> Option<Vecto
     (frame * tangent).xy().try_normalize(1e-9)
 }
 
-/// Whether a motion stays at one level.
+/// Returns whether a motion stays at one level.
 pub(super) fn is_level(motion: &Motion, mm_per_unit: f64) -> bool {
     let inside = motion.path.sample_points(motion.from.point, motion.to.point);
     inside
@@ -255,22 +265,23 @@ pub(super) fn is_level(motion: &Motion, mm_per_unit: f64) -> bool {
         .all(|point| ((point - motion.from.point).dot(&motion.from.axis) * mm_per_unit).abs() <= LEVEL)
 }
 
-/// What an operation is like.
+/// The measurements of an operation.
 #[derive(Debug, Clone, Copy)]
 struct OperationSurvey {
-    /// Lengths of its unmarked path at feed across the axis that is level, and that is level or rises: surfaces rise as much as they
-    /// fall, levels are left by rapids or straight up. mm.
+    /// The length of its level path at feed without marks, across the axis, in mm. `level_or_rising` also
+    /// counts rising path. Surfaces rise as much as they fall, while levels are left by rapids or straight
+    /// up.
     level: f64,
     level_or_rising: f64,
-    /// Smallest and largest y, mm.
+    /// The smallest and the largest y, in mm.
     y: [f64; 2],
 }
 
 impl OperationSurvey {
     const NOTHING: Self = Self { level: 0.0, level_or_rising: 0.0, y: [f64::INFINITY, f64::NEG_INFINITY] };
 
-    /// Whether a descent of the operation may be a ramp. A tool that CUTTER gives a single number, in a path that never leaves one y, is
-    /// a lathe's (CATIA writes the nose so).
+    /// Returns whether a descent of the operation may be a ramp. If CUTTER gives the tool a single number,
+    /// and the path keeps a single y, the tool is a lathe's: CATIA writes the nose radius like that.
     fn can_have_ramps(&self, motion: &Motion) -> bool {
         let data = motion.tool.as_deref().and_then(|tool| tool.data.as_ref());
         let nose = data.is_some_and(|data| data.word == ToolWord::Cutter && data.corner_radius.is_none());
@@ -278,7 +289,7 @@ impl OperationSurvey {
         if nose && high - low <= LEVEL {
             return false;
         }
-        motion.class_is_told || self.level >= LEAST_LEVEL_SHARE * self.level_or_rising && self.level > 0.0
+        motion.class_is_told || self.level >= LEAST_LEVEL_FRACTION * self.level_or_rising && self.level > 0.0
     }
 }
 

@@ -1,8 +1,8 @@
-//! A corrected ramp in the CL text.
+//! This module writes a corrected ramp into the CL text.
 //!
-//! The statements of the old ramp keep their places with what stands around them; additional points come before them. Where the feed
-//! gets slower on the way down, all points come where it is slowest. The statement of its end stays byte for byte, but for an arc
-//! that it ends.
+//! The statements of the old ramp keep their places with everything between them, and additional points are
+//! inserted before them. If the feed decreases during the descent, all points are inserted where it is
+//! lowest. The statement of the ramp's end stays byte for byte, unless it ends an arc that changes.
 
 use super::ramp::{NOTHING, Ramp, RampStep};
 use super::ramp_search::FoundRamp;
@@ -18,21 +18,21 @@ use nalgebra::{Point3, Vector3};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// Chords that stand for an arc which the file cannot say stay this close to it, mm.
+/// If the file cannot state an arc, chords replace it that stay this close to it, in mm.
 const CHORD: f64 = 0.005;
 
-/// Why a ramp's statements cannot be given other points.
+/// The reason why a ramp's statements cannot be given other points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub(super) enum UnwritableRamp {
-    #[error("one of its statements is no plain GOTO of one point")]
+    #[error("one of its statements is not a plain GOTO of a single point")]
     NoGoto,
     #[error("one of its points has a contact normal")]
     ContactNormal,
-    #[error("one of its statements makes other motions, too")]
+    #[error("one of its statements makes other motions as well")]
     Shared,
-    #[error("an arc of it is announced by a record that cannot be written anew")]
+    #[error("one of its arcs is announced by a record that cannot be rewritten")]
     Arc,
-    #[error("its feed rises, or changes its unit, on the way down, so that no feed is safe for new points")]
+    #[error("its feed increases or changes its unit during the descent, so no feed is safe for new points")]
     Feed,
     #[error(
         "cutter compensation (CUTCOM) is on, and the control would offset the new points to changing sides"
@@ -40,25 +40,46 @@ pub(super) enum UnwritableRamp {
     Compensation,
 }
 
+/// The reason why a ramp was not written.
+#[derive(Debug)]
+pub(super) enum RampWriteFault {
+    /// Its statements cannot be given other points.
+    Unwritable(UnwritableRamp),
+    /// An edit failed, for example because a statement does not read back.
+    Failed(Failure),
+}
+
+impl From<UnwritableRamp> for RampWriteFault {
+    fn from(why: UnwritableRamp) -> Self {
+        Self::Unwritable(why)
+    }
+}
+
+impl From<Failure> for RampWriteFault {
+    fn from(failure: Failure) -> Self {
+        Self::Failed(failure)
+    }
+}
+
 /// What was written for a ramp.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct WrittenRamp {
-    /// The ramp as it should read back, arcs that could not be said as chords.
+    /// The ramp as it should read back. Arcs that the file cannot state are chords here.
     pub ramp: Ramp,
-    /// Whether a motion down to its lowered start was put in before it.
+    /// Whether a motion down to its lowered start was inserted before it.
     pub lead: bool,
     /// Whether the statement before it was lowered.
     pub lowered: bool,
 }
 
-/// The statements of a motion of a ramp.
+/// The statements of one motion of a ramp.
 #[derive(Debug, Clone, Copy)]
 struct RampMotionStatements {
     goto: StatementId,
     arc: Option<StatementId>,
 }
 
-/// Whether a ramp's statements can be given other points.
+/// Checks that a ramp's statements can be given other points.
 pub(super) fn check_writable(
     program: &Program,
     motions: &[Motion],
@@ -68,11 +89,12 @@ pub(super) fn check_writable(
     has_single_feed(motions, range).map(|_| ())
 }
 
-/// Whether one feed governs the whole ramp; if not, its last one has to be the slowest.
+/// Returns whether a single feed governs the whole ramp. If not, its last feed has to be the lowest.
 fn has_single_feed(motions: &[Motion], range: &Range<usize>) -> Result<bool, UnwritableRamp> {
     let all = motions.get(range.clone()).unwrap_or_default();
     let last = all.last().and_then(|motion| motion.feed);
-    // A FEDRAT between CIRCLE and its GOTO governs that arc, but not what would be put in before it.
+    // A FEDRAT between CIRCLE and its GOTO governs that arc, but not what would be inserted before the
+    // CIRCLE.
     let inside = |motion: &Motion| motion.feed_from.is_some_and(|from| from >= motion.statements.first());
     if all.iter().any(inside) {
         return Err(UnwritableRamp::Feed);
@@ -116,8 +138,8 @@ fn find_motion_statements(
             })
         });
         let arc = arcs.next();
-        let told = arc.and_then(live).map(|found| found.record());
-        match (&motion.path, told) {
+        let announcement = arc.and_then(live).map(|found| found.record());
+        match (&motion.path, announcement) {
             (MotionPath::Line, None) | (MotionPath::Arc(_), Some(Record::Circle(_) | Record::MoveArc(_))) => {
                 Ok(RampMotionStatements { goto, arc })
             }
@@ -130,22 +152,19 @@ fn find_motion_statements(
 /// Writes a corrected ramp.
 ///
 /// # Errors
-/// When a statement cannot be read back; `Ok(Err)` when the old statements allow no other points.
+/// Returns [`RampWriteFault`] if a statement cannot be read back, or if the old statements allow no other
+/// points.
 pub(super) fn write_ramp(
     editor: &mut ProgramEditor,
     motions: &[Motion],
     found: &FoundRamp,
     new: &Ramp,
     mm_per_unit: f64,
-) -> Result<Result<WrittenRamp, UnwritableRamp>, Failure> {
-    let every = find_motion_statements(editor.program(), motions, &found.motions);
-    let (mut forms, one_feed) =
-        match every.and_then(|every| Ok((every, has_single_feed(motions, &found.motions)?))) {
-            Ok(found) => found,
-            Err(why) => return Ok(Err(why)),
-        };
+) -> Result<WrittenRamp, RampWriteFault> {
+    let mut forms = find_motion_statements(editor.program(), motions, &found.motions)?;
+    let one_feed = has_single_feed(motions, &found.motions)?;
     let (Some(first), Some(last)) = (forms.first().copied(), forms.last().copied()) else {
-        return Ok(Err(UnwritableRamp::NoGoto));
+        return Err(UnwritableRamp::NoGoto.into());
     };
     let arc = forms.iter().find_map(|form| form.arc);
     let writer = RampWriter {
@@ -155,7 +174,7 @@ pub(super) fn write_ramp(
         circle: arc.and_then(|arc| find_circle(editor.program(), arc)),
     };
     let new = writer.with_writable_arcs(new);
-    // Where the feed gets slower on the way down, all new points come where it is slowest.
+    // If the feed decreases during the descent, all new points are inserted where it is lowest.
     let place = if one_feed { found.motions.start } else { found.motions.end.saturating_sub(1) };
     if !one_feed {
         for form in forms.drain(..forms.len().saturating_sub(1)) {
@@ -172,7 +191,7 @@ pub(super) fn write_ramp(
     for (_, step) in put_in {
         writer.insert_step(editor, step, before)?;
     }
-    // With fewer points than before, the last statements but the very last go.
+    // If there are fewer points than before, the last statements are deleted, except the very last one.
     let kept = rest.len().saturating_sub(1);
     for ((_, step), form) in rest.iter().zip(forms.iter().take(kept).chain([&last])) {
         writer.rewrite_step(editor, step, *form)?;
@@ -181,15 +200,15 @@ pub(super) fn write_ramp(
         delete_keeping_remark(editor, form.goto)?;
         form.arc.map_or(Ok(()), |arc| editor.delete_statement(arc))?;
     }
-    Ok(Ok(WrittenRamp { ramp: new, lead, lowered }))
+    Ok(WrittenRamp { ramp: new, lead, lowered })
 }
 
 struct RampWriter<'a> {
     found: &'a FoundRamp,
     mm_per_unit: f64,
-    /// The GOTO that new ones are modelled on.
+    /// The GOTO on which new ones are modelled.
     goto: StatementId,
-    /// The CIRCLE that new ones are modelled on.
+    /// The CIRCLE on which new ones are modelled.
     circle: Option<(StatementId, Circle)>,
 }
 
@@ -198,7 +217,7 @@ impl RampWriter<'_> {
         ((self.found.frame.inverse() * point) / self.mm_per_unit).coords.into()
     }
 
-    /// The ramp with arcs only where the file has a CIRCLE to say them by.
+    /// Returns the ramp with arcs only where the file has a CIRCLE that can state them.
     fn with_writable_arcs(&self, ramp: &Ramp) -> Ramp {
         let mut steps = Vec::with_capacity(ramp.steps.len());
         for (from, step) in ramp.steps_with_starts() {
@@ -211,16 +230,17 @@ impl RampWriter<'_> {
                 continue;
             }
             let radius = (from.xy() - bend.centre).norm();
+            // The sagitta R (1 - cos(sweep / 2)) of a chord gives its widest sweep.
             let widest = 2.0 * (1.0 - (CHORD / radius).min(1.0)).acos();
             let count = (bend.sweep.abs() / widest).ceil().max(1.0);
             for index in 1..=count as usize {
-                let share = index as f64 / count;
-                let spoke = nalgebra::Rotation2::new(bend.sweep * share) * (from.xy() - bend.centre);
+                let fraction = index as f64 / count;
+                let spoke = nalgebra::Rotation2::new(bend.sweep * fraction) * (from.xy() - bend.centre);
                 let at = bend.centre + spoke;
                 steps.push(RampStep::straight_to(Point3::new(
                     at.x,
                     at.y,
-                    from.z + (step.to.z - from.z) * share,
+                    from.z + (step.to.z - from.z) * fraction,
                 )));
             }
             if let Some(last) = steps.last_mut() {
@@ -230,7 +250,8 @@ impl RampWriter<'_> {
         Ramp { start: ramp.start, steps }
     }
 
-    /// Whether a new CIRCLE's axis is the old one's (1) or its opposite (-1) for a sense of turning; `None` where it cannot be said.
+    /// Returns the sign of a new CIRCLE's axis for a sense of rotation: 1 for the axis of the old CIRCLE, -1
+    /// for its opposite. Returns `None` if the file cannot state it.
     fn circle_axis_sign(&self, sweep: f64) -> Option<f64> {
         let (_, circle) = self.circle.as_ref()?;
         let old = self.found.ramp.steps.iter().find_map(|step| step.bend)?;
@@ -241,8 +262,9 @@ impl RampWriter<'_> {
         }
     }
 
-    /// Brings the tool down to a start that is lower than it was: by the motion before where that goes straight down at feed, else by
-    /// one of its own.
+    /// Brings the tool down to a start that is lower than before. If the motion before goes straight down at
+    /// feed, it is extended. Otherwise a motion is inserted. Returns whether one was inserted, and whether
+    /// the one before was extended.
     fn lower_start(
         &self,
         editor: &mut ProgramEditor,
@@ -256,8 +278,8 @@ impl RampWriter<'_> {
         let index = self.found.motions.start.checked_sub(1);
         let above = index.and_then(|index| motions.get(index).map(|motion| (index, motion)));
         let straight = above.filter(|(index, motion)| {
-            let way = self.found.frame * (motion.to.point - motion.from.point) * self.mm_per_unit;
-            let down = way.z < 0.0 && way.xy().norm() <= NOTHING;
+            let displacement = self.found.frame * (motion.to.point - motion.from.point) * self.mm_per_unit;
+            let down = displacement.z < 0.0 && displacement.xy().norm() <= NOTHING;
             let alike = self.found.frame * motion.from.axis - Vector3::z();
             down && !motion.rapid
                 && motion.hole.is_none()
@@ -278,7 +300,7 @@ impl RampWriter<'_> {
         }
     }
 
-    /// A new statement, or two for an arc.
+    /// Inserts a new statement, or two for an arc.
     fn insert_step(
         &self,
         editor: &mut ProgramEditor,
@@ -293,7 +315,7 @@ impl RampWriter<'_> {
         editor.insert_before(before, &goto)
     }
 
-    /// Other numbers in the statements of an old motion.
+    /// Changes the numbers in the statements of an old motion.
     fn rewrite_step(
         &self,
         editor: &mut ProgramEditor,
@@ -315,7 +337,7 @@ impl RampWriter<'_> {
         editor.set_numbers(form.goto, &pair_with_indices(0, self.to_file_point(step.to)))
     }
 
-    /// The CIRCLE that new ones are modelled on, with the numbers that one for a step has.
+    /// Returns the CIRCLE on which new ones are modelled, with the numbers for a step.
     fn circle_numbers(&self, program: &Program, step: &RampStep) -> Option<(StatementId, Vec<(usize, f64)>)> {
         let bend = step.bend?;
         let (statement, circle) = self.circle.as_ref()?;
@@ -345,7 +367,7 @@ fn is_circle(program: &Program, statement: StatementId) -> bool {
     find_circle(program, statement).is_some()
 }
 
-/// The index of the number after `TIMES`.
+/// Returns the index of the number after `TIMES`.
 fn find_times_number(program: &Program, statement: StatementId) -> Option<usize> {
     let found = program.statement(statement);
     let syntax = parse::syntax(program.statement_text(found));

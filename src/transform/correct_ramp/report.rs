@@ -1,63 +1,63 @@
-//! What `correct_ramp` found and did, in numbers.
+//! This module holds the figures of what `correct_ramp` found and did.
 
 use super::ramp_correction::LengtheningMethod;
 use super::ramp_limits::RampMeasurement;
 use serde::Serialize;
 
-/// What the step did.
+/// The figures of one run of the step.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct CorrectRampReport {
-    /// Every ramp that the step means, in the order of the program.
+    /// All ramps that the step means, in the order of the program.
     pub ramps: Vec<RampReport>,
 }
 
-/// One ramp.
+/// The figures of one ramp.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct RampReport {
-    /// Name of its operation; may be empty.
+    /// The name of its operation, which may be empty.
     pub operation: String,
-    /// Line of its first statement in the file.
+    /// The line of its first statement in the file.
     pub line: u64,
     /// Its kind.
     pub kind: &'static str,
-    /// l_min: shortest leg that the cutter allows, mm.
+    /// l_min: the shortest leg that the cutter allows, in mm.
     pub limit_leg_mm: f64,
-    /// a_lim: steepest angle that the cutter allows, degrees.
+    /// a_lim: the steepest angle that the cutter allows, in degrees.
     pub limit_degrees: f64,
-    /// As it came.
+    /// The measurements before the correction.
     pub before: RampMeasurement,
-    /// What became of it.
+    /// The outcome of the correction.
     pub outcome: RampOutcome,
-    /// As it was written, measured in what was written; `None` where it was not changed.
+    /// The measurements of what was written. It is `None` if the ramp was not changed.
     pub after: Option<RampMeasurement>,
-    /// How it became longer.
+    /// How it was lengthened.
     pub lengthened: LengtheningMethod,
-    /// Ratio of the compression; 1 for none.
+    /// The ratio of the compression; 1 if it was not compressed.
     pub compression: f64,
-    /// Passes; of a helix 1 and the turns put in.
+    /// The number of passes. For a helix it is 1 plus the number of added turns.
     pub passes: usize,
-    /// Length of path put in, mm; a way down to a lower start counts.
+    /// The length of the added path in mm. A motion down to a lower start counts.
     pub added_mm: f64,
-    /// Time put in at the ramp's feed, seconds; `None` where the feed is not known.
+    /// The added time at the ramp's feed, in seconds. It is `None` if the feed is not known.
     pub added_seconds: Option<f64>,
-    /// The path before in the tool's frame, mm.
+    /// The path before the correction in the tool's frame, in mm.
     #[serde(skip)]
     pub path_before: Vec<[f64; 3]>,
-    /// The path after.
+    /// The path after the correction.
     #[serde(skip)]
     pub path_after: Vec<[f64; 3]>,
 }
 
-/// What became of a ramp.
+/// The outcome for a ramp.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RampOutcome {
-    /// It keeps the limits as it is.
+    /// It keeps the limits without a change.
     Fits,
     /// It was corrected.
     Corrected,
-    /// It does not keep them and stays.
+    /// It violates the limits and stays.
     Kept,
 }

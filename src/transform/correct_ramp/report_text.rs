@@ -1,4 +1,4 @@
-//! What `correct_ramp` found and did, as a table.
+//! This module shows what `correct_ramp` found and did, as a table.
 
 use super::ramp_panels::build_ramp_panels;
 use super::report::{CorrectRampReport, RampOutcome, RampReport};
@@ -8,8 +8,8 @@ use crate::presentation::text_format::{format_duration, format_fixed, format_tab
 use crate::transform::step_report::{TransformReport, to_json_value};
 use std::fmt::Write;
 
-/// Ramps told one by one at most; the rest is counted.
-const TOLD: usize = 40;
+/// The largest number of ramps with rows of their own. The rest is counted.
+const MOST_ROWS: usize = 40;
 
 impl TransformReport for CorrectRampReport {
     fn step_name(&self) -> &'static str {
@@ -40,7 +40,7 @@ fn describe_ramps(report: &CorrectRampReport) -> String {
     let told: Vec<&RampReport> =
         report.ramps.iter().filter(|ramp| ramp.outcome != RampOutcome::Fits).collect();
     let fitting = report.ramps.iter().filter(|ramp| ramp.outcome == RampOutcome::Fits);
-    let shown: Vec<&RampReport> = told.iter().copied().chain(fitting).take(TOLD).collect();
+    let shown: Vec<&RampReport> = told.iter().copied().chain(fitting).take(MOST_ROWS).collect();
     if shown.is_empty() {
         return out;
     }
@@ -73,7 +73,7 @@ fn describe_ramps(report: &CorrectRampReport) -> String {
     out
 }
 
-/// A row for the ramp as it came, and one for what it became.
+/// Returns a row for the ramp before the correction, and one for the result.
 fn ramp_rows(ramp: &RampReport) -> Vec<Vec<String>> {
     let passes = |count: usize| if count == 0 { String::new() } else { count.to_string() };
     let row = |line: String, name: String, kind: String, measured: &super::ramp_limits::RampMeasurement| {

@@ -1,4 +1,4 @@
-//! The step: find, judge, correct, write, measure again.
+//! This module runs the step: it finds ramps, judges and corrects them, writes them and measures them again.
 
 use super::findings;
 use super::level_motions::LevelMotions;
@@ -10,7 +10,7 @@ use super::ramp_kind::RampKind;
 use super::ramp_limits::{IndexableCutter, RampLimits, RampMeasurement, is_within_limits};
 use super::ramp_proof;
 use super::ramp_search::{FoundRamp, find_ramps};
-use super::ramp_writer::{self, UnwritableRamp, WrittenRamp};
+use super::ramp_writer::{self, RampWriteFault, UnwritableRamp, WrittenRamp};
 use super::report::{CorrectRampReport, RampOutcome, RampReport};
 use super::tool_region::ToolRegion;
 use crate::diagnostic::{Diagnostic, Failure};
@@ -22,10 +22,11 @@ use crate::transform::{MotionSelection, StepContext, Transform};
 use crate::write::ProgramEditor;
 use std::sync::Arc;
 
-/// How far printed coordinates may put two points nearer together, in the file's unit: half of the fourth decimal at both ends, both ways.
+/// How much nearer printed coordinates may bring two points, in the file's unit: half of the fourth decimal
+/// at both ends, in both directions.
 const ROUNDING: f64 = 2e-4;
 
-/// Where a ramp may begin above the depth of cut, mm (Zhou 2020: 2 to 3 mm).
+/// How far above the depth of cut a ramp may begin, in mm (Zhou 2020: 2 to 3 mm).
 const CLEARANCE: f64 = 2.5;
 
 /// This ramp is too short for a face mill with inserts.
@@ -66,9 +67,9 @@ impl Transform for CorrectRamp {
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
         let file = context.file_length_unit(&program);
         let motions: Vec<Motion> = program.motions().collect();
-        let mut look = RampJudge::new(self, &program, &motions, file, context);
-        look.judge_ramps(context)?;
-        let RampJudge { plans, mut reports, .. } = look;
+        let mut judge = RampJudge::new(self, &program, &motions, file, context);
+        judge.judge_ramps(context)?;
+        let RampJudge { plans, mut reports, .. } = judge;
         let mut editor = ProgramEditor::new(program, context.step);
         let mut written: Vec<WrittenRamp> = Vec::with_capacity(plans.len());
         for plan in &plans {
@@ -78,9 +79,12 @@ impl Transform for CorrectRamp {
                 &plan.found,
                 &plan.corrected.ramp,
                 file.mm_per_unit(),
-            )?;
-            written.push(done.map_err(|why| {
-                findings::describe_unproven_ramp(editor.program(), plan.begins, why, context)
+            );
+            written.push(done.map_err(|fault| match fault {
+                RampWriteFault::Unwritable(why) => {
+                    findings::describe_unproven_ramp(editor.program(), plan.begins, why, context)
+                }
+                RampWriteFault::Failed(failure) => failure,
             })?);
         }
         let program = editor.finish()?;
@@ -98,7 +102,7 @@ impl Transform for CorrectRamp {
 /// An indexable cutter and its limits.
 type CutterAndLimits = (IndexableCutter, RampLimits);
 
-/// The ramps of a program and what is to become of them.
+/// The ramps of a program, and the decisions about them.
 struct RampJudge<'a> {
     step: &'a CorrectRamp,
     program: &'a Program,
@@ -107,7 +111,7 @@ struct RampJudge<'a> {
     operations: Vec<String>,
     levels: LevelMotions<'a>,
     polygon: Option<ToolRegion>,
-    /// Statements that switch cutter compensation, and whether on.
+    /// The statements that switch cutter compensation, and whether they switch it on.
     compensation: Vec<(StatementId, bool)>,
     cutters: Vec<(Option<Arc<ActiveTool>>, Option<CutterAndLimits>)>,
     plans: Vec<PlannedRamp>,
@@ -127,11 +131,11 @@ impl<'a> RampJudge<'a> {
         let polygon = match &step.region {
             RampRegionSpec::Hull | RampRegionSpec::Milled => None,
             RampRegionSpec::None => Some(ToolRegion::Everywhere),
-            RampRegionSpec::Polygon(corners) => {
-                let corners: Vec<[f64; 2]> =
-                    corners.iter().map(|corner| corner.map(|value: Finite| value.get() * recipe)).collect();
-                // The corners were checked where the recipe was read.
-                ToolRegion::from_polygon(&corners).ok()
+            RampRegionSpec::Polygon(vertices) => {
+                let vertices: Vec<[f64; 2]> =
+                    vertices.iter().map(|vertex| vertex.map(|value: Finite| value.get() * recipe)).collect();
+                // The vertices were checked when the recipe was read.
+                ToolRegion::from_polygon(&vertices).ok()
             }
         };
         Self {
@@ -164,7 +168,7 @@ impl<'a> RampJudge<'a> {
                 meant.push(found);
             }
         }
-        // What `where` selects is asked of ramps alone; a program may well have none.
+        // `where` is only asked about ramps. A program may well have none, so the warning needs all motions.
         if meant.is_empty() && !self.motions.iter().any(|motion| selection.contains(motion, context)) {
             selection.report_if_empty(context);
         }
@@ -179,7 +183,7 @@ impl<'a> RampJudge<'a> {
             }
         }
         if let Some((first, tool)) = solid.first() {
-            // A tool list with inserts serves many programs, and not each has an indexable cutter.
+            // A tool list with inserts serves many programs, and not every program has an indexable cutter.
             let all = solid.len() == count && !context.setup.tools.iter().any(|entry| entry.insert.is_some());
             let told =
                 findings::describe_missing_inserts(self.program, *first, tool.as_deref(), all, context);
@@ -192,7 +196,7 @@ impl<'a> RampJudge<'a> {
         if impossible.is_empty() { Ok(()) } else { Err(impossible.into()) }
     }
 
-    /// The limits of a motion's tool; `None` for a tool without inserts.
+    /// Returns the limits of a motion's tool. Returns `None` for a tool without inserts.
     fn find_tool_limits(
         &mut self,
         motion: &Motion,
@@ -237,7 +241,7 @@ impl<'a> RampJudge<'a> {
             Some(polygon) => polygon.clone(),
             None if step.region == RampRegionSpec::Hull => self.levels.level_hull(&found),
             None => {
-                // No candidate goes farther than three legs away: the circle of few legs is the widest.
+                // No candidate goes farther than three legs away. The circle of a few legs is the widest.
                 let reach = 3.0 * limits.shortest_leg.max(found.ramp.length_mm());
                 self.levels.milled_region(&found, cutter.diameter / 2.0, reach)
             }
@@ -252,8 +256,8 @@ impl<'a> RampJudge<'a> {
                 if self.is_compensated(&found) { Err(UnwritableRamp::Compensation) } else { Ok(()) }
             });
         let why_not = match (&corrected, written, found.has_level) {
-            _ if kept_plunge => Some("`plunges: keep` leaves straight descents as they are".to_owned()),
-            (_, _, false) => Some("it does not end at a level where cutting goes on".to_owned()),
+            _ if kept_plunge => Some("`plunges: keep` leaves straight descents unchanged".to_owned()),
+            (_, _, false) => Some("it does not end at a level where cutting continues".to_owned()),
             (Err(why), _, _) => Some(why.to_string()),
             (_, Err(why), _) => Some(why.to_string()),
             _ => None,
@@ -272,16 +276,18 @@ impl<'a> RampJudge<'a> {
                 self.plans.push(PlannedRamp { found, limits, corrected, begins, report: self.reports.len() });
             }
             (_, why) => {
-                let why = why.unwrap_or_default();
+                // A ramp within its limits has returned above, and an error of the correction is a reason.
+                debug_assert!(why.is_some(), "a ramp that is not corrected has a reason");
+                let why = why.unwrap_or_else(|| "the reason is not known".to_owned());
                 let keep = kept_plunge || step.if_impossible == ImpossibleRampHandling::Keep;
-                let told = findings::describe_impossible_ramp(&place, &report, &why, keep, context);
-                if keep { context.findings.push(told) } else { self.impossible.push(told) }
+                let finding = findings::describe_impossible_ramp(&place, &report, &why, keep, context);
+                if keep { context.findings.push(finding) } else { self.impossible.push(finding) }
             }
         }
         self.reports.push(report);
     }
 
-    /// Whether cutter compensation is on at a ramp, or switched in it.
+    /// Returns whether cutter compensation is on at a ramp, or is switched within it.
     fn is_compensated(&self, found: &FoundRamp) -> bool {
         let motions = self.motions.get(found.motions.clone()).unwrap_or_default();
         let (Some(first), Some(last)) = (motions.first(), motions.last()) else {

@@ -1,6 +1,8 @@
-//! Arcs after a move: a sweep that rounding has turned round is found before anything is written.
+//! This module checks arcs after a move. An arc whose sweep was reversed by rounding is found before anything
+//! is written.
 //!
-//! The end of an arc of a few microns may round onto its start, which every reader takes for a full circle.
+//! The end of an arc of a few microns may be rounded onto its start, which every reader takes for a full
+//! circle.
 
 use crate::program::Program;
 use crate::program::geometry::MotionPath;
@@ -9,13 +11,13 @@ use std::f64::consts::PI;
 
 /// An arc of the program before the move.
 pub struct ArcSweep {
-    /// The statement that ends it, in the source.
+    /// The place in the source of the statement that ends it.
     place: Span,
-    /// In radians.
+    /// The sweep in radians.
     sweep: f64,
 }
 
-/// All arcs of a program, in order.
+/// Returns all arcs of a program in order.
 pub fn collect_sweeps(program: &Program) -> Vec<ArcSweep> {
     iter_arcs(program).collect()
 }
@@ -23,7 +25,7 @@ pub fn collect_sweeps(program: &Program) -> Vec<ArcSweep> {
 /// Compares the arcs after a move with those before it.
 ///
 /// # Errors
-/// The place of the first arc that has gained or lost most of a turn, or has become something else.
+/// Returns the place of the first arc that has gained or lost most of a turn, or that is no arc any more.
 pub fn check_sweeps(program: &Program, before: &[ArcSweep]) -> Result<(), Span> {
     let mut before = before.iter();
     for after in iter_arcs(program) {

@@ -1,4 +1,4 @@
-//! Writing out a tool axis that the file leaves unsaid, in the way that its dialect states axes.
+//! This module writes a tool axis that the file leaves unstated, in the notation of its dialect.
 
 use crate::diagnostic::Failure;
 use crate::parse;
@@ -6,23 +6,23 @@ use crate::program::{Dialect, NumberRole, Record, StatementId};
 use crate::write::ProgramEditor;
 use nalgebra::Vector3;
 
-/// How a dialect states tool axes.
+/// The notation of tool axes in a dialect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AxisNotation {
-    /// Six values where the axis changes; it stays for three-value GOTOs (NX).
+    /// Six values where the axis changes. The axis stays in force for GOTOs with three values (NX).
     Modal,
-    /// Six values in every GOTO whose axis is not z (Creo and ISO under MULTAX, SolidWorks without).
+    /// Six values in every GOTO whose axis is not z (Creo and ISO under MULTAX, SolidWorks without it).
     EveryLine,
     /// A TLAXIS line, and six values under MULTAX (CATIA).
     Word,
     /// Six values in FROM only (Makino FF).
     FromOnly,
-    /// Not at all: coordinates stand in the setup (CAMWorks).
+    /// No notation: coordinates are in the setup (CAMWorks).
     Never,
 }
 
 impl AxisNotation {
-    /// The form of a dialect.
+    /// Returns the notation of a dialect.
     pub fn for_dialect(dialect: Dialect) -> Self {
         match dialect {
             Dialect::Nx => Self::Modal,
@@ -34,30 +34,30 @@ impl AxisNotation {
     }
 }
 
-/// An axis that a motion has to state.
+/// An axis that a motion must state.
 #[derive(Debug, Clone, Copy)]
 pub struct RequiredAxis {
     /// The axis.
     pub axis: Vector3<f64>,
-    /// The first statement that belongs to the motion alone (its RAPID, CIRCLE, INDIRV).
+    /// The first statement that belongs to this motion alone (its RAPID, CIRCLE or INDIRV).
     pub first: StatementId,
 }
 
-/// What became of a wish for an axis.
+/// The outcome of writing an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AxisWriteOutcome {
-    /// It is written.
+    /// The axis was written.
     Done,
-    /// It is written, and MULTAX was put in before it.
+    /// The axis was written, and MULTAX was inserted before it.
     WithMultax,
     /// The statement cannot hold an axis in this dialect.
     Impossible,
 }
 
-/// Writes the axis of a motion out, after its own numbers have changed.
+/// Writes the axis of a motion, after its own numbers have changed.
 ///
 /// # Errors
-/// When the new text does not read back.
+/// Returns an error if the new text does not read back.
 pub fn write_axis(
     editor: &mut ProgramEditor,
     id: StatementId,
@@ -95,14 +95,14 @@ pub fn write_axis(
     }
 }
 
-/// Makes six values of three.
+/// Extends a GOTO of three values to six values.
 fn append_axis(editor: &mut ProgramEditor, id: StatementId, axis: Vector3<f64>) -> Result<(), Failure> {
     let statement = editor.program().statement(id);
     let text = editor.program().statement_text(statement);
     let numbers = parse::statement_numbers(text);
     let [_, (second, _), (third, _)] = numbers.as_slice() else { return Ok(()) };
     let end = third.end;
-    // What separates the last two numbers separates the new ones too.
+    // The new numbers are separated like the last two numbers of the statement.
     let between = text.get(second.end..third.start).unwrap_or_default();
     let plain = between.iter().all(|byte| matches!(byte, b' ' | b','));
     let between = if plain { String::from_utf8_lossy(between).into_owned() } else { ",".to_owned() };
@@ -118,7 +118,7 @@ fn append_axis(editor: &mut ProgramEditor, id: StatementId, axis: Vector3<f64>) 
     editor.replace_parts(id, &[(end..end, tail.as_bytes())])
 }
 
-/// CATIA's columns for axes: nine wide, six decimals.
+/// Formats an axis in CATIA's columns: nine characters wide, with six decimals.
 fn format_catia_axis(editor: &ProgramEditor, axis: Vector3<f64>) -> String {
     format_axis_numbers(editor, axis).map(|number| format!("{number:>9}")).join(",")
 }
@@ -129,7 +129,7 @@ fn join_axis_numbers(editor: &ProgramEditor, axis: Vector3<f64>, between: &str) 
 
 fn format_axis_numbers(editor: &ProgramEditor, axis: Vector3<f64>) -> [String; 3] {
     let mut form = editor.style().new_format(NumberRole::Direction(0));
-    // A file that prints no axis shows no decimals for one; these are measured for its dialect.
+    // A file that prints no axis shows no number of decimals for one. These were measured for each dialect.
     form.decimals = match editor.program().dialect() {
         Dialect::Catia | Dialect::CatiaIcam | Dialect::SolidWorks => 6,
         Dialect::Nx | Dialect::MakinoFf => 7,

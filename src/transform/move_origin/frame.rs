@@ -1,7 +1,8 @@
-//! `change: frame`: the points stay, and the frame they are printed in moves them.
+//! With `change: frame`, the points stay, and the frame in which they are printed moves them.
 //!
-//! The transform `T` is given in printed coordinates. A frame that maps printed coordinates outside, `F`, becomes `F * T`; one
-//! that has already mapped outside coordinates to the printed ones (Creo), `M`, becomes `T^-1 * M`.
+//! The transform `T` is given in printed coordinates. A frame `F` that maps printed coordinates to outside
+//! ones becomes `F * T`. A frame `M` that has already mapped outside coordinates to the printed ones (Creo)
+//! becomes `T^-1 * M`.
 
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::record::{FrameRecord, FrameWord};
@@ -11,10 +12,10 @@ use crate::transform::{Affine, SelectedStatements, StepContext};
 use crate::write::ProgramEditor;
 use nalgebra::{Matrix3, Vector3};
 
-/// Moves the frames of the operations in scope.
+/// Moves the frames of the selected operations.
 ///
 /// # Errors
-/// Where no frame stands, or one that cannot take the transform.
+/// Returns an error if there is no frame, or if one cannot take the transform.
 pub fn move_frames(
     program: Program,
     place: &Affine,
@@ -63,7 +64,7 @@ pub fn move_frames(
     editor.finish()
 }
 
-/// Every selected motion has to stand in a frame that changes, and no other may.
+/// Checks that every selected motion is in a frame that changes, and no other motion is.
 fn check_motions_in_frames(
     program: &Program,
     place: &Affine,
@@ -95,7 +96,7 @@ fn check_motions_in_frames(
                 match frame {
                     None if moved => return Err(missing_frame_error(program, id, context)),
                     Some(frame) if scope.contains(frame) != moved => {
-                        let message = "one frame holds for operations that are selected and for others; select all of them, or use \
+                        let message = "the same frame governs selected operations and others; select all of them, or use \
                                        `change: points`";
                         return Err(context.statement_failure(
                             message,
@@ -134,20 +135,20 @@ fn check_frame(
 ) -> Result<(), Failure> {
     let message = match (frame.word, program.dialect()) {
         (FrameWord::Csys, Dialect::Creo | Dialect::CreoGpost) if place.changes_directions() => {
-            "which way the rotation of this matrix turns is not known for Creo (measured is only that its translation is \
-             already in the points): only `translate` can be put into it; use `change: points`"
+            "the sense in which this matrix rotates is not known for Creo (it was only measured that its translation is \
+             already in the points), so only `translate` can be put into it; use `change: points`"
         }
         (FrameWord::Csys, Dialect::Creo | Dialect::CreoGpost) if !has_identity_axes(frame) => {
-            "this matrix turns, and which way is not known for Creo, so a translation cannot be put into it; use `change: points`"
+            "this matrix rotates, in a sense that is not known for Creo, so a translation cannot be put into it; use `change: points`"
         }
         (FrameWord::Csys, Dialect::Creo | Dialect::CreoGpost) => return Ok(()),
         (FrameWord::Trans | FrameWord::Origin, _)
             if place.changes_directions() && frame.numbers.iter().any(|number| *number != 0.0) =>
         {
-            "the post shifts the points by this before the frame turns them; a turn cannot be put into the frame then"
+            "the post shifts the points by this before the frame rotates them, so a rotation cannot be put into the frame"
         }
         (FrameWord::Csys, _) => {
-            "which way this matrix maps the points is not known for this dialect; use `change: points`"
+            "it is not known for this dialect in which direction this matrix maps the points; use `change: points`"
         }
         _ => return Ok(()),
     };
@@ -168,12 +169,14 @@ fn compute_frame_edits(frame: &FrameRecord, place: &Affine) -> Vec<(usize, f64)>
             let mut edits: Vec<_> = origin.iter().copied().enumerate().collect();
             if place.changes_directions() {
                 let turned = axes * place.linear;
-                // Two columns of three: nalgebra keeps them one after the other.
+                // nalgebra stores columns one after the other, so the first six numbers are the two columns
+                // that MSYS prints.
                 edits.extend(turned.iter().take(6).enumerate().map(|(index, value)| (index + 3, *value)));
             }
             edits
         }
-        // Already applied, and its own rotation is none: the translation takes the step back.
+        // Creo has already applied the frame, and its own rotation is the identity here. So T^-1 * M only
+        // subtracts the translation.
         (FrameWord::Csys, [_, _, _, x, _, _, _, y, _, _, _, z]) => {
             vec![(3, x - place.offset.x), (7, y - place.offset.y), (11, z - place.offset.z)]
         }
@@ -181,7 +184,7 @@ fn compute_frame_edits(frame: &FrameRecord, place: &Affine) -> Vec<(usize, f64)>
     }
 }
 
-/// A row of a CATIA matrix: three of the rotation, one of the translation.
+/// Returns the edits of a row of CATIA's matrix: three numbers of the rotation and one of the translation.
 fn compute_row_edits(row: &[f64; 4], place: &Affine) -> Vec<(usize, f64)> {
     let [a, b, c, d] = *row;
     let axes = nalgebra::RowVector3::new(a, b, c);

@@ -1,4 +1,5 @@
-//! Words of left and right: the sides of CUTCOM, and the sense of arcs that say it in words.
+//! This module swaps words of left and right: the sides of CUTCOM, and the sense of arcs that state it in
+//! words.
 
 use crate::diagnostic::Failure;
 use crate::program::{FieldKind, StatementId, StatementSyntax, fold_text};
@@ -13,20 +14,20 @@ const SENSES: &[[&str; 2]] = &[["CLOCKWISE", "COUNTERCLOCKWISE"], ["CLW", "CCLW"
 /// Swaps LEFT and RIGHT in a CUTCOM.
 ///
 /// # Errors
-/// When the new text does not read back.
+/// Returns an error if the new text does not read back.
 pub fn swap_sides(editor: &mut ProgramEditor, id: StatementId) -> Result<(), Failure> {
     swap_words(editor, id, SIDES)
 }
 
-/// Swaps the words of an arc's sense.
+/// Swaps the words that state the sense of an arc.
 ///
 /// # Errors
-/// When the new text does not read back.
+/// Returns an error if the new text does not read back.
 pub fn swap_senses(editor: &mut ProgramEditor, id: StatementId) -> Result<(), Failure> {
     swap_words(editor, id, SENSES)
 }
 
-/// The normal of the plane that a CUTCOM names; `None` when it names none.
+/// Returns the normal of the plane that a CUTCOM names. Returns `None` if it names none.
 pub fn named_plane_normal(syntax: &StatementSyntax<'_>) -> Option<Vector3<f64>> {
     (0..syntax.fields.len()).find_map(|field| match syntax.word_at(field)?.as_str() {
         "XYPLAN" => Some(Vector3::z()),
@@ -36,7 +37,7 @@ pub fn named_plane_normal(syntax: &StatementSyntax<'_>) -> Option<Vector3<f64>> 
     })
 }
 
-/// Whether a plane, seen from the side that its word means, stays where it is.
+/// Returns whether the transform keeps a plane and the side from which its word is meant.
 pub fn keeps_plane(place: &Affine, normal: Vector3<f64>) -> bool {
     place.keeps_direction(normal)
 }

@@ -1,4 +1,4 @@
-//! `move_origin`: the path moved, turned or mirrored, by its points or by its frame.
+//! `move_origin` moves, rotates or mirrors the path, by changing its points or its frame.
 
 mod arc_sweeps;
 mod axis_notation;
@@ -16,34 +16,38 @@ pub use move_parameters::{DirectionSpec, MirrorSpec, RotationSpec, VectorSpec};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// Moves, turns or mirrors the path.
+/// Moves, rotates or mirrors the path.
 ///
-/// First comes `mirror`, then `rotate`, then `translate`, each in the coordinates that the program prints. At least one of them has
-/// to be given.
+/// `mirror` is applied first, then `rotate`, then `translate`, each in the coordinates that the program
+/// prints. At least one of them is needed.
 ///
-/// With `change: points` (the default) every point, direction and arc axis gets new numbers: GOTO, FROM, GOHOME, GODLTA, CIRCLE,
-/// MOVARC, INDIRV and TLON, TLAXIS, spline control points. Cycle depths are relative to their holes and stay. With `change:
-/// frame` the points stay and the frame record changes instead, so that the path lands in the same place outside: NX `MSYS`,
-/// Creo `CSYS` and `CAMERA` (translation only), CATIA's matrix in comments. Never both.
+/// With `change: points` (the default), every point, direction and arc axis gets new numbers: GOTO, FROM,
+/// GOHOME, GODLTA, CIRCLE, MOVARC, INDIRV and TLON, TLAXIS, and the control points of splines. Cycle depths
+/// are relative to their holes and stay. With `change: frame`, the points stay and the frame record changes
+/// instead, so that the path is at the same place outside: NX `MSYS`, Creo `CSYS` and `CAMERA` (translation
+/// only), CATIA's matrix in comments. The two are never combined.
 ///
-/// A tool axis that the file leaves at its default (0,0,1) is written out where the transform turns it. A mirror swaps the sense
-/// of arcs and the sides of CUTCOM; the spindle keeps its sense, so climb milling becomes conventional, which is reported.
-/// Records that still describe the old place are reported, not guessed.
+/// A tool axis that the file leaves at its default (0,0,1) is written where the transform rotates it. A
+/// mirror swaps the sense of arcs and the sides of CUTCOM. The spindle keeps its sense, so climb milling
+/// becomes conventional milling, which is reported. Records that still describe the old position are
+/// reported, because their new values would be guesses.
 ///
-/// Not idempotent: a second run moves again. A transform that moves nothing changes no byte.
+/// The step is not idempotent: a second run moves the path again. A transform that moves nothing changes no
+/// byte.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MoveOrigin {
-    /// The plane to mirror in: `x`, `y` or `z` (the plane normal to it, through the origin), or `{ normal: [1, 1, 0], through: [0, 0, 0] }`.
+    /// The plane of the mirror: `x`, `y` or `z` (the plane normal to it, through the origin), or `{ normal:
+    /// [1, 1, 0], through: [0, 0, 0] }`.
     pub mirror: Option<MirrorSpec>,
-    /// The turn: `{ axis: z, degrees: 90, about: [0, 0, 0] }`.
+    /// The rotation: `{ axis: z, degrees: 90, about: [0, 0, 0] }`.
     pub rotate: Option<RotationSpec>,
-    /// What is added to every point: `[x, y, z]`, in the recipe's unit.
+    /// The displacement that is added to every point: `[x, y, z]`, in the recipe's unit.
     pub translate: Option<move_parameters::VectorSpec>,
-    /// What gets new numbers: the points, or the frame they are printed in.
+    /// What gets new numbers: the points, or the frame in which they are printed.
     #[serde(default)]
     pub change: MoveOriginTarget,
-    /// Which operations; all when it is left out.
+    /// Which operations are meant; all of them when it is left out.
     #[serde(default)]
     pub r#where: OperationFilter,
 }
@@ -77,7 +81,7 @@ pub enum MoveOriginTarget {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 impl Transform for MoveOrigin {
-    /// Whether it says a length: a turn about the origin has none.
+    /// Returns whether a parameter is a length. A rotation about the origin has none.
     fn measures(&self) -> bool {
         let is_length = |triple: &move_parameters::VectorSpec| triple.iter().any(|value| value.get() != 0.0);
         self.translate.as_ref().is_some_and(is_length)
@@ -87,7 +91,7 @@ impl Transform for MoveOrigin {
 
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
         if self.mirror.is_none() && self.rotate.is_none() && self.translate.is_none() {
-            return Err(context.step_failure("none of `mirror`, `rotate` and `translate` is given", &[]));
+            return Err(context.step_failure("none of `mirror`, `rotate` and `translate` is given; add one, for example `translate: [10, 0, 0]`", &[]));
         }
         let file = context.file_length_unit(&program);
         let place = move_parameters::compose_affine(
@@ -125,7 +129,7 @@ impl Transform for MoveOrigin {
     }
 }
 
-const ROUNDED_ARC: &str = "this arc is so short that its ends meet when they are rounded to the file's decimals, and would be \
+const ROUNDED_ARC: &str = "this arc is so short that its ends coincide when they are rounded to the file's decimals, and it would be \
                            read as a full turn. Quarter turns and mirrors in x, y or z do not round";
 
 fn mirrored_spindle_finding(context: &StepContext<'_>) -> Diagnostic {

@@ -1,4 +1,5 @@
-//! The parameters of `move_origin`: axes, planes and turns, right once they are read.
+//! This module holds the parameters of `move_origin`: axes, planes and rotations. They are valid once they
+//! are read.
 
 use crate::parameters::{Degrees, Finite};
 use crate::program::LengthUnit;
@@ -10,14 +11,15 @@ use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Unexpect
 use std::borrow::Cow;
 use std::fmt;
 
-/// A place or step in the recipe's unit.
+/// A point or a displacement in the recipe's unit.
 pub type VectorSpec = [Finite; 3];
 
 /// A direction: `x`, `y`, `z`, or any vector `[i, j, k]`, whose length does not matter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DirectionSpec(pub Unit<Vector3<f64>>);
 
-/// A plane to mirror in: its normal alone (the plane holds the origin), or `{ normal: x, through: [0, 0, 0] }`.
+/// A plane of a mirror: its normal alone (the plane goes through the origin), or `{ normal: x, through: [0,
+/// 0, 0] }`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MirrorSpec {
     /// The plane's normal.
@@ -26,24 +28,24 @@ pub struct MirrorSpec {
     pub through: Vector3<f64>,
 }
 
-/// A turn about an axis.
+/// A rotation about an axis.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RotationSpec {
-    /// Direction of the axis: `x`, `y`, `z` or `[i, j, k]`.
+    /// The direction of the axis: `x`, `y`, `z` or `[i, j, k]`.
     pub axis: DirectionSpec,
-    /// Angle in degrees, counter-clockwise when the axis points at you. Quarter turns are exact.
+    /// The angle in degrees, counter-clockwise when the axis points at you. Quarter turns are exact.
     pub degrees: Degrees,
     /// A point of the axis, in the recipe's unit; the origin when it is left out.
     pub about: Option<VectorSpec>,
 }
 
-/// The numbers of a triple as a vector.
+/// Returns three numbers as a vector.
 pub fn vector_from_spec(triple: &VectorSpec) -> Vector3<f64> {
     Vector3::from(triple.map(Finite::get))
 }
 
-/// Mirror, then rotation, then translation, in the file's unit.
+/// Combines mirror, then rotation, then translation into a single transform, in the file's unit.
 pub fn compose_affine(
     mirror: Option<&MirrorSpec>,
     rotate: Option<&RotationSpec>,
@@ -82,7 +84,7 @@ fn direction_from_list<'de, A: SeqAccess<'de>>(list: A) -> Result<DirectionSpec,
     let vector = vector_from_spec(&VectorSpec::deserialize(SeqAccessDeserializer::new(list))?);
     let unit = Unit::try_new(vector, 1e-9).filter(|unit| unit.iter().all(|part| part.is_finite()));
     unit.map(DirectionSpec).ok_or_else(|| {
-        A::Error::custom("the vector has no direction\nOne of its three numbers has to be different from 0.")
+        A::Error::custom("the vector has no direction\nAt least one of its three numbers must differ from 0.")
     })
 }
 
@@ -131,7 +133,7 @@ impl<'de> Deserialize<'de> for MirrorSpec {
     }
 }
 
-/// A plane to mirror in.
+/// A plane of a mirror.
 #[derive(serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct MirrorPlaneSpec {
@@ -166,7 +168,7 @@ impl JsonSchema for MirrorSpec {
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let (axis, plane) = (DirectionSpec::json_schema(generator), MirrorPlaneSpec::json_schema(generator));
         json_schema!({
-            "description": "The plane to mirror in: its normal (the plane holds the origin), or its normal and a point of it.",
+            "description": "The plane of the mirror: its normal (the plane goes through the origin), or its normal and a point of it.",
             "anyOf": [axis, plane],
         })
     }

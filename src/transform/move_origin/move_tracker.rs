@@ -1,7 +1,9 @@
-//! The modal state that a move has to follow: the tool axis before and after it, and which statements belong together.
+//! This module follows the modal state during a move: the tool axis before and after it, and which statements
+//! belong together.
 //!
-//! `old` is the axis that the file has in force; `new` is the one that the changed file would have if only numbers changed.
-//! Where a motion states no axis and the two do not map onto each other, the motion needs its axis written out.
+//! `old` is the axis that is in force in the file. `new` is the axis that would be in force in the changed
+//! file if only numbers changed. If a motion states no axis and the transform does not map `old` to `new`,
+//! its axis has to be written.
 
 use super::axis_notation::{AxisNotation, RequiredAxis};
 use crate::program::record::{CutterCompensation, FrameWord, has_contact_normal, has_tool_axes};
@@ -10,18 +12,18 @@ use crate::transform::Affine;
 use crate::transform::affine::is_same_vector;
 use nalgebra::Vector3;
 
-/// Why a program cannot be moved.
+/// The reason why a program cannot be moved.
 #[derive(Debug)]
 pub struct MoveRefusal {
     /// The reason.
     pub message: &'static str,
-    /// The statement that stands in the way.
+    /// The statement that prevents the move.
     pub statement: StatementId,
-    /// What is to be seen there.
+    /// The label at that statement.
     pub label: &'static str,
 }
 
-/// The state while statements go by.
+/// The state while statements are read in order.
 #[derive(Debug)]
 pub struct MoveTracker<'p> {
     place: &'p Affine,
@@ -29,13 +31,13 @@ pub struct MoveTracker<'p> {
     form: AxisNotation,
     old: Vector3<f64>,
     new: Vector3<f64>,
-    /// Whether the axis in force was written out by this step.
+    /// Whether this step wrote the axis that is in force.
     written: bool,
     multi_axis: bool,
     first: Option<StatementId>,
-    /// A CIRCLE, INDIRV or NURBS that waits for its end, and whether it moved.
+    /// Whether a CIRCLE, INDIRV or NURBS that still waits for its end has moved.
     pending: Option<bool>,
-    /// Whether the tool's place moved.
+    /// Whether the last position of the tool has moved.
     last: Option<bool>,
     compensation: Option<bool>,
     setup_axis: Option<Vector3<f64>>,
@@ -44,11 +46,11 @@ pub struct MoveTracker<'p> {
     axis_words_ignored: bool,
     moved: usize,
     turned_over: Option<StatementId>,
-    upright: bool,
+    keeps_sense: bool,
 }
 
 impl<'p> MoveTracker<'p> {
-    /// The state before the first statement.
+    /// Makes the state before the first statement.
     pub fn new(place: &'p Affine, dialect: Dialect) -> Self {
         Self {
             place,
@@ -68,26 +70,27 @@ impl<'p> MoveTracker<'p> {
             axis_words_ignored: false,
             moved: 0,
             turned_over: None,
-            upright: false,
+            keeps_sense: false,
         }
     }
 
-    /// Whether MULTAX is in force.
+    /// Returns whether MULTAX is in force.
     pub fn is_multi_axis(&self) -> bool {
         self.multi_axis
     }
 
-    /// Whether the axis in force stays as it is.
+    /// Returns whether the transform keeps the axis in force.
     pub fn keeps_axis(&self) -> bool {
         self.place.keeps_direction(self.old)
     }
 
-    /// Takes notice of a MULTAX that the step puts in.
+    /// Notes a MULTAX that the step inserts.
     pub fn note_multax(&mut self) {
         self.multi_axis = true;
     }
 
-    /// Reads a statement before it changes; `moved` says whether it will. Gives the axis that has to be written out there.
+    /// Reads a statement before it changes. `moved` tells whether it will be moved. Returns the axis that has
+    /// to be written there.
     pub fn observe_statement(
         &mut self,
         id: StatementId,
@@ -139,10 +142,11 @@ impl<'p> MoveTracker<'p> {
         Ok(None)
     }
 
-    /// After the last statement: a mirror that turns the tool over for every motion is a mistake.
+    /// Checks the whole program after its last statement. A mirror that reverses the tool axis of every
+    /// motion is a mistake.
     pub fn finish(&self) -> Result<(), MoveRefusal> {
         match self.turned_over {
-            Some(statement) if !self.upright => Err(MoveRefusal {
+            Some(statement) if !self.keeps_sense => Err(MoveRefusal {
                 message: "the mirror plane is normal to the tool axis: the tool would reach the part from its other end. \
                           Mirror in a plane that holds the axis, or turn the part over as well (`rotate` by 180 degrees)",
                 statement,
@@ -187,7 +191,7 @@ impl<'p> MoveTracker<'p> {
         Ok(Some(RequiredAxis { axis: wanted, first }))
     }
 
-    /// What starts where the motion before ended has to move with it.
+    /// Checks that a motion that starts where the previous one ends is moved with it.
     fn check_moves_together(
         &mut self,
         id: StatementId,
@@ -198,14 +202,14 @@ impl<'p> MoveTracker<'p> {
         let start = self.last.is_some_and(|last| last != moved);
         if announced.is_some_and(|announced| announced != moved || start) || relative && start {
             return Err(MoveRefusal {
-                message: "an arc, spline or step starts where an operation ends that does not move with it; select both",
+                message: "an arc, a spline or a GODLTA starts where another operation ends that is not moved; select both operations",
                 statement: id,
                 label: "starts in the operation before",
             });
         }
         if self.place.has_mirror() && self.compensation.is_some_and(|compensation| compensation != moved) {
             return Err(MoveRefusal {
-                message: "cutter compensation goes on from an operation that is not mirrored with this one; select both",
+                message: "cutter compensation continues from an operation that is not mirrored; select both operations",
                 statement: id,
                 label: "moves under compensation",
             });
@@ -227,7 +231,7 @@ impl<'p> MoveTracker<'p> {
             self.used_setup = Some(self.setup);
             if !self.place.keeps_direction(Vector3::z()) {
                 return refuse(
-                    "CAMWorks prints every setup with the tool along z, and TLAXIS and ROTABL say how it stands: a turn that \
+                    "CAMWorks prints every setup with the tool along z, and TLAXIS and ROTABL orient it: a rotation that \
                      tilts z cannot be put into the points",
                     "the tool stands along z here",
                 );
@@ -238,12 +242,12 @@ impl<'p> MoveTracker<'p> {
             return Ok(());
         }
         if is_same_vector(wanted, self.old) {
-            self.upright = true;
+            self.keeps_sense = true;
             return Ok(());
         }
         if self.axis_words_ignored {
             return refuse(
-                "the transform turns the tool axis, but the file tells its post to ignore TLAXIS (`SYN/'TLAXIS',...`): the \
+                "the transform rotates the tool axis, but the file makes its post ignore TLAXIS (`SYN/'TLAXIS',...`): the \
                  axis in force is not the one it prints",
                 "has a tool axis that would turn",
             );
@@ -253,7 +257,7 @@ impl<'p> MoveTracker<'p> {
         {
             return refuse(
                 "SolidWorks CAM prints the path in world coordinates and the plane of the setup in CSYS, whose third column is \
-                 the tool axis: a turn of the axis needs another setup. Turn about the tool axis, or turn the part in the CAM \
+                 the tool axis. Another axis needs another setup. Rotate about the tool axis, or rotate the part in the CAM \
                  system",
                 "has the tool axis of its CSYS",
             );
@@ -261,13 +265,14 @@ impl<'p> MoveTracker<'p> {
         if self.place.has_mirror() && is_same_vector(wanted, -self.old) {
             self.turned_over.get_or_insert(id);
         } else {
-            self.upright = true;
+            self.keeps_sense = true;
         }
         Ok(())
     }
 }
 
-/// CATIA with an ICAM table: `SYN/'TLAXIS','$$*TLAXIS'` makes comments of all TLAXIS records.
+/// Returns whether a statement hides tool axes. CATIA with an ICAM table turns all TLAXIS records into
+/// comments by `SYN/'TLAXIS','$$*TLAXIS'`.
 fn hides_tool_axis(text: &[u8]) -> bool {
     text.trim_ascii_start().starts_with(b"SYN") && memchr::memmem::find(text, b"TLAXIS").is_some()
 }

@@ -1,4 +1,4 @@
-//! `change: points`: every number of the path gets its new value.
+//! With `change: points`, every number of the path gets its new value.
 
 use super::move_tracker::{MoveRefusal, MoveTracker};
 use super::{axis_notation, handedness_words};
@@ -11,10 +11,11 @@ use crate::transform::{Affine, SelectedStatements, StepContext};
 use crate::write::{self, ProgramEditor};
 use nalgebra::Vector3;
 
-/// Moves the points of the operations in scope.
+/// Moves the points of the selected operations.
 ///
 /// # Errors
-/// Where the file does not allow it; nothing is half done, because the program is gone.
+/// Returns an error if the file does not allow the move. The program is lost then, so nothing is left
+/// half-moved.
 pub fn move_points(
     program: Program,
     place: &Affine,
@@ -71,7 +72,7 @@ pub fn move_points(
                 axis_notation::AxisWriteOutcome::Done => {}
                 axis_notation::AxisWriteOutcome::WithMultax => walk.note_multax(),
                 axis_notation::AxisWriteOutcome::Impossible => {
-                    let message = "the transform turns the tool axis, and this motion cannot state one in this dialect: nothing \
+                    let message = "the transform rotates the tool axis, but this motion cannot state one in this dialect, and nothing \
                                    before it does either";
                     let label = "has the axis 0,0,1 only by default";
                     return Err(context.statement_failure(message, editor.program(), id, label));
@@ -85,13 +86,14 @@ pub fn move_points(
     editor.finish()
 }
 
-/// The new values of a statement's numbers.
+/// Returns the new values of a statement's numbers.
 fn compute_edits(record: &Record, text: &[u8], place: &Affine, multi_axis: bool) -> Vec<(usize, f64)> {
     let in_words = matches!(record, Record::Circle(circle) if circle.sense != ArcSense::OfDialect);
     let change = |role: NumberRole, value: Vector3<f64>| match role {
         NumberRole::Point(_) => Some(place.transform_point(value.into()).coords),
         _ if !place.changes_directions() => None,
-        // The word of the sense is swapped instead, and the axis is a plain direction.
+        // When the sense of an arc is stated by a word, that word is swapped, and the axis is a plain
+        // direction.
         NumberRole::ArcAxis(_) if !in_words => Some(place.transform_arc_axis(value)),
         NumberRole::ArcAxis(_) | NumberRole::Step(_) | NumberRole::Direction(_) => {
             Some(place.transform_vector(value))
@@ -129,7 +131,7 @@ fn compute_edits(record: &Record, text: &[u8], place: &Affine, multi_axis: bool)
     }
 }
 
-/// Words of left and right in a statement.
+/// The words of left and right in a statement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum HandednessWords {
     None,
@@ -148,7 +150,8 @@ impl HandednessWords {
     }
 }
 
-/// Whether the plane that compensation works in is still the one that its record means; a named plane has to be.
+/// Checks that the plane of compensation is still the one that its record means. A plane that is named by a
+/// word cannot turn.
 fn is_compensation_plane_kept(
     program: &Program,
     id: StatementId,
@@ -170,7 +173,8 @@ fn is_compensation_plane_kept(
     }
 }
 
-/// Motions of part programs that no record describes: their places cannot be changed, and leaving them would cut across.
+/// Refuses motions of part programs that no record describes. Their points cannot be changed, and leaving
+/// them would cut through the part.
 fn refuse_unmovable(record: &Record, text: &[u8], id: StatementId) -> Option<MoveRefusal> {
     const MOTIONS: &[&str] =
         &["TLON", "TLLFT", "TLRGT", "GOFWD", "GOBACK", "GOLFT", "GORGT", "GOUP", "GODOWN", "POCKET"];

@@ -1,13 +1,15 @@
-//! `optimize_feed`: block by block, the feed at which the load of the cutter stays within its targets.
+//! `optimize_feed` gives each block the feed at which the load of the cutter stays within its targets.
 //!
-//! Five stages in the order of their data: `measure` simulates the program and makes blocks of it, whose pieces have their
-//! largest feeds; `limit` joins pieces to segments; `plan` sees to acceleration and rounding; `write` splits
-//! motions and puts in FEDRATs; `prove` simulates again. A stage imports only those before it. `step` calls them in a row.
+//! Its five stages follow the order of their data. `measure` simulates the program and makes blocks of it,
+//! whose pieces have their largest feeds. `limit` joins pieces to segments. `plan` applies acceleration
+//! and rounding. `write` splits motions and inserts FEDRATs. `prove` simulates again. A stage
+//! imports only those before it. `step` calls them in turn.
 //!
-//! Six nouns name a bit of path. A motion is what the CL file programs from one point to the next. A piece is a length of path on
-//! which the load is constant. A block is a feed motion with its pieces. A segment is a part of a block that gets one feed. A chain
-//! is a run of blocks with no rapid, stop or tool change between them. A motion part is one of the motions that a motion becomes in
-//! the CL text where its block has several segments.
+//! Six nouns name a bit of path. A motion is what the CL file programs from one point to the next. A piece is
+//! a length of path on which the load is constant. A block is a feed motion with its pieces. A segment is a
+//! part of a block that gets one feed. A chain is a run of blocks with no rapid, stop or tool change between
+//! them. A motion part is one of the motions that a motion becomes in the CL text where its block has several
+//! segments.
 
 mod limit;
 mod measure;

@@ -1,4 +1,4 @@
-//! The parameters of `optimize_feed`.
+//! This module holds the parameters of `optimize_feed`.
 
 use super::limit::{FeedRules, FeedWindow, SplitRule};
 use super::measure::LoadCriterion;
@@ -9,114 +9,122 @@ use crate::simulation_run::EngagementModel;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// Gives every block the feed at which the cutter's load is at its target, by simulating what it really cuts.
+/// Gives every block the feed at which the cutter's load reaches its target, by simulating what the cutter
+/// really removes.
 ///
-/// Needs the stock, the teeth of the tools and a spindle speed in rev/min (see `setup:`); for forces a material, too. The program is
-/// simulated, feeds follow in closed form from the load of each piece of path, acceleration lowers what cannot be reached, FEDRATs
-/// are written in the file's own form, and the result is simulated again: the step fails when a target is passed by more than
-/// the simulation's own uncertainty. What the grid cannot know lowers the feed, never raises it.
+/// The step needs the stock, the teeth of the tools and a spindle speed in rev/min (see `setup:`), and for
+/// forces also a material. It simulates the program and computes feeds in closed form from the load of each
+/// piece of path. Where acceleration cannot reach a feed, it is lowered. FEDRATs are written in the file's
+/// own form, and the result is simulated again. The step fails if a target is exceeded by more than the
+/// uncertainty of the simulation. What the grid cannot resolve lowers the feed and never raises it.
 ///
-/// Rapids, drilling cycles and motions that are not selected keep their feeds. A second run changes nothing beyond
-/// `default_min_change`, unless `min_ratio` or `max_ratio` tie the feeds to the programmed ones.
+/// Rapids, drilling cycles and motions that are not selected keep their feeds. A second run changes nothing
+/// beyond `min_change`, unless `min_ratio` or `max_ratio` tie the feeds to the programmed ones.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OptimizeFeed {
-    /// What `target` is about.
+    /// The load that `target` limits.
     #[serde(default)]
     pub criterion: LoadCriterion,
-    /// The load that is allowed, in the criterion's unit.
+    /// The allowed load, in the unit of the criterion.
     pub target: Positive,
-    /// Further limits that hold at the same time; the lowest feed counts.
+    /// Further limits that hold at the same time. The lowest feed counts.
     #[serde(default, deserialize_with = "deserialize_not_empty")]
     #[schemars(length(min = 1))]
     pub limits: Option<Vec<LoadLimitSpec>>,
-    /// Which part of the path counts for a block.
+    /// Which part of the path counts for the feed of a block.
     #[serde(default)]
     pub window: WindowSpec,
-    /// Lowest feed, in the recipe's unit per minute.
+    /// The lowest feed, in the recipe's unit per minute.
     pub min_feed: Option<Positive>,
-    /// Highest feed, in the recipe's unit per minute; else the machine's `max_feed`. The lower of the two counts.
+    /// The highest feed, in the recipe's unit per minute. Without it, the machine's `max_feed` counts; if
+    /// both are given, the lower one.
     pub max_feed: Option<Positive>,
-    /// Lowest feed as a share of the programmed one.
+    /// The lowest feed as a fraction of the programmed one.
     pub min_ratio: Option<Factor>,
-    /// Highest feed as a share of the programmed one.
+    /// The highest feed as a fraction of the programmed one.
     pub max_ratio: Option<Factor>,
-    /// Feed where nothing is cut, in the recipe's unit per minute; without it, air keeps the programmed feed, but for blocks that come
-    /// within `margin` of material: those take the cutting feed there.
+    /// The feed in air, in the recipe's unit per minute. Without it, air keeps the programmed feed, except in
+    /// blocks that come within `margin` of material: these have the cutting feed there.
     pub air_feed: Option<Positive>,
-    /// Path before and after material that keeps the cutting feed, in the recipe's unit; 0.5 mm when left out.
+    /// The length of path before and after material that keeps the cutting feed, in the recipe's unit; 0.5 mm
+    /// when it is left out.
     pub margin: Option<NonNegative>,
-    /// Largest change of feed along the path, in the recipe's unit per minute and second; else the machine's.
+    /// The largest change of feed along the path, in the recipe's unit per minute and second. Without it, the
+    /// machine's value counts.
     pub max_acceleration: Option<Positive>,
-    /// Breaks long blocks whose load varies; never when left out.
+    /// Splits long blocks whose load varies. Blocks are never split when it is left out.
     pub split: Option<SplitSpec>,
-    /// Smaller changes, as a share, keep the feed in force.
+    /// Changes that are smaller than this fraction keep the feed in force.
     #[serde(default = "default_min_change")]
     pub min_change: Fraction,
-    /// Feeds are rounded down to multiples of this, in the recipe's unit per minute; 0 for as many decimals as the file prints.
+    /// Feeds are rounded down to multiples of this, in the recipe's unit per minute; 0 keeps as many decimals
+    /// as the file prints.
     #[serde(default = "default_round_down_to")]
     pub round_down_to: NonNegative,
-    /// What tells where the cutter is engaged.
+    /// The model that finds where the cutter is engaged.
     #[serde(default)]
     pub engagement: EngagementSpec,
-    /// Distance of the simulation's columns, in the recipe's unit; else a fortieth of the smallest cutter's diameter. Only with
-    /// `engagement: dexels`.
+    /// The distance of the simulation's columns, in the recipe's unit; a fortieth of the smallest cutter's
+    /// diameter when it is left out. It is only allowed with `engagement: dexels`.
     pub cell: Option<Positive>,
-    /// Thickness of the layers, in the recipe's unit; else a fortieth of the smallest cutter's diameter. Material lower than a layer may
-    /// be missed. Only with `engagement: layers`.
+    /// The thickness of the layers, in the recipe's unit; a fortieth of the smallest cutter's diameter when
+    /// it is left out. Material thinner than a layer may be missed. It is only allowed with `engagement:
+    /// layers`.
     pub layer: Option<Positive>,
-    /// Classes of motion that may get another feed.
+    /// The classes of motion that may get another feed.
     #[serde(default = "default_motions")]
     #[schemars(length(min = 1))]
     pub motions: Vec<MotionClass>,
-    /// Which motions; all when it is left out.
+    /// Which motions are meant; all of them when it is left out.
     #[serde(default)]
     pub r#where: MotionFilter,
 }
 
-/// A limit beside the target.
+/// A limit in addition to the target.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LoadLimitSpec {
-    /// What it limits.
+    /// The load that it limits.
     pub criterion: LoadCriterion,
-    /// The load that is allowed, in the criterion's unit.
+    /// The allowed load, in the unit of the criterion.
     pub target: Positive,
 }
 
-/// Which part of the path counts for a block.
+/// Which part of the path counts for the feed of a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum WindowSpec {
-    /// All of the block: the target is never passed.
+    /// All of the block, so the target is never exceeded.
     #[default]
     Block,
-    /// The half of the block before its end point and the half of the block after it, as in the paper: smoother, but the first half of a
-    /// block runs at the feed of the block before.
+    /// The half of the block before its end point and the first half of the next block, as in the paper.
+    /// Feeds are smoother, but the first half of a block runs at the feed of the block before it.
     HalfBlocks,
 }
 
-/// What tells where the cutter is engaged.
+/// The model that finds where the cutter is engaged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum EngagementSpec {
-    /// Columns of material along z: every cutter, every axis, shank and holder.
+    /// Columns of material along z, for every cutter and axis, with shank and holder.
     #[default]
     Dexels,
-    /// The exact chips of flat end mills in layers across z, in three and five axes up to 80 degrees from z: directions and shares are not
-    /// rounded to a grid. Another tool stops the step; shank and holder are not looked at.
+    /// The exact chips of flat end mills in layers across z, in three axes and in five axes up to 80 degrees
+    /// from z. Directions and fractions are not rounded to a grid. Another tool stops the step; shank and
+    /// holder are not checked.
     Layers,
 }
 
-/// When blocks are broken into parts; lengths in the recipe's unit.
+/// The rule by which blocks are split. Lengths are in the recipe's unit.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SplitSpec {
-    /// Only blocks longer than this.
+    /// Only blocks longer than this are split.
     pub above: Positive,
-    /// No part is shorter than this.
+    /// No part becomes shorter than this.
     pub shortest: Positive,
-    /// Most parts of one block.
+    /// A block gets at most so many parts.
     pub at_most: PositiveCount,
 }
 
@@ -133,7 +141,8 @@ fn default_motions() -> Vec<MotionClass> {
 }
 
 impl OptimizeFeed {
-    /// The step with a target for the chip thickness, in the unit of its parameters; everything else as a recipe leaves it out.
+    /// Makes the step with a target for the chip thickness, in the unit of its parameters. All other
+    /// parameters have their defaults.
     pub fn new(target: Positive) -> Self {
         Self {
             criterion: LoadCriterion::default(),
@@ -158,7 +167,7 @@ impl OptimizeFeed {
         }
     }
 
-    /// All limits, the target first, in millimetres.
+    /// Returns all limits in millimetres, with the target first.
     pub(super) fn limits_in_mm(&self, mm_per_unit: f64) -> Vec<(LoadCriterion, f64)> {
         let in_mm = |limit: &LoadLimitSpec| {
             let unit = match limit.criterion {
@@ -172,7 +181,8 @@ impl OptimizeFeed {
         std::iter::once(&first).chain(self.limits.iter().flatten()).map(in_mm).collect()
     }
 
-    /// What engagement is found with, in millimetres; the parameter that has no meaning with it, if one is given.
+    /// Returns the engagement model in millimetres. Returns the key of a parameter as an error if the model
+    /// does not use it.
     pub(super) fn engagement_model(&self, mm_per_unit: f64) -> Result<EngagementModel, &'static str> {
         match self.engagement {
             EngagementSpec::Dexels if self.layer.is_some() => Err("layer"),
@@ -184,7 +194,8 @@ impl OptimizeFeed {
         }
     }
 
-    /// The rules for feeds, in millimetres; `None` when neither step nor machine says a highest feed.
+    /// Returns the rules for feeds in millimetres. Returns `None` if neither the step nor the machine has a
+    /// highest feed.
     pub(super) fn feed_rules(
         &self,
         mm_per_unit: f64,

@@ -1,4 +1,4 @@
-//! The step: simulate, decide, write, simulate again.
+//! This module runs the step: it simulates, decides, writes and simulates again.
 
 use super::limit::FeedGoals;
 use super::measure::{LoadCriterion, LoadLimits, MeasuredBlocks, measure_blocks};
@@ -15,8 +15,8 @@ use crate::setup::Setup;
 use crate::simulation_run::{EngagementModel, EngagementRunResult, Machining, SimulationRunOptions};
 use crate::transform::{MotionSelection, StepContext, Transform};
 
-/// Longest piece of path that is looked at on its own where blocks may not be split, mm: margins and half blocks need to know
-/// where in a block the material is.
+/// The longest piece of path that is measured on its own where blocks may not be split, in mm. Margins and
+/// half blocks depend on where the material is within a block.
 const PIECE: f64 = 1.0;
 
 /// This step finds the feed at which the chips of a slot are 0.05 mm thick.
@@ -54,14 +54,14 @@ impl Transform for OptimizeFeed {
         if !before.measurements.iter().any(|measurement| measurement.cuts) {
             return Err(job.describe_nothing_cut(&program, &ran, context));
         }
-        // Assumptions and crashes are told once, of the program as it came.
+        // Assumptions and crashes are only reported once, for the program before the change.
         context.findings.extend(ran.findings);
         warn_of_distant_targets(&job.goals, &before, context);
         let OptimizedProgram { mut program, excused, parts } =
             plan_and_write_feeds(&job.goals, program, &before, context)?;
-        let told = std::mem::take(&mut context.findings);
+        let kept_findings = std::mem::take(&mut context.findings);
         let proof = job.simulate_blocks(self, &program, context);
-        context.findings = told;
+        context.findings = kept_findings;
         let (after, _) = proof?;
         prove_targets(&job.goals, &program, &after, &excused, context)?;
         warn_of_unreached_targets(&job.goals, &after, context);
@@ -82,17 +82,23 @@ impl OptimizeFeedJob {
     fn new(step: &OptimizeFeed, program: &Program, context: &StepContext<'_>) -> Result<Self, Failure> {
         let mm_per_unit = context.units.mm_per_unit();
         let Some(rules) = step.feed_rules(mm_per_unit, &context.setup.machine) else {
-            let message = "there is no highest feed: neither the step's `max_feed` nor the setup's `machine: { max_feed: ... }`";
-            return Err(context.step_failure(message, &[]));
+            let message =
+                "there is no highest feed: neither the step has `max_feed`, nor the setup a machine with one";
+            let help = "Add `max_feed: 3000` to this step, or `machine: { max_feed: 10000 }` to the setup (in its \
+                        unit per minute).";
+            let error = context.step_finding(codes::STEP_FAILED, message, &[], "asked for here");
+            return Err(error.with_help(help).into());
         };
         if rules.min_feed > rules.max_feed {
             let (low, high) = (rules.min_feed / mm_per_unit, rules.max_feed / mm_per_unit);
-            return Err(context
-                .step_failure(format!("the lowest feed {low} is above the highest {high}"), &["min_feed"]));
+            let message = format!(
+                "the lowest feed {low} is above the highest feed {high}; set `min_feed` to {high} or less"
+            );
+            return Err(context.step_failure(message, &["min_feed"]));
         }
         let engagement = step.engagement_model(mm_per_unit).map_err(|key| {
             let other = if key == "cell" { "dexels" } else { "layers" };
-            context.step_failure(format!("`{key}` has a meaning with `engagement: {other}` only"), &[key])
+            context.step_failure(format!("`{key}` is only used with `engagement: {other}`; remove `{key}`, or add `engagement: {other}`"), &[key])
         })?;
         let longest = rules.split.map_or(PIECE, |split| split.shortest.min(PIECE));
         let limits = step.limits_in_mm(mm_per_unit);
@@ -178,7 +184,8 @@ impl OptimizeFeedJob {
 }
 
 impl OptimizeFeedJob {
-    /// A program that cuts nothing anywhere is in the wrong place over its stock, and all of it would run at the feed of air.
+    /// Builds the error for a program that cuts nothing at all. It is misplaced in its stock, and all of it
+    /// would run at the air feed.
     fn describe_nothing_cut(
         &self,
         program: &Program,
@@ -195,7 +202,7 @@ impl OptimizeFeedJob {
         });
         let lowest = format_point(ran.lowest_mm, 1);
         let message = format!(
-            "no motion of this program cuts the stock: is it in the right place? In mm, the stock's lowest corner is at {lowest}{path}"
+            "no motion of this program cuts the stock. Check that `stock` has the coordinates of the program. In mm, the lowest corner of the stock is at {lowest}{path}"
         );
         context.step_failure(message, &[])
     }

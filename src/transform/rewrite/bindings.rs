@@ -1,4 +1,4 @@
-//! What a pattern bound in a statement.
+//! This module holds what a pattern has bound in a statement.
 
 use super::expression_value::{ExpressionValue, parse_value};
 use super::rule_fault::RuleFault;
@@ -10,13 +10,13 @@ use std::ops::Range;
 /// A name that a pattern binds.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct BoundName {
-    /// Without the `$`.
+    /// The name without the `$`.
     pub text: String,
     /// Whether it binds all remaining arguments.
     pub rest: bool,
 }
 
-/// Places of bound arguments in a statement's text.
+/// The places of bound arguments in the text of a statement.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Bindings<'t> {
     text: &'t [u8],
@@ -24,19 +24,20 @@ pub(super) struct Bindings<'t> {
 }
 
 impl<'t> Bindings<'t> {
-    /// Nothing bound yet.
+    /// Makes bindings without any name.
     pub fn new(text: &'t [u8]) -> Self {
         Self { text, found: Vec::new() }
     }
 
-    /// Binds a name; `None` and `_` bind nothing.
+    /// Binds a name. `None` and `_` bind nothing.
     pub fn bind(&mut self, name: Option<&'t str>, at: Range<usize>) {
         if let Some(name) = name.filter(|name| *name != "_") {
             self.found.push((name, at));
         }
     }
 
-    /// Whether a name that is bound several times is bound to one value: equal numbers, or the same word.
+    /// Returns whether a name that is bound several times always has the same value: equal numbers, or the
+    /// same word.
     pub fn is_consistent(&self) -> bool {
         self.found.iter().enumerate().all(|(index, (name, at))| {
             let earlier = self.found.iter().take(index).find(|(other, _)| other == name);
@@ -45,19 +46,19 @@ impl<'t> Bindings<'t> {
         })
     }
 
-    /// Where the argument of a name stands in the statement's text.
+    /// Returns the place of a name's argument in the statement's text.
     pub fn argument_range(&self, name: &str) -> Option<Range<usize>> {
         self.found.iter().find(|(bound, _)| *bound == name).map(|(_, at)| at.clone())
     }
 
-    /// The bytes of the argument of a name, as they stand but for the breaks of full lines, which belong to
-    /// their columns; nothing when it is not bound.
+    /// Returns the bytes of a name's argument as they stand, without the breaks of full lines, which belong to
+    /// their columns. They are empty if the name is not bound.
     pub fn argument_text(&self, name: &str) -> Cow<'t, [u8]> {
         let range = self.argument_range(name).unwrap_or_default();
         without_full_breaks(self.text, &range)
     }
 
-    /// Its value.
+    /// Returns the value of a name's argument.
     pub fn argument_value(&self, name: &str) -> ExpressionValue {
         parse_value(&join_broken(&self.argument_text(name)))
     }
@@ -67,7 +68,7 @@ impl<'t> Bindings<'t> {
     }
 }
 
-/// Tells that no argument is bound to a name.
+/// Builds the fault for a name to which no argument is bound.
 pub(super) fn unbound_name(name: &str, names: &[BoundName], usual: &str) -> RuleFault {
     let known: Vec<String> = names
         .iter()

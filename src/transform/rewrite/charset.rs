@@ -1,8 +1,9 @@
-//! Letters beyond ASCII: recipes are UTF-8, CL files are that or an 8-bit code page.
+//! This module handles letters beyond ASCII. Recipes are UTF-8, while CL files are UTF-8 or an 8-bit code
+//! page.
 
 use crate::program::Program;
 
-/// A letter of the recipe that the character set of a file does not have.
+/// The error for a letter of the recipe that the character set of a file does not have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("the file is not written in UTF-8, and `{0}` does not exist in its 8-bit code page")]
 pub(super) struct MissingLetter(char);
@@ -10,14 +11,14 @@ pub(super) struct MissingLetter(char);
 /// The character set of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Charset {
-    /// UTF-8, and plain ASCII.
+    /// UTF-8, which includes plain ASCII.
     Utf8,
-    /// An 8-bit code page, taken for Latin-1.
+    /// An 8-bit code page, which is treated as Latin-1.
     Latin1,
 }
 
 impl Charset {
-    /// What a program's file is written in.
+    /// Returns the character set of a program's file.
     pub fn from_program(program: &Program) -> Self {
         match std::str::from_utf8(program.source().bytes()) {
             Ok(_) => Self::Utf8,
@@ -25,7 +26,7 @@ impl Charset {
         }
     }
 
-    /// A text of the recipe as it stands in such a file.
+    /// Encodes a text of the recipe in the character set of the file.
     ///
     /// # Errors
     /// Returns the first letter that the file cannot hold.

@@ -1,4 +1,5 @@
-//! Expressions of `if` and `${...}`: their types, checked when the recipe is read, and their values.
+//! This module holds the expressions of `if` and `${...}`: their types, which are checked when the recipe is
+//! read, and their values.
 
 use super::bindings::{self, Bindings, BoundName};
 use super::charset::MissingLetter;
@@ -6,7 +7,7 @@ use super::expression_value::{ExpressionValue, fold_word};
 use super::rule_fault::RuleFault;
 use std::ops::Range;
 
-/// An expression on bound numbers and words.
+/// An expression of bound numbers and words.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Expression {
     /// `0.8`
@@ -23,7 +24,7 @@ pub(super) enum Expression {
     Binary(Box<Self>, ExpressionOperator, Box<Self>),
 }
 
-/// What stands between two values.
+/// An operator between two values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ExpressionOperator {
     Or,
@@ -40,22 +41,22 @@ pub(super) enum ExpressionOperator {
     Divide,
 }
 
-/// What an expression gives, as far as the recipe alone tells.
+/// The kind of value that an expression has, as far as the recipe alone determines it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ExpressionKind {
     Number,
     Word,
     Truth,
-    /// A bound argument: a number or a word.
+    /// A bound argument, which is a number or a word.
     Argument,
 }
 
-/// Why an expression has no value for a statement.
+/// The reason why an expression has no value for a statement.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct EvaluationError {
-    /// What is wrong, for a person.
+    /// The fault, worded for people.
     pub message: String,
-    /// The argument it is about, in the statement's text.
+    /// The argument that causes it, as a place in the statement's text.
     pub at: Option<Range<usize>>,
 }
 
@@ -66,10 +67,10 @@ impl From<MissingLetter> for EvaluationError {
 }
 
 impl Expression {
-    /// Its kind, if it can have a value at all. Names are checked apart.
+    /// Returns the kind of its value. Names are checked separately.
     ///
     /// # Errors
-    /// Returns what is wrong with the text.
+    /// Returns an error if the expression cannot have a value.
     pub fn kind(&self) -> Result<ExpressionKind, RuleFault> {
         Ok(match self {
             Self::Number(_) => ExpressionKind::Number,
@@ -110,10 +111,10 @@ impl Expression {
         })
     }
 
-    /// Checks that every name is bound to one argument.
+    /// Checks that every name is bound to a single argument.
     ///
     /// # Errors
-    /// Returns what is wrong with the text.
+    /// Returns an error if a name is not bound, or if it is bound to several arguments.
     pub fn check_names(&self, names: &[BoundName]) -> Result<(), RuleFault> {
         self.names().into_iter().try_for_each(|name| match names.iter().find(|known| known.text == *name) {
             None => {
@@ -127,7 +128,7 @@ impl Expression {
         })
     }
 
-    /// The names in it, in order.
+    /// Returns the names in the expression, in order.
     pub fn names(&self) -> Vec<&str> {
         match self {
             Self::Number(_) | Self::Word(_) => Vec::new(),
@@ -137,10 +138,10 @@ impl Expression {
         }
     }
 
-    /// Its value for a statement.
+    /// Returns its value for a statement.
     ///
     /// # Errors
-    /// When an argument is of the wrong kind, or a number is divided by zero.
+    /// Returns an error if an argument has the wrong kind, or if a number is divided by zero.
     pub fn evaluate(&self, bindings: &Bindings<'_>) -> Result<ExpressionValue, EvaluationError> {
         match self {
             Self::Number(value) => Ok(ExpressionValue::Number(*value)),
@@ -152,10 +153,10 @@ impl Expression {
         }
     }
 
-    /// Its truth for a statement.
+    /// Returns whether it is true for a statement.
     ///
     /// # Errors
-    /// As [`Expression::evaluate`].
+    /// Returns the errors of [`Expression::evaluate`].
     pub fn evaluate_truth(&self, bindings: &Bindings<'_>) -> Result<bool, EvaluationError> {
         match self.evaluate(bindings)? {
             ExpressionValue::Truth(value) => Ok(value),

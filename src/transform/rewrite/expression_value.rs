@@ -1,9 +1,9 @@
-//! Values of expressions, and of bound arguments.
+//! This module holds the values of expressions and of bound arguments.
 
 use crate::number;
 use crate::program::operation;
 
-/// What an expression gave.
+/// The value of an expression.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum ExpressionValue {
     Number(f64),
@@ -20,7 +20,7 @@ pub(super) fn parse_value(bytes: &[u8]) -> ExpressionValue {
     ExpressionValue::Word(fold_word(&operation::decode_text(inner)))
 }
 
-/// A word as words are compared: in upper case, runs of blanks as one.
+/// Returns a word in the form in which words are compared: in upper case, with single blanks.
 pub(super) fn fold_word(word: &str) -> String {
     let words: Vec<String> = word.split_whitespace().map(str::to_ascii_uppercase).collect();
     words.join(" ")

@@ -1,4 +1,4 @@
-//! `rewrite`: rules on statements, for what posts' macros and hands do otherwise.
+//! `rewrite` applies rules to statements, which otherwise macros of posts or people by hand would do.
 
 mod bindings;
 mod charset;
@@ -33,8 +33,8 @@ use serde::de::{Deserializer, Error as _};
 
 /// Replaces, deletes and inserts statements by rules.
 ///
-/// A rule's `match` is a statement as it stands in the file. Spacing, continuation, case of letters, comments behind the
-/// statement and the spelling of numbers (`5.` or `5.0000`) do not matter. In it,
+/// A rule's `match` is a statement as it stands in the file. Spacing, continuation, upper and lower case,
+/// comments after the statement and the notation of numbers (`5.` or `5.0000`) do not matter. In it,
 ///
 /// - `$NAME` stands for one argument (number, word, quoted text, group in parentheses) or for a word (`$WORD/ON`); within text
 ///   it stands for at least one character (`PPRINT TOOL $N`, `LOADTL/T$N`). The same name twice wants equal values; `$_` binds
@@ -42,21 +42,25 @@ use serde::de::{Deserializer, Error as _};
 /// - `$...NAME`, or `$...`, comes last and stands for all that is left, perhaps nothing: `LOAD/TOOL,$N,$...REST`.
 /// - `$$` always is a comment's mark: `$$ Start of $...REST` matches comments as text, `$$-> CUTTER / $D` Creo's records.
 ///
-/// `if` is true or false: `$F > 1000 and not ($U == 'IPM' or $U == 'IPR')`, with + - * / and parentheses. In `replace`,
-/// `insert_before` and `insert_after`, `$NAME` is written byte for byte as it stands in the file (`${NAME}` where letters
-/// follow), and `${F * 0.8}` is computed and written with the decimals of `$F`, or more where fewer would lose the change.
+/// `if` is true or false: `$F > 1000 and not ($U == 'IPM' or $U == 'IPR')`, with + - * / and parentheses. In
+/// `replace`, `insert_before` and `insert_after`, `$NAME` is written byte for byte as it stands in the file
+/// (`${NAME}` where letters follow), and `${F * 0.8}` is computed and written with the decimals of `$F`, or
+/// more where fewer would lose the change.
 ///
-/// The rules are tried in their order on each statement; the first that fits is applied, and what it writes is not looked at
-/// again in this step. A replacement with the same word and as many arguments changes only the arguments that differ, numbers in
-/// the file's own decimals and columns; any other is spaced as the file spaces its statements. What a change means for the
-/// motions around it (the GOTO that ends an arc, the feed of what follows) is the rule's business: `check` looks at the result.
+/// The rules are tried in their order on each statement. The first one that matches is applied, and its
+/// result is not examined again in this step. If a replacement has the same word and as many arguments, only
+/// the arguments that differ are changed, numbers in the file's own decimals and columns. Any other
+/// replacement is spaced as the file spaces its statements. The rule is responsible for what a change means
+/// for the motions around it (the GOTO that ends an arc, the feed of what follows); `check` examines the
+/// result.
 ///
-/// Idempotent where a statement no longer fits once it is replaced. Statements are not inserted where they already stand, in the
-/// same order right beside the matched one, nor beside one that says the same itself; so running twice inserts once.
+/// The step is idempotent if a statement does not match any more once it is replaced. Statements are not
+/// inserted where they already stand in the same order right beside the matched one, nor beside one that is
+/// the same itself. So running the step twice inserts them once.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Rewrite {
-    /// Which statements; all when it is left out. A feed is asked for by `if`.
+    /// Which statements are meant; all of them when it is left out. Use `if` for conditions on feeds.
     #[serde(default)]
     pub r#where: StatementFilter,
     /// The rules, in the order in which they are tried.
@@ -106,7 +110,7 @@ impl Transform for Rewrite {
 }
 
 impl Rewrite {
-    /// The step with its rules, for the whole program.
+    /// Makes the step with its rules, for the whole program.
     pub fn new(rules: Vec<RewriteRule>) -> Self {
         Self { r#where: StatementFilter::default(), rules }
     }
@@ -119,7 +123,8 @@ impl Rewrite {
 
 fn report_unused_rules(rules: &[ActiveRule<'_>], context: &mut StepContext<'_>) {
     for rule in rules {
-        // A rule whose `if` was never true has found its statements, and nothing to correct.
+        // A rule whose `if` was never true has matched statements and found nothing to correct, so it is not
+        // reported.
         if rule.has_matched() {
             continue;
         }

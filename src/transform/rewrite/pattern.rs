@@ -1,6 +1,7 @@
-//! Patterns: which statements a rule is about, and what it binds in them.
+//! This module matches statements with patterns and binds their arguments.
 //!
-//! The CL grammar reads the pattern as it reads the file, so both are spelt as freely. Only `$NAME` is new to it.
+//! The CL grammar reads the pattern as it reads the file, so both may be written equally freely. Only `$NAME`
+//! is added.
 
 use super::bindings::{Bindings, BoundName};
 use super::charset::Charset;
@@ -42,18 +43,18 @@ impl StatementPattern {
         Self::compile(text, Charset::Utf8)
     }
 
-    /// The pattern for a file of this character set. One that does not have all of its characters gives `None`: nothing in
-    /// the file can fit.
+    /// Returns the pattern for a file of this character set. Returns `None` if the character set does not
+    /// have all of its characters, because nothing in the file can match then.
     pub fn for_charset(&self, charset: Charset) -> Option<Self> {
         if self.text.is_ascii() { Some(self.clone()) } else { Self::compile(&self.text, charset).ok() }
     }
 
-    /// Whether it is the same in every character set.
+    /// Returns whether it is the same in every character set.
     pub fn is_ascii(&self) -> bool {
         self.text.is_ascii()
     }
 
-    /// The names it binds, each once.
+    /// Returns the names that it binds, each of them once.
     pub fn names(&self) -> &[BoundName] {
         &self.names
     }
@@ -101,7 +102,8 @@ impl StatementPattern {
         Ok(Self { text: text.to_owned(), class: subject.class, word, slots, names: collect_names(&holes)? })
     }
 
-    /// Whether the first letters allow a match; cheap, for every statement of a large file.
+    /// Returns whether the first letters allow a match. It is cheap enough for every statement of a large
+    /// file.
     pub fn may_match(&self, text: &[u8]) -> bool {
         let text = text.trim_ascii_start();
         let starts_with = |letters: &[u8]| {
@@ -114,7 +116,7 @@ impl StatementPattern {
         }
     }
 
-    /// Matches a statement.
+    /// Matches a statement and binds its arguments.
     pub fn matches<'p>(&'p self, subject: &RuleSubject<'p>) -> Option<Bindings<'p>> {
         let mut bindings = Bindings::new(subject.text);
         let fits = self.class == subject.class
@@ -154,7 +156,7 @@ fn compile_argument(
         FieldKind::Number(value) => ArgumentPattern::Number(*value),
         FieldKind::Quoted if bytes.contains(&MARK) => {
             let help = "Write `$NAME` without quotes for the whole argument; it is bound with its quotes.";
-            return Err(RuleFault::new("`$` between quotes is text, so it binds nothing", help));
+            return Err(RuleFault::new("`$` between quotes is plain text, so it binds nothing", help));
         }
         FieldKind::Quoted => ArgumentPattern::Quoted(bytes.to_vec()),
         FieldKind::Text => {
@@ -230,7 +232,7 @@ fn match_argument<'p>(
             true
         }
         (ArgumentPattern::Number(wanted), FieldKind::Number(value)) => wanted == value,
-        // A name of digits: `TOOL PATH/100`.
+        // A name may consist of digits: `TOOL PATH/100`.
         (ArgumentPattern::Number(wanted), FieldKind::Text) => {
             number::parse_number(subject.bytes_at(&field.at)) == Some(*wanted)
         }

@@ -1,4 +1,4 @@
-//! A new text for a statement with as little of the old one lost as can be.
+//! This module gives a statement a new text and keeps as much of the old one as possible.
 
 use super::rule_subject::{RuleSubject, SubjectClass};
 use super::spacing_style::SpacingStyle;
@@ -7,11 +7,12 @@ use crate::program::{FieldKind, Program, Record, Statement, StatementField, join
 use crate::write::{FileStyle, patch_numbers};
 use std::ops::Range;
 
-/// The text that a statement gets, line end included.
+/// Returns the new text of a statement, including its line end.
 ///
-/// Where old and new have the same word and as many arguments, only the arguments that differ change, numbers with the file's
-/// decimals and columns; spelling, continuation and comment stay. Else the new text is written as the file writes its
-/// statements, between the old one's indentation and its line end.
+/// If both texts have the same word and as many arguments, only the arguments that differ are changed,
+/// numbers with the file's decimals and columns. Spelling, continuation and comment stay. Otherwise the new
+/// text is written as the file writes its statements, between the indentation and the line end of the old
+/// one.
 pub(super) fn reshape_statement(
     program: &Program,
     statement: &Statement,
@@ -56,7 +57,7 @@ fn patch_arguments(
     changes.collect_changes(old, &old.fields, new, &new.fields);
     let numbers = patch_numbers(text, record, &changes.numbers, style);
     let text = numbers.as_deref().unwrap_or(text);
-    // Numbers may have moved what stands behind them.
+    // New numbers may have moved everything behind them, so the places are read again.
     let old = RuleSubject::from_text(text);
     let mut changes = ArgumentChanges::default();
     changes.collect_changes(&old, &old.fields, new, &new.fields);
@@ -71,7 +72,7 @@ fn patch_arguments(
     out
 }
 
-/// What differs: numbers by their index, everything else by its place.
+/// The arguments that differ: numbers by their index, all others by their place.
 #[derive(Default)]
 struct ArgumentChanges<'n> {
     seen: usize,
@@ -121,13 +122,15 @@ fn count_numbers(field: &StatementField) -> usize {
     }
 }
 
-/// `PPRINT` and its kin, in which a `$$` would be text.
+/// Returns whether a statement takes the rest of the line as text, like `PPRINT`. A `$$` would be text there,
+/// too.
 fn takes_rest_of_line(new: &RuleSubject<'_>) -> bool {
     let with_comment = [new.text.trim_ascii_end(), b" $$ x"].concat();
     RuleSubject::from_text(&with_comment).remark.is_none()
 }
 
-/// What follows the last argument: blanks, a comment, the line end. A continuation in it would continue nothing.
+/// Returns what follows the last argument: blanks, a comment and the line end. A continuation mark is left
+/// out, because nothing would follow it.
 fn trailing_text<'t>(old: &RuleSubject<'t>) -> &'t [u8] {
     let end = old.fields.last().map_or(old.word.end, |field| field.at.end);
     let tail = old.text.get(end..).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Carrying out what the rules say, statement by statement, through the gate.
+//! This module carries out the rules statement by statement, through the program editor.
 
 use super::charset::Charset;
 use super::expression::EvaluationError;
@@ -14,7 +14,7 @@ use crate::program::{
 use crate::transform::StepContext;
 use crate::write::ProgramEditor;
 
-/// The hits of a step, and all that is needed to act on them.
+/// The matches of a step, and the data that is needed to apply the rules.
 pub(super) struct RewriteRun<'w> {
     rules: &'w [ActiveRule<'w>],
     hits: &'w [RuleMatch],
@@ -22,7 +22,7 @@ pub(super) struct RewriteRun<'w> {
     context: &'w StepContext<'w>,
 }
 
-/// What is to be put beside one statement.
+/// The statements that will be inserted beside one statement.
 struct PendingInsertion {
     hit: RuleMatch,
     before: Vec<Vec<u8>>,
@@ -39,10 +39,10 @@ impl<'w> RewriteRun<'w> {
         Self { rules, hits, charset, context }
     }
 
-    /// The program with all of it done.
+    /// Rewrites the program.
     ///
     /// # Errors
-    /// When an expression has no value, or what a rule writes is no statement.
+    /// Returns an error if an expression has no value, or if the result of a rule is no statement.
     pub fn rewrite_program(&self, program: Program) -> Result<Program, Failure> {
         let mut editor = ProgramEditor::new(program, self.context.step);
         let mut look = SpacingStyle::from_program(editor.program(), editor.style().line_end);
@@ -57,7 +57,7 @@ impl<'w> RewriteRun<'w> {
         editor.finish()
     }
 
-    /// Replaces or deletes, and gives what is to be inserted.
+    /// Replaces or deletes a statement. Returns what will be inserted beside it.
     fn apply_rule(
         &self,
         hit: RuleMatch,
@@ -67,7 +67,7 @@ impl<'w> RewriteRun<'w> {
         let program = editor.program();
         let statement = program.statement(hit.statement);
         let Some(active) = self.rules.get(hit.rule) else {
-            debug_assert!(false, "rule {} of {} was matched", hit.rule, self.rules.len());
+            debug_assert!(false, "rule {} of {} does not exist", hit.rule, self.rules.len());
             return Ok(None);
         };
         let rule = active.rule;
@@ -104,7 +104,7 @@ impl<'w> RewriteRun<'w> {
         Ok(Some(PendingInsertion { hit, before, after }))
     }
 
-    /// Inserts what does not stand there yet.
+    /// Inserts the statements that do not stand there yet.
     fn insert_missing(&self, insertion: PendingInsertion, editor: &mut ProgramEditor) -> Result<(), Failure> {
         let PendingInsertion { hit, before, after } = insertion;
         if !is_already_inserted(&before, editor.program(), hit.statement, true) {
@@ -130,7 +130,8 @@ impl<'w> RewriteRun<'w> {
                 let program = editor.program();
                 let span = program.statement(hit.statement).origin();
                 return Err(failure.map_findings(|mut found| {
-                    // The editor knows where it was to insert, not for which statement.
+                    // The editor knows where it inserted the text, but not for which statement, so the label
+                    // is replaced.
                     found.labels.clear();
                     let found = found.with_label(program.source(), span, "beside this statement");
                     self.label_rule(found, hit, &[key, &number.to_string()])
@@ -140,7 +141,7 @@ impl<'w> RewriteRun<'w> {
         Ok(())
     }
 
-    /// Lines of bare numbers go on with the GOTO before them and mean nothing without it.
+    /// Checks that lines of bare numbers stay with the GOTO before them. They have no meaning without it.
     fn check_point_lines(&self, hit: RuleMatch, program: &Program, inserts: bool) -> Result<(), Failure> {
         let is_points = |record: &Record| matches!(record, Record::Goto(_) | Record::Points(_));
         let own = program.statement(hit.statement);
@@ -154,9 +155,9 @@ impl<'w> RewriteRun<'w> {
         if !is_points(next.record()) || !is_bare {
             return Ok(());
         }
-        let message = "the rule would part a GOTO from the lines of numbers that go on with it";
+        let message = "the rule would separate a GOTO from the lines of numbers that continue it";
         let error =
-            self.context.statement_failure(message, program, next_id, "these numbers would stand alone");
+            self.context.statement_failure(message, program, next_id, "these numbers would have no GOTO");
         Err(error.map_findings(|found| self.label_rule(found, hit, &[])))
     }
 
@@ -165,7 +166,8 @@ impl<'w> RewriteRun<'w> {
     }
 }
 
-/// Whether what is to be inserted before or behind a statement already stands there, or is the statement itself.
+/// Returns whether the statements to be inserted already stand before or behind a statement, or are the same
+/// as the statement itself.
 fn is_already_inserted(wanted: &[Vec<u8>], program: &Program, statement: StatementId, before: bool) -> bool {
     let with_own = wanted.iter().any(|text| ProvenanceComment::from_text(text).is_some());
     let wanted: Vec<RuleSubject<'_>> = wanted.iter().map(|text| RuleSubject::from_text(text)).collect();
@@ -187,8 +189,9 @@ fn is_already_inserted(wanted: &[Vec<u8>], program: &Program, statement: Stateme
         && wanted.iter().zip(&found).all(|(wanted, found)| is_same_statement(wanted, found))
 }
 
-/// Up to `count` statements before or behind one, the nearest first. Comments of clsmith's own runs are passed over: they stand
-/// between a statement and what an earlier run put beside it. `with_own` is for rules that write such a comment themselves.
+/// Returns at most `count` statements before or behind one, with the nearest first. Comments of clsmith's own
+/// runs are skipped, because they stand between a statement and what an earlier run inserted beside it.
+/// `with_own` is for rules that write such a comment themselves.
 fn find_neighbours(
     program: &Program,
     statement: StatementId,
@@ -224,7 +227,8 @@ fn label_rule(
     context.label_parameter(error, &path, label)
 }
 
-/// Why a rule cannot be applied to a statement: at the text of the rule, and at the argument.
+/// Builds the failure of a rule that cannot be applied to a statement, with labels at the text of the rule
+/// and at the argument.
 pub(super) fn rule_failure(
     trouble: &EvaluationError,
     hit: RuleMatch,

@@ -1,4 +1,4 @@
-//! One rule: read from the recipe, every fault at its own text.
+//! This module reads one rule from the recipe and reports every fault at its own text.
 
 use super::bindings::BoundName;
 use super::expression::{Expression, ExpressionKind};
@@ -12,70 +12,72 @@ use serde::de::{DeserializeSeed, Deserializer, Error as _, MapAccess, SeqAccess,
 use std::borrow::Cow;
 use std::fmt;
 
-/// One rule: which statements it is about, and what is done with them.
+/// A rule: the statements that it matches, and what happens to them.
 #[derive(Debug, Clone, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct RewriteRule {
-    /// The statement as it stands in the file, with `$NAME` for an argument and `$...NAME` for all remaining ones.
+    /// The statement as it stands in the file, with `$NAME` for an argument and `$...NAME` for all remaining
+    /// ones.
     #[schemars(with = "StatementSchema")]
     pub(super) r#match: StatementPattern,
-    /// Only statements for which this is true: `$F > 1000 and $U == 'MMPM'`.
+    /// The condition: the rule only applies to statements for which this is true, for example `$F > 1000 and
+    /// $U == 'MMPM'`.
     #[schemars(with = "Option<String>")]
     pub(super) r#if: Option<RuleCondition>,
-    /// What to write in its place.
+    /// The statement that is written in its place.
     #[schemars(with = "Option<StatementSchema>")]
     pub(super) replace: Option<StatementTemplate>,
-    /// Takes the statement out.
+    /// Whether the statement is deleted.
     #[schemars(default)]
     pub(super) delete: bool,
-    /// A statement, or a list of them, to put in front of it.
+    /// A statement, or a list of them, that is inserted before it.
     #[schemars(with = "Option<StatementListSchema>")]
     pub(super) insert_before: Vec<StatementTemplate>,
-    /// A statement, or a list of them, to put behind it.
+    /// A statement, or a list of them, that is inserted after it.
     #[schemars(with = "Option<StatementListSchema>")]
     pub(super) insert_after: Vec<StatementTemplate>,
 }
 
 impl RewriteRule {
-    /// A rule that writes another statement in place of each that matches.
+    /// Makes a rule that replaces each statement that matches by another one.
     ///
     /// # Errors
-    /// What is wrong with one of the texts; the same as a recipe is told.
+    /// Returns the fault of one of the texts, as for a recipe.
     pub fn replacing(matched: &str, with: &str) -> Result<Self, RuleFault> {
         let replace = Some(StatementTemplate::new(with)?);
         Self { replace, ..Self::matching(matched)? }.check_names()
     }
 
-    /// A rule that takes out each statement that matches.
+    /// Makes a rule that deletes each statement that matches.
     ///
     /// # Errors
-    /// As [`RewriteRule::replacing`].
+    /// Returns the errors of [`RewriteRule::replacing`].
     pub fn deleting(matched: &str) -> Result<Self, RuleFault> {
         Ok(Self { delete: true, ..Self::matching(matched)? })
     }
 
-    /// A rule that puts a statement in front of each that matches.
+    /// Makes a rule that inserts a statement before each one that matches.
     ///
     /// # Errors
-    /// As [`RewriteRule::replacing`].
+    /// Returns the errors of [`RewriteRule::replacing`].
     pub fn inserting_before(matched: &str, statement: &str) -> Result<Self, RuleFault> {
         let insert_before = vec![StatementTemplate::new(statement)?];
         Self { insert_before, ..Self::matching(matched)? }.check_names()
     }
 
-    /// A rule that puts a statement behind each that matches.
+    /// Makes a rule that inserts a statement after each one that matches.
     ///
     /// # Errors
-    /// As [`RewriteRule::replacing`].
+    /// Returns the errors of [`RewriteRule::replacing`].
     pub fn inserting_after(matched: &str, statement: &str) -> Result<Self, RuleFault> {
         let insert_after = vec![StatementTemplate::new(statement)?];
         Self { insert_after, ..Self::matching(matched)? }.check_names()
     }
 
-    /// The rule for statements alone for which a condition is true.
+    /// Restricts the rule to statements for which a condition is true.
     ///
     /// # Errors
-    /// As [`RewriteRule::replacing`].
+    /// Returns the errors of [`RewriteRule::replacing`].
     pub fn only_if(self, condition: &str) -> Result<Self, RuleFault> {
         let condition = read_condition(condition)?;
         condition.0.check_names(self.r#match.names())?;
@@ -94,7 +96,7 @@ impl RewriteRule {
         Ok(self)
     }
 
-    /// Whether its texts are the same in every character set.
+    /// Returns whether its texts are the same in every character set.
     pub(super) fn is_ascii(&self) -> bool {
         let mut templates = self.replace.iter().chain(&self.insert_before).chain(&self.insert_after);
         self.r#match.is_ascii() && templates.all(StatementTemplate::is_ascii)
@@ -123,7 +125,8 @@ enum RuleKey {
     InsertAfter,
 }
 
-/// What has been read so far. Names are checked as soon as both sides are known, whichever comes first.
+/// The part of a rule that has been read so far. Names are checked as soon as both sides are known, in
+/// whichever order they come.
 #[derive(Default)]
 struct RuleDraft {
     pattern: Option<StatementPattern>,
@@ -171,7 +174,7 @@ impl<'de> Visitor<'de> for RuleVisitor {
     type Value = RewriteRule;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a rule (`match:` and what to do)")
+        f.write_str("a rule (`match:` and an action)")
     }
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<RewriteRule, A::Error> {
@@ -242,7 +245,7 @@ fn read_condition(text: &str) -> Result<RuleCondition, RuleFault> {
     }
 }
 
-/// A text that becomes a `T`, and is checked against the rest of its rule where it stands.
+/// Reads a text as a `T` and checks it against the rest of its rule.
 struct CheckedTextSeed<R, C> {
     read: R,
     check: C,
@@ -315,7 +318,7 @@ impl<'de> Visitor<'de> for TemplateListSeed<'_> {
     }
 }
 
-/// Schema of one statement.
+/// The schema of one statement.
 struct StatementSchema;
 
 impl JsonSchema for StatementSchema {
@@ -330,7 +333,7 @@ impl JsonSchema for StatementSchema {
     }
 }
 
-/// Schema of one or several statements.
+/// The schema of one or several statements.
 struct StatementListSchema;
 
 impl JsonSchema for StatementListSchema {

@@ -1,13 +1,13 @@
-//! What is wrong with a text of a rule.
+//! This module describes the fault of a text in a rule.
 
 use std::fmt;
 
-/// What is wrong with a text of a rule, and what to do about it.
+/// The fault of a text in a rule, and what to do about it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RuleFault {
-    /// The fault, as a sentence without its full stop.
+    /// The fault, worded as a sentence without a full stop.
     message: String,
-    /// What to do; empty where the message says it.
+    /// What to do. It is empty if the message says so already.
     help: String,
 }
 
@@ -17,13 +17,14 @@ impl RuleFault {
         Self { message: message.into(), help: help.into() }
     }
 
-    /// Makes a fault whose message says all.
+    /// Makes a fault whose message needs no help.
     pub fn without_help(message: impl Into<String>) -> Self {
         Self::new(message, "")
     }
 }
 
-/// The reader of recipes takes what follows a line break for the help: serde hands errors on as one text.
+/// The reader of recipes takes what follows a line break as the help, because serde passes errors on as a
+/// single text.
 impl fmt::Display for RuleFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.message)?;

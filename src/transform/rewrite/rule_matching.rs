@@ -1,4 +1,4 @@
-//! Which rule takes which statement, before anything is changed.
+//! This module decides which rule applies to which statement, before anything is changed.
 
 use super::Rewrite;
 use super::bindings::Bindings;
@@ -10,9 +10,9 @@ use super::rule_subject::RuleSubject;
 use crate::program::{Program, Record, StatementId};
 use crate::transform::{StatementSelection, StepContext};
 
-/// A rule as it is looked for in one file.
+/// A rule, prepared for one file.
 pub(super) struct ActiveRule<'r> {
-    /// Its number in the recipe.
+    /// Its index in the recipe.
     pub index: usize,
     /// The rule.
     pub rule: &'r RewriteRule,
@@ -20,25 +20,25 @@ pub(super) struct ActiveRule<'r> {
     fitted: bool,
 }
 
-/// A statement and the rule that takes it.
+/// A statement and the rule that applies to it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RuleMatch {
     /// The statement.
     pub statement: StatementId,
-    /// The rule's number in the recipe.
+    /// The rule's index in the recipe.
     pub rule: usize,
 }
 
-/// An `if` that has no value for a statement.
+/// The failure of an `if` that has no value for a statement.
 pub(super) struct RuleFailure {
     /// The statement and the rule.
     pub hit: RuleMatch,
-    /// What is wrong.
+    /// The fault.
     pub trouble: EvaluationError,
 }
 
 impl<'r> ActiveRule<'r> {
-    /// The rules of a step for a file.
+    /// Prepares the rules of a step for a file.
     pub fn activate_rules(step: &'r Rewrite, charset: Charset) -> Vec<Self> {
         let rules = step.rules.iter().enumerate();
         rules
@@ -49,12 +49,12 @@ impl<'r> ActiveRule<'r> {
             .collect()
     }
 
-    /// Whether a statement fitted the pattern, whatever `if` said.
+    /// Returns whether a statement matched the pattern, whatever its `if` was.
     pub fn has_matched(&self) -> bool {
         self.fitted
     }
 
-    /// What the pattern binds in a statement.
+    /// Binds the arguments of a statement. Returns `None` if it does not match.
     pub fn bind_arguments<'s>(&'s self, subject: &RuleSubject<'s>) -> Option<Bindings<'s>> {
         self.pattern.as_ref()?.matches(subject)
     }
@@ -68,7 +68,7 @@ impl<'r> ActiveRule<'r> {
     }
 }
 
-/// The statements that rules take, in order; each by the first rule that fits.
+/// Finds the statements to which rules apply, in order, each with the first rule that matches.
 pub(super) fn find_rule_matches(
     step: &Rewrite,
     rules: &mut [ActiveRule<'_>],
@@ -84,7 +84,7 @@ pub(super) fn find_rule_matches(
         let text = program.statement_text(statement);
         let may_match =
             |rule: &ActiveRule<'_>| rule.pattern.as_ref().is_some_and(|pattern| pattern.may_match(text));
-        // Most statements of a large file end here, before the grammar or the selection costs anything.
+        // Most statements of a large file are left here, before the grammar or the selection costs time.
         let Some(first) = rules.iter().position(may_match) else { continue };
         if !selection.contains(id) {
             continue;

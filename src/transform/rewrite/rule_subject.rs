@@ -1,43 +1,44 @@
-//! A statement as rules see it: its class, word and arguments, whatever its spelling.
+//! This module reads a statement as rules see it: its class, word and arguments, independent of its spelling.
 
 use crate::parse;
 use crate::program::{FieldKind, StatementField, StatementKind};
 use std::ops::Range;
 
-/// Length of the word of a plain GOTO line, which starts with it.
+/// The length of the word of a plain GOTO line, which begins with it.
 const GOTO: usize = 4;
 
-/// What kinds of statement a rule tells apart.
+/// The kinds of statement that rules distinguish.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum SubjectClass {
     /// A word with arguments or text.
     Words,
-    /// The same behind `$$->` or `REMARK ->`.
+    /// The same after `$$->` or `REMARK ->`.
     Structured,
-    /// `$$`, with the text behind it as its one argument.
+    /// A `$$` comment, whose text is its only argument.
     Comment,
-    /// What no rule matches: blank lines, bare numbers, what cannot be read.
+    /// Statements that no rule matches: blank lines, bare numbers, and what cannot be read.
     Other,
 }
 
-/// A statement taken apart.
+/// A statement, split into its parts.
 #[derive(Debug, Clone)]
 pub(super) struct RuleSubject<'t> {
-    /// Its text, line end included.
+    /// Its text, including the line end.
     pub text: &'t [u8],
     /// Its class.
     pub class: SubjectClass,
-    /// Place of its word.
+    /// The place of its word.
     pub word: Range<usize>,
-    /// Its arguments, without the empty one behind a last comma (CLT) or a bare slash (`RAPID/`).
+    /// Its arguments, without the empty one after a last comma (CLT) or a bare slash (`RAPID/`).
     pub fields: Vec<StatementField>,
-    /// Place of a trailing comment.
+    /// The place of a trailing comment.
     pub remark: Option<Range<usize>>,
     open: bool,
 }
 
 impl<'t> RuleSubject<'t> {
-    /// Takes a statement's text apart. Text behind the first statement is not looked at; see [`RuleSubject::is_whole`].
+    /// Splits a statement's text into its parts. Text after the first statement is ignored; see
+    /// [`RuleSubject::is_whole`].
     pub fn from_text(text: &'t [u8]) -> Self {
         if let Some(numbers) = parse::plain_goto_numbers(text) {
             let number = |(at, value)| StatementField { at, kind: FieldKind::Number(value) };
@@ -89,17 +90,17 @@ impl<'t> RuleSubject<'t> {
         subject
     }
 
-    /// Whether a text is this one statement and nothing more.
+    /// Returns whether a text is this one statement and nothing more.
     pub fn is_whole(&self, text: &[u8]) -> bool {
         self.text.len() == text.len() && !self.open
     }
 
-    /// The bytes at a place.
+    /// Returns the bytes at a place.
     pub fn bytes_at(&self, at: &Range<usize>) -> &'t [u8] {
         self.text.get(at.clone()).unwrap_or_default()
     }
 
-    /// The grammar swallows the `TOOL` of `TOOL PATH/name,TOOL,tool`; to a rule it is an argument as any other.
+    /// Makes an argument of the `TOOL` in `TOOL PATH/name,TOOL,tool`, which the grammar consumes.
     fn expose_tool_word(&mut self) {
         let [name, tool] = self.fields.as_slice() else { return };
         let between = name.at.end..tool.at.start;
@@ -112,7 +113,7 @@ impl<'t> RuleSubject<'t> {
     }
 }
 
-/// The text of a comment, `$$` and blanks left out; `None` when it is empty.
+/// Returns the text of a comment without `$$` and blanks. Returns `None` if it is empty.
 fn comment_text(text: &[u8]) -> Option<StatementField> {
     let start = text.iter().position(|&byte| byte == b'$')? + 2;
     let rest = text.get(start..)?;

@@ -1,4 +1,4 @@
-//! Texts of a rule taken apart at their `$`: the only place of `rewrite` that knows pest.
+//! This module splits the texts of a rule at their `$`. It is the only module of `rewrite` that uses pest.
 
 use super::expression::{Expression, ExpressionOperator};
 use super::rule_fault::RuleFault;
@@ -11,14 +11,14 @@ use std::sync::LazyLock;
 #[grammar = "grammar/rewrite.pest"]
 struct RewriteGrammar;
 
-/// Longer texts are no statements; the limit also keeps recursion shallow, whatever a recipe holds.
+/// Longer texts are no statements. The limit also keeps recursion shallow, whatever a recipe contains.
 const MOST_BYTES: usize = 2000;
 const MOST_NESTED: usize = 30;
 
-/// A piece of a text.
+/// A part of a text.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum RuleTextPart {
-    /// As it stands.
+    /// Plain text.
     Plain(String),
     /// `$NAME`.
     Bound(String),
@@ -28,10 +28,10 @@ pub(super) enum RuleTextPart {
     Computed(Expression),
 }
 
-/// The pieces of a pattern or template.
+/// Splits a pattern or a template into its parts.
 ///
 /// # Errors
-/// Returns what is wrong with the text.
+/// Returns an error if the text is empty, too long or cannot be read.
 pub(super) fn parse_rule_text(text: &str) -> Result<Vec<RuleTextPart>, RuleFault> {
     let text = text.trim_end_matches(['\r', '\n']);
     check_text_size(text)?;
@@ -53,10 +53,10 @@ pub(super) fn parse_rule_text(text: &str) -> Result<Vec<RuleTextPart>, RuleFault
     inner.filter(|pair| pair.as_rule() != Rule::EOI).map(parse_text_part).collect()
 }
 
-/// The expression of an `if`.
+/// Reads the expression of an `if`.
 ///
 /// # Errors
-/// Returns what is wrong with the text.
+/// Returns an error if the text is too long or cannot be read.
 pub(super) fn parse_condition(text: &str) -> Result<Expression, RuleFault> {
     check_text_size(text)?;
     let parsed = RewriteGrammar::parse(Rule::condition, text)
@@ -70,7 +70,7 @@ pub(super) fn parse_condition(text: &str) -> Result<Expression, RuleFault> {
 fn check_text_size(text: &str) -> Result<(), RuleFault> {
     if text.len() > MOST_BYTES {
         let help = "Statements are a few lines at most; give several as a list.";
-        let message = format!("the text has {} bytes; {MOST_BYTES} are the most", text.len());
+        let message = format!("the text has {} bytes, but at most {MOST_BYTES} are allowed", text.len());
         return Err(RuleFault::new(message, help));
     }
     let mut open = 0_usize;
@@ -82,7 +82,7 @@ fn check_text_size(text: &str) -> Result<(), RuleFault> {
         }
         if open > MOST_NESTED {
             let message = format!("more than {MOST_NESTED} parentheses are open at once");
-            return Err(RuleFault::new(message, "Is one not closed?"));
+            return Err(RuleFault::new(message, "Close them, or use fewer."));
         }
     }
     Ok(())
@@ -93,7 +93,7 @@ const TEXT_HELP: &str =
 const CONDITION_HELP: &str =
     "Compare by < <= > >= == !=, join by and, or, not, calculate by + - * /; words stand in 'quotes'.";
 
-/// A text on one line, between backticks, shortened.
+/// Returns a text on one line between backticks, shortened if it is long.
 pub(super) fn quote_text(text: &str) -> String {
     const MOST: usize = 60;
     let line: String =

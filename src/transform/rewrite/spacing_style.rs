@@ -1,28 +1,29 @@
-//! How a file spaces its statements: `GOTO  /`, `FEDRAT / 10.0,  IPM`, `GOTO/ 1,2`.
+//! This module finds out how a file spaces its statements: `GOTO /`, `FEDRAT / 10.0, IPM`, `GOTO/ 1,2`.
 
 use super::rule_subject::{RuleSubject, SubjectClass};
 use crate::program::{FieldKind, Program, StatementField};
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// The spacing of a file, looked up word by word and remembered.
+/// The spacing of a file, found word by word and remembered.
 #[derive(Default)]
 pub(super) struct SpacingStyle {
     line_end: &'static str,
     columns: bool,
-    /// Gap behind a word, as the first statement with this word has it.
+    /// The gap after each word, as the first statement with this word has it.
     slashes: HashMap<Vec<u8>, Vec<u8>>,
     /// Slash and comma of the first GOTO.
     usual: Option<(Vec<u8>, Vec<u8>)>,
 }
 
 impl SpacingStyle {
-    /// The look of a program.
+    /// Prepares the spacing of a program.
     pub fn from_program(program: &Program, line_end: &'static str) -> Self {
         Self { line_end, columns: program.dialect().has_columns(), ..Self::default() }
     }
 
-    /// A statement's text, without line end at its end, spaced as the file spaces its own. Free text stays as it is.
+    /// Returns the text of a statement without its line end, spaced as the file spaces its own. Free text
+    /// stays unchanged.
     pub fn apply_spacing(&mut self, text: &[u8], program: &Program) -> Vec<u8> {
         let subject = RuleSubject::from_text(text);
         let mut out = Vec::with_capacity(text.len() + 8);
@@ -47,7 +48,8 @@ impl SpacingStyle {
         replace_line_ends(&out, self.line_end)
     }
 
-    /// The gap between word and arguments. Only a plain one is changed: free text needs no slash, a continuation is meant.
+    /// Returns the gap between word and arguments. Only a plain gap is changed: free text needs no slash, and
+    /// a continuation is intended.
     fn slash_gap(
         &mut self,
         subject: &RuleSubject<'_>,
@@ -63,7 +65,7 @@ impl SpacingStyle {
         }
         let mut slash = self.slashes.get(&word)?.clone();
         if self.columns {
-            // The blanks in front of a number are its column.
+            // Blanks before a number keep it in its column, so they stay.
             let after = bytes.iter().position(|&byte| byte == b'/')? + 1;
             slash.truncate(slash.iter().position(|&byte| byte == b'/')? + 1);
             slash.extend_from_slice(bytes.get(after..).unwrap_or_default());
@@ -81,7 +83,8 @@ impl SpacingStyle {
         (!self.columns).then(|| self.default_gaps(program).1.clone())
     }
 
-    /// CATIA pads its short motion words, but neither CYCLE, DELAY nor others (measured).
+    /// Returns the usual gap of a word. CATIA pads its short motion words, but not CYCLE, DELAY and others
+    /// (this was measured).
     fn default_slash_gap(&mut self, word: &[u8], program: &Program) -> Vec<u8> {
         match word {
             b"GOTO" | b"FROM" if self.columns => b"  /".to_vec(),
@@ -99,7 +102,8 @@ impl SpacingStyle {
     }
 }
 
-/// The first statement of the file with a word, as it was read: what steps made of it says nothing about the file.
+/// Returns the first statement of the file with a word, as it was read. What steps have made of it shows
+/// nothing about the file.
 fn find_first_statement<'p>(word: &[u8], program: &'p Program) -> Option<RuleSubject<'p>> {
     let texts = program.statements().iter().map(|statement| program.source().slice(statement.origin()));
     texts.filter(|text| starts_with_word(text, word)).map(RuleSubject::from_text).find(|subject| {
@@ -126,14 +130,14 @@ fn goto_gaps(goto: &RuleSubject<'_>) -> Option<(Vec<u8>, Vec<u8>)> {
     Some((slash.to_vec(), comma.to_vec()))
 }
 
-/// The gap, if it is nothing but the sign and blanks.
+/// Returns the gap if it consists of the sign and blanks only.
 fn plain_gap(gap: &[u8], sign: u8) -> Option<&[u8]> {
     let signs = gap.iter().filter(|&&byte| byte == sign).count();
     let plain = signs == 1 && gap.iter().all(|&byte| byte == sign || byte == b' ');
     plain.then_some(gap)
 }
 
-/// Line ends inside a continued statement, as the file has them.
+/// Replaces line ends inside a continued statement by those of the file.
 fn replace_line_ends(text: &[u8], line_end: &str) -> Vec<u8> {
     let mut out = Vec::with_capacity(text.len());
     let mut bytes = text.iter().copied().peekable();
@@ -147,7 +151,7 @@ fn replace_line_ends(text: &[u8], line_end: &str) -> Vec<u8> {
     out
 }
 
-/// Whether two statements say the same, however they are spelt.
+/// Returns whether two statements state the same, however they are spelled.
 pub(super) fn is_same_statement(a: &RuleSubject<'_>, b: &RuleSubject<'_>) -> bool {
     a.class == b.class
         && super::wildcards::is_same_folded(a.bytes_at(&a.word), b.bytes_at(&b.word))

@@ -1,4 +1,4 @@
-//! What a rule writes: a statement with `$NAME` and `${...}` in it.
+//! This module holds what a rule writes: a statement with `$NAME` and `${...}` in it.
 
 use super::bindings::{Bindings, BoundName, unbound_name};
 use super::charset::Charset;
@@ -11,24 +11,24 @@ use crate::parse;
 use crate::program::{NumberRole, Record};
 use crate::write::FileStyle;
 
-/// A statement to write.
+/// A statement that will be written.
 #[derive(Debug, Clone)]
 pub(super) struct StatementTemplate {
     pieces: Vec<RuleTextPart>,
     is_ascii: bool,
 }
 
-/// What a template is filled in with.
+/// The values with which a template is filled.
 pub(super) struct TemplateInputs<'f> {
-    /// What the pattern bound.
+    /// The arguments that the pattern has bound.
     pub bindings: &'f Bindings<'f>,
     /// The matched statement.
     pub text: &'f [u8],
-    /// What it means.
+    /// The record of the matched statement.
     pub record: &'f Record,
-    /// How the file writes numbers.
+    /// The style in which the file writes numbers.
     pub style: &'f FileStyle,
-    /// What the file is written in.
+    /// The character set of the file.
     pub charset: Charset,
 }
 
@@ -65,7 +65,7 @@ impl StatementTemplate {
                 "Give several statements as a list; a statement goes on in a new line only behind a `$`.";
             return Err(RuleFault::new("this is not one statement", help));
         }
-        // Arguments are known only when the rule runs; then the whole statement is read back again.
+        // Arguments are only known when the rule runs. Then the whole statement is read back again.
         let problem = match parse::read_whole_record(tried.as_bytes()) {
             Err(problem) if is_plain => Some(problem.problem),
             _ if subject.class == SubjectClass::Other => Some("it starts with no word".to_owned()),
@@ -80,7 +80,7 @@ impl StatementTemplate {
         }
     }
 
-    /// Whether it is the same in every character set.
+    /// Returns whether it is the same in every character set.
     pub fn is_ascii(&self) -> bool {
         self.is_ascii
     }
@@ -96,7 +96,7 @@ impl StatementTemplate {
             {
                 Err(unbound_name(name, names, ""))
             }
-            // `${REST}` names; only what calculates needs one argument.
+            // `${REST}` only names the arguments. Only calculations need a single argument.
             RuleTextPart::Computed(Expression::Name(name))
                 if names.iter().any(|known| known.text == *name) =>
             {
@@ -107,10 +107,11 @@ impl StatementTemplate {
         })
     }
 
-    /// The statement's text, without line end.
+    /// Returns the text of the statement without a line end.
     ///
     /// # Errors
-    /// When an expression has no value here, or the file cannot hold a letter of the template.
+    /// Returns an error if an expression has no value here, or if the file cannot hold a letter of the
+    /// template.
     pub fn fill(&self, filling: &TemplateInputs<'_>) -> Result<Vec<u8>, EvaluationError> {
         let mut out = Vec::new();
         let mut comma_goes = false;
@@ -149,7 +150,7 @@ impl StatementTemplate {
     }
 }
 
-/// Nothing is left to write behind this comma or slash.
+/// Removes the comma or slash at the end of the text, because nothing follows it.
 fn drop_separator(out: &mut Vec<u8>) {
     out.truncate(out.trim_ascii_end().len());
     if matches!(out.last(), Some(b',' | b'/')) {
@@ -171,7 +172,7 @@ fn format_computed(
             return Err(EvaluationError { message: "this is not a number".to_owned(), at: None });
         }
     };
-    // In the style of the first number that it is made of.
+    // The result is written in the style of the first number from which it is computed.
     let model = expression.names().into_iter().find_map(|name| match filling.bindings.argument_value(name) {
         ExpressionValue::Number(value) => filling.bindings.argument_range(name).map(|at| (at, value)),
         _ => None,

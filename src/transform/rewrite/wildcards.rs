@@ -1,22 +1,23 @@
-//! Text with wildcards: `TOOL $N`, `T$NAME`, `Start of $...REST`.
+//! This module matches text with wildcards: `TOOL $N`, `T$NAME`, `Start of $...REST`.
 //!
-//! Case of letters, runs of blanks and blanks around commas do not matter. Each wildcard takes the shortest text that lets the
-//! next words fit, the last one all that is left, so matching never goes back and takes linear time.
+//! Upper and lower case, repeated blanks and blanks around commas do not matter. Each wildcard takes the
+//! shortest text that lets the next words match, and the last one takes everything that remains. So matching
+//! never goes back, and it takes linear time.
 
 use super::bindings::Bindings;
 use super::rule_fault::RuleFault;
 use std::ops::Range;
 
-/// In texts handed to the CL grammar, a `$NAME` is the number of its hole between two of these: a byte that the grammar takes
-/// for a letter, and that neither words nor names hold.
+/// In texts for the CL grammar, a `$NAME` is replaced by the index of its wildcard between two of these
+/// marks. The grammar takes this byte for a letter, and neither words nor names contain it.
 pub(super) const MARK: u8 = 0x7F;
 
-/// What stands for an argument in a pattern.
+/// A wildcard, which stands for an argument in a pattern.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Wildcard {
-    /// What it binds; `None` for nothing.
+    /// The name that it binds. It is `None` if it binds nothing.
     pub name: Option<String>,
-    /// Whether it takes all that is left.
+    /// Whether it takes everything that remains.
     pub rest: bool,
 }
 
@@ -26,20 +27,20 @@ pub(super) struct WildcardPattern(Vec<WildcardPart>);
 
 #[derive(Debug, Clone, PartialEq)]
 enum WildcardPart {
-    /// Folded bytes.
+    /// Bytes in upper case with single blanks.
     Literal(Vec<u8>),
     /// At least one character.
     Some(Option<String>),
-    /// All that is left, perhaps nothing; behind a blank if there is something.
+    /// Everything that remains, which may be nothing. If there is something, a blank must come before it.
     Rest(Option<String>, bool),
 }
 
 impl WildcardPattern {
-    /// Reads a text in which holes are marked.
+    /// Reads a text in which wildcards are marked.
     ///
     /// # Errors
-    /// Returns what is wrong with the text.
-    pub fn compile(marked: &[u8], holes: &[Wildcard]) -> Result<Self, RuleFault> {
+    /// Returns an error if the text cannot be matched unambiguously.
+    pub fn compile(marked: &[u8], wildcards: &[Wildcard]) -> Result<Self, RuleFault> {
         let folded: Vec<u8> =
             fold_bytes(marked, &(0..marked.len())).into_iter().map(|(byte, _)| byte).collect();
         let mut parts: Vec<WildcardPart> = Vec::new();
@@ -50,8 +51,8 @@ impl WildcardPattern {
                 }
                 continue;
             }
-            let Some(hole) = find_wildcard(bytes, holes) else {
-                return Err(RuleFault::without_help("a wildcard is lost"));
+            let Some(hole) = find_wildcard(bytes, wildcards) else {
+                return Err(RuleFault::without_help("a wildcard of the text is missing"));
             };
             let mut after_blank = false;
             if hole.rest
@@ -68,7 +69,7 @@ impl WildcardPattern {
                 Some(WildcardPart::Rest(..)) => return Err(rest_not_last()),
                 Some(WildcardPart::Some(_)) if !after_blank => {
                     let help = "Put a blank or a comma between them; two arguments are two names.";
-                    let message = "nothing tells where one wildcard ends and the next starts";
+                    let message = "nothing separates two wildcards, so it is unclear where one ends and the next begins";
                     return Err(RuleFault::new(message, help));
                 }
                 _ => {}
@@ -84,12 +85,12 @@ impl WildcardPattern {
         }
     }
 
-    /// Whether it holds a `$...`.
+    /// Returns whether it has a `$...`.
     pub fn has_rest(&self) -> bool {
         matches!(self.0.last(), Some(WildcardPart::Rest(..)))
     }
 
-    /// The letters every match starts with, up to the first blank, comma or wildcard.
+    /// Returns the letters with which every match begins, up to the first blank, comma or wildcard.
     pub fn first_letters(&self) -> &[u8] {
         match self.0.first() {
             Some(WildcardPart::Literal(literal)) => {
@@ -99,7 +100,7 @@ impl WildcardPattern {
         }
     }
 
-    /// Matches a part of a text, and binds.
+    /// Matches a part of a text and binds the wildcards.
     pub fn matches<'p>(&'p self, text: &'p [u8], at: &Range<usize>, bindings: &mut Bindings<'p>) -> bool {
         let folded = fold_bytes(text, at);
         let bytes: Vec<u8> = folded.iter().map(|(byte, _)| *byte).collect();
@@ -156,12 +157,13 @@ pub(super) fn rest_not_last() -> RuleFault {
     RuleFault::new("`$...` takes all that is left, so it comes last", "`$NAME` stands for one argument.")
 }
 
-/// The hole of a marked number.
-pub(super) fn find_wildcard<'h>(digits: &[u8], holes: &'h [Wildcard]) -> Option<&'h Wildcard> {
-    holes.get(std::str::from_utf8(digits).ok()?.parse::<usize>().ok()?)
+/// Returns the wildcard with a marked index.
+pub(super) fn find_wildcard<'h>(digits: &[u8], wildcards: &'h [Wildcard]) -> Option<&'h Wildcard> {
+    wildcards.get(std::str::from_utf8(digits).ok()?.parse::<usize>().ok()?)
 }
 
-/// Where a literal stands: at `earliest`, or when text may go before it, somewhere behind; at the end when it is the last.
+/// Finds a literal. It stands at `earliest`, or anywhere behind it if text may come before it, or at the end
+/// if it is the last one.
 fn find_literal(bytes: &[u8], literal: &[u8], earliest: usize, floats: bool, is_last: bool) -> Option<usize> {
     let rest = bytes.get(earliest..)?;
     let found = match (floats, is_last) {
@@ -172,7 +174,7 @@ fn find_literal(bytes: &[u8], literal: &[u8], earliest: usize, floats: bool, is_
     found.map(|at| earliest + at)
 }
 
-/// The place in the text of folded bytes, blanks at both ends left out.
+/// Returns the place in the original text of a range of folded bytes, without blanks at both ends.
 fn unfolded_range(folded: &[(u8, usize)], from: usize, to: usize, end: usize) -> Range<usize> {
     let part = folded.get(from..to).unwrap_or_default();
     let ink = |(byte, _): &(u8, usize)| *byte != b' ';
@@ -185,7 +187,8 @@ fn unfolded_range(folded: &[(u8, usize)], from: usize, to: usize, end: usize) ->
     }
 }
 
-/// Upper case, runs of blanks as one, no blanks at the ends and around commas; each byte with where it stands.
+/// Converts a text to upper case with single blanks and no blanks around commas and at the ends. Each byte
+/// keeps its original place.
 fn fold_bytes(text: &[u8], at: &Range<usize>) -> Vec<(u8, usize)> {
     let mut folded: Vec<(u8, usize)> = Vec::with_capacity(at.len());
     let mut blank = None;
@@ -205,7 +208,7 @@ fn fold_bytes(text: &[u8], at: &Range<usize>) -> Vec<(u8, usize)> {
     folded
 }
 
-/// Whether two texts are the same but for case and blanks.
+/// Returns whether two texts are equal except for upper and lower case and blanks.
 pub(super) fn is_same_folded(a: &[u8], b: &[u8]) -> bool {
     let (a, b) = (fold_bytes(a, &(0..a.len())), fold_bytes(b, &(0..b.len())));
     a.len() == b.len() && a.iter().zip(&b).all(|((a, _), (b, _))| a == b)

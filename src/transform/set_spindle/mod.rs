@@ -1,4 +1,4 @@
-//! `set_spindle`: spindle speeds scaled, set or kept within limits, and the feeds that hang on them.
+//! `set_spindle` scales, sets or limits spindle speeds, and changes the feeds that depend on them.
 
 mod speed_plan;
 
@@ -20,51 +20,54 @@ use std::collections::BTreeSet;
 
 /// Scales, sets or limits programmed spindle speeds.
 ///
-/// Speeds are in rev/min. A surface speed (SFM, SMM) can be scaled; where it would have to be set or limited, it stays and is
-/// reported. SPINDL/OFF stays, and SPINDL/ON goes on with the new speed. Where a selected part begins or ends without a SPINDL
-/// of its own, one in the file's form is put in front of the first motion, so the programmed speed comes back behind it.
+/// Speeds are in rev/min. A surface speed (SFM, SMM) can be scaled. Where it would have to be set or limited,
+/// it stays and is reported. SPINDL/OFF stays, and SPINDL/ON continues with the new speed. Where a selected
+/// part begins or ends without a SPINDL of its own, one in the file's form is inserted before the first
+/// motion, so the programmed speed returns after the part.
 ///
-/// A feed per revolution keeps its number, so its rate changes with the speed. A feed per minute keeps its number with
-/// `feeds: keep`, so the feed per tooth changes; with `feeds: follow` it changes by the same ratio as the speed, and the feed
-/// per tooth stays. In taps (`CYCLE/TAP`, `RTAP`, `THREAD`) a feed per minute always follows, for it is pitch times speed.
+/// A feed per revolution keeps its number, so its rate changes with the speed. A feed per minute keeps its
+/// number with `feeds: keep`, so the feed per tooth changes. With `feeds: follow`, it changes by the same
+/// ratio as the speed, and the feed per tooth stays. In taps (`CYCLE/TAP`, `RTAP`, `THREAD`), a feed per
+/// minute always follows, because it is pitch times speed.
 ///
-/// A limit holds as printed. Idempotent with `set` and `clamp`: a second run changes nothing; `scale` multiplies again.
+/// A limit holds as printed. The step is idempotent with `set` and `clamp`: a second run changes nothing.
+/// With `scale`, a second run multiplies again.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SetSpindle {
-    /// What becomes of a speed: `scale: 0.8`, `set: 6000` or `clamp: { min: 500, max: 8000 }`.
+    /// The change of the speed: `scale: 0.8`, `set: 6000` or `clamp: { min: 500, max: 8000 }`.
     pub speed: SpindleSpeedChange,
-    /// What becomes of feeds per minute.
+    /// What happens to feeds per minute.
     pub feeds: SpindleFeedHandling,
-    /// Which statements and motions; all when it is left out.
+    /// Which statements and motions are meant; all of them when it is left out.
     #[serde(default)]
     pub r#where: StatementFilter,
 }
 
-/// What becomes of a spindle speed.
+/// The change of a spindle speed.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SpindleSpeedChange {
-    /// It is multiplied by a factor; the result has the decimals of the programmed speed, more only where a thousandth of it
-    /// would be lost.
+    /// The speed is multiplied by a factor. The result has the decimals of the programmed speed, and more
+    /// only where a thousandth of it would be lost.
     Scale(Factor),
-    /// It becomes this, in rev/min.
+    /// The speed becomes this, in rev/min.
     Set(Positive),
-    /// It is kept within limits, in rev/min.
+    /// The speed is kept within limits, in rev/min.
     Clamp(#[serde(deserialize_with = "read_speed_range")] SpindleSpeedRange),
 }
 
-/// The lowest and the highest spindle speed, in rev/min; at least one of them.
+/// The lowest and the highest spindle speed, in rev/min. At least one of them is needed.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpindleSpeedRange {
-    /// Lowest speed, in rev/min.
+    /// The lowest speed, in rev/min.
     pub min: Option<Positive>,
-    /// Highest speed, in rev/min.
+    /// The highest speed, in rev/min.
     pub max: Option<Positive>,
 }
 
-/// What becomes of feeds per minute when the spindle speed changes.
+/// What happens to feeds per minute when the spindle speed changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SpindleFeedHandling {
@@ -74,16 +77,16 @@ pub enum SpindleFeedHandling {
     Follow,
 }
 
-/// What `set_spindle` did.
+/// The figures of what `set_spindle` did.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct SetSpindleReport {
-    /// SPINDLs given another speed.
+    /// The number of SPINDLs that got another speed.
     pub speeds_changed: usize,
-    /// SPINDLs put in.
+    /// The number of SPINDLs that were inserted.
     pub speeds_added: usize,
-    /// FEDRATs and CYCLEs whose feed per minute follows the speed.
+    /// The number of FEDRATs and CYCLEs whose feed per minute follows the speed.
     pub feeds_followed: usize,
-    /// Of them, those that feed taps.
+    /// The number of these that feed taps.
     pub tap_feeds: usize,
 }
 
@@ -92,14 +95,14 @@ fn read_speed_range<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Spindl
     match (range.min.map(Positive::get), range.max.map(Positive::get)) {
         (None, None) => Err(D::Error::custom("neither `min` nor `max` is given\nGive one of them, or both.")),
         (Some(min), Some(max)) if min > max => Err(D::Error::custom(format!(
-            "`min` ({min}) is above `max` ({max})\nNo speed fits such a range."
+            "`min` ({min}) is above `max` ({max})\nSet `min` to {max} or less."
         ))),
         _ => Ok(range),
     }
 }
 
 impl SetSpindle {
-    /// The step for the whole program.
+    /// Makes the step for the whole program.
     pub fn new(speed: SpindleSpeedChange, feeds: SpindleFeedHandling) -> Self {
         Self { speed, feeds, r#where: StatementFilter::default() }
     }
@@ -154,7 +157,7 @@ impl Transform for SetSpindle {
     }
 }
 
-/// Cycles that print a speed of their own, which stays.
+/// Reports cycles that print a speed of their own, which stays.
 fn report_speeds_of_cycles(program: &Program, selected: &SelectedStatements, context: &mut StepContext<'_>) {
     let has_speed = |cycle: StatementId| {
         let syntax = statement_syntax(program, cycle);

@@ -1,7 +1,8 @@
-//! Which SPINDL prints which speed.
+//! This module plans which SPINDL prints which speed.
 //!
-//! A SPINDL takes the speed that the first motion under it wants. Where a later motion wants another, a SPINDL in its form
-//! goes in front of that motion; so the programmed speed comes back behind the selected part.
+//! A SPINDL takes the speed that the first motion under it needs. Where a later motion needs another speed, a
+//! SPINDL in its form is inserted before that motion. So the programmed speed returns after the selected
+//! part.
 
 use super::SpindleSpeedChange;
 use crate::diagnostic::Failure;
@@ -16,13 +17,13 @@ use crate::transform::{SelectedStatements, StepContext};
 use crate::write::{ProgramEditor, patch_numbers, statement_syntax};
 use std::collections::BTreeSet;
 
-/// A scaled speed may be off by this share of itself when it is rounded to its own decimals.
-const SCALE_NOISE: f64 = 1e-3;
+/// A scaled speed may be off by this fraction when it is rounded to its own decimals.
+const SCALE_TOLERANCE: f64 = 1e-3;
 
-/// Decimals that set speeds and limits have at least: what the writer prints of them exactly.
+/// The least number of decimals of set speeds and limits. The writer prints so many exactly.
 const DECIMALS: usize = 4;
 
-/// The speeds that the SPINDLs of a program print, and those that its motions want.
+/// The speeds that the SPINDLs of a program print, and those that its motions need.
 pub(super) struct SpeedPlan {
     spindles: Vec<ProgrammedSpindle>,
     motions: Vec<MotionSpeed>,
@@ -39,21 +40,21 @@ struct ProgrammedSpindle {
 /// The speed that a SPINDL prints.
 #[derive(Debug, Clone, Copy)]
 struct PrintedSpeed {
-    /// Which number of the statement it is.
+    /// The index of the number in the statement.
     number: usize,
     programmed: f64,
-    /// What the step makes of it where the step means it; the same for a speed that it cannot change.
+    /// The speed after the step, where the step means it. It is the same if the step cannot change it.
     changed: f64,
     is_changeable: bool,
     is_meant: bool,
 }
 
-/// The speed of a motion at a running spindle.
+/// The speed of a motion with a running spindle.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MotionSpeed {
-    /// The motion's number.
+    /// The index of the motion.
     motion: usize,
-    /// The statement that a SPINDL for the motion goes in front of.
+    /// The statement before which a SPINDL for the motion is inserted.
     first: StatementId,
     /// The motion's last statement.
     last: StatementId,
@@ -63,12 +64,13 @@ pub(super) struct MotionSpeed {
     pub programmed: f64,
     /// The speed that the step wants.
     pub wanted: f64,
-    /// Whether the motion taps a thread, so that its feed hangs on the speed.
+    /// Whether the motion taps a thread, so that its feed depends on the speed.
     pub is_tap: bool,
 }
 
 impl SpeedPlan {
-    /// Asks every SPINDL and every motion of a program; says which of those that are meant cannot be changed.
+    /// Collects the speeds of all SPINDLs and motions of a program, and reports those that are meant but
+    /// cannot be changed.
     pub fn new(
         change: SpindleSpeedChange,
         program: &Program,
@@ -115,16 +117,17 @@ impl SpeedPlan {
         Self { spindles, motions }
     }
 
-    /// The speed of a motion by its number; `None` where the spindle does not turn, or at a speed that nothing says.
+    /// Returns the speed of a motion by its index. Returns `None` if the spindle does not turn, or if its
+    /// speed is not known.
     pub fn find_motion(&self, number: usize) -> Option<&MotionSpeed> {
         let found = self.motions.binary_search_by_key(&number, |speed| speed.motion).ok()?;
         self.motions.get(found)
     }
 
-    /// Writes the speeds; gives how many SPINDLs were changed and how many put in.
+    /// Writes the speeds. Returns how many SPINDLs were changed and how many were inserted.
     ///
     /// # Errors
-    /// When a speed cannot be printed as a record that reads back.
+    /// Returns an error if a speed cannot be printed as a record that reads back.
     pub fn write_speeds(&self, editor: &mut ProgramEditor) -> Result<(usize, usize), Failure> {
         let mut writer = SpeedWriter { editor, in_force: None, direction: None, changed: 0, added: 0 };
         let mut motions = self.motions.iter().peekable();
@@ -144,7 +147,7 @@ impl SpeedPlan {
                         governed.map_or(alone, |motion| motion.wanted),
                     )?;
                 }
-                // SPINDL/ON would start it at a speed that what follows does not want.
+                // SPINDL/ON would start the spindle at a speed that the next motions do not need.
                 None if spindle.on => {
                     if let Some(motion) = next {
                         writer.reach_speed(motion, spindle.statement)?;
@@ -159,7 +162,7 @@ impl SpeedPlan {
 }
 
 impl ProgrammedSpindle {
-    /// Whether the step means its speed and cannot change it.
+    /// Returns whether the step means its speed but cannot change it.
     fn is_kept(&self) -> bool {
         self.speed.is_some_and(|speed| speed.is_meant && !speed.is_changeable)
     }
@@ -194,7 +197,7 @@ fn find_spindles(
     spindles
 }
 
-/// The CYCLEs that do not only change the one in force, and whether their feed is pitch times speed.
+/// Returns the CYCLEs that do more than modify the one in force, and whether their feed is pitch times speed.
 fn find_cycle_starts(program: &Program) -> Vec<(StatementId, bool)> {
     let starts = program
         .live_statements()
@@ -220,13 +223,14 @@ fn report_kept_speeds(
         context.report_unchanged(message, program, *first);
     }
     if let Some(motion) = without {
-        let message = "no SPINDL before this motion says a speed, so there is none to change";
+        let message = "no SPINDL before this motion states a speed, so there is none to change";
         context.report_unchanged(message, program, motion);
     }
 }
 
 impl SpindleSpeedChange {
-    /// What a speed becomes, rounded to what is printed exactly; `None` for a surface speed that cannot be compared.
+    /// Returns the new value of a speed, rounded to what is printed exactly. Returns `None` for a surface
+    /// speed that cannot be compared.
     fn change_speed(self, speed: f64, unit: SpindleUnit, decimals: usize) -> Option<f64> {
         if speed <= 0.0 {
             return Some(speed);
@@ -237,7 +241,8 @@ impl SpindleSpeedChange {
             Self::Scale(factor) => {
                 let wanted = speed * factor.get();
                 let rounded = (decimals..=exact).map(|decimals| round_to_decimals(wanted, decimals));
-                let near = rounded.into_iter().find(|value| (value - wanted).abs() <= wanted * SCALE_NOISE);
+                let near =
+                    rounded.into_iter().find(|value| (value - wanted).abs() <= wanted * SCALE_TOLERANCE);
                 Some(near.unwrap_or(wanted))
             }
             _ if is_surface => None,
@@ -246,7 +251,7 @@ impl SpindleSpeedChange {
                 let power = 10f64.powi(exact as i32);
                 let max = range.max.map_or(f64::INFINITY, Positive::get);
                 let min = range.min.map_or(0.0, Positive::get);
-                // A limit is rounded to the side that is allowed; where both cannot be kept, the highest counts.
+                // A limit is rounded to the allowed side. If both limits cannot be kept, the highest counts.
                 let highest =
                     if max.is_finite() { (max * power * (1.0 + 1e-12)).floor() / power } else { max };
                 let lowest = ((min * power * (1.0 - 1e-12)).ceil() / power).min(highest);
@@ -256,12 +261,12 @@ impl SpindleSpeedChange {
     }
 }
 
-/// Writes speeds on the way through a program.
+/// Writes speeds in the order of the program.
 struct SpeedWriter<'e> {
     editor: &'e mut ProgramEditor,
-    /// The SPINDL whose speed is in force, which of its numbers that is, and the speed as written last.
+    /// The SPINDL whose speed is in force, the index of its number, and the speed as it was last written.
     in_force: Option<(StatementId, usize, f64)>,
-    /// The sense in which the spindle turns, once it was said.
+    /// The sense of rotation of the spindle, once it was stated.
     direction: Option<SpindleDirection>,
     changed: usize,
     added: usize,
@@ -278,7 +283,7 @@ impl SpeedWriter<'_> {
         Ok(())
     }
 
-    /// Puts a SPINDL in before a statement where the speed in force is not the one that a motion wants.
+    /// Inserts a SPINDL before a statement if the speed in force is not the one that a motion needs.
     fn reach_speed(&mut self, motion: &MotionSpeed, before: StatementId) -> Result<(), Failure> {
         let Some((governor, number, speed)) = self.in_force else { return Ok(()) };
         if governor != motion.governor || speed == motion.wanted {
@@ -291,7 +296,7 @@ impl SpeedWriter<'_> {
         Ok(())
     }
 
-    /// A SPINDL's text with another speed, and with the sense that is in force.
+    /// Returns the text of a SPINDL with another speed, and with the sense of rotation in force.
     fn render_spindle(&self, governor: StatementId, number: usize, speed: f64) -> Vec<u8> {
         let program = self.editor.program();
         let found = program.statement(governor);

@@ -56,7 +56,7 @@ fn cuts_that_are_left_out_keep_their_place() {
     let text = unmarked(
         "GOTO/0.0000,0.0000,0.0000\nFEDRAT/MMPM,900.0000\nGOTO/50.0000,0.0000,20.0000\nFEDRAT/MMPM,500.0000\nGOTO/50.0000,1.0000,20.0000\nGOTO/0.0000,1.0000,20.0000\n",
     );
-    assert!(refused("radius: 5, where: { feed: { min: 800 } }", &text).contains("leaves out"));
+    assert!(refused("radius: 5, where: { feed: { min: 800 } }", &text).contains("leaves it out"));
 }
 
 #[test]

@@ -31,7 +31,7 @@ fn every_dialect_in_its_own_words() {
 #[test]
 fn the_unit_must_be_known_and_must_agree() {
     let found = try_apply("version: 1\nsteps:\n  - convert_units: { to: inch }", NX).unwrap_err();
-    assert!(found[0].message.contains("does not say"), "{found:?}");
+    assert!(found[0].message.contains("does not state"), "{found:?}");
     assert!(found[0].help.as_ref().unwrap().contains("from:"));
     let found = try_apply("version: 1\nsteps:\n  - convert_units: { from: mm, to: inch }", CREO).unwrap_err();
     assert!(found[0].message.contains("another unit"), "{found:?}");

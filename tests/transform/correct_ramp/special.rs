@@ -167,7 +167,7 @@ fn where_the_feed_gets_slower_all_new_points_are_slow() {
     assert!(done.text.contains("$$ slower\nFEDRAT/MMPM,150.0000\n") && done.text.contains("$$ the floor"));
     let faster = pocket(&ramp.replace("150.0000", "600.0000"));
     let found = correct(&format!("{FACE_MILL}, region: none"), faster).err().unwrap();
-    assert!(found.last().unwrap().message.contains("feed rises"), "{found:?}");
+    assert!(found.last().unwrap().message.contains("feed increases"), "{found:?}");
 }
 
 #[test]

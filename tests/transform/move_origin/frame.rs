@@ -86,7 +86,7 @@ fn what_a_frame_cannot_hold_is_refused() {
     assert!(frame("translate: [1, 0, 0]", SOLIDWORKS).contains("world coordinates"));
     assert!(frame("rotate: { axis: z, degrees: 90 }", CREO).contains("not known for Creo"));
     let turned = CREO.replacen("1.0000000000, 0.0000000000", "0.0000000000, 1.0000000000", 1);
-    assert!(frame("translate: [1, 0, 0]", &turned).contains("which way is not known"));
+    assert!(frame("translate: [1, 0, 0]", &turned).contains("in a sense that is not known"));
     for text in [MAKINO, ISO, CAMWORKS] {
         assert!(frame("translate: [1, 0, 0]", text).contains("no frame record"));
     }
@@ -99,7 +99,7 @@ fn a_frame_that_others_share_is_not_moved_for_some() {
     let one_frame = NX.replace("MSYS/0.0000,0.0000,0.0000,0,1,0,1,0,0\n", "");
     let message =
         refused("{ translate: [1, 0, 0], change: frame, where: { operations: [POCKET] } }", &one_frame);
-    assert!(message.contains("one frame holds"), "{message}");
+    assert!(message.contains("the same frame governs"), "{message}");
     let (after, _) =
         apply("  - move_origin: { translate: [1, 0, 0], change: frame, where: { operations: [FACE] } }", NX);
     assert_eq!(after, NX.replace("MSYS/0.0000,0.0000", "MSYS/0.0000,1.0000"));

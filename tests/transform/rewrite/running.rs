@@ -91,7 +91,7 @@ fn statements_of_earlier_steps_are_seen() {
 #[test]
 fn the_schema_describes_the_rules() {
     let schema = clsmith::transform::schema_of("rewrite").unwrap().to_value().to_string();
-    for key in ["match", "insert_before", "operations", "Idempotent", "$...NAME"] {
+    for key in ["match", "insert_before", "operations", "idempotent", "$...NAME"] {
         assert!(schema.contains(key), "{key}");
     }
 }

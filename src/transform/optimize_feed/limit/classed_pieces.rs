@@ -1,13 +1,14 @@
-//! Pieces on one line: each block's pieces scaled to its length, and air cut where the margin around material ends.
+//! This module scales the pieces of each block to its length, and divides air where the margin around
+//! material ends.
 
 use super::feed_rules::FeedRules;
 use crate::transform::optimize_feed::measure::{FeedBlock, FeedLimit};
 use std::ops::Range;
 
-/// A boundary this close to another (mm) is the same boundary.
+/// Boundaries that are this close to each other (mm) are the same.
 const SAME_PLACE: f64 = 1e-9;
 
-/// Most parts that one piece is cut into.
+/// The largest number of parts into which one piece is divided.
 const MOST_PARTS: f64 = 1000.0;
 
 /// A length of path on which the load is taken as constant, with its class.
@@ -22,13 +23,13 @@ pub(in crate::transform::optimize_feed) struct ClassedPiece {
 pub(in crate::transform::optimize_feed) enum PieceClass {
     /// Air farther from material than the margin.
     Air,
-    /// Air within the margin of the cutting pieces before and after it (their indices).
+    /// Air within the margin of the cutting pieces before and after it. Their indices are given.
     Margin(Option<usize>, Option<usize>),
-    /// Material, with its limit; in a block that is not touched, the feed at which it is cut.
+    /// Material with its limit. In a block that is not touched, it is the feed at which the block is cut.
     Cut(f64),
 }
 
-/// All pieces, in order. A block with a length and a known feed has at least one.
+/// Returns all pieces in order. A block with a length and a known feed has at least one.
 pub(in crate::transform::optimize_feed) fn classify_pieces(
     blocks: &[FeedBlock],
     chains: &[usize],
@@ -53,7 +54,8 @@ pub(in crate::transform::optimize_feed) fn classify_pieces(
     }
 }
 
-/// Long pieces of one load cut into equal parts, so that a too short neighbour can grow by as little as it needs.
+/// Divides long pieces of constant load into equal parts, so that a neighbour that is too short can grow by
+/// as little as it needs.
 fn subdivide_pieces(pieces: Vec<ClassedPiece>, longest: impl Fn(&ClassedPiece) -> f64) -> Vec<ClassedPiece> {
     let parts = |piece: &ClassedPiece| (piece.length / longest(piece)).ceil().clamp(1.0, MOST_PARTS) as usize;
     let mut new_index = Vec::with_capacity(pieces.len());
@@ -68,7 +70,7 @@ fn subdivide_pieces(pieces: Vec<ClassedPiece>, longest: impl Fn(&ClassedPiece) -
     found
 }
 
-/// The range of pieces of each block that has any, in order.
+/// Returns the range of pieces of each block that has any, in order.
 pub(super) fn group_by_block(pieces: &[ClassedPiece]) -> Vec<Range<usize>> {
     let mut found = Vec::new();
     let mut start = 0;
@@ -117,7 +119,7 @@ fn cut_at_margins(
             found.push(*piece);
             continue;
         }
-        // How much of the piece's start and end lies within the margin.
+        // Within this distance of its start and of its end the piece lies in a margin.
         let reach = |near: Option<(usize, f64)>| near.map_or(0.0, |(_, distance)| margin - distance);
         let (head, tail) = (reach(before), piece.length - reach(after));
         let mut boundaries = vec![0.0, head, tail, piece.length];
@@ -143,7 +145,8 @@ fn cut_at_margins(
     found
 }
 
-/// Lets margins name the pieces that they lie beside by their new indices: of a cut in parts the nearest.
+/// Renumbers the cutting pieces that margins refer to. If a cutting piece was divided, the nearest part
+/// counts.
 fn renumber_margins(pieces: &mut [ClassedPiece], new_index: &[usize]) {
     let count = pieces.len();
     let first = |cut: usize| new_index.get(cut).copied();
@@ -155,7 +158,8 @@ fn renumber_margins(pieces: &mut [ClassedPiece], new_index: &[usize]) {
     }
 }
 
-/// For each piece in the order given: the nearest cutting piece met before it in the same chain, and the path between them.
+/// Returns for each piece, in the given order, the last cutting piece before it in the same chain, and the
+/// length of the path between them.
 fn find_nearest_cuts<'a>(
     pieces: impl Iterator<Item = (usize, &'a ClassedPiece)>,
     chain: impl Fn(&ClassedPiece) -> Option<usize>,

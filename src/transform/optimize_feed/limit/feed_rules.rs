@@ -1,67 +1,68 @@
-//! The rules that feeds have to satisfy.
+//! This module holds the rules that feeds have to satisfy.
 
 use crate::program::LengthUnit;
 use crate::transform::optimize_feed::measure::{FeedBlock, LoadCriterion};
 
-/// Which pieces count for the feed of a block.
+/// The pieces that count for the feed of a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum FeedWindow {
-    /// All of the block: no target is ever passed.
+    /// All pieces of the block count, so no target is ever exceeded.
     #[default]
     Block,
-    /// The half of the block before point k and the half after it (the paper's eq. 1). The first half of a block is then
-    /// governed by the block before it, so a target may be passed there. The first block of a chain counts from its start, and
-    /// only a block that meets nothing itself takes the air feed.
+    /// The half of the block before point k and the half of the next block after it count (eq. 1 of the
+    /// paper). The feed of the previous block then governs the first half of a block, so a target may be
+    /// exceeded there. The first block of a chain counts from its start, and only a block that meets no
+    /// material itself takes the air feed.
     HalfBlocks,
 }
 
-/// When blocks are split.
+/// The rule by which blocks are split.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SplitRule {
-    /// Only blocks longer than this, in mm.
+    /// Only blocks longer than this are split, in mm.
     pub above: f64,
-    /// No part is shorter than this, in mm.
+    /// No part becomes shorter than this, in mm.
     pub shortest: f64,
-    /// Most parts of one block.
+    /// A block gets at most so many parts.
     pub at_most: usize,
 }
 
 impl SplitRule {
-    /// Whether a block may be split.
+    /// Returns whether a block may be split.
     pub(in crate::transform::optimize_feed) fn applies_to(&self, block: &FeedBlock) -> bool {
         block.touched && block.splittable && block.length > self.above && !block.pieces.is_empty()
     }
 }
 
-/// What feeds have to satisfy; feeds in mm/min, lengths in mm.
+/// The rules that feeds have to satisfy. Feeds are in mm/min and lengths in mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeedRules {
-    /// Window.
+    /// The pieces that count for a block.
     pub window: FeedWindow,
-    /// Lowest feed.
+    /// The lowest feed.
     pub min_feed: f64,
-    /// Highest feed: the lower of the step's and the machine's; infinite for none.
+    /// The highest feed: the lower one of the step's and the machine's. It is infinite if there is none.
     pub max_feed: f64,
-    /// Lowest share of the programmed feed.
+    /// The lowest feed as a fraction of the programmed one.
     pub min_ratio: Option<f64>,
-    /// Highest share of the programmed feed.
+    /// The highest feed as a fraction of the programmed one.
     pub max_ratio: Option<f64>,
-    /// Feed in air; without one, air keeps its programmed feed whatever that is.
+    /// The feed in air. Without it, air keeps its programmed feed.
     pub air_feed: Option<f64>,
-    /// Path before and after material that keeps the cutting feed.
+    /// The length of path before and after material that keeps the cutting feed.
     pub margin: f64,
-    /// Largest change of feed along the path, in (mm/min)/s; `None` for any.
+    /// The largest change of feed along the path, in (mm/min)/s. With `None`, feeds change at once.
     pub max_acceleration: Option<f64>,
-    /// When blocks are split; never without.
+    /// The rule by which blocks are split. With `None`, no block is split.
     pub split: Option<SplitRule>,
-    /// Changes below this share keep the feed in force (0..1).
+    /// Changes below this fraction (0..1) keep the feed in force.
     pub min_change: f64,
-    /// Feeds are rounded down to multiples of this; 0 for none.
+    /// Feeds are rounded down to multiples of this; 0 means no rounding.
     pub round_down_to: f64,
 }
 
 impl Default for FeedRules {
-    /// No limits, no margin, no splitting, no rounding.
+    /// Makes rules without limits, margin, splitting or rounding.
     fn default() -> Self {
         Self {
             window: FeedWindow::Block,
@@ -79,7 +80,7 @@ impl Default for FeedRules {
     }
 }
 
-/// What the feeds of a program are made for: limits of loads, and rules for feeds. Lengths are in mm.
+/// The goals of the feeds of a program: limits of loads and rules for feeds. Lengths are in mm.
 #[derive(Debug)]
 pub(in crate::transform::optimize_feed) struct FeedGoals {
     /// The limits, the target first.

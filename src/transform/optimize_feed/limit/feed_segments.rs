@@ -1,4 +1,5 @@
-//! Segments of blocks with their limits: windows over pieces, bounds, and the margin's tie to the piece that cuts beside it.
+//! This module builds segments of blocks with their limits, from windows over pieces, bounds, and the feeds
+//! beside margins.
 
 use super::classed_pieces::{ClassedPiece, PieceClass, group_by_block};
 use super::feed_rules::{FeedRules, FeedWindow};
@@ -7,7 +8,7 @@ use super::window_content::{FeedBounds, WindowContent};
 use crate::transform::optimize_feed::measure::FeedBlock;
 use std::ops::Range;
 
-/// Lengths below this (mm) do not count for a window.
+/// Overlaps below this (mm) do not count for a window.
 const NOTHING: f64 = 1e-9;
 
 /// A segment of a block that gets one feed.
@@ -17,9 +18,9 @@ pub(in crate::transform::optimize_feed) struct FeedSegment {
     pub chain: usize,
     pub pieces: Range<usize>,
     pub length: f64,
-    /// End as a fraction of the block.
+    /// Its end as a fraction of the block.
     pub end: f64,
-    /// Its feed so far; starts as its limit.
+    /// Its feed so far. It starts as the limit.
     pub feed: f64,
     /// The lowest feed that its block allows.
     pub least: f64,
@@ -29,7 +30,7 @@ pub(in crate::transform::optimize_feed) struct FeedSegment {
     pub below: bool,
 }
 
-/// The parts of all blocks that have a length and a known feed, with their limits as feeds.
+/// Builds the segments of all blocks that have a length and a known feed, with their limits as feeds.
 pub(in crate::transform::optimize_feed) fn build_feed_segments(
     blocks: &[FeedBlock],
     chains: &[usize],
@@ -106,7 +107,7 @@ fn find_window_content(
     if own.cutting && !content.cutting { own } else { content }
 }
 
-/// What lies between two places (mm from the start) of a segment.
+/// Returns the content of a segment between two distances from its start, in mm.
 fn content_between(segment: &FeedSegment, pieces: &[ClassedPiece], from: f64, to: f64) -> WindowContent {
     let mut content = WindowContent::NOTHING;
     let mut start = 0.0;
@@ -120,7 +121,8 @@ fn content_between(segment: &FeedSegment, pieces: &[ClassedPiece], from: f64, to
     content
 }
 
-/// Air within the margin goes no faster than the segment that cuts beside it, as its limits say before any lowering.
+/// Limits the feed in margins to the feed of the segment that cuts beside them, before acceleration lowers
+/// anything.
 fn keep_margins(segments: &mut [FeedSegment], pieces: &[ClassedPiece]) {
     let mut limit_at = vec![f64::INFINITY; pieces.len()];
     for segment in segments.iter() {

@@ -1,4 +1,5 @@
-//! Stage 2 of 5, limit: pieces are joined to segments of blocks, each with the largest feed that it allows.
+//! Stage 2 of 5, limit: this module joins pieces to segments of blocks. Each segment has the largest feed
+//! that it allows.
 
 mod classed_pieces;
 mod feed_rules;

@@ -1,4 +1,5 @@
-//! Where a block is split: its pieces merged from the bottom up, the pair that costs least time first.
+//! This module decides where a block is split. It merges the pieces of the block from the bottom up,
+//! beginning with the pair that costs the least time.
 
 use super::classed_pieces::ClassedPiece;
 use super::feed_rules::FeedRules;
@@ -6,7 +7,7 @@ use super::window_content::{FeedBounds, WindowContent};
 use crate::transform::optimize_feed::measure::FeedBlock;
 use std::ops::Range;
 
-/// What lengths may differ by, as a fraction, and be equal.
+/// Lengths that differ by no more than this fraction are equal.
 const NOISE: f64 = 1e-9;
 
 /// A run of pieces that has one feed.
@@ -15,16 +16,17 @@ struct CandidateSegment {
     pieces: Range<usize>,
     length: f64,
     content: WindowContent,
-    /// Time at its own feed.
+    /// The time at its own feed.
     time: f64,
-    /// Time of its pieces, each at its own feed: what splitting could reach.
+    /// The sum of the times of its pieces, each at its own feed. No splitting can be faster.
     least_time: f64,
 }
 
-/// The parts of a block as ranges of pieces, in order.
+/// Divides a block into ranges of pieces, in order.
 ///
-/// Neighbours are merged while that loses no more than `min_change` of the time that their pieces need one by one. What is too
-/// short then grows into the neighbour where that costs less; what is too many is merged on at the least cost.
+/// Neighbours are merged as long as that loses no more than the fraction `min_change` of the time that their
+/// pieces need one by one. A segment that is too short then grows into the neighbour where that costs less
+/// time. If there are too many segments, the cheapest pairs are merged.
 pub(super) fn merge_into_segments(
     block: &FeedBlock,
     bounds: &FeedBounds,
@@ -45,7 +47,8 @@ pub(super) fn merge_into_segments(
             _ => segments.push(one),
         }
     }
-    // Air without a feed of its own keeps the programmed one, which may be the slower: it is not joined to gain time.
+    // Without an air feed, air keeps the programmed feed, which may be the slower one. So it must not be
+    // joined to a cut to gain time.
     let apart = |a: &CandidateSegment, b: &CandidateSegment| {
         rules.air_feed.is_none() && a.content.cutting != b.content.cutting
     };
@@ -73,14 +76,14 @@ fn has_same_limits(a: WindowContent, b: WindowContent) -> bool {
     (a.lowest, a.air, a.cutting) == (b.lowest, b.air, b.cutting)
 }
 
-/// The shortest of all segments that are too short, unless it is the only one.
+/// Returns the shortest segment that is too short, unless it is the only one.
 fn find_too_short(segments: &[CandidateSegment], enough: f64) -> Option<usize> {
     let short = segments.iter().enumerate().filter(|(_, segment)| segment.length < enough);
     let found = short.min_by(|(_, a), (_, b)| a.length.total_cmp(&b.length));
     found.map(|(at, _)| at).filter(|_| segments.len() > 1)
 }
 
-/// The pieces of a block, and what feed they get.
+/// The pieces of a block, and the bounds of their feeds.
 struct SegmentMerger<'a> {
     pieces: &'a [ClassedPiece],
     bounds: &'a FeedBounds,
@@ -115,13 +118,14 @@ impl SegmentMerger<'_> {
         }
     }
 
-    /// What it costs in time to have other segments instead of two.
+    /// Returns how much more time other segments need than two given ones, in minutes.
     fn added_time_min(&self, before: [&CandidateSegment; 2], after: &[CandidateSegment]) -> f64 {
         let sum: f64 = after.iter().map(|segment| segment.time).sum();
         before.into_iter().fold(sum, |sum, segment| sum - segment.time)
     }
 
-    /// The pair (index of its first) that costs least among those that `may` be merged; of equal ones the first.
+    /// Returns the index of the first segment of the pair that is cheapest to merge, among the pairs that
+    /// `may` be merged. Of equal ones the first counts.
     fn find_cheapest_pair(
         &self,
         segments: &[CandidateSegment],
@@ -145,7 +149,8 @@ impl SegmentMerger<'_> {
         }
     }
 
-    /// Gives a too short segment an piece of a neighbour, or all of a neighbour that would itself be too short without it.
+    /// Gives a segment that is too short a piece of a neighbour, or the whole neighbour if that would itself
+    /// be too short without the piece.
     fn grow_segment(&self, segments: &mut Vec<CandidateSegment>, at: usize, enough: f64) {
         let options = [at.checked_sub(1), Some(at)].into_iter().flatten();
         let options = options.filter_map(|first| {

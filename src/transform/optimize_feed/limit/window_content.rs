@@ -1,15 +1,15 @@
-//! What a window over pieces holds, and the feed that follows from it.
+//! This module holds the content of a window over pieces, and the feed that follows from it.
 
 use super::classed_pieces::{ClassedPiece, PieceClass};
 use super::feed_rules::FeedRules;
 use crate::transform::optimize_feed::measure::FeedBlock;
 
-/// What a window holds.
+/// The content of a window.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct WindowContent {
-    /// Lowest limit; infinite without material.
+    /// The lowest limit. It is infinite without material.
     pub lowest: f64,
-    /// Lowest limit of material itself, without the margins of other material.
+    /// The lowest limit of the material itself, without the margins of other material.
     pub lowest_cut: f64,
     pub air: bool,
     pub cutting: bool,
@@ -45,7 +45,7 @@ impl WindowContent {
     }
 }
 
-/// Lowest and highest feed of a block.
+/// The lowest and the highest feed of a block.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FeedBounds {
     pub least: f64,
@@ -61,13 +61,14 @@ impl FeedBounds {
         Self { least, most, air: rules.air_feed }
     }
 
-    /// The feed of a window; `None` where nothing limits it and the programmed feed stays.
+    /// Returns the feed of a window. Returns `None` if nothing limits it, so that the programmed feed stays.
     pub fn window_feed_mm_min(&self, content: WindowContent) -> Option<f64> {
         let air = if content.air { self.air } else { None };
         let wanted = match (content.cutting, air) {
             (false, air) => air?,
             (true, air) => content.lowest.min(air.unwrap_or(f64::INFINITY)),
         };
+        // The highest feed is applied last: it is a limit of the machine, the lowest feed only a wish.
         let feed = wanted.max(self.least).min(self.most);
         feed.is_finite().then_some(feed)
     }

@@ -1,4 +1,4 @@
-//! The program as blocks with loads, from a simulation of it.
+//! This module simulates a program and collects its blocks with their loads.
 
 use super::feed_block::{FeedBlock, FeedLimit, LimitedPiece};
 use super::load_limits::{LoadLimits, SpindleRotation};
@@ -14,21 +14,21 @@ use crate::simulation_run::{
 };
 use crate::transform::statement_numbers::major_word;
 
-/// The path as blocks, and what the targets are there.
+/// The path as blocks, with the loads at its targets.
 #[derive(Debug, Default)]
 pub(in crate::transform::optimize_feed) struct MeasuredBlocks {
-    /// Feed motions in order.
+    /// The feed motions in order.
     pub blocks: Vec<FeedBlock>,
-    /// For each block, what it is beside its loads.
+    /// What is measured of each block besides the limits of its pieces.
     pub measurements: Vec<BlockMeasurement>,
-    /// Cuts whose feed or speed is not known, and what stands in the way of simulating.
+    /// Cuts whose feed or spindle speed is not known, and other obstacles to a simulation.
     pub errors: Vec<Diagnostic>,
 }
 
-/// A block among the motions.
+/// The measurements of a block.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::transform::optimize_feed) struct BlockMeasurement {
-    /// Number of the motion.
+    /// The index of its motion.
     pub motion: usize,
     /// Its last statement.
     pub statement: StatementId,
@@ -36,11 +36,11 @@ pub(in crate::transform::optimize_feed) struct BlockMeasurement {
     pub operation: usize,
     /// Whether it cuts.
     pub cuts: bool,
-    /// For every limit, how much of it the block has at its programmed feed: the estimate and its bound.
+    /// For each limit, the load of the block at its programmed feed: the estimate and its bound.
     pub measured: Vec<[f64; 2]>,
 }
 
-/// Simulates a program and gathers its blocks. `touches` says which motions may get another feed.
+/// Simulates a program and collects its blocks. `touches` tells which motions may get another feed.
 pub(in crate::transform::optimize_feed) fn measure_blocks(
     machining: &Machining<'_>,
     (options, source): (&SimulationRunOptions, EngagementModel),
@@ -62,14 +62,14 @@ pub(in crate::transform::optimize_feed) fn measure_blocks(
     Ok((gathered, ran))
 }
 
-/// Cells of path before and after a piece in which other pieces tell of its load: a piece shorter than that may pass between two
-/// columns.
+/// A piece is compared with the pieces that are so many cells of path before and after it. A shorter piece
+/// may pass between two columns and seem to cut nothing.
 const AROUND: f64 = 1.5;
 
-/// The same for layers, mm: what a shorter piece removes may be as thin as what chords leave.
+/// The same distance for layers, in mm. What a shorter piece removes may be as thin as the error of chords.
 const SHORT: f64 = 0.1;
 
-/// The motion before, as far as it decides whether a chain of blocks breaks.
+/// The previous motion, as far as it decides whether a chain of blocks breaks.
 #[derive(Debug)]
 struct PreviousMotion {
     last: StatementId,
@@ -122,7 +122,8 @@ impl MeasuredBlocks {
             for (piece, found) in engaged.pieces {
                 let mut limit = limits.find_feed_limit(found, cutter, index, turning);
                 if limit == FeedLimit::Limit(f64::INFINITY) && !cuts {
-                    // A sliver that may be there, that no limit knows how to judge, and nothing else to go by.
+                    // This may be a sliver of material that no limit can judge. Nothing else is known about
+                    // it, so it keeps its feed.
                     limit = feed.map_or(FeedLimit::Air, FeedLimit::Limit);
                 }
                 pieces.push(LimitedPiece { length: (piece.to - piece.from) * length, limit });
@@ -153,7 +154,7 @@ impl MeasuredBlocks {
     }
 }
 
-/// Whether the machine stands still behind a statement and up to another: STOP, OPSTOP, DELAY.
+/// Returns whether the machine stands still between two statements: STOP, OPSTOP or DELAY.
 fn has_machine_stop(program: &Program, behind: StatementId, until: StatementId) -> bool {
     let waits = |statement: &Statement| {
         matches!(statement.record(), Record::Known | Record::Other)
@@ -165,9 +166,9 @@ fn has_machine_stop(program: &Program, behind: StatementId, until: StatementId) 
 
 fn describe_unknown_feed(program: &Program, motion: &Motion, feed: bool) -> Diagnostic {
     let message = if feed {
-        "this motion cuts, and its feed cannot be known"
+        "this motion cuts, but its feed is not known"
     } else {
-        "this motion cuts, and the spindle speed in rev/min is not known"
+        "this motion cuts, but its spindle speed in rev/min is not known"
     };
     let span = program.statement(motion.last_statement()).origin();
     Diagnostic::new(codes::FEED_UNKNOWN, message).with_label(program.source(), span, "cuts here")

@@ -1,47 +1,50 @@
-//! Blocks: what feed motions become once they were simulated.
+//! This module holds blocks: feed motions with their measured limits.
 
-/// What a piece of the path meets.
+/// The limit of a piece of path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FeedLimit {
-    /// Nothing.
+    /// It meets no material.
     Air,
-    /// Material: the largest feed in mm/min that keeps every target there; infinite where none is reached at any feed.
+    /// It meets material. The number is the largest feed in mm/min at which every target is kept; it is
+    /// infinite if no feed reaches a target.
     Limit(f64),
 }
 
-/// A piece of a block, within which the load is taken as constant.
+/// A piece of a block on which the load is taken as constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LimitedPiece {
-    /// Length in mm; the pieces of a block are scaled to its length.
+    /// Its length in mm. The pieces of a block are scaled to the length of the block.
     pub length: f64,
-    /// The largest feed here.
+    /// The largest feed on this piece.
     pub limit: FeedLimit,
 }
 
-/// A block: one motion of the path.
+/// A block: one feed motion of the path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FeedBlock {
-    /// Length in mm. A block without length takes no part; touched, it goes along with the block before it.
+    /// Its length in mm. A block without length is not planned. If it is touched, it takes the feed of the
+    /// block before it.
     pub length: f64,
-    /// Programmed feed in mm/min. Where it is not positive it is not known: such a block is not touched and separates chains.
+    /// Its programmed feed in mm/min. If it is not positive, it is not known. Such a block is not touched,
+    /// and it separates chains.
     pub programmed: f64,
-    /// Whether its feed may be changed. What is not touched is a fixed wall for acceleration.
+    /// Whether its feed may be changed. Acceleration cannot change the feed of a block that is not touched.
     pub touched: bool,
-    /// Whether it can be split into parts.
+    /// Whether it can be split.
     pub splittable: bool,
-    /// Whether a rapid, a stop or a tool change stands between it and the block before.
+    /// Whether a rapid, a stop or a tool change lies between it and the block before.
     pub breaks_chain: bool,
-    /// Its pieces in order. A block without pieces is one of which nothing is known: it is not touched.
+    /// Its pieces in order. A block without pieces is not touched, because nothing is known about it.
     pub pieces: Vec<LimitedPiece>,
 }
 
 impl FeedBlock {
-    /// Whether it takes part in chains.
+    /// Returns whether it takes part in chains.
     pub(in crate::transform::optimize_feed) fn has_length(&self) -> bool {
         self.length.is_finite() && self.length > 0.0
     }
 
-    /// Whether the programmed feed of it is known.
+    /// Returns whether its programmed feed is known.
     pub(in crate::transform::optimize_feed) fn has_known_feed(&self) -> bool {
         self.programmed.is_finite() && self.programmed > 0.0
     }

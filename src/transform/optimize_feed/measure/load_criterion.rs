@@ -1,28 +1,28 @@
-//! What may load the cutter.
+//! This module names the loads of the cutter that can be limited.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// What loads the cutter.
+/// A load of the cutter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, serde::Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum LoadCriterion {
-    /// Largest local uncut chip thickness, in the recipe's unit.
+    /// The largest local uncut chip thickness, in the recipe's unit.
     #[default]
     ChipThickness,
-    /// Volume removed per minute, in the recipe's unit cubed.
+    /// The volume removed per minute, in the recipe's unit cubed.
     RemovalRate,
-    /// Largest resultant cutting force over a revolution, in N.
+    /// The largest resultant cutting force over a revolution, in N.
     Force,
-    /// Largest torque over a revolution, in Nm.
+    /// The largest torque over a revolution, in Nm.
     Torque,
-    /// Mean power, in kW.
+    /// The mean power, in kW.
     Power,
 }
 
 impl LoadCriterion {
-    /// Its unit, in millimetres.
+    /// Returns its unit, based on millimetres.
     pub fn unit(self) -> &'static str {
         match self {
             Self::ChipThickness => "mm",
@@ -33,7 +33,7 @@ impl LoadCriterion {
         }
     }
 
-    /// Its name for people.
+    /// Returns its name for people.
     pub fn display_name(self) -> &'static str {
         match self {
             Self::ChipThickness => "chip thickness",
@@ -44,12 +44,12 @@ impl LoadCriterion {
         }
     }
 
-    /// Whether it needs the material's coefficients.
+    /// Returns whether it needs the coefficients of the material.
     pub fn needs_material(self) -> bool {
         matches!(self, Self::Force | Self::Torque | Self::Power)
     }
 
-    /// Whether it needs the teeth.
+    /// Returns whether it needs the teeth of the tool.
     pub fn needs_teeth(self) -> bool {
         self != Self::RemovalRate
     }

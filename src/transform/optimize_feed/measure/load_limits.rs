@@ -1,4 +1,5 @@
-//! From what a piece of path engages to the largest feed that keeps every limit there, and to the loads at a feed.
+//! This module computes the largest feed that keeps every limit from the engagement of a piece of path, and
+//! the loads at a feed.
 
 use super::feed_block::FeedLimit;
 use super::load_criterion::LoadCriterion;
@@ -7,10 +8,10 @@ use crate::engagement::{CuttingCoefficients, CuttingLoads, Engagement, LoadModel
 use crate::program::record::SpindleDirection;
 use crate::simulation_run::{StockResolution, Tooling};
 
-/// Removed volume below this share of a cell's cube is rounding, not material.
+/// A removed volume below this fraction of a cell's cube is rounding, not material.
 const SPECK: f64 = 1e-3;
 
-/// Limits, and what is needed to see whether they hold.
+/// The limits of loads, and the data that is needed to check them.
 #[derive(Debug)]
 pub(in crate::transform::optimize_feed) struct LoadLimits {
     limits: Vec<(LoadCriterion, f64)>,
@@ -18,16 +19,16 @@ pub(in crate::transform::optimize_feed) struct LoadLimits {
     resolution: StockResolution,
 }
 
-/// The spindle while a piece is cut.
+/// The rotation of the spindle while a piece is cut.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::transform::optimize_feed) struct SpindleRotation {
-    /// rev/min, above 0.
+    /// The spindle speed in rev/min, above 0.
     pub rpm: f64,
     pub direction: SpindleDirection,
 }
 
 impl LoadLimits {
-    /// `limits` in millimetres; `material` where a criterion needs it.
+    /// Collects the limits (in mm). `material` is needed if a criterion needs it.
     pub fn new(
         limits: Vec<(LoadCriterion, f64)>,
         tooling: &Tooling,
@@ -38,22 +39,22 @@ impl LoadLimits {
         Self { limits, models, resolution }
     }
 
-    /// The limits.
+    /// Returns the limits.
     pub fn criterion_limits(&self) -> &[(LoadCriterion, f64)] {
         &self.limits
     }
 
-    /// Whether a piece cuts more than rounding leaves.
+    /// Returns whether a piece cuts more than rounding leaves.
     pub fn is_cutting(&self, found: &Engagement) -> bool {
         let speck = match self.resolution {
             StockResolution::Cell(cell) => SPECK * cell.powi(3),
-            // Films are none of a chip's pieces.
+            // Layers have no rounding: films are never part of a chip.
             StockResolution::Layer(_) => 0.0,
         };
         found.removed_mm3 > speck
     }
 
-    /// The load of a piece that a cutter engages.
+    /// Returns the largest feed for a piece that a cutter engages.
     pub fn find_feed_limit(
         &self,
         found: &Engagement,
@@ -82,7 +83,8 @@ impl LoadLimits {
         FeedLimit::Limit(self.limits.iter().map(feed).fold(f64::INFINITY, f64::min))
     }
 
-    /// How much of a criterion a piece has at a feed: the best estimate, and not below what the grid may hide.
+    /// Returns the load of a piece at a feed: the best estimate, and an upper bound that includes what the
+    /// grid may hide.
     pub fn measure_criterion(
         &self,
         criterion: LoadCriterion,
@@ -114,8 +116,8 @@ impl LoadLimits {
         Some(if turning.direction == SpindleDirection::Clockwise { clockwise } else { counter })
     }
 
-    /// The engagement with everything that the grid may have missed: shares at their bounds, and half a cell of ground more on
-    /// either side, or half a layer more above and below.
+    /// Returns the engagement with everything that the grid may have missed: fractions at their bounds, and
+    /// half a cell more material on either side, or half a layer more above and below.
     fn bound_engagement(&self, found: &Engagement) -> Engagement {
         let mut bounded = found.clone();
         bounded.bins.iter_mut().for_each(|bin| bin.share = bin.share_bound);
@@ -126,7 +128,8 @@ impl LoadLimits {
             StockResolution::Cell(cell) => bounded.removed_mm3 *= 1.0 + more(found.radial_depth_mm(), cell),
             StockResolution::Layer(layer) => {
                 bounded.removed_mm3 *= 1.0 + more(found.axial_depth_mm(), layer);
-                // A tooth bears the same wherever on the flank it is engaged.
+                // The position of the engagement on the flank does not change the load of a tooth, so the
+                // layer is added above only.
                 let engaged = bounded.bins.iter_mut().filter(|bin| bin.is_engaged() && bin.radial > 0.0);
                 engaged.for_each(|bin| bin.high += layer as f32);
             }
@@ -135,7 +138,7 @@ impl LoadLimits {
     }
 }
 
-/// Loads of which only one has a limit.
+/// Returns loads that are infinite except for one limit.
 fn limit_one_load(criterion: LoadCriterion, limit: f64) -> CuttingLoads {
     let mut loads =
         CuttingLoads { force_n: f64::INFINITY, torque_nm: f64::INFINITY, power_kw: f64::INFINITY };

@@ -1,4 +1,5 @@
-//! Stage 1 of 5, measure: the program is simulated and becomes blocks, whose pieces have their largest feeds.
+//! Stage 1 of 5, measure: this module simulates the program and makes blocks of it, whose pieces have their
+//! largest feeds.
 
 mod block_measurement;
 mod feed_block;

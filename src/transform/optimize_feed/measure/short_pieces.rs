@@ -1,9 +1,10 @@
-//! Loads of pieces so short that a column of the grid may lie before or behind them and none in them.
+//! This module corrects the loads of pieces that are so short that no column of the grid may lie in them,
+//! only before or behind.
 
 use super::feed_block::{FeedBlock, FeedLimit};
 
-/// Gives every piece shorter than `reach` (mm) the lowest limit of all pieces no further than `reach` before or behind it in its chain
-/// of blocks. Longer pieces hold columns of their own.
+/// Gives every piece shorter than `reach` (mm) the lowest limit of all pieces that are no farther than
+/// `reach` before or behind it in its chain of blocks. Longer pieces contain columns of their own.
 pub(super) fn lower_short_pieces(blocks: &mut [FeedBlock], reach: f64) {
     let mut pieces: Vec<PlacedPiece> = Vec::new();
     let (mut at, mut chain) = (0.0, 0);
@@ -52,7 +53,7 @@ pub(super) fn lower_short_pieces(blocks: &mut [FeedBlock], reach: f64) {
     }
 }
 
-/// A piece on the path.
+/// A piece with its position on the path.
 struct PlacedPiece {
     block: usize,
     piece: usize,

@@ -1,8 +1,10 @@
-//! Feeds of blocks from the loads of their pieces (Kiselev, block-by-block feed, eqs. 1 and 2, and what it leaves open).
+//! This module plans the feeds of blocks from the loads of their pieces (Kiselev, block-by-block feed, eqs. 1
+//! and 2, and what these leave open).
 //!
-//! In this order: windows over the pieces give each segment its limit, blocks are split where that saves time, air near material
-//! keeps the cutting feed, acceleration lowers what cannot be reached, feeds are rounded down, and changes too small for a
-//! FEDRAT of their own are left out. Every stage after the first only lowers.
+//! The order is as follows. Windows over the pieces give each segment its limit. Blocks are split where that
+//! saves time. Air near material keeps the cutting feed. Acceleration lowers what cannot be reached. Feeds
+//! are rounded down, and changes that are too small for a FEDRAT are left out. Every stage after the first
+//! only lowers feeds.
 
 use super::acceleration::limit_feed_changes;
 use super::feed_rounding::round_and_even_out;
@@ -13,7 +15,7 @@ use crate::transform::optimize_feed::measure::{FeedBlock, FeedLimit};
 /// A segment of a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlannedSegment {
-    /// Where it ends, as a share of the block's length; 1 for the last.
+    /// Where it ends, as a fraction of the block's length; 1 for the last segment.
     pub end: f64,
     /// Its feed in mm/min.
     pub feed: f64,
@@ -22,14 +24,15 @@ pub struct PlannedSegment {
 /// The feeds of all blocks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockFeeds {
-    /// Parts of each block, one at least.
+    /// The segments of each block, at least one.
     pub segments: Vec<Vec<PlannedSegment>>,
-    /// Blocks with a piece whose limit is below the lowest feed allowed; they run at that feed and pass the target.
+    /// Blocks with a piece whose limit is below the lowest allowed feed. They run at the lowest feed and
+    /// exceed the target.
     pub below_minimum: Vec<usize>,
 }
 
 impl BlockFeeds {
-    /// The path at these feeds, for [`path_time_s`](super::path_time_s).
+    /// Returns the path at these feeds, for [`path_time_s`](super::path_time_s).
     pub fn timed_segments(&self, blocks: &[FeedBlock]) -> Vec<TimedSegment> {
         let mut found = Vec::with_capacity(blocks.len());
         for (block, segments) in blocks.iter().zip(&self.segments) {
@@ -47,9 +50,9 @@ impl BlockFeeds {
     }
 }
 
-/// The feeds of a path.
+/// Plans the feeds of a path.
 ///
-/// What holds afterwards, for touched blocks:
+/// The result has these properties for touched blocks:
 /// - no segment is faster than its limit (its window's lowest), nor than the highest feed, nor slower than the lowest feed unless
 ///   acceleration asks for it; a limit below the lowest feed takes the lowest feed and is reported;
 /// - before rounding, `F_k^2 <= F_{k-1}^2 + 120 a L_k` and `F_k^2 <= F_{k+1}^2 + 120 a L_k` in each chain. Rounding and
@@ -60,8 +63,8 @@ impl BlockFeeds {
 /// - the result fed back as programmed feeds comes out unchanged, unless ratios of the programmed feed are limits. Parts
 ///   that are blocks the second time may fall apart further where `shortest` or `at_most` had held them together.
 ///
-/// A segment that nothing limits (no material, no air feed; or an infinite limit and no highest feed) keeps its programmed feed
-/// whatever it is, and is a wall for acceleration like a block that is not touched.
+/// A segment that nothing limits (no material and no air feed, or an infinite limit and no highest feed)
+/// keeps its programmed feed. For acceleration it is fixed, like a block that is not touched.
 pub fn plan_block_feeds(blocks: &[FeedBlock], rules: &FeedRules) -> BlockFeeds {
     let chains = number_chains(blocks);
     let pieces = classify_pieces(blocks, &chains, rules);
@@ -76,7 +79,8 @@ pub fn plan_block_feeds(blocks: &[FeedBlock], rules: &FeedRules) -> BlockFeeds {
     BlockFeeds { segments: collect_planned_segments(blocks, &segments), below_minimum }
 }
 
-/// The number of the chain that each block belongs to. Blocks of unknown feed have one of their own.
+/// Returns the number of the chain to which each block belongs. A block of unknown feed has a chain of its
+/// own.
 fn number_chains(blocks: &[FeedBlock]) -> Vec<usize> {
     let mut chain = 0;
     let mut last_known = true;
@@ -90,7 +94,7 @@ fn number_chains(blocks: &[FeedBlock]) -> Vec<usize> {
     found
 }
 
-/// Spans as segments of their blocks; neighbours of equal feed are one segment.
+/// Returns the segments of each block. Neighbours of equal feed become one segment.
 fn collect_planned_segments(blocks: &[FeedBlock], segments: &[FeedSegment]) -> Vec<Vec<PlannedSegment>> {
     let mut found: Vec<Vec<PlannedSegment>> = vec![Vec::new(); blocks.len()];
     for segment in segments {
@@ -111,7 +115,8 @@ fn collect_planned_segments(blocks: &[FeedBlock], segments: &[FeedSegment]) -> V
     found
 }
 
-/// The feed of a block that takes no segment: without length, it goes along with the block before it and needs no FEDRAT.
+/// Returns the feed of a block without segments. A block without length takes the feed of the block before it
+/// and needs no FEDRAT.
 fn inherit_feed(block: &FeedBlock, before: Option<f64>) -> f64 {
     let limits = block.pieces.iter().filter_map(|piece| match piece.limit {
         FeedLimit::Limit(limit) => Some(limit),

@@ -1,15 +1,16 @@
-//! Rounding down, and feeds so close together that one FEDRAT does for them.
+//! This module rounds feeds down, and joins feeds that are so close together that one FEDRAT is enough.
 
 use crate::transform::optimize_feed::limit::{FeedRules, FeedSegment};
 use crate::transform::optimize_feed::measure::FeedBlock;
 
-/// What arithmetic makes of equal numbers.
+/// The relative difference that arithmetic leaves between equal numbers.
 const NOISE: f64 = 1e-12;
 
-/// Rounds feeds down and evens out small changes.
+/// Rounds feeds down and removes small changes.
 ///
-/// Consecutive parts whose feeds differ by less than `min_change` take the lowest of them; where programmed feeds are within the same share
-/// below that, they stay. A rapid between parts does not part them: the feed comes back after it.
+/// Consecutive segments whose feeds differ by less than the fraction `min_change` take the lowest of them. If
+/// programmed feeds are at most the same fraction below that, they stay. A rapid between segments does not
+/// separate them, because the feed is in force again after it.
 pub(super) fn round_and_even_out(segments: &mut [FeedSegment], blocks: &[FeedBlock], rules: &FeedRules) {
     for segment in segments.iter_mut().filter(|segment| !segment.fixed) {
         segment.feed = round_to_step(segment.feed, segment.least, rules.round_down_to);
@@ -25,7 +26,8 @@ pub(super) fn round_and_even_out(segments: &mut [FeedSegment], blocks: &[FeedBlo
     }
 }
 
-/// The feed rounded down to the step, but not below the lowest feed it was above, nor to nothing.
+/// Rounds a feed down to a multiple of the step. The result is not below the lowest feed that the feed kept,
+/// and not zero.
 fn round_to_step(feed: f64, least: f64, step: f64) -> f64 {
     if step <= 0.0 {
         return feed;
@@ -35,7 +37,7 @@ fn round_to_step(feed: f64, least: f64, step: f64) -> f64 {
     if down > 0.0 { down } else { feed }
 }
 
-/// How many parts from the first on can share a feed; a fixed part is alone.
+/// Returns how many segments from the first on can have the same feed. A fixed segment is alone.
 fn count_sharing_segments(segments: &[FeedSegment], keeps: f64) -> usize {
     let (mut lowest, mut highest) = (f64::INFINITY, 0.0f64);
     let mut count = 0;

@@ -1,4 +1,5 @@
-//! Stage 3 of 5, plan: what acceleration cannot reach is lowered, feeds are rounded down, and small changes left out.
+//! Stage 3 of 5, plan: this module lowers feeds that acceleration cannot reach, rounds feeds down, and leaves
+//! out small changes.
 
 mod acceleration;
 mod block_feeds;

@@ -1,17 +1,18 @@
-//! The time that a path takes, with feeds that change no faster than an acceleration.
+//! This module computes the time that a path takes, with feeds that change no faster than an acceleration.
 
 /// A part of the path at one feed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimedSegment {
-    /// Length in mm.
+    /// Its length in mm.
     pub length: f64,
-    /// Feed in mm/min.
+    /// Its feed in mm/min.
     pub feed: f64,
-    /// Whether a rapid, a stop or a tool change stands before it.
+    /// Whether a rapid, a stop or a tool change lies before it.
     pub breaks_chain: bool,
 }
 
-/// The path in mm that a change between two feeds (mm/min) needs at an acceleration ((mm/min)/s).
+/// Returns the length of path in mm that a change between two feeds (mm/min) needs at an acceleration
+/// ((mm/min)/s).
 pub fn speed_change_distance_mm(from: f64, to: f64, acceleration: f64) -> f64 {
     (to * to - from * from).abs() / (120.0 * acceleration)
 }
@@ -20,12 +21,13 @@ pub(super) fn reachable_feed_mm_min(from: f64, acceleration: f64, length: f64) -
     (from * from + 120.0 * acceleration * length).sqrt()
 }
 
-/// The time in seconds that a path takes.
+/// Returns the time in seconds that a path takes.
 ///
-/// With an acceleration ((mm/min)/s) the feed changes no faster than that: a segment is entered at the lower of its own and the feed
-/// before it, speeds up inside itself and slows down inside itself towards a lower one after it. Where feeds cannot be reached in time,
-/// the machine is taken to look ahead, as every control does. Ends of chains are passed at feed. Segments without length or feed
-/// take no time.
+/// With an acceleration ((mm/min)/s), the feed changes no faster than that. A segment is entered at the lower
+/// one of its own feed and the feed before it. It speeds up within itself, and slows down within itself
+/// towards a lower feed after it. If a feed cannot be reached in time, the machine is assumed to look ahead,
+/// as every control does. The ends of chains are passed at feed. Segments without length or feed take no
+/// time.
 ///
 /// ```
 /// use clsmith::transform::optimize_feed::{TimedSegment, path_time_s};
@@ -67,7 +69,8 @@ fn time_at_feed_s(length: f64, feed: f64) -> f64 {
 }
 
 fn chain_time_s(chain: &[TimedSegment], acceleration: f64) -> f64 {
-    // Speeds at the boundaries: the lower of both feeds, and what can be reached from either side.
+    // The speed at a boundary is the lower one of both feeds, and no more than what can be reached from
+    // either side.
     let first = chain.first().map(|segment| segment.feed);
     let last = chain.last().map(|segment| segment.feed);
     let inner = chain.windows(2).filter_map(|pair| match pair {
@@ -99,8 +102,10 @@ fn segment_lengths_mm(chain: &[TimedSegment]) -> impl DoubleEndedIterator<Item =
     chain.iter().map(|segment| segment.length)
 }
 
-/// Up from the entry speed to the feed, or as far as the length allows, and down to the exit speed.
+/// Returns the time of a segment that speeds up from the entry speed to its feed, or as far as its length
+/// allows, and slows down to the exit speed.
 fn trapezoid_time_s(segment: &TimedSegment, entry: f64, exit: f64, acceleration: f64) -> f64 {
+    // Both ramps meet where peak^2 - entry^2 + peak^2 - exit^2 = 120 a L.
     let crossing = ((entry * entry + exit * exit) / 2.0 + 60.0 * acceleration * segment.length).sqrt();
     let peak = segment.feed.min(crossing).max(entry).max(exit);
     let ramps = speed_change_distance_mm(entry, peak, acceleration)

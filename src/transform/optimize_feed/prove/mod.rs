@@ -1,4 +1,5 @@
-//! Stage 5 of 5, prove: the corrected program is simulated again, its loads are held against the targets and reported.
+//! Stage 5 of 5, prove: this module simulates the corrected program again, compares its loads with the
+//! targets and reports them.
 
 mod report;
 mod report_builder;

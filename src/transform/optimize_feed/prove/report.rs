@@ -1,63 +1,65 @@
-//! What `optimize_feed` did, in numbers.
+//! This module holds the figures of what `optimize_feed` did.
 
 use crate::transform::optimize_feed::measure::LoadCriterion;
 use serde::Serialize;
 
-/// What the step did.
+/// The figures of one run of the step.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct OptimizeFeedReport {
-    /// What the target is about.
+    /// The load that the target limits.
     pub criterion: LoadCriterion,
-    /// Its unit: everything here is in millimetres.
+    /// The unit of the load. All figures here are based on millimetres.
     pub unit: &'static str,
     /// The target.
     pub target: f64,
-    /// Distance of the simulation's columns, mm, where they told the engagement.
+    /// The distance of the simulation's columns in mm, if columns were used.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cell_mm: Option<f64>,
-    /// Thickness of layers, mm, where they did.
+    /// The thickness of the layers in mm, if layers were used.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub layer_mm: Option<f64>,
-    /// How far the criterion may be above what is told, for the grid or the layers: the largest difference between estimate and bound over all
-    /// blocks that the step may touch, after.
+    /// How far the load may be above the reported one, because of the grid or the layers. It is the largest
+    /// difference between estimate and bound over all blocks that the step may touch, after the change.
     pub uncertainty: f64,
-    /// Change of feed along the path that times are computed with, (mm/min)/s; `None`: feeds change at once.
+    /// The change of feed along the path with which times are computed, in (mm/min)/s. With `None`, feeds
+    /// change at once.
     pub acceleration: Option<f64>,
-    /// The whole program.
+    /// The figures of the whole program.
     pub whole: OperationFeedReport,
-    /// Its operations, those without feed motions left out.
+    /// The figures of its operations. Operations without feed motions are left out.
     pub operations: Vec<OperationFeedReport>,
-    /// FEDRATs put in.
+    /// The number of FEDRATs that were inserted.
     pub feeds_added: usize,
-    /// FEDRATs (and CYCLEs) given another feed.
+    /// The number of FEDRATs (and CYCLEs) that got another feed.
     pub feeds_changed: usize,
-    /// Points put in where blocks were split.
+    /// The number of points that were inserted where blocks were split.
     pub points_added: usize,
 }
 
-/// An operation, or all of them.
+/// The figures of an operation, or of the whole program.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 #[non_exhaustive]
 pub struct OperationFeedReport {
     /// Its name; empty for the whole program.
     pub name: String,
-    /// Time at feed before, with acceleration, seconds.
+    /// The time at feed before the change, with acceleration, in seconds.
     pub seconds_before: f64,
-    /// Time at feed after.
+    /// The time at feed after the change, in seconds.
     pub seconds_after: f64,
-    /// Largest criterion before, where the step may change feeds.
+    /// The largest load before the change, where the step may change feeds.
     pub largest_before: f64,
-    /// Largest criterion after.
+    /// The largest load after the change.
     pub largest_after: f64,
-    /// Share of the length of cutting blocks that is within a tenth of the target, before.
+    /// The fraction of the length of cutting blocks whose load was within a tenth of the target, before the
+    /// change.
     pub at_target_before: f64,
-    /// And after.
+    /// The same fraction after the change.
     pub at_target_after: f64,
 }
 
 impl OperationFeedReport {
-    /// Share of the time saved; negative when it takes longer.
+    /// Returns the fraction of the time that is saved. It is negative if the program takes longer.
     pub fn saved_fraction(&self) -> f64 {
         if self.seconds_before > 0.0 { 1.0 - self.seconds_after / self.seconds_before } else { 0.0 }
     }

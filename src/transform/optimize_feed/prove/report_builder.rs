@@ -1,4 +1,4 @@
-//! The report: both programs in numbers.
+//! This module builds the report from the measurements of both programs.
 
 use super::report::{OperationFeedReport, OptimizeFeedReport};
 use super::target_proof::touched_blocks;

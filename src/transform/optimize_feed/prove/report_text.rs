@@ -1,4 +1,4 @@
-//! What `optimize_feed` did, as a table.
+//! This module shows what `optimize_feed` did, as a table.
 
 use super::report::{OperationFeedReport, OptimizeFeedReport};
 use crate::number::format_significant_number;
@@ -51,13 +51,13 @@ fn describe_optimized_feed(report: &OptimizeFeedReport) -> String {
         format_count(report.feeds_changed as u64),
         format_count(report.points_added as u64),
     );
-    let grain = match (report.cell_mm, report.layer_mm) {
+    let resolution = match (report.cell_mm, report.layer_mm) {
         (_, Some(layer)) => format!("layers of {} mm; for them", format_significant(layer)),
         (cell, None) => format!("cell {} mm; for the grid", format_significant(cell.unwrap_or_default())),
     };
     let _ = writeln!(
         out,
-        "  {grain}, the {name} may be up to {} {} above what is told",
+        "  {resolution}, the {name} may be up to {} {} above these figures",
         format_significant(report.uncertainty),
         report.unit,
     );
@@ -65,7 +65,7 @@ fn describe_optimized_feed(report: &OptimizeFeedReport) -> String {
 }
 
 fn operation_cells(name: &str, figures: &OperationFeedReport) -> Vec<String> {
-    let share = |share: f64| format!("{:.0} %", share * 100.0);
+    let percent = |fraction: f64| format!("{:.0} %", fraction * 100.0);
     vec![
         to_safe_line(name),
         format_duration(figures.seconds_before),
@@ -73,12 +73,12 @@ fn operation_cells(name: &str, figures: &OperationFeedReport) -> Vec<String> {
         format!("{:.1} %", figures.saved_fraction() * 100.0),
         format_significant(figures.largest_before),
         format_significant(figures.largest_after),
-        share(figures.at_target_before),
-        share(figures.at_target_after),
+        percent(figures.at_target_before),
+        percent(figures.at_target_after),
     ]
 }
 
-/// A load or a feed with four significant digits.
+/// Formats a load or a feed with four significant digits.
 fn format_significant(value: f64) -> String {
     format_significant_number(value, 4, 9)
 }

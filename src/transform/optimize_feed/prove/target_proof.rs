@@ -1,4 +1,4 @@
-//! The corrected program against its targets, and both programs in numbers.
+//! This module compares the corrected program with its targets.
 
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::Program;
@@ -7,12 +7,13 @@ use crate::transform::optimize_feed::limit::{FeedGoals, FeedWindow};
 use crate::transform::optimize_feed::measure::{BlockMeasurement, FeedBlock, MeasuredBlocks};
 use std::collections::BTreeSet;
 
-/// Share by which a load may differ between two simulations of the same path: chords of arcs fall elsewhere once a block is split,
-/// and split points are rounded to the file's decimals.
-const PATH: f64 = 5e-3;
+/// The fraction by which a load may differ between two simulations of the same path. Chords of arcs differ
+/// once a block is split, and split points are rounded to the file's decimals.
+const PATH_TOLERANCE: f64 = 5e-3;
 
-/// Fails when a block that the step may touch passes a limit by more than the simulation's uncertainty; motions that run at the
-/// lowest feed allowed are excused. With the paper's window, that is to be expected and only reported.
+/// Fails if a block that the step may touch exceeds a limit by more than the uncertainty of the simulation.
+/// Motions at the lowest allowed feed are excused. With the paper's window this is expected and only
+/// reported.
 pub(in crate::transform::optimize_feed) fn prove_targets(
     goals: &FeedGoals,
     program: &Program,
@@ -28,7 +29,7 @@ pub(in crate::transform::optimize_feed) fn prove_targets(
             continue;
         }
         for ((criterion, limit), [estimate, bound]) in goals.limits.iter().zip(&measurement.measured) {
-            let allowed = limit * (1.0 + PATH) + (bound - estimate).max(0.0);
+            let allowed = limit * (1.0 + PATH_TOLERANCE) + (bound - estimate).max(0.0);
             if *estimate > allowed {
                 let span = program.statement(measurement.statement).origin();
                 let message = format!(
@@ -39,7 +40,7 @@ pub(in crate::transform::optimize_feed) fn prove_targets(
                 let found = Diagnostic::new(codes::TARGET_EXCEEDED, message).with_label(
                     program.source(),
                     span,
-                    "passes the target",
+                    "exceeds the target",
                 );
                 return Err(context.label_parameter(found, &["target"], "the target").into());
             }

@@ -1,4 +1,4 @@
-//! Feeds are planned and written: motions that get several feeds are split, then FEDRATs are put in.
+//! This module plans and writes feeds. Motions that get several feeds are split, then FEDRATs are inserted.
 
 use super::motion_split::{SplitProgram, split_motions};
 use crate::diagnostic::{Diagnostic, Failure, codes};
@@ -12,15 +12,15 @@ use crate::write::ProgramEditor;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-/// What arithmetic makes of equal feeds, as a fraction.
+/// The relative difference that arithmetic leaves between equal feeds.
 const NOISE: f64 = 1e-6;
 
 /// The corrected program.
 pub(in crate::transform::optimize_feed) struct OptimizedProgram {
     pub program: Program,
-    /// Numbers of the motions that pass a target at the lowest feed allowed.
+    /// The indices of the motions that exceed a target at the lowest allowed feed.
     pub excused: BTreeSet<usize>,
-    /// For each motion before, the motions that it is now.
+    /// For each motion before the change, the motions that it has become.
     pub parts: Vec<Range<usize>>,
 }
 
@@ -53,8 +53,8 @@ pub(in crate::transform::optimize_feed) fn plan_and_write_feeds(
     Ok(OptimizedProgram { program: editor.finish()?, excused, parts })
 }
 
-/// Plans feeds and splits motions for them. A motion that cannot be split is marked, and all is planned again, since its whole
-/// block then needs one feed.
+/// Plans feeds and splits motions for them. If a motion cannot be split, it is marked, and everything is
+/// planned again, because its whole block then needs a single feed.
 fn plan_and_split(
     goals: &FeedGoals,
     program: &Program,
@@ -82,7 +82,7 @@ fn plan_and_split(
     }
 }
 
-/// For each motion that gets several feeds: its number, and the fractions of its length at which it is split.
+/// Returns each motion that gets several feeds, with the fractions of its length at which it is split.
 fn list_wanted_splits(before: &MeasuredBlocks, planned: &BlockFeeds) -> Vec<(usize, Vec<f64>)> {
     let measured = before.measurements.iter().zip(&planned.segments);
     let inner = measured.filter_map(|(measurement, segments)| {
@@ -93,7 +93,7 @@ fn list_wanted_splits(before: &MeasuredBlocks, planned: &BlockFeeds) -> Vec<(usi
     inner.collect()
 }
 
-/// The feed in mm/min that each motion of the split program shall have, where it may change.
+/// Returns the feed in mm/min that each motion of the split program shall have, where it may change.
 fn list_wanted_feeds(
     before: &MeasuredBlocks,
     planned: &BlockFeeds,
@@ -108,7 +108,7 @@ fn list_wanted_feeds(
     wanted
 }
 
-/// Tells of blocks that pass the target at the lowest feed allowed.
+/// Reports blocks that exceed the target at the lowest allowed feed.
 fn report_below_minimum(
     program: &Program,
     before: &MeasuredBlocks,
@@ -116,7 +116,7 @@ fn report_below_minimum(
     context: &mut StepContext<'_>,
 ) {
     // The place in the recipe is the same for all, and finding it reads the recipe.
-    let message = "the target is passed here at the lowest feed allowed";
+    let message = "the target is exceeded here at the lowest allowed feed";
     let at_minimum = context.label_parameter(
         Diagnostic::new(codes::BELOW_MINIMUM, message),
         &["min_feed"],

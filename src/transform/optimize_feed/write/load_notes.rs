@@ -1,5 +1,6 @@
-//! What is said of each FEDRAT that the step wrote, for the comments of `provenance:`: the largest load of the motions that it
-//! governs, before and after. The load of a motion that was split is none of its parts' own, so these have only the one after.
+//! This module makes the notes of the FEDRATs that the step wrote, for the comments of `provenance:`: the
+//! largest load of the motions that a FEDRAT governs, before and after the change. The parts of a split
+//! motion have no load of their own before the change, so their note only has the one after it.
 
 use crate::program::{LengthUnit, Program, StatementId, StepId};
 use crate::transform::optimize_feed::limit::FeedGoals;
@@ -7,16 +8,17 @@ use crate::transform::optimize_feed::measure::{BlockMeasurement, LoadCriterion, 
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// The largest loads that a FEDRAT governs.
+/// The largest loads of the motions that a FEDRAT governs.
 #[derive(Default)]
 struct GovernedLoads {
     before: f64,
     after: f64,
-    /// It governs a part of a motion that was split.
+    /// Whether it governs a part of a motion that was split.
     split: bool,
 }
 
-/// Adds the notes; nothing for a program that keeps no history. `parts` are the motions that each motion of `before` is now.
+/// Adds the notes. A program without history gets none. `parts` are the motions that each motion of `before`
+/// has become.
 pub(in crate::transform::optimize_feed) fn add_load_notes(
     goals: &FeedGoals,
     (program, step): (&mut Program, StepId),
@@ -54,7 +56,8 @@ pub(in crate::transform::optimize_feed) fn add_load_notes(
     }
 }
 
-/// `h 0.040 -> 0.065`, of split motions `h 0.065`; the unit where it is not the file's. `None` where no load would be told.
+/// Formats a note: `h 0.040 -> 0.065`, or `h 0.065` for split motions, with the unit if it is not the file's.
+/// Returns `None` if both loads are zero.
 fn render_load_note(criterion: LoadCriterion, file: LengthUnit, loads: &GovernedLoads) -> Option<String> {
     let (symbol, decimals) = match criterion {
         LoadCriterion::ChipThickness => ("h", 3),
@@ -63,8 +66,8 @@ fn render_load_note(criterion: LoadCriterion, file: LengthUnit, loads: &Governed
         LoadCriterion::Torque => ("M", 2),
         LoadCriterion::Power => ("P", 2),
     };
-    let told = criterion == LoadCriterion::ChipThickness && file == LengthUnit::Mm;
-    let unit = if told { String::new() } else { format!(" {}", criterion.unit()) };
+    let has_file_unit = criterion == LoadCriterion::ChipThickness && file == LengthUnit::Mm;
+    let unit = if has_file_unit { String::new() } else { format!(" {}", criterion.unit()) };
     let [none, old, new] = [0.0, loads.before, loads.after].map(|load| format!("{load:.decimals$}"));
     match loads.split {
         true => (new != none).then(|| format!("{symbol} {new}{unit}")),

@@ -1,4 +1,4 @@
-//! Stage 4 of 5, write: motions of several segments are split, and FEDRATs say the feeds.
+//! Stage 4 of 5, write: this module splits motions of several segments and writes FEDRATs.
 
 mod feed_writer;
 mod load_notes;

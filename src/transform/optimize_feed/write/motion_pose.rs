@@ -1,17 +1,17 @@
-//! Poses along a motion.
+//! This module computes poses along a motion.
 
 use crate::program::geometry::{MotionPath, Pose};
 use crate::program::motion::Motion;
 use nalgebra::Vector3;
 
-/// Axes closer than this are one axis.
+/// Axes that differ by less than this are the same axis.
 const SAME_AXIS: f64 = 1e-9;
 
-/// Axes nearer to opposite than this (radians) turn about no axis that anyone could tell.
+/// Axes that are nearer to opposite than this angle (radians) have no definite axis of rotation.
 const OPPOSITE: f64 = 1e-3;
 
-/// Where the tool is at a fraction (0..=1) of a line's or an arc's length, its axis turning evenly. `None` on other paths, and where the
-/// axis turns right over.
+/// Returns the pose at a fraction (0..=1) of the length of a line or an arc. The tool axis turns evenly.
+/// Returns `None` on other paths, and if the axis is reversed.
 pub(super) fn interpolate_pose(motion: &Motion, fraction: f64) -> Option<Pose> {
     let point = match &motion.path {
         MotionPath::Line => motion.from.point + (motion.to.point - motion.from.point) * fraction,
@@ -21,7 +21,7 @@ pub(super) fn interpolate_pose(motion: &Motion, fraction: f64) -> Option<Pose> {
     Some(Pose { point, axis: interpolate_axis(motion.from.axis, motion.to.axis, fraction)? })
 }
 
-/// Whether the tool axis turns during a motion.
+/// Returns whether the tool axis turns during a motion.
 pub(super) fn has_turning_axis(motion: &Motion) -> bool {
     (motion.to.axis - motion.from.axis).amax() > SAME_AXIS
 }

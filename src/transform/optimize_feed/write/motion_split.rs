@@ -1,7 +1,8 @@
-//! Motions broken into parts, in the CL text.
+//! This module splits motions into parts, in the CL text.
 //!
-//! A line becomes GOTOs in the form of its own; an arc becomes arcs, each announced by the record that announced the whole. The
-//! result is read back and compared with the old path: a motion whose parts do not read as it did stays whole and is reported.
+//! A line becomes GOTOs in its own form. An arc becomes arcs, each announced by the same record as the whole
+//! arc. The result is read back and compared with the old path. A motion whose parts do not read back
+//! correctly stays whole and is reported.
 
 use super::motion_pose::{has_turning_axis, interpolate_pose};
 use super::split_read_back::{ReadMotions, find_faulty_splits};
@@ -19,44 +20,46 @@ use std::ops::Range;
 pub struct SplitProgram {
     /// The program.
     pub program: Program,
-    /// For each motion of the program before: the motions (their indices) that it is now.
+    /// For each motion of the program before, the indices of the motions that it has become.
     pub parts: Vec<Range<usize>>,
-    /// Motions that were to be split and are still whole, by the index they had before, and why.
+    /// The motions that should have been split and are still whole, by their indices before, with the
+    /// reasons.
     pub kept: Vec<(usize, UnsplitReason)>,
 }
 
-/// Why a motion is not split.
+/// The reason why a motion is not split.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum UnsplitReason {
-    /// A rapid has no feed to change.
+    /// It is a rapid, which has no feed to change.
     Rapid,
-    /// Moves of a drilling cycle stand in no statements of their own.
+    /// It belongs to a drilling cycle, whose motions have no statements of their own.
     Hole,
-    /// A spline (NURBS) cannot be broken without computing new knots.
+    /// It is a spline (NURBS). Splitting it would need new knots.
     Spline,
-    /// It shares its statement with other points, or is a line of bare numbers.
+    /// It has its statement in common with other points, or is a line of bare numbers.
     SharedStatement,
-    /// A point with its contact normal: how the normal turns is not told.
+    /// It has a contact normal, and nothing says how the normal turns along it.
     ContactNormal,
-    /// A statement that says more than a point (FROM, GOHOME, GODLTA), or that has nothing before it.
+    /// Its statement states more than a point (FROM, GOHOME, GODLTA), or has nothing before it.
     OtherStatement,
-    /// CIRCLE, INDIRV or NURBS stands before it and was not understood.
+    /// A CIRCLE, INDIRV or NURBS before it was not understood.
     UnreadArc,
-    /// The tool axis turns, but the statement does not print it.
+    /// Its tool axis turns, but the statement does not print it.
     UnsaidAxis,
-    /// The tool axis turns right over.
+    /// Its tool axis is reversed.
     OppositeAxis,
-    /// A helix of several turns (`TIMES`), or one that its record has no form for.
+    /// It is a helix of several turns (`TIMES`), or one that its record cannot state.
     Helix,
-    /// TLON,GOBACK: parts after the first would go back again.
+    /// It has TLON,GOBACK, so parts after the first would go back again.
     GoBack,
-    /// The parts would not read back as the same path.
+    /// Its parts would not read back as the same path.
     NotReadBack,
 }
 
 impl UnsplitReason {
-    /// Whether the record is of a kind that splitting is for, so that a user should hear of it.
+    /// Returns whether the record is of a kind that can usually be split, so that the user should be
+    /// informed.
     fn is_surprise(self) -> bool {
         matches!(self, Self::UnsaidAxis | Self::OppositeAxis | Self::Helix | Self::GoBack | Self::NotReadBack)
     }
@@ -73,25 +76,26 @@ impl fmt::Display for UnsplitReason {
             Self::OtherStatement => "its statement is no plain point",
             Self::UnreadArc => "the arc or spline before it is not understood",
             Self::UnsaidAxis => "its tool axis turns, but its statement does not print it",
-            Self::OppositeAxis => "its tool axis turns right over",
+            Self::OppositeAxis => "its tool axis is reversed",
             Self::Helix => "it is a helix whose parts the record cannot say",
-            Self::GoBack => "it goes backwards from its start direction",
+            Self::GoBack => "it runs backwards from its start direction",
             Self::NotReadBack => "its parts would not read back as the same path",
         })
     }
 }
 
-/// Splits motions: pairs of a motion's index and the fractions of its length (between 0 and 1, ascending) where it is split.
+/// Splits motions. Each is given by its index and the fractions of its length (between 0 and 1, ascending) at
+/// which it is split.
 ///
-/// Coordinates of the new points are rounded to the file's decimals, so a point is off its path by half of the last one at
-/// most. The statement that ends the motion stays byte for byte, except that a CATIA arc whose last part has half a turn or
-/// less loses its `2,INTOF`; MOVARC's angle becomes that of the first part. Everything else is untouched.
+/// The coordinates of new points are rounded to the file's decimals, so a point is off its path by at most
+/// half of the last decimal. The statement that ends the motion stays byte for byte. The exceptions are a
+/// CATIA arc whose last part has half a turn or less, which loses its `2,INTOF`, and MOVARC, whose angle
+/// becomes the angle of the first part. Everything else is untouched.
 ///
-/// What cannot be split stays whole and is named in [`SplitProgram::kept`]; where that is not to be expected from the kind of motion,
-/// a finding says so at the place. Shares outside 0..1 or out of order are left out.
+/// A motion that cannot be split stays whole and is listed in [`SplitProgram::kept`]. If its kind can usually
+/// be split, a finding reports the place. Fractions outside 0..1 or out of order are ignored.
 ///
-/// # Errors
-/// When a new statement cannot be read back at all.
+/// Returns an error if a new statement cannot be read back.
 pub fn split_motions(
     program: Program,
     step: StepId,
@@ -129,7 +133,7 @@ pub fn split_motions(
     Ok(SplitProgram { program: written, parts, kept })
 }
 
-/// The motions that can be split, with the poses of their parts, and those that cannot.
+/// Returns the motions that can be split, with the poses of their parts, and those that cannot.
 fn choose_splits(
     program: &Program,
     motions: &[Motion],
@@ -172,7 +176,7 @@ fn choose_splits(
     (splits, kept)
 }
 
-/// How a motion is written, if its parts can be written alike.
+/// Returns the form in which the parts of a motion are written.
 fn find_split_form(program: &Program, motion: &Motion, shared: bool) -> Result<SplitForm, UnsplitReason> {
     let last = motion.last_statement();
     let record = program.statement(last).record();
@@ -213,7 +217,7 @@ fn find_split_form(program: &Program, motion: &Motion, shared: bool) -> Result<S
         (MotionPath::Arc(_), Record::DriveArc(_), _) if has_goback(program, last) => {
             Err(UnsplitReason::GoBack)
         }
-        // INDIRV has no form for a tangent that climbs.
+        // INDIRV cannot state a tangent that climbs.
         (MotionPath::Arc(arc), Record::DriveArc(_), _) if arc.rise.abs() > 1e-3 => Err(UnsplitReason::Helix),
         (MotionPath::Arc(_), Record::DriveArc(_), Some((at, Record::StartDirection(_)))) => {
             Ok(SplitForm::Drive(at))
@@ -241,6 +245,6 @@ fn part_ranges(count: usize, splits: &[SplitMotion]) -> Vec<Range<usize>> {
 
 fn describe_unsplit_motion(program: &Program, motion: &Motion, why: UnsplitReason) -> Diagnostic {
     let place = program.statement(motion.last_statement()).origin();
-    let message = format!("the motion is not split, so that one feed holds for all of it: {why}");
+    let message = format!("the motion is not split and has a single feed, because {why}");
     Diagnostic::new(codes::NOT_CHANGED, message).with_label(program.source(), place, "left whole")
 }

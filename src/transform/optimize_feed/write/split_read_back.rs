@@ -1,4 +1,4 @@
-//! Whether a program with split motions still says the same path.
+//! This module checks that a program with split motions still states the same path.
 
 use super::split_statements::SplitMotion;
 use crate::program::geometry::{CircularArc, MotionPath, SAME_POINT};
@@ -7,13 +7,13 @@ use crate::program::{Program, StatementId};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-/// New coordinates have four decimals at least; half of the last one, with what arithmetic adds.
+/// New coordinates have at least four decimals. This is half of the last one, and rounding errors.
 const ROUNDING: f64 = 5e-5 * (1.0 + 1e-6);
 
-/// New unit vectors have five decimals at least.
+/// New unit vectors have at least five decimals.
 const AXIS_ROUNDING: f64 = 5e-6 * (1.0 + 1e-6);
 
-/// A program's motions, and the statements that have problems, once for each.
+/// A program's motions, and the statements that have problems, each of them once.
 pub(super) struct ReadMotions {
     pub motions: Vec<Motion>,
     problems: Vec<StatementId>,
@@ -39,7 +39,7 @@ impl ReadMotions {
     }
 }
 
-/// The split motions (their old indices) that are to blame for a difference.
+/// Returns the old indices of the split motions that cause a difference.
 pub(super) fn find_faulty_splits(
     before: &ReadMotions,
     after: &ReadMotions,
@@ -73,7 +73,7 @@ pub(super) fn find_faulty_splits(
     found
 }
 
-/// Everything about a motion that its parts fraction with it.
+/// Returns whether a part has all attributes of the motion that was split.
 fn has_same_attributes(old: &Motion, new: &Motion) -> bool {
     old.feed == new.feed
         && old.rapid == new.rapid
@@ -103,8 +103,9 @@ fn is_split_as_planned(old: &Motion, parts: &[Motion], split: &SplitMotion) -> b
     poses && from_end_to_end && alike && path
 }
 
-/// Arcs about the same centre and axis, each with its fraction of the sweep. Rounded ends turn a spoke by their rounding over the
-/// radius, and a plane that is read from them (CATIA) by that over the sine of the sweep.
+/// Checks that the parts are arcs about the same centre and axis, each with its fraction of the sweep.
+/// Rounded ends turn a spoke by their rounding divided by the radius. A plane that is read from them (CATIA)
+/// turns by that angle divided by the sine of the sweep.
 fn are_arc_parts(whole: &CircularArc, parts: &[Motion], split: &SplitMotion) -> bool {
     let turned = 4.0 * ROUNDING / whole.radius.max(SAME_POINT);
     parts.iter().zip(split.part_fractions()).all(|(part, (start, end))| {

@@ -1,4 +1,4 @@
-//! The statements of a motion's parts, in the form of the statements that make the whole.
+//! This module writes the statements of a motion's parts, in the form of the statements of the whole motion.
 
 use crate::diagnostic::Failure;
 use crate::parse;
@@ -11,15 +11,16 @@ use nalgebra::Vector3;
 use std::f64::consts::PI;
 use std::ops::Range;
 
-/// Sweeps closer to half a turn than this (radians) are half a turn, which needs no INTOF.
+/// Sweeps that are closer to half a turn than this angle (radians) count as half a turn, which needs no
+/// INTOF.
 const HALF_TURN: f64 = 1e-4;
 
-/// How a motion that can be split is written.
+/// The form in which a motion that can be split is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum SplitForm {
     /// A GOTO.
     Line,
-    /// CIRCLE (its statement) and GOTO.
+    /// CIRCLE (its statement) and a GOTO.
     Circle(StatementId),
     /// MOVARC (its statement) and GOTO.
     MoveArc(StatementId),
@@ -27,7 +28,7 @@ pub(super) enum SplitForm {
     Drive(StatementId),
 }
 
-/// A motion with the places where it is split: fractions of its length, and the poses there.
+/// A motion with the points at which it is split: fractions of its length, and the poses there.
 #[derive(Debug, Clone)]
 pub(super) struct SplitMotion {
     pub motion: usize,
@@ -37,14 +38,15 @@ pub(super) struct SplitMotion {
 }
 
 impl SplitMotion {
-    /// Start and end of each part as fractions, in order.
+    /// Returns start and end of each part as fractions, in order.
     pub fn part_fractions(&self) -> impl Iterator<Item = (f64, f64)> {
         let starts = std::iter::once(0.0).chain(self.fractions.iter().copied());
         starts.zip(self.fractions.iter().copied().chain([1.0]))
     }
 }
 
-/// Writes the parts: new statements before the one that ends the motion, which stays as it is where it can.
+/// Writes the parts. New statements are inserted before the one that ends the motion, which stays unchanged
+/// where possible.
 pub(super) fn write_split_motion(
     editor: &mut ProgramEditor,
     motion: &Motion,
@@ -75,11 +77,12 @@ pub(super) fn write_split_motion(
 fn render_goto(editor: &ProgramEditor, motion: &Motion, pose: &Pose) -> Vec<u8> {
     let [x, y, z]: [f64; 3] = pose.point.coords.into();
     let [i, j, k]: [f64; 3] = pose.axis.into();
-    // A GOTO of three values has no numbers 3 to 5.
+    // The last three numbers only exist in a GOTO of six values.
     copy_with_numbers(editor, motion.last_statement(), 0, &[x, y, z, i, j, k])
 }
 
-/// MOVARC says its own angle, so the whole one's is split down to its first part's.
+/// Writes the parts of a MOVARC. It states its own angle, so the angle of the whole arc is reduced to that of
+/// its first part.
 fn write_move_arcs(
     editor: &mut ProgramEditor,
     motion: &Motion,
@@ -103,7 +106,7 @@ fn write_move_arcs(
     }
 }
 
-/// The angle of a MOVARC: the index of its number, and its value in degrees.
+/// Returns the angle of a MOVARC: the index of its number, and its value in degrees.
 fn find_move_arc_angle(program: &Program, statement: StatementId) -> Option<(usize, f64)> {
     let found = program.statement(statement);
     let syntax = parse::syntax(program.statement_text(found));
@@ -113,7 +116,8 @@ fn find_move_arc_angle(program: &Program, statement: StatementId) -> Option<(usi
     Some((number, degrees))
 }
 
-/// Each part has its own start tangent (INDIRV) and end (in TLON); `2,INTOF` stays only where a part has more than half a turn.
+/// Writes the parts of CATIA's arcs. Each part has its own start tangent (INDIRV) and end (in TLON).
+/// `2,INTOF` only stays where a part has more than half a turn.
 fn write_drive_arcs(
     editor: &mut ProgramEditor,
     motion: &Motion,
@@ -145,11 +149,11 @@ fn write_drive_arcs(
 }
 
 fn start_tangent(arc: &crate::program::geometry::CircularArc, fraction: f64) -> Vector3<f64> {
-    // A tangent of 1e-17 in x would be printed as zero, but with a sign.
+    // A tangent of -1e-17 in x would be printed as zero with a sign.
     arc.tangent_at(fraction).map(|part| if part.abs() < 1e-9 { 0.0 } else { part })
 }
 
-/// Where `2,INTOF,` and what follows it up to the LINE stand.
+/// Returns the range of `2,INTOF,` and what follows it up to the LINE.
 fn find_intof_range(text: &[u8]) -> Option<Range<usize>> {
     let syntax = parse::syntax(text);
     let word = (0..syntax.fields.len()).find(|field| syntax.word_at(*field).as_deref() == Some("INTOF"))?;
@@ -159,7 +163,7 @@ fn find_intof_range(text: &[u8]) -> Option<Range<usize>> {
     fits.then_some(count.at.start..line.at.start)
 }
 
-/// A statement's text with numbers from `first` on given new values.
+/// Returns the text of a statement in which the numbers from `first` on have new values.
 fn copy_with_numbers(
     editor: &ProgramEditor,
     statement: StatementId,
@@ -169,7 +173,7 @@ fn copy_with_numbers(
     copy_statement(editor, statement, &pair_with_indices(first, values.iter().copied()))
 }
 
-/// A statement's text without a comment at its end.
+/// Returns the text of a statement without a comment at its end.
 fn text_without_remark(program: &Program, statement: StatementId) -> Vec<u8> {
     strip_remark(program.statement_text(program.statement(statement)))
 }
