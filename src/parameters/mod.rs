@@ -15,6 +15,7 @@
 mod file_path;
 mod name_patterns;
 mod numbers;
+mod similar_name;
 
 pub use crate::program::LengthUnit;
 pub use file_path::FilePath;
@@ -22,3 +23,4 @@ pub use name_patterns::{Glob, GlobError, ToolPattern};
 pub use numbers::{
     Degrees, Factor, Finite, Fraction, HelixAngle, NonNegative, PointAngle, Positive, PositiveCount, Slope,
 };
+pub(crate) use similar_name::find_similar_name;

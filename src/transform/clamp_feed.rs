@@ -89,7 +89,7 @@ impl Transform for ClampFeed {
             let decimals = motion.feed_from.map_or(0, |statement| decimals_of_feed(&program, statement));
             clamp_to_limits(feed, actual, (min, max), decimals)
         });
-        selection.report_if_empty(context);
+        selection.report_if_empty(&program, context);
         for statement in unknown {
             let message = "this feed cannot be compared with the limits: it is zero, or it is per revolution and no spindle speed in rev/min is known";
             context.report_unchanged(message, &program, statement);

@@ -1,7 +1,7 @@
 //! This module applies `where:` to the motions of a program.
 
 use super::StepContext;
-use super::statement_selection::report_nothing_selected;
+use super::empty_selection::report_nothing_selected;
 use crate::program::motion::Motion;
 use crate::program::{LengthUnit, Program, operation};
 use crate::recipe::{MotionFacts, MotionFilter};
@@ -37,10 +37,10 @@ impl<'w> MotionSelection<'w> {
         selected
     }
 
-    /// Reports a warning if no motion was meant.
-    pub fn report_if_empty(&self, context: &mut StepContext<'_>) {
+    /// Reports a warning if no motion of the program was meant.
+    pub fn report_if_empty(&self, program: &Program, context: &mut StepContext<'_>) {
         if self.selected == 0 && !self.everything {
-            report_nothing_selected("motion", self.wanted.required, context);
+            report_nothing_selected("motion", self.wanted, program, context);
         }
     }
 

@@ -67,7 +67,7 @@ impl Transform for ScaleFeed {
             let feed = motion.feed?.value;
             selection.contains(motion, context).then_some(feed * factor)
         });
-        selection.report_if_empty(context);
+        selection.report_if_empty(&program, context);
         let governors = plan.governing_statements();
         let mut editor = ProgramEditor::new(program, context.step);
         plan.write_feeds(&mut editor, &mut context.findings)?;

@@ -8,8 +8,8 @@
 //! has neither. A `where` with `motions` or `feed` never means it.
 
 use super::StepContext;
+use super::empty_selection::report_nothing_selected;
 use super::step_context::feed_per_minute;
-use crate::diagnostic::{Diagnostic, Severity, codes};
 use crate::program::motion::{Motion, Motions};
 use crate::program::operation::{self, Operation};
 use crate::program::{LengthUnit, Program, StatementId, StatementRange};
@@ -145,7 +145,7 @@ impl SelectedStatements {
             }
         }
         if ranges.is_empty() && !selection.wanted.is_everything() {
-            report_nothing_selected(kind, selection.wanted.required, context);
+            report_nothing_selected(kind, &selection.wanted, program, context);
         }
         Self { ranges }
     }
@@ -160,14 +160,4 @@ impl SelectedStatements {
     pub fn is_empty(&self) -> bool {
         self.ranges.is_empty()
     }
-}
-
-/// Reports that a `where` selects nothing; `kind` is what it selects. It is an error where the selection is required.
-pub(super) fn report_nothing_selected(kind: &str, required: bool, context: &mut StepContext<'_>) {
-    let message = format!("`where` selects no {kind} of this program");
-    let mut finding = context.step_finding(codes::NOTHING_SELECTED, message, &["where"], "selects nothing");
-    if !required {
-        finding = Diagnostic { severity: Severity::Note, help: None, ..finding };
-    }
-    context.findings.push(finding);
 }

@@ -1,11 +1,12 @@
 //! This module words faults: it gives each the code, the message, the place that is underlined, and a
 //! suggestion of what was probably meant.
 
-use super::fault_words::{find_similar_name, join_choices, quote_text};
+use super::fault_words::{join_choices, quote_text};
 use super::yaml_fault::{YamlFault, YamlFaultKind};
 use super::yaml_tree::YamlNode;
 use super::{KeyOrValue, YamlDocument, YamlPathSegment};
 use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
+use crate::parameters::find_similar_name;
 use crate::source::Span;
 
 /// A fault with the path to it, which [`FaultWording`] examines.

@@ -66,16 +66,3 @@ pub(super) fn join_choices(names: &[&str]) -> String {
         None => "nothing".to_owned(),
     }
 }
-
-/// Returns the known name that was most likely meant.
-pub(super) fn find_similar_name<'n>(typed: &str, known: &[&'n str]) -> Option<&'n str> {
-    let plain = |name: &str| name.to_lowercase().replace(['-', ' '], "_");
-    let typed = plain(typed);
-    let allowed = 1 + typed.chars().count() / 4;
-    let near = |name: &&&str| {
-        let distance = strsim::damerau_levenshtein(&typed, &plain(name));
-        // Two edits turn any short name into any other, so the distance must also be shorter than the name.
-        distance <= allowed && distance < name.chars().count()
-    };
-    known.iter().filter(near).min_by_key(|name| strsim::damerau_levenshtein(&typed, &plain(name))).copied()
-}

@@ -7,8 +7,9 @@ use super::fault_diagnostics::{self, FaultWording};
 use super::node_deserializer::NodeDeserializer;
 use super::yaml_fault::{YamlFault, YamlFaultKind};
 use super::yaml_tree;
-use super::{KeyOrValue, YamlDocument, fault_words};
+use super::{KeyOrValue, YamlDocument};
 use crate::diagnostic::{Diagnostic, Failure, codes};
+use crate::parameters::find_similar_name;
 use serde::de::DeserializeOwned;
 
 /// The largest number of faults that are reported. After so many, the first ones should be fixed first.
@@ -59,8 +60,7 @@ impl YamlDocument {
         match &fault.kind {
             YamlFaultKind::Missing { name } => {
                 let node = self.root.node_at_path(&fault.path);
-                let is_it =
-                    |key: &str| key == *name || fault_words::find_similar_name(key, &[name]).is_some();
+                let is_it = |key: &str| key == *name || find_similar_name(key, &[name]).is_some();
                 inside.any(|index| {
                     node.and_then(|node| node.entry_at(index)).is_some_and(|entry| is_it(&entry.key))
                 })

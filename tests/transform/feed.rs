@@ -43,6 +43,10 @@ fn clamping_twice_changes_nothing_more() {
 fn a_limit_must_come_from_somewhere() {
     let found = try_apply("version: 1\nsteps:\n  - clamp_feed: {}", NX).unwrap_err();
     assert_eq!(found[0].code.id(), "CL0302");
+    assert!(
+        found[0].message.contains("`max: 3000`") && found[0].message.contains("max_feed: 10000"),
+        "{found:?}"
+    );
     let machine = "version: 1\nsetup: { machine: { max_feed: 700 } }\nsteps:\n  - clamp_feed: {}";
     assert!(try_apply(machine, NX).unwrap().0.contains("FEDRAT/MMPM,700.0000"));
 }

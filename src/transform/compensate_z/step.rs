@@ -50,7 +50,7 @@ impl Transform for CompensateZ {
         let mut selection = MotionSelection::new(&self.r#where, &program, context);
         let meant: Vec<bool> =
             motions.iter().map(|motion| selection.contains(motion, context) && is_cutting(motion)).collect();
-        selection.report_if_empty(context);
+        selection.report_if_empty(&program, context);
         let Some(first) = meant.iter().position(|meant| *meant) else { return Ok(program) };
         let mut job = CompensateZJob::new(self, file, context)?;
         job.take_tool_cutter(&program, &motions, &meant, first, context)?;

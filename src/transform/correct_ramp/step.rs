@@ -170,7 +170,7 @@ impl<'a> RampJudge<'a> {
         }
         // `where` is only asked about ramps. A program may well have none, so the warning needs all motions.
         if meant.is_empty() && !self.motions.iter().any(|motion| selection.contains(motion, context)) {
-            selection.report_if_empty(context);
+            selection.report_if_empty(self.program, context);
         }
         let mut solid: Vec<(StatementId, Option<Arc<ActiveTool>>)> = Vec::new();
         let count = meant.len();

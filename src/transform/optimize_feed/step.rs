@@ -162,7 +162,7 @@ impl OptimizeFeedJob {
         );
         let (mut measured, ran) = measured
             .map_err(|failure| failure.map_findings(|found| self.label_resolution(found, context)))?;
-        selection.report_if_empty(context);
+        selection.report_if_empty(program, context);
         if !measured.errors.is_empty() {
             return Err(std::mem::take(&mut measured.errors).into());
         }

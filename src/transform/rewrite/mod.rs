@@ -19,11 +19,12 @@ mod wildcards;
 pub use rule::RewriteRule;
 pub use rule_fault::RuleFault;
 
-use super::statement_selection::{StatementSelection, report_nothing_selected};
+use super::empty_selection::report_nothing_selected;
+use super::statement_selection::StatementSelection;
 use super::{StepContext, Transform};
 use crate::diagnostic::{Failure, codes};
 use crate::program::Program;
-use crate::recipe::StatementFilter;
+use crate::recipe::{MotionFilter, StatementFilter};
 use charset::Charset;
 use rewrite_run::RewriteRun;
 use rule_matching::ActiveRule;
@@ -98,7 +99,7 @@ impl Transform for Rewrite {
             }
         };
         if hits.is_empty() && self.selects_nothing(&program, context) {
-            report_nothing_selected("statement", self.r#where.required, context);
+            report_nothing_selected("statement", &MotionFilter::from(&self.r#where), &program, context);
             return Ok(program);
         }
         report_unused_rules(&rules, context);
