@@ -64,7 +64,7 @@ fn creo_says_only_the_diameter() {
     assert_eq!(
         found.assumptions,
         [
-            "a flat bottom (tip 0): neither the CL file nor setup.tools says its angle",
+            "a flat bottom (tip 0): neither the CL file nor setup.tools gives its angle",
             "corner radius 0: neither the CL file nor setup.tools gives one",
             "taper 0: neither the CL file nor setup.tools gives one",
             "flute length 50.8 mm: neither the CL file nor setup.tools gives one",

@@ -44,7 +44,7 @@ fn places_in_jobs_files_are_shown() {
     let done = clsmith(shop.path()).args(["batch", "jobs.yaml", "--format", "line"]).assert().code(1);
     let text = stderr(&done);
     assert!(text.contains("none.yaml cannot be read"), "{text}");
-    assert!(text.contains("jobs.yaml:3:34: CL0420: no file fits `nowhere/*.cls`"), "{text}");
+    assert!(text.contains("jobs.yaml:3:34: CL0420: no file matches `nowhere/*.cls`"), "{text}");
     write(shop.path(), "jobs.yaml", "jobs:\n  - { recipe: r.yaml, files: ['programs/*.cls'] }\n");
     let done = clsmith(shop.path()).args(["batch", "jobs.yaml"]).assert().code(2);
     assert!(stderr(&done).contains("no output folder"));
