@@ -32,6 +32,9 @@ pub(super) fn report_nothing_selected(
     } else {
         unmatched.join(" ")
     };
+    // Whoever runs one recipe on many programs does not want an error for each that lacks an operation.
+    let optional = " Write `required: false` into the `where` of a step that may find nothing.";
+    let help = if wanted.required { help + optional } else { help };
     context.findings.push(finding.with_help(help));
 }
 

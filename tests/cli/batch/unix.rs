@@ -108,7 +108,8 @@ fn what_is_no_file_is_not_read() {
     assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
     let run = batch(shop.path(), "done", &["--format", "line"]).code(1);
     assert!(
-        stderr(&run).contains("programs/pipe.cls: CL0401: programs/pipe.cls cannot be read: it is not a file")
+        stderr(&run)
+            .contains("programs/pipe.cls: CL0401: programs/pipe.cls cannot be read: it is not a file")
     );
 }
 
