@@ -1,9 +1,9 @@
 //! This module takes one program through one recipe: it reads it, corrects it, reads the result back and
 //! compares. `apply`, `hook`, `watch` and `batch` use it.
 //!
-//! The input is checked first; an error in it stops the job. The corrected program is read back as a whole before
-//! anything is written. Record by record it must be what the steps made of it. Then [`check`] looks at it, and each
-//! finding that the same statement of the original did not have counts as a finding of this run.
+//! The input is checked first; an error in it stops the job. The corrected program is read back as a whole
+//! before anything is written. Record by record it must be what the steps made of it. Then [`check`] looks at
+//! it, and each finding that the same statement of the original did not have counts as a finding of this run.
 
 use crate::check;
 use crate::diagnostic::{Diagnostic, DiagnosticCode, Failure, codes};
@@ -98,13 +98,13 @@ impl<'r> CorrectionJob<'r> {
 impl CorrectionJob<'_> {
     /// Corrects one file.
     ///
-    /// The input is checked before any step runs: an error in it stops the job, and its warnings are findings of the run. A
-    /// changed program is printed, read back and checked; what is worse in it than in the original counts as a finding, so
-    /// no step can break a program and say nothing.
+    /// The input is checked before any step runs: an error in it stops the job, and its warnings are findings
+    /// of the run. A changed program is printed, read back and checked; what is worse in it than in the
+    /// original counts as a finding, so no step can break a program and say nothing.
     ///
     /// # Errors
-    /// Returns all findings, as the policy leaves them, once one of them is an error, and [`Failure::Interrupted`] when
-    /// `watch` stopped the job.
+    /// Returns all findings, as the policy leaves them, once one of them is an error, and
+    /// [`Failure::Interrupted`] when `watch` stopped the job.
     pub fn correct_source(&self, source: &Arc<Source>) -> Result<JobOutcome, Failure> {
         let (program, found) = check::read_and_check(source, self.dialect);
         // Which findings are known is asked before the steps, since they take the program.
@@ -124,7 +124,7 @@ impl CorrectionJob<'_> {
         Ok(JobOutcome { program, findings, reports })
     }
 
-    /// The steps, the comments, and the look at what came of them.
+    /// Returns the steps, the comments, and the look at what came of them.
     fn run_steps(
         &self,
         source: &Arc<Source>,
@@ -159,7 +159,8 @@ impl CorrectionJob<'_> {
     }
 }
 
-/// Finds what is wrong in the corrected text and was not in the original. The places are in the corrected text.
+/// Finds what is wrong in the corrected text and was not in the original. The places are in the corrected
+/// text.
 fn find_new_findings(
     source: &Arc<Source>,
     program: &Program,
@@ -177,7 +178,8 @@ fn find_new_findings(
         let finding = Diagnostic::new(codes::UNREADABLE_EDIT, message);
         return Ok(vec![finding.with_label(&corrected_source, span, "from here")]);
     }
-    // Statement by statement the corrected text is the program: so each of its findings has a place in the original.
+    // Statement by statement the corrected text is the program: so each of its findings has a place in the
+    // original.
     let origins: Vec<StatementOrigin> =
         program.live_statements().map(|(_, statement)| StatementOrigin::from_statement(statement)).collect();
     let is_new = |found: &Diagnostic| {
@@ -187,8 +189,8 @@ fn find_new_findings(
     Ok(found.into_iter().filter(is_new).collect())
 }
 
-/// The findings of the original, counted by code and statement. Messages do not tell them apart: a changed number in one
-/// makes no new finding.
+/// The findings of the original, counted by code and statement. Messages do not tell them apart: a changed
+/// number in one makes no new finding.
 struct KnownFindings(BTreeMap<(DiagnosticCode, Option<StatementOrigin>), usize>);
 
 impl KnownFindings {

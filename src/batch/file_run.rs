@@ -149,6 +149,7 @@ fn read_input(path: &Path) -> io::Result<(Vec<u8>, InputStamp)> {
     }
     let mut file = fs::File::open(path)?;
     let there = file.metadata()?;
+    // The length only reserves memory; without it, the list grows as it is read.
     let mut bytes = Vec::with_capacity(usize::try_from(there.len()).unwrap_or_default());
     file.read_to_end(&mut bytes)?;
     Ok((bytes, InputStamp::from_metadata(&there)))

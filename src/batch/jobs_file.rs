@@ -122,7 +122,9 @@ pub fn load_jobs(source: &Arc<Source>, path: &Path) -> Result<BatchJobs, Failure
     let document = YamlDocument::parse(source)?;
     let text: BatchJobsText = document.deserialize_checked(word_jobs_fault)?;
     let at = |path: &[YamlPathSegment<'_>]| {
-        let span = document.value_span(path).unwrap_or_default();
+        let span = document.value_span(path);
+        debug_assert!(span.is_some(), "the value was read from this place");
+        let span = span.unwrap_or_default();
         Some(JobsFileLocation { source: Arc::clone(source), span })
     };
     let base = path.parent().map(Path::to_path_buf).unwrap_or_default();

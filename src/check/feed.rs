@@ -79,6 +79,7 @@ fn check_feed(feed: Feed, from: StatementId, motion: &Motion, found: &mut LintFi
 
 fn describe_implausible(feed: Feed, found: &LintFindings<'_>) -> Option<String> {
     let unit = feed.unit_or_default();
+    // A file that states no unit is measured in millimetres, as everywhere.
     let value = feed.value * unit.length_unit(found.facts.units.unwrap_or_default())?.mm_per_unit();
     let (slow, fast, word) =
         if unit.is_per_revolution() { (0.0, COARSEST, "mm/rev") } else { (SLOWEST, FASTEST, "mm/min") };

@@ -208,6 +208,7 @@ impl<'p> LintFindings<'p> {
 
     /// Converts a length from millimetres to the file's unit.
     pub(crate) fn mm_to_file_unit(&self, value: f64) -> f64 {
+        // A file that states no unit is measured in millimetres, as everywhere.
         value / self.facts.units.unwrap_or_default().mm_per_unit()
     }
 }

@@ -1,8 +1,9 @@
-//! An argument of the command line that means nothing.
+//! This module holds the error for an argument of the command line that is not valid.
 
 use std::borrow::Cow;
 
-/// Why an argument means nothing, as a sentence without its full stop; clap shows it beside the argument.
+/// The reason why an argument is not valid, as a sentence without a full stop. clap shows it beside the
+/// argument.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct BadArgument(Cow<'static, str>);

@@ -1,4 +1,4 @@
-//! `clsmith check`.
+//! This module runs `clsmith check`.
 
 use super::command_exit::CommandExit;
 use super::finding_args::{FindingArgs, FindingFormat};
@@ -26,7 +26,7 @@ Examples:
   clsmith check --format line part.cls               file:line:column: CODE: message
   clsmith check --format sarif part.cls > out.sarif";
 
-/// Finds what is wrong with programs, with the exact place
+/// Finds faults of programs, with their exact places
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct CheckArgs {
@@ -61,7 +61,7 @@ impl CheckArgs {
                 worst = CommandExit::Errors;
             }
             match self.findings.format {
-                // One document for all files.
+                // There is a single document for all files.
                 FindingFormat::Json | FindingFormat::Sarif => all.extend(found),
                 FindingFormat::Human | FindingFormat::Line => {
                     self.findings.write_findings(

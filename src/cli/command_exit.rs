@@ -1,31 +1,31 @@
-//! Exit codes, as the help documents them.
+//! This module holds exit codes, as the help documents them.
 
 use std::process::ExitCode;
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum CommandExit {
-    /// Nothing stands in the way.
+    /// The work is done.
     Done,
     /// `diff`: the meanings differ.
     Differ,
-    /// Errors; the program they are in was not written.
+    /// There are errors. Nothing was written for the file in which they are.
     Errors,
     /// The command line is wrong.
     Usage,
     /// Ctrl-C.
     Interrupted,
-    /// Whoever read the output went away before it was all written.
+    /// The reader of the output went away before everything was written.
     NobodyReads,
-    /// `hook`: the post's code, or the hook's own.
+    /// `hook` returns the code of the post, or its own.
     Posted(i32),
 }
 
 impl CommandExit {
-    /// Ends the process. Everything that has to be tidied up is gone by now.
+    /// Ends the process. All destructors have run by now.
     pub fn exit_process(self) -> ExitCode {
         match self {
-            // Windows has codes beyond a byte, and cut to one 256 would be success.
+            // Windows has codes beyond a byte. Cut to a byte, 256 would be success.
             Self::Posted(code) => std::process::exit(code),
             exit => exit.into(),
         }

@@ -1,4 +1,4 @@
-//! Writing outputs, and Ctrl-C.
+//! This module writes outputs and handles Ctrl-C.
 
 use super::input_files::STANDARD;
 use crate::cli::stop::Stop;
@@ -8,7 +8,7 @@ use std::io::{self, Write};
 use std::path::Path;
 use std::sync::{Arc, LockResult, Mutex, MutexGuard};
 
-/// Where outputs are written: one at a time, and to its end or not at all.
+/// The writer of outputs. It writes one at a time, either completely or not at all.
 #[derive(Clone, Default)]
 pub struct CommandOutputs {
     interrupt: Interrupt,
@@ -16,13 +16,13 @@ pub struct CommandOutputs {
 }
 
 impl CommandOutputs {
-    /// The wish to stop.
+    /// Returns the request to stop.
     pub fn interrupt(&self) -> &Interrupt {
         &self.interrupt
     }
 
-    /// Ctrl-C ends the process at once, but while an output is written: then the writer stops between two chunks and takes its
-    /// temporary file along. `before` is done before the last word.
+    /// Makes Ctrl-C end the process at once, except while an output is written. Then the writer stops between
+    /// two chunks and removes its temporary file. `before` is called before the last message.
     pub fn stop_on_ctrl_c(&self, before: impl Fn() + Send + 'static) -> io::Result<()> {
         let Self { interrupt, writing } = self.clone();
         ctrlc::set_handler(move || {
@@ -36,8 +36,8 @@ impl CommandOutputs {
         .map_err(io::Error::other)
     }
 
-    /// For work on many files: the first Ctrl-C asks it to stop, so that it can end what it began, the second ends the process
-    /// at once. `before` is done before any word.
+    /// Makes the first Ctrl-C ask work on many files to stop, so that it can finish what it has begun. The
+    /// second one ends the process at once. `before` is called before any message.
     pub fn stop_gently(&self, before: impl Fn() + Send + 'static) -> io::Result<()> {
         let interrupt = self.interrupt.clone();
         ctrlc::set_handler(move || {
@@ -55,7 +55,8 @@ impl CommandOutputs {
     /// Writes an output.
     ///
     /// # Errors
-    /// Returns a finding where the file cannot be written, Ctrl-C, or that the reader of standard output went away.
+    /// Returns a finding if the file cannot be written, an interruption, or that the reader of standard
+    /// output went away.
     pub fn write_output(
         &self,
         target: &Path,
@@ -65,12 +66,13 @@ impl CommandOutputs {
         self.write_held_output(target, write_all)
     }
 
-    /// Keeps Ctrl-C from ending the process at once, for who has something to take away first and looks at the interrupt.
+    /// Keeps Ctrl-C from ending the process at once, for a caller that must remove something first and checks
+    /// the interrupt.
     pub fn hold_ctrl_c(&self) -> LockResult<MutexGuard<'_, ()>> {
         self.writing.lock()
     }
 
-    /// As [`CommandOutputs::write_output`], for who holds the outputs already.
+    /// Does the same as [`CommandOutputs::write_output`], for a caller that already holds the outputs.
     pub fn write_held_output(
         &self,
         target: &Path,
@@ -91,7 +93,7 @@ impl CommandOutputs {
     }
 }
 
-/// Refuses outputs that would go over an input; standard input and output are no files.
+/// Refuses outputs that would overwrite an input. Standard input and output are no files.
 ///
 /// # Errors
 /// Returns a finding about the first such output.
@@ -109,12 +111,13 @@ pub fn refuse_overwritten_input<'a>(
     found.map_or(Ok(()), |found| Err(found.into()))
 }
 
-/// An output that cannot be written.
+/// Reports an output that cannot be written.
 pub fn report_unwritable(target: &Path, error: &io::Error) -> Diagnostic {
     Diagnostic::new(codes::UNWRITABLE, format!("{} cannot be written: {error}", target.display()))
 }
 
-/// What only people see may fail: with `clsmith ... 2>&1 | head` the outputs are still written.
+/// Ignores a closed pipe. What only people see may fail: with `clsmith ... 2>&1 | head` the outputs are still
+/// written.
 pub fn ignore_closed_pipe(shown: io::Result<()>) -> io::Result<()> {
     match shown {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
@@ -122,7 +125,7 @@ pub fn ignore_closed_pipe(shown: io::Result<()>) -> io::Result<()> {
     }
 }
 
-/// A summary on standard output, or on standard error when an output goes there.
+/// Prints a summary on standard output, or on standard error if an output goes there.
 pub fn print_summary(text: &str, output_is_taken: bool) -> io::Result<()> {
     if output_is_taken {
         return io::stderr().lock().write_all(text.as_bytes());

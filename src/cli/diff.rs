@@ -1,4 +1,4 @@
-//! `clsmith diff`.
+//! This module runs `clsmith diff`.
 
 use super::command_exit::CommandExit;
 use super::finding_args::FindingArgs;

@@ -1,4 +1,4 @@
-//! Options of findings, and showing them.
+//! This module holds the options of findings, and shows findings.
 
 use super::terminal::{self, ColorMode};
 use clap::{Args, ValueEnum};
@@ -7,10 +7,10 @@ use clsmith::report::finding_policy::{FindingPolicy, FindingPolicyError};
 use clsmith::report::render::{human, json, line, sarif};
 use std::io::{self, Write};
 
-/// Form of findings.
+/// The format of findings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum FindingFormat {
-    /// With the lines they are about, for people.
+    /// With the lines of the program, for people
     Human,
     /// `file:line:column: CODE: message`, for editors.
     Line,
@@ -23,7 +23,7 @@ pub enum FindingFormat {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Findings")]
 pub struct FindingArgs {
-    /// Treat a code as an error; `warnings` for all of them. May be given several times
+    /// Treat a code as an error; `warnings` treats all of them so. It may be given several times
     #[arg(long, value_name = "CODE", value_delimiter = ',')]
     deny: Vec<String>,
     /// Let a code pass: it stops nothing, and is counted as allowed by hand. May be given several times
@@ -32,20 +32,20 @@ pub struct FindingArgs {
     /// Show notes, too
     #[arg(long)]
     notes: bool,
-    /// Form of the findings
+    /// The format of the findings
     #[arg(long, value_enum, default_value = "human", value_name = "FORM")]
     pub format: FindingFormat,
-    /// How many findings of one step and code are shown to people where there are more than three, the worst first; 0
-    /// shows all. The others are counted, with their lines
+    /// How many findings of one step and code are shown to people where there are more than three, the worst
+    /// first; 0 shows all. The others are counted, with their lines
     #[arg(long, default_value_t = 1, value_name = "N")]
     max_per_code: usize,
-    /// Colours in what people read
+    /// When to use colours
     #[arg(long, value_enum, default_value = "auto", value_name = "WHEN")]
     pub color: ColorMode,
 }
 
 impl FindingArgs {
-    /// The policy that the options ask for.
+    /// Returns the policy of the options.
     pub fn build_policy(&self) -> Result<FindingPolicy, FindingPolicyError> {
         FindingPolicy::from_code_lists(
             self.deny.iter().map(String::as_str),
@@ -54,7 +54,7 @@ impl FindingArgs {
         )
     }
 
-    /// Writes findings in the form asked for. `file` is the run's one file, if it has one.
+    /// Writes findings in the requested format. `file` is the file of the run, if there is only one.
     pub fn write_findings(
         &self,
         out: &mut dyn Write,

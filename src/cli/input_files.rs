@@ -1,4 +1,4 @@
-//! Reading inputs: CL files, recipes and setups, from files and from standard input.
+//! This module reads inputs: CL files, recipes and setups, from files and from standard input.
 
 use crate::cli::bad_argument::BadArgument;
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
@@ -27,7 +27,7 @@ pub fn read_source(path: &Path) -> Result<Arc<Source>, Failure> {
     })?)
 }
 
-/// Reads a file that another file names, which knows where; `-` is standard input.
+/// Reads a file that another file names, which knows the place of the name; `-` is standard input.
 pub fn read_bytes(path: &Path) -> Result<Arc<Source>, SourceReadError> {
     let standard = path == Path::new(STANDARD);
     let name = if standard { "standard input".to_owned() } else { path.to_string_lossy().into_owned() };
@@ -46,15 +46,15 @@ pub fn read_setup(path: &Path) -> Result<Setup, Failure> {
     Setup::load(&read_source(path)?)
 }
 
-/// A recipe and the setup that counts for it.
+/// A recipe and the setup in force.
 pub struct LoadedRecipe {
     pub recipe: Recipe,
     pub setup: Setup,
-    /// The texts that were read for them, the recipe first.
+    /// The texts that were read for them, with the recipe first.
     pub texts: Vec<Arc<Source>>,
 }
 
-/// Reads a recipe, the setup file it names (beside it), and the one of the command line.
+/// Reads a recipe, the setup file that it names (beside it), and the one of the command line.
 pub fn read_recipe(path: &Path, setup: Option<&Path>) -> Result<LoadedRecipe, Failure> {
     let texts = RefCell::new(Vec::new());
     let keep = |source: &Arc<Source>| texts.borrow_mut().push(Arc::clone(source));
@@ -70,7 +70,7 @@ pub fn read_recipe(path: &Path, setup: Option<&Path>) -> Result<LoadedRecipe, Fa
     Ok(LoadedRecipe { recipe, setup, texts: texts.into_inner() })
 }
 
-/// The path of a file that a recipe names: relative to the recipe's folder.
+/// Returns the path of a file that a recipe names, relative to the recipe's folder.
 pub fn path_beside_recipe(recipe: &Path, name: &str) -> PathBuf {
     recipe.parent().unwrap_or(Path::new("")).join(name)
 }
@@ -98,7 +98,7 @@ pub fn parse_length_unit(text: &str) -> Result<LengthUnit, BadArgument> {
     }
 }
 
-/// Reads a time in seconds, more than none.
+/// Reads a time in seconds, which must be above 0.
 pub fn parse_seconds(text: &str) -> Result<Duration, BadArgument> {
     let seconds = text.parse().ok().filter(|&seconds: &f64| seconds > 0.0);
     seconds

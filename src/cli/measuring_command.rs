@@ -1,4 +1,4 @@
-//! The course of a command that measures one program by its setup: `simulate` and `chips`.
+//! This module runs commands that measure one program with its setup: `simulate` and `chips`.
 
 use crate::cli::command_exit::CommandExit;
 use crate::cli::command_outputs::{CommandOutputs, ignore_closed_pipe, print_summary};
@@ -15,23 +15,23 @@ use clsmith::report::finding_policy::FindingPolicy;
 use std::io;
 use std::path::Path;
 
-/// What every such command is given.
+/// The arguments of every such command.
 pub struct MeasuringCommand<'a> {
     /// The program.
     pub program: &'a Path,
-    /// Where outputs go.
+    /// The paths of outputs.
     pub outputs: Vec<&'a Path>,
-    /// Neither summary nor progress.
+    /// Whether to print neither summary nor progress.
     pub quiet: bool,
-    /// Threads; as many as there are cores if `None`.
+    /// The number of threads. With `None` it is the number of cores.
     pub threads: Option<u16>,
-    /// Which findings stop, and how they are shown.
+    /// The options of findings.
     pub findings: &'a FindingArgs,
 }
 
-/// Findings, and who stops the run on the way: what a command's own part gets.
+/// What a command's own part gets: findings, and who may stop the run.
 pub struct MeasuringContext<'r> {
-    /// Which findings stop.
+    /// The policy of findings.
     pub policy: &'r FindingPolicy,
     /// Progress, and Ctrl-C.
     pub progress: &'r CommandProgress,
@@ -40,8 +40,8 @@ pub struct MeasuringContext<'r> {
 }
 
 impl MeasuringContext<'_> {
-    /// Reads a program and checks it. A text that cannot be read stops the run; what else is wrong with the program is seen
-    /// better in the measurement.
+    /// Reads a program and checks it. A text that cannot be read stops the run; what else is wrong with the
+    /// program is seen better in the measurement.
     pub fn read_program(&mut self, path: &Path, dialect: Option<Dialect>) -> Result<Program, Stop> {
         let source = crate::cli::input_files::read_source(path)?;
         let parsed = parse(&source, dialect);
@@ -57,9 +57,9 @@ impl MeasuringContext<'_> {
 }
 
 impl MeasuringCommand<'_> {
-    /// Measures, tells, and writes. The outputs of a measurement are written also when errors were found in the program: they
-    /// show where. `problem` is what is wrong with the command line; `measure`
-    /// makes everything but the outputs; `write` writes the outputs.
+    /// Measures, tells, and writes. The outputs of a measurement are written also when errors were found in
+    /// the program: they show where. `problem` is what is wrong with the command line; `measure` makes
+    /// everything but the outputs; `write` writes the outputs.
     pub fn run_measurement<T>(
         &self,
         problem: Option<String>,
@@ -94,7 +94,7 @@ impl MeasuringCommand<'_> {
             self.show_findings(&findings)?;
         }
         if !self.quiet {
-            // Standard output may be an output's.
+            // An output may go to standard output.
             let is_taken = self.outputs.contains(&Path::new(STANDARD));
             ignore_closed_pipe(print_summary(&summary(&measured), is_taken))?;
         }

@@ -1,4 +1,4 @@
-//! The command line: one file for each command, over a library that knows nothing of it.
+//! This module holds the command line, with one file for each command, over a library that does not know it.
 
 mod apply;
 mod bad_argument;
@@ -64,10 +64,10 @@ Exit codes:
   130  stopped by Ctrl-C; no half file is left
   141  the reader of the output went away (`| head`)";
 
-/// Reads, checks, corrects and writes cutter-location data: Siemens NX CLSF, CATIA APT, Creo NCL and kin.
+/// Reads, checks, corrects and writes cutter-location data: Siemens NX CLSF, CATIA APT, Creo NCL and others.
 ///
-/// Stands between the CAM system's export and the post-processor. What a recipe does not change is written byte for byte;
-/// no program is written while an error stands.
+/// It runs between the CAM system's export and the post-processor. What a recipe does not change is written
+/// byte for byte, and nothing is written if there is an error.
 #[derive(Debug, Parser)]
 #[command(name = "clsmith", version, after_help = EXAMPLES, max_term_width = 100)]
 struct Cli {

@@ -1,4 +1,5 @@
-//! Which endings the files of an output may have: what is in a file must be what its ending promises to the next program.
+//! Which endings the files of an output may have: what is in a file must be what its ending promises to the
+//! next program.
 
 use super::input_files::STANDARD;
 use std::path::Path;
@@ -33,7 +34,7 @@ const NO_PROGRAM: &[&str] = &[
 ];
 
 impl OutputContent {
-    /// The endings that fit; the first is the usual one.
+    /// Returns the endings that fit; the first is the usual one.
     fn endings(self) -> &'static [&'static str] {
         match self {
             Self::Program => &[],
@@ -63,8 +64,8 @@ impl OutputContent {
     }
 }
 
-/// Finds the first output whose ending promises something else than what is written; says what to write instead. A file
-/// without an ending promises nothing.
+/// Finds the first output whose ending promises something else than what is written; says what to write
+/// instead. A file without an ending promises nothing.
 pub fn find_wrong_ending<'a>(
     outputs: impl IntoIterator<Item = (&'static str, Option<&'a Path>, OutputContent)>,
 ) -> Option<String> {

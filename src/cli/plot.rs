@@ -1,4 +1,4 @@
-//! `clsmith plot`.
+//! This module runs `clsmith plot`.
 
 use super::command_exit::CommandExit;
 use super::command_outputs::{CommandOutputs, ignore_closed_pipe, refuse_overwritten_input};
@@ -31,23 +31,23 @@ Examples:
 chip, removal, force, torque and power are simulated, and need stock and tools: see configs/README.md. The ending of
 the output says what it is, .svg or .png; `-` is SVG on standard output. The same bytes come out whatever the machine.";
 
-/// Draws feed, chips, loads or z of a program along time or path, as SVG or PNG
+/// Draws feed, chips, loads or z of a program over time or path, as SVG or PNG
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct PlotArgs {
     /// The program; `-` is standard input
     #[arg(value_name = "PROGRAM")]
     program: PathBuf,
-    /// A second program, drawn over the first, which then is grey
+    /// A second program that is drawn over the first, which is grey then
     #[arg(long, value_name = "PROGRAM")]
     after: Option<PathBuf>,
-    /// A setup file: stock and tools, and how fast rapids are
+    /// A setup file: stock and tools, and the feed of rapids
     #[arg(long, value_name = "FILE")]
     setup: Option<PathBuf>,
-    /// What to draw, a panel each
+    /// What to draw, with a panel for each quantity
     #[arg(long, value_enum, value_name = "WHAT", value_delimiter = ',', default_value = "feed,z")]
     of: Vec<PlotQuantityArg>,
-    /// What goes to the right
+    /// The horizontal axis
     #[arg(long, value_enum, value_name = "AXIS", default_value = "time")]
     along: PlotAxisArg,
     /// Where to write: a file that ends in .svg or .png, or `-` for SVG on standard output
@@ -66,7 +66,7 @@ pub struct PlotArgs {
     pub(in crate::cli) findings: FindingArgs,
 }
 
-/// What goes up.
+/// The quantity of the vertical axis.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum PlotQuantityArg {
     /// Programmed feed, mm/min
@@ -100,7 +100,7 @@ impl PlotQuantityArg {
     }
 }
 
-/// What goes to the right.
+/// The quantity of the horizontal axis.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum PlotAxisArg {
     /// Time, s; without dwells and acceleration
@@ -109,25 +109,25 @@ enum PlotAxisArg {
     Path,
 }
 
-/// Whether a drawing goes into a PNG.
+/// Returns whether a drawing is written as PNG.
 pub fn is_png(path: &Path) -> bool {
     path.extension().is_some_and(|end| end.eq_ignore_ascii_case("png"))
 }
 
-/// A drawing as the file's ending wants it.
+/// Encodes a drawing in the format of the file's extension.
 pub fn encode_drawing(path: &Path, svg: String) -> io::Result<Vec<u8>> {
     if is_png(path) { plot::render_png(&svg) } else { Ok(svg.into_bytes()) }
 }
 
-/// A drawing, and what is missing in it.
+/// A drawing, with remarks about what is missing in it.
 struct PlotDrawing {
-    /// `None` where no panel has a curve.
+    /// The drawing. It is `None` if no panel has a curve.
     svg: Option<String>,
     /// A sentence for each panel without a curve.
     empty: Vec<String>,
 }
 
-/// Says that a panel is empty, and how it would not be.
+/// Explains why a panel is empty, and how to fill it.
 fn explain_empty_panel(
     plotted: &[PlottedProgram<'_>],
     quantity: PlotQuantity,
@@ -135,12 +135,12 @@ fn explain_empty_panel(
 ) -> String {
     let name = quantity.name();
     if along == PlotAbscissa::Path {
-        return format!("the panel of {name} is empty: nothing is known of it");
+        return format!("the panel of {name} is empty, because no value is known");
     }
     let helps =
         !plot::build_panels(plotted, &[quantity], PlotAbscissa::Path).iter().all(CurvePanel::is_empty);
     let help = if helps { "; try --along path" } else { "" };
-    format!("the panel of {name} is empty: nothing is known of it along time{help}")
+    format!("the panel of {name} is empty, because no value is known over time{help}")
 }
 
 impl PlotArgs {
@@ -170,7 +170,7 @@ impl PlotArgs {
             empty.iter().for_each(|sentence| eprintln!("clsmith plot: {sentence}"));
         }
         let Some(svg) = svg else {
-            eprintln!("clsmith plot: there is nothing to draw, nothing was written");
+            eprintln!("clsmith plot: there is nothing to draw, so nothing was written");
             return Ok(CommandExit::Errors);
         };
         let bytes = encode_drawing(&self.output, svg)?;
@@ -181,7 +181,7 @@ impl PlotArgs {
         Ok(if refused { CommandExit::Errors } else { CommandExit::Done })
     }
 
-    /// What is wrong with the command line beyond what clap can say.
+    /// Returns the fault of the command line, as far as clap cannot find it.
     fn find_usage_problem(&self) -> Option<String> {
         let standard = Path::new(STANDARD);
         if let Some(wrong) = find_wrong_ending([("-o", Some(&*self.output), OutputContent::Drawing)]) {
@@ -193,7 +193,7 @@ impl PlotArgs {
         }
         let simulated = self.of.iter().map(|what| what.quantity()).find(|quantity| quantity.is_simulated());
         let quantity = simulated.filter(|_| self.setup.is_none())?;
-        Some(format!("--of {} is simulated, and needs --setup with stock and tools", quantity.name()))
+        Some(format!("--of {} needs a simulation; add --setup with stock and tools", quantity.name()))
     }
 
     fn draw_panels(
@@ -267,7 +267,7 @@ impl PlotArgs {
         Ok(SimulationReport::simulate_program(&machining, &SimulationRunOptions::default(), progress)?)
     }
 
-    /// The output may be no input, nor a file that the setup names.
+    /// Checks that the output is no input, and no file that the setup names.
     fn check_outputs(&self, setup: &Setup) -> Result<(), Stop> {
         let mut inputs = vec![self.program.as_path()];
         inputs.extend([&self.after, &self.setup].into_iter().filter_map(|path| path.as_deref()));

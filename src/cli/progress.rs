@@ -1,11 +1,11 @@
-//! How far a simulation is, with the time left, on a terminal.
+//! This module shows the progress of a simulation on a terminal, with the remaining time.
 
 use super::terminal;
 use clsmith::output_files::Interrupt;
 use clsmith::simulation_run::RunWatcher;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// A bar on standard error; nothing is drawn where that is no terminal, or nobody wants it.
+/// A bar on standard error. Nothing is drawn if it is no terminal, or if it is not wanted.
 pub struct CommandProgress {
     bar: ProgressBar,
     interrupt: Interrupt,
@@ -33,12 +33,12 @@ impl CommandProgress {
         self.bar.reset();
     }
 
-    /// Takes the bar away.
+    /// Removes the bar.
     pub fn clear_bar(&self) {
         self.bar.finish_and_clear();
     }
 
-    /// What takes the bar away, for the handler of Ctrl-C.
+    /// Returns a function that removes the bar, for the handler of Ctrl-C.
     pub fn clear_on_ctrl_c(&self) -> impl Fn() + Send + 'static {
         let bar = self.bar.clone();
         move || bar.finish_and_clear()
@@ -47,7 +47,7 @@ impl CommandProgress {
 
 impl RunWatcher for CommandProgress {
     fn report_progress(&self, done: f64, whole: f64) {
-        // Tenths of a millimetre, so that short paths move, too.
+        // Lengths are counted in tenths of a millimetre, so that short paths move the bar, too.
         let tenths = |length: f64| (length * 10.0) as u64;
         self.bar.set_length(tenths(whole).max(1));
         self.bar.set_position(tenths(done));

@@ -1,4 +1,5 @@
-//! Commands that print what clsmith knows about itself: `transforms`, `schema`, `explain`, `completions`, `man`.
+//! This module holds commands that print what clsmith knows about itself: `transforms`, `schema`, `explain`,
+//! `completions`, `man`.
 
 use super::command_exit::CommandExit;
 use crate::cli::stop::Stop;
@@ -33,13 +34,13 @@ impl TransformsArgs {
             Some(text) => print_text(&text),
             None => {
                 let steps = transform::NAMES.join(", ");
-                Err(Stop::Usage(format!("`{name}` is no step; the steps are {steps}")))
+                Err(Stop::Usage(format!("`{name}` is not a step; the steps are {steps}")))
             }
         }
     }
 }
 
-/// Prints the JSON Schema of recipes, for editors to complete and check from
+/// Prints the JSON Schema of recipes, with which editors complete and check
 #[derive(Debug, Args)]
 #[command(
     after_help = "Examples:\n  clsmith schema > clsmith-recipe.schema.json\n  clsmith schema --setup > clsmith-setup.schema.json\n  clsmith schema --select > clsmith-select.schema.json\n  clsmith schema --jobs > clsmith-jobs.schema.json"
@@ -99,7 +100,7 @@ pub struct CompletionsArgs {
 
 impl CompletionsArgs {
     pub fn run(&self, command: &mut clap::Command) -> Result<CommandExit, Stop> {
-        // Into memory first: clap_complete takes a closed pipe for a bug.
+        // The script is made in memory first, because clap_complete treats a closed pipe as a bug.
         let mut script = Vec::new();
         clap_complete::generate(self.shell, command, "clsmith", &mut script);
         io::stdout().lock().write_all(&script)?;

@@ -1,4 +1,4 @@
-//! `--report` and `--summary`: what changed, as a page and as Markdown.
+//! This module writes `--report` and `--summary`: what changed, as a page and as Markdown.
 
 use super::command_outputs::CommandOutputs;
 use super::output_endings::{OutputContent, find_wrong_ending};
@@ -11,28 +11,28 @@ use std::path::{Path, PathBuf};
 /// Reports for people.
 #[derive(Debug, Args)]
 pub struct ReportArgs {
-    /// What changed as one HTML page: tables, charts, the path in 3D. Simulates the program before and after when the setup
-    /// has stock and tools
+    /// What changed as an HTML page: tables, charts, the path in 3D. It simulates the program before and
+    /// after if the setup has stock and tools
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
-    /// What changed as Markdown, for merge requests. Simulates as --report does
+    /// What changed as Markdown, for merge requests. It simulates like --report
     #[arg(long, value_name = "FILE")]
     summary: Option<PathBuf>,
 }
 
 impl ReportArgs {
-    /// Whether any is asked for.
+    /// Returns whether a report is requested.
     pub fn is_wanted(&self) -> bool {
         self.named_outputs().next().is_some()
     }
 
-    /// The options that are given, with their files.
+    /// Returns the options that are given, with their files.
     pub fn named_outputs(&self) -> impl Iterator<Item = (&'static str, &Path)> {
         let both = [("--report", &self.report), ("--summary", &self.summary)];
         both.into_iter().filter_map(|(name, path)| Some((name, path.as_deref()?)))
     }
 
-    /// What is wrong with the ending of a file.
+    /// Returns what is wrong with the ending of a file.
     pub fn find_wrong_ending(&self) -> Option<String> {
         find_wrong_ending([
             ("--report", self.report.as_deref(), OutputContent::Page),
@@ -40,7 +40,7 @@ impl ReportArgs {
         ])
     }
 
-    /// The files.
+    /// Returns the files.
     pub fn output_paths(&self) -> impl Iterator<Item = &Path> {
         self.named_outputs().map(|(_, path)| path)
     }

@@ -1,4 +1,4 @@
-//! `clsmith stats`.
+//! This module runs `clsmith stats`.
 
 use super::command_exit::CommandExit;
 use super::finding_args::FindingArgs;
@@ -22,7 +22,7 @@ Examples:
   clsmith stats --units inch part.ncl        for a file that does not state its unit
   clsmith stats --setup shop.yaml part.cls   with the time of rapids, if the machine's rapid_feed is known";
 
-/// Says what is in programs: operations, tools, lengths, times, feeds, box
+/// Measures programs: operations, tools, lengths, times, feeds, bounding box
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct StatsArgs {

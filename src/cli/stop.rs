@@ -1,4 +1,4 @@
-//! Why a command ended before its end, and the one place that tells it.
+//! This module holds the reason why a command ended early, and is the only place that reports it.
 
 use super::command_exit::CommandExit;
 use super::command_outputs::ignore_closed_pipe;
@@ -9,23 +9,23 @@ use clsmith::report::finding_policy::FindingPolicyError;
 use std::io;
 use std::path::Path;
 
-/// Why a command ended before its end. Commands hand it on by `?`; [`Stop::finish_command`] tells it.
+/// The reason why a command ended early. Commands pass it on by `?`, and [`Stop::finish_command`] reports it.
 #[derive(Debug)]
 pub enum Stop {
-    /// Findings stand in the way. `file` is the one file that they are about, where there is one.
+    /// There are findings. `file` is the only file to which they belong, if there is one.
     Found { findings: Vec<Diagnostic>, file: Option<String> },
-    /// The command line asks for what cannot be.
+    /// The command line is not valid.
     Usage(String),
     /// The system does not let us read standard input, write standard output or start a thread.
     Io(io::Error),
     /// Ctrl-C.
     Interrupted,
-    /// The command has told all there is to tell.
+    /// The command has reported everything.
     Exit(CommandExit),
 }
 
 impl Stop {
-    /// Says which file findings are about, unless that is known already.
+    /// Sets the file of findings, unless it is known already.
     #[must_use]
     pub fn about(self, path: &Path) -> Self {
         match self {
@@ -36,10 +36,11 @@ impl Stop {
         }
     }
 
-    /// Tells what stopped the work on one file of several. Gives the exit code of that file, so that the next can begin.
+    /// Reports what stopped the work on one file of several. Returns the exit code of that file, so that the
+    /// next one can begin.
     ///
     /// # Errors
-    /// Returns what stops the others as well.
+    /// Returns what also stops the others.
     pub fn tell_of_one_file(self, args: &FindingArgs) -> Result<CommandExit, Self> {
         match self {
             Self::Found { findings, file } => {
@@ -54,7 +55,7 @@ impl Stop {
         }
     }
 
-    /// Tells what stopped a command. Gives its exit code.
+    /// Reports what stopped a command. Returns its exit code.
     pub fn finish_command(self, command: &str, args: Option<&FindingArgs>) -> CommandExit {
         let stop = match args {
             Some(args) => match self.tell_of_one_file(args) {
@@ -72,7 +73,8 @@ impl Stop {
                 eprintln!("clsmith {command}: {problem}");
                 CommandExit::Usage
             }
-            // A reader that has seen enough (`clsmith ... | head`) is no error of ours, but the work was not done either.
+            // A reader that has seen enough (`clsmith ... | head`) is not our error, but the work was not
+            // done either.
             Self::Io(error) if error.kind() == io::ErrorKind::BrokenPipe => CommandExit::NobodyReads,
             Self::Io(error) => {
                 eprintln!("clsmith: {error}");

@@ -1,4 +1,4 @@
-//! What the terminal can do.
+//! This module finds out what the terminal can do.
 
 use clap::ValueEnum;
 use std::io::IsTerminal;
@@ -6,16 +6,16 @@ use std::io::IsTerminal;
 /// When to use colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum ColorMode {
-    /// On a terminal, unless NO_COLOR is set.
+    /// On a terminal, unless NO_COLOR is set
     Auto,
-    /// Always.
+    /// Always
     Always,
-    /// Never.
+    /// Never
     Never,
 }
 
 impl ColorMode {
-    /// Whether to write colours to a stream that is a terminal or not.
+    /// Returns whether to write colours to a stream that is a terminal or not.
     pub fn is_wanted(self, is_terminal: bool) -> bool {
         match self {
             Self::Always => true,
@@ -25,17 +25,17 @@ impl ColorMode {
     }
 }
 
-/// Whether standard error is a terminal.
+/// Returns whether standard error is a terminal.
 pub fn is_stderr_terminal() -> bool {
     std::io::stderr().is_terminal()
 }
 
-/// Whether standard output is a terminal.
+/// Returns whether standard output is a terminal.
 pub fn is_stdout_terminal() -> bool {
     std::io::stdout().is_terminal()
 }
 
-/// Columns to draw in: those COLUMNS says, else 100.
+/// Returns the columns to draw in: the value of COLUMNS, else 100.
 pub fn width_columns() -> usize {
     std::env::var("COLUMNS")
         .ok()
@@ -44,7 +44,7 @@ pub fn width_columns() -> usize {
         .unwrap_or(100)
 }
 
-/// Whether lines and arrows may be other than ASCII: the locale says UTF-8, or nothing at all.
+/// Returns whether lines and arrows may be other than ASCII: the locale is UTF-8, or not set.
 pub fn has_unicode() -> bool {
     let locale = ["LC_ALL", "LC_CTYPE", "LANG"]
         .into_iter()
@@ -53,7 +53,7 @@ pub fn has_unicode() -> bool {
     locale.is_none_or(|value| value.to_ascii_uppercase().replace('-', "").contains("UTF8"))
 }
 
-/// A name as it may be shown: one from outside must not be able to talk to the terminal.
+/// Returns a name that is safe to show. One from outside must not send commands to the terminal.
 pub fn escape_controls(name: &str) -> String {
     name.replace(char::is_control, "?")
 }

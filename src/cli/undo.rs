@@ -1,4 +1,4 @@
-//! `clsmith undo`.
+//! This module runs `clsmith undo`.
 
 use super::command_exit::CommandExit;
 use super::command_outputs::{CommandOutputs, refuse_overwritten_input};
@@ -24,7 +24,7 @@ unless the file is the one that the run wrote and what comes out is the original
 last one first. Only `apply --json` writes such a report; pages (`apply --report`), logs of hooks and results of
 batches are none.";
 
-/// Gives the original back, from a corrected program and the report of the run
+/// Restores the original from a corrected program and the report of the run
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct UndoArgs {

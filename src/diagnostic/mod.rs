@@ -77,10 +77,11 @@ pub struct Diagnostic {
     pub help: Option<String>,
     /// Whether `--allow` named its code. It is then counted and shown as allowed by hand, and stops nothing.
     pub is_allowed: bool,
-    /// The step of the recipe that found it, from 1; `None` for findings about the input or the whole run.
+    /// The step of the recipe that found it, from 1. It is `None` for findings about the input or the whole
+    /// run.
     pub step: Option<usize>,
-    /// How bad it is beside others of its code, in the unit of its message (a depth, a load); the largest is shown
-    /// first. `None` where they are alike.
+    /// How bad it is beside others of its code, in the unit of its message (a depth, a load); the largest is
+    /// shown first. `None` where they are alike.
     pub magnitude: Option<f64>,
 }
 
@@ -121,7 +122,8 @@ impl Diagnostic {
         self
     }
 
-    /// Returns whether no program may be written while the finding stands: it is an error that nobody allowed.
+    /// Returns whether no program may be written while the finding stands: it is an error that nobody
+    /// allowed.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error && !self.is_allowed
     }

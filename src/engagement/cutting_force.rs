@@ -133,7 +133,9 @@ impl LoadModel {
         rpm: f64,
     ) -> CuttingLoads {
         let per_turn = feed_mm_min / rpm;
-        let elements = self.elements.get(contact.elements.clone()).unwrap_or_default();
+        let elements = self.elements.get(contact.elements.clone());
+        debug_assert!(elements.is_some(), "a contact has elements of its own edge");
+        let elements = elements.unwrap_or_default();
         let (mut force, mut torque) = (0.0_f64, 0.0_f64);
         for look in self.looks.chunks(self.teeth.count()) {
             let mut sum = ForceSum::default();

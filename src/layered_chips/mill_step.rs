@@ -113,6 +113,7 @@ impl MillStep {
         // A turn that is only rounding becomes zero, so that a section keeps its shape to the last bit.
         let turn = if turn < 1e-10 { 0.0 } else { turn };
         // Gram-Schmidt: the part of the last axis across the first one gives the direction of the turn.
+        // It is only used by steps that turn, so a step without a turn may leave it zero.
         let across = (to - from * from.dot(&to)).try_normalize(0.0).filter(|_| turn > 0.0);
         let tip = upright(piece.from.point.coords);
         let end = [upright(piece.to.point.coords), to];

@@ -175,7 +175,9 @@ impl<S> Recipe<S> {
     ) -> Result<Setup, Failure> {
         let Some(path) = &self.setup_file else { return Ok(Setup::default()) };
         let source = read(path).map_err(|reason| {
-            let span = self.value_span(&[YamlPathSegment::Key("setup_file")]).unwrap_or_default();
+            let span = self.value_span(&[YamlPathSegment::Key("setup_file")]);
+            debug_assert!(span.is_some(), "the path was read from this key");
+            let span = span.unwrap_or_default();
             let message = format!("the setup file `{path}` cannot be read: {reason}");
             Diagnostic::new(codes::SETUP_FILE, message).with_label(&self.source, span, "named here")
         })?;

@@ -6,7 +6,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error as _};
 
-/// Which part of the program a step applies to. What is given must all fit; of a list, one has to. Empty: everything.
+/// Which part of the program a step applies to. What is given must all fit; of a list, one has to. Empty:
+/// everything.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MotionFilter {
@@ -26,8 +27,9 @@ pub struct MotionFilter {
     /// match.
     #[serde(default, deserialize_with = "deserialize_feed_range")]
     pub feed: Option<FeedRange>,
-    /// Whether it is an error if nothing in the program fits, which is the rule: a step that selects nothing is most often
-    /// a name with a slip. `false` for recipes that serve programs of which some have nothing to select.
+    /// Whether it is an error if nothing in the program fits, which is the rule: a step that selects nothing
+    /// is most often a name with a slip. `false` for recipes that serve programs of which some have nothing
+    /// to select.
     #[serde(default = "default_required")]
     pub required: bool,
 }
@@ -73,7 +75,7 @@ impl MotionFilter {
         self.operations.is_none() && self.tools.is_none() && self.motions.is_none() && self.feed.is_none()
     }
 
-    /// Whether a motion is meant. What is asked for but not known does not fit.
+    /// Returns whether a motion is meant. What is asked for but not known does not fit.
     ///
     /// ```
     /// use clsmith::parameters::Glob;
@@ -81,16 +83,16 @@ impl MotionFilter {
     /// use clsmith::recipe::{MotionFacts, MotionFilter};
     ///
     /// let filter = MotionFilter {
-    ///     operations: Some(vec![Glob::new("POCKET*")?]),
-    ///     motions: Some(vec![MotionClass::Engage]),
-    ///     ..MotionFilter::default()
+    /// operations: Some(vec![Glob::new("POCKET*")?]),
+    /// motions: Some(vec![MotionClass::Engage]),
+    /// ..MotionFilter::default()
     /// };
     /// let mut facts = MotionFacts {
-    ///     operation: Some("POCKET_1"),
-    ///     tool_number: Some(3),
-    ///     tool_name: None,
-    ///     motion: Some(MotionClass::Engage),
-    ///     feed: Some(600.0),
+    /// operation: Some("POCKET_1"),
+    /// tool_number: Some(3),
+    /// tool_name: None,
+    /// motion: Some(MotionClass::Engage),
+    /// feed: Some(600.0),
     /// };
     /// assert!(filter.matches_motion(&facts));
     /// facts.motion = Some(MotionClass::Cut);

@@ -5,8 +5,8 @@ use super::parameters::{Glob, ToolPattern};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// Which statements a step applies to. What is given must all fit; of a list, one has to. Kinds of motion and feeds belong to
-/// motions, not to statements, so they cannot be asked for here.
+/// Which statements a step applies to. What is given must all fit; of a list, one has to. Kinds of motion and
+/// feeds belong to motions, not to statements, so they cannot be asked for here.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StatementFilter {
@@ -19,8 +19,8 @@ pub struct StatementFilter {
     #[serde(default, deserialize_with = "deserialize_not_empty")]
     #[schemars(length(min = 1))]
     pub tools: Option<Vec<ToolPattern>>,
-    /// Whether it is an error if nothing in the program fits; `false` for recipes that serve programs of which some have
-    /// nothing to select.
+    /// Whether it is an error if nothing in the program fits; `false` for recipes that serve programs of
+    /// which some have nothing to select.
     #[serde(default = "default_required")]
     pub required: bool,
 }
@@ -45,7 +45,8 @@ impl From<&StatementFilter> for MotionFilter {
     }
 }
 
-/// Which operations a step applies to; all of them when nothing is said. A part of an operation cannot move on its own.
+/// Which operations a step applies to; all of them when nothing is said. A part of an operation cannot move
+/// on its own.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OperationFilter {
@@ -53,8 +54,8 @@ pub struct OperationFilter {
     #[serde(default, deserialize_with = "deserialize_not_empty")]
     #[schemars(length(min = 1))]
     pub operations: Option<Vec<Glob>>,
-    /// Whether it is an error if nothing in the program fits; `false` for recipes that serve programs of which some have
-    /// nothing to select.
+    /// Whether it is an error if nothing in the program fits; `false` for recipes that serve programs of
+    /// which some have nothing to select.
     #[serde(default = "default_required")]
     pub required: bool,
 }

@@ -132,7 +132,9 @@ impl RecipeRules {
 
     fn report_no_rule(&self, facts: &RecipeRuleFacts) -> Diagnostic {
         let message = format!("no rule matches this program: {facts}");
-        let span = self.key_span("otherwise").or_else(|| self.key_span("rules")).unwrap_or_default();
+        let span = self.key_span("otherwise").or_else(|| self.key_span("rules"));
+        debug_assert!(span.is_some(), "a file of rules has the key `rules`");
+        let span = span.unwrap_or_default();
         Diagnostic::new(codes::NO_RULE, message).with_label(&self.source, span, "none of these, then stop")
     }
 

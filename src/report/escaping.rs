@@ -1,4 +1,4 @@
-//! Text of files as HTML and as Markdown that show it and do nothing else.
+//! This module escapes text of files in HTML and Markdown, so that it is only shown.
 
 use crate::presentation::safe_text::{to_safe_line, to_visible_character};
 

@@ -1,11 +1,11 @@
-//! What a code means, at length.
+//! This module explains the meaning of a code in full.
 
 use crate::diagnostic::{CATALOGUE, DiagnosticCode};
 use std::fmt::Write;
 
 const WIDTH: usize = 80;
 
-/// Everything the catalogue knows of a code, wrapped at 80 columns.
+/// Returns everything that the catalogue contains about a code, wrapped at 80 columns.
 ///
 /// ```
 /// use clsmith::diagnostic::codes;
@@ -24,7 +24,7 @@ pub fn explain_code(code: DiagnosticCode) -> String {
     text
 }
 
-/// All codes, one line each: code, severity, meaning.
+/// Returns all codes, one on each line: code, severity, meaning.
 pub fn list_codes() -> String {
     let mut text = String::new();
     for code in CATALOGUE.iter().flat_map(|rows| rows.iter()) {
@@ -34,7 +34,7 @@ pub fn list_codes() -> String {
     text
 }
 
-/// Wraps paragraphs; lines that start with a blank are a table or an example and stay as they are.
+/// Wraps paragraphs. Lines that start with a blank belong to a table or an example and stay.
 fn wrap_paragraphs(text: &str) -> String {
     let mut wrapped = String::new();
     for line in text.lines() {

@@ -1,4 +1,4 @@
-//! Which findings stand, and how bad they are: `--deny`, `--allow`, `--notes`.
+//! This module decides which findings are shown with which severity: `--deny`, `--allow`, `--notes`.
 
 use crate::diagnostic::codes::{
     BAD_RESULTS, BAD_UNDO, EXIT_CODE_SHARED, INPUT_CHANGED, LEAVES_FOLDER, NEWER_RUN_REPORT, NO_RULE,
@@ -11,7 +11,7 @@ use crate::source::Span;
 use std::cmp::Ordering;
 use std::fmt;
 
-/// What the user wants of findings.
+/// The user's wishes about findings.
 ///
 /// ```
 /// use clsmith::diagnostic::{Diagnostic, codes};
@@ -39,7 +39,7 @@ pub struct FindingPolicy {
     pub notes: bool,
 }
 
-/// Findings that end a run; dropping them would end it without a word.
+/// Findings that end a run. Dropping them would end it without a message.
 const NEVER_ALLOWED: &[DiagnosticCode] = &[
     UNREADABLE,
     UNWRITABLE,
@@ -66,10 +66,10 @@ const NEVER_ALLOWED: &[DiagnosticCode] = &[
     BAD_UNDO,
 ];
 
-/// Findings about the run itself; without them a program would go on, or be left, and nobody knew.
+/// Findings about the run itself. Without them a program would be passed on or left unnoticed.
 const NEVER_SILENT: &[DiagnosticCode] = &[PASSED_ORIGINAL, EXIT_CODE_SHARED, LEAVES_FOLDER];
 
-/// Why `--deny` and `--allow` make no policy.
+/// The reason why `--deny` and `--allow` make no policy.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FindingPolicyError {
@@ -82,10 +82,10 @@ pub enum FindingPolicyError {
     /// The finding ends the run, which must not end without a word.
     #[error("{code} cannot be allowed: {meaning} ends the run", code = .0, meaning = .0.meaning())]
     EndsRun(DiagnosticCode),
-    /// The finding is about the run itself.
-    #[error("{code} cannot be allowed, it is always told: {meaning}", code = .0, meaning = .0.meaning())]
+    /// The finding ends the run, which must not end without a message.
+    #[error("{code} cannot be allowed, because it is always reported: {meaning}", code = .0, meaning = .0.meaning())]
     AlwaysTold(DiagnosticCode),
-    /// The code stands in both lists.
+    /// The code is in both lists.
     #[error("{0} is both denied and allowed")]
     DeniedAndAllowed(DiagnosticCode),
 }
@@ -95,7 +95,7 @@ pub enum FindingPolicyError {
 pub struct UnknownCode {
     /// The text.
     pub text: String,
-    /// The code that it is most like.
+    /// The code that is most similar.
     pub nearest: Option<DiagnosticCode>,
 }
 
@@ -112,7 +112,8 @@ impl fmt::Display for UnknownCode {
 impl std::error::Error for UnknownCode {}
 
 impl FindingPolicy {
-    /// Reads what `--deny` and `--allow` were given: codes in any case, and `warnings` to deny every warning.
+    /// Reads the values of `--deny` and `--allow`: codes in upper or lower case, and `warnings` to deny every
+    /// warning.
     ///
     /// # Errors
     /// Returns the first word that is no code, is both denied and allowed, or cannot be allowed.
@@ -148,10 +149,11 @@ impl FindingPolicy {
         Ok(policy)
     }
 
-    /// The findings that stand, with their severities, sorted by file, place and code and each only once.
+    /// Returns the findings that remain with their severities, sorted by file, place and code and without
+    /// duplicates.
     ///
-    /// A denied note is shown even if notes are not. A finding whose code is named in `allow` stays among the findings and
-    /// is marked as allowed; it stops nothing, even if warnings are denied.
+    /// A denied note is shown even if notes are not. A finding whose code is named in `allow` stays among the
+    /// findings and is marked as allowed; it stops nothing, even if warnings are denied.
     pub fn apply(&self, mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
         for found in &mut diagnostics {
             found.is_allowed = self.allow.contains(&found.code);
@@ -175,7 +177,8 @@ pub fn sort_findings(diagnostics: &mut Vec<Diagnostic>) {
     diagnostics.dedup_by(|a, b| compare_findings(a, b) == Ordering::Equal);
 }
 
-/// Compares all there is, so that equal means duplicate and the order does not depend on who found it first.
+/// Compares all fields, so that equal findings are duplicates and the order does not depend on who found them
+/// first.
 fn compare_findings(a: &Diagnostic, b: &Diagnostic) -> Ordering {
     finding_place(a)
         .cmp(&finding_place(b))
@@ -196,7 +199,7 @@ fn label_parts(label: &DiagnosticLabel) -> (&str, Span, &str) {
     (label.source.name(), label.span, &label.message)
 }
 
-/// Looks up a code that a user typed, in any case.
+/// Returns the code that a user typed in upper or lower case.
 ///
 /// # Errors
 /// Returns the text and the nearest code.

@@ -1,9 +1,10 @@
-//! What a run has to say: findings filtered, sorted and rendered.
+//! This module reports the results of a run: findings are filtered, sorted and rendered.
 //!
-//! [`finding_policy`] decides which findings stand and how bad they are, [`render`] turns them into text, and [`explain`] answers
-//! questions about a code. [`stats`] measures a program, [`diff`] compares two by meaning, [`unified_diff`] shows what steps made
-//! of one as a patch, and [`changes`] counts it. [`simulation`] presents what tools cut and bear, [`layered_chips`] what
-//! they cut layer by layer. Everything is written into a writer that the caller hands in, or returned.
+//! [`finding_policy`] decides which findings are shown with which severity, [`render`] turns them into text,
+//! and [`explain`] explains a code. [`stats`] measures a program, [`diff`] compares two by meaning,
+//! [`unified_diff`] shows what steps have made of one as a patch, and [`changes`] counts it. [`simulation`]
+//! presents what tools cut and how they are loaded, and [`layered_chips`] what they cut layer by layer.
+//! Everything is returned, or written to a writer of the caller.
 
 pub mod changes;
 pub mod comparison;
@@ -32,7 +33,7 @@ use crate::program::motion::ActiveTool;
 use crate::program::{Program, Statement, StatementChange};
 use serde::Serialize;
 
-/// A report as one JSON document, indented and with a line end.
+/// Returns a report as a JSON document, indented and with a line end.
 fn to_json_text(report: &impl Serialize) -> String {
     // Strings, numbers and lists always serialize; only a writer or a map with odd keys could fail.
     let mut text = serde_json::to_string_pretty(report).unwrap_or_default();
@@ -40,13 +41,14 @@ fn to_json_text(report: &impl Serialize) -> String {
     text
 }
 
-/// The 1-based line a statement stands on in its file; `None` for one that was not in the file.
+/// Returns the line of a statement in its file, counted from 1. Returns `None` for one that was not in the
+/// file.
 fn statement_line(program: &Program, statement: &Statement) -> Option<usize> {
     let in_file = !matches!(statement.change(), StatementChange::Inserted(_));
     in_file.then(|| program.source().line_column(statement.origin().start).0)
 }
 
-/// A tool by its number where it is known, else by its name; empty for one of which nothing is known.
+/// Returns a tool's number if it is known, else its name. The text is empty if neither is known.
 fn tool_name(tool: Option<&ActiveTool>) -> String {
     let named = tool.and_then(|tool| {
         let number = tool.number.map(|number| number.to_string());

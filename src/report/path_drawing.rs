@@ -1,6 +1,6 @@
-//! Line drawings as SVG: panels in two columns, each with a few paths laid over each other.
+//! This module draws lines as SVG: panels in two columns, each with a few paths on top of each other.
 //!
-//! Sizes are fixed and no fonts are measured, so the same paths make the same bytes.
+//! Sizes are fixed and no fonts are measured, so the same paths give the same bytes.
 
 pub use crate::presentation::path_panel::{PanelPath, PanelPathStyle, PathPanel};
 
@@ -11,7 +11,7 @@ use std::io;
 /// Width and height of a panel in pixels.
 const PANEL: (u32, u32) = (640, 380);
 
-/// Room around the drawing inside a panel: margins and labels.
+/// The space around the drawing inside a panel: margins and labels.
 const LABELS: (u32, u32) = (100, 61);
 
 /// Height of a panel's title.
@@ -26,10 +26,10 @@ fn shape_style(look: PanelPathStyle) -> ShapeStyle {
     }
 }
 
-/// Draws panels; `None` when there are none.
+/// Draws panels. Returns `None` if there are none.
 ///
 /// # Errors
-/// What the drawing library returns, which for a drawing in memory is nothing.
+/// Returns the errors of the drawing library. A drawing in memory has none.
 pub fn draw_path_panels(panels: &[PathPanel]) -> io::Result<Option<String>> {
     if panels.is_empty() {
         return Ok(None);
@@ -71,7 +71,7 @@ fn draw_path_panel(area: &SvgArea<'_>, panel: &PathPanel) -> io::Result<()> {
     draw_line_names(&mut chart, 13, 0.85)
 }
 
-/// What a panel shows to the right and up: everything, a little room around it, and one scale where that is asked for.
+/// Returns the ranges of both axes: everything with a small margin, and the same scale if the panel has one.
 fn find_axis_ranges(panel: &PathPanel) -> [(f64, f64); 2] {
     let points = || panel.paths.iter().flat_map(|path| &path.points);
     let range = |value: fn(&(f64, f64)) -> f64| {

@@ -1,9 +1,9 @@
-//! The steps of recipes, described from the doc comments that their parameters carry.
+//! This module describes the steps of recipes from the doc comments of their parameters.
 
 use crate::transform;
 use serde_json::{Map, Value};
 
-/// One line for each step: its name and the first sentence of its description.
+/// Returns one line for each step: its name and the first sentence of its description.
 pub fn list_steps() -> String {
     let mut text = String::new();
     for name in transform::NAMES {
@@ -15,7 +15,7 @@ pub fn list_steps() -> String {
     text
 }
 
-/// What a step does and what its parameters are. `None` when there is no such step.
+/// Returns what a step does, with its parameters. Returns `None` if there is no such step.
 ///
 /// ```
 /// use clsmith::report::step_descriptions::describe_step;
@@ -39,7 +39,7 @@ fn schema_description(schema: &Value) -> String {
     schema.get("description").and_then(Value::as_str).unwrap_or_default().to_owned()
 }
 
-/// Deeper parameters than this are rules of their own and explained where they stand.
+/// Parameters that are nested deeper than this are rules of their own and explained elsewhere.
 const DEEPEST: usize = 4;
 
 fn append_parameters(schema: &Value, definitions: &Map<String, Value>, depth: usize, text: &mut String) {
@@ -67,7 +67,7 @@ fn append_parameters(schema: &Value, definitions: &Map<String, Value>, depth: us
     }
 }
 
-/// Follows `$ref`, and the one alternative of an optional value that is not null.
+/// Follows `$ref`, and the alternative of an optional value that is not null.
 fn resolve_schema(schema: &Value, definitions: &Map<String, Value>) -> Value {
     if let Some(name) = schema.get("$ref").and_then(Value::as_str).and_then(|path| path.rsplit('/').next()) {
         return definitions
@@ -82,7 +82,7 @@ fn resolve_schema(schema: &Value, definitions: &Map<String, Value>) -> Value {
     }
 }
 
-/// The kind of a value in a few words.
+/// Words the kind of a value.
 fn describe_value_kind(schema: &Value, definitions: &Map<String, Value>) -> String {
     let words = |key: &str| {
         let values = schema.get(key).and_then(Value::as_array)?;
@@ -123,7 +123,7 @@ fn describe_item_kind(items: &Value, definitions: &Map<String, Value>) -> String
     describe_value_kind(&resolve_schema(items, definitions), definitions)
 }
 
-/// Paragraphs and items of lists wrapped to 96 columns; indented lines (examples) stay as they are.
+/// Wraps paragraphs and items of lists to 96 columns. Indented lines (examples) stay.
 fn wrap_paragraphs(text: &str, depth: usize) -> String {
     let indent = "  ".repeat(depth);
     let mut lines: Vec<String> = Vec::new();
@@ -151,7 +151,7 @@ fn wrap_paragraphs(text: &str, depth: usize) -> String {
     lines.join("\n")
 }
 
-/// The words of a paragraph, each with whether it is the dash that starts an item of a list.
+/// Returns the words of a paragraph, each with whether it is the dash at the start of a list item.
 fn split_words(paragraph: &str) -> impl Iterator<Item = (&str, bool)> {
     paragraph.lines().flat_map(|line| {
         let dash = line.trim_start().starts_with("- ");

@@ -1,4 +1,4 @@
-//! What was made over a surface: findings, a summary, and the drawing of one plane.
+//! This module reports a program over a surface: findings, a summary, and the drawing of one plane.
 
 use super::path_drawing::{PanelPath, PanelPathStyle, PathPanel, draw_path_panels};
 use crate::diagnostic::{Diagnostic, codes};
@@ -10,10 +10,10 @@ use crate::write::new_program::can_write_arcs;
 use std::fmt::Write;
 use std::io;
 
-/// Arcs are drawn in so many chords a radian.
+/// The number of chords per radian with which arcs are drawn.
 const CHORDS: f64 = 24.0;
 
-/// What stands in the way of writing it, and what its user should know.
+/// Returns the findings that prevent writing it, and those that its user should know.
 pub fn collect_findings(surfaced: &SurfaceProgram, options: &SurfaceMillingOptions) -> Vec<Diagnostic> {
     let units = options.words.units;
     let proof = &surfaced.proof;
@@ -37,7 +37,7 @@ pub fn collect_findings(surfaced: &SurfaceProgram, options: &SurfaceMillingOptio
         found.push(Diagnostic::new(codes::NOT_WITHIN_TOLERANCE, message));
     }
     if options.words.spindle_rpm.is_none() {
-        let message = "no `--spindle` is given, so the program says no spindle speed";
+        let message = "no `--spindle` is given, so the program has no spindle speed";
         found.push(Diagnostic::new(codes::SECTION_WITHOUT_SPINDLE, message));
     }
     let left = surfaced.unreached.iter().max_by(|a, b| a.left_mm.total_cmp(&b.left_mm));
@@ -55,7 +55,7 @@ pub fn collect_findings(surfaced: &SurfaceProgram, options: &SurfaceMillingOptio
     found
 }
 
-/// The summary, a few lines.
+/// Returns the summary, a few lines.
 pub fn to_text(surfaced: &SurfaceProgram, options: &SurfaceMillingOptions, name: &str) -> String {
     let units = options.words.units;
     let mm_per_unit = units.mm_per_unit();
@@ -102,11 +102,10 @@ pub fn to_text(surfaced: &SurfaceProgram, options: &SurfaceMillingOptions, name:
     text
 }
 
-/// The middle plane: the part's line, its points shifted one by one (which gouges), and the tip's path; and the same where shifting gouges
-/// deepest.
+/// Draws the middle plane: the line of the part, its points shifted one by one (which gouges), and the tip's
+/// path. The same is drawn where shifting gouges deepest.
 ///
-/// # Errors
-/// What the drawing library returns, which for a drawing in memory is nothing.
+/// Returns the errors of the drawing library. A drawing in memory has none.
 pub fn draw_middle_plane(surfaced: &SurfaceProgram, options: &SurfaceMillingOptions) -> io::Result<String> {
     let Some((offset, line, tips)) = &surfaced.figure else { return Ok(String::new()) };
     let units = options.words.units;
@@ -161,16 +160,18 @@ pub fn draw_middle_plane(surfaced: &SurfaceProgram, options: &SurfaceMillingOpti
         );
         panels.push(panel(title, close.collect()));
     }
+    // There is always the panel of the middle plane, so the drawing is never empty.
     Ok(draw_path_panels(&panels)?.unwrap_or_default())
 }
 
-/// The parts of a path in a window (least and most to the right, least and most up).
+/// Returns the parts of a path in a window (least and largest abscissa, least and largest ordinate).
 fn clip_path(path: PanelPath, [left, right, low, high]: [f64; 4]) -> Vec<PanelPath> {
     let mut parts: Vec<Vec<(f64, f64)>> = Vec::new();
     for pair in path.points.windows(2) {
         let [(u0, z0), (u1, z1)] = *pair else { continue };
         let (du, dz) = (u1 - u0, z1 - z0);
-        // From which share of the line to which it is inside all four sides (Liang and Barsky 1984).
+        // Liang and Barsky 1984: the line is inside between the last entry and the first exit across the four
+        // sides, as fractions of its length.
         let (mut from, mut to) = (0.0f64, 1.0f64);
         for (across, inside) in [(-du, u0 - left), (du, right - u0), (-dz, z0 - low), (dz, high - z0)] {
             let share = inside / across;
@@ -191,18 +192,19 @@ fn clip_path(path: PanelPath, [left, right, low, high]: [f64; 4]) -> Vec<PanelPa
             None => parts.push(vec![start, end]),
         }
     }
-    // One entry in the legend for all parts.
+    // All parts have a single entry in the legend.
     let name = |index: usize| if index == 0 { path.name.clone() } else { String::new() };
     let part = |(index, points)| PanelPath { name: name(index), look: path.look, points };
     parts.into_iter().enumerate().map(part).collect()
 }
 
-/// Every contact point by itself: contact + R (n - z), n the upward normal (Dragoi 2009, eq. (1) and (2)).
+/// Shifts every contact point by itself: contact + R (n - z), with the upward normal n (Dragoi 2009, eq. (1)
+/// and (2)).
 fn shift_contact_points(line: &Chain, radius: f64) -> Vec<Point> {
     let mut points = Vec::new();
     for piece in line.pieces() {
         let count = match piece {
-            // Dense, so that a window shows all of it.
+            // The points are dense, so that a window shows all of the line.
             ChainPiece::Line(line) => {
                 (line.from.distance(line.to) / radius * CHORDS).ceil().clamp(1.0, 2000.0)
             }
@@ -211,7 +213,7 @@ fn shift_contact_points(line: &Chain, radius: f64) -> Vec<Point> {
         let mut part = 0.0;
         while part <= count {
             let (at, along) = (piece.point_at(part / count), piece.direction_at(part / count));
-            // Turned to the left, and up.
+            // The normal is the tangent rotated to the left, or its opposite if that points down.
             let up = if along.u < 0.0 { -1.0 } else { 1.0 };
             points.push(Point::new(at.u - up * radius * along.z, at.z + up * radius * along.u - radius));
             part += 1.0;
@@ -220,7 +222,7 @@ fn shift_contact_points(line: &Chain, radius: f64) -> Vec<Point> {
     points
 }
 
-/// A chain as points to draw.
+/// Returns a chain as points for a drawing.
 fn sample_chain(chain: &Chain) -> Vec<Point> {
     let mut points = vec![chain.start()];
     for piece in chain.pieces() {
@@ -245,7 +247,7 @@ fn ordinate_title(units: LengthUnit) -> &'static str {
     if units == LengthUnit::Inch { "z, inch" } else { "z, mm" }
 }
 
-/// A small length in the program's unit, without trailing zeros.
+/// Formats a small length in the program's unit, without trailing zeros.
 fn format_fine_length(length_mm: f64, units: LengthUnit) -> String {
     format_trimmed_number(length_mm / units.mm_per_unit(), 6)
 }

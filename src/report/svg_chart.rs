@@ -1,7 +1,7 @@
-//! The set-up that all drawings share: an SVG of a fixed size, a chart with axes in a part of it, and the
-//! names of its lines.
+//! This module sets up all drawings: an SVG of a fixed size, a chart with axes in a part of it, and the names
+//! of its lines.
 //!
-//! Sizes are fixed and no fonts are measured, so the same data make the same bytes.
+//! Sizes are fixed and no fonts are measured, so the same data give the same bytes.
 
 use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
@@ -17,7 +17,7 @@ pub(super) type SvgArea<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 pub(super) type SvgChart<'area, 'text> =
     ChartContext<'area, SVGBackend<'text>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
-/// What stands around the lines of a chart. Sizes are in pixels.
+/// The surroundings of a chart's lines. Sizes are in pixels.
 #[derive(Clone, Copy)]
 pub(super) struct ChartFrame<'a> {
     /// The text above the chart and the size of its letters.
@@ -30,13 +30,13 @@ pub(super) struct ChartFrame<'a> {
     pub bottom_labels: u32,
     /// Whether thin lines across the chart continue the marks of the axes.
     pub grid_lines: bool,
-    /// How many numbers stand along the axis to the right and along the one up, about.
+    /// The approximate number of numbers along the horizontal and the vertical axis.
     pub label_counts: [usize; 2],
     /// Size of the numbers along the axes.
     pub label_font: u32,
-    /// Whether the axis to the right is labelled with whole numbers.
+    /// Whether the horizontal axis has whole numbers.
     pub whole_right_labels: bool,
-    /// What goes to the right and what goes up, and the size of these letters.
+    /// The labels of the horizontal and the vertical axis, and the size of their letters.
     pub axis_texts: Option<([&'a str; 2], u32)>,
 }
 
@@ -57,7 +57,7 @@ impl Default for ChartFrame<'_> {
 }
 
 impl ChartFrame<'_> {
-    /// Draws the frame into `area` and gives the chart in it, whose axes have these ranges.
+    /// Draws the frame into `area` and returns its chart, whose axes have these ranges.
     pub fn draw<'area, 'text>(
         &self,
         area: &'area SvgArea<'text>,
@@ -94,10 +94,10 @@ impl ChartFrame<'_> {
     }
 }
 
-/// Draws a picture of so many pixels: `draw` gets the whole of it, white.
+/// Draws a picture of so many pixels. `draw` gets the whole white area.
 ///
 /// # Errors
-/// What the drawing library returns, which for a drawing in memory is nothing.
+/// Returns the errors of the drawing library. A drawing in memory has none.
 pub(super) fn draw_svg(
     size: (u32, u32),
     draw: impl FnOnce(&SvgArea<'_>) -> io::Result<()>,
@@ -112,7 +112,7 @@ pub(super) fn draw_svg(
     Ok(text)
 }
 
-/// Adds a line to a chart. A name that is not empty stands beside a sample `sample_width` pixels thick, once
+/// Adds a line to a chart. A name that is not empty is shown beside a sample of `sample_width` pixels, once
 /// [`draw_line_names`] is called.
 pub(super) fn draw_line(
     chart: &mut SvgChart<'_, '_>,
@@ -129,7 +129,8 @@ pub(super) fn draw_line(
     Ok(())
 }
 
-/// Writes the names of the lines into the upper right corner of a chart, on a white ground of this opacity.
+/// Writes the names of the lines into the upper right corner of a chart, on a white background of this
+/// opacity.
 pub(super) fn draw_line_names<'area, 'text: 'area>(
     chart: &mut SvgChart<'area, 'text>,
     font: u32,
@@ -145,7 +146,7 @@ pub(super) fn draw_line_names<'area, 'text: 'area>(
         .map_err(drawing_error)
 }
 
-/// An error of the drawing library as one of input and output.
+/// Converts an error of the drawing library to an error of input and output.
 pub(super) fn drawing_error(error: impl Display) -> io::Error {
     io::Error::other(format!("the drawing failed: {error}"))
 }

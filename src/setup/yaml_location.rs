@@ -52,6 +52,7 @@ impl YamlLocation {
 
     fn nearest_span(&self, find: impl Fn(&[YamlPathSegment<'static>]) -> Option<Span>) -> Span {
         let paths = (0..=self.path.len()).rev().filter_map(|count| self.path.get(..count));
+        // The root of a document always has a place; an empty file has nothing else to point at.
         paths.filter_map(find).next().unwrap_or_default()
     }
 }

@@ -138,12 +138,9 @@ impl PieceBatch {
         let found: Vec<(MotionPiece, Engagement)> = self.steps.drain(..).zip(engaged).collect();
         // Faults are checked for whole motions, so that each motion has at most one finding of a kind.
         for (number, motion, cutter, range) in self.motions.drain(..) {
-            let cut = EngagedMotion {
-                motion: &motion,
-                number,
-                cutter,
-                pieces: found.get(range).unwrap_or_default(),
-            };
+            let pieces = found.get(range);
+            debug_assert!(pieces.is_some(), "a motion has pieces of this batch");
+            let cut = EngagedMotion { motion: &motion, number, cutter, pieces: pieces.unwrap_or_default() };
             if let (Some(whole), Some(cutter)) =
                 (cut.whole_engagement(), cutter.and_then(|index| cutters.get(index)))
             {

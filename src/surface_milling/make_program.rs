@@ -160,7 +160,9 @@ pub fn make_surface_program(
     })?;
     let unreached = match &ground {
         PassGround::Profile { dense, .. } => {
-            find_unreachable_parts(dense, options.radius_mm, options.tolerance_mm).unwrap_or_default()
+            let found = find_unreachable_parts(dense, options.radius_mm, options.tolerance_mm);
+            debug_assert!(found.is_ok(), "this profile was compensated before: {found:?}");
+            found.unwrap_or_default()
         }
         PassGround::Mesh { .. } => Vec::new(),
     };

@@ -119,6 +119,7 @@ fn clamp_to_limits(feed: f64, actual: f64, (min, max): (f64, f64), decimals: usi
     let power = 10f64.powi(printed_decimals(limit, decimals));
     let nearest = (limit * power).round();
     let passes = |steps: f64| steps / power * rate > too_high || steps / power * rate < too_low;
+    // The nearest printed feed may lie on the wrong side of the limit; then the next one inside is taken.
     let inside = if actual > max { nearest - 1.0 } else { nearest + 1.0 };
     let steps = match passes(nearest) {
         false => nearest,

@@ -1,5 +1,5 @@
-//! This module reports a `where:` that selects nothing. Its help names the conditions that nothing in the program
-//! matches, the nearest names, and what there is.
+//! This module reports a `where:` that selects nothing. Its help names the conditions that nothing in the
+//! program matches, the nearest names, and what there is.
 
 use super::StepContext;
 use crate::diagnostic::{Diagnostic, Severity, codes};
@@ -11,8 +11,8 @@ use crate::recipe::{FeedRange, MotionFilter};
 /// The largest number of names that a list shows. The rest is counted.
 const MOST_LISTED: usize = 8;
 
-/// Reports that a `where` selects nothing. `kind` is what it selects: `motion`, `statement` or `operation`. It is an
-/// error if the selection is required, and otherwise a note.
+/// Reports that a `where` selects nothing. `kind` is what it selects: `motion`, `statement` or `operation`.
+/// It is an error if the selection is required, and otherwise a note.
 pub(super) fn report_nothing_selected(
     kind: &str,
     wanted: &MotionFilter,

@@ -168,6 +168,7 @@ pub(super) fn printed_decimals(feed: f64, own: usize) -> i32 {
 /// tolerance requires.
 pub(super) fn round_feed_down(feed: f64, own: usize) -> f64 {
     let power = 10f64.powi(printed_decimals(feed, own));
+    // The factor keeps a feed that is already rounded from losing its last digit to a rounding error.
     let down = (feed * power * (1.0 + 1e-12)).floor() / power;
     if down > 0.0 { down } else { feed }
 }

@@ -1,5 +1,5 @@
-//! Slips that a person makes with units and decimal points, found before they reach a machine: factors, targets and
-//! feeds that are far from anything that is milled.
+//! Slips that a person makes with units and decimal points, found before they reach a machine: factors,
+//! targets and feeds that are far from anything that is milled.
 //!
 //! What is unusual is a warning; what no machine does is an error, which `--allow` passes.
 
@@ -16,7 +16,8 @@ const USUAL_FACTORS: std::ops::RangeInclusive<f64> = 0.05..=10.0;
 /// Factors outside are absurd: a percentage that was not divided by 100 mostly is.
 const POSSIBLE_FACTORS: std::ops::RangeInclusive<f64> = 0.01..=50.0;
 
-/// A feed that is so many times the machine's highest is a slip of units (25.4) or of a decimal point, no request.
+/// A feed that is so many times the machine's highest is a slip of units (25.4) or of a decimal point, no
+/// request.
 const ABSURD_FEED: f64 = 20.0;
 
 /// Reports a factor that looks like a slip. `keys` lead to it in the step.
@@ -31,7 +32,8 @@ pub(super) fn check_factor(factor: f64, keys: &[&str], context: &mut StepContext
     context.findings.push(found.with_help(help));
 }
 
-/// Finds the feeds of a program that are above the machine's `max_feed`, one finding for each statement that sets one.
+/// Finds the feeds of a program that are above the machine's `max_feed`, one finding for each statement that
+/// sets one.
 pub fn find_feeds_above_machine(
     program: &Program,
     setup: &Setup,

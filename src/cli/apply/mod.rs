@@ -1,4 +1,4 @@
-//! `clsmith apply`.
+//! This module runs `clsmith apply`.
 
 mod outputs;
 mod usage_problem;
@@ -53,27 +53,27 @@ pub struct ApplyArgs {
     /// Where to write: a file, `-` for standard output, or with several inputs a folder
     #[arg(short, long, value_name = "PATH", required_unless_present_any = ["dry_run", "diff"])]
     output: Option<PathBuf>,
-    /// Run and report, write nothing
+    /// Where to write: a file, `-` for standard output, or a folder if there are several inputs
     #[arg(long)]
     dry_run: bool,
     /// Show the changed lines on standard output as a patch; writes nothing unless -o is given
     #[arg(long)]
     diff: bool,
-    /// Draw what the steps did as SVG, or PNG where the file ends so: ramps before and after
+    /// Draw what the steps did as SVG, or as PNG if the file ends in .png: ramps before and after
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
     #[command(flatten)]
     reports: ReportArgs,
-    /// What changed as JSON, with all that `clsmith undo` needs to give the original back
+    /// What changed as JSON, with everything that `clsmith undo` needs to restore the original
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// What the output says about the run, in comments: none, header or comments; overrides the recipe
+    /// What the output states about the run, in comments: none, header or comments. It overrides the recipe
     #[arg(long, value_parser = input_files::parse_provenance, value_name = "WHAT")]
     provenance: Option<Provenance>,
     /// A setup file; overrides the recipe's setup
     #[arg(long, value_name = "FILE")]
     setup: Option<PathBuf>,
-    /// The dialect, instead of finding it from the text
+    /// A setup file. It overrides the recipe's setup
     #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
     dialect: Option<Dialect>,
     /// Say nothing but findings
@@ -91,16 +91,16 @@ impl ApplyArgs {
         let LoadedRecipe { mut recipe, setup, texts } =
             loaded.map_err(|failure| Stop::from(failure).about(&self.recipe))?;
         recipe.provenance = self.provenance.unwrap_or(recipe.provenance);
-        // It reads models and stock once more, so not for nothing.
+        // The fingerprint reads models and stock once more, so it is only computed if it is needed.
         let needed = self.json.is_some() || recipe.provenance != Provenance::None;
         let wanted = needed || self.reports.is_wanted();
         let print = match wanted.then(|| RecipeFingerprint::read_files(&texts, &recipe, &setup)).transpose() {
             Ok(print) => print,
-            // A page says itself what it cannot read, and goes without.
+            // A page reports itself what it cannot read.
             Err(_) if !needed => None,
             Err(failure) => return Err(Stop::from(failure).about(&self.recipe)),
         };
-        // The recipe is the first of them.
+        // The first one is the recipe.
         let setup_files = texts.get(1..).unwrap_or_default();
         let outputs = CommandOutputs::default();
         let progress = CommandProgress::new(self.quiet, outputs.interrupt());
@@ -153,7 +153,8 @@ impl ApplyArgs {
             .map_err(|stop| stop.about(Path::new(source.name())))
     }
 
-    /// Tells what was found, and writes what is asked for: analysis always, the program while no error stands.
+    /// Tells what was found, and writes what is asked for: analysis always, the program while no error
+    /// stands.
     fn finish_run(
         &self,
         run: &mut ApplyRun<'_>,
@@ -188,7 +189,7 @@ impl ApplyArgs {
         Ok(())
     }
 
-    /// What is said of a program with errors.
+    /// Returns what is said of a program with errors.
     fn describe_refusal(&self) -> &'static str {
         match self.named_outputs().next().is_some() || self.reports.is_wanted() {
             true => "the program was not written, the reports of it were",
@@ -205,7 +206,7 @@ impl ApplyArgs {
         out.flush()
     }
 
-    /// The output of an input; `None` when nothing is to be written.
+    /// Returns the path of the output for an input. Returns `None` if nothing is to be written.
     fn output_path(&self, input: &Path) -> Option<PathBuf> {
         let output = self.output.as_ref()?;
         if output != Path::new(STANDARD) && output.is_dir() {
@@ -214,7 +215,8 @@ impl ApplyArgs {
         Some(output.clone())
     }
 
-    /// No output may be an input, the recipe, the setup, or a model, stock or material that these read.
+    /// Checks that no output is an input, the recipe, the setup, or a model, stock or material that these
+    /// read.
     fn check_outputs<'a>(
         &self,
         outs: impl Iterator<Item = &'a Path>,

@@ -1,4 +1,4 @@
-//! What a run of `apply` writes and tells.
+//! This module holds what a run of `apply` writes and prints.
 
 use super::ApplyArgs;
 use crate::cli::command_outputs::CommandOutputs;
@@ -40,7 +40,7 @@ pub(super) struct ApplyRun<'r> {
 }
 
 impl ApplyRun<'_> {
-    /// The program as it was read.
+    /// Returns the program as it was read.
     fn parse_original(&self) -> Program {
         parse(self.source, Some(self.outcome.program.dialect())).program
     }
@@ -50,7 +50,7 @@ impl ApplyRun<'_> {
         RecipeChanges::from_programs(before, &self.outcome.program, &recipe.step_names(), Some(recipe.units))
     }
 
-    /// What reports tell of.
+    /// Returns what reports tell of.
     fn report_subject<'a>(&'a self, before: &'a Program, print: Option<&'a str>) -> ComparisonSubject<'a> {
         ComparisonSubject {
             before: Some(before),
@@ -73,7 +73,8 @@ pub(super) struct SimulatedForReports {
 }
 
 impl ApplyArgs {
-    /// Simulates where a report is wanted. What is found in the program as it stands is a finding of the run, in every output.
+    /// Simulates where a report is wanted. What is found in the program as it stands is a finding of the run,
+    /// in every output.
     pub(super) fn simulate_for_reports(
         &self,
         run: &mut ApplyRun<'_>,
@@ -95,7 +96,8 @@ impl ApplyArgs {
         Ok(Some(SimulatedForReports { before, runs }))
     }
 
-    /// Writes what is wanted beside the program: run report, drawing, page and summary. A finding for the first that cannot be written.
+    /// Writes what is wanted beside the program: run report, drawing, page and summary. A finding for the
+    /// first that cannot be written.
     pub(super) fn write_side_outputs(
         &self,
         run: &ApplyRun<'_>,
@@ -115,7 +117,7 @@ impl ApplyArgs {
         self.reports.write_reports(&Comparison::from_runs(subject, &simulated.runs), outputs)
     }
 
-    /// Writes what the run did as JSON; a finding when that fails.
+    /// Writes what the run did as JSON. Returns a finding if that fails.
     fn write_run_report(
         &self,
         path: &Path,
@@ -133,7 +135,7 @@ impl ApplyArgs {
         outputs.write_output(path, |out| report.write_json(out))
     }
 
-    /// Draws what the steps have to show.
+    /// Draws the drawings of the steps.
     fn draw_step_reports(
         &self,
         path: &Path,
@@ -143,7 +145,7 @@ impl ApplyArgs {
         let panels: Vec<_> = reports.iter().flat_map(|report| report.build_panels()).collect();
         let Some(text) = path_drawing::draw_path_panels(&panels)? else {
             if !self.quiet {
-                eprintln!("{}: not drawn, no step has anything to show", path.display());
+                eprintln!("{}: not drawn, because no step has a drawing", path.display());
             }
             return Ok(());
         };
@@ -151,7 +153,7 @@ impl ApplyArgs {
         outputs.write_output(path, |out| out.write_all(&bytes))
     }
 
-    /// What was changed, for who looks on.
+    /// Returns what was changed, for who looks on.
     pub(super) fn show_summary(&self, run: &ApplyRun<'_>, target: Option<&Path>) -> io::Result<()> {
         let mut err = io::stderr().lock();
         let to = match target {
@@ -169,12 +171,12 @@ impl ApplyArgs {
     }
 }
 
-/// What the steps say about themselves, also when they had nothing to change.
+/// Writes the reports of the steps, even if they had nothing to change.
 fn write_step_reports(err: &mut impl Write, reports: &[Box<dyn TransformReport>]) -> io::Result<()> {
     reports.iter().try_for_each(|report| err.write_all(report.to_text().as_bytes()))
 }
 
-/// Writes the program; a finding when that fails.
+/// Writes the program. Returns a finding if that fails.
 pub(super) fn write_program(program: &Program, target: &Path, outputs: &CommandOutputs) -> Result<(), Stop> {
     outputs.write_output(target, |out| program.byte_chunks().try_for_each(|piece| out.write_all(piece)))
 }

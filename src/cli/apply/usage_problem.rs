@@ -1,4 +1,4 @@
-//! What is wrong with a command line of `apply`.
+//! This module checks a command line of `apply`.
 
 use super::ApplyArgs;
 use crate::cli::input_files::STANDARD;
@@ -7,7 +7,7 @@ use clsmith::output_files::is_same_file;
 use std::path::{Path, PathBuf};
 
 impl ApplyArgs {
-    /// What is wrong with the command line beyond what clap can say.
+    /// Returns the fault of the command line, as far as clap cannot find it.
     pub(super) fn find_usage_problem(&self) -> Option<String> {
         let standard = |path: &PathBuf| path == Path::new(STANDARD);
         if self.inputs.iter().filter(|path| standard(path)).count() > 1 {
@@ -23,7 +23,7 @@ impl ApplyArgs {
             extra.iter().filter(|(_, path)| *path == Path::new(STANDARD)).map(|(name, _)| *name).collect();
         match on_standard.as_slice() {
             [name, ..] if taken => {
-                return Some(format!("{name} - shares standard output with --diff or -o -"));
+                return Some(format!("{name} - would go to standard output together with --diff or -o -"));
             }
             [name, other, ..] => {
                 return Some(format!("{name} - and {other} - both write to standard output"));
@@ -45,10 +45,12 @@ impl ApplyArgs {
         let folder = self.output.as_deref().filter(|path| !path.as_os_str().is_empty());
         if let Some(folder) = folder.filter(|folder| several && !folder.is_dir()) {
             let folder = folder.display();
-            return Some(format!("with several inputs, -o names a folder that exists; `{folder}` is none"));
+            return Some(format!(
+                "with several inputs, -o must name an existing folder, which `{folder}` is not"
+            ));
         }
         if several && self.output.is_some() {
-            // Case aside: on some disks `A.cls` and `a.cls` are one file.
+            // Upper and lower case are ignored, because on some disks `A.cls` and `a.cls` are the same file.
             let name = |input: &PathBuf| {
                 input.file_name().map(|name| name.to_string_lossy().to_lowercase()).unwrap_or_default()
             };
@@ -62,7 +64,8 @@ impl ApplyArgs {
         None
     }
 
-    /// Finds an output whose ending promises something else than what is written. Asked after inputs are known to be safe.
+    /// Finds an output whose ending promises something else than what is written. Asked after inputs are
+    /// known to be safe.
     pub(super) fn find_wrong_ending(&self, target: Option<&Path>) -> Option<String> {
         let wrong = find_wrong_ending([
             ("-o", target, OutputContent::Program),

@@ -1,4 +1,4 @@
-//! `clsmith merge`.
+//! This module runs `clsmith merge`.
 
 use super::exit_for_records;
 use crate::cli::command_exit::CommandExit;
@@ -21,7 +21,7 @@ The results are the same bytes as those of one machine that does the whole batch
 parts given twice, missing parts and missing files are errors, and then nothing is written. The exit code is that
 of the batch: 1 if any of its files failed.";
 
-/// Puts the results of a batch's shards together, and says if any are missing
+/// Merges the results of a batch's shards, and reports if any are missing
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct MergeArgs {
@@ -60,7 +60,7 @@ impl MergeArgs {
         }
         let merged = merge::merge_results(parts);
         let (head, records) = merged.map_err(|failure| policy.apply(failure.into_findings()))?;
-        // Times are kept where the parts have them.
+        // Times are kept if the parts have them.
         let bytes = batch_results::results_to_bytes(&head, &records, true);
         CommandOutputs::default().write_output(&self.output, |out| out.write_all(&bytes))?;
         if !self.quiet {

@@ -1,4 +1,4 @@
-//! `clsmith batch` and `clsmith merge`.
+//! This module runs `clsmith batch` and `clsmith merge`.
 
 mod merge;
 mod progress;
@@ -64,31 +64,33 @@ pub struct BatchArgs {
     /// The recipe (YAML) for all programs, instead of a jobs file
     #[arg(long, value_name = "FILE", requires = "out")]
     recipe: Option<PathBuf>,
-    /// A setup file; overrides the recipe's setup
+    /// A setup file. It overrides the recipe's setup
     #[arg(long, value_name = "FILE", requires = "recipe")]
     setup: Option<PathBuf>,
-    /// The output folder; overrides that of a jobs file. Made if it does not exist
+    /// The output folder. It overrides that of a jobs file, and is made if it does not exist
     #[arg(short, long, visible_alias = "output", value_name = "FOLDER")]
     out: Option<PathBuf>,
-    /// Skip what is done and unchanged: input, recipe with its files, options, version and output are compared by content
+    /// Skip files that are done and unchanged: input, recipe with its files, options, version and output are
+    /// compared by content
     #[arg(long)]
     resume: bool,
     /// Do part I of N, counted from 1: every Nth file of the sorted list
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
-    /// Files worked on at once, and threads in all; without it, as many as there are processors
+    /// How many files are processed at once, and threads in all; by default as many as there are processors
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
-    /// Memory for all files together: 512M, 2G, 1.5GiB; without it, half of what is available
+    /// Memory for all files together: 512M, 2G, 1.5GiB; by default half of what is available
     #[arg(long, value_name = "SIZE")]
     memory: Option<ByteSize>,
     /// Begin no file after one has failed
     #[arg(long)]
     fail_fast: bool,
-    /// Where results go; without it, results.jsonl in the output folder. A shard adds -I-of-N to the name
+    /// Where to write the results; by default results.jsonl in the output folder. A shard adds -I-of-N to the
+    /// name
     #[arg(long, value_name = "FILE")]
     results: Option<PathBuf>,
-    /// Put the seconds each file took into the results, too; they are never twice the same
+    /// Include the seconds for each file in the results, which differ from run to run
     #[arg(long)]
     times: bool,
     /// The dialect of all programs, instead of finding it from their text
@@ -101,10 +103,10 @@ pub struct BatchArgs {
     pub(in crate::cli) findings: FindingArgs,
 }
 
-/// What a thread has for recursion in rare large statements: as much as a main thread.
+/// The stack of a thread, for recursion in rare large statements. It is as large as that of a main thread.
 const STACK: usize = 8 << 20;
 
-/// All that is known before anything runs.
+/// Everything that is known before anything runs.
 struct PreparedBatch {
     plan: BatchPlan,
     works: Vec<PreparedRecipe>,
@@ -121,7 +123,9 @@ impl BatchArgs {
             return usage("give one jobs file; or a recipe with --recipe, and then programs or patterns");
         }
         if self.results.as_deref() == Some(Path::new(STANDARD)) {
-            return usage("results go into a file; read it when the batch is done");
+            return usage(
+                "results are written to a file, not to standard output; read it when the batch is done",
+            );
         }
         let policy = self.findings.build_policy()?;
         let jobs = self.read_jobs()?;
@@ -137,7 +141,7 @@ impl BatchArgs {
             return Err(warnings.into());
         }
         self.show_findings(&warnings)?;
-        // Old results would look like those of this batch, should it be killed.
+        // Old results would look like those of this batch if it were killed.
         remove_old_results(&ready.results)?;
         let pool = rayon::ThreadPoolBuilder::new().num_threads(self.worker_count()).stack_size(STACK).build();
         let pool = pool.map_err(io::Error::other)?;
@@ -175,7 +179,7 @@ impl BatchArgs {
         self.write_results(&ready, &head, &ran, &outputs, began)
     }
 
-    /// What is asked for, by the jobs file or by the command line.
+    /// Returns the jobs of the jobs file or of the command line.
     fn read_jobs(&self) -> Result<BatchJobs, Failure> {
         let Some(recipe) = &self.recipe else {
             let path = self.what.first().map(PathBuf::as_path).unwrap_or(Path::new(""));
@@ -241,7 +245,7 @@ impl BatchArgs {
         }
     }
 
-    /// Writes the results and tells what came out.
+    /// Writes the results and prints a summary.
     fn write_results(
         &self,
         ready: &PreparedBatch,
@@ -252,7 +256,7 @@ impl BatchArgs {
     ) -> Result<CommandExit, Stop> {
         let bytes = batch_results::results_to_bytes(head, &ran.records, self.times);
         let mut found = ran.findings.clone();
-        // The summary is told all the same.
+        // The summary is printed even if the results cannot be written.
         match outputs.write_output(&ready.results, |out| out.write_all(&bytes)) {
             Err(Stop::Found { findings, .. }) => found.extend(findings),
             written => written?,
@@ -287,13 +291,13 @@ impl BatchArgs {
         self.jobs.map_or_else(processors, usize::from)
     }
 
-    /// Bytes for all files together.
+    /// Returns the memory for all files together, in bytes.
     fn memory_bytes(&self) -> u64 {
         self.memory.map_or_else(|| available_memory_bytes() / 2, |size| size.as_u64())
     }
 }
 
-/// Takes old results away, and finds out before the work whether new ones can be written.
+/// Removes old results, and finds out before the work whether new ones can be written.
 fn remove_old_results(results: &Path) -> Result<(), Diagnostic> {
     let unwritable = |why: &str| {
         let message = format!("the results {} cannot be written: {why}", results.display());
@@ -314,19 +318,19 @@ fn report_results_are_input(results: &Path) -> Diagnostic {
     Diagnostic::new(codes::OUTPUT_IS_INPUT, message)
 }
 
-/// Memory that is available: to the machine, or to the container if that is less.
+/// Returns the available memory of the machine, or of the container if that is less.
 fn available_memory_bytes() -> u64 {
     let mut system = sysinfo::System::new();
     system.refresh_memory();
     let of_machine = system.available_memory();
     match system.cgroup_limits() {
-        // What the container holds of files it has read is given back when somebody needs it.
+        // The container releases the cache of files that it has read when memory is needed.
         Some(limits) => of_machine.min(limits.total_memory.saturating_sub(limits.rss)),
         None => of_machine,
     }
 }
 
-/// Whether every file of a batch came out.
+/// Returns whether every file of a batch was written.
 fn exit_for_records(records: &[BatchRecord]) -> CommandExit {
     let done = records.iter().all(|record| record.outcome.is_written());
     if done { CommandExit::Done } else { CommandExit::Errors }

@@ -1,4 +1,5 @@
-//! Bars of a batch: one for all files, one for each that runs; and findings as they come.
+//! This module shows progress bars of a batch: one for all files, and one for each file that runs. Findings
+//! are printed as they come.
 
 use crate::cli::command_outputs::ignore_closed_pipe;
 use crate::cli::finding_args::FindingArgs;
@@ -12,7 +13,7 @@ use std::io;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-/// Bars on standard error; nothing is drawn where that is no terminal, or nobody wants it.
+/// Bars on standard error. Nothing is drawn if it is no terminal, or if bars are not wanted.
 pub struct BatchProgress<'a> {
     all: MultiProgress,
     whole: ProgressBar,
@@ -30,7 +31,7 @@ impl<'a> BatchProgress<'a> {
         Self { all, whole, failed: AtomicUsize::new(0), findings, interrupt }
     }
 
-    /// Begins with the files that are to be done: by their bytes, since those take the time.
+    /// Begins with the files to process. Bytes are counted, because they take the time.
     pub fn begin_files<'p>(&self, files: impl Iterator<Item = &'p PlannedFile>) {
         let (count, bytes) =
             files.fold((0, 0), |(count, bytes), file| (count + 1, bytes + progress_weight(file)));
@@ -42,12 +43,12 @@ impl<'a> BatchProgress<'a> {
         );
     }
 
-    /// Takes the bars away.
+    /// Removes the bars.
     pub fn clear_bars(&self) {
         self.whole.finish_and_clear();
     }
 
-    /// What takes the bars away, for the handler of Ctrl-C.
+    /// Returns a function that removes the bars, for the handler of Ctrl-C.
     pub fn clear_on_ctrl_c(&self) -> impl Fn() + Send + 'static {
         let all = self.all.clone();
         move || {
@@ -56,11 +57,11 @@ impl<'a> BatchProgress<'a> {
         }
     }
 
-    /// Findings go above the bars.
+    /// Prints findings above the bars.
     fn show_findings(&self, found: &[Diagnostic], file: Option<&str>) {
         self.all.suspend(|| {
             let mut err = io::stderr().lock();
-            // That nobody reads findings is no reason to stop: the results have them.
+            // If nobody reads the findings, that is no reason to stop, because the results contain them.
             let _ = ignore_closed_pipe(self.findings.write_findings(
                 &mut err,
                 terminal::is_stderr_terminal(),
@@ -92,7 +93,7 @@ impl BatchWatcher for BatchProgress<'_> {
     }
 }
 
-/// An empty file takes time, too.
+/// Returns the weight of a file. An empty file takes time, too.
 fn progress_weight(file: &PlannedFile) -> u64 {
     file.size.saturating_add(4096)
 }
@@ -105,7 +106,7 @@ fn set_bar_style(bar: &ProgressBar, template: &str) {
     }
 }
 
-/// The bar of one file: it turns, and grows once a step says how far it is.
+/// The bar of one file. It rotates, and grows once a step reports its progress.
 struct FileBar<'a> {
     bar: ProgressBar,
     interrupt: &'a Interrupt,

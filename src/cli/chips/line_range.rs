@@ -1,9 +1,9 @@
-//! `--lines`.
+//! This module reads `--lines`.
 
 use crate::cli::bad_argument::BadArgument;
 use std::ops::RangeInclusive;
 
-/// Reads `A..B`, `A..`, `..B`, `A` or `..`; both ends are included.
+/// Reads `A..B`, `A..`, `..B`, `A` or `..`. Both ends are included.
 pub fn parse_line_range(text: &str) -> Result<RangeInclusive<usize>, BadArgument> {
     let number = |text: &str, none: usize| match text.trim() {
         "" => Some(none),

@@ -1,4 +1,4 @@
-//! `clsmith chips`.
+//! This module runs `clsmith chips`.
 
 mod line_range;
 mod outputs;
@@ -47,13 +47,14 @@ pub struct ChipsArgs {
     /// The setup file: stock, tools, machine
     #[arg(long, value_name = "FILE")]
     setup: PathBuf,
-    /// Thickness of the layers that the workpiece is cut into
+    /// Thickness of the layers into which the workpiece is cut
     #[arg(long, value_name = "MM", value_parser = super::simulate::parse_positive)]
     layer: f64,
-    /// Report only motions on these lines of the file: A..B, A.., ..B or A. What is before them is cut, what is after is not run
+    /// Report only motions on these lines of the file: A..B, A.., ..B or A. Motions before them are cut,
+    /// motions after them are not run
     #[arg(long, value_name = "A..B", value_parser = line_range::parse_line_range, default_value = "..", hide_default_value = true)]
     lines: RangeInclusive<usize>,
-    /// Everything as JSON, with the borders of all pieces; `-` is standard output
+    /// Everything as JSON, with the boundaries of all pieces; `-` is standard output
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     json: Option<PathBuf>,
     /// A table with one row for each motion and layer; `-` is standard output
@@ -68,16 +69,16 @@ pub struct ChipsArgs {
     /// The boundary construction diagrams of these moves, as SVG
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     diagram: Option<PathBuf>,
-    /// Draw only the layer at this height; a few of all layers if not given
+    /// Draw only the layer at this height; by default a few of all layers
     #[arg(long, value_name = "Z", allow_negative_numbers = true, value_parser = parse_height_mm)]
     at: Option<f64>,
-    /// How many moves are drawn at most
+    /// The largest number of moves that are drawn
     #[arg(long, value_name = "N", default_value = "6", value_parser = clap::value_parser!(u8).range(1..=24))]
     moves: u8,
-    /// How far straight pieces of a border, and chords of arcs, may be from the curve
+    /// The largest distance between straight pieces of a boundary, or chords of arcs, and the curve
     #[arg(long, value_name = "MM", default_value = "0.002", value_parser = parse_tolerance_mm)]
     tolerance: f64,
-    /// Threads; as many as there are cores if not given. The result is the same
+    /// Threads; by default as many as there are cores. The result is the same
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// The dialect, instead of finding it from the text
@@ -93,13 +94,14 @@ pub struct ChipsArgs {
     pub(in crate::cli) findings: FindingArgs,
 }
 
-/// A height in mm.
+/// Reads a height in mm.
 fn parse_height_mm(text: &str) -> Result<f64, BadArgument> {
     let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
     value.ok_or(BadArgument::new("this must be a number"))
 }
 
-/// A distance of chords from their curve, mm: no finer than the grid of areas and no coarser than a picture needs.
+/// Reads a distance of chords from their curve, in mm. It is not finer than the grid of areas, and not
+/// coarser than a picture needs.
 fn parse_tolerance_mm(text: &str) -> Result<f64, BadArgument> {
     let value = text.parse::<f64>().ok().filter(|value| (1e-5..=0.1).contains(value));
     value.ok_or(BadArgument::new("this must be a number of millimetres from 0.00001 to 0.1"))
@@ -122,7 +124,7 @@ impl ChipsArgs {
         )
     }
 
-    /// Everything but writing: the chips, and the drawings if some are wanted. What does not stop the run is added to the findings.
+    /// Computes the chips, and the drawings if some are wanted. Findings that do not stop the run are added.
     fn find_chips(&self, under: &mut MeasuringContext<'_>) -> Result<(ChipReport, ChipDrawings), Stop> {
         let setup = input_files::read_setup(&self.setup)?;
         self.check_outputs(&setup)?;

@@ -1,4 +1,4 @@
-//! What `clsmith chips` writes, and where it may not.
+//! This module writes the outputs of `clsmith chips`, and checks where they may be written.
 
 use super::ChipsArgs;
 use crate::cli::command_outputs::{CommandOutputs, refuse_overwritten_input};
@@ -12,7 +12,7 @@ use clsmith::setup::Setup;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Drawings, where they are wanted.
+/// The drawings that were requested.
 #[derive(Debug, Default)]
 pub struct ChipDrawings {
     layers: Option<String>,
@@ -20,7 +20,7 @@ pub struct ChipDrawings {
 }
 
 impl ChipsArgs {
-    /// What is wrong with the command line beyond what clap can say.
+    /// Returns the fault of the command line, as far as clap cannot find it.
     pub(super) fn find_usage_problem(&self) -> Option<String> {
         let outputs: Vec<&Path> = self.output_paths().collect();
         let twice = outputs.iter().enumerate().find_map(|(index, one)| {
@@ -44,7 +44,7 @@ impl ChipsArgs {
         all.into_iter().filter_map(|path| path.as_deref())
     }
 
-    /// No output may be an input, nor a file that the setup names.
+    /// Checks that no output is an input, or a file that the setup names.
     pub(super) fn check_outputs(&self, setup: &Setup) -> Result<(), Stop> {
         let mut inputs = vec![self.program.as_path(), &self.setup];
         inputs.extend(setup.referenced_files());
@@ -59,7 +59,7 @@ impl ChipsArgs {
         wrong.map_or(Ok(()), |wrong| Err(Stop::Usage(wrong)))
     }
 
-    /// The drawings that are wanted.
+    /// Draws the requested drawings.
     pub(super) fn draw_chips(&self, report: &ChipReport) -> Result<ChipDrawings, Stop> {
         if self.svg.is_none() && self.diagram.is_none() {
             return Ok(ChipDrawings::default());
@@ -89,7 +89,7 @@ impl ChipsArgs {
         Ok(ChipDrawings { layers, diagrams })
     }
 
-    /// Writes what was asked for; a finding when that fails.
+    /// Writes the requested outputs. Returns a finding if that fails.
     pub(super) fn write_outputs(
         &self,
         report: &ChipReport,

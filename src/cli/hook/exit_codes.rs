@@ -1,4 +1,5 @@
-//! Exit codes of the hook: those of `timeout` and the shell, and else the post's own.
+//! This module holds the exit codes of the hook: those of `timeout` and the shell, and otherwise the post's
+//! own.
 
 use super::post_process::PostOutcome;
 use clsmith::diagnostic::{Diagnostic, codes};
@@ -10,14 +11,14 @@ const TIMED_OUT: i32 = 124;
 pub const REFUSED: i32 = 125;
 /// The post could not be started.
 const NOT_STARTED: i32 = 126;
-/// The post is not there.
+/// The post was not found.
 const MISSING: i32 = 127;
-/// And the number of a signal.
+/// This number is added to the number of a signal.
 const SIGNAL: i32 = 128;
 /// Ctrl-C.
 pub const STOPPED: i32 = 130;
 
-/// The exit code, and what there is to say about how the post ended.
+/// Returns the exit code, and a finding about how the post ended if there is one.
 pub fn judge_post_outcome(
     name: &str,
     timeout: Option<Duration>,

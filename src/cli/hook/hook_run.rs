@@ -1,4 +1,4 @@
-//! One run of the hook, from the export to the line in the log.
+//! This module holds one run of the hook, from the export to the line in the log.
 
 use super::exit_codes::{REFUSED, STOPPED, judge_post_outcome};
 use super::post_process::{self, PostOutcome};
@@ -27,7 +27,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// What is known of a run so far; in the end it becomes a line of the log.
+/// What is known of a run so far. In the end it becomes a line of the log.
 pub struct HookRun<'h> {
     hook: &'h HookArgs,
     outputs: &'h CommandOutputs,
@@ -40,21 +40,21 @@ pub struct HookRun<'h> {
     post: Option<LoggedPost>,
 }
 
-/// What the log says about the post.
+/// The post in the log.
 #[derive(Debug, Serialize)]
 struct LoggedPost {
-    /// As it stands after `--`, `{}` included.
+    /// The command as it is written after `--`, including `{}`.
     command: Vec<String>,
     /// `exit`, `signal`, `timed_out`, `stopped`, `missing`, `not_started`.
     ended: &'static str,
     /// The exit code or the signal.
     code: Option<i32>,
     seconds: f64,
-    /// Files that it left beside the program, where they were put.
+    /// Files that the post left beside the program, at their final places.
     left: Vec<String>,
 }
 
-/// What only the hook's lines say.
+/// The fields that only the hook logs.
 #[derive(Debug, Serialize)]
 struct HookLogFields<'r> {
     post: Option<&'r LoggedPost>,
@@ -77,7 +77,7 @@ impl<'h> HookRun<'h> {
         }
     }
 
-    /// Corrects, keeps, posts, logs.
+    /// Corrects, keeps, posts and logs the program.
     pub fn run_hook(
         mut self,
         policy: &FindingPolicy,
@@ -91,7 +91,7 @@ impl<'h> HookRun<'h> {
             }
         };
         self.input.sha256 = Some(Digest::from_bytes(source.bytes()));
-        // From here on Ctrl-C leaves a line in the log and no file behind.
+        // From here on, Ctrl-C leaves a line in the log and no file behind.
         let outputs = self.outputs;
         let _held = outputs.hold_ctrl_c();
         progress.begin_bar(&self.input.path);
@@ -108,13 +108,13 @@ impl<'h> HookRun<'h> {
             }
             self.correction.outcome = UnattendedOutcome::PassedOriginal;
             let message = format!(
-                "{} goes to the post UNTOUCHED, without what the recipe is there for",
+                "{} goes to the post UNTOUCHED, without the corrections of the recipe",
                 self.input.path
             );
             self.show_and_keep_findings(vec![Diagnostic::new(codes::PASSED_ORIGINAL, message)])?;
         }
         match self.keep_program(&source) {
-            // The wish to stop is looked at again before the post runs.
+            // The request to stop is checked again before the post runs.
             Ok(()) | Err(Stop::Interrupted) => {}
             Err(Stop::Found { findings, .. }) => {
                 self.show_and_keep_findings(findings)?;
@@ -155,13 +155,13 @@ impl<'h> HookRun<'h> {
         Ok(())
     }
 
-    /// What there is to say when the export is not what was read any more: who writes it was not done.
+    /// Returns a finding if the export has changed since it was read, because its writer was not done.
     fn check_input_unchanged(&self) -> Option<Diagnostic> {
         let now = Digest::from_file(&self.hook.input).ok();
         (now != self.input.sha256).then(|| batch::report_input_changed(&self.input.path))
     }
 
-    /// Keeps what the post is to get.
+    /// Keeps the program for the post.
     fn keep_program(&self, source: &Arc<Source>) -> Result<(), Stop> {
         let Some(target) = self.hook.keep_path() else { return Ok(()) };
         if let Some(hit) = self.list_read_files().into_iter().find(|path| is_same_file(path, &target)) {
@@ -178,14 +178,14 @@ impl<'h> HookRun<'h> {
         })
     }
 
-    /// Files of this run that nothing may overwrite.
+    /// Returns the files of this run that must not be overwritten.
     fn list_read_files(&self) -> Vec<PathBuf> {
         let given = self.hook.recipe.input_files().chain([&self.hook.input]).chain(&self.hook.log).cloned();
         let print = self.correction.recipe.iter().flat_map(|recipe| &recipe.print.files);
         given.chain(print.map(|file| PathBuf::from(&file.path))).collect()
     }
 
-    /// Runs the post; the exit code.
+    /// Runs the post. Returns the exit code.
     fn run_post(&mut self, source: &Arc<Source>) -> io::Result<i32> {
         let desk = match PostWorkspace::create_with_program(
             self.hook.program_file_name(),
@@ -228,7 +228,7 @@ impl<'h> HookRun<'h> {
                 });
             }
             record.left = put.iter().map(|path| path.to_string_lossy().into_owned()).collect();
-            // Who looks at the code alone must not take an older NC program for the new one.
+            // A caller that only checks the code must not take an older NC program for the new one.
             if exit == 0 && faults.iter().any(Diagnostic::is_error) {
                 exit = REFUSED;
             }
@@ -240,7 +240,7 @@ impl<'h> HookRun<'h> {
         Ok(exit)
     }
 
-    /// What the recipe did, for who looks on.
+    /// Prints what the recipe did, for people.
     fn show_summary(&self) -> io::Result<()> {
         let mut err = io::stderr().lock();
         let name = escape_controls(&self.input.path);
@@ -253,7 +253,7 @@ impl<'h> HookRun<'h> {
             }
             UnattendedOutcome::Unchanged => writeln!(err, "{name}: {by} found nothing to change")?,
             UnattendedOutcome::Passed => {
-                writeln!(err, "{name}: no rule fits, so it goes to the post as it is")?
+                writeln!(err, "{name}: no rule matches, so it goes to the post unchanged")?
             }
             UnattendedOutcome::PassedOriginal | UnattendedOutcome::Refused | UnattendedOutcome::Stopped => {}
         }
@@ -261,7 +261,7 @@ impl<'h> HookRun<'h> {
         reports.try_for_each(|report| err.write_all(report.to_text().as_bytes()))
     }
 
-    /// The last word, and the line in the log.
+    /// Prints the last message and writes the line in the log.
     fn finish_and_log(mut self, exit: i32) -> Result<CommandExit, Stop> {
         let stopped = self.outputs.interrupt().is_raised()
             && self.post.as_ref().is_none_or(|post| matches!(post.ended, "stopped"));

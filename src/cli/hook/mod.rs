@@ -1,9 +1,9 @@
-//! `clsmith hook`: stands between the CAM system's export and the post.
+//! `clsmith hook` runs between the CAM system's export and the post.
 //!
-//! The post gets a copy of the corrected program under the export's name, in a private folder. So the export
-//! stays as it was, what is posted is what was hashed, and names that posts derive from their input are
-//! right. Files that the post leaves in that folder are put beside the export once the post has ended by
-//! itself.
+//! The post gets a copy of the corrected program under the name of the export, in a private folder. So the
+//! export stays unchanged, the posted file is the one that was hashed, and names that posts derive from their
+//! input are right. Files that the post leaves in that folder are moved beside the export once the post has
+//! ended by itself.
 
 mod exit_codes;
 mod hook_run;
@@ -55,12 +55,12 @@ the two apart.
 The log (--log) gets one line of JSON a run: time, input, recipe with all files it depends on
 (SHA-256), version, outcome, changes by step, findings by code, post, exit code, seconds.";
 
-/// What to do with a program that cannot be corrected.
+/// What happens to a program that cannot be corrected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum OnError {
     /// Post nothing.
     Stop,
-    /// Post the untouched file, and say so.
+    /// Post the untouched file, and report that
     PassOriginal,
 }
 
@@ -70,16 +70,16 @@ enum OnError {
 pub struct HookArgs {
     #[command(flatten)]
     recipe: RecipeArgs,
-    /// When the program cannot be corrected: post nothing, or post it as it is
+    /// If the program cannot be corrected: post nothing, or post it unchanged
     #[arg(long, value_enum, default_value = "stop", value_name = "WHAT")]
     on_error: OnError,
-    /// Adds a line of JSON about this run to a file
+    /// Add a line of JSON about this run to a file
     #[arg(long, value_name = "FILE")]
     log: Option<PathBuf>,
-    /// Longest time for the post; no limit if not given
+    /// The longest time for the post; no limit by default
     #[arg(long, value_name = "SECONDS", value_parser = input_files::parse_seconds)]
     timeout: Option<Duration>,
-    /// Keeps what the post got: a file, or a folder (one that exists, or a path that ends in a slash)
+    /// Keep the program for the post: a file, or a folder (one that exists, or a path that ends in a slash)
     #[arg(long, value_name = "PATH")]
     keep: Option<PathBuf>,
     /// Say nothing but findings
@@ -118,15 +118,17 @@ impl HookArgs {
         HookRun::new(self, &outputs, log).run_hook(&policy, &progress)
     }
 
-    /// What is wrong with the command line beyond what clap can say.
+    /// Returns the fault of the command line, as far as clap cannot find it.
     fn find_usage_problem(&self) -> Option<String> {
         if self.input == Path::new(STANDARD) || self.input.file_name().is_none() {
-            return Some("INPUT is a file; standard input has no name that the post could go by".into());
+            return Some(
+                "INPUT must be a file, because standard input has no name that the post could use".into(),
+            );
         }
         let arguments = self.post.get(1..).unwrap_or_default();
         if !arguments.iter().any(|argument| post_process::has_path_mark(argument)) {
             return Some(format!(
-                "no argument of the post holds `{MARK}`, so it would never see the program"
+                "no argument of the post contains `{MARK}`, so it would never see the program"
             ));
         }
         None
@@ -150,13 +152,13 @@ impl HookArgs {
         self.input.file_name().unwrap_or(self.input.as_os_str())
     }
 
-    /// The folder in which it is kept, where the path's last slash says that it is one.
+    /// Returns the folder in which the program is kept, if the path ends in a slash.
     fn keep_folder(&self) -> Option<&Path> {
         let ends = |keep: &&PathBuf| keep.as_os_str().as_encoded_bytes().ends_with(b"/");
         self.keep.as_ref().filter(ends).map(PathBuf::as_path)
     }
 
-    /// Where the program that the post gets is kept.
+    /// Returns the path where the program for the post is kept.
     fn keep_path(&self) -> Option<PathBuf> {
         let is_folder = |keep: &PathBuf| keep.is_dir() || self.keep_folder().is_some();
         self.keep

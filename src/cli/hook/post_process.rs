@@ -1,4 +1,5 @@
-//! The post-processor: an external program that is started, waited for, and stopped with all it started.
+//! This module runs the post-processor: an external program that is started, awaited, and stopped together
+//! with everything that it has started.
 
 use clsmith::output_files::Interrupt;
 use process_wrap::std::{ChildWrapper, CommandWrap};
@@ -7,20 +8,20 @@ use std::io;
 use std::process::{Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
-/// The longest pause between two looks at the post.
+/// The longest pause between two checks of the post.
 const LONGEST_PAUSE: Duration = Duration::from_millis(50);
 
-/// What stands for the program in arguments.
+/// The mark for the program in arguments.
 pub const MARK: &str = "{}";
 
 /// How the post ended.
 #[derive(Debug)]
 pub enum PostOutcome {
-    /// By itself, with this code.
+    /// It ended by itself, with this code.
     Exit(i32),
-    /// By this signal.
+    /// It was ended by this signal.
     Signal(i32),
-    /// The time was over.
+    /// It took too long.
     TimedOut,
     /// Ctrl-C.
     Stopped,
@@ -30,8 +31,9 @@ pub enum PostOutcome {
     NotStarted(io::Error),
 }
 
-/// Starts a program with its arguments as they are, waits for it, and kills it and everything it started when the time is
-/// over or somebody wants to stop. Its output goes where ours goes; its input is empty, so that a question cannot hang it.
+/// Starts a program with its arguments, waits for it, and kills it and everything that it has started when
+/// the time is over or a stop is requested. Its output goes where ours goes. Its input is empty, so that a
+/// question cannot make it hang.
 pub fn run_post(
     program: &OsStr,
     arguments: &[OsString],
@@ -79,11 +81,12 @@ fn outcome_of_status(status: ExitStatus) -> PostOutcome {
     PostOutcome::Exit(status.code().unwrap_or(1))
 }
 
-/// Ends a program and all it started: asks first where that can be done, then kills.
+/// Ends a program and everything that it has started. It is asked first if that is possible, then it is
+/// killed.
 fn stop_process_group(child: &mut dyn ChildWrapper) -> io::Result<()> {
     #[cfg(unix)]
     {
-        /// How long a post that is to end may tidy up before it is killed.
+        /// The time for the post to clean up before it is killed.
         const GRACE: Duration = Duration::from_secs(2);
         const SIGTERM: i32 = 15;
         let asked = Instant::now();
@@ -93,25 +96,25 @@ fn stop_process_group(child: &mut dyn ChildWrapper) -> io::Result<()> {
             }
         }
     }
-    // Also after the program itself has ended: what it started may have been asked and not have listened. When nothing is left,
-    // there is nothing to kill, and that is no error.
+    // This is also needed after the program itself has ended, because its children may have ignored the
+    // request. If nothing is left, there is nothing to kill, which is no error.
     let _ = child.start_kill();
     child.wait().map(drop)
 }
 
-/// Whether an argument holds a `{}`.
+/// Returns whether an argument contains `{}`.
 pub fn has_path_mark(argument: &OsStr) -> bool {
     fill_path_mark(argument, OsStr::new("")) != argument
 }
 
-/// An argument with every `{}` replaced by a path; all other bytes stay.
+/// Replaces every `{}` of an argument by a path. All other bytes stay.
 #[cfg(unix)]
 pub fn fill_path_mark(argument: &OsStr, path: &OsStr) -> OsString {
     use std::os::unix::ffi::{OsStrExt, OsStringExt};
     OsString::from_vec(replace_all(argument.as_bytes(), MARK.as_bytes(), path.as_bytes()))
 }
 
-/// An argument with every `{}` replaced by a path; all other units stay.
+/// Replaces every `{}` of an argument by a path. All other units stay.
 #[cfg(windows)]
 pub fn filled(argument: &OsStr, path: &OsStr) -> OsString {
     use std::os::windows::ffi::{OsStrExt, OsStringExt};

@@ -1,7 +1,8 @@
-//! The private folder in which the post finds the program, and what it leaves there.
+//! This module holds the private folder in which the post finds the program and leaves its outputs.
 //!
-//! The program keeps its file's name, since many posts derive the names of their outputs from it and write them beside it. What
-//! stands there when the post has ended is put where it would have come without the hook: beside the export.
+//! The program keeps the name of its file, because many posts derive the names of their outputs from it and
+//! write them beside it. When the post has ended, its outputs are moved to where they would have been without
+//! the hook: beside the export.
 
 use crate::cli::command_outputs::report_unwritable;
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
@@ -12,14 +13,14 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-/// The private folder; it goes when this goes.
+/// The private folder. It is removed when this is dropped.
 pub struct PostWorkspace {
     folder: TempDir,
     file: PathBuf,
 }
 
 impl PostWorkspace {
-    /// A folder that only this user can look into, with one file in it.
+    /// Makes a folder that only this user can read, with one file in it.
     pub fn create_with_program<'b>(
         name: &OsStr,
         pieces: impl Iterator<Item = &'b [u8]>,
@@ -29,7 +30,7 @@ impl PostWorkspace {
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;
-            // Programs are a shop's knowledge; the default would leave it to the umask who may read them.
+            // Programs are confidential. By default, the umask would decide who may read them.
             builder.permissions(fs::Permissions::from_mode(0o700));
         }
         let folder = builder.tempdir().map_err(|error| {
@@ -48,13 +49,13 @@ impl PostWorkspace {
         Ok(Self { folder, file })
     }
 
-    /// The program for the post.
+    /// Returns the path of the program for the post.
     pub fn program_path(&self) -> &Path {
         &self.file
     }
 
-    /// Puts what the post left beside the program into a folder, over what an earlier run put there but never over a protected
-    /// file. Tells where everything went, and what could not be put there.
+    /// Copies what the post left beside the program into a folder. It replaces outputs of earlier runs, but
+    /// no protected file. Returns where everything is, and what could not be copied.
     pub fn copy_post_outputs(
         &self,
         to: &Path,
@@ -83,7 +84,7 @@ impl PostWorkspace {
             }
             match copy_file(&from, &target, interrupt) {
                 Ok(()) => put.push(target),
-                // Told as well: the post has ended, and this output of it is missing.
+                // This is reported as well: the post has ended, and this output of it is missing.
                 Err(WriteError::Interrupted) => {
                     found.push(report_unwritable(&target, &io::Error::other(WriteError::Interrupted)));
                 }
@@ -93,7 +94,8 @@ impl PostWorkspace {
         (put, found)
     }
 
-    /// The files in the folder besides the program, sorted, and what is neither file nor folder: links are not followed.
+    /// Returns the files in the folder besides the program in order, and entries that are neither file nor
+    /// folder. Links are not followed.
     fn list_post_outputs(&self) -> io::Result<(Vec<PathBuf>, Vec<PathBuf>)> {
         let (mut left, mut others) = (Vec::new(), Vec::new());
         let mut folders = vec![self.folder.path().to_path_buf()];
@@ -115,7 +117,7 @@ impl PostWorkspace {
         Ok((left, others))
     }
 
-    /// Takes the folder away.
+    /// Removes the folder.
     pub fn remove_folder(self) -> Result<(), Diagnostic> {
         let path = self.folder.path().to_path_buf();
         self.folder.close().map_err(|error| {

@@ -1,11 +1,11 @@
-//! The command line as a text, so that findings can point at what was typed.
+//! This module holds the command line as a text, so that findings can point at what was typed.
 
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::program::LengthUnit;
 use clsmith::source::{Source, Span};
 use std::sync::Arc;
 
-/// What was typed, and where each argument stands in it.
+/// The arguments as they were typed, with the place of each.
 pub struct CommandLine {
     source: Option<Arc<Source>>,
     words: Vec<(String, Span)>,
@@ -14,7 +14,7 @@ pub struct CommandLine {
 }
 
 impl CommandLine {
-    /// The process's arguments.
+    /// Reads the arguments of the process.
     pub fn from_process(units: LengthUnit) -> Self {
         let mut text = String::from("clsmith");
         let mut words = Vec::new();
@@ -29,36 +29,36 @@ impl CommandLine {
         Self { source: Source::new("command line", text.into_bytes()).ok(), words, units, found: Vec::new() }
     }
 
-    /// A length above 0 in mm.
+    /// Reads a length above 0 in mm.
     pub fn parse_size_mm(&mut self, option: &'static str, text: Option<&str>) -> Option<f64> {
         let unit = self.units.mm_per_unit();
         self.parse_positive(option, text).map(|value| value * unit)
     }
 
-    /// A length in mm, 0 or more.
+    /// Reads a length of 0 or more in mm.
     pub fn parse_distance_mm(&mut self, option: &'static str, text: Option<&str>) -> Option<f64> {
         let unit = self.units.mm_per_unit();
         let value = self.parse_checked(option, text, "a number, 0 or more", |value| value >= 0.0)?;
         Some(value * unit)
     }
 
-    /// A coordinate in mm.
+    /// Reads a coordinate in mm.
     pub fn parse_coordinate_mm(&mut self, option: &'static str, text: Option<&str>) -> Option<f64> {
         let unit = self.units.mm_per_unit();
         self.parse_number(option, text).map(|value| value * unit)
     }
 
-    /// A number above 0.
+    /// Reads a number above 0.
     pub fn parse_positive(&mut self, option: &'static str, text: Option<&str>) -> Option<f64> {
         self.parse_checked(option, text, "a number above 0", |value| value > 0.0)
     }
 
-    /// A number.
+    /// Reads a number.
     pub fn parse_number(&mut self, option: &'static str, text: Option<&str>) -> Option<f64> {
         self.parse_checked(option, text, "a number", |_| true)
     }
 
-    /// A name that a CL program can hold.
+    /// Reads a name that a CL program can contain.
     pub fn parse_name(&mut self, option: &'static str, text: Option<&str>) -> Option<String> {
         let text = text?;
         let fits = |c: char| c.is_ascii_graphic() && !matches!(c, ',' | '$' | '/');
@@ -82,12 +82,12 @@ impl CommandLine {
         });
     }
 
-    /// Adds a fault for an option that is needed and not given.
+    /// Adds a fault for a required option that is missing.
     pub fn add_missing(&mut self, option: &'static str, what: &str) {
         self.add_fault(option, format!("{option} is missing: {what}"), &format!("without {option}"));
     }
 
-    /// What was found.
+    /// Returns the findings.
     pub fn into_findings(self) -> Vec<Diagnostic> {
         self.found
     }
@@ -100,7 +100,7 @@ impl CommandLine {
         fits: impl Fn(f64) -> bool,
     ) -> Option<f64> {
         let text = text?;
-        // Beyond a million everything is a slip of the finger, and sums stay exact below it.
+        // A number beyond a million is a typing mistake, and sums stay exact below it.
         let value = text.trim().parse::<f64>().ok().filter(|value| value.abs() <= 1e6 && fits(*value));
         if value.is_none() {
             self.add_fault(
@@ -112,7 +112,7 @@ impl CommandLine {
         value
     }
 
-    /// Where an option's value stands; the command's name when it was not given.
+    /// Returns the place of an option's value, or that of the command's name if the option was not given.
     fn option_span(&self, option: &str) -> Span {
         let with_value = format!("{option}=");
         let mut words = self.words.iter();

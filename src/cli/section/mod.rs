@@ -1,4 +1,4 @@
-//! `clsmith section`.
+//! This module runs `clsmith section`.
 
 mod command_line;
 mod options;
@@ -39,7 +39,7 @@ file says its own unit.
 Passes end where the tip would go below the part's lowest place (or --floor). With --pattern zigzag the tool goes from
 pass to pass over the surface where that is near; else it is lifted --clearance above the part.";
 
-/// Makes a program for a ball that goes over a part in parallel vertical planes
+/// Makes a program for a ball that mills a part in parallel vertical planes
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct SectionArgs {
@@ -52,37 +52,37 @@ pub struct SectionArgs {
     /// The planes: zx, yz, or an angle in degrees from x
     #[arg(long, value_name = "PLANE", default_value = "zx", allow_negative_numbers = true)]
     plane: String,
-    /// Largest distance of planes; they are spread evenly
+    /// Largest distance between planes; they are distributed evenly
     #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
     step: Option<String>,
-    /// First plane; the model's own border if not given
+    /// The first plane; by default the boundary of the model
     #[arg(long, value_name = "PLACE", allow_negative_numbers = true)]
     from: Option<String>,
-    /// Last plane
+    /// The last plane
     #[arg(long, value_name = "PLACE", allow_negative_numbers = true)]
     to: Option<String>,
-    /// Radius of the ball
+    /// The radius of the ball
     #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
     radius: Option<String>,
-    /// How deep passes may go into the part, and how far off it they may stay; 0.01 mm if not given
+    /// How deep passes may cut into the part, and how far from it they may stay; 0.01 mm by default
     #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
     tolerance: Option<String>,
-    /// What heights are made from: the whole mesh, or its profile in the plane alone
+    /// What heights are computed from: the whole mesh, or only its profile in the plane
     #[arg(long, value_enum, default_value = "mesh", conflicts_with = "profile")]
     against: PassHeightsArg,
-    /// How passes follow each other
+    /// The order of passes
     #[arg(long, value_enum, default_value = "zigzag")]
     pattern: PassPatternArg,
-    /// Keep arcs where the dialect holds them in vertical planes (NX, CATIA)
+    /// Keep arcs if the dialect allows them in vertical planes (NX, CATIA)
     #[arg(long)]
     arcs: bool,
-    /// Feed of the passes
+    /// The feed of the passes
     #[arg(long, value_name = "FEED", help_heading = "Motion", allow_negative_numbers = true)]
     feed: Option<String>,
-    /// Feed of the way down to a pass; half the feed if not given
+    /// The feed down to a pass; by default half of the feed
     #[arg(long, value_name = "FEED", help_heading = "Motion", allow_negative_numbers = true)]
     plunge: Option<String>,
-    /// Between passes above the part: `rapid`, or a feed
+    /// The motion between passes above the part: `rapid`, or a feed
     #[arg(
         long,
         value_name = "FEED",
@@ -91,34 +91,35 @@ pub struct SectionArgs {
         allow_negative_numbers = true
     )]
     between: String,
-    /// How far above the part's top the tool goes across; 10 mm if not given
+    /// How far above the top of the part the tool moves across; 10 mm by default
     #[arg(long, value_name = "LENGTH", help_heading = "Motion", allow_negative_numbers = true)]
     clearance: Option<String>,
-    /// How far above a pass the plunge feed begins; 2 mm if not given
+    /// How far above a pass the plunge feed begins; 2 mm by default
     #[arg(long, value_name = "LENGTH", help_heading = "Motion", allow_negative_numbers = true)]
     approach: Option<String>,
-    /// The tip goes nowhere below this z; the part's lowest place if not given
+    /// The tip stays above this z; by default the lowest point of the part
     #[arg(long, value_name = "PLACE", help_heading = "Motion", allow_negative_numbers = true)]
     floor: Option<String>,
-    /// Spindle speed in revolutions a minute
+    /// The spindle speed in revolutions per minute
     #[arg(long, value_name = "RPM", help_heading = "Program", allow_negative_numbers = true)]
     spindle: Option<String>,
     /// Switch coolant on
     #[arg(long, help_heading = "Program")]
     coolant: bool,
-    /// Number of the tool
+    /// The number of the tool
     #[arg(long, value_name = "N", default_value_t = 1, help_heading = "Program")]
     tool: u32,
-    /// Name of the tool
+    /// The name of the tool
     #[arg(long, value_name = "NAME", help_heading = "Program")]
     tool_name: Option<String>,
-    /// Name of the operation
+    /// The name of the operation
     #[arg(long, value_name = "NAME", help_heading = "Program")]
     operation: Option<String>,
-    /// nx, catia or creo; by the output's extension (.aptsource and .apt, .ncl) if not given, else nx
+    /// nx, catia or creo; by default the dialect of the output's extension (.aptsource and .apt, .ncl), else
+    /// nx
     #[arg(long, value_parser = parse_writable_dialect, value_name = "NAME", help_heading = "Program")]
     dialect: Option<Dialect>,
-    /// Unit of lengths here, in the STL and in the program: mm or inch
+    /// The unit of lengths here, in the STL and in the program: mm or inch
     #[arg(long, value_parser = input_files::parse_length_unit, value_name = "UNIT", default_value = "mm", help_heading = "Program")]
     units: LengthUnit,
     /// Where to write the program; `-` is standard output
@@ -127,7 +128,7 @@ pub struct SectionArgs {
     /// A drawing of the middle plane: part, shifted contact points, tip path (SVG)
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     plot: Option<PathBuf>,
-    /// Make and prove, write no program
+    /// Make and prove the program, but do not write it
     #[arg(long)]
     dry_run: bool,
     /// No summary, findings only
@@ -137,7 +138,7 @@ pub struct SectionArgs {
     pub(in crate::cli) findings: FindingArgs,
 }
 
-/// What heights over a mesh are made from.
+/// What heights over a mesh are computed from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum PassHeightsArg {
     /// The whole mesh.
@@ -146,12 +147,12 @@ enum PassHeightsArg {
     Profile,
 }
 
-/// How passes follow each other.
+/// The order of passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum PassPatternArg {
-    /// Forth and back.
+    /// Forth and back
     Zigzag,
-    /// All the same way.
+    /// All in the same direction
     OneWay,
 }
 
@@ -182,7 +183,7 @@ impl SectionArgs {
         }
     }
 
-    /// Tells why there is no program.
+    /// Reports why there is no program.
     fn refuse_part(
         &self,
         failure: Failure,
@@ -225,7 +226,7 @@ impl SectionArgs {
         if self.quiet { Ok(()) } else { ignore_closed_pipe(self.show_summary(surfaced, options)) }
     }
 
-    /// The part, in mm.
+    /// Reads the part, in mm.
     fn read_part(&self, options: &SurfaceMillingOptions) -> Result<SurfacePart, Failure> {
         if let Some(profile) = &self.profile {
             let source = input_files::read_source(profile)?;
@@ -238,13 +239,13 @@ impl SectionArgs {
             LengthUnit::Inch => mesh.scaled(LengthUnit::Inch.mm_per_unit()),
         });
         let part = mesh.map(SurfacePart::Mesh).map_err(|error| {
-            let message = format!("the model {} cannot be gone over: {error}", path.display());
+            let message = format!("the model {} cannot be milled: {error}", path.display());
             Diagnostic::new(codes::MODEL_FILE, message)
         })?;
         Ok(part)
     }
 
-    /// The one input.
+    /// Returns the only input.
     fn input_path(&self) -> &Path {
         self.profile.as_deref().or(self.model.as_deref()).unwrap_or(Path::new(""))
     }

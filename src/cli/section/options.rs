@@ -1,4 +1,4 @@
-//! The options of `clsmith section`, read with all faults at once.
+//! This module reads the options of `clsmith section` and reports all faults at once.
 
 use super::SectionArgs;
 use super::command_line::CommandLine;
@@ -11,7 +11,7 @@ use std::path::Path;
 const SMALLEST: f64 = 1e-2;
 const FINEST: f64 = 1e-4;
 
-/// The least distance of a rapid's end from the part, mm, and the slowest feed and speed.
+/// The least distance between a rapid's end and the part, in mm, and the lowest feed and speed.
 const NEAREST: f64 = 0.1;
 const SLOWEST: f64 = 0.01;
 
@@ -122,23 +122,23 @@ impl SectionArgs {
         }
     }
 
-    /// Both ends, or none.
+    /// Reads both ends, or none.
     fn parse_plane_range_mm(&self, line: &mut CommandLine) -> Option<(f64, f64)> {
         let (from, to) = (
             line.parse_coordinate_mm("--from", self.from.as_deref()),
             line.parse_coordinate_mm("--to", self.to.as_deref()),
         );
         match (&self.from, &self.to) {
-            (Some(_), None) => line.add_missing("--to", "--from says only where the first plane is"),
-            (None, Some(_)) => line.add_missing("--from", "--to says only where the last plane is"),
+            (Some(_), None) => line.add_missing("--to", "--from only gives the first plane"),
+            (None, Some(_)) => line.add_missing("--from", "--to only gives the last plane"),
             _ => {}
         }
         from.zip(to)
     }
 
-    /// The dialect asked for, else that of the output's extension, else NX.
+    /// Returns the requested dialect, else that of the output's extension, else NX.
     fn choose_dialect(&self) -> Dialect {
-        // Creo ends its names in a version: `op010.ncl.1`.
+        // Creo adds a version to its names: `op010.ncl.1`.
         let version =
             |path: &&Path| path.extension().is_some_and(|end| end.to_string_lossy().parse::<u32>().is_ok());
         let output = self.output.as_deref();
@@ -165,7 +165,7 @@ fn parse_required_size_mm(
     line.parse_size_mm(option, text)
 }
 
-/// A name for the program that every dialect holds, from its input's.
+/// Makes a name for the program that every dialect can contain, from the name of its input.
 fn program_name(input: &Path) -> String {
     let stem = input.file_stem().unwrap_or_default().to_string_lossy().to_ascii_uppercase();
     let plain: String =

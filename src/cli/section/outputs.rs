@@ -1,4 +1,4 @@
-//! What `clsmith section` writes, and where it may not.
+//! This module writes the outputs of `clsmith section`, and checks where they may be written.
 
 use super::SectionArgs;
 use crate::cli::command_outputs::{CommandOutputs, print_summary};
@@ -19,7 +19,7 @@ impl SectionArgs {
         options: &SurfaceMillingOptions,
         outputs: &CommandOutputs,
     ) -> Result<(), Stop> {
-        // The drawing first: if it fails, no program was written.
+        // The drawing is written first: if it fails, no program was written.
         if let Some(plot) = &self.plot {
             let drawn = report::draw_middle_plane(surfaced, options)?;
             outputs.write_output(plot, |out| out.write_all(drawn.as_bytes()))?;
@@ -35,7 +35,7 @@ impl SectionArgs {
         [output, self.plot.as_deref()].into_iter().flatten()
     }
 
-    /// What is wrong with the command line beyond what clap and options can say.
+    /// Returns the fault of the command line, as far as clap and the options cannot find it.
     pub(super) fn find_usage_problem(&self) -> Option<String> {
         let mut outputs = self.output_paths();
         let (one, other) = (outputs.next()?, outputs.next()?);
@@ -43,7 +43,8 @@ impl SectionArgs {
             .then(|| format!("two outputs would go to {}", one.display()))
     }
 
-    /// Finds an output whose ending promises something else than what is written. Asked once the input is known to be safe.
+    /// Finds an output whose ending promises something else than what is written. Asked once the input is
+    /// known to be safe.
     pub(super) fn find_wrong_ending(&self) -> Option<String> {
         find_wrong_ending([
             ("-o", self.output.as_deref(), OutputContent::Program),
@@ -66,7 +67,7 @@ impl SectionArgs {
         }
     }
 
-    /// The summary on standard output, or on standard error when an output goes there.
+    /// Prints the summary on standard output, or on standard error if an output goes there.
     pub(super) fn show_summary(
         &self,
         surfaced: &SurfaceProgram,

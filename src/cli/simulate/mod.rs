@@ -1,4 +1,4 @@
-//! `clsmith simulate`.
+//! This module runs `clsmith simulate`.
 
 mod outputs;
 
@@ -43,7 +43,7 @@ The columns of the CSV: line, operation, tool, length_mm, feed_mm_min, chip_thic
 removal_rate_mm3_min, axial_depth_mm, radial_depth_mm, engagement_start_deg, engagement_end_deg, force_n,
 torque_nm, power_kw. An empty cell is a value that is not known.";
 
-/// Removes the stock motion by motion: chips, depths, forces, collisions, what is left
+/// Removes the stock motion by motion: chips, depths, forces, collisions, remaining stock
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct SimulateArgs {
@@ -59,13 +59,13 @@ pub struct SimulateArgs {
     /// Everything as JSON; `-` is standard output
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     json: Option<PathBuf>,
-    /// The stock that is left, as a binary STL in mm
+    /// The remaining stock, as a binary STL in mm
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     stl: Option<PathBuf>,
-    /// The stock that is left, as stock for the next program
+    /// The remaining stock, as the stock of the next program
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     save_stock: Option<PathBuf>,
-    /// Thickest chips and feeds along time, as SVG, or PNG where the file ends so
+    /// Thickest chips and feeds over time, as SVG, or as PNG if the file ends in .png
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     plot: Option<PathBuf>,
     /// A second program that is drawn behind the first one, in grey
@@ -73,19 +73,19 @@ pub struct SimulateArgs {
     plot_before: Option<PathBuf>,
     #[command(flatten)]
     reports: ReportArgs,
-    /// The part that shall be: a closed STL in the coordinates and the unit of the program
+    /// The target part: a closed STL in the coordinates and the unit of the program
     #[arg(long, value_name = "FILE")]
     target: Option<PathBuf>,
-    /// How far the stock that is left may be off the target; a cell if not given
+    /// How far the remaining stock may be off the target; by default a cell
     #[arg(long, value_name = "MM", value_parser = parse_positive, requires = "target")]
     tolerance: Option<f64>,
-    /// Distance of the columns that the stock is made of; a fortieth of the smallest cutter if not given
+    /// Distance between the columns of the stock; by default a fortieth of the smallest cutter
     #[arg(long, value_name = "MM", value_parser = parse_positive)]
     cell: Option<f64>,
-    /// Memory that the stock may take
+    /// The memory for the stock
     #[arg(long, value_name = "GIB", value_parser = parse_positive, default_value = "2")]
     budget: f64,
-    /// Threads; as many as there are cores if not given. The result is the same
+    /// Threads; by default as many as there are cores. The result is the same
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// The dialect, instead of finding it from the text
@@ -101,13 +101,13 @@ pub struct SimulateArgs {
     pub(in crate::cli) findings: FindingArgs,
 }
 
-/// A positive number.
+/// Reads a positive number.
 pub(super) fn parse_positive(text: &str) -> Result<f64, BadArgument> {
     let value = text.parse::<f64>().ok().filter(|value| *value > 0.0 && value.is_finite());
     value.ok_or(BadArgument::new("this must be a number above 0"))
 }
 
-/// A run, and what it was made of.
+/// A run, with its inputs.
 struct SimulateOutcome {
     program: Program,
     setup: Setup,
@@ -117,7 +117,7 @@ struct SimulateOutcome {
 }
 
 impl SimulateOutcome {
-    /// What reports tell of.
+    /// Returns the inputs of reports.
     fn report_subject<'a>(
         &'a self,
         units: Option<LengthUnit>,
@@ -154,7 +154,7 @@ impl SimulateArgs {
         )
     }
 
-    /// Everything but writing: the simulation, and the drawing if one is wanted. What does not stop the run is added to the findings.
+    /// Simulates the program, and draws if that is wanted. Findings that do not stop the run are added.
     fn simulate_and_draw(&self, under: &mut MeasuringContext<'_>) -> Result<SimulateOutcome, Stop> {
         let setup_file = input_files::read_source(&self.setup)?;
         let setup = Setup::load(&setup_file)?;
@@ -192,7 +192,7 @@ impl SimulateArgs {
         let mut series = Vec::new();
         if let Some(path) = &self.plot_before {
             let before = under.read_program(path, self.dialect)?;
-            // What goes wrong in the program behind is not what was asked.
+            // Faults of the program in the background are not reported.
             let before = self.simulate_program(&before, setup, under.progress, &mut Vec::new())?;
             series.push(before.to_time_series(path.to_string_lossy()));
         }

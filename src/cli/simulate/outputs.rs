@@ -1,4 +1,4 @@
-//! What `clsmith simulate` writes, and where it may not.
+//! This module writes the outputs of `clsmith simulate`, and checks where they may be written.
 
 use super::{SimulateArgs, SimulateOutcome};
 use crate::cli::command_outputs::{CommandOutputs, refuse_overwritten_input};
@@ -15,7 +15,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 impl SimulateArgs {
-    /// What is wrong with the command line beyond what clap can say.
+    /// Returns the fault of the command line, as far as clap cannot find it.
     pub(super) fn find_usage_problem(&self) -> Option<String> {
         let outputs: Vec<&Path> = self.output_paths().collect();
         let twice = outputs.iter().enumerate().find_map(|(index, one)| {
@@ -39,7 +39,7 @@ impl SimulateArgs {
         all.into_iter().filter_map(|path| path.as_deref()).chain(self.reports.output_paths())
     }
 
-    /// No output may be an input, nor a file that the setup names.
+    /// Checks that no output is an input, or a file that the setup names.
     pub(super) fn check_outputs(&self, setup: &Setup) -> Result<(), Stop> {
         let mut inputs = vec![self.program.as_path(), &self.setup];
         inputs.extend([&self.target, &self.plot_before].into_iter().filter_map(|path| path.as_deref()));
@@ -55,7 +55,7 @@ impl SimulateArgs {
         wrong.or_else(|| self.reports.find_wrong_ending()).map_or(Ok(()), |wrong| Err(Stop::Usage(wrong)))
     }
 
-    /// Writes what was asked for; a finding when that fails.
+    /// Writes the requested outputs. Returns a finding if that fails.
     pub(super) fn write_outputs(
         &self,
         ran: &SimulateOutcome,
@@ -77,7 +77,8 @@ impl SimulateArgs {
         let refused = findings.iter().any(Diagnostic::is_error);
         for (path, write_all) in &all {
             let Some(path) = path else { continue };
-            // Analysis is written also when errors were found. What a program with a crash leaves is no stock for the next.
+            // Analysis is written also when errors were found. What a program with a crash leaves is no stock
+            // for the next.
             if refused && self.save_stock.as_ref() == Some(path) {
                 continue;
             }

@@ -1,4 +1,4 @@
-//! What commands that stand between the CAM system and the post have in common: `hook` and `watch`.
+//! This module holds what `hook` and `watch`, which run between the CAM system and the post, have in common.
 
 mod recipe_args;
 mod run_log;

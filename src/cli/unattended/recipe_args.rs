@@ -1,4 +1,4 @@
-//! Options that say which recipe a program gets.
+//! This module holds the options that choose the recipe of a program.
 
 use crate::cli::input_files;
 use clap::Args;
@@ -15,7 +15,7 @@ pub struct RecipeArgs {
     /// Rules that choose the recipe by machine, tool, operation or file name (`clsmith schema --select`)
     #[arg(long, value_name = "RECIPES")]
     select: Option<PathBuf>,
-    /// A setup file; overrides the recipe's setup. With --select, a rule names it
+    /// A setup file. It overrides the recipe's setup. With --select, a rule names it
     #[arg(long, value_name = "FILE", conflicts_with = "select")]
     setup: Option<PathBuf>,
     /// The dialect, instead of finding it from the text
@@ -23,11 +23,11 @@ pub struct RecipeArgs {
     pub dialect: Option<Dialect>,
 }
 
-/// Who says which recipe a program gets.
+/// What chooses the recipe of a program.
 pub enum RecipeChooser {
-    /// The same for all.
+    /// All programs get the same recipe.
     One(RecipeChoice),
-    /// The first rule that fits.
+    /// The first rule that matches chooses it.
     Rules(RecipeRules),
 }
 
@@ -46,14 +46,14 @@ impl RecipeArgs {
         }))
     }
 
-    /// Files that are read whatever the program: no output may be one of them.
+    /// Returns files that are read for every program. No output may be one of them.
     pub fn input_files(&self) -> impl Iterator<Item = &PathBuf> {
         [&self.recipe, &self.select, &self.setup].into_iter().flatten()
     }
 }
 
 impl RecipeChooser {
-    /// What becomes of a program.
+    /// Decides what happens to a program.
     pub fn choose_recipe(&self, file: &str, program: &Program) -> Result<RecipeChoice, Failure> {
         match self {
             Self::One(choice) => Ok(choice.clone()),
@@ -61,7 +61,7 @@ impl RecipeChooser {
         }
     }
 
-    /// Every recipe that may be chosen.
+    /// Returns every recipe that may be chosen.
     pub fn list_choices(&self) -> Vec<RecipeChoice> {
         match self {
             Self::One(choice) => vec![choice.clone()],

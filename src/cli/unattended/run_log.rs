@@ -1,4 +1,4 @@
-//! The log: one line of JSON a run, whole or not at all.
+//! This module writes the log, with a complete line of JSON for each run.
 
 use super::unattended_correction::{LoggedRecipe, UnattendedCorrection, UnattendedOutcome};
 use crate::cli::command_outputs::report_unwritable;
@@ -14,10 +14,10 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// How many errors a line repeats; all are counted.
+/// The number of errors that a line repeats. All of them are counted.
 const ERRORS: usize = 5;
 
-/// A line of the log. New keys may come; `version` changes when a reader would have to.
+/// A line of the log. New keys may be added. `version` changes when readers have to change.
 #[derive(Debug, Serialize)]
 pub struct LogLine<'r, More> {
     /// Version of the structure: 1.
@@ -28,11 +28,11 @@ pub struct LogLine<'r, More> {
     command: &'r str,
     /// Version of clsmith.
     clsmith: &'static str,
-    /// The program as it came.
+    /// The program as it was read.
     input: &'r LoggedInput,
-    /// What became of it.
+    /// What happened to it.
     outcome: UnattendedOutcome,
-    /// The recipe; `null` where none was read.
+    /// The recipe; `null` if none was read.
     recipe: Option<&'r LoggedRecipe>,
     /// What each step changed.
     steps: &'r [StepChanges],
@@ -42,33 +42,33 @@ pub struct LogLine<'r, More> {
     allowed: BTreeMap<&'static str, usize>,
     /// The first errors, a line each.
     errors: Vec<String>,
-    /// The program as it went on; `null` where none did.
+    /// The program that was passed on; `null` if there was none.
     output: Option<&'r LoggedOutput>,
-    /// What only this command has to say.
+    /// The fields that only this command logs.
     #[serde(flatten)]
     more: More,
-    /// How long all took.
+    /// The duration of everything.
     seconds: f64,
 }
 
-/// The program as it came. A name that is no UTF-8 has `\u{fffd}` for what cannot be written.
+/// The program as it was read. A name that is not UTF-8 has `\u{fffd}` for bytes that cannot be written.
 #[derive(Debug, Clone, Serialize)]
 pub struct LoggedInput {
     pub path: String,
-    /// `null` where it could not be read.
+    /// The digest; `null` if the program could not be read.
     pub sha256: Option<Digest>,
 }
 
-/// The program as it went on.
+/// The program that was passed on.
 #[derive(Debug, Clone, Serialize)]
 pub struct LoggedOutput {
-    /// Where it stays; `null` where it was for the post alone.
+    /// Where it stays; `null` if it was only for the post.
     pub path: Option<String>,
     pub sha256: Digest,
 }
 
 impl<'r, More> LogLine<'r, More> {
-    /// A line about a program that came at a time; `started` is the same moment for measuring.
+    /// Makes the line of a program that was read at a time. `started` is the same moment for measuring.
     pub fn from_correction(
         command: &'r str,
         (time, started): (&'r str, Instant),
@@ -96,9 +96,9 @@ impl<'r, More> LogLine<'r, More> {
     }
 }
 
-/// Now, in UTC, as RFC 3339 with milliseconds: `2026-03-01T06:30:00.250Z`.
+/// Returns the current time in UTC, as RFC 3339 with milliseconds: `2026-03-01T06:30:00.250Z`.
 pub fn utc_now() -> String {
-    // Cut, not rounded: a time of a log is never in the future.
+    // The time is cut and not rounded, so that a time in a log is never in the future.
     format!("{:.3}", jiff::Timestamp::now())
 }
 
@@ -110,7 +110,7 @@ fn count_by_code<'f>(findings: impl Iterator<Item = &'f Diagnostic>) -> BTreeMap
     counts
 }
 
-/// `part.cls:12:13: CL0003: ...`, a line each.
+/// Returns errors as `part.cls:12:13: CL0003: ...`, one on each line.
 fn list_errors(findings: &[Diagnostic], file: &str) -> Vec<String> {
     let errors = findings.iter().filter(|found| found.is_error()).take(ERRORS);
     errors
@@ -122,7 +122,8 @@ fn list_errors(findings: &[Diagnostic], file: &str) -> Vec<String> {
         .collect()
 }
 
-/// Ends a line that a full disk has cut, so that it does not spoil the next one. Pipes and devices have no end to look at.
+/// Ends a line that a full disk has cut, so that it does not damage the next one. The end of pipes and
+/// devices cannot be read.
 fn end_cut_line(file: &mut File) -> io::Result<()> {
     if !file.metadata()?.is_file() || file.seek(SeekFrom::End(0))? == 0 {
         return Ok(());
@@ -153,7 +154,7 @@ impl RunLog {
         Ok(Self { path: path.to_path_buf(), file })
     }
 
-    /// Adds a line, in one write to the end of the file: lines of several runs do not mix.
+    /// Adds a line in a single write at the end of the file, so that lines of several runs do not mix.
     pub fn add_line(&mut self, record: &impl Serialize) -> Result<(), Diagnostic> {
         let written = serde_json::to_vec(record).map_err(io::Error::from).and_then(|mut line| {
             line.push(b'\n');

@@ -1,4 +1,4 @@
-//! One program through the recipe that is chosen for it.
+//! This module takes one program through the recipe that is chosen for it.
 
 use super::{RecipeArgs, RecipeChooser};
 use crate::cli::input_files::{self, LoadedRecipe};
@@ -16,7 +16,7 @@ use clsmith::transform::TransformReport;
 use serde::Serialize;
 use std::sync::Arc;
 
-/// What became of a program.
+/// What happened to a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum UnattendedOutcome {
@@ -24,41 +24,42 @@ pub enum UnattendedOutcome {
     Corrected,
     /// The recipe found nothing to change.
     Unchanged,
-    /// A selection says that it goes on as it is.
+    /// The rules let it pass unchanged.
     Passed,
-    /// It could not be corrected, and goes on as it is all the same.
+    /// It could not be corrected, and passes unchanged all the same.
     PassedOriginal,
-    /// It could not be corrected, and stops here.
+    /// It could not be corrected, and is not passed on.
     Refused,
     /// Ctrl-C came first.
     Stopped,
 }
 
-/// A recipe with all that it depends on.
+/// A recipe with everything on which it depends.
 #[derive(Debug, Clone, Serialize)]
 pub struct LoggedRecipe {
     pub path: String,
-    /// `--recipe`, `rule 2`, `otherwise`.
+    /// What chose it: `--recipe`, `rule 2` or `otherwise`.
     pub chosen_by: String,
     #[serde(flatten)]
     pub print: RecipeFingerprint,
 }
 
-/// A program after its recipe, or why not.
+/// A program after its recipe, or the reason why there is none.
 pub struct UnattendedCorrection {
-    /// What became of it; `Refused` when an error stands.
+    /// What happened to it. It is `Refused` if there is an error.
     pub outcome: UnattendedOutcome,
-    /// The program as it is to go on; `None` when it is refused or passed.
+    /// The program that is passed on. It is `None` if it is refused or passes unchanged.
     pub program: Option<Program>,
     /// What was found.
     pub findings: Vec<Diagnostic>,
     /// What each step changed.
     pub steps: Vec<StepChanges>,
-    /// What steps tell about themselves.
+    /// What steps report about themselves.
     pub reports: Vec<Box<dyn TransformReport>>,
     /// The recipe, once it was read.
     pub recipe: Option<LoggedRecipe>,
-    /// Whether it is refused for what stands around it, a broken recipe say, and may go through when that is put right.
+    /// Whether it is refused because of something else, such as a broken recipe, and may succeed when that is
+    /// repaired.
     pub surroundings: bool,
 }
 
@@ -75,17 +76,17 @@ impl UnattendedCorrection {
         }
     }
 
-    /// A program that cannot be corrected.
+    /// Makes the result for a program that cannot be corrected.
     pub fn refused(findings: Vec<Diagnostic>) -> Self {
         Self::without_program(UnattendedOutcome::Refused, findings)
     }
 
-    /// A program whose recipe cannot be used.
+    /// Makes the result for a program whose recipe cannot be used.
     pub fn without_recipe(findings: Vec<Diagnostic>) -> Self {
         Self { surroundings: true, ..Self::refused(findings) }
     }
 
-    /// The bytes that go on: the corrected program, or the file as it came.
+    /// Returns the bytes that are passed on: the corrected program, or the file as it was read.
     pub fn byte_chunks<'p>(&'p self, source: &'p Source) -> Box<dyn Iterator<Item = &'p [u8]> + 'p> {
         match &self.program {
             Some(program) => Box::new(program.byte_chunks()),
@@ -104,7 +105,7 @@ pub fn correct_unattended(
     source: &Arc<Source>,
 ) -> UnattendedCorrection {
     let choice = match chooser {
-        // The program need not be looked at before.
+        // With a single recipe, the program need not be read first.
         RecipeChooser::One(choice) => Ok(choice.clone()),
         RecipeChooser::Rules(_) => chooser.choose_recipe(file, &parse(source, args.dialect).program),
     };

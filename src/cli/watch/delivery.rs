@@ -1,4 +1,5 @@
-//! What a watch does with a program once its recipe is through: write it or move it aside, tell, remember, log.
+//! This module delivers a program after its recipe: it writes it or moves it aside, reports, remembers and
+//! logs it.
 
 use super::folder_scan::ExportedFile;
 use super::refused_programs::{RefusedMove, move_aside};
@@ -24,12 +25,12 @@ use std::time::Instant;
 /// What only the lines of a watch say.
 #[derive(Debug, Serialize)]
 struct WatchLogFields<'r> {
-    /// Where a refused program is now.
+    /// The fields that only a watch logs.
     refused_to: Option<&'r str>,
 }
 
 impl WatchRun<'_> {
-    /// Writes what came of a program and remembers it.
+    /// Writes the result of a program and remembers it.
     pub fn write_corrected(
         &mut self,
         export: &ExportedFile,
@@ -50,7 +51,7 @@ impl WatchRun<'_> {
             return Err(found.into());
         }
         let new = Digest::from_chunks(correction.byte_chunks(source));
-        // After a crash between output and state the output stands already, and nobody must see it change.
+        // After a crash between output and state, the output exists already, and nobody must see it change.
         if Digest::from_file(&target).ok() != Some(new) {
             if let Some(folder) = target.parent()
                 && let Err(error) = fs::create_dir_all(folder)
@@ -73,7 +74,8 @@ impl WatchRun<'_> {
         Ok(ExportStatus::Done)
     }
 
-    /// Why a corrected program must not be written: where refused ones lie, over what the watch keeps, or through a link.
+    /// Returns the reason why a corrected program must not be written: it would be among refused ones, over a
+    /// file of the watch, or through a link.
     fn find_write_conflict(&self, export: &ExportedFile, target: &Path) -> Option<Diagnostic> {
         let folders = self.folders;
         let kept = [Some(&folders.state), self.watch.log.as_ref()];
@@ -122,11 +124,15 @@ impl WatchRun<'_> {
         let before = self.folders.out.join(&export.name);
         if before.is_file() {
             let before = before.to_string_lossy();
-            eprintln!("{}: {} is of an earlier export", escape_controls(&name), escape_controls(&before));
+            eprintln!(
+                "{}: {} belongs to an earlier export",
+                escape_controls(&name),
+                escape_controls(&before)
+            );
         }
         if let Some(found) = stays {
             self.watch.show_findings(&[*found], &name)?;
-            // It stays among the exports, and must not be refused again for ever.
+            // It stays among the exports, and must not be refused again and again.
             self.remember_done(export, digest, UnattendedOutcome::Refused)?;
         }
         let to = to.to_string_lossy().into_owned();
@@ -145,7 +151,7 @@ impl WatchRun<'_> {
             (UnattendedOutcome::Unchanged, Some(recipe)) => {
                 format!("nothing to change for {} ({})", recipe.path, recipe.chosen_by)
             }
-            _ => "no rule fits, passed as it is".to_owned(),
+            _ => "no rule matches, passed unchanged".to_owned(),
         };
         eprintln!("{}: {what} -> {}", escape_controls(name), escape_controls(&target.to_string_lossy()));
     }

@@ -1,4 +1,4 @@
-//! A look at the folder: which files are there, and how they were when we looked.
+//! This module lists the files of a folder and their state.
 
 use super::watch_folders::LOCK;
 use clsmith::diagnostic::{Diagnostic, codes};
@@ -8,29 +8,29 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-/// A file that is to be taken.
+/// A file to be taken.
 pub struct ExportedFile {
-    /// Its path below the watched folder; names are bytes, not text.
+    /// Its path below the watched folder. Names are bytes, not text.
     pub name: PathBuf,
     /// Where it is.
     pub path: PathBuf,
-    /// How it is.
+    /// Its state.
     pub stamp: ExportStamp,
 }
 
-/// How a file is; two equal ones mean that nobody has written to it between.
+/// The state of a file. If two are equal, nobody has written to the file between them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ExportStamp {
     /// Bytes.
     pub size: u64,
     modified: Option<SystemTime>,
-    // A copy may keep the time of its original, but never that of its own entry on the disk.
+    // A copy may keep the time of its original, but never that of its own directory entry.
     #[cfg(unix)]
     entry: (u64, i64, i64),
 }
 
 impl ExportStamp {
-    /// How a file is now.
+    /// Reads the current state of a file.
     pub fn read_stamp(path: &Path) -> io::Result<Self> {
         fs::metadata(path).map(|metadata| Self::from(&metadata))
     }
@@ -52,10 +52,10 @@ impl From<&Metadata> for ExportStamp {
     }
 }
 
-/// All files in a folder that a pattern fits, in the order of their names, and what was wrong with others.
+/// Returns all files in a folder that match a pattern in the order of their names, and findings about others.
 pub fn scan_exports(watched: &Path, glob: &GlobMatcher) -> (Vec<ExportedFile>, Vec<Diagnostic>) {
     let (mut found, mut faults) = (Vec::new(), Vec::new());
-    // A pattern without a slash or two stars can only fit the folder's own files.
+    // A pattern without a slash or two stars can only match the folder's own files.
     let pattern = glob.glob().glob();
     let is_deep = pattern.contains('/') || pattern.contains("**");
     let mut folders = vec![watched.to_path_buf()];
@@ -93,7 +93,7 @@ fn classify_entry(
 ) -> Result<Option<WatchedEntry>, Diagnostic> {
     let path = entry.path();
     let failed = |error: io::Error| match error.kind() {
-        // Gone since the folder was read.
+        // It was removed since the folder was read.
         io::ErrorKind::NotFound => None,
         _ => Some(report_unreadable(&path, &error)),
     };
@@ -127,7 +127,7 @@ fn classify_entry(
     }
 }
 
-/// A file or folder that cannot be read.
+/// Reports a file or folder that cannot be read.
 pub fn report_unreadable(path: &Path, error: &io::Error) -> Diagnostic {
     Diagnostic::new(codes::UNREADABLE, format!("{} cannot be read: {error}", path.display()))
 }

@@ -1,12 +1,12 @@
-//! `clsmith watch`: corrects exports that land in a folder.
+//! `clsmith watch` corrects exports that are written to a folder.
 //!
-//! It polls. Nobody notifies a computer of what other computers write on a network share, which is where
-//! exports land, and notifications are lost when their queue is full. Reading a folder with a few hundred
-//! files every few seconds costs nothing.
+//! It polls. Nobody notifies a computer of what other computers write on a network drive, which is where
+//! exports are written, and notifications are lost when their queue is full. Reading a folder with a few
+//! hundred files every few seconds costs nothing.
 //!
-//! A file is taken once its size and time rest and it reads the same twice. What was done is remembered by
-//! content. The output is written first and the line in the state after it, so a kill between the two makes
-//! the next run write the same bytes again, or see that they stand.
+//! A file is taken once its size and time do not change any more and it reads the same twice. Finished files
+//! are remembered by content. The output is written first and the line in the state after it. So if the
+//! process is killed between the two, the next run writes the same bytes again, or finds that they exist.
 
 mod delivery;
 mod folder_scan;
@@ -58,7 +58,7 @@ Exit codes: 130 after Ctrl-C, which is how a watch ends; 1 if it cannot begin; w
 all were taken or were done before, 1 if one was refused, cannot be read or written, or is still
 changing.";
 
-/// Corrects programs that land in a folder
+/// Corrects programs that are written to a folder
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct WatchArgs {
@@ -76,16 +76,16 @@ pub struct WatchArgs {
     /// The folder for programs that cannot be corrected [default: `refused` in --out]
     #[arg(long, value_name = "FOLDER")]
     refused: Option<PathBuf>,
-    /// What was done [default: .clsmith-watch.jsonl in --out]
+    /// The file that remembers finished programs [default: .clsmith-watch.jsonl in --out]
     #[arg(long, value_name = "FILE")]
     state: Option<PathBuf>,
-    /// Adds a line of JSON about each program to a file
+    /// Add a line of JSON about each program to a file
     #[arg(long, value_name = "FILE")]
     log: Option<PathBuf>,
-    /// Take what is there, then end
+    /// Take the existing files, then end
     #[arg(long)]
     once: bool,
-    /// Time from one look to the next
+    /// The time from one check of the folder to the next
     #[arg(long, default_value = "2", value_name = "SECONDS", value_parser = input_files::parse_seconds)]
     poll: Duration,
     /// How long a file must not have changed
@@ -112,7 +112,7 @@ impl WatchArgs {
     /// Locks the folders and reads the recipes, the log and the state.
     fn prepare_watch(&self) -> Result<(WatchFolders, Option<RunLog>, WatchState), Failure> {
         let folders = WatchFolders::open_and_lock(self)?;
-        // A recipe that is wrong is told now, not when the first program comes at night.
+        // A faulty recipe is reported now, not when the first program comes at night.
         for choice in self.recipe.read_chooser()?.list_choices() {
             if let RecipeChoice::Recipe { recipe, setup, .. } = choice {
                 input_files::read_recipe(&recipe, setup.as_deref())?;
@@ -139,7 +139,7 @@ impl WatchArgs {
     }
 }
 
-/// What CAM systems call their exports; Creo counts versions behind the suffix.
+/// The names that CAM systems give their exports. Creo adds a version after the suffix.
 const EXPORTS: &str = "*.{cls,clsf,apt,aptsource,ncl,cl,clt,CLS,CLSF,APT,APTSOURCE,NCL,CL,CLT,ncl.[0-9]*}";
 
 fn parse_glob(text: &str) -> Result<GlobMatcher, BadArgument> {

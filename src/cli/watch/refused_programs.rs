@@ -1,7 +1,7 @@
-//! Refused programs: moved aside with what is wrong with them, over nothing that stands there.
+//! This module moves refused programs aside with their findings, without overwriting anything.
 //!
-//! The diagnostics come first and the original goes last, so a kill on the way loses nothing, and the next try finds its own
-//! work and ends it.
+//! The diagnostics are written first and the original is removed last. So nothing is lost if the process is
+//! killed, and the next try continues from there.
 
 use super::folder_scan::{ExportStamp, ExportedFile, report_unreadable};
 use crate::cli::command_outputs::report_unwritable;
@@ -13,18 +13,18 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// What became of a refused program.
+/// What happened to a refused program.
 pub enum RefusedMove {
     /// It is aside, and no longer among the exports.
     To(PathBuf),
-    /// It is aside, and among the exports, too: it cannot be taken away from there.
+    /// It is aside and still among the exports, because it cannot be removed there.
     Copied(PathBuf, Box<Diagnostic>),
     /// It has changed since it was read.
     Changed,
 }
 
-/// More refused programs of one name are a fault of something else.
-const MOST: usize = 10_000;
+/// More refused programs with the same name are a fault of something else.
+const MOST_OF_ONE_NAME: usize = 10_000;
 
 /// Moves a program aside.
 pub fn move_aside(
@@ -34,17 +34,17 @@ pub fn move_aside(
     folder: &Path,
 ) -> Result<RefusedMove, Failure> {
     let text = Digest::from_bytes(diagnostics.as_bytes());
-    for number in 0..MOST {
+    for number in 0..MOST_OF_ONE_NAME {
         let target = numbered_path(&folder.join(&export.name), number);
         let beside = path_with_suffix(&target, ".diagnostics.txt");
-        // What has our content is from a try that did not come to its end.
+        // A file with our content comes from a try that did not end.
         if !is_free_or_same(&target, digest)? || !is_free_or_same(&beside, text)? {
             continue;
         }
         write_new_file(&beside, |out| out.write_all(diagnostics.as_bytes()))?;
         let is_new = write_new_file(&target, |out| io::copy(&mut File::open(&export.path)?, out).map(drop))?;
         if !is_free_or_same(&target, digest)? {
-            // Somebody exports anew at this moment: what was copied is nothing that anybody exported.
+            // A new export is being written, so what was copied is nothing that anybody exported.
             if is_new {
                 let _ = fs::remove_file(&target);
                 let _ = fs::remove_file(&beside);
@@ -59,22 +59,22 @@ pub fn move_aside(
             Err(error) => RefusedMove::Copied(target, Box::new(report_unwritable(&export.path, &error))),
         });
     }
-    let full = io::Error::other(format!("there are {MOST} refused programs of this name"));
+    let full = io::Error::other(format!("there are {MOST_OF_ONE_NAME} refused programs of this name"));
     Err(report_unwritable(&folder.join(&export.name), &full).into())
 }
 
-/// Whether nothing stands there, or just this content.
+/// Returns whether a path is free, or has this content.
 fn is_free_or_same(path: &Path, digest: Digest) -> Result<bool, Failure> {
     match Digest::from_file(path) {
         Ok(found) => Ok(found == digest),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(true),
-        // A folder of this name, say.
+        // There may be a folder of this name.
         Err(_) if fs::symlink_metadata(path).is_ok() => Ok(false),
         Err(error) => Err(report_unreadable(path, &error).into()),
     }
 }
 
-/// Writes a file that is not there; one that is there stays. Whether it was written.
+/// Writes a file if it does not exist. Returns whether it was written.
 fn write_new_file(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -91,7 +91,7 @@ fn write_new_file(
     Ok(make().map_err(|error| report_unwritable(path, &error))?)
 }
 
-/// `part.cls`, `part.1.cls`, `part.2.cls`.
+/// Numbers a path: `part.cls`, `part.1.cls`, `part.2.cls`.
 fn numbered_path(path: &Path, number: usize) -> PathBuf {
     if number == 0 {
         return path.to_path_buf();

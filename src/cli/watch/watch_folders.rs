@@ -1,4 +1,4 @@
-//! The folders of a watch: side by side, and each with one watch at most.
+//! This module holds the folders of a watch. They are side by side, and each has at most one watch.
 
 use super::WatchArgs;
 use crate::cli::command_outputs::report_unwritable;
@@ -6,25 +6,25 @@ use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
 
-/// Name of the lock in the watched folder and in the one for corrected programs.
+/// The name of the lock in the watched folder and in the one for corrected programs.
 pub const LOCK: &str = ".clsmith-watch.lock";
 
-/// The folders, real and locked.
+/// The folders, with links resolved, and locked.
 pub struct WatchFolders {
-    /// Where exports land, with every link followed.
+    /// The folder of exports, with every link followed.
     pub watched: PathBuf,
-    /// Where corrected programs go.
+    /// The folder for corrected programs.
     pub out: PathBuf,
-    /// Where refused programs go.
+    /// The folder for refused programs.
     pub refused: PathBuf,
-    /// The file that remembers what was done.
+    /// The file that remembers finished programs.
     pub state: PathBuf,
-    /// Held as long as the watch runs; the operating system lets them go, however it ends.
+    /// The locks, held as long as the watch runs. The operating system releases them however it ends.
     _locks: Vec<File>,
 }
 
 impl WatchFolders {
-    /// Looks at the folders, makes those for outputs, and locks.
+    /// Checks the folders, makes those for outputs, and locks them.
     pub fn open_and_lock(watch: &WatchArgs) -> Result<Self, Failure> {
         let watched = fs::canonicalize(&watch.folder).map_err(|error| {
             let message = format!("{} cannot be read: {error}", watch.folder.display());
@@ -36,7 +36,7 @@ impl WatchFolders {
         }
         let refused = watch.refused.clone().unwrap_or_else(|| watch.out.join("refused"));
         let state = watch.state.clone().unwrap_or_else(|| watch.out.join(".clsmith-watch.jsonl"));
-        // Before anything is made: a refused command line leaves no folder behind.
+        // This comes before anything is made, so a refused command line leaves no folder behind.
         let folders = [(&watch.out, true), (&refused, true)];
         let files = [Some(&state), watch.log.as_ref()].into_iter().flatten().map(|file| (file, false));
         for (path, is_folder) in folders.into_iter().chain(files) {
@@ -56,7 +56,7 @@ impl WatchFolders {
         let mut locks = vec![lock_folder(&watch.out)?];
         match lock_folder(&watched) {
             Ok(held) => locks.push(held),
-            // A folder of exports that can only be read cannot be locked; the one for outputs is.
+            // A folder of exports that is write-protected cannot be locked, but the one for outputs is.
             Err(found) if found.code == codes::UNWRITABLE => {}
             Err(found) => return Err(found.into()),
         }
@@ -64,7 +64,7 @@ impl WatchFolders {
     }
 }
 
-/// Where a path leads once it is there: links are followed as far as there is something.
+/// Returns where a path will lead. Links are followed as far as it exists.
 fn resolve_future_path(path: &Path) -> PathBuf {
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
     for above in path.ancestors() {

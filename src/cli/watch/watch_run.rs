@@ -1,4 +1,5 @@
-//! The watch at work: look, wait until a file rests, correct it, write it, remember it.
+//! This module runs the watch: it finds files, waits until they do not change any more, corrects, writes and
+//! remembers them.
 
 use super::WatchArgs;
 use super::folder_scan::{ExportStamp, ExportedFile, report_unreadable, scan_exports};
@@ -20,10 +21,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// The longest pause between two tries of what fails.
+/// The longest pause between two tries of something that fails.
 const LONGEST_PAUSE: Duration = Duration::from_secs(300);
 
-/// What a watch knows.
+/// The state of a watch.
 pub struct WatchRun<'w> {
     pub(super) watch: &'w WatchArgs,
     pub(super) folders: &'w WatchFolders,
@@ -37,7 +38,7 @@ pub struct WatchRun<'w> {
     pub(super) worst: CommandExit,
 }
 
-/// A file that was seen.
+/// A file that was found.
 struct SeenExport {
     stamp: ExportStamp,
     status: ExportStatus,
@@ -46,11 +47,11 @@ struct SeenExport {
 /// What a file waits for.
 #[derive(Clone)]
 pub enum ExportStatus {
-    /// Not to change for some time, from then on.
+    /// It must not change for some time, from then on.
     Settling(Instant),
-    /// For nothing: it was done, or is told and left.
+    /// It waits for nothing, because it was processed, or reported and left.
     Done,
-    /// Another try at that time, after that pause; the message was told.
+    /// It is tried again at that time, after that pause. The message was shown.
     Failed { next: Instant, pause: Duration, message: String },
 }
 
@@ -67,7 +68,7 @@ impl<'w> WatchRun<'w> {
         Self { watch, folders, outputs, policy, progress, log, state, seen, told, worst: CommandExit::Done }
     }
 
-    /// Watches, until Ctrl-C; with `--once` until what is there is done.
+    /// Watches until Ctrl-C, or with `--once` until all existing files are processed.
     pub fn watch_folder(mut self) -> Result<CommandExit, Stop> {
         let begun = Instant::now();
         let pause = if self.watch.once { self.watch.poll.min(self.watch.settle) } else { self.watch.poll };
@@ -82,11 +83,12 @@ impl<'w> WatchRun<'w> {
                 let first = first.get_or_insert_with(names);
                 exports.retain(|export| first.contains(&export.name));
             }
-            // Exports come in the order of their names.
+            // Exports are in the order of their names.
             self.seen.retain(|name, _| exports.binary_search_by(|export| export.name.cmp(name)).is_ok());
             for export in &exports {
                 self.take_settled(export)?;
-                // Ctrl-C while an output was written is only remembered, and may come when all is written.
+                // Ctrl-C while an output is written is only remembered, and may come after everything is
+                // written.
                 if self.outputs.interrupt().is_raised() {
                     return Err(Stop::Interrupted);
                 }
@@ -98,7 +100,7 @@ impl<'w> WatchRun<'w> {
         }
     }
 
-    /// Whether `--once` has done what it can: a file that goes on changing is left.
+    /// Returns whether `--once` has done what it can. A file that keeps changing is left.
     fn is_once_finished(&mut self, begun: Instant) -> io::Result<bool> {
         let settling: Vec<String> = self
             .seen
@@ -119,7 +121,7 @@ impl<'w> WatchRun<'w> {
         Ok(true)
     }
 
-    /// Takes a file if it has come to rest.
+    /// Takes a file if it does not change any more.
     fn take_settled(&mut self, export: &ExportedFile) -> Result<(), Stop> {
         let now = Instant::now();
         let status = match self.seen.get(&export.name) {
@@ -157,7 +159,7 @@ impl<'w> WatchRun<'w> {
         self.seen.insert(export.name.clone(), SeenExport { stamp: export.stamp, status });
     }
 
-    /// Reads, corrects and writes one file; what it then waits for, or what stands around it that is in the way.
+    /// Reads, corrects and writes one file. Returns what it waits for then, or the obstacle.
     fn take_export(&mut self, export: &ExportedFile) -> Result<ExportStatus, Stop> {
         let changed = || Ok(ExportStatus::Settling(Instant::now()));
         let fits = export.stamp.size < u64::from(u32::MAX);
@@ -173,7 +175,7 @@ impl<'w> WatchRun<'w> {
         };
         let (bytes, digest, is_done, rests) = match read() {
             Ok(read) => read,
-            // Taken away again.
+            // It was removed again.
             Err(error) if error.kind() == io::ErrorKind::NotFound => return changed(),
             Err(error) => return Err(report_unreadable(&export.path, &error).into()),
         };
@@ -202,7 +204,7 @@ impl<'w> WatchRun<'w> {
         if correction.surroundings {
             return Err(correction.findings.into());
         }
-        // A new export while we worked: the one that was read is of no use to anybody.
+        // A new export was written meanwhile, so the one that was read is of no use.
         if ExportStamp::read_stamp(&export.path).ok() != Some(export.stamp) {
             return changed();
         }
@@ -217,7 +219,8 @@ impl<'w> WatchRun<'w> {
     fn correct_source(&self, name: &Path, source: &std::sync::Arc<Source>) -> UnattendedCorrection {
         let args = &self.watch.recipe;
         let file = name.file_name().unwrap_or_default().to_string_lossy();
-        // Read anew for each program, so that a corrected recipe counts from the next one on.
+        // The rules are read again for each program, so that a corrected recipe counts from the next program
+        // on.
         match args.read_chooser() {
             Ok(chooser) => {
                 unattended::correct_unattended(args, &chooser, self.policy, self.progress, &file, source)
@@ -226,7 +229,7 @@ impl<'w> WatchRun<'w> {
         }
     }
 
-    /// Tells what would otherwise be told at every look.
+    /// Reports once what would otherwise be reported at every check.
     pub(super) fn tell_once(&mut self, found: Diagnostic) -> io::Result<()> {
         if found.is_error() {
             self.worst = self.worst.max(CommandExit::Errors);

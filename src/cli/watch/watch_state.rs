@@ -1,7 +1,8 @@
-//! What was done, by content: a line of JSON for each program, added after its output stands.
+//! This module remembers finished programs by content, with a line of JSON for each, added after its output
+//! exists.
 //!
-//! A kill between the two does a program once more, to the same bytes. A line that a crash has cut is passed over, and the next
-//! one starts on a line of its own.
+//! If the process is killed between the two, a program is processed again, to the same bytes. A line that a
+//! crash has cut is skipped, and the next one starts on a line of its own.
 
 use crate::cli::command_outputs::report_unwritable;
 use crate::cli::unattended::{UnattendedOutcome, utc_now};
@@ -24,23 +25,23 @@ struct WatchStateLine<'l> {
     outcome: UnattendedOutcome,
 }
 
-/// What of a line counts when it is read.
+/// The fields of a line that count when it is read.
 #[derive(Debug, Deserialize)]
 struct WatchStateEntry {
     path: String,
     sha256: Digest,
 }
 
-/// What was done.
+/// The finished programs.
 pub struct WatchState {
     path: PathBuf,
     file: File,
-    /// The content that was done last, by name.
+    /// The content that was processed last, by name.
     done: BTreeMap<String, Digest>,
 }
 
 impl WatchState {
-    /// Reads what was done before. Also tells how many lines could not be read.
+    /// Reads the finished programs of earlier runs. Returns how many lines could not be read as well.
     pub fn open(path: &Path) -> Result<(Self, usize), Failure> {
         let bytes = match fs::read(path) {
             Ok(bytes) => bytes,
@@ -68,12 +69,12 @@ impl WatchState {
         Ok((Self { path: path.to_path_buf(), file, done }, bad))
     }
 
-    /// Whether this content was the last one done under this name.
+    /// Returns whether this content was the last one processed under this name.
     pub fn is_done(&self, name: &Path, digest: Digest) -> bool {
         self.done.get(&encode_name(name)) == Some(&digest)
     }
 
-    /// Remembers a program, on the disk before this returns.
+    /// Remembers a program. It is on the disk before this returns.
     pub fn remember_program(
         &mut self,
         name: &Path,
@@ -92,7 +93,8 @@ impl WatchState {
     }
 }
 
-/// A name as text, each name another one: `%` and bytes that are no UTF-8 stand as `%25`, `%FF`.
+/// Encodes a name as text, so that different names stay different: `%` and bytes that are not UTF-8 become
+/// `%25`, `%FF`.
 fn encode_name(name: &Path) -> String {
     let mut key = String::new();
     for chunk in name.as_os_str().as_encoded_bytes().utf8_chunks() {

@@ -1,8 +1,8 @@
-//! What a recipe made of a program, step by step.
+//! This module counts what a recipe has changed in a program, step by step.
 //!
-//! Each step is credited with what it changed itself ([`Program::step_edits`]), also where a later step changed the same
-//! statements again. The JSON ([`to_json`]) is [`RecipeChanges`] as it stands, with `"version": 1`; `version` changes when a
-//! reader of the structure would have to, new keys may be added without.
+//! Each step is credited with its own changes ([`Program::step_edits`]), even if a later step changed the
+//! same statements again. The JSON ([`to_json`]) is [`RecipeChanges`] itself, with `"version": 1`. `version`
+//! changes when readers have to change. New keys may be added without that.
 
 mod text;
 
@@ -15,7 +15,7 @@ use crate::program::{Program, StepEdits};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// What a recipe made of a program.
+/// The changes that a recipe has made to a program.
 ///
 /// ```
 /// use clsmith::parameters::Factor;
@@ -41,42 +41,42 @@ pub struct RecipeChanges {
     pub version: u32,
     /// The file's name.
     pub file: String,
-    /// The unit of lengths, before and after: that of the program after.
+    /// The unit of lengths before and after. It is the unit of the program after the steps.
     pub units: ResolvedLengthUnit,
-    /// The steps in order, those without a change included.
+    /// The steps in order, including those without a change.
     pub steps: Vec<StepChanges>,
-    /// Statements that no step touched.
+    /// The number of statements that no step touched.
     pub untouched: usize,
-    /// Lengths and times before; rapids have no time.
+    /// Lengths and times before. Rapids have no time.
     pub before: MotionTotals,
     /// Lengths and times after.
     pub after: MotionTotals,
 }
 
-/// What one step changed, by kind of statement.
+/// The changes of one step, by kind of statement.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 pub struct StepChanges {
     /// The step's name in the recipe.
     pub name: String,
-    /// Statements it gave a new text.
+    /// Statements that got a new text.
     pub edited: BTreeMap<RecordKind, usize>,
-    /// Statements it put in.
+    /// Statements that were inserted.
     pub inserted: BTreeMap<RecordKind, usize>,
-    /// Statements that it took out.
+    /// Statements that were deleted.
     pub deleted: BTreeMap<RecordKind, usize>,
 }
 
 impl StepChanges {
-    /// Whether the step changed nothing.
+    /// Returns whether the step changed nothing.
     pub fn is_empty(&self) -> bool {
         self.edited.is_empty() && self.inserted.is_empty() && self.deleted.is_empty()
     }
 }
 
 impl RecipeChanges {
-    /// Counts what `steps` (their names in the recipe's order) made of `before`. `after` carries the signatures; one of a step
-    /// that `steps` does not name gets a step of its own, without a name.
-    /// `caller` is the unit of lengths where neither the program nor its feeds tell it, as for the steps.
+    /// Counts what `steps` (their names in the recipe's order) have made of `before`. `after` carries the
+    /// signatures. If one belongs to a step that `steps` does not name, it gets a step of its own, without a
+    /// name. `caller` is the unit of lengths if neither the program nor its feeds state it, as for the steps.
     pub fn from_programs(
         before: &Program,
         after: &Program,
@@ -87,7 +87,7 @@ impl RecipeChanges {
             ResolvedLengthUnit::from_program(program, caller.filter(|_| program.feed_length_unit().is_none()))
         };
         let (units_before, units) = (told(before), told(after));
-        // A step may have changed the unit; numbers that stand side by side must not.
+        // A step may have changed the unit, but the numbers of both programs must be comparable.
         let scale = units_before.unit.mm_per_unit() / units.unit.mm_per_unit();
         let (steps, untouched) = count_step_changes(after, steps);
         Self {
@@ -101,13 +101,14 @@ impl RecipeChanges {
         }
     }
 
-    /// Whether the program is as it was.
+    /// Returns whether the program is unchanged.
     pub fn is_empty(&self) -> bool {
         self.steps.iter().all(StepChanges::is_empty)
     }
 }
 
-/// What each of `steps` changed, and how many statements no step touched; see [`RecipeChanges::from_programs`].
+/// Returns the changes of each of `steps`, and the number of statements that no step touched; see
+/// [`RecipeChanges::from_programs`].
 pub fn count_step_changes(after: &Program, steps: &[&str]) -> (Vec<StepChanges>, usize) {
     let named = |name: &&str| StepChanges { name: (*name).to_owned(), ..StepChanges::default() };
     let mut found: Vec<StepChanges> = steps.iter().map(named).collect();
@@ -133,7 +134,7 @@ fn sum_motions(program: &Program, units: ResolvedLengthUnit) -> MotionTotals {
     totals
 }
 
-/// The changes as one JSON document, indented and with a line end.
+/// Returns the changes as a JSON document, indented and with a line end.
 pub fn to_json(changes: &RecipeChanges) -> String {
     super::to_json_text(changes)
 }

@@ -1,4 +1,4 @@
-//! The changes of a recipe as text for people.
+//! This module writes the changes of a recipe as text for people.
 
 use super::{RecipeChanges, StepChanges};
 use crate::presentation::safe_text::to_safe_line;
@@ -9,7 +9,7 @@ use crate::report::text_format::format_counted;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// The changes: a line for each step, and the program before and after.
+/// Returns the changes: a line for each step, and the program before and after.
 pub fn to_text(changes: &RecipeChanges) -> String {
     let mut out = format!("{}\n", to_safe_line(&changes.file));
     out.push_str(&steps_to_text(&changes.steps));
@@ -18,7 +18,7 @@ pub fn to_text(changes: &RecipeChanges) -> String {
     out
 }
 
-/// A line for each step.
+/// Returns a line for each step.
 pub fn steps_to_text(steps: &[StepChanges]) -> String {
     let mut out = String::new();
     for (index, step) in steps.iter().enumerate() {

@@ -1,17 +1,18 @@
-//! What a comparison was made of: names and hashes, so that a page in a file can be told from another.
+//! This module lists the files of a comparison with names and hashes, so that one page can be distinguished
+//! from another.
 
 use super::ComparisonSubject;
 use crate::source::Source;
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
-/// What a part is.
+/// The role of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ComparedFileRole {
     /// The program as it was read.
     Input,
-    /// The program as it stands.
+    /// The program in its current state.
     Output,
     /// The recipe.
     Recipe,
@@ -20,7 +21,7 @@ pub enum ComparedFileRole {
 }
 
 impl ComparedFileRole {
-    /// Its name.
+    /// Returns the name of the role.
     pub fn display_name(self) -> &'static str {
         match self {
             Self::Input => "input",
@@ -31,16 +32,17 @@ impl ComparedFileRole {
     }
 }
 
-/// One of the files that a comparison tells of.
+/// A file that a comparison describes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ComparedFile {
-    /// What it is.
+    /// Its role.
     pub what: ComparedFileRole,
-    /// The file's name; of [`ComparedFileRole::Output`], which stands for the bytes wherever they go, the input's without folders.
+    /// The name of the file. [`ComparedFileRole::Output`] stands for the bytes wherever they are written, so
+    /// it has the name of the input without folders.
     pub name: String,
-    /// SHA-256 of its bytes, in hexadecimal digits.
+    /// The SHA-256 of its bytes, in hexadecimal digits.
     pub sha256: String,
-    /// Bytes.
+    /// Its number of bytes.
     pub bytes: u64,
 }
 

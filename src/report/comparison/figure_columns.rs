@@ -1,4 +1,5 @@
-//! The figures of a program by name, unit and printing, and the tables made of them.
+//! This module holds the figures of a program with their names, units and printing, and the tables made of
+//! them.
 
 use super::{Comparison, ComparisonFigures, ComparisonPeak, ComparisonRow};
 use crate::presentation::safe_text::to_safe_line;
@@ -32,17 +33,17 @@ fn figure_columns() -> Vec<Column<ComparisonFigures>> {
     columns
 }
 
-/// Returns what the program alone tells.
+/// Returns the figures that the program alone gives.
 fn path_columns() -> Vec<Column<ComparisonFigures>> {
     use ColumnUnit as Unit;
     vec![
         Column::new("feed_time", Unit::Duration, |figures: &ComparisonFigures| TableValue::Duration {
             seconds: figures.feed_seconds,
-            // A time that leaves motions out is a lower bound.
+            // A time that leaves out motions is a lower bound.
             is_lower_bound: figures.untimed > 0,
         })
         .titled("time")
-        .told_as("time at feed", 1),
+        .worded_as("time at feed", 1),
         Column::new("rapid_time", Unit::Duration, |figures: &ComparisonFigures| {
             TableValue::duration(figures.rapid_seconds)
         })
@@ -67,7 +68,7 @@ fn path_columns() -> Vec<Column<ComparisonFigures>> {
     ]
 }
 
-/// Returns what a simulation tells.
+/// Returns the figures that a simulation gives.
 fn load_columns() -> Vec<Column<ComparisonFigures>> {
     use ColumnUnit as Unit;
     vec![
@@ -89,12 +90,12 @@ fn load_columns() -> Vec<Column<ComparisonFigures>> {
             .decimals(2),
         Column::new("power", Unit::Power, |figures: &ComparisonFigures| peak_value(figures.power_kw))
             .titled("power")
-            .told_as("largest power", 3)
+            .worded_as("largest power", 3)
             .decimals(3),
     ]
 }
 
-/// The line of a peak is not told in these tables.
+/// Returns a peak without its line, which these tables do not show.
 fn peak_value(peak: Option<ComparisonPeak>) -> TableValue<'static> {
     let value = |peak: ComparisonPeak| TableValue::Peak { value: peak.value, place: PeakPlace::Line(None) };
     peak.map_or(TableValue::Missing, value)
@@ -159,7 +160,7 @@ fn print_operation(
     cells
 }
 
-/// Returns time and feed, and what a simulation tells where there was one.
+/// Returns time and feed, and the figures of a simulation if there was one.
 fn pick_operation_figures(comparison: &Comparison<'_>) -> Vec<Column<ComparisonFigures>> {
     let ComparisonRow { before, after, .. } = &comparison.whole;
     let is_known = |column: &Column<ComparisonFigures>| {

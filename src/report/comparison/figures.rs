@@ -1,15 +1,15 @@
-//! Sums over motions for a table, before and after.
+//! This module sums up motions for a table, before and after.
 
 use crate::program::LengthUnit;
 use crate::program::motion::Motion;
 use crate::report::simulation::MotionRow;
 
-/// One motion, measured.
+/// The measurements of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::report) struct MotionFeedAndTime {
     pub rapid: bool,
     pub length_mm: f64,
-    /// Feed of the tip, mm/min; of a rapid, the machine's.
+    /// The feed of the tip in mm/min. For a rapid it is the machine's rapid feed.
     pub feed_mm_min: Option<f64>,
     pub seconds: Option<f64>,
 }
@@ -33,12 +33,12 @@ pub(in crate::report) fn measure_motion(
     MotionFeedAndTime { rapid: motion.rapid, length_mm, feed_mm_min, seconds }
 }
 
-/// A largest value, and the motion that has it.
+/// A largest value with the motion that has it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ComparisonPeak {
     /// The value.
     pub value: f64,
-    /// The motion's number, first points not counted.
+    /// The index of the motion, without counting first points.
     pub motion: usize,
 }
 
@@ -55,7 +55,7 @@ pub struct ComparisonFigures {
     pub feed_seconds: f64,
     /// Motions at feed whose time is not known.
     pub untimed: usize,
-    /// Time at rapid, s; `None` when the machine's rapid feed is not known.
+    /// The time at rapid in s. It is `None` if the machine's rapid feed is not known.
     pub rapid_seconds: Option<f64>,
     /// Slowest and fastest feed, mm/min.
     pub feed_range_mm_min: Option<[f64; 2]>,
@@ -76,7 +76,7 @@ impl ComparisonFigures {
         Self { rapid_seconds: rapid_known.then_some(0.0), ..Self::default() }
     }
 
-    /// Adds a motion and what it engaged.
+    /// Adds a motion and its engagement.
     pub(super) fn add_motion(&mut self, motion: usize, moved: &MotionFeedAndTime, row: Option<&MotionRow>) {
         self.motions += 1;
         if moved.rapid {
@@ -91,7 +91,8 @@ impl ComparisonFigures {
                 self.feed_range_mm_min = Some([low.min(feed), high.max(feed)]);
             }
         }
-        // A rapid through material is a crash, not a cut: what it would load is no peak of the program's cuts.
+        // A rapid through material is a crash, not a cut: what it would load is no peak of the program's
+        // cuts.
         let Some(row) = row.filter(|row| !row.rapid) else { return };
         let raise = |peak: &mut Option<ComparisonPeak>, value: Option<f64>| {
             if let Some(value) = value.filter(|value| peak.is_none_or(|peak| *value > peak.value)) {

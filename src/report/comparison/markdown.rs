@@ -1,4 +1,4 @@
-//! A comparison as Markdown, for merge requests and change notes.
+//! This module writes a comparison as Markdown, for merge requests and change notes.
 
 use super::Comparison;
 use super::figure_columns::{build_operation_table, build_whole_table};
@@ -14,7 +14,8 @@ use crate::transform::PROVENANCE;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// The comparison as Markdown (GitHub's and GitLab's tables). The same comparison makes the same bytes.
+/// Returns the comparison as Markdown (GitHub's and GitLab's tables). The same comparison makes the same
+/// bytes.
 pub fn to_markdown(comparison: &Comparison<'_>) -> String {
     let mut out = format!("## {}\n\n", escape_markdown(comparison.subject.program.source().name()));
     match &comparison.changes {

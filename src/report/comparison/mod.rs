@@ -1,7 +1,9 @@
-//! A program before and after: what a page ([`super::html`]) and a summary for merge requests ([`to_markdown`]) tell.
+//! This module compares a program before and after a change, for a page ([`super::html`]) and for a summary
+//! in merge requests ([`to_markdown`]).
 //!
-//! [`ComparisonSubject`] is what there is, [`ComparisonRuns`] its simulations, [`Comparison`] what follows from both. Lengths are in mm and feeds in mm/min,
-//! whatever the file's unit, as in a simulation. Without `before` one program is told of.
+//! [`ComparisonSubject`] holds the inputs, [`ComparisonRuns`] its simulations, and [`Comparison`] what
+//! follows from both. Lengths are in mm and feeds in mm/min as in a simulation, whatever the file's unit.
+//! Without `before`, a single program is described.
 
 mod compared_files;
 mod figure_columns;
@@ -32,87 +34,88 @@ use crate::transform::{Recipe, TransformReport};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// What there is to tell of.
+/// The inputs of a comparison.
 #[derive(Debug, Clone, Copy)]
 pub struct ComparisonSubject<'a> {
-    /// The program as it was read; `None` to tell of one program alone.
+    /// The program as it was read. It is `None` if a single program is described.
     pub before: Option<&'a Program>,
-    /// The program as it stands. With `before`, it is what steps made of that.
+    /// The program in its current state. With `before`, it is what steps have made of that.
     pub program: &'a Program,
     /// The recipe that changed it.
     pub recipe: Option<&'a Recipe>,
-    /// The setup that counts.
+    /// The setup in force.
     pub setup: &'a Setup,
     /// The setup files.
     pub setup_files: &'a [Arc<Source>],
-    /// Unit of lengths of a file that does not tell it.
+    /// The unit of lengths of a file that does not state it.
     pub units: Option<LengthUnit>,
-    /// What was found.
+    /// The findings.
     pub findings: &'a [Diagnostic],
-    /// What steps tell about themselves.
+    /// What steps report about themselves.
     pub reports: &'a [Box<dyn TransformReport>],
-    /// SHA-256 of the recipe and all files that it depends on, in hexadecimal digits, where it was taken.
+    /// The SHA-256 of the recipe and all files on which it depends, in hexadecimal digits, if it was
+    /// computed.
     pub print: Option<&'a str>,
 }
 
-/// A program and its figures, before and after where there is a before.
+/// A program with its figures, before and after if there is a program before.
 #[derive(Debug)]
 pub struct Comparison<'a> {
-    /// What it tells of.
+    /// The inputs.
     pub subject: ComparisonSubject<'a>,
     /// Its simulations.
     pub runs: &'a ComparisonRuns,
-    /// Program, recipe and files by name and hash.
+    /// Program, recipe and files with names and hashes.
     pub parts: Vec<ComparedFile>,
-    /// What the steps changed; `None` without a before.
+    /// The changes of the steps. It is `None` without a program before.
     pub changes: Option<RecipeChanges>,
-    /// The operations, in the order of the program as it stands; those that are gone come last.
+    /// The operations in the order of the current program. Those that were removed come last.
     pub operations: Vec<ComparisonRow>,
     /// The whole program.
     pub whole: ComparisonRow,
-    /// What was taken for granted, in sentences.
+    /// The assumptions, in sentences.
     pub assumptions: Vec<String>,
 }
 
-/// Something before and after.
+/// The figures of something before and after.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ComparisonRow {
-    /// Name of the operation; empty where the file has none.
+    /// The name of the operation. It is empty if the file has none.
     pub name: String,
-    /// Tools that move in it, as people call them.
+    /// The tools that move in it, by number and name.
     pub tools: Vec<String>,
-    /// Before; `None` where there was none.
+    /// The figures before. It is `None` if it did not exist.
     pub before: Option<ComparisonFigures>,
-    /// After; `None` where it is gone.
+    /// The figures after. It is `None` if it was removed.
     pub after: Option<ComparisonFigures>,
 }
 
 impl<'a> ComparisonSubject<'a> {
-    /// The unit of a program's lengths, and how it is known.
+    /// Returns the unit of a program's lengths, and how it is known.
     pub(in crate::report) fn resolve_length_unit(&self, program: &Program) -> ResolvedLengthUnit {
         ResolvedLengthUnit::from_program(program, self.units.filter(|_| program.feed_length_unit().is_none()))
     }
 
-    /// The machine's rapid feed, mm/min.
+    /// Returns the machine's rapid feed, mm/min.
     pub(in crate::report) fn rapid_feed_mm_min(&self) -> Option<f64> {
         self.setup.machine.rapid_feed.map(|feed| feed.get())
     }
 
-    /// The motions of a program that go somewhere: all but first points, which come from nowhere.
+    /// Returns the motions of a program without its first points, to which no path leads.
     pub(in crate::report) fn motions_after_start(program: &'a Program) -> impl Iterator<Item = Motion> + 'a {
         program.motions().filter(|motion| motion.path != crate::program::geometry::MotionPath::Start)
     }
 }
 
 impl<'a> Comparison<'a> {
-    /// Brings everything together.
+    /// Collects all figures.
     pub fn from_runs(subject: ComparisonSubject<'a>, runs: &'a ComparisonRuns) -> Self {
         let changes = subject.before.map(|before| {
             let steps = subject.recipe.map(Recipe::step_names).unwrap_or_default();
             RecipeChanges::from_programs(before, subject.program, &steps, subject.units)
         });
         let after = measure_operations(&subject, subject.program, runs.after.as_ref());
-        // What nobody changed was simulated once.
+        // A program without changes only needs one simulation.
         let unchanged = changes.as_ref().is_some_and(RecipeChanges::is_empty);
         let first = runs.before.as_ref().or(runs.after.as_ref().filter(|_| unchanged));
         let before = subject.before.map(|before| measure_operations(&subject, before, first));
@@ -166,7 +169,7 @@ fn measure_operations(
     found
 }
 
-/// Operations of one name belong together in their order.
+/// Pairs operations of the same name in their order.
 fn pair_operations(
     before: Option<OperationFigures>,
     after: OperationFigures,
@@ -181,7 +184,7 @@ fn pair_operations(
             order.push(name.clone());
             old.entry(name).or_default().push((tools, figures));
         }
-        // The first of a name is taken first.
+        // Of operations with the same name, the first is taken first.
         old.values_mut().for_each(|same| same.reverse());
     }
     let mut rows: Vec<ComparisonRow> = Vec::new();
@@ -198,7 +201,7 @@ fn pair_operations(
     (rows, whole)
 }
 
-/// How many motions at feed the times leave out.
+/// Describes how many motions at feed the times leave out.
 fn describe_untimed_motions(whole: &ComparisonRow) -> Option<String> {
     let of = |side: &Option<ComparisonFigures>| side.map_or(0, |figures| figures.untimed);
     let (before, after) = (of(&whole.before), of(&whole.after));
@@ -211,7 +214,7 @@ fn describe_untimed_motions(whole: &ComparisonRow) -> Option<String> {
     Some(format!("the time at feed leaves out {left_out} whose feed is not known in mm/min"))
 }
 
-/// What the machine's acceleration makes of the time at feed and rapid, where the setup says it.
+/// Describes how the machine's acceleration changes the time at feed and rapid, if the setup gives it.
 fn describe_accelerated_time(runs: &ComparisonRuns) -> Option<String> {
     let of =
         |simulated: &Option<SimulationReport>| simulated.as_ref().and_then(|one| one.accelerated_seconds);
@@ -232,13 +235,15 @@ fn list_assumptions(
     let mut said = Vec::new();
     match subject.resolve_length_unit(subject.program) {
         ResolvedLengthUnit { from: LengthUnitOrigin::Assumed, .. } => {
-            said.push("the program does not say its unit of length: millimetres are taken".to_owned());
+            said.push("the program does not state its unit of length: millimetres are assumed".to_owned());
         }
         ResolvedLengthUnit { unit, from: LengthUnitOrigin::Feeds } => {
-            said.push(format!("the program does not say its unit of length: taken from its feeds ({unit})"));
+            said.push(format!(
+                "the program does not state its unit of length: it is taken from its feeds ({unit})"
+            ));
         }
         ResolvedLengthUnit { unit, from: LengthUnitOrigin::Caller } => {
-            said.push(format!("the program does not say its unit of length: {unit}, as it was told"));
+            said.push(format!("the program does not state its unit of length: {unit} was given"));
         }
         ResolvedLengthUnit { from: LengthUnitOrigin::File, .. } => {}
     }
@@ -253,7 +258,7 @@ fn list_assumptions(
     for simulated in [&runs.before, &runs.after].into_iter().flatten() {
         let accuracy = &simulated.accuracy;
         said.push(format!(
-            "simulated with columns {} mm apart: borders of material are known to {} mm across z, curves to {} mm",
+            "simulated with columns {} mm apart: boundaries of material are known to {} mm across z, curves to {} mm",
             super::text_format::format_short(accuracy.cell_mm),
             super::text_format::format_short(accuracy.lateral_mm),
             accuracy.chord_mm

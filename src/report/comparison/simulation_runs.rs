@@ -1,4 +1,4 @@
-//! The simulations that a comparison looks at, as far as they can be made.
+//! This module makes the simulations of a comparison, as far as that is possible.
 
 use super::ComparisonSubject;
 use crate::diagnostic::{Diagnostic, Failure};
@@ -6,22 +6,22 @@ use crate::program::{Program, StatementChange};
 use crate::report::simulation::SimulationReport;
 use crate::simulation_run::{Machining, RunWatcher, SimulationRunOptions};
 
-/// Simulations, and what stands in their way.
+/// Simulations, and the reasons why some are missing.
 #[derive(Debug, Default)]
 pub struct ComparisonRuns {
-    /// Of the program before.
+    /// The simulation of the program before.
     pub before: Option<SimulationReport>,
-    /// Of the program as it stands.
+    /// The simulation of the current program.
     pub after: Option<SimulationReport>,
-    /// Why there is none: one sentence each.
+    /// The reasons why simulations are missing, in one sentence each.
     pub missing: Vec<String>,
-    /// What was taken for granted.
+    /// The assumptions.
     pub assumptions: Vec<String>,
 }
 
 impl ComparisonRuns {
-    /// Simulates both programs of a subject. What cannot be simulated is said in `missing`: a report must not fail for it. `None` when
-    /// `watch` stopped it.
+    /// Simulates both programs of a subject. Reasons why one cannot be simulated are in `missing`, because a
+    /// report must not fail for that. Returns `None` if `watch` has stopped it.
     pub fn simulate_subject(
         subject: &ComparisonSubject<'_>,
         options: &SimulationRunOptions,

@@ -1,29 +1,30 @@
-//! Which statement of one program is which of the other.
+//! This module finds which statement of one program corresponds to which statement of the other.
 //!
-//! Linear but for sorting, so that files of millions of statements can be compared, and without a deadline, so that the
-//! answer does not hang on the machine's speed: equal ends are stripped, statements that occur once in both are anchors, and
-//! between anchors statements are paired by shape, in windows of bounded size.
+//! Except for sorting, the time is linear, so that files of millions of statements can be compared. There is
+//! no deadline, so the result does not depend on the speed of the machine. Equal ends are removed, statements
+//! that occur once in both programs are anchors, and between anchors statements are paired by their shape, in
+//! windows of bounded size.
 
 use super::alignment_keys::AlignmentKeys;
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 use std::ops::Range;
 
-/// Statements of a window; the cost of a window grows with its square at worst.
+/// The number of statements in a window. The time for a window grows at most with its square.
 const WINDOW: usize = 512;
 
 /// A run of the alignment. Positions count live statements.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum AlignmentRun {
-    /// As many statements of both, pair by pair.
+    /// Equally many statements of both, pair by pair.
     Pairs(Range<usize>, Range<usize>),
-    /// Statements of the first program only, and where in the second they would stand.
+    /// Statements of the first program only, and their position in the second.
     Removed(Range<usize>, usize),
-    /// Statements of the second program only, and where in the first they would stand.
+    /// Statements of the second program only, and their position in the first.
     Added(usize, Range<usize>),
 }
 
-/// Aligns two programs. `shifted` says whether two paired stretches of equal length and shape are the same path somewhere
-/// else, which texts that happen to be equal must not hide.
+/// Aligns two programs. `shifted` tells whether two paired segments of equal length and shape are the same
+/// path at another place, which texts that happen to be equal must not hide.
 pub(super) fn align_statements(
     a: &AlignmentKeys,
     b: &AlignmentKeys,
@@ -65,7 +66,7 @@ fn slice_range<'k, T>(keys: &'k [T], range: &Range<usize>) -> &'k [T] {
     keys.get(range.clone()).unwrap_or_default()
 }
 
-/// Pairs of statements that occur once in both, the longest chain that keeps the order of both.
+/// Returns pairs of statements that occur once in both. It is the longest chain that keeps the order of both.
 fn find_anchors(
     a: &AlignmentKeys,
     in_a: &Range<usize>,
@@ -85,7 +86,7 @@ fn find_anchors(
     find_longest_ascending(&pairs)
 }
 
-/// Keys that occur once, in the order of the keys, with their positions.
+/// Returns keys that occur once, in the order of the keys, with their positions.
 fn find_unique_keys(keys: &AlignmentKeys, range: &Range<usize>) -> Vec<(u64, u32)> {
     let placed = slice_range(&keys.meaning, range).iter().zip(range.clone());
     let mut sorted: Vec<(u64, u32)> = placed.map(|(key, at)| (*key, at as u32)).collect();
@@ -94,7 +95,7 @@ fn find_unique_keys(keys: &AlignmentKeys, range: &Range<usize>) -> Vec<(u64, u32
     groups.filter_map(|group| if let [only] = group { Some(*only) } else { None }).collect()
 }
 
-/// The longest subsequence whose second parts ascend (patience sorting).
+/// Returns the longest subsequence whose second parts ascend (patience sorting).
 fn find_longest_ascending(pairs: &[(usize, usize)]) -> Vec<(usize, usize)> {
     let mut tops: Vec<(usize, usize)> = Vec::new();
     let mut before: Vec<Option<usize>> = Vec::with_capacity(pairs.len());
@@ -156,7 +157,8 @@ impl AlignmentBuilder<'_> {
         }
     }
 
-    /// Statements between two anchors: equal ones that occur more than once, then equal shapes.
+    /// Aligns the statements between two anchors: first equal ones that occur more than once, then equal
+    /// shapes.
     fn align_gap(&mut self, a: Range<usize>, b: Range<usize>) {
         if a.is_empty() || b.is_empty() {
             return self.push_unpaired(a, b);
@@ -187,8 +189,9 @@ impl AlignmentBuilder<'_> {
     }
 }
 
-/// Stretches of two sequences, equal or not, in order. A window that both sides overflow is believed up to the last equal
-/// stretch of its first three quarters, since what follows may hang on statements not yet seen.
+/// Returns segments of two sequences, equal or not, in order. If both sides continue beyond a window, its
+/// result only counts up to the last equal segment of its first three quarters, because the rest may depend
+/// on statements that were not examined yet.
 fn diff_in_windows<T: std::hash::Hash + Eq + Ord + Clone>(
     a: &[T],
     in_a: &Range<usize>,

@@ -1,4 +1,4 @@
-//! What statements are aligned by: their meaning where it is the same, their shape where it is not.
+//! This module computes the keys by which statements are aligned: equal meanings first, then equal shapes.
 
 use crate::parse;
 use crate::program::{
@@ -12,7 +12,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 pub(super) struct AlignmentKeys {
     /// The statements.
     pub(super) ids: Vec<StatementId>,
-    /// Equal for statements that say the same, whatever their blanks and zeros.
+    /// Equal for statements with the same meaning, whatever their blanks and zeros.
     pub(super) meaning: Vec<u64>,
     /// Equal for statements that may be the same one with other numbers.
     pub(super) shape: Vec<u32>,
@@ -39,7 +39,7 @@ fn hash_meaning(record: &Record, text: &[u8]) -> u64 {
     let mut hasher = DefaultHasher::new();
     match record {
         Record::Goto(goto) => {
-            // Adding 0 makes one zero of the two.
+            // Adding 0 turns -0 into 0.
             goto.point.iter().for_each(|value| (value + 0.0).to_bits().hash(&mut hasher));
             if let Some(axis) = goto.axis {
                 axis.iter().for_each(|value| (value + 0.0).to_bits().hash(&mut hasher));
@@ -55,7 +55,7 @@ fn hash_meaning(record: &Record, text: &[u8]) -> u64 {
     hasher.finish()
 }
 
-/// A statement's bytes without what is only layout: line ends; in records also blanks.
+/// Returns a statement's bytes without layout: without line ends, and for records also without blanks.
 fn bytes_without_layout<'t>(record: &Record, text: &'t [u8]) -> impl Iterator<Item = u8> + 't {
     let people = RecordKind::from_record(record) == RecordKind::Comment;
     text.trim_ascii_end().iter().copied().filter(move |byte| people || !matches!(byte, b' ' | b'\t'))
@@ -66,7 +66,8 @@ fn hash_shape(record: &Record, text: &[u8]) -> u32 {
     let mut hasher = DefaultHasher::new();
     kind.hash(&mut hasher);
     match kind {
-        // Words of different dialects for one thing are one shape; of these, the word is all we know.
+        // Words of different dialects for the same thing have the same shape. For other words, the word is
+        // all that is known.
         RecordKind::Other
         | RecordKind::Structure
         | RecordKind::Tool
@@ -83,7 +84,8 @@ fn hash_shape(record: &Record, text: &[u8]) -> u32 {
     hasher.finish() as u32
 }
 
-/// Whether two statements say the same: equal fields, whatever their layout and the style of their numbers.
+/// Returns whether two statements have the same meaning: equal fields, whatever their layout and the notation
+/// of numbers.
 pub(super) fn have_same_meaning(a: (&Program, &Statement), b: (&Program, &Statement)) -> bool {
     let (record_a, record_b) = (a.1.record(), b.1.record());
     let (text_a, text_b) = (a.0.statement_text(a.1), b.0.statement_text(b.1));
@@ -91,7 +93,7 @@ pub(super) fn have_same_meaning(a: (&Program, &Statement), b: (&Program, &Statem
         return false;
     }
     match (record_a, record_b) {
-        // Of these the record is all that the statement says.
+        // The record of these holds everything that the statement states.
         (Record::Goto(_) | Record::From(_) | Record::Feed(_) | Record::ToolAxis(_), _)
         | (Record::Control(_) | Record::Knot(_) | Record::MatrixRow(_) | Record::Rapid, _) => {
             record_a == record_b

@@ -1,4 +1,4 @@
-//! Walks the alignment and collects what differs.
+//! This module follows the alignment and collects the differences.
 
 use super::alignment::{AlignmentRun, align_statements};
 use super::alignment_keys::AlignmentKeys;
@@ -13,7 +13,7 @@ use crate::report::statement_line;
 use crate::report::stats::{MotionTotals, ReportedRange, ResolvedLengthUnit};
 use std::collections::BTreeMap;
 
-/// Longest text of a statement that is listed.
+/// The length of the longest text of a statement that is listed.
 const LONGEST_TEXT: usize = 300;
 
 pub(super) fn collect_diff(a: &Program, b: &Program) -> ProgramDiff {
@@ -61,7 +61,7 @@ impl<'p> AlignedPrograms<'p> {
         self.keys_b.ids.get(at).map(|id| self.b.statement(*id))
     }
 
-    /// Whether all points of a stretch are the other's, moved by one distance.
+    /// Returns whether all points of a segment are those of the other one, displaced by a single vector.
     fn is_shifted(&self, pairs: impl Iterator<Item = (usize, usize)>) -> bool {
         let mut first = None;
         for (at_a, at_b) in pairs {
@@ -90,7 +90,7 @@ struct DiffCollector {
     changes: Vec<StatementDifference>,
     listed: BTreeMap<DifferenceKind, usize>,
     not_listed: usize,
-    /// The operation that statements stand in now; it joins the list with its first difference.
+    /// The operation of the current statements. It joins the list with its first difference.
     name: String,
     is_listed: bool,
 }

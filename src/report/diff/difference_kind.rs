@@ -1,4 +1,4 @@
-//! How two statements that stand for each other differ.
+//! This module classifies how two corresponding statements differ.
 
 use super::alignment_keys::have_same_meaning;
 use crate::parse;
@@ -6,26 +6,26 @@ use crate::program::RecordKind;
 use crate::program::{Feed, LengthUnit, NumberRole, Program, Record, Statement};
 use serde::Serialize;
 
-/// How a statement differs.
+/// The kind of a difference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum DifferenceKind {
-    /// Written differently, the same meaning.
+    /// The statement is written differently, but has the same meaning.
     Layout,
-    /// A comment, an empty line or text for people.
+    /// A comment, an empty line or text for people differs.
     Text,
     /// A point that moved.
     Moved,
     /// An axis that turned.
     Turned,
-    /// A feed.
+    /// A feed differs.
     Feed,
-    /// Anything else.
+    /// Something else differs.
     Changed,
-    /// Only in the second program.
+    /// The statement is only in the second program.
     Added,
-    /// Only in the first program.
+    /// The statement is only in the first program.
     Removed,
 }
 
@@ -38,7 +38,7 @@ pub(super) struct StatementPair<'p> {
 }
 
 impl StatementPair<'_> {
-    /// How the statements differ, and by how much; `None` when they are the same bytes.
+    /// Returns how the statements differ, and by how much. Returns `None` if they are equal byte for byte.
     pub(super) fn classify_difference(&self) -> Option<(DifferenceKind, Option<f64>)> {
         let (text_a, text_b) = (self.a.0.statement_text(self.a.1), self.b.0.statement_text(self.b.1));
         if text_a == text_b {
@@ -58,7 +58,8 @@ impl StatementPair<'_> {
         })
     }
 
-    /// From what the numbers are that differ: no record needs a rule of its own.
+    /// Classifies the difference by the roles of the numbers that differ, so no record needs a rule of its
+    /// own.
     fn classify_by_roles(&self, text_a: &[u8], text_b: &[u8]) -> (DifferenceKind, Option<f64>) {
         let (a, b) = (self.a.1.record(), self.b.1.record());
         let scale = self.units.0.mm_per_unit() / self.units.1.mm_per_unit();

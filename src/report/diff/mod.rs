@@ -1,9 +1,9 @@
-//! What differs between two programs, by meaning.
+//! This module finds what differs between two programs, by meaning.
 //!
-//! Statements are aligned (`align`) and every pair is told apart: the same bytes, the same said differently, a point moved,
-//! a feed changed. Whether the tool takes the same way is found from the motions ([`PathComparison`]), so two dialects can be
-//! compared. The JSON ([`to_json`]) is [`ProgramDiff`] as it stands, with `"version": 1`; `version` changes when a reader of the
-//! structure would have to, new keys may be added without.
+//! Statements are aligned, and every pair is classified: the same bytes, the same meaning in other words, a
+//! moved point, a changed feed. The motions show whether the tool follows the same path ([`PathComparison`]),
+//! so two dialects can be compared. The JSON ([`to_json`]) is [`ProgramDiff`] itself, with `"version": 1`.
+//! `version` changes when readers have to change. New keys may be added without that.
 
 mod alignment;
 mod alignment_keys;
@@ -22,10 +22,10 @@ use crate::program::RecordKind;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Changes of one [`DifferenceKind`] that are listed; all are counted.
+/// The largest number of changes of one [`DifferenceKind`] that are listed. All of them are counted.
 pub const MOST_LISTED: usize = 500;
 
-/// What differs between two programs.
+/// The differences between two programs.
 ///
 /// ```
 /// use clsmith::parse::parse;
@@ -51,19 +51,20 @@ pub struct ProgramDiff {
     pub a: DiffSide,
     /// The second program.
     pub b: DiffSide,
-    /// Whether the files are byte for byte the same.
+    /// Whether the files are equal byte for byte.
     pub identical: bool,
-    /// Whether a post-processor would see no difference: nothing but layout and comments differs.
+    /// Whether a post-processor would see no difference, because only layout and comments differ.
     pub same_meaning: bool,
-    /// The paths, compared.
+    /// The comparison of the paths.
     pub geometry: PathComparison,
-    /// How many statements differ, and how.
+    /// The numbers of statements by kind of difference.
     pub counts: DiffCounts,
-    /// Largest distance that a point moved, in the second file's unit; `null` when none did.
+    /// The largest distance by which a point moved, in the second file's unit; `null` if no point moved.
     pub largest_move: Option<f64>,
-    /// Change of feeds in percent, lowest and highest; `null` when none changed or their units cannot be compared.
+    /// The lowest and the highest change of feeds in percent; `null` if none changed or their units cannot be
+    /// compared.
     pub feed_change: Option<ReportedRange>,
-    /// The operations in which something differs, in order.
+    /// The operations with differences, in order.
     pub operations: Vec<OperationDiff>,
     /// Differences in order, at most [`MOST_LISTED`] of each kind.
     pub changes: Vec<StatementDifference>,
@@ -84,12 +85,12 @@ pub struct DiffSide {
     pub totals: MotionTotals,
 }
 
-/// How many statements differ, and how.
+/// The numbers of statements by kind of difference.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 pub struct DiffCounts {
     /// Statements of the same bytes.
     pub same: usize,
-    /// Written differently, the same meaning: blanks, zeros, order of words.
+    /// Statements that are written differently, but have the same meaning: blanks, zeros, order of words.
     pub layout: usize,
     /// Comments, empty lines and text for people: changed, added or removed.
     pub text: usize,
@@ -107,10 +108,11 @@ pub struct DiffCounts {
     pub removed: BTreeMap<RecordKind, usize>,
 }
 
-/// An operation in which something differs.
+/// An operation with differences.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct OperationDiff {
-    /// Name in the second program, or in the first for one that was removed; empty before the first operation.
+    /// The name in the second program, or in the first if it was removed. It is empty before the first
+    /// operation.
     pub name: String,
     /// How many statements differ, and how.
     pub counts: DiffCounts,
@@ -119,50 +121,50 @@ pub struct OperationDiff {
 /// A statement that differs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StatementDifference {
-    /// How.
+    /// The kind of the difference.
     pub what: DifferenceKind,
-    /// What the statement is about.
+    /// The kind of the statement.
     pub kind: RecordKind,
     /// Index in `operations`.
     pub operation: usize,
-    /// Line in the first file; `null` where it has none.
+    /// The line in the first file; `null` if it has none.
     pub line_a: Option<usize>,
-    /// Line in the second file; `null` where it has none.
+    /// The line in the second file; `null` if it has none.
     pub line_b: Option<usize>,
-    /// Text in the first file, without line end; bytes that are no UTF-8 are read as Latin-1.
+    /// The text in the first file without line end. Bytes that are not UTF-8 are read as Latin-1.
     pub old: Option<String>,
-    /// Text in the second file.
+    /// The text in the second file.
     pub new: Option<String>,
-    /// Of a moved point the distance in the second file's unit, of a feed the change in percent.
+    /// For a moved point, the distance in the second file's unit; for a feed, the change in percent.
     pub by: Option<f64>,
 }
 
 impl ProgramDiff {
-    /// Compares two programs as they stand.
+    /// Compares two programs in their current state.
     pub fn from_programs(a: &Program, b: &Program) -> Self {
         diff_collector::collect_diff(a, b)
     }
 
-    /// Whether nothing differs, byte for byte.
+    /// Returns whether the programs are equal byte for byte.
     pub fn is_empty(&self) -> bool {
         self.identical
     }
 }
 
 impl DiffCounts {
-    /// Whether nothing differs that a post-processor could see.
+    /// Returns whether no difference matters to a post-processor.
     pub fn has_same_meaning(&self) -> bool {
         let maps = [&self.changed, &self.added, &self.removed];
         self.moved == 0 && self.turned == 0 && self.feeds == 0 && maps.iter().all(|map| map.is_empty())
     }
 
-    /// Whether nothing differs at all.
+    /// Returns whether there is no difference at all.
     pub fn is_empty(&self) -> bool {
         self.has_same_meaning() && self.layout == 0 && self.text == 0
     }
 }
 
-/// The differences as one JSON document, indented and with a line end.
+/// Returns the differences as a JSON document, indented and with a line end.
 pub fn to_json(diff: &ProgramDiff) -> String {
     super::to_json_text(diff)
 }

@@ -1,4 +1,4 @@
-//! Whether two programs move the tool along the same path.
+//! This module checks whether two programs move the tool along the same path.
 
 use crate::program::geometry::{MotionPath, Pose, SAME_POINT};
 use crate::program::motion::{Motion, Motions};
@@ -9,20 +9,22 @@ use nalgebra::{Point3, Vector3};
 use serde::Serialize;
 use std::mem::Discriminant;
 
-/// Axes whose components differ by less are one axis: half of the fourth decimal, the coarsest that axes are printed with.
+/// Axes whose components differ by less are equal. It is half of the fourth decimal, the coarsest with which
+/// axes are printed.
 const SAME_AXIS: f64 = SAME_POINT;
 
-/// The paths of two programs, compared.
+/// The comparison of the paths of two programs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PathComparison {
-    /// Whether every point is where it was, within half of the fourth decimal, the tool axis and rapids included. A line cut
-    /// into several is the same path, and so is a hole written out; an arc cut into several is not recognized.
+    /// Whether every point is where it was, within half of the fourth decimal, including the tool axis and
+    /// rapids. A line that is split into several is the same path, and so is a drilling cycle that is written
+    /// as motions. An arc that is split into several is not recognized.
     pub same: bool,
-    /// Where the paths part first: lines in both files.
+    /// The lines in both files at which the paths first separate.
     pub parts_at: Option<(Option<usize>, Option<usize>)>,
 }
 
-/// Compares the paths of two programs and sums them up, in one pass over both.
+/// Compares the paths of two programs and sums up their motions, in a single pass over both.
 pub(super) fn compare_paths(
     (a, unit_a): (&Program, LengthUnit),
     (b, unit_b): (&Program, LengthUnit),
@@ -50,21 +52,21 @@ pub(super) fn compare_paths(
     (geometry, left.totals, right.totals)
 }
 
-/// A move as far as it is compared, in the unit of the second program.
+/// A motion as far as it is compared, in the unit of the second program.
 #[derive(Debug, Clone)]
 struct ComparedMove {
     from: Pose,
     to: Pose,
     shape: Discriminant<MotionPath>,
     line: bool,
-    /// What the ends of arcs and splines do not say.
+    /// The middle of the path, because the ends of arcs and splines do not determine it.
     middle: Point3<f64>,
     length: f64,
     rapid: bool,
     statement: StatementId,
 }
 
-/// How far each side goes on: to the end of its move, or to a pose within it.
+/// How far each side advances: to the end of its motion, or to a pose within it.
 struct CommonAdvance {
     a: Option<Pose>,
     b: Option<Pose>,
@@ -96,7 +98,8 @@ fn find_common_advance(a: &ComparedMove, b: &ComparedMove) -> Option<CommonAdvan
 }
 
 fn is_same_point(a: &Point3<f64>, b: &Point3<f64>) -> bool {
-    // Each coordinate was rounded for itself. Beyond the range of numbers a difference is none, so equal ones are asked first.
+    // Each coordinate was rounded by itself. Infinite coordinates have no difference, so equal ones are
+    // tested first.
     a.iter().zip(b.iter()).all(|(a, b)| a == b || (a - b).abs() <= SAME_POINT * (1.0 + 1e-6))
 }
 
@@ -108,7 +111,7 @@ fn is_same_pose(a: &Pose, b: &Pose) -> bool {
     is_same_point(&a.point, &b.point) && is_same_axis(&a.axis, &b.axis)
 }
 
-/// Whether a pose lies on a line, with the axis that the tool has there.
+/// Returns whether a pose lies on a line, with the tool axis that it has there.
 fn is_pose_on_line(line: &ComparedMove, at: &Pose) -> bool {
     let travel = line.to.point - line.from.point;
     let share = (at.point - line.from.point).dot(&travel) / travel.norm_squared();
@@ -119,7 +122,7 @@ fn is_pose_on_line(line: &ComparedMove, at: &Pose) -> bool {
     is_same_point(&(line.from.point + travel * share), &at.point) && is_same_axis(&axis, &at.axis)
 }
 
-/// The moves of one program, those that do nothing left out.
+/// The motions of a program, without those that do nothing.
 struct MoveCursor<'p> {
     program: &'p Program,
     motions: Motions<'p>,
@@ -141,7 +144,7 @@ impl<'p> MoveCursor<'p> {
         self.step.as_ref()
     }
 
-    /// Line of the move in its file.
+    /// Returns the line of the motion in its file.
     fn current_line(&self) -> Option<usize> {
         let statement = self.program.statement(self.step.as_ref()?.statement);
         statement_line(self.program, statement)
@@ -153,7 +156,7 @@ impl<'p> MoveCursor<'p> {
             let measured = MotionLengthAndTime::from_motion(&motion, self.unit, None);
             self.totals.add_motion(&measured);
             let step = to_compared_move(&motion, self.scale, measured.length());
-            // A first point has no way to it; both programs must start there all the same.
+            // No path leads to a first point, but both programs must start at the same point.
             let stays = is_same_point(&step.from.point, &step.to.point)
                 && is_same_axis(&step.from.axis, &step.to.axis)
                 && step.length <= SAME_POINT;

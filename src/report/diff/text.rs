@@ -1,4 +1,4 @@
-//! Differences as text for people.
+//! This module writes differences as text for people.
 
 use super::{DiffCounts, DifferenceKind, ProgramDiff, StatementDifference};
 use crate::presentation::safe_text::to_safe_line;
@@ -7,7 +7,8 @@ use crate::report::text_format::{format_counted, format_duration, format_length,
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// The differences: the summary, then for each operation what differs, at most `most` statements of it.
+/// Returns the differences: a summary, then the differences of each operation, at most `most` statements of
+/// each.
 pub fn to_text(diff: &ProgramDiff, most: usize) -> String {
     let mut out = format!("{} -> {}\n", to_safe_line(&diff.a.file), to_safe_line(&diff.b.file));
     if diff.a.dialect != diff.b.dialect {
@@ -36,7 +37,7 @@ pub fn to_text(diff: &ProgramDiff, most: usize) -> String {
     out
 }
 
-/// The differences in a few lines.
+/// Returns the differences in a few lines.
 pub fn summarize_diff(diff: &ProgramDiff) -> String {
     if diff.is_empty() {
         return "the same, byte for byte\n".to_owned();
@@ -45,7 +46,7 @@ pub fn summarize_diff(diff: &ProgramDiff) -> String {
     if let Some(parts) = diff.geometry.parts_at {
         let line =
             |line: Option<usize>| line.map_or_else(|| "the end".to_owned(), |line| format!("line {line}"));
-        let _ = write!(out, " (the paths part at {} -> {})", line(parts.0), line(parts.1));
+        let _ = write!(out, " (the paths separate at {} -> {})", line(parts.0), line(parts.1));
     }
     out.push('\n');
     let _ = writeln!(out, "{}", describe_counts(&diff.counts, Some(diff)).join(", "));
@@ -113,7 +114,7 @@ fn format_percent(value: f64) -> String {
     format!("{value:+.1} %")
 }
 
-/// Small moves keep the digits that tell them from none.
+/// Formats a distance. Small ones keep the digits that distinguish them from zero.
 fn format_distance(value: f64) -> String {
     if value < 0.001 { format!("{value:.6}") } else { format_short(value) }
 }
@@ -141,7 +142,7 @@ fn append_difference(out: &mut String, change: &StatementDifference, unit: &str)
     }
 }
 
-/// One line as it stands, blanks kept, since blanks may be all that differs.
+/// Returns a line with visible blanks, because blanks may be the only difference.
 fn to_visible_line(line: &str) -> String {
     line.chars().map(|c| crate::presentation::safe_text::to_visible_character(c, true)).collect()
 }

@@ -1,7 +1,8 @@
-//! Arrays in the page: little-endian bytes, sorted by significance, deflated, in base64.
+//! This module encodes the arrays of the page: little-endian bytes, sorted by significance, deflated, in
+//! base64.
 //!
-//! Bytes of one significance stand together because those of neighbouring numbers are alike; row numbers travel as differences for the
-//! same reason. `page/data.js` is the way back.
+//! Bytes of the same significance are stored together, because those of neighbouring numbers are similar. Row
+//! numbers are stored as differences for the same reason. `page/data.js` decodes them.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -9,12 +10,12 @@ use flate2::Compression;
 use flate2::write::DeflateEncoder;
 use std::io::{self, Write};
 
-/// An array on its way into the page.
+/// An array for the page.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PageArray {
-    /// Numbers that are measured; NaN is not known.
+    /// Measured numbers. NaN means that the number is not known.
     F32(Vec<f32>),
-    /// Numbers that grow, as their differences.
+    /// Ascending numbers, which are stored as their differences.
     Growing(Vec<u32>),
     /// Small indices.
     U16(Vec<u16>),
@@ -46,7 +47,7 @@ impl PageArray {
         }
     }
 
-    /// The array as an element of the page; the browser does not look into scripts of a type that it does not know.
+    /// Returns the array as an element of the page. The browser does not execute scripts of an unknown type.
     pub fn to_element(&self, name: &str) -> io::Result<String> {
         let mut deflated = DeflateEncoder::new(Vec::new(), Compression::new(6));
         deflated.write_all(&self.byte_planes())?;

@@ -1,41 +1,42 @@
-//! The text of the program, line by line, with the lines that steps changed or took out beside it.
+//! This module lists the text of the program line by line, with the lines that steps changed or deleted
+//! beside it.
 
 use crate::program::{Program, Record, Statement, StatementChange};
 
-/// No row.
+/// The value for no row.
 pub const NONE: u32 = u32::MAX;
 
-/// What a row is, as in a patch.
+/// The kind of a row, as in a patch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
 pub enum ListingRowKind {
-    /// In both programs.
+    /// It is in both programs.
     Kept = 0,
-    /// Only in the one before.
+    /// It is only in the program before.
     Old = 1,
-    /// Only in the one after.
+    /// It is only in the program after.
     New = 2,
 }
 
-/// The rows, and where statements stand in them.
+/// The rows, and the rows of statements.
 #[derive(Debug, Default)]
 pub struct ProgramListing {
-    /// The rows' bytes, each closed by LF.
+    /// The bytes of the rows, each with LF at its end.
     pub text: Vec<u8>,
-    /// What each row is.
+    /// The kind of each row.
     pub kinds: Vec<u8>,
-    /// The step (from 1) that made each row what it is; 0 for none.
+    /// The step (from 1) that made each row; 0 for none.
     pub steps: Vec<u16>,
-    /// First row of each statement of the program as it stands.
+    /// The first row of each statement of the current program.
     pub after: Vec<u32>,
-    /// First row of each statement of the program as it was read, in their order.
+    /// The first row of each statement of the program as it was read, in their order.
     pub before: Vec<u32>,
-    /// The statement of the program as it stands of each as it was read.
+    /// For each statement as it was read, its index in the current program.
     pub origins: Vec<u32>,
 }
 
 impl ProgramListing {
-    /// The listing of a program that steps changed, or none did.
+    /// Lists a program, whether steps changed it or not.
     pub fn from_program(program: &Program) -> Self {
         let mut listing = Self::default();
         for (index, statement) in program.statements().iter().enumerate() {
@@ -44,7 +45,7 @@ impl ProgramListing {
             let was_read = !statement.origin().is_empty();
             let mut now = NONE;
             match statement.change() {
-                // It is on the first line, with the statement that begins there.
+                // A byte order mark is on the first line, with the statement that begins there.
                 StatementChange::Untouched if matches!(statement.record(), Record::ByteOrderMark) => {
                     now = row;
                     listing.text.extend_from_slice(program.statement_text(statement));
@@ -65,7 +66,7 @@ impl ProgramListing {
                 StatementChange::Deleted(_) if was_read => {
                     listing.append_rows(text_as_read(program, statement), ListingRowKind::Old, step);
                 }
-                // One step put it in, a later one took it out: neither program has it.
+                // A statement that one step inserted and a later one deleted is in neither program.
                 StatementChange::Deleted(_) => {}
             }
             listing.after.push(now);

@@ -1,4 +1,4 @@
-//! Text as HTML.
+//! This module writes text as HTML.
 
 use crate::report::escaping::escape_html;
 use std::io::{self, Write};
@@ -8,7 +8,7 @@ pub fn write_text(out: &mut dyn Write, text: &str) -> io::Result<()> {
     out.write_all(escape_html(text).as_bytes())
 }
 
-/// A value as JSON that may stand in a script element.
+/// Returns a value as JSON that is safe in a script element.
 pub fn to_script_json(value: &serde_json::Value) -> String {
     value.to_string().replace('<', "\\u003c")
 }

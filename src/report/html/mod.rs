@@ -1,19 +1,19 @@
-//! A comparison as one HTML page that needs no network and no other file.
+//! This module writes a comparison as a single HTML page that needs no network and no other file.
 //!
-//! Tables, findings and texts stand in the page as they are. Charts, the path in 3D and the listing are drawn
-//! by the scripts in `page/` from arrays (`encode`): little-endian numbers whose bytes of equal significance
-//! stand together, deflated, in base64. A motion costs some 28 bytes of page with its line, before and after.
-//! Charts are drawn by uPlot and the 3D by three.js; both are part of the page, with their licences
+//! Tables, findings and texts are plain HTML. Charts, the path in 3D and the listing are drawn by the scripts
+//! in `page/` from arrays (`array_encoding`): little-endian numbers whose bytes of equal significance are
+//! stored together, deflated, in base64. A motion takes about 28 bytes of the page with its line, before and
+//! after. uPlot draws the charts and three.js the 3D view. Both are part of the page, with their licences
 //! (`vendor/`).
 //!
-//! Everything that comes from a file is escaped. The page's own policy (CSP) lets only scripts run whose
-//! hashes it names, so text that got through the escaping would still do nothing. The same comparison makes
+//! Everything that comes from a file is escaped. The page's own policy (CSP) only lets scripts run whose
+//! hashes it names, so text that got through the escaping would still do nothing. The same comparison gives
 //! the same bytes.
 //!
-//! Motions before and after are paired by their statements: a point that a step put in belongs to the next
-//! motion of the file. The page times its frames. A path that takes long is drawn with every nth point first
-//! and whole once the view rests, if that takes less than 1.5 s; else the page says that it is coarse. Clicks
-//! always look at all motions.
+//! Motions before and after are paired by their statements. A point that a step has inserted belongs to the
+//! next motion of the file. The page times its frames. A path that takes long is first drawn with every nth
+//! point, and completely once the view rests, if that takes less than 1.5 s. Otherwise the page says that it
+//! is coarse. Clicks always consider all motions.
 
 mod array_encoding;
 mod listing;
@@ -30,8 +30,7 @@ use std::io::{self, Write};
 
 /// Writes the page.
 ///
-/// # Errors
-/// What `out` returns.
+/// Returns the errors of `out`.
 pub fn write_page(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
     let arrays = page_arrays::PageArrays::from_comparison(comparison);
     for (at, text) in page_assets::split_template() {

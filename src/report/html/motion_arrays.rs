@@ -1,4 +1,4 @@
-//! One program as arrays: where it goes, how fast, what it cuts, and where it stands in the listing.
+//! This module holds a program as arrays: its path, its feeds, what it cuts, and its rows in the listing.
 
 use super::array_encoding::PageArray;
 use super::listing::NONE;
@@ -10,22 +10,23 @@ use crate::program::{MotionClass, Program};
 use crate::report::comparison::{ComparisonSubject, measure_motion};
 use crate::report::simulation::{MotionRow, SimulationReport};
 
-/// Chords are no further from their arcs than this in the drawing, mm.
+/// The largest distance between chords and their arcs in the drawing, mm.
 pub const CHORD_MM: f64 = 0.02;
 
-/// Flags of a motion.
+/// A flag of motions: it is a rapid.
 const RAPID: u8 = 1;
-/// It does not begin where the motion before ended; its first vertex is where it begins.
+/// A flag of motions: it does not begin where the previous one ended. Its first vertex is its start.
 const JUMPS: u8 = 2;
 /// It is a crash: the page draws it red.
 const CRASH: u8 = 4;
 
-/// The arrays of a program, one value a motion; first points, which come from nowhere, are no motions.
+/// The arrays of a program, with a value for each motion. First points are no motions, because no path leads
+/// to them.
 #[derive(Debug, Default)]
 pub struct PageMotionArrays {
     /// Vertices of the path, mm from `origin` in the workpiece frame.
     pub vertices: Vec<[f32; 3]>,
-    /// How many vertices there are up to the end of each motion.
+    /// The number of vertices up to the end of each motion.
     pub ends: Vec<u32>,
     /// Flags.
     pub flags: Vec<u8>,
@@ -33,33 +34,33 @@ pub struct PageMotionArrays {
     pub class: Vec<u8>,
     /// Operation.
     pub operation: Vec<u16>,
-    /// Tool, an index of `tools`.
+    /// The index of the tool in `tools`.
     pub tool: Vec<u16>,
     /// Row of the listing.
     pub row: Vec<u32>,
     /// Length, mm.
     pub length: Vec<f32>,
-    /// Time, s; 0 where it is not known.
+    /// The time in s; 0 if it is not known.
     pub seconds: Vec<f32>,
-    /// Feed, mm/min; NaN in rapids and where it is not known.
+    /// The feed in mm/min; NaN in rapids and if it is not known.
     pub feed: Vec<f32>,
-    /// What the simulation told, by name.
+    /// The results of the simulation, by name.
     pub loads: Vec<(&'static str, Vec<f32>)>,
-    /// What became of each motion ([`super::motion_change`]).
+    /// The change of each motion ([`super::motion_change`]).
     pub change: Vec<u8>,
-    /// The motion before that each comes from, or [`NONE`].
+    /// The motion before from which each comes, or [`NONE`].
     pub pair: Vec<u32>,
     /// Names of tools.
     pub tools: Vec<String>,
     /// Names of operations.
     pub operations: Vec<String>,
-    /// The motion that ends at each statement, or [`NONE`]; the first of several.
+    /// The motion that ends at each statement, or [`NONE`]. If there are several, it is the first one.
     pub ended_by: Vec<u32>,
     /// Index of the statement that ends each motion.
     pub statement: Vec<u32>,
 }
 
-/// A quantity's name, and where a motion's row has it.
+/// The name of a quantity, and its value in a motion's row.
 type PageLoadColumn = (&'static str, fn(&MotionRow) -> Option<f64>);
 
 /// The quantities of a simulation that charts show.
@@ -72,7 +73,7 @@ const LOADS: [PageLoadColumn; 5] = [
 ];
 
 impl PageMotionArrays {
-    /// The arrays of a program. `rows` has the row of each of its statements.
+    /// Makes the arrays of a program. `rows` has the row of each of its statements.
     pub fn from_program(
         subject: &ComparisonSubject<'_>,
         program: &Program,
@@ -144,7 +145,7 @@ impl PageMotionArrays {
             self.tools.len() - 1
         });
         self.tool.push(u16::try_from(tool).unwrap_or(u16::MAX));
-        debug_assert!(statement.index() < rows.len(), "the rows are of this program");
+        debug_assert!(statement.index() < rows.len(), "the rows belong to this program");
         self.row.push(rows.get(statement.index()).copied().unwrap_or(NONE));
         if let Some(place) = self.ended_by.get_mut(statement.index()).filter(|place| **place == NONE) {
             *place = self.statement.len() as u32;
@@ -152,7 +153,7 @@ impl PageMotionArrays {
         self.statement.push(statement.index() as u32);
     }
 
-    /// Where a motion's vertices are, its beginning included.
+    /// Returns the vertices of a motion, including its start.
     pub fn motion_vertices(&self, motion: usize) -> &[[f32; 3]] {
         let end = self.ends.get(motion).map_or(0, |end| *end as usize);
         let start =
@@ -162,7 +163,7 @@ impl PageMotionArrays {
         self.vertices.get(first..end).unwrap_or_default()
     }
 
-    /// The arrays by name.
+    /// Returns the arrays by name.
     pub fn into_arrays(self, prefix: &str) -> Vec<(String, PageArray)> {
         let vertices = |axis: usize| {
             PageArray::F32(self.vertices.iter().filter_map(|vertex| vertex.get(axis).copied()).collect())

@@ -1,31 +1,32 @@
-//! What became of each motion: the motion before that it comes from, and how it differs.
+//! This module tells what happened to each motion: from which motion before it comes, and how it differs.
 
 use super::listing::{NONE, ProgramListing};
 use super::motion_arrays::{CHORD_MM, PageMotionArrays};
 
-/// What became of a motion; the numbers travel into the page.
+/// The change of a motion. The numbers are stored in the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
 pub enum PageMotionChange {
-    /// It is as it was.
+    /// It is unchanged.
     Same = 0,
     /// It is slower than it was.
     Slower = 1,
     /// It is faster than it was.
     Faster = 2,
-    /// It goes elsewhere, was not there, or is there no more.
+    /// It has another path, did not exist before, or does not exist any more.
     Elsewhere = 3,
 }
 
-/// Points closer than this are one, mm: what coordinates may lose as `f32` and by rounding to the file's decimals.
+/// Points that are closer than this are equal, in mm. It is what coordinates may lose as `f32` and by
+/// rounding to the file's decimals.
 const SAME_MM: f32 = 0.002;
 
-/// Pairs the motions of a program with those it was made of, and says what became of them.
+/// Pairs the motions of a program with those from which they were made, and classifies their changes.
 pub fn pair_motions(before: &mut PageMotionArrays, after: &mut PageMotionArrays, listing: &ProgramListing) {
     let origins = find_origin_motions(before, after.ended_by.len(), listing);
     before.change = vec![PageMotionChange::Elsewhere as u8; before.statement.len()];
     before.pair = vec![NONE; before.statement.len()];
-    // Several motions of one statement (a drilled hole) pair in their order.
+    // Several motions of one statement (a drilled hole) are paired in their order.
     let mut last = (NONE, 0);
     for motion in 0..after.statement.len() {
         let statement = after.statement.get(motion).copied().unwrap_or(NONE);
@@ -48,7 +49,8 @@ pub fn pair_motions(before: &mut PageMotionArrays, after: &mut PageMotionArrays,
     }
 }
 
-/// For each statement of the program as it stands, the motion before that it ends, or, for one that was put in, the next that ends.
+/// Returns for each statement of the current program the motion before that it ends. For an inserted
+/// statement it is the next motion that ends.
 fn find_origin_motions(before: &PageMotionArrays, statements: usize, listing: &ProgramListing) -> Vec<u32> {
     let mut found = vec![NONE; statements];
     let mut ends = listing.origins.iter().zip(&before.ended_by).rev().peekable();
@@ -84,9 +86,9 @@ fn compare_motions(
     }
 }
 
-/// Whether a point is on a path of chords.
+/// Returns whether a point lies on a path of chords.
 fn is_on_path(path: &[[f32; 3]], point: [f32; 3]) -> bool {
-    // Chords are cut anew where a step splits an arc.
+    // Chords are computed again when a step splits an arc.
     let most = if path.len() > 2 { 2.0 * CHORD_MM as f32 + SAME_MM } else { SAME_MM };
     path.windows(2).any(|ends| match ends {
         [from, to] => distance_to_chord(*from, *to, point) <= most,

@@ -1,4 +1,4 @@
-//! Everything that scripts draw.
+//! This module collects everything that scripts draw.
 
 use super::array_encoding::PageArray;
 use super::listing::ProgramListing;
@@ -12,18 +12,18 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
-/// More statements than this make no page that a browser opens.
+/// A browser cannot open a page with more statements than this.
 const MOST_STATEMENTS: usize = 6_000_000;
 
-/// Nor does more text, in bytes.
+/// A browser cannot open a page with more text than this, in bytes.
 const MOST_TEXT: usize = 300 << 20;
 
-/// The arrays, and what stands beside them.
+/// The arrays, with remarks about them.
 #[derive(Debug)]
 pub struct PageArrays {
     facts: Value,
     arrays: Vec<(String, PageArray)>,
-    /// Why something is not drawn, and how what is drawn is simplified.
+    /// The reasons why something is not drawn, and how the drawing is simplified.
     pub missing: Vec<String>,
 }
 
@@ -76,7 +76,7 @@ impl PageArrays {
         Self { facts, arrays, missing }
     }
 
-    /// Writes them as elements of the page.
+    /// Writes the arrays as elements of the page.
     pub fn write_elements(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(
             out,
@@ -89,7 +89,8 @@ impl PageArrays {
     }
 }
 
-/// Where the drawing's coordinates count from: near the path, so that `f32` is fine enough, and in whole mm, so that nothing is rounded.
+/// Returns the origin of the drawing's coordinates. It is near the path, so that `f32` is precise enough, and
+/// in whole mm, so that nothing is rounded.
 fn choose_drawing_origin(subject: &ComparisonSubject<'_>, program: &Program) -> [f64; 3] {
     let unit = subject.resolve_length_unit(program).unit.mm_per_unit();
     let first = ComparisonSubject::motions_after_start(program).next();

@@ -1,4 +1,4 @@
-//! The parts of the page that are the same in every page, and the policy that lets no other script run.
+//! This module holds the parts that are the same in every page, and the policy that lets no other script run.
 
 use super::markup;
 use base64::Engine;
@@ -14,7 +14,7 @@ const LIBRARIES: [(&str, &str, &str); 2] = [
     ("three.js 0.187.0", include_str!("vendor/three.iife.min.js"), include_str!("vendor/three.LICENSE")),
 ];
 
-/// The page's own scripts, which share one scope, in the order in which they are read.
+/// The page's own scripts, which have a common scope, in the order in which they are read.
 const SCRIPTS: [&str; 8] = [
     include_str!("page/data.js"),
     include_str!("page/program.js"),
@@ -28,7 +28,7 @@ const SCRIPTS: [&str; 8] = [
 
 const STYLES: [&str; 2] = [include_str!("vendor/uPlot.min.css"), include_str!("page/page.css")];
 
-/// The template as pieces: a mark, and the text after it. The first piece has no mark.
+/// Returns the template as pieces: a mark, and the text after it. The first piece has no mark.
 pub fn split_template() -> impl Iterator<Item = (Option<&'static str>, &'static str)> {
     TEMPLATE.split("{{").enumerate().map(|(index, piece)| match piece.split_once("}}") {
         Some((mark, text)) if index > 0 => (Some(mark), text),
@@ -36,7 +36,7 @@ pub fn split_template() -> impl Iterator<Item = (Option<&'static str>, &'static 
     })
 }
 
-/// The page's scripts as one.
+/// Returns the scripts of the page as one.
 fn page_script() -> String {
     format!("(() => {{\n\"use strict\";\n{}}})();\n", SCRIPTS.concat())
 }
@@ -45,7 +45,7 @@ fn page_style() -> String {
     STYLES.join("\n")
 }
 
-/// The Content-Security-Policy: nothing is loaded, and only these scripts and styles count.
+/// Returns the Content-Security-Policy: nothing is loaded, and only these scripts and styles are allowed.
 pub fn content_security_policy() -> String {
     let hash = |text: &str| format!("'sha256-{}'", STANDARD.encode(Sha256::digest(text.as_bytes())));
     let mut scripts: Vec<String> = LIBRARIES.iter().map(|(_, script, _)| hash(script)).collect();

@@ -1,4 +1,4 @@
-//! The parts of the page that are plain text and tables.
+//! This module writes the parts of the page that are plain text and tables.
 
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::presentation::safe_text::to_safe_line;
@@ -132,7 +132,7 @@ fn write_finding(out: &mut dyn Write, found: &Diagnostic, comparison: &Compariso
     )
 }
 
-/// The line that a finding is about, for the scripts.
+/// Returns the line that a finding is about, for the scripts.
 fn format_line_attribute(found: &Diagnostic, comparison: &Comparison<'_>) -> String {
     let source = comparison.subject.program.source();
     let Some(label) = found.labels.iter().find(|label| is_program_source(&label.source, source)) else {
@@ -143,7 +143,7 @@ fn format_line_attribute(found: &Diagnostic, comparison: &Comparison<'_>) -> Str
     format!(" data-{side}-line=\"{line}\"")
 }
 
-/// Whether a text is the program's: as it was read, or as it was read back.
+/// Returns whether a text is the program's, as it was read or as it was read back.
 fn is_program_source(source: &Arc<Source>, program: &Arc<Source>) -> bool {
     Arc::ptr_eq(source, program) || source.name() == format!("{} (corrected)", program.name())
 }

@@ -1,16 +1,16 @@
-//! The stock that is left, as a field of heights that a browser can draw.
+//! This module makes a field of heights of the remaining stock, which a browser can draw.
 
 use crate::stock::Dexels;
 
-/// Most columns of the drawing along a side.
-const MOST: usize = 240;
+/// The largest number of columns of the drawing along a side.
+const MOST_COLUMNS: usize = 240;
 
 /// Heights on a square grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StockHeightField {
-    /// Centre of the first column (x, y), mm.
+    /// The centre of the first column (x, y), mm.
     pub first_mm: [f64; 2],
-    /// Distance of columns, mm.
+    /// The distance between columns, mm.
     pub cell_mm: f64,
     /// Columns in x.
     pub columns: usize,
@@ -18,17 +18,17 @@ pub struct StockHeightField {
     pub rows: usize,
     /// Lowest material, mm.
     pub low_mm: f64,
-    /// Highest material of each column above `low`, mm, row by row; NaN where there is none.
+    /// The highest material of each column above `low`, in mm, row by row; NaN if there is none.
     pub heights: Vec<f32>,
-    /// How many columns of the simulation, each way, make one of the drawing.
+    /// The number of columns of the simulation in each direction that make one of the drawing.
     pub coarser: usize,
 }
 
 impl StockHeightField {
-    /// The highest material of blocks of columns. `None` when nothing is left.
+    /// Computes the highest material of blocks of columns. Returns `None` if no material remains.
     pub fn from_dexels(dexels: &Dexels) -> Option<Self> {
         let layout = dexels.grid();
-        let coarser = layout.columns.max(layout.rows).div_ceil(MOST).max(1);
+        let coarser = layout.columns.max(layout.rows).div_ceil(MOST_COLUMNS).max(1);
         let (columns, rows) = (layout.columns.div_ceil(coarser), layout.rows.div_ceil(coarser));
         let mut heights = vec![f32::NAN; columns * rows];
         let mut low = f32::INFINITY;
@@ -43,7 +43,7 @@ impl StockHeightField {
                 if let (Some(top), Some(height)) =
                     (top, heights.get_mut(row / coarser * columns + column / coarser))
                 {
-                    // `max` takes the number where the other is none.
+                    // `f32::max` ignores NaN, so an empty cell takes the height of the column.
                     *height = height.max(top);
                 }
             }

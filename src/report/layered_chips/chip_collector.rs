@@ -1,7 +1,7 @@
-//! The rows and sums, motion by motion.
+//! This module collects rows and sums, motion by motion.
 
 use super::chip_merging::merge_piece_chips;
-use super::chip_thickness::{ChipThicknessModel, STANDS, tip_travel_mm};
+use super::chip_thickness::{ChipThicknessModel, LEAST_TRAVEL_MM, tip_travel_mm};
 use super::move_scene::{MoveScene, build_scene};
 use super::{ChipReport, ChipReportOptions, ChipRow, ChipTotals, OperationChips, UncutMotion};
 use crate::engagement::MotionPiece;
@@ -17,11 +17,11 @@ use crate::simulation_run::layer_run::{
 };
 use std::collections::BTreeSet;
 
-/// What grows while motions go by.
+/// The sums while motions are processed.
 pub(super) struct ChipCollector<'m, 'p> {
     machining: &'m Machining<'p>,
     keep: ChipReportOptions,
-    /// Of the borders' chords, mm.
+    /// The largest distance between boundaries and their chords, mm.
     tolerance: f64,
     rapid: Option<f64>,
     names: Vec<String>,
@@ -30,12 +30,12 @@ pub(super) struct ChipCollector<'m, 'p> {
     pub rows: Vec<ChipRow>,
     pub skipped: Vec<UncutMotion>,
     scenes: Vec<MoveScene>,
-    /// Tools whose teeth nobody says, where one of them cuts.
+    /// Tools that cut and whose teeth are not known.
     toothless: BTreeSet<String>,
-    /// Cuts at a feed or speed that is not known, and cuts that turn about a tip that stands.
+    /// The numbers of cuts at an unknown feed or speed, and of cuts that turn about a tip at rest.
     unknown: usize,
     standing: usize,
-    /// Rapids of tools whose shape nobody says, and motions that go nowhere.
+    /// The numbers of rapids of tools with an unknown shape, and of motions that go nowhere.
     shapeless: usize,
     still: usize,
 }
@@ -128,7 +128,7 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
         self.rows.push(row);
     }
 
-    /// Why a motion was not cut, or in part.
+    /// Returns the reason why a motion was not cut, or only in part.
     fn find_uncut_reason(&mut self, cut: &MotionChips<'_>) -> Option<String> {
         match cut.left_out {
             Some(UncutReason::Tool) => Some("the tool is no flat end mill".to_owned()),
@@ -148,7 +148,7 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
         }
     }
 
-    /// The feed of a motion, mm/min.
+    /// Returns the feed of a motion, mm/min.
     fn motion_feed_mm_min(&self, motion: &Motion) -> Option<f64> {
         if motion.rapid {
             return self.rapid;
@@ -158,7 +158,7 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
         feed.filter(|feed| *feed > 0.0)
     }
 
-    /// What makes a thickness of an advance; counts what is missing where the motion cuts.
+    /// Returns the model that computes thicknesses from advances. It counts missing data if the motion cuts.
     fn build_thickness_model(&mut self, cut: &MotionChips<'_>, tool: &str) -> ChipThicknessModel<'m> {
         let cutter = cut.cutter.and_then(|index| self.machining.tooling().cutters().get(index));
         let rpm = cut.motion.spindle_rpm().filter(|rpm| *rpm > 0.0);
@@ -184,7 +184,7 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
             self.toothless.insert(tool.to_owned());
         } else if pace.feed_per_turn_mm.is_none() {
             self.unknown += 1;
-        } else if ways.iter().any(|way| *way <= STANDS) {
+        } else if ways.iter().any(|way| *way <= LEAST_TRAVEL_MM) {
             self.standing += 1;
         } else {
             pace.known = true;
@@ -192,7 +192,7 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
         pace
     }
 
-    /// Whether there is to be a picture of a motion.
+    /// Returns whether a motion is drawn.
     fn is_scene_wanted(&self, cut: &MotionChips<'_>) -> bool {
         let shown = |layer: &LayerChip| {
             let here = |z: f64| (z - layer.z_mm).abs() <= layer.thickness_mm / 2.0;
@@ -201,7 +201,7 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
         self.scenes.len() < self.keep.scenes && cut.piece_chips().flat_map(|chip| &chip.layers).any(shown)
     }
 
-    /// Puts everything together.
+    /// Makes the report.
     pub fn into_report(mut self, options: LayerRunOptions, ran: LayerRunResult) -> ChipReport {
         self.totals.stock_mm3 = ran.before_mm3;
         self.totals.left_mm3 = ran.left.volume_mm3();
@@ -221,13 +221,12 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
     }
 
     fn list_assumptions(&self) -> Vec<String> {
-        let mut said = vec![
-            "what stands above the flutes is not looked at; `clsmith simulate` finds collisions".to_owned(),
-        ];
+        let mut said =
+            vec!["everything above the flutes is ignored; `clsmith simulate` finds collisions".to_owned()];
         let cuts = |count: usize| format_counted(count, "cut", "cuts");
         for tool in &self.toothless {
             let tool = if tool.is_empty() { "the tool".to_owned() } else { format!("tool {tool}") };
-            said.push(format!("the teeth of {tool} are not said under `setup.tools`: no chip thickness"));
+            said.push(format!("the teeth of {tool} are not given under `setup.tools`: no chip thickness"));
         }
         if self.unknown > 0 {
             let cuts = cuts(self.unknown);
@@ -236,12 +235,12 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
         if self.standing > 0 {
             let cuts = cuts(self.standing);
             said.push(format!(
-                "{cuts} turn about a tip that stands, and a feed does not say how fast: no chip thickness"
+                "{cuts} turn about a tip at rest, and a feed does not say how fast: no chip thickness"
             ));
         }
         if self.totals.inside_mm3 > 5e-4 {
             said.push(format!(
-                "{:.3} mm3 stood inside a cutter where a motion began: taken away, and part of no chip",
+                "{:.3} mm3 were inside a cutter where a motion began: removed, and part of no chip",
                 self.totals.inside_mm3
             ));
         }

@@ -1,4 +1,4 @@
-//! Motions and layers by name, unit and printing.
+//! This module holds motions and layers with names, units and printing.
 
 use super::{ChipLayerRow, ChipRow};
 use crate::report::table::{Column, ColumnUnit, TableValue};

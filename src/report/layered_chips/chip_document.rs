@@ -1,4 +1,4 @@
-//! Chips as CSV and JSON.
+//! This module writes chips as CSV and JSON.
 
 use super::chip_columns::{ChipLayerOfMotion, layer_columns, motion_columns};
 use super::json_formatter::DepthLimitedFormatter;
@@ -11,7 +11,7 @@ use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 use std::io::{self, Write};
 
-/// A boundary as the JSON has it.
+/// A boundary as it is in JSON.
 struct BoundaryJson<'a>(&'a [[f64; 2]]);
 
 impl Serialize for BoundaryJson<'_> {

@@ -1,4 +1,4 @@
-//! The chips of a motion's pieces as one, layer by layer.
+//! This module merges the chips of a motion's pieces, layer by layer.
 
 use super::ChipLayerRow;
 use crate::layered_chips::Polygon;
@@ -7,10 +7,12 @@ use crate::layered_chips::chip::LayerChip;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// Joins the chips of pieces of path that follow each other. `thickness` is the thickest chip of a tooth on a layer of a piece, `grid`
-/// the one that the workpiece was cut on; `borders`: whether to keep them.
+/// Merges the chips of consecutive pieces of path. `thickness` is the thickest chip of a tooth on a layer of
+/// a piece, and `grid` is the grid on which the workpiece was cut. `borders` tells whether to keep
+/// boundaries.
 ///
-/// Areas add up, for what one piece removed the next one does not find; where chips of several pieces meet, their borders become one.
+/// Areas add up, because one piece does not find what the previous one has removed. Where chips of several
+/// pieces touch, their boundaries are merged.
 pub(super) fn merge_piece_chips<'a>(
     chips: impl Iterator<Item = (&'a LayerChip, Option<f64>)>,
     grid: &AreaGrid,
@@ -52,17 +54,17 @@ pub(super) fn merge_piece_chips<'a>(
     layers.into_values().map(whole).collect()
 }
 
-/// Holes thinner than this, mm, are what chords left between one piece of path and the next.
+/// Holes that are thinner than this, in mm, are errors of chords between one piece of path and the next.
 const THINNEST: f64 = 0.005;
 
-/// Whether a border encloses something thicker than chords leave.
+/// Returns whether a boundary encloses something thicker than the errors of chords.
 fn is_thick_boundary(border: &[[f64; 2]]) -> bool {
     let next = border.iter().cycle().skip(1);
     let around: f64 = border.iter().zip(next).map(|([ax, ay], [bx, by])| (bx - ax).hypot(by - ay)).sum();
     signed_area_mm2(border).abs() > THINNEST * around / 2.0
 }
 
-/// Polygons beside each other as few.
+/// Merges adjacent polygons.
 fn merge_polygons(parts: &[&[Polygon]], grid: &AreaGrid) -> Vec<Polygon> {
     let polygons = parts.iter().flat_map(|part| part.iter());
     let borders = polygons.flat_map(|polygon| std::iter::once(&polygon.outer).chain(&polygon.holes));
@@ -72,7 +74,8 @@ fn merge_polygons(parts: &[&[Polygon]], grid: &AreaGrid) -> Vec<Polygon> {
     whole
 }
 
-/// Arcs of a circle in degrees as few that do not overlap, in order, each beginning in -180..180.
+/// Merges arcs of a circle in degrees. The result does not overlap, is in order, and each arc begins in
+/// -180..180.
 fn merge_arcs(arcs: &[[f64; 2]]) -> Vec<[f64; 2]> {
     const TURN: f64 = 360.0;
     let mut flat: Vec<[f64; 2]> = Vec::new();
@@ -95,7 +98,7 @@ fn merge_arcs(arcs: &[[f64; 2]]) -> Vec<[f64; 2]> {
             _ => joined.push([from, to]),
         }
     }
-    // What was cut at +-180 is one arc again.
+    // An arc that was split at +-180 degrees is joined again.
     if let ([[first, end], .., [_, last]], 2..) = (joined.as_slice(), joined.len())
         && *first <= -180.0
         && *last >= 180.0

@@ -1,4 +1,5 @@
-//! Boundary construction diagrams: theta across, time up, as the figures of the paper that they come from.
+//! This module draws boundary construction diagrams, with theta to the right and time upwards as in the paper
+//! from which they come.
 
 use super::ChipReport;
 use super::move_scene::{MoveScene, MoveSceneLayer};
@@ -15,22 +16,23 @@ use std::io;
 
 const PANEL: (u32, u32) = (480, 330);
 
-/// Panels in a row.
+/// The number of panels in a row.
 const IN_A_ROW: usize = 2;
 
-/// Rows of the shading, and angles at which each is looked at first.
+/// The number of rows of the shading, and of angles at which each is first evaluated.
 const ROWS: usize = 100;
 const ANGLES: usize = 180;
 
-/// Points of a branch between two events.
+/// The number of points of a branch between two events.
 const STEPS: usize = 32;
 
-/// Draws the diagram of each move that was kept as a scene, on the layer at a height or on the one where its chip is largest.
+/// Draws the diagram of each move that was kept as a scene, on the layer at a height or on the layer with its
+/// largest chip.
 ///
-/// Of an arc, which is cut in straight pieces, it is the first piece's.
+/// An arc is cut in straight pieces, and the diagram shows the first of them.
 ///
 /// # Errors
-/// What the drawing library returns, which for a drawing in memory is nothing.
+/// Returns the errors of the drawing library. A drawing in memory has none.
 pub fn draw_diagrams(report: &ChipReport, at_z_mm: Option<f64>) -> io::Result<String> {
     let columns = report.scenes.len().clamp(1, IN_A_ROW);
     let rows = report.scenes.len().div_ceil(columns).max(1);
@@ -48,11 +50,12 @@ pub fn draw_diagrams(report: &ChipReport, at_z_mm: Option<f64>) -> io::Result<St
     })
 }
 
-/// The layer whose diagram is drawn.
+/// Returns the layer whose diagram is drawn.
 fn choose_diagram_layer(scene: &MoveScene, at: Option<f64>) -> Option<&MoveSceneLayer> {
     let area = |layer: &MoveSceneLayer| layer.chip.iter().map(|piece| piece.area_mm2()).sum::<f64>();
     match at {
-        // A height on the border of two layers is in both: the upper one, as in the picture of layers.
+        // A height on the boundary between two layers belongs to both. The upper one counts, as in the
+        // picture of layers.
         Some(z) => scene.layers.iter().rfind(|layer| layer.contains_height(z)),
         None => scene.layers.iter().reduce(|a, b| if area(b) > area(a) { b } else { a }),
     }
@@ -96,13 +99,14 @@ fn draw_diagram(area: &SvgArea<'_>, scene: &MoveScene, at: Option<f64>) -> io::R
         };
         chart.draw_series([Circle::new(point, 4, style)]).map_err(drawing_error)?;
     }
-    // The first edge and the last, as in the picture of layers.
+    // These are the first edge and the last one, as in the picture of layers.
     let first = DashedPathElement::new(vec![(0.0, 0.0), (360.0, 0.0)], 8, 5, EDGE.stroke_width(3));
     chart.draw_series(std::iter::once(first)).map_err(drawing_error)?;
     draw_line(&mut chart, [(0.0, 1.0), (360.0, 1.0)], EDGE.stroke_width(3), "", 3)
 }
 
-/// What the edge does, row by row: borders between regions are found to a thousandth of a degree.
+/// Returns the state of the edge, row by row. Boundaries between regions are found to a thousandth of a
+/// degree.
 fn shade_edge_states(diagram: &BoundaryDiagram) -> Vec<Rectangle<(f64, f64)>> {
     let mut boxes = Vec::new();
     for row in 0..ROWS {
@@ -136,7 +140,7 @@ fn shade_edge_states(diagram: &BoundaryDiagram) -> Vec<Rectangle<(f64, f64)>> {
     boxes
 }
 
-/// Where the ends of the flutes cut the ellipse off.
+/// Returns where the ends of the flutes cut off the ellipse.
 fn trace_flute_ends(diagram: &BoundaryDiagram) -> Vec<Vec<(f64, f64)>> {
     let of_stretch = |stretch: &crate::layered_chips::boundary_diagram::time_segments::TimeSegment| {
         let tracks = stretch
@@ -156,7 +160,8 @@ fn trace_flute_ends(diagram: &BoundaryDiagram) -> Vec<Vec<(f64, f64)>> {
     diagram.time_segments().iter().flat_map(of_stretch).collect()
 }
 
-/// Angles in radians and times as lines between 0 and 360 degrees, broken where they go round.
+/// Returns angles in radians and times as lines between 0 and 360 degrees. The lines are split where they
+/// pass 360 degrees.
 fn wrap_angles(points: &[[f64; 2]]) -> Vec<Vec<(f64, f64)>> {
     let turn = |theta: f64| (theta / TAU).floor();
     let mut lines: Vec<Vec<(f64, f64)>> = Vec::new();
@@ -179,7 +184,7 @@ fn wrap_angles(points: &[[f64; 2]]) -> Vec<Vec<(f64, f64)>> {
     lines
 }
 
-/// Both ends of a branch.
+/// Returns both ends of a branch.
 fn branch_end_points(branch: &EnvelopeBranch) -> Vec<((f64, f64), BranchEnd)> {
     let point = |point: Option<&[f64; 2]>, end: BranchEnd| {
         point.map(|[theta, t]| ((theta.rem_euclid(TAU).to_degrees(), *t), end))

@@ -1,12 +1,13 @@
-//! JSON that is indented where people look, and on one line below: a polygon of a hundred points is no hundred lines.
+//! This module writes JSON that is indented at the top levels and on one line below, so that a polygon of a
+//! hundred points does not take a hundred lines.
 
 use serde_json::ser::{CompactFormatter, Formatter, PrettyFormatter};
 use std::io::{self, Write};
 
-/// Lists and objects nested deeper than this stand on one line: those inside a layer.
+/// Lists and objects that are nested deeper than this are on one line: those inside a layer.
 const DEEPEST: usize = 5;
 
-/// Indents down to a depth.
+/// A formatter that indents down to a depth.
 #[derive(Default)]
 pub(super) struct DepthLimitedFormatter {
     pretty: PrettyFormatter<'static>,

@@ -1,5 +1,5 @@
-//! Layers of moves as a drawing: small multiples, a column for each move and a row for each layer from the highest; the layers of a
-//! single move stand side by side.
+//! This module draws the layers of moves as small multiples, with a column for each move and a row for each
+//! layer from the highest. The layers of a single move are side by side.
 
 use super::ChipReport;
 use super::move_scene::{MoveScene, MoveSceneLayer};
@@ -16,30 +16,29 @@ use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use std::io;
 
-/// Width and height of a panel, pixels, and what of it are labels, title and margin.
+/// The width and height of a panel in pixels, and how much of it are labels, title and margin.
 const PANEL: (u32, u32) = (320, 310);
 const AROUND: (u32, u32) = (60, 50);
 
-/// Panels in a row when there is one layer only, or one move.
+/// The number of panels in a row if there is only one layer, or only one move.
 const IN_A_ROW: usize = 6;
 
-/// Layers drawn of several moves, and of one.
+/// The number of layers that are drawn of several moves, and of a single one.
 const LAYERS: usize = 4;
 const LAYERS_OF_ONE: usize = 12;
 
 /// A panel.
 struct LayerPanel<'r> {
     scene: &'r MoveScene,
-    /// The layer, where the move cuts it.
+    /// The layer, if the move cuts it.
     layer: Option<&'r MoveSceneLayer>,
     first: Vec<[f64; 2]>,
     last: Vec<[f64; 2]>,
 }
 
-/// Draws the moves that were kept as scenes, the layer at one height or a few of all layers.
+/// Draws the moves that were kept as scenes: the layer at one height, or a few of all layers.
 ///
-/// # Errors
-/// What the drawing library returns, which for a drawing in memory is nothing.
+/// Returns the errors of the drawing library. A drawing in memory has none.
 pub fn draw_layers(report: &ChipReport, at_z_mm: Option<f64>) -> io::Result<String> {
     let heights = choose_layer_heights(report, at_z_mm);
     let panels: Vec<LayerPanel<'_>> = heights
@@ -51,7 +50,7 @@ pub fn draw_layers(report: &ChipReport, at_z_mm: Option<f64>) -> io::Result<Stri
     let one_row = heights.len() == 1 || report.scenes.len() == 1;
     let columns = if one_row { panels.len().min(IN_A_ROW) } else { report.scenes.len() }.max(1);
     let rows = panels.len().div_ceil(columns).max(1);
-    // One scale for all panels, each around its own move.
+    // All panels have the same scale, and each shows the surroundings of its move.
     let half = panels.iter().flat_map(|panel| panel.content_sizes_mm()).fold(1e-3, f64::max) * 0.56;
     let legend = [
         (LegendSample::Filled(WORKPIECE), "workpiece after the move"),
@@ -65,14 +64,14 @@ pub fn draw_layers(report: &ChipReport, at_z_mm: Option<f64>) -> io::Result<Stri
     })
 }
 
-/// The layers to draw, from the highest.
+/// Returns the heights of the layers to draw, from the highest.
 fn choose_layer_heights(report: &ChipReport, at: Option<f64>) -> Vec<f64> {
     let layers = report.scenes.iter().flat_map(|scene| &scene.layers);
     let shown = layers.filter(|layer| at.is_none_or(|z| layer.contains_height(z)));
     let mut heights: Vec<f64> = shown.map(|layer| layer.z_mm).collect();
     heights.sort_by(|a, b| b.total_cmp(a));
     heights.dedup();
-    // A height on the border of two layers is in both: the upper one.
+    // A height on the boundary between two layers belongs to both. The upper one counts.
     let most = match (at, report.scenes.len()) {
         (Some(_), _) => 1,
         (None, 1) => LAYERS_OF_ONE,
@@ -105,7 +104,7 @@ impl<'r> LayerPanel<'r> {
         }
     }
 
-    /// Lower and upper corner of what must be seen; `None` where there is nothing.
+    /// Returns the lower and the upper corner of what must be visible. Returns `None` if there is nothing.
     fn content_corners(&self) -> Option<([f64; 2], [f64; 2])> {
         let chip = self.layer.iter().flat_map(|layer| layer.chip.iter().flat_map(|piece| &piece.outer));
         let points = self.first.iter().chain(&self.last).chain(chip);
@@ -115,7 +114,7 @@ impl<'r> LayerPanel<'r> {
         })
     }
 
-    /// Width and height of what must be seen.
+    /// Returns width and height of what must be visible.
     fn content_sizes_mm(&self) -> impl Iterator<Item = f64> {
         self.content_corners().into_iter().flat_map(|([x0, y0], [x1, y1])| [x1 - x0, y1 - y0])
     }
@@ -167,7 +166,7 @@ impl<'r> LayerPanel<'r> {
     }
 }
 
-/// What is seen of polygons in a window.
+/// Returns the parts of polygons that are visible in a window.
 fn clip_to_window(polygons: &[Polygon], window: &[[f64; 2]], grid: &AreaGrid) -> Vec<Polygon> {
     let borders = polygons.iter().flat_map(|polygon| std::iter::once(&polygon.outer).chain(&polygon.holes));
     let area = GridArea::new(grid, borders.map(Vec::as_slice));
@@ -177,7 +176,7 @@ fn clip_to_window(polygons: &[Polygon], window: &[[f64; 2]], grid: &AreaGrid) ->
     clipper.extract_polygons(&inside, grid).0
 }
 
-/// A polygon's borders as one: to each hole and back along the same line, which encloses nothing.
+/// Joins the boundaries of a polygon: a line leads to each hole and back, which encloses nothing.
 fn join_boundaries(polygon: &Polygon) -> Vec<[f64; 2]> {
     let mut border = polygon.outer.clone();
     let back = polygon.outer.first();

@@ -1,8 +1,10 @@
-//! The chips of a program, layer by layer: one row a motion, sums of operations, pictures.
+//! This module reports the chips of a program layer by layer: a row for each motion, sums of operations, and
+//! pictures.
 //!
-//! [`ChipReport::simulate_layers`] runs a [`Machining`] in layers and keeps what it hears; [`to_text`], [`write_csv`] and [`write_json`] present it,
-//! [`draw_layers`] draws layers. Lengths are in mm, whatever the file's unit. What is not known is an empty cell, `null` in JSON, and
-//! one of the assumptions says why.
+//! [`ChipReport::simulate_layers`] runs a [`Machining`] in layers and collects its results. [`to_text`],
+//! [`write_csv`] and [`write_json`] present them, and [`draw_layers`] draws layers. Lengths are in mm,
+//! whatever the file's unit. An unknown value is an empty cell, `null` in JSON, and one of the assumptions
+//! gives the reason.
 
 mod chip_collector;
 mod chip_columns;
@@ -38,11 +40,11 @@ use crate::simulation_run::{Machining, RunWatcher};
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct ChipReportOptions {
-    /// The borders of all pieces: JSON and STL need them. They take by far the most memory.
+    /// Whether the boundaries of all pieces are kept, which JSON and STL need. They take most of the memory.
     pub borders: bool,
-    /// The workpiece around so many moves that cut, for pictures; the run is slower then.
+    /// The number of cutting moves whose surroundings are kept for pictures. The run is slower then.
     pub scenes: usize,
-    /// A height, mm: then only moves that cut on the layer there.
+    /// A height in mm. With it, only moves that cut on the layer there are kept.
     pub at_z_mm: Option<f64>,
 }
 
@@ -75,27 +77,27 @@ impl ChipReportOptions {
 pub struct ChipReport {
     /// The file's name.
     pub file: String,
-    /// How it was run.
+    /// The options of the run.
     pub options: LayerRunOptions,
     /// Sums of everything that ran.
     pub totals: ChipTotals,
-    /// Sums of each operation with a motion that is asked for, in order.
+    /// The sums of each operation with a requested motion, in order.
     pub operations: Vec<OperationChips>,
-    /// What the run took for granted, in sentences.
+    /// The assumptions of the run, in sentences.
     pub assumptions: Vec<String>,
-    /// Motions that are asked for and were not cut, or in part.
+    /// The requested motions that were not cut, or only in part.
     pub skipped: Vec<UncutMotion>,
-    /// The motions that are asked for and were cut, in order.
+    /// The requested motions that were cut, in order.
     pub rows: Vec<ChipRow>,
     /// The first moves that cut, for pictures.
     pub scenes: Vec<MoveScene>,
-    /// What went wrong, with its places.
+    /// The findings.
     pub findings: Vec<Diagnostic>,
-    /// The workpiece that is left.
+    /// The remaining workpiece.
     pub left: LayerStack,
 }
 
-/// A motion that was not cut, or in part.
+/// A motion that was not cut, or only in part.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct UncutMotion {
     /// Its line.
@@ -104,15 +106,16 @@ pub struct UncutMotion {
     pub operation: String,
     /// Its tool.
     pub tool: String,
-    /// Why.
+    /// The reason.
     pub reason: String,
 }
 
 impl ChipReport {
-    /// Runs a program over its stock in layers. `None` when `watch` stopped it.
+    /// Runs a program over its stock in layers. Returns `None` if `watch` has stopped it.
     ///
     /// # Errors
-    /// As [`Machining::simulate_layers`], and when no motion is on the lines that are asked for.
+    /// Returns the errors of [`Machining::simulate_layers`], and an error if no motion is on the requested
+    /// lines.
     pub fn simulate_layers(
         machining: &Machining<'_>,
         options: &LayerRunOptions,

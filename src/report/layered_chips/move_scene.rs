@@ -1,4 +1,4 @@
-//! Moves with the workpiece around them: what pictures are made of.
+//! This module holds moves with the workpiece around them, from which pictures are made.
 
 use super::ChipLayerRow;
 use crate::engagement::PathPiece;
@@ -33,13 +33,13 @@ pub struct MoveSceneLayer {
 }
 
 impl MoveSceneLayer {
-    /// Whether a height is in the layer.
+    /// Returns whether a height is in the layer.
     pub(crate) fn contains_height(&self, z_mm: f64) -> bool {
         (z_mm - self.z_mm).abs() <= self.thickness_mm / 2.0
     }
 }
 
-/// The picture of a motion that was cut just now.
+/// Makes the scene of a motion that was just cut.
 pub(super) fn build_scene(
     cut: &MotionChips<'_>,
     rows: &[ChipLayerRow],

@@ -1,6 +1,6 @@
-//! A sheet of small panels with a legend below: what both drawings have in common.
+//! This module draws a sheet of small panels with a legend below, which both drawings use.
 //!
-//! Sizes are fixed and no fonts are measured, so the same chips make the same bytes.
+//! Sizes are fixed and no fonts are measured, so the same chips give the same bytes.
 
 use crate::report::svg_chart::{SvgArea, draw_svg, drawing_error};
 use plotters::element::DashedPathElement;
@@ -10,7 +10,7 @@ use std::io;
 /// Height of the legend below the panels, pixels.
 const LEGEND: u32 = 44;
 
-/// Room at the left of the legend, and between a sample and its text.
+/// The space left of the legend, and between a sample and its text.
 const MARGIN: i32 = 16;
 
 pub(super) const WORKPIECE: RGBColor = RGBColor(205, 205, 205);
@@ -31,7 +31,7 @@ pub(super) enum LegendSample {
     Ring(RGBColor),
 }
 
-/// Draws panels in rows and columns. `draw` gets the area of each panel with its number, row by row.
+/// Draws panels in rows and columns. `draw` gets the area of each panel and its index, row by row.
 pub(super) fn draw_sheet(
     (columns, rows): (usize, usize),
     panel: (u32, u32),
@@ -40,7 +40,7 @@ pub(super) fn draw_sheet(
 ) -> io::Result<String> {
     let pixels = |count: usize, size: u32| u32::try_from(count).unwrap_or(1) * size;
     let (wide, high) = (pixels(columns, panel.0), pixels(rows, panel.1));
-    // A single panel still has room for the legend.
+    // A single panel still needs enough width for the legend.
     let size = (wide.max(pixels(legend.len(), 170)), high + LEGEND);
     draw_svg(size, |root| {
         let (panels, below) = root.split_vertically(high);
@@ -71,7 +71,7 @@ fn draw_legend(area: &SvgArea<'_>, legend: &[(LegendSample, &str)]) -> io::Resul
         };
         drawn.map_err(drawing_error)?;
         area.draw(&Text::new(*text, (x + 32, middle - 7), ("sans-serif", 13))).map_err(drawing_error)?;
-        // A letter is about seven pixels wide; nothing is measured.
+        // A letter is about seven pixels wide. Nothing is measured.
         x += 32 + 7 * i32::try_from(text.len()).unwrap_or_default() + MARGIN;
     }
     Ok(())

@@ -1,15 +1,14 @@
-//! Chips as solids.
+//! This module writes chips as solids.
 
 use super::{ChipLayerRow, ChipReport};
 use crate::layered_chips::chip::{Chip, LayerChip};
 use crate::layered_chips::stl_export::write_chip_stl;
 use std::io::{self, Write};
 
-/// The chips of all motions that are asked for as one binary STL in mm, where borders were kept: each a stack of its layers, one beside
-/// or above the other as they were cut.
+/// Writes the chips of all requested motions as a binary STL in mm, if boundaries were kept. Each chip is a
+/// stack of its layers, where it was cut.
 ///
-/// # Errors
-/// What [`write_chip_stl`] returns.
+/// Returns the errors of [`write_chip_stl`].
 pub fn write_stl(report: &ChipReport, out: &mut dyn Write) -> io::Result<()> {
     let layers = report.rows.iter().flat_map(|row| &row.layers).map(to_layer_chip);
     write_chip_stl(&Chip { layers: layers.collect() }, out)

@@ -1,4 +1,4 @@
-//! Sums over chips by name, unit and printing.
+//! This module holds sums over chips with names, units and printing.
 
 use super::{ChipPeak, ChipTotals, OperationChips};
 use crate::report::table::{
@@ -47,21 +47,21 @@ pub(super) fn operation_columns() -> [Column<OperationChips>; 10] {
             .decimals(1),
         Column::new("chip", Unit::Volume, |sums: &OperationChips| peak(sums.chip_mm3))
             .titled("largest")
-            .told_as("largest chip", 4)
+            .worded_as("largest chip", 4)
             .decimals(3),
         Column::new("area", Unit::Area, |sums: &OperationChips| peak(sums.area_mm2))
             .titled("")
-            .told_as("largest area on a layer", 4)
+            .worded_as("largest area on a layer", 4)
             .decimals(3),
         Column::new("chip_thickness", Unit::Length, |sums: &OperationChips| peak(sums.chip_thickness_mm))
             .titled("chip")
-            .told_as("thickest chip of a tooth", 4)
+            .worded_as("thickest chip of a tooth", 4)
             .decimals(4),
         Column::new("engaged", Unit::Angle, |sums: &OperationChips| peak(sums.engaged_deg))
-            .told_as("largest engagement", 1)
+            .worded_as("largest engagement", 1)
             .decimals(1),
         Column::new("pieces", Unit::None, |sums: &OperationChips| peak(sums.pieces))
-            .told_as("most separate pieces", 0)
+            .worded_as("most separate pieces", 0)
             .decimals(0),
     ]
 }

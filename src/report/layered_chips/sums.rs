@@ -1,39 +1,39 @@
-//! Sums and largest values.
+//! This module sums up chips and finds their largest values.
 
 use super::{ChipLayerRow, ChipRow};
 
-/// A largest value and where it is.
+/// A largest value with its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChipPeak {
     /// The value.
     pub value: f64,
     /// The line of the motion.
     pub line: usize,
-    /// The height of the layer, mm; of a whole motion none.
+    /// The height of the layer in mm. It is `None` for a whole motion.
     pub z_mm: Option<f64>,
 }
 
-/// Sums of everything that ran, also before the lines that are asked for; volumes in mm3.
+/// The sums of everything that ran, also before the requested lines. Volumes are in mm3.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ChipTotals {
     /// The workpiece before.
     pub stock_mm3: f64,
     /// All chips.
     pub chips_mm3: f64,
-    /// What stood inside the cutter where a motion began, and is part of no chip.
+    /// The material that was inside the cutter where a motion began. It is part of no chip.
     pub inside_mm3: f64,
     /// The workpiece after.
     pub left_mm3: f64,
     /// Motions that ran.
     pub motions: usize,
-    /// Motions that were not cut, or in part.
+    /// The number of motions that were not cut, or only in part.
     pub skipped: usize,
 }
 
-/// The motions of an operation that are asked for.
+/// The requested motions of an operation.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct OperationChips {
-    /// Its name; empty where the file has none.
+    /// Its name. It is empty if the file has none.
     pub name: String,
     /// The first tool that moves in it.
     pub tool: String,

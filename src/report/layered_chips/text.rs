@@ -1,4 +1,4 @@
-//! Chips as text for people.
+//! This module writes chips as text for people.
 
 use super::sum_columns::operation_columns;
 use super::{ChipReport, OperationChips};
@@ -7,13 +7,13 @@ use crate::report::table::{DisplayUnits, PrintedTable, TableLooks};
 use crate::report::text_format::{format_count, format_counted, format_fixed, format_short};
 use std::fmt::Write;
 
-/// Rows of a table that are shown; the JSON has all.
+/// The number of rows of a table that are shown. The JSON has all of them.
 const MOST_ROWS: usize = 24;
 
-/// Chips are told in mm, whatever the program's unit.
+/// Chips are reported in mm, whatever the program's unit.
 const LOOKS: TableLooks = TableLooks::plain(DisplayUnits::MM);
 
-/// The chips as tables.
+/// Returns the chips as tables.
 pub fn to_text(report: &ChipReport) -> String {
     let mut out = String::new();
     let _ = writeln!(out, "{}", to_safe_line(&report.file));
@@ -21,7 +21,7 @@ pub fn to_text(report: &ChipReport) -> String {
     let layers = report.left.layers().len();
     let _ = writeln!(
         out,
-        "  {} layers of {} mm, borders within {} mm",
+        "  {} layers of {} mm, boundaries within {} mm",
         format_count(layers as u64),
         format_short(options.layer_mm),
         format_short(options.tolerance_mm),
@@ -30,10 +30,10 @@ pub fn to_text(report: &ChipReport) -> String {
     let _ = match (from, to) {
         (1, usize::MAX) => writeln!(out, "  {} ran", format_motion_count(totals.motions)),
         (from, usize::MAX) => {
-            writeln!(out, "  {} ran; lines {from} and on are asked for", format_motion_count(totals.motions))
+            writeln!(out, "  {} ran; lines from {from} on are reported", format_motion_count(totals.motions))
         }
         _ => {
-            writeln!(out, "  {} ran; lines {from} to {to} are asked for", format_motion_count(totals.motions))
+            writeln!(out, "  {} ran; lines {from} to {to} are reported", format_motion_count(totals.motions))
         }
     };
     let _ = writeln!(
@@ -46,8 +46,11 @@ pub fn to_text(report: &ChipReport) -> String {
     append_operations(&mut out, report);
     append_peaks(&mut out, report);
     if totals.skipped > 0 {
-        let _ =
-            writeln!(out, "  not cut, or in part: {}; see the findings", format_motion_count(totals.skipped));
+        let _ = writeln!(
+            out,
+            "  not cut, or only in part: {}; see the findings",
+            format_motion_count(totals.skipped)
+        );
     }
     for assumption in &report.assumptions {
         let _ = writeln!(out, "  assumed: {assumption}");
@@ -69,7 +72,7 @@ fn append_operations(out: &mut String, report: &ChipReport) {
 
 fn append_peaks(out: &mut String, report: &ChipReport) {
     let peaks = OperationChips::largest_of(&report.operations);
-    for sentence in operation_columns().iter().filter_map(|column| LOOKS.tell_peak(column, &peaks)) {
+    for sentence in operation_columns().iter().filter_map(|column| LOOKS.word_peak(column, &peaks)) {
         let _ = writeln!(out, "  {sentence}");
     }
     if report.rows.iter().all(|row| row.volume_mm3 <= 0.0) {

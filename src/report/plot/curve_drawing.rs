@@ -1,4 +1,4 @@
-//! Panels of curves as SVG.
+//! This module draws panels of curves as SVG.
 
 use crate::report::svg_chart::{ChartFrame, SvgArea, draw_line, draw_line_names, draw_svg};
 use plotters::prelude::*;
@@ -8,62 +8,63 @@ use std::io;
 const WIDTH: u32 = 1200;
 const HEIGHT: u32 = 400;
 
-/// Height of an axis that starts at zero, in largest values.
-const ROOM: f64 = 1.08;
+/// The height of an axis that starts at zero, as a multiple of the largest value.
+const HEADROOM: f64 = 1.08;
 
-/// The same where the names of the curves stand above.
-const ROOM_WITH_NAMES: f64 = 1.35;
+/// The same if the names of the curves are above them.
+const HEADROOM_WITH_NAMES: f64 = 1.35;
 
-/// More stretches than this are drawn by the least and largest value of each of as many spans.
-const MOST: usize = 2000;
+/// If a curve has more segments than this, each of so many intervals is drawn by its least and largest value.
+const MOST_SEGMENTS: usize = 2000;
 
 /// A part of a curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlotSegment {
-    /// Where it begins, along what the drawing goes along.
+    /// Where it begins along the horizontal axis.
     pub from: f64,
     /// Where it ends.
     pub to: f64,
-    /// The values at its ends; `None` where they are not known, and the line breaks off.
+    /// The values at its ends. With `None` they are not known, and the line is interrupted.
     pub values: Option<[f64; 2]>,
 }
 
 /// A curve.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PlotCurve {
-    /// What it is called.
+    /// The name of the curve.
     pub name: String,
-    /// Its stretches, in order.
-    pub stretches: Vec<PlotSegment>,
+    /// Its segments, in order.
+    pub segments: Vec<PlotSegment>,
 }
 
 /// A panel.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CurvePanel {
-    /// What goes up.
+    /// The label of the vertical axis.
     pub up: String,
     /// Whether the axis begins at zero.
     pub from_zero: bool,
-    /// The curves; all but the last are grey and stand behind it: what was before, and what is after.
+    /// The curves. All but the last are grey and behind it: the state before, and the state after.
     pub curves: Vec<PlotCurve>,
 }
 
 impl CurvePanel {
-    /// Whether no curve has a value anywhere.
+    /// Returns whether no curve has a value.
     pub fn is_empty(&self) -> bool {
-        let mut stretches = self.curves.iter().flat_map(|curve| &curve.stretches);
-        !stretches.any(|stretch| stretch.values.is_some())
+        let mut segments = self.curves.iter().flat_map(|curve| &curve.segments);
+        !segments.any(|segment| segment.values.is_some())
     }
 }
 
-/// Draws panels one above the other, over one axis to the right. Names of curves stand in the first.
+/// Draws panels one above the other, over a common horizontal axis. The names of curves are in the first
+/// panel.
 ///
 /// # Errors
-/// What the drawing library returns, which for a drawing in memory is nothing.
+/// Returns the errors of the drawing library. A drawing in memory has none.
 pub fn draw_curve_panels(right: &str, panels: &[CurvePanel]) -> io::Result<String> {
-    let ends = panels.iter().flat_map(|panel| &panel.curves).flat_map(|curve| &curve.stretches);
-    let end = ends.map(|stretch| stretch.to).fold(0.0, f64::max);
-    // An axis without a length would have no marks.
+    let ends = panels.iter().flat_map(|panel| &panel.curves).flat_map(|curve| &curve.segments);
+    let end = ends.map(|segment| segment.to).fold(0.0, f64::max);
+    // An axis without length would have no marks.
     let end = if end > 0.0 && end.is_finite() { end } else { 1.0 };
     let count = u32::try_from(panels.len()).unwrap_or(1).max(1);
     draw_svg((WIDTH, HEIGHT * count), |root| {
@@ -75,22 +76,22 @@ pub fn draw_curve_panels(right: &str, panels: &[CurvePanel]) -> io::Result<Strin
     })
 }
 
-/// The least and the largest value of an axis.
+/// Returns the least and the largest value of an axis.
 fn find_axis_range(panel: &CurvePanel, names: bool) -> [f64; 2] {
-    let values = panel.curves.iter().flat_map(|curve| &curve.stretches).filter_map(|stretch| stretch.values);
+    let values = panel.curves.iter().flat_map(|curve| &curve.segments).filter_map(|segment| segment.values);
     let values = values.flatten().filter(|value| value.is_finite());
     let [low, high] = values
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
     if panel.from_zero {
         let high = if high > 0.0 { high } else { 1.0 };
-        return [0.0, high * if names { ROOM_WITH_NAMES } else { ROOM }];
+        return [0.0, high * if names { HEADROOM_WITH_NAMES } else { HEADROOM }];
     }
     if low > high {
         return [0.0, 1.0];
     }
     let size = (high - low).max(1e-3);
-    let above = if names { ROOM_WITH_NAMES } else { ROOM } - 1.0;
-    [low - size * (ROOM - 1.0), high + size * above]
+    let above = if names { HEADROOM_WITH_NAMES } else { HEADROOM } - 1.0;
+    [low - size * (HEADROOM - 1.0), high + size * above]
 }
 
 fn draw_curve_panel(
@@ -106,7 +107,7 @@ fn draw_curve_panel(
     let last = panel.curves.len().saturating_sub(1);
     for (index, curve) in panel.curves.iter().enumerate() {
         let color = if index < last { RGBColor(170, 170, 170) } else { RGBColor(0, 90, 181) };
-        let mut lines = to_polylines(&curve.stretches, end).into_iter();
+        let mut lines = to_polylines(&curve.segments, end).into_iter();
         let first = lines.next().unwrap_or_default();
         draw_line(&mut chart, first, color.stroke_width(1), &curve.name, 3)?;
         for line in lines {
@@ -116,26 +117,26 @@ fn draw_curve_panel(
     if names { draw_line_names(&mut chart, 14, 1.0) } else { Ok(()) }
 }
 
-/// A curve as lines, which end where it is not known.
-fn to_polylines(stretches: &[PlotSegment], end: f64) -> Vec<Vec<(f64, f64)>> {
+/// Returns a curve as lines, which are interrupted where it is not known.
+fn to_polylines(segments: &[PlotSegment], end: f64) -> Vec<Vec<(f64, f64)>> {
     let mut lines = PolylineBuilder::default();
-    if stretches.len() <= MOST {
-        for stretch in stretches {
+    if segments.len() <= MOST_SEGMENTS {
+        for segment in segments {
             lines.extend_or_break(
-                stretch.values.map(|[first, last]| [(stretch.from, first), (stretch.to, last)]),
+                segment.values.map(|[first, last]| [(segment.from, first), (segment.to, last)]),
             );
         }
         return lines.into_polylines();
     }
-    let width = end / MOST as f64;
-    let mut spans: Vec<Option<[f64; 2]>> = vec![None; MOST];
-    for stretch in stretches {
-        let Some([start, stop]) = stretch.values else { continue };
-        let first = (stretch.from / width) as usize;
-        let last = ((stretch.to / width) as usize).min(MOST - 1);
-        // Between its ends a long stretch is straight.
+    let width = end / MOST_SEGMENTS as f64;
+    let mut spans: Vec<Option<[f64; 2]>> = vec![None; MOST_SEGMENTS];
+    for segment in segments {
+        let Some([start, stop]) = segment.values else { continue };
+        let first = (segment.from / width) as usize;
+        let last = ((segment.to / width) as usize).min(MOST_SEGMENTS - 1);
+        // A long segment is straight between its ends.
         let at = |place: f64| {
-            let share = (place - stretch.from) / (stretch.to - stretch.from);
+            let share = (place - segment.from) / (segment.to - segment.from);
             start + (stop - start) * if share.is_finite() { share.clamp(0.0, 1.0) } else { 1.0 }
         };
         for (index, span) in spans.iter_mut().enumerate().take(last + 1).skip(first) {
@@ -152,7 +153,7 @@ fn to_polylines(stretches: &[PlotSegment], end: f64) -> Vec<Vec<(f64, f64)>> {
     lines.into_polylines()
 }
 
-/// Lines in the making.
+/// Lines while they are built.
 #[derive(Default)]
 struct PolylineBuilder {
     done: Vec<Vec<(f64, f64)>>,

@@ -1,7 +1,8 @@
-//! Quantities of programs along time or path, as a drawing for documents: SVG, and from that PNG ([`render_png`]).
+//! This module plots quantities of programs over time or path for documents: as SVG, and from that as PNG
+//! ([`render_png`]).
 //!
-//! Panels stand one above the other, programs are laid over each other. The drawing has a fixed size and whole coordinates, and needs no
-//! fonts, so the same curves make the same bytes.
+//! Panels are one above the other, and programs are drawn over each other. The drawing has a fixed size and
+//! whole coordinates and needs no fonts, so the same curves give the same bytes.
 
 mod curve_drawing;
 mod png;

@@ -1,19 +1,21 @@
-//! A drawing as PNG.
+//! This module renders a drawing as PNG.
 
 use resvg::{tiny_skia, usvg};
 use std::io;
 use std::sync::Arc;
 
-/// The letters of drawings: a part of DejaVu Sans (`font/README.md`), so that the picture is the same on every machine.
+/// The letters of drawings: a part of DejaVu Sans (`font/README.md`), so that the picture is the same on
+/// every machine.
 const FONT: &[u8] = include_bytes!("font/DejaVuSans.ttf");
 
-/// Pixels of the picture for one of the drawing, so that it is sharp on paper.
+/// The number of pixels of the picture for each one of the drawing, so that it is sharp on paper.
 const SCALE: f32 = 2.0;
 
-/// An SVG drawing of this crate as PNG, twice as wide and high. Latin, Greek and Cyrillic letters are drawn, others as boxes.
+/// Renders an SVG drawing of this crate as PNG, twice as wide and high. Latin, Greek and Cyrillic letters are
+/// drawn, others as boxes.
 ///
 /// # Errors
-/// When the drawing cannot be read, or is larger than there is memory for.
+/// Returns an error if the drawing cannot be read, or is larger than the memory.
 pub fn render_png(svg: &str) -> io::Result<Vec<u8>> {
     let mut fonts = usvg::fontdb::Database::new();
     fonts.load_font_data(FONT.to_vec());

@@ -1,4 +1,4 @@
-//! Programs as curves.
+//! This module makes curves of programs.
 
 use super::curve_drawing::{CurvePanel, PlotCurve, PlotSegment, draw_curve_panels};
 use crate::engagement::PathLinearizer;
@@ -8,10 +8,10 @@ use crate::report::comparison::measure_motion;
 use crate::report::simulation::{MotionRow, SimulationReport};
 use std::io;
 
-/// Chords are no further from their arcs than this in a drawing, mm.
+/// The largest distance between chords and their arcs in a drawing, mm.
 const CHORD_MM: f64 = 0.05;
 
-/// What goes up.
+/// The quantity of the vertical axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PlotQuantity {
@@ -36,7 +36,7 @@ impl PlotQuantity {
     pub const ALL: [Self; 7] =
         [Self::Feed, Self::Chip, Self::Removal, Self::Force, Self::Torque, Self::Power, Self::Z];
 
-    /// Its name on the command line.
+    /// Returns its name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Feed => "feed",
@@ -49,7 +49,7 @@ impl PlotQuantity {
         }
     }
 
-    /// Its name and unit at an axis.
+    /// Returns its name and unit at an axis.
     pub fn axis_title(self) -> &'static str {
         match self {
             Self::Feed => "feed, mm/min",
@@ -62,7 +62,7 @@ impl PlotQuantity {
         }
     }
 
-    /// Whether a simulation is needed to know it.
+    /// Returns whether it needs a simulation.
     pub fn is_simulated(self) -> bool {
         !matches!(self, Self::Feed | Self::Z)
     }
@@ -79,18 +79,18 @@ impl PlotQuantity {
     }
 }
 
-/// What goes to the right.
+/// The quantity of the horizontal axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PlotAbscissa {
-    /// Time. Motions whose time is not known take none.
+    /// Time. Motions of unknown time take none.
     Time,
     /// The path.
     Path,
 }
 
 impl PlotAbscissa {
-    /// Its name and unit at an axis.
+    /// Returns its name and unit at an axis.
     pub fn axis_title(self) -> &'static str {
         match self {
             Self::Time => "time, s",
@@ -102,7 +102,7 @@ impl PlotAbscissa {
 /// A program to be drawn.
 #[derive(Debug, Clone, Copy)]
 pub struct PlottedProgram<'a> {
-    /// What it is called.
+    /// The name of the program.
     pub name: &'a str,
     /// The program.
     pub program: &'a Program,
@@ -114,7 +114,8 @@ pub struct PlottedProgram<'a> {
     pub simulated: Option<&'a SimulationReport>,
 }
 
-/// Draws quantities of programs as SVG, a panel each. With several programs, all but the last are grey and stand behind it.
+/// Draws quantities of programs as SVG, with a panel for each. All but the last program are grey and behind
+/// it.
 ///
 /// ```
 /// use clsmith::parse::parse;
@@ -137,7 +138,7 @@ pub struct PlottedProgram<'a> {
 /// ```
 ///
 /// # Errors
-/// What the drawing library returns, which for a drawing in memory is nothing.
+/// Returns the errors of the drawing library. A drawing in memory has none.
 pub fn draw_programs(
     programs: &[PlottedProgram<'_>],
     quantities: &[PlotQuantity],
@@ -146,7 +147,7 @@ pub fn draw_programs(
     draw_curve_panels(along.axis_title(), &build_panels(programs, quantities, along))
 }
 
-/// What [`draw_programs`] draws: a panel for each quantity, in their order.
+/// Returns what [`draw_programs`] draws: a panel for each quantity, in their order.
 pub fn build_panels(
     programs: &[PlottedProgram<'_>],
     quantities: &[PlotQuantity],
@@ -162,7 +163,7 @@ pub fn build_panels(
 
 fn build_curve(plotted: &PlottedProgram<'_>, quantity: PlotQuantity, along: PlotAbscissa) -> PlotCurve {
     let mut trace = PathLinearizer::new(plotted.units.mm_per_unit(), CHORD_MM, f64::INFINITY);
-    let mut stretches = Vec::new();
+    let mut segments = Vec::new();
     let mut pieces = Vec::new();
     let (mut at, mut number) = (0.0, 0);
     for motion in plotted.program.motions() {
@@ -186,7 +187,7 @@ fn build_curve(plotted: &PlottedProgram<'_>, quantity: PlotQuantity, along: Plot
             PlotQuantity::Z => {
                 pieces.clear();
                 trace.append_pieces(&motion, 0, &mut pieces);
-                stretches.extend(pieces.iter().map(|step| PlotSegment {
+                segments.extend(pieces.iter().map(|step| PlotSegment {
                     from: from + size * step.from,
                     to: from + size * step.to,
                     values: Some([step.piece.from.point.z, step.piece.to.point.z]),
@@ -194,13 +195,13 @@ fn build_curve(plotted: &PlottedProgram<'_>, quantity: PlotQuantity, along: Plot
             }
             PlotQuantity::Feed => {
                 let feed = moved.feed_mm_min.filter(|_| !moved.rapid);
-                stretches.push(PlotSegment { from, to, values: feed.map(|feed| [feed; 2]) });
+                segments.push(PlotSegment { from, to, values: feed.map(|feed| [feed; 2]) });
             }
             _ => {
                 let value = row.and_then(|row| quantity.row_value(row));
-                stretches.push(PlotSegment { from, to, values: value.map(|value| [value; 2]) });
+                segments.push(PlotSegment { from, to, values: value.map(|value| [value; 2]) });
             }
         }
     }
-    PlotCurve { name: plotted.name.to_owned(), stretches }
+    PlotCurve { name: plotted.name.to_owned(), segments }
 }

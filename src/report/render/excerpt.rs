@@ -1,8 +1,9 @@
-//! The few lines of a large file that a finding is about.
+//! This module makes an excerpt of the few lines of a large file that a finding is about.
 //!
-//! miette finds lines by scanning a source from its start, which takes a second per finding in a file of 100 MB. So it is
-//! given an excerpt instead: the labelled lines and their neighbours, decoded, in one text with offsets of its own. Lines
-//! of several files can stand in it, each under its own name, which is how one finding points into a CL file and a recipe.
+//! miette finds lines by scanning a source from its start, which takes a second per finding in a file of 100
+//! MB. So it gets an excerpt instead: the labelled lines and their neighbours, decoded, in one text with its
+//! own offsets. It may contain lines of several files, each under its own name. So a single finding can point
+//! into a CL file and a recipe.
 
 use crate::diagnostic::DiagnosticLabel;
 use crate::presentation::safe_text;
@@ -15,28 +16,28 @@ use std::sync::Arc;
 /// Labels over more lines than this are shown by their first and last line.
 const WHOLE_LABEL: usize = 8;
 
-/// How an excerpt is cut.
+/// The options of an excerpt.
 pub(super) struct ExcerptOptions {
     /// Lines before and after a labelled one.
     pub context: usize,
-    /// Lines up to this many bytes are shown whole.
+    /// Lines up to this many bytes are shown completely.
     pub whole_line: usize,
-    /// Bytes kept on either side of a label's ends in a longer line.
+    /// The number of bytes on either side of a label's ends that are kept in a longer line.
     pub margin: usize,
-    /// Whether stand-ins may be other than ASCII.
+    /// Whether replacements may be other than ASCII.
     pub unicode: bool,
 }
 
-/// Lines of one or more files, as miette wants to read them.
+/// Lines of one or more files in the form that miette reads.
 #[derive(Debug)]
 pub(super) struct SourceExcerpt {
     text: String,
     lines: Vec<ExcerptLine>,
-    /// Where marks start, with their column in the file.
+    /// The starts of marks, with their column in the file.
     columns: Vec<(usize, usize)>,
 }
 
-/// A label in the excerpt's own offsets.
+/// A label in the offsets of the excerpt.
 #[derive(Debug)]
 pub(super) struct ExcerptMark {
     pub range: Range<usize>,
@@ -46,14 +47,14 @@ pub(super) struct ExcerptMark {
 
 #[derive(Debug)]
 struct ExcerptLine {
-    /// Where it starts in the excerpt.
+    /// Its start in the excerpt.
     at: usize,
-    /// 1-based, in its file.
+    /// Its line number in its file, counted from 1.
     number: usize,
-    /// Lines of one block follow each other in one file.
+    /// Lines of one block are consecutive lines of a file.
     block: usize,
     file: String,
-    /// Offsets in the file and where they ended up in the excerpt, both ascending.
+    /// Offsets in the file with their offsets in the excerpt, both ascending.
     places: Vec<(usize, usize)>,
 }
 
@@ -67,7 +68,7 @@ struct ExcerptLabelPart<'a> {
 }
 
 impl SourceExcerpt {
-    /// The lines around the labels, and the labels as marks on them.
+    /// Makes the excerpt of the lines around the labels, with the labels as marks.
     pub(super) fn new(labels: &[DiagnosticLabel], view: &ExcerptOptions) -> (Self, Vec<ExcerptMark>) {
         let pieces: Vec<ExcerptLabelPart<'_>> =
             labels.iter().enumerate().flat_map(|(index, label)| split_label(label, index == 0)).collect();
@@ -158,13 +159,14 @@ impl SourceExcerpt {
 }
 
 impl ExcerptLine {
-    /// Where the character that holds this byte starts.
+    /// Returns the start of the character that contains this byte.
     fn excerpt_offset_before(&self, offset: usize) -> usize {
         let after = self.places.partition_point(|&(from, _)| from <= offset);
         after.checked_sub(1).and_then(|index| self.places.get(index)).map_or(self.at, |&(_, to)| to)
     }
 
-    /// Where the first character at or after this byte starts; the end of the line beyond its last.
+    /// Returns the start of the first character at or after this byte. Beyond the last one, it is the end of
+    /// the line.
     fn excerpt_offset_after(&self, offset: usize) -> usize {
         let index = self.places.partition_point(|&(from, _)| from < offset);
         self.places.get(index).or(self.places.last()).map_or(self.at, |&(_, to)| to)
@@ -199,7 +201,7 @@ fn split_label(label: &DiagnosticLabel, primary: bool) -> Vec<ExcerptLabelPart<'
 
 fn choose_lines(source: &Source, pieces: &[&ExcerptLabelPart<'_>], context: usize) -> BTreeSet<usize> {
     let labelled = |number| pieces.iter().any(|piece| (piece.lines.0..=piece.lines.1).contains(&number));
-    // A file that ends in a line end has an empty line after it, which is worth showing only to point at it.
+    // A file that ends in a line end has an empty line after it, which is only shown if a label points at it.
     let shown = |number: &usize| {
         labelled(*number)
             || source
@@ -215,7 +217,8 @@ fn choose_lines(source: &Source, pieces: &[&ExcerptLabelPart<'_>], context: usiz
         .collect()
 }
 
-/// The parts of a line worth showing: all of a short one, the surroundings of the labels' ends in a long one.
+/// Returns the parts of a line to show: all of a short line, and the surroundings of the labels' ends in a
+/// long one.
 fn choose_line_parts(
     source: &Source,
     line: Range<usize>,
@@ -246,7 +249,7 @@ fn choose_line_parts(
     parts
 }
 
-/// Moves a cut back from inside a UTF-8 character to its start.
+/// Moves a cut from inside a UTF-8 character back to its start.
 fn floor_to_character(source: &Source, at: usize, lowest: usize) -> usize {
     let inside = |at: usize| source.bytes().get(at).is_some_and(|byte| (0x80..0xc0).contains(byte));
     (0..4).map(|back| at.saturating_sub(back)).find(|&at| !inside(at)).map_or(at, |start| start.max(lowest))
@@ -262,7 +265,7 @@ impl SourceCode for SourceExcerpt {
         let lines = self.line_index_at(span.offset()).zip(self.line_index_at(span.offset() + span.len()));
         let (mut first, mut last) = lines.ok_or(MietteError::OutOfBounds)?;
         let block = |index: usize| self.lines.get(index).map(|line| line.block);
-        // miette asks for two labels at once to see whether they share a snippet.
+        // miette asks for two labels at once to find out whether they are in the same snippet.
         if block(first) != block(last) {
             return Err(MietteError::OutOfBounds);
         }

@@ -1,8 +1,8 @@
 //! Findings that are alike, as one: what one step says with one code of one file.
 //!
-//! Every output for people shows groups, so that a wall of equal findings is one entry with a count, the worst place
-//! and the lines of the others. Outputs for programs ([`json`](super::json), [`sarif`](super::sarif),
-//! [`line`](super::line)) have every finding. Both add up to the same numbers.
+//! Every output for people shows groups, so that a wall of equal findings is one entry with a count, the
+//! worst place and the lines of the others. Outputs for programs ([`json`](super::json),
+//! [`sarif`](super::sarif), [`line`](super::line)) have every finding. Both add up to the same numbers.
 
 use crate::diagnostic::{Diagnostic, DiagnosticCode, Severity};
 use std::collections::BTreeMap;
@@ -46,7 +46,8 @@ impl<'a> FindingGroup<'a> {
         self.others.len() + 1
     }
 
-    /// Returns the worst finding: the first one with the largest magnitude, or the first one where they are alike.
+    /// Returns the worst finding: the first one with the largest magnitude, or the first one where they are
+    /// alike.
     pub fn worst(&self) -> &'a Diagnostic {
         let worse = |worst: &'a Diagnostic, found: &&'a Diagnostic| {
             if found.magnitude > worst.magnitude { *found } else { worst }
@@ -59,7 +60,8 @@ impl<'a> FindingGroup<'a> {
         std::iter::once(self.first).chain(self.others.iter().copied())
     }
 
-    /// Returns the findings to show: all of a small group or where `most` is 0, else `most` of them, the worst first.
+    /// Returns the findings to show: all of a small group or where `most` is 0, else `most` of them, the
+    /// worst first.
     pub fn shown(&self, most: usize) -> Vec<&'a Diagnostic> {
         if most == 0 || self.count() <= most.max(SMALL_GROUP) {
             return self.findings().collect();
@@ -72,8 +74,8 @@ impl<'a> FindingGroup<'a> {
         worst_first
     }
 
-    /// Returns what to say about the findings that [`FindingGroup::shown`] leaves out, with their first lines; `None`
-    /// where it shows all.
+    /// Returns what to say about the findings that [`FindingGroup::shown`] leaves out, with their first
+    /// lines. Returns `None` where it shows all.
     pub fn describe_hidden(&self, most: usize) -> Option<String> {
         let shown = self.shown(most);
         if shown.len() == self.count() {
@@ -105,7 +107,8 @@ fn find_line(found: &Diagnostic) -> Option<usize> {
     Some(label.source.line_column(label.span.start).0)
 }
 
-/// Returns how many findings of each code are allowed by hand: `8 x CL0510, 1 x CL0102`; `None` where none is.
+/// Returns how many findings of each code are allowed by hand: `8 x CL0510, 1 x CL0102`. Returns `None` where
+/// none is.
 pub fn describe_allowed(findings: &[Diagnostic]) -> Option<String> {
     let mut counts: BTreeMap<DiagnosticCode, usize> = BTreeMap::new();
     for found in findings.iter().filter(|found| found.is_allowed) {

@@ -1,4 +1,4 @@
-//! Findings for people, drawn by miette.
+//! This module writes findings for people, drawn by miette.
 
 use super::excerpt::{ExcerptMark, ExcerptOptions, SourceExcerpt};
 use super::finding_groups::group_findings;
@@ -9,7 +9,7 @@ use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
 use std::fmt;
 use std::io::{self, Write};
 
-/// How findings are drawn. The caller knows the terminal; this module does not ask it.
+/// How findings are drawn. The caller knows the terminal, and this module does not ask it.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct HumanRenderOptions {
@@ -71,7 +71,7 @@ impl HumanRenderOptions {
 /// Writes the findings with the lines they are about, group by group: the worst of a large group and what was left out.
 /// A summary line follows, which also counts what was allowed by hand.
 ///
-/// `file` is the run's file, which the summary names.
+/// `file` is the file of the run, which the summary names.
 ///
 /// ```
 /// use clsmith::check::read_and_check;
@@ -89,7 +89,7 @@ impl HumanRenderOptions {
 /// ```
 ///
 /// # Errors
-/// What the writer returns.
+/// Returns the errors of the writer.
 pub fn render_human(
     out: &mut dyn Write,
     diagnostics: &[Diagnostic],
@@ -150,15 +150,15 @@ fn build_miette_handler(options: &HumanRenderOptions) -> GraphicalReportHandler 
         .without_syntax_highlighting()
 }
 
-/// Columns that line numbers and frame take, and a little room.
+/// The columns for line numbers, frame and a small margin.
 const LINE_NUMBERS: usize = 16;
 
-/// Narrower than this, text would be broken after every word.
+/// Returns the usable width. In a smaller one, text would be broken after every word.
 fn usable_width(options: &HumanRenderOptions) -> usize {
     options.width.max(40)
 }
 
-/// A finding as miette knows it.
+/// A finding in miette's terms.
 #[derive(Debug)]
 struct MietteFinding<'a> {
     found: &'a Diagnostic,
@@ -169,7 +169,8 @@ struct MietteFinding<'a> {
 
 impl<'a> MietteFinding<'a> {
     fn new(found: &'a Diagnostic, options: &HumanRenderOptions) -> Self {
-        // What the terminal would wrap is cut instead: an underline only points at a line that stayed one.
+        // Lines that the terminal would wrap are cut instead, because an underline only fits a line that
+        // stays whole.
         let columns = usable_width(options).saturating_sub(LINE_NUMBERS);
         let margin = (columns / 2).min(120);
         let view = ExcerptOptions {

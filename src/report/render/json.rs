@@ -1,4 +1,4 @@
-//! Findings as JSON, for programs.
+//! This module writes findings as JSON, for programs.
 //!
 //! ```json
 //! {
@@ -26,12 +26,13 @@
 //! }
 //! ```
 //!
-//! `severity` is `error`, `warning` or `note`; `allowed` says that `--allow` named the code, so that the finding stops
-//! nothing and is counted as allowed alone. `step` is the step of the recipe that found it, from 1. Lines and columns count from 1, offsets from 0; columns and offsets count
-//! bytes; `end` is one past the last byte. The first label is the primary one; `labels` is empty for findings about a whole
-//! file or run. `help` is `null` when there is none, a label's `message` may be empty. `text` is what stands at the place,
-//! `null` when it is longer than 1000 bytes; bytes that are no UTF-8 are read as Latin-1. `version` changes when a reader of
-//! this structure would have to; new keys may be added without.
+//! `severity` is `error`, `warning` or `note`; `allowed` says that `--allow` named the code, so that the
+//! finding stops nothing and is counted as allowed alone. `step` is the step of the recipe that found it,
+//! from 1. Lines and columns count from 1, offsets from 0; columns and offsets count bytes; `end` is one past
+//! the last byte. The first label is the primary one; `labels` is empty for findings about a whole file or
+//! run. `help` is `null` when there is none, a label's `message` may be empty. `text` is what stands at the
+//! place, `null` when it is longer than 1000 bytes; bytes that are no UTF-8 are read as Latin-1. `version`
+//! changes when a reader of this structure would have to; new keys may be added without.
 
 use super::SeverityCounts;
 use crate::diagnostic::{Diagnostic, DiagnosticLabel};
@@ -42,16 +43,17 @@ use std::io::{self, Write};
 
 const LONGEST_TEXT: usize = 1000;
 
-/// Writes all findings as one JSON document, indented and with a line end.
+/// Writes all findings as a JSON document, indented and with a line end.
 ///
 /// # Errors
-/// What the writer returns.
+/// Returns the errors of the writer.
 pub fn render_json(out: &mut dyn Write, diagnostics: &[Diagnostic]) -> io::Result<()> {
     serde_json::to_writer_pretty(&mut *out, &FindingsJson::from_findings(diagnostics))?;
     writeln!(out)
 }
 
-/// All findings of a run as a JSON document or a part of one; every output that has findings has them in this form.
+/// All findings of a run as a JSON document or a part of one; every output that has findings has them in this
+/// form.
 #[derive(Debug, Serialize)]
 pub struct FindingsJson<'a> {
     version: u32,

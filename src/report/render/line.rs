@@ -1,15 +1,15 @@
-//! One line per finding, for editors, `grep` and logs.
+//! This module writes one line for each finding, for editors, `grep` and logs.
 
 use super::NO_FILE;
 use crate::diagnostic::Diagnostic;
 use crate::presentation::safe_text;
 use std::io::{self, Write};
 
-/// Writes `file:line:column: CODE: message` for each finding, and `file: CODE: message` for one without a place.
-/// The message of a finding that `--allow` named begins with `allowed: `.
+/// Writes `file:line:column: CODE: message` for each finding, and `file: CODE: message` for one without a
+/// place. The message of a finding that `--allow` named begins with `allowed: `.
 ///
-/// The place is the first label's. Columns count bytes from 1. Line breaks in messages become blanks, so a line is a
-/// finding; `file` names the run's file for findings that have no place of their own.
+/// The place is that of the first label. Columns count bytes from 1. Line breaks in messages become blanks,
+/// so every line is a finding. `file` is the name of the run's file, for findings without a place.
 ///
 /// ```
 /// use clsmith::parse::parse;
@@ -24,7 +24,7 @@ use std::io::{self, Write};
 /// ```
 ///
 /// # Errors
-/// What the writer returns.
+/// Returns the errors of the writer.
 pub fn render_lines(out: &mut dyn Write, diagnostics: &[Diagnostic], file: Option<&str>) -> io::Result<()> {
     diagnostics.iter().try_for_each(|found| writeln!(out, "{}", format_finding_line(found, file)))
 }

@@ -1,4 +1,4 @@
-//! Findings as text: one format, one file.
+//! This module writes findings as text, with one file for each format.
 
 mod excerpt;
 pub mod finding_groups;
@@ -10,14 +10,14 @@ pub mod sarif;
 use crate::diagnostic::{Diagnostic, Severity};
 use std::fmt;
 
-/// How many findings of each severity there are.
+/// The number of findings of each severity.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct SeverityCounts {
-    /// Findings that forbid writing.
+    /// Findings that prevent writing.
     pub errors: usize,
-    /// Findings that deserve a look.
+    /// Findings that should be examined.
     pub warnings: usize,
-    /// Findings that were asked for.
+    /// Findings that were requested.
     pub notes: usize,
     /// Findings of any severity that `--allow` named; they are in no other count.
     pub allowed: usize,
@@ -39,7 +39,7 @@ impl SeverityCounts {
 }
 
 impl fmt::Display for SeverityCounts {
-    /// "2 errors, 1 warning"; "no problems found" when there is nothing.
+    /// Writes "2 errors, 1 warning", or "no problems found" if there are none.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let all = [(self.errors, "error"), (self.warnings, "warning"), (self.notes, "note")];
         let mut separator = "";
@@ -51,8 +51,8 @@ impl fmt::Display for SeverityCounts {
     }
 }
 
-/// Says how many findings there are, and which codes were allowed by hand: `1 error, 2 warnings; allowed by hand:
-/// 8 x CL0510`. Every output for people says it in these words.
+/// Says how many findings there are, and which codes were allowed by hand: `1 error, 2 warnings; allowed by
+/// hand: 8 x CL0510`. Every output for people says it in these words.
 pub fn describe_counts(diagnostics: &[Diagnostic]) -> String {
     let counts = SeverityCounts::from_findings(diagnostics);
     match finding_groups::describe_allowed(diagnostics) {

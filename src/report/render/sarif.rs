@@ -1,7 +1,7 @@
-//! Findings as SARIF 2.1.0, for code hosts and review tools.
+//! This module writes findings as SARIF 2.1.0, for code hosts and review tools.
 //!
-//! SARIF counts columns in characters where [`line`](super::line) and [`json`](super::json) count bytes; the byte offsets
-//! stand beside them.
+//! SARIF counts columns in characters, while [`line`](super::line) and [`json`](super::json) count bytes. The
+//! byte offsets are given as well.
 
 use crate::diagnostic::{Diagnostic, DiagnosticCode, DiagnosticLabel, Severity};
 use crate::presentation::safe_text;
@@ -16,12 +16,12 @@ use std::io::{self, Write};
 
 const SCHEMA: &str = "https://json.schemastore.org/sarif-2.1.0.json";
 
-/// Writes all findings as one SARIF log with one run, indented and with a line end.
+/// Writes all findings as a SARIF log with one run, indented and with a line end.
 ///
-/// `file` is the run's file; findings without a place are filed under it.
+/// `file` is the file of the run, under which findings without a place are filed.
 ///
 /// # Errors
-/// What the writer returns.
+/// Returns the errors of the writer.
 pub fn render_sarif(out: &mut dyn Write, diagnostics: &[Diagnostic], file: Option<&str>) -> io::Result<()> {
     let codes: Vec<DiagnosticCode> =
         diagnostics.iter().map(|found| found.code).collect::<BTreeSet<_>>().into_iter().collect();
@@ -76,7 +76,7 @@ fn allowed_by_hand() -> Suppression {
         .build()
 }
 
-/// The message, with the help where it says more than the rule's.
+/// Returns the message, with the help where it says more than the rule's.
 fn message_with_help(found: &Diagnostic) -> String {
     match &found.help {
         Some(help) if help != found.code.help() => format!("{}\nhelp: {help}", found.message),
@@ -121,7 +121,7 @@ fn to_sarif_region(label: &DiagnosticLabel) -> Region {
         .build()
 }
 
-/// 1-based line, and column in characters.
+/// Returns the line, counted from 1, and the column in characters.
 fn line_and_character(source: &Source, offset: u32) -> (i64, i64) {
     let (line, column) = source.line_column(offset);
     let before = source.bytes().get(offset as usize + 1 - column..offset as usize).unwrap_or_default();
@@ -132,7 +132,7 @@ fn artifact_location(name: &str) -> ArtifactLocation {
     ArtifactLocation::builder().uri(to_artifact_uri(name)).build()
 }
 
-/// A file name as a URI: relative as it is, absolute as `file:`.
+/// Returns a file name as a URI. Relative names stay, and absolute ones become `file:`.
 fn to_artifact_uri(name: &str) -> String {
     let drive = matches!(name.as_bytes(), [letter, b':', b'\\' | b'/', ..] if letter.is_ascii_alphabetic());
     let name = if drive || cfg!(windows) { name.replace('\\', "/") } else { name.to_owned() };

@@ -1,11 +1,14 @@
-//! What a simulation found: one row a motion, sums of operations and of the program, what is left and how exact it is.
+//! This module reports a simulation: a row for each motion, sums of operations and of the program, the
+//! remaining stock, and the accuracy.
 //!
-//! [`SimulationReport::simulate_program`] runs a [`Machining`] and keeps what it hears; [`to_text`], [`write_csv`] and [`to_json`] present it. Lengths are in mm,
-//! whatever the file's unit. What is not known is an empty cell, `null` in JSON: the chip without teeth, forces without a material,
-//! all that needs the feed of a rapid whose speed nobody says. A motion in air has zeros, and no angles.
+//! [`SimulationReport::simulate_program`] runs a [`Machining`] and collects its results. [`to_text`],
+//! [`write_csv`] and [`to_json`] present them. Lengths are in mm, whatever the file's unit. An unknown value
+//! is an empty cell, `null` in JSON: the chip without teeth, forces without a material, and everything that
+//! needs the unknown feed of a rapid. A motion in air has zeros, and no angles.
 //!
-//! The JSON is [`SimulationReport`] as it stands, with `"version": 1`; numbers are rounded to six decimals. `findings` is the run's list. `version` changes when a
-//! reader of the structure would have to, new keys may be added without.
+//! The JSON is [`SimulationReport`] as it stands, with `"version": 1`; numbers are rounded to six decimals.
+//! `findings` is the run's list. `version` changes when a reader of the structure would have to, new keys may
+//! be added without.
 
 mod motion_row;
 mod simulation_collector;
@@ -64,42 +67,45 @@ pub struct SimulationReport {
     pub version: u32,
     /// The file's name.
     pub file: String,
-    /// What is cut, if the setup says its name.
+    /// The name of the material, if the setup gives it.
     pub material: Option<String>,
-    /// What the run cost.
+    /// The cost of the run.
     pub cost: ReportedCost,
-    /// How exact it is.
+    /// The accuracy of the run.
     pub accuracy: SimulationAccuracy,
     /// The stock before and after.
     pub stock: StockVolumes,
     /// Sums of the whole program.
     pub totals: SimulationSums,
-    /// Time at feed when the feed changes no faster than the machine's `max_acceleration`, s; `null` when that is not known.
+    /// The time at feed when the feed changes no faster than the machine's `max_acceleration`, in s; `null`
+    /// if that is not known.
     #[serde(serialize_with = "serialize_rounded_option")]
     pub accelerated_seconds: Option<f64>,
-    /// What went wrong, counted.
+    /// The numbers of faults.
     pub faults: SimulationFaultCounts,
-    /// What the run took for granted, in sentences.
+    /// The assumptions of the run, in sentences.
     pub assumptions: Vec<String>,
     /// Sums of each operation that moves, in order.
     pub operations: Vec<OperationSums>,
-    /// The stock that is left against the part that shall be, once [`SimulationReport::compare_with_target`] has looked.
+    /// The comparison of the remaining stock with the target part, if
+    /// [`SimulationReport::compare_with_target`] was called.
     pub target: Option<TargetComparison>,
-    /// The motions; in JSON with the names of the CSV's columns.
+    /// The motions. In JSON they have the names of the CSV's columns.
     #[serde(serialize_with = "serialize_motion_rows")]
     pub motions: MotionRows,
-    /// What went wrong, with its places.
+    /// The findings.
     #[serde(skip)]
     pub findings: Vec<Diagnostic>,
-    /// What is left.
+    /// The remaining stock.
     #[serde(skip)]
     pub left: Dexels,
 }
 
-/// The rows, and the names that they share.
+/// The rows, and the names that they have in common.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MotionRows {
-    /// One row a motion, in order. The first point of a program, which comes from nowhere, is none.
+    /// A row for each motion, in order. The first point of a program is no motion, because no path leads to
+    /// it.
     pub rows: Vec<MotionRow>,
     /// Names of operations; [`MotionRow::operation`] is an index.
     pub operations: Vec<String>,
@@ -107,14 +113,14 @@ pub struct MotionRows {
     pub tools: Vec<String>,
 }
 
-/// What a run cost.
+/// The cost of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ReportedCost {
     /// Columns of the stock.
     pub columns: u64,
     /// Bytes of the stock, overhangs aside.
     pub bytes: u64,
-    /// About how many times a column was looked at, at most.
+    /// An upper estimate of how many times a column is read.
     #[serde(serialize_with = "serialize_rounded")]
     pub visits: f64,
     /// Length of the path, mm.
@@ -122,16 +128,16 @@ pub struct ReportedCost {
     pub path_mm: f64,
 }
 
-/// How exact a run is.
+/// The accuracy of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SimulationAccuracy {
     /// Distance of columns, mm.
     #[serde(serialize_with = "serialize_rounded")]
     pub cell_mm: f64,
-    /// Across z, borders of material are known to this, mm: half a cell.
+    /// The accuracy of boundaries of material across z, in mm: half a cell.
     #[serde(serialize_with = "serialize_rounded")]
     pub lateral_mm: f64,
-    /// Arcs and splines run as chords that are no further than this from them, mm.
+    /// The largest distance between arcs and splines and the chords that replace them, mm.
     #[serde(serialize_with = "serialize_rounded")]
     pub chord_mm: f64,
 }
@@ -150,25 +156,25 @@ pub struct StockVolumes {
     pub left_mm3: f64,
 }
 
-/// How many motions something went wrong in.
+/// The number of motions with each fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct SimulationFaultCounts {
-    /// Shank or holder stands in material.
+    /// Shank or holder touches material.
     pub collisions: usize,
-    /// A rapid takes material.
+    /// A rapid removes material.
     pub rapids_in_material: usize,
-    /// The tool cuts while the spindle stands.
+    /// The tool cuts while the spindle does not turn.
     pub spindle_stands: usize,
-    /// The tool cuts, and its feed or its speed in rev/min is not known.
+    /// The tool cuts, but its feed or its speed in rev/min is not known.
     pub unknown_feeds: usize,
 }
 
 impl SimulationReport {
-    /// Runs a program over its stock. Forces are computed when the setup says a material, whatever `options` say. `None` when `watch`
-    /// stopped it.
+    /// Runs a program over its stock. Forces are computed if the setup has a material, whatever `options`
+    /// state. Returns `None` if `watch` has stopped it.
     ///
-    /// # Errors
-    /// As [`Machining::simulate_program`]: the run costs too much, or the cell is too coarse.
+    /// Returns the errors of [`Machining::simulate_program`]: the run costs too much, or the cell is too
+    /// coarse.
     pub fn simulate_program(
         machining: &Machining<'_>,
         options: &SimulationRunOptions,
@@ -220,8 +226,8 @@ fn serialize_motion_rows<S: Serializer>(motions: &MotionRows, serializer: S) -> 
     columns.serialize_rows(motions.named_rows(), serializer)
 }
 
-/// Writes the simulation as one JSON document, indented and with a line end. `findings` are those of the whole run, as the
-/// policy left them; they stand in it as `findings`.
+/// Writes the simulation as one JSON document, indented and with a line end. `findings` are those of the
+/// whole run, as the policy left them; they stand in it as `findings`.
 pub fn to_json(simulated: &SimulationReport, findings: &[Diagnostic]) -> String {
     super::to_json_text(&SimulationDocument { simulated, findings: FindingsJson::from_findings(findings) })
 }

@@ -1,14 +1,15 @@
-//! One motion, and the table of them all.
+//! This module holds the row of a motion, and the table of all motions.
 
 use super::{MotionRows, SimulationReport};
 use crate::report::table::{Column, ColumnUnit, CsvTable, DisplayUnits, TableValue};
 use std::io::{self, Write};
 
-/// What a motion engaged and what the tool had to bear. `None` is not known.
+/// The engagement of a motion and the loads of the tool. `None` means that a value is not known.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct MotionRow {
-    /// 1-based line of the statement that ends the motion; `None` for one that a step put in.
+    /// The line of the statement that ends the motion, counted from 1. It is `None` for one that a step has
+    /// inserted.
     pub line: Option<usize>,
     /// Index of its operation.
     pub operation: usize,
@@ -20,19 +21,20 @@ pub struct MotionRow {
     pub is_crash: bool,
     /// Length of the path, mm.
     pub length_mm: f64,
-    /// Feed of the tool's tip, mm/min; of a rapid, the machine's.
+    /// The feed of the tool's tip in mm/min. For a rapid it is the machine's rapid feed.
     pub feed_mm_min: Option<f64>,
     /// Time at that feed, s.
     pub seconds: Option<f64>,
     /// The thickest chip, mm.
     pub chip_thickness_mm: Option<f64>,
-    /// Removed volume by time, mm3/min: the mean over the motion.
+    /// The removed volume by time in mm3/min, as the mean over the motion.
     pub removal_rate_mm3_min: Option<f64>,
-    /// Height of the engaged part of the cutter along its axis, mm.
+    /// The height of the engaged part of the cutter along its axis, mm.
     pub axial_depth_mm: Option<f64>,
-    /// Width of the cut across path and axis, mm; no more than the diameter at the highest engaged point.
+    /// The width of the cut across path and axis, in mm. It is at most the diameter at the highest engaged
+    /// point.
     pub radial_depth_mm: Option<f64>,
-    /// Angle at which a tooth enters, degrees ([`crate::engagement::Engagement::immersion_deg`]).
+    /// The angle at which a tooth enters, in degrees ([`crate::engagement::Engagement::immersion_deg`]).
     pub engagement_start_deg: Option<f64>,
     /// Angle at which it leaves, degrees.
     pub engagement_end_deg: Option<f64>,
@@ -44,7 +46,7 @@ pub struct MotionRow {
     pub power_kw: Option<f64>,
 }
 
-/// A row with the names that it shares with others.
+/// A row with the names that it has in common with others.
 pub(super) struct NamedMotionRow<'a> {
     row: &'a MotionRow,
     motions: &'a MotionRows,
@@ -87,10 +89,11 @@ fn name_at(names: &[String], index: usize) -> TableValue<'_> {
     TableValue::text(names.get(index).map_or("", String::as_str))
 }
 
-/// The motions as a table: comma-separated, a head line, numbers with a decimal point, empty cells for what is not known.
+/// Writes the motions as a table: comma-separated, with a head line, a decimal point, and empty cells for
+/// unknown values.
 ///
 /// # Errors
-/// What `out` returns.
+/// Returns the errors of `out`.
 pub fn write_csv(simulated: &SimulationReport, out: &mut dyn Write) -> io::Result<()> {
     let mut table = CsvTable::begin(&motion_columns(), DisplayUnits::MM, out)?;
     for named in simulated.motions.named_rows() {

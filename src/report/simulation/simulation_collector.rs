@@ -1,4 +1,4 @@
-//! The rows and sums, motion by motion.
+//! This module collects rows and sums, motion by motion.
 
 use super::unknown_feeds::UnknownFeedCollector;
 use super::{MotionRow, MotionRows, OperationSums, SimulationFaultCounts, SimulationSums};
@@ -14,27 +14,27 @@ use crate::simulation_run::{EngagedMotion, Machining};
 use crate::transform::optimize_feed::{TimedSegment, path_time_s};
 use std::sync::Arc;
 
-/// What grows while motions go by.
+/// The sums while motions are processed.
 pub(super) struct SimulationCollector<'m, 'p> {
     machining: &'m Machining<'p>,
-    /// Less removed volume than this is what rounding leaves, mm3.
+    /// A removed volume below this, in mm3, is rounding.
     speck: f64,
     rapid: Option<f64>,
-    /// The force models, where the material is known.
+    /// The force models, if the material is known.
     models: Option<Vec<Option<[LoadModel; 2]>>>,
     motions: MotionRows,
     tools: Vec<Option<Arc<ActiveTool>>>,
     totals: SimulationSums,
     operations: Vec<(Option<usize>, SimulationSums)>,
     path: Vec<TimedSegment>,
-    /// Tool of the last motion at feed, unless a rapid came after it.
+    /// The tool of the last motion at feed, unless a rapid came after it.
     chained: Option<usize>,
     faults: SimulationFaultCounts,
     unknown: UnknownFeedCollector,
     senseless: usize,
 }
 
-/// What came of it.
+/// The collected results.
 pub(super) struct CollectedSimulation {
     pub motions: MotionRows,
     pub totals: SimulationSums,
@@ -129,7 +129,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         self.motions.rows.push(row);
     }
 
-    /// A motion that cuts.
+    /// Fills the row of a motion that cuts.
     fn fill_cutting_row(
         &mut self,
         cut: &EngagedMotion<'_>,
@@ -160,7 +160,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
             self.models.as_ref().zip(cut.cutter).and_then(|(models, index)| models.get(index)?.as_ref());
         let Some([clockwise, counter]) = models else { return };
         let model = if sense == SpindleDirection::Clockwise { clockwise } else { counter };
-        // Piece by piece: what is engaged at the ends of an arc is not engaged at once.
+        // The loads are computed piece by piece, because the ends of an arc are not engaged at the same time.
         let none = CuttingLoads { force_n: 0.0, torque_nm: 0.0, power_kw: 0.0 };
         let largest =
             pieces().map(|piece| model.cutting_loads(piece, feed, rpm)).fold(none, |a, b| CuttingLoads {
@@ -173,7 +173,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         row.power_kw = Some(largest.power_kw);
     }
 
-    /// A motion that cuts nothing.
+    /// Fills the row of a motion that cuts nothing.
     fn fill_air_row(&self, row: &mut MotionRow) {
         let zero = Some(0.0);
         row.chip_thickness_mm = zero;
@@ -185,7 +185,8 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         }
     }
 
-    /// The path for the time with acceleration: rapids and tool changes end chains of motions at feed.
+    /// Adds a motion to the path for the time with acceleration. Rapids and tool changes end chains of
+    /// motions at feed.
     fn append_feed_path(&mut self, row: &MotionRow) {
         if row.rapid {
             self.chained = None;
@@ -196,7 +197,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         }
     }
 
-    /// Index of a motion's tool.
+    /// Returns the index of a motion's tool.
     fn tool_index(&mut self, motion: &Motion) -> usize {
         let same = |known: &Option<Arc<ActiveTool>>| match (known, &motion.tool) {
             (Some(a), Some(b)) => Arc::ptr_eq(a, b) || (a.number, &a.name) == (b.number, &b.name),
@@ -211,7 +212,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         self.tools.len() - 1
     }
 
-    /// Puts everything together.
+    /// Returns the results.
     pub fn into_collected(mut self) -> CollectedSimulation {
         let program = self.machining.program();
         let acceleration = self.machining.setup().machine.max_acceleration.map(|most| most.get());
@@ -230,7 +231,8 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         if self.senseless > 0 {
             let count = self.senseless;
             let what = if count == 1 { "1 cut" } else { &format!("{count} cuts") };
-            assumptions.push(format!("the sense of the spindle is not said for {what}: taken as clockwise"));
+            assumptions
+                .push(format!("the sense of the spindle is not stated for {what}: clockwise is assumed"));
         }
         let tools = &self.motions.tools;
         let named = self.operations.iter().zip(&self.motions.operations);

@@ -1,4 +1,4 @@
-//! Sums of simulations by name, unit and printing.
+//! This module holds sums of simulations with names, units and printing.
 
 use super::{OperationSums, SimulationPeak, SimulationSums};
 use crate::report::table::{
@@ -25,7 +25,7 @@ impl Serialize for SimulationSums {
     }
 }
 
-/// Returns the columns that say of which operation the sums are.
+/// Returns the columns that name the operation of the sums.
 pub(super) fn operation_columns() -> [Column<OperationSums>; 2] {
     [
         Column::new("operation", ColumnUnit::None, |row: &OperationSums| TableValue::text(&row.name))
@@ -55,7 +55,7 @@ fn path_columns<R: AsRef<SimulationSums>>() -> [Column<R>; 8] {
             .decimals(1),
         Column::new("feed_time", Unit::Duration, |row: &R| TableValue::Duration {
             seconds: row.as_ref().feed_seconds,
-            // A time that leaves motions out is a lower bound.
+            // A time that leaves out motions is a lower bound.
             is_lower_bound: row.as_ref().untimed > 0,
         })
         .titled("time")
@@ -75,11 +75,11 @@ fn load_columns<R: AsRef<SimulationSums>>() -> [Column<R>; 7] {
     [
         Column::new("chip_thickness", Unit::Length, |row: &R| peak(row.as_ref().chip_thickness_mm))
             .titled("chip")
-            .told_as("thickest chip", 4)
+            .worded_as("thickest chip", 4)
             .decimals(4),
         Column::new("removal_rate", Unit::RemovalRate, |row: &R| peak(row.as_ref().removal_rate_mm3_min))
             .titled("")
-            .told_as("largest removal rate", 0)
+            .worded_as("largest removal rate", 0)
             .decimals(0),
         Column::new("axial_depth", Unit::Length, |row: &R| peak(row.as_ref().axial_depth_mm))
             .titled("deep")
@@ -89,15 +89,15 @@ fn load_columns<R: AsRef<SimulationSums>>() -> [Column<R>; 7] {
             .decimals(2),
         Column::new("force", Unit::Force, |row: &R| peak(row.as_ref().force_n))
             .titled("")
-            .told_as("largest force", 0)
+            .worded_as("largest force", 0)
             .decimals(0),
         Column::new("torque", Unit::Torque, |row: &R| peak(row.as_ref().torque_nm))
             .titled("")
-            .told_as("largest torque", 2)
+            .worded_as("largest torque", 2)
             .decimals(2),
         Column::new("power", Unit::Power, |row: &R| peak(row.as_ref().power_kw))
             .titled("")
-            .told_as("largest power", 3)
+            .worded_as("largest power", 3)
             .decimals(3),
     ]
 }

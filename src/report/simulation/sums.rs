@@ -1,18 +1,18 @@
-//! Sums and peaks over motions.
+//! This module sums up motions and finds their peaks.
 
 use super::MotionRow;
 use serde::Serialize;
 
-/// A largest value, and the line of the motion that has it.
+/// A largest value with the line of the motion that has it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SimulationPeak {
     /// The value.
     pub value: f64,
-    /// The line; `null` for a motion that a step put in.
+    /// The line; `null` for a motion that a step has inserted.
     pub line: Option<usize>,
 }
 
-/// Sums and peaks over motions; a peak is `null` where nothing is cut, or its value is not known.
+/// Sums and peaks over motions. A peak is `null` if nothing is cut, or if its value is not known.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SimulationSums {
     /// Motions.
@@ -50,21 +50,21 @@ pub struct SimulationSums {
 /// The sums of an operation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OperationSums {
-    /// Its name; empty where the file has none.
+    /// Its name. It is empty if the file has none.
     pub name: String,
-    /// The first tool that moves in it: its number where it is known, else its name.
+    /// The first tool that moves in it: its number if it is known, else its name.
     pub tool: String,
     /// Its sums.
     pub sums: SimulationSums,
 }
 
 impl SimulationSums {
-    /// Nothing yet. `rapid_known`: whether rapids have a time.
+    /// Makes empty sums. `rapid_known` tells whether rapids have a time.
     pub(super) fn new(rapid_known: bool) -> Self {
         Self { rapid_seconds: rapid_known.then_some(0.0), ..Self::default() }
     }
 
-    /// Adds a motion that removed so much.
+    /// Adds a motion that removed a volume.
     pub(super) fn add_motion(&mut self, row: &MotionRow, removed_mm3: f64) {
         self.motions += 1;
         self.cutting += usize::from(removed_mm3 > 0.0);
@@ -77,7 +77,8 @@ impl SimulationSums {
             self.feed_seconds += row.seconds.unwrap_or(0.0);
             self.untimed += usize::from(row.seconds.is_none());
         }
-        // A rapid through material is a crash, not a cut: what it would load is no peak of the program's cuts.
+        // A rapid through material is a crash, not a cut: what it would load is no peak of the program's
+        // cuts.
         if row.rapid {
             return;
         }

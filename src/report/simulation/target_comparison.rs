@@ -1,4 +1,4 @@
-//! What is left against the part that shall be.
+//! This module compares the remaining stock with the target part.
 
 use super::SimulationReport;
 use crate::diagnostic::{Diagnostic, codes};
@@ -7,50 +7,52 @@ use crate::report::rounding::serialize_rounded;
 use crate::stock::{Mesh, TargetDeviation};
 use serde::Serialize;
 
-/// How what is left differs from the target. What is within the tolerance in some direction does not count.
+/// The differences between the remaining stock and the target. Differences within the tolerance in some
+/// direction do not count.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TargetComparison {
-    /// What the target is called.
+    /// The name of the target.
     pub file: String,
     /// The tolerance, mm.
     #[serde(serialize_with = "serialize_rounded")]
     pub tolerance_mm: f64,
-    /// Material of the target that is gone.
+    /// Material of the target that was removed.
     pub gouge: TargetMismatch,
-    /// Material that is left and not in the target.
+    /// Remaining material that is not in the target.
     pub excess: TargetMismatch,
 }
 
-/// Material on one side only.
+/// Material that is only on one side.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TargetMismatch {
     /// Its volume, mm3.
     #[serde(serialize_with = "serialize_rounded")]
     pub volume_mm3: f64,
-    /// Columns with it.
+    /// The number of columns with it.
     pub columns: usize,
     /// Where it is thickest along z.
     pub thickest: Option<ThickestMismatch>,
 }
 
-/// The thickest piece along z.
+/// The thickest place along z.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ThickestMismatch {
     /// Its thickness, mm.
     #[serde(rename = "mm", serialize_with = "serialize_rounded")]
     pub thickness_mm: f64,
-    /// Where, in mm: of a gouge the lower end, of excess the upper one.
+    /// The place in mm: the lower end of a gouge, or the upper end of excess.
     #[serde(rename = "at")]
     pub at_mm: [f64; 3],
 }
 
 impl SimulationReport {
-    /// Looks at what is left against a target in mm; a gouge is a finding ([`codes::GOUGE`]), excess is only reported. Without a
-    /// tolerance (mm) it is the distance of columns. `name` is what the target is called.
+    /// Compares the remaining stock with a target in mm. A gouge is a finding ([`codes::GOUGE`]), and excess
+    /// is only reported. Without a tolerance (mm), it is the distance between columns. `name` is the name of
+    /// the target.
     pub fn compare_with_target(&mut self, target: &Mesh, name: &str, tolerance_mm: Option<f64>) {
         let layout = *self.left.grid();
         let tolerance_mm = tolerance_mm.unwrap_or(layout.cell_mm);
-        // Both are on one grid, so that they can be compared.
+        // Both are on the same grid, so that they can be compared.
         let found = TargetDeviation::measure_by_distance(&self.left, &target.to_dexels(layout), tolerance_mm)
             .unwrap_or_default();
         let thickest = |piece: Option<(f64, [f64; 3])>| {
@@ -75,7 +77,7 @@ impl SimulationReport {
         };
         if let Some(ThickestMismatch { thickness_mm: mm, at_mm: at }) = compared.gouge.thickest {
             let message = format!(
-                "{:.3} mm3 of the target {name} are gone, the thickest piece with {mm:.3} mm along z at {} mm",
+                "{:.3} mm3 of the target {name} were removed; the thickest piece has {mm:.3} mm along z at {} mm",
                 compared.gouge.volume_mm3,
                 format_named_point(at, 3),
             );
@@ -85,7 +87,8 @@ impl SimulationReport {
         self.target = Some(compared);
     }
 
-    /// A target that no cut can bring out of this stock, because it stands out of its box.
+    /// Reports a target that no cut can produce from this stock, because it extends beyond the box of the
+    /// stock.
     fn find_target_outside_stock(&self, target: &Mesh, name: &str, tolerance: f64) -> Option<Diagnostic> {
         let layout = self.left.grid();
         let (low, high) = target.bounds();
@@ -97,8 +100,8 @@ impl SimulationReport {
         });
         let out = out.fold(0.0, f64::max);
         (out > tolerance.max(layout.cell_mm)).then(|| {
-            let message = format!("the target {name} stands {out:.3} mm out of the stock in x or y");
-            let help = "Target and program must stand in the same coordinates and unit.";
+            let message = format!("the target {name} extends {out:.3} mm beyond the stock in x or y");
+            let help = "Target and program must have the same coordinates and unit.";
             Diagnostic::new(codes::GOUGE, message).with_help(help)
         })
     }

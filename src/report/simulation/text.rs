@@ -1,4 +1,4 @@
-//! A simulation as text for people.
+//! This module writes a simulation as text for people.
 
 use super::sum_columns::{operation_columns, sum_columns};
 use super::target_comparison::TargetMismatch;
@@ -11,13 +11,13 @@ use crate::report::text_format::{
 };
 use std::fmt::Write;
 
-/// Rows of a table that are shown; the JSON has all.
+/// The number of rows of a table that are shown. The JSON has all of them.
 const MOST_ROWS: usize = 24;
 
-/// Simulations are told in mm, whatever the program's unit.
+/// Simulations are reported in mm, whatever the program's unit.
 const LOOKS: TableLooks = TableLooks::plain(DisplayUnits::MM);
 
-/// The simulation as tables.
+/// Returns the simulation as tables.
 pub fn to_text(simulated: &SimulationReport) -> String {
     let mut out = String::new();
     let _ = writeln!(out, "{}", to_safe_line(&simulated.file));
@@ -37,7 +37,7 @@ fn append_stock(out: &mut String, simulated: &SimulationReport) {
     let (cost, accuracy) = (&simulated.cost, &simulated.accuracy);
     let _ = writeln!(
         out,
-        "  {} columns {} mm apart ({} MiB), about {:.0e} looks at them along {} mm of path",
+        "  {} columns {} mm apart ({} MiB), about {:.0e} readings of them along {} mm of path",
         format_count(cost.columns),
         format_short(accuracy.cell_mm),
         format_fixed(cost.bytes as f64 / f64::from(1 << 20), 1),
@@ -46,7 +46,7 @@ fn append_stock(out: &mut String, simulated: &SimulationReport) {
     );
     let _ = writeln!(
         out,
-        "  borders of material are known to {} mm across z, curves to {} mm",
+        "  boundaries of material are known to {} mm across z, curves to {} mm",
         format_trimmed(accuracy.lateral_mm, 4),
         format_trimmed(accuracy.chord_mm, 4),
     );
@@ -76,7 +76,7 @@ fn append_times(out: &mut String, simulated: &SimulationReport) {
     }
 }
 
-/// A time that leaves motions out is a lower bound, and says so.
+/// Formats a time. If it leaves out motions, it is marked as a lower bound.
 fn format_feed_time(sums: &SimulationSums) -> String {
     format!("{}{}", if sums.untimed > 0 { "> " } else { "" }, format_duration(sums.feed_seconds))
 }
@@ -104,7 +104,7 @@ fn append_operations(out: &mut String, simulated: &SimulationReport) {
 }
 
 fn append_peaks(out: &mut String, totals: &SimulationSums) {
-    for sentence in sum_columns().iter().filter_map(|column| LOOKS.tell_peak(column, totals)) {
+    for sentence in sum_columns().iter().filter_map(|column| LOOKS.word_peak(column, totals)) {
         let _ = writeln!(out, "  {sentence}");
     }
     if totals.cutting == 0 {
@@ -123,7 +123,7 @@ fn append_faults(out: &mut String, simulated: &SimulationReport) {
         let _ = writeln!(out, "  rapids through material: {}", motions(faults.rapids_in_material));
     }
     if faults.spindle_stands > 0 {
-        let _ = writeln!(out, "  cuts while the spindle stands: {}", motions(faults.spindle_stands));
+        let _ = writeln!(out, "  cuts while the spindle does not turn: {}", motions(faults.spindle_stands));
     }
     if faults.unknown_feeds > 0 {
         let _ =

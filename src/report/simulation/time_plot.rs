@@ -1,7 +1,7 @@
-//! Chip thickness and feed along time, as a drawing.
+//! This module draws chip thickness and feed over time.
 //!
-//! Two panels one above the other, as in the paper that block-by-block correction comes from: the criterion (the thickest chip of each
-//! motion), and the feed. Several programs may be drawn over each other.
+//! There are two panels one above the other, as in the paper on block-by-block correction: the criterion (the
+//! thickest chip of each motion), and the feed. Several programs may be drawn over each other.
 
 use super::SimulationReport;
 use crate::report::plot::{CurvePanel, PlotCurve, PlotSegment, draw_curve_panels};
@@ -10,28 +10,28 @@ use std::io;
 /// A program in a drawing.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ProgramTimeSeries {
-    /// What it is called.
+    /// A program in a drawing.
     pub name: String,
-    /// Its motions along time.
+    /// Its motions over time.
     pub moments: Vec<PlottedMotion>,
 }
 
 /// A motion along time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlottedMotion {
-    /// When it begins, s.
+    /// The time at which it begins, s.
     pub from_s: f64,
-    /// When it ends, s.
+    /// The time at which it ends, s.
     pub to_s: f64,
     /// The thickest chip, mm.
     pub chip_thickness_mm: Option<f64>,
-    /// The feed, mm/min; `None` in a rapid.
+    /// The feed in mm/min. It is `None` in a rapid.
     pub feed_mm_min: Option<f64>,
 }
 
 impl SimulationReport {
-    /// The motions along time. A motion whose time is not known, such as a rapid of a machine whose rapid feed nobody says, is left
-    /// out.
+    /// Returns the motions over time. A motion of unknown time is left out, for example a rapid of a machine
+    /// without a known rapid feed.
     pub fn to_time_series(&self, name: impl Into<String>) -> ProgramTimeSeries {
         let mut at = 0.0;
         let timed = self.motions.rows.iter().filter_map(|row| {
@@ -50,10 +50,10 @@ impl SimulationReport {
     }
 }
 
-/// Draws programs as SVG. With several, all but the last are grey and stand behind it: what was before, and what is after.
+/// Draws programs as SVG. All but the last are grey and behind it: the state before, and the state after.
 ///
 /// # Errors
-/// What the drawing library returns, which for a drawing in memory is nothing.
+/// Returns the errors of the drawing library. A drawing in memory has none.
 pub fn draw_time_series(series: &[ProgramTimeSeries]) -> io::Result<String> {
     let panel = |up: &str, value: fn(&PlottedMotion) -> Option<f64>| CurvePanel {
         up: up.to_owned(),
@@ -70,10 +70,10 @@ pub fn draw_time_series(series: &[ProgramTimeSeries]) -> io::Result<String> {
 }
 
 fn build_curve(series: &ProgramTimeSeries, value: fn(&PlottedMotion) -> Option<f64>) -> PlotCurve {
-    let stretch = |moment: &PlottedMotion| PlotSegment {
+    let segment = |moment: &PlottedMotion| PlotSegment {
         from: moment.from_s,
         to: moment.to_s,
         values: value(moment).map(|value| [value; 2]),
     };
-    PlotCurve { name: series.name.clone(), stretches: series.moments.iter().map(stretch).collect() }
+    PlotCurve { name: series.name.clone(), segments: series.moments.iter().map(segment).collect() }
 }

@@ -6,7 +6,7 @@ use crate::program::motion::Motion;
 use crate::source::Span;
 use std::collections::BTreeSet;
 
-/// Collects them.
+/// Collects such findings.
 #[derive(Debug, Default)]
 pub(super) struct UnknownFeedCollector {
     found: Vec<Diagnostic>,
@@ -17,7 +17,8 @@ pub(super) struct UnknownFeedCollector {
 }
 
 impl UnknownFeedCollector {
-    /// A motion that cuts. `feed` is what is known of its feed, `rpm` of its speed. That the spindle stands is another finding.
+    /// Checks a motion that cuts. `feed` is its feed and `rpm` its speed, if they are known. A spindle that
+    /// does not turn has a finding of its own.
     pub fn check_motion(&mut self, program: &Program, motion: &Motion, feed: Option<f64>, rpm: Option<f64>) {
         let speed = motion.spindle.as_deref().and_then(|spindle| spindle.speed);
         let turns = motion.spindle.as_deref().is_some_and(|spindle| spindle.on);
@@ -30,7 +31,7 @@ impl UnknownFeedCollector {
         } else if motion.feed.is_some_and(|feed| feed.value <= 0.0) {
             ("this feed is no speed, and motions cut with it", label_of_feed, "in force where the tool cuts")
         } else if turns && rpm.is_none() && speed.is_some_and(|speed| speed <= 0.0) {
-            ("the spindle is to turn at 0 rev/min while the tool cuts", motion.last_statement(), "cuts")
+            ("the spindle has a speed of 0 rev/min while the tool cuts", motion.last_statement(), "cuts")
         } else if turns && rpm.is_none() && per_turn {
             (
                 "the feed is per revolution, and no spindle speed in rev/min is in force",

@@ -1,4 +1,4 @@
-//! Boxes around paths.
+//! This module computes boxes around paths.
 
 use crate::program::geometry::{CircularArc, MotionPath};
 use crate::program::motion::Motion;
@@ -6,7 +6,8 @@ use nalgebra::Point3;
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 
-/// Turns of a helix that are looked at; its extremes are in the first and last turn, and a file may claim any number.
+/// The largest number of turns of a helix that are examined. Its extremes are in the first and the last turn,
+/// and a file may state any number.
 const MOST_TURNS: f64 = 1000.0;
 
 /// A box parallel to the axes.
@@ -46,7 +47,8 @@ impl MotionBoundingBox {
         }
     }
 
-    /// Where a coordinate of `u cos a + v sin a + p a` turns around: at `phi + asin(p / r)` and `phi + pi - asin(p / r)`.
+    /// Includes the points where a coordinate `u cos a + v sin a + p a` turns around: at `phi + asin(p / r)`
+    /// and `phi + pi - asin(p / r)`.
     fn include_arc(bounds: &mut Option<Self>, arc: &CircularArc) {
         let axis = arc.axis.into_inner();
         let spoke = arc.start - arc.center;

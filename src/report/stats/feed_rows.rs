@@ -1,29 +1,30 @@
-//! How long each programmed feed is in force.
+//! This module finds out how long each programmed feed is in force.
 
 use super::totals::MotionLengthAndTime;
 use crate::program::{Feed, FeedUnit};
 use std::collections::BTreeMap;
 
-/// From this many feeds on, feeds within a step of 5 % share a row: an optimized program has a feed for every move.
+/// If there are more feeds than this, feeds within a step of 5 % have a common row, because an optimized
+/// program has a feed for every move.
 const MOST_ROWS: usize = 200;
 
-/// Size of that step.
+/// The size of that step.
 const STEP: f64 = 1.05;
 
 /// The motions at one programmed feed, or at feeds within 5 % when there are more than 200.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeedRow {
-    /// The word of the unit (`MMPM`, `IPR`, ...); `null` where the file names none (units per minute).
+    /// The word of the unit (`MMPM`, `IPR`, ...); `null` if the file names none (units per minute).
     pub unit: Option<&'static str>,
     /// Lowest programmed value in the row.
     pub min: f64,
-    /// Highest programmed value in the row; the same as `min` unless feeds share rows.
+    /// The highest programmed value in the row. It equals `min` unless several feeds have a common row.
     pub max: f64,
     /// Motions.
     pub motions: usize,
     /// Their length.
     pub length: f64,
-    /// Their time; `null` when it is not known for one of them.
+    /// Their time; `null` if it is not known for one of them.
     pub seconds: Option<f64>,
 }
 
@@ -55,14 +56,15 @@ impl FeedRowCollector {
         }
     }
 
-    /// Rows by unit and value.
+    /// Returns rows by unit and value.
     pub(super) fn into_rows(self) -> Vec<FeedRow> {
         self.rows.into_values().collect()
     }
 
     fn merge_row(&mut self, unit: u8, row: FeedRow) {
         let key = match self.coarse && row.min > 0.0 {
-            // Feeds are not negative, so the order of the bits is the order of the values; the step is offset to stay so.
+            // Feeds are not negative, so the order of the bits is the order of the values. The step has an
+            // offset to keep it so.
             true => ((row.min.ln() / STEP.ln()).floor() + 1e6) as u64,
             false => row.min.to_bits(),
         };

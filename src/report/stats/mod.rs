@@ -1,8 +1,9 @@
-//! What a program holds: lengths, times, tools, operations.
+//! This module measures a program: lengths, times, tools and operations.
 //!
-//! One pass over the motions. The JSON ([`to_json`]) is [`ProgramStats`] as it stands, with `"version": 1`; `version` changes when a
-//! reader of the structure would have to, new keys may be added without. Lengths are in `units.unit`, feeds in that unit per
-//! minute except in `feeds`, where they are as programmed; times are in seconds. What is not known is `null`, never guessed.
+//! It takes a single pass over the motions. The JSON ([`to_json`]) is [`ProgramStats`] itself, with
+//! `"version": 1`. `version` changes when readers have to change. New keys may be added without that. Lengths
+//! are in `units.unit`. Feeds are in that unit per minute, except in `feeds`, where they are as programmed.
+//! Times are in seconds. An unknown value is `null` and never guessed.
 
 mod bounding_box;
 mod feed_rows;
@@ -45,7 +46,7 @@ pub struct ProgramStats {
     pub version: u32,
     /// The file's name.
     pub file: String,
-    /// Bytes of the program as it stands.
+    /// The number of bytes of the program in its current state.
     pub bytes: u64,
     /// Lines.
     pub lines: u64,
@@ -53,7 +54,7 @@ pub struct ProgramStats {
     pub dialect: DialectName,
     /// The unit of all lengths here, and how it is known.
     pub units: ResolvedLengthUnit,
-    /// Statements, comments and empty lines included.
+    /// The number of statements, including comments and empty lines.
     pub statements: usize,
     /// Statements that could not be read.
     pub unreadable: usize,
@@ -61,7 +62,7 @@ pub struct ProgramStats {
     pub totals: MotionTotals,
     /// Motions of each class that occurs.
     pub classes: Vec<ClassStats>,
-    /// Lengths and times of each programmed feed, as [`FeedRow`] says.
+    /// Lengths and times of each programmed feed; see [`FeedRow`].
     pub feeds: Vec<FeedRow>,
     /// Slowest and fastest feed, in the file's unit per minute.
     pub feed: Option<ReportedRange>,
@@ -69,13 +70,13 @@ pub struct ProgramStats {
     pub spindle_rpm: Option<ReportedRange>,
     /// Paths by shape.
     pub paths: PathShapeCounts,
-    /// Box of the motions at feed, in the program's coordinates.
+    /// The box of the motions at feed, in the program's coordinates.
     pub box_of_feed: Option<MotionBoundingBox>,
     /// Box of all motions, in the program's coordinates.
     pub box_of_all: Option<MotionBoundingBox>,
-    /// Frames that motions stand in.
+    /// The frames in which motions are programmed.
     pub frames: Vec<FrameStats>,
-    /// Tools that move.
+    /// The tools that move.
     pub tools: Vec<ToolStats>,
     /// The operations in order.
     pub operations: Vec<OperationStats>,
@@ -86,7 +87,7 @@ pub struct ProgramStats {
 pub struct DialectName {
     /// The name on the command line.
     pub name: &'static str,
-    /// The name people know.
+    /// The name for people.
     pub title: &'static str,
 }
 
@@ -105,18 +106,18 @@ pub struct ResolvedLengthUnit {
     pub from: LengthUnitOrigin,
 }
 
-/// How a file's unit is known.
+/// How the unit of a file is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum LengthUnitOrigin {
     /// A UNITS record.
     File,
-    /// The caller (a recipe, an option) said it.
+    /// The caller (a recipe, an option) has given it.
     Caller,
-    /// No record; every feed unit in the file is of this unit (`IPM`, `MMPM`).
+    /// There is no record, but every feed unit in the file belongs to this unit (`IPM`, `MMPM`).
     Feeds,
-    /// Nothing says it; millimetres are assumed.
+    /// Nothing states it, and millimetres are assumed.
     Assumed,
 }
 
@@ -157,14 +158,14 @@ pub struct PathShapeCounts {
     pub helices: usize,
     /// Splines.
     pub splines: usize,
-    /// Holes of drilling cycles; their moves count as lines.
+    /// Holes of drilling cycles. Their moves count as lines.
     pub holes: usize,
 }
 
 /// A frame.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FrameStats {
-    /// The line that sets it first; `null` when a step put it in.
+    /// The line that sets it first; `null` if a step has inserted it.
     pub line: Option<usize>,
     /// Origin, in the file's unit.
     pub origin: [f64; 3],
@@ -174,7 +175,7 @@ pub struct FrameStats {
     pub motions: usize,
 }
 
-/// A tool, as far as the file says.
+/// A tool, as far as the file describes it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToolStats {
     /// Number.
@@ -200,9 +201,9 @@ pub struct ToolStats {
 /// An operation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OperationStats {
-    /// Name; empty where the file has none.
+    /// The name. It is empty if the file has none.
     pub name: String,
-    /// Index in `tools` of the first tool that moves in it.
+    /// The index in `tools` of the first tool that moves in it.
     pub tool: Option<usize>,
     /// Lengths and times.
     pub totals: MotionTotals,
@@ -211,19 +212,21 @@ pub struct OperationStats {
 }
 
 impl ProgramStats {
-    /// The statistics of a program as it stands; rapids get a time when the machine's rapid feed is known.
+    /// Measures a program in its current state. Rapids get a time if the machine's rapid feed is known.
     pub fn from_program(program: &Program, setup: &Setup) -> Self {
         Self::with_assumed_unit(program, setup, None)
     }
 
-    /// As [`ProgramStats::from_program`]; `units` is what lengths are in when the file does not say.
+    /// Does the same as [`ProgramStats::from_program`]. `units` is the unit of lengths if the file does not
+    /// state it.
     pub fn with_assumed_unit(program: &Program, setup: &Setup, units: Option<LengthUnit>) -> Self {
         stats_collector::collect_stats(program, setup, ResolvedLengthUnit::from_program(program, units))
     }
 }
 
 impl ResolvedLengthUnit {
-    /// The unit of a program: what it says, what the caller says, what its feeds are in, millimetres.
+    /// Returns the unit of a program: the unit that it states, else the caller's, else the unit of its feeds,
+    /// else millimetres.
     pub fn from_program(program: &Program, caller: Option<LengthUnit>) -> Self {
         if let Some(unit) = program.stated_length_unit() {
             return Self { unit, from: LengthUnitOrigin::File };
@@ -238,7 +241,7 @@ impl ResolvedLengthUnit {
     }
 }
 
-/// The statistics as one JSON document, indented and with a line end.
+/// Returns the statistics as a JSON document, indented and with a line end.
 pub fn to_json(stats: &ProgramStats) -> String {
     super::to_json_text(stats)
 }

@@ -1,4 +1,4 @@
-//! The one pass over a program that makes its statistics.
+//! This module makes the statistics of a program in a single pass.
 
 use super::feed_rows::FeedRowCollector;
 use super::totals::{MotionLengthAndTime, MotionTotals};
@@ -12,7 +12,7 @@ use crate::program::{LengthUnit, MotionClass, Program, Record, operation};
 use crate::setup::Setup;
 use std::sync::Arc;
 
-/// What grows while motions go by.
+/// The sums while motions are processed.
 struct StatsCollector<'p> {
     program: &'p Program,
     unit: LengthUnit,
@@ -111,7 +111,7 @@ impl StatsCollector<'_> {
         }
     }
 
-    /// A motion at feed; gives its feed in the file's unit per minute.
+    /// Adds a motion at feed. Returns its feed in the file's unit per minute.
     fn add_feed_motion(&mut self, motion: &Motion, measured: &MotionLengthAndTime) -> Option<f64> {
         MotionBoundingBox::include_motion(&mut self.box_of_feed, motion);
         if let Some(rpm) = motion.spindle_rpm() {
@@ -119,7 +119,7 @@ impl StatsCollector<'_> {
         }
         let feed = motion.feed?;
         self.feeds.add_motion(feed, measured);
-        // Of a move in inverse time that only turns the tool there is no feed in length.
+        // A move in inverse time that only turns the tool has no feed in units of length.
         let length = Some(measured.length).filter(|length| *length > 0.0);
         let rate = feed.mm_per_minute(self.unit, motion.spindle_rpm(), length)? / self.unit.mm_per_unit();
         ReportedRange::include_value(&mut self.feed, rate);
@@ -207,7 +207,7 @@ fn describe_tool(tool: &ActiveTool, totals: MotionTotals) -> ToolStats {
     }
 }
 
-/// Bytes and lines. A piece ends where a statement does, so a CRLF never stands in two.
+/// Counts bytes and lines. A piece ends where a statement does, so a CRLF is never split.
 fn count_bytes_and_lines(program: &Program) -> (u64, u64) {
     let (mut bytes, mut lines, mut open) = (0, 0, false);
     for piece in program.byte_chunks().filter(|piece| !piece.is_empty()) {

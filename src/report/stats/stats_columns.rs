@@ -1,5 +1,5 @@
-//! Statistics by name, unit and printing. Values are in the file's unit, and the keys of the JSON do not say
-//! it.
+//! This module holds statistics with names, units and printing. Values are in the file's unit, and the keys
+//! of the JSON do not name it.
 
 use super::{FeedRow, MotionBoundingBox, MotionTotals, OperationStats, ReportedRange, ToolStats};
 use crate::presentation::safe_text::to_safe_line;
@@ -63,11 +63,11 @@ pub(in crate::report) fn totals_columns<R: AsRef<MotionTotals>>() -> [Column<R>;
             .decimals(1),
         Column::new("feed_time", Unit::Duration, |row: &R| TableValue::Duration {
             seconds: row.as_ref().feed_seconds,
-            // A time that leaves motions out is a lower bound.
+            // A time that leaves out motions is a lower bound.
             is_lower_bound: row.as_ref().unknown_time.motions > 0,
         })
         .titled("time")
-        .told_as("time at feed", 1)
+        .worded_as("time at feed", 1)
         .old_json_key("feed_seconds"),
         Column::new("rapid_time", Unit::Duration, |row: &R| TableValue::duration(row.as_ref().rapid_seconds))
             .titled("time")

@@ -1,4 +1,4 @@
-//! Statistics as JSON objects of their columns.
+//! This module writes statistics as JSON objects of their columns.
 
 use super::stats_columns::{NamedOperation, feed_columns, operation_columns, tool_columns, totals_columns};
 use super::{FeedRow, MotionTotals, OperationStats, ToolStats};
@@ -32,7 +32,7 @@ impl Serialize for ToolStats {
 
 impl Serialize for OperationStats {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        // JSON says the tool's number in the list of tools, not its name.
+        // JSON gives the tool's index in the list of tools, not its name.
         let named = NamedOperation { operation: self, tools: &[] };
         let [name, tool, feed] = operation_columns();
         let mut map = serializer.serialize_map(None)?;

@@ -1,4 +1,4 @@
-//! Statistics as text for people.
+//! This module writes statistics as text for people.
 
 use super::stats_columns::{
     NamedBox, NamedOperation, NamedTotals, box_columns, feed_columns, name_column, operation_columns,
@@ -10,10 +10,10 @@ use crate::report::table::{DisplayUnits, PrintedTable, TableLooks, pick_columns}
 use crate::report::text_format::{format_count, format_counted, format_short, unit_name};
 use std::fmt::Write;
 
-/// Rows of a table that are shown; the JSON has all.
+/// The number of rows of a table that are shown. The JSON has all of them.
 const MOST_ROWS: usize = 24;
 
-/// The statistics as tables.
+/// Returns the statistics as tables.
 pub fn to_text(stats: &ProgramStats) -> String {
     let unit = unit_name(stats.units.unit);
     let mut out = String::new();
@@ -46,9 +46,9 @@ pub fn to_text(stats: &ProgramStats) -> String {
 fn describe_unit_origin(from: LengthUnitOrigin) -> &'static str {
     match from {
         LengthUnitOrigin::File => "stated in the file",
-        LengthUnitOrigin::Caller => "as told; the file does not say",
-        LengthUnitOrigin::Feeds => "from the unit of its feeds; the file does not say",
-        LengthUnitOrigin::Assumed => "assumed; the file does not say",
+        LengthUnitOrigin::Caller => "as given; the file does not state it",
+        LengthUnitOrigin::Feeds => "from the unit of its feeds; the file does not state it",
+        LengthUnitOrigin::Assumed => "assumed; the file does not state it",
     }
 }
 
@@ -77,7 +77,7 @@ fn append_path_shapes(out: &mut String, stats: &ProgramStats) {
 /// The sums in tables, in this order.
 const TOTALS: [&str; 5] = ["motions", "feed_length", "feed_time", "rapid_length", "rapid_time"];
 
-/// A line above the tables says the units.
+/// Returns the style of the tables. A line above them gives the units.
 fn table_looks(stats: &ProgramStats) -> TableLooks {
     TableLooks::plain(DisplayUnits::unconverted(stats.units.unit)).without_units_in_heads()
 }
@@ -141,7 +141,7 @@ fn append_feeds(out: &mut String, stats: &ProgramStats) {
     }
     let mut shown: Vec<&FeedRow> = stats.feeds.iter().collect();
     if shown.len() > MOST_ROWS {
-        // The longest feeds are those that matter; they stay in the order of the table.
+        // The longest feeds matter most. They stay in the order of the table.
         let mut lengths: Vec<f64> = shown.iter().map(|row| row.length).collect();
         lengths.sort_by(|a, b| b.total_cmp(a));
         let least = lengths.get(MOST_ROWS - 1).copied().unwrap_or(0.0);

@@ -1,4 +1,4 @@
-//! Lengths and times, summed motion by motion.
+//! This module sums up lengths and times, motion by motion.
 
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
@@ -9,17 +9,17 @@ use serde::Serialize;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct MotionTotals {
-    /// Motions; a first point, which comes from nowhere, is none.
+    /// The number of motions. A first point is no motion, because no path leads to it.
     pub motions: usize,
     /// Length at feed.
     pub feed_length: f64,
     /// Length at rapid.
     pub rapid_length: f64,
-    /// Time at feed, where the feed is known; without acceleration and dwells.
+    /// The time at feed, if the feed is known, without acceleration and dwells.
     pub feed_seconds: f64,
-    /// Time at rapid; `null` when the machine's rapid feed is not known.
+    /// The time at rapid; `null` if the machine's rapid feed is not known.
     pub rapid_seconds: Option<f64>,
-    /// Motions at feed whose time is not known, and why.
+    /// The motions at feed whose time is not known, with the reasons.
     pub unknown_time: UntimedMotions,
 }
 
@@ -30,15 +30,15 @@ pub struct UntimedMotions {
     pub motions: usize,
     /// Their length.
     pub length: f64,
-    /// Of the motions: no feed was programmed before them.
+    /// How many of the motions have no feed programmed before them.
     pub no_feed: usize,
-    /// Of the motions: the feed is per revolution, and no speed in rev/min is in force.
+    /// How many of the motions have a feed per revolution without a speed in rev/min.
     pub no_spindle_speed: usize,
-    /// Of the motions: the feed is 0.
+    /// How many of the motions have a feed of 0.
     pub zero_feed: usize,
 }
 
-/// Why a time is not known.
+/// The reason why a time is not known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum UntimedReason {
     NoFeed,
@@ -56,7 +56,7 @@ pub(crate) struct MotionLengthAndTime {
 }
 
 impl MotionLengthAndTime {
-    /// Length and time of a motion. `rapid` is the time of one unit of length at rapid, in seconds.
+    /// Returns length and time of a motion. `rapid` is the time of one unit of length at rapid, in seconds.
     pub(crate) fn from_motion(motion: &Motion, unit: LengthUnit, rapid: Option<f64>) -> Self {
         let length = motion.length();
         let moves = motion.path != MotionPath::Start;
@@ -68,7 +68,7 @@ impl MotionLengthAndTime {
         Self { rapid: motion.rapid, moves, length, seconds }
     }
 
-    /// Length in the file's unit.
+    /// Returns the length in the file's unit.
     pub(crate) fn length(&self) -> f64 {
         self.length
     }
@@ -87,7 +87,7 @@ fn motion_seconds(motion: &Motion, length: f64, unit: LengthUnit) -> Result<f64,
 }
 
 impl MotionTotals {
-    /// Nothing yet. `rapid_known`: whether rapids have a time.
+    /// Makes empty sums. `rapid_known` tells whether rapids have a time.
     pub(crate) fn new(rapid_known: bool) -> Self {
         Self { rapid_seconds: rapid_known.then_some(0.0), ..Self::default() }
     }
@@ -120,7 +120,7 @@ impl MotionTotals {
         unknown.length += motion.length;
     }
 
-    /// The same in a unit of which `factor` make one of this.
+    /// Returns the sums in a unit of which `factor` make one of this unit.
     #[must_use]
     pub(crate) fn scaled_by(mut self, factor: f64) -> Self {
         self.feed_length *= factor;
@@ -129,7 +129,7 @@ impl MotionTotals {
         self
     }
 
-    /// Length of the whole path.
+    /// Returns the length of the whole path.
     pub fn length(&self) -> f64 {
         self.feed_length + self.rapid_length
     }

@@ -1,4 +1,5 @@
-//! Figures before and after: a row for each figure, whose name, unit and printing are those of its column.
+//! This module prints figures before and after, with a row for each figure. Name, unit and printing of a
+//! figure are those of its column.
 
 use super::column::Column;
 use super::printed_cell::TableLooks;

@@ -1,4 +1,4 @@
-//! Columns: a name, a unit, the value of a row and how it is printed, all said in one place.
+//! This module holds columns: a name, a unit, the value of a row and its printing, all in one place.
 
 use super::column_unit::{ColumnUnit, DisplayUnits};
 use super::printed_cell::TableLooks;
@@ -19,7 +19,7 @@ pub(crate) struct Column<R> {
     value: for<'r> fn(&'r R) -> TableValue<'r>,
 }
 
-/// How a value is told in a sentence.
+/// How a value is worded in a sentence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct ColumnSentence {
     /// The words before the value.
@@ -69,8 +69,8 @@ impl<R> Column<R> {
         self
     }
 
-    /// Sets how the value is told in a sentence: `thickest chip: 0.0512 mm`.
-    pub fn told_as(mut self, words: &'static str, decimals: usize) -> Self {
+    /// Sets how the value is worded in a sentence: `thickest chip: 0.0512 mm`.
+    pub fn worded_as(mut self, words: &'static str, decimals: usize) -> Self {
         self.sentence = Some(ColumnSentence { words, decimals });
         self
     }
@@ -81,7 +81,7 @@ impl<R> Column<R> {
         self
     }
 
-    /// Aligns the column to the left in HTML. In plain text and Markdown the first column alone is to the
+    /// Aligns the column to the left in HTML. In plain text and Markdown only the first column is to the
     /// left.
     pub fn left_aligned(mut self) -> Self {
         self.is_left_aligned = true;
@@ -130,12 +130,12 @@ impl<R> Column<R> {
         self.missing
     }
 
-    /// Returns how the value is told in a sentence, if it ever is.
+    /// Returns how the value is worded in a sentence, if it ever is.
     pub fn sentence(&self) -> Option<ColumnSentence> {
         self.sentence
     }
 
-    /// Returns whether the column stands to the left in HTML.
+    /// Returns whether the column is aligned to the left in HTML.
     pub fn is_left_aligned(&self) -> bool {
         self.is_left_aligned
     }
@@ -174,8 +174,8 @@ impl<R> Column<R> {
         join_unit(self.title.unwrap_or(self.key), self.unit, looks)
     }
 
-    /// Returns the head of a row that tells the column's values, where rows and columns are swapped: the
-    /// words of the sentence and the unit.
+    /// Returns the head of a row that gives the column's values, if rows and columns are swapped: the words
+    /// of the sentence and the unit.
     pub fn row_head(&self, looks: TableLooks) -> String {
         let words = self.sentence.map(|sentence| sentence.words);
         join_unit(words.or(self.title).unwrap_or(self.key), self.unit, looks)
@@ -201,7 +201,7 @@ pub(crate) fn pick_columns<R>(columns: &[Column<R>], keys: &[&str]) -> Vec<Colum
     keys.iter().filter_map(find).collect()
 }
 
-// Derived, both would ask that rows can be copied.
+// A derived `Clone` would require that rows can be copied.
 impl<R> Clone for Column<R> {
     fn clone(&self) -> Self {
         *self

@@ -1,4 +1,4 @@
-//! Units of columns, and the one place where values are converted for the reader.
+//! This module holds the units of columns, and is the only place where values are converted for the reader.
 
 use crate::program::LengthUnit;
 
@@ -42,7 +42,7 @@ impl DisplayUnits {
     /// Values in mm that are shown in mm.
     pub const MM: Self = Self { values_in: LengthUnit::Mm, shown_in: LengthUnit::Mm };
 
-    /// Values in a unit that are shown in the same unit.
+    /// Makes units for values in a unit that are shown in the same unit.
     pub fn unconverted(unit: LengthUnit) -> Self {
         Self { values_in: unit, shown_in: unit }
     }

@@ -1,11 +1,11 @@
-//! One model of tables: a column says its name, its unit, its value and how it is printed once, and every
-//! output is made from that.
+//! This module is the only model of tables: a column states its name, its unit, its value and its printing
+//! once, and every output is made from that.
 //!
 //! A `Column` takes its value from a row as a `TableValue`. For people, `TableLooks` prints cells in the
-//! reader's unit, and `PrintedTable` makes plain text, Markdown and HTML of them; `compare_figures` swaps
-//! rows and columns for a before and after. For machines, `CsvTable` writes CSV and `JsonColumns` makes JSON
-//! objects. Names for machines end with the unit of the [`ColumnUnit`], and all values are converted in
-//! [`DisplayUnits::convert`] and nowhere else.
+//! reader's unit, and `PrintedTable` makes plain text, Markdown and HTML of them. `compare_figures` swaps
+//! rows and columns for a comparison before and after. For machines, `CsvTable` writes CSV and `JsonColumns`
+//! makes JSON objects. Names for machines end with the unit of the [`ColumnUnit`], and all values are
+//! converted in [`DisplayUnits::convert`] and nowhere else.
 
 mod before_after;
 mod column;

@@ -1,4 +1,4 @@
-//! Cells as text for people.
+//! This module prints cells as text for people.
 
 use super::column::{Column, ColumnDecimals};
 use super::column_unit::{ColumnUnit, DisplayUnits};
@@ -6,14 +6,14 @@ use super::table_value::{PeakPlace, TableValue};
 use crate::presentation::safe_text::to_safe_line;
 use crate::report::text_format::{format_count, format_duration, format_fixed, format_short, format_trimmed};
 
-/// How a table looks: its units, and whether it is plain text or marked up.
+/// The style of a table: its units, and whether it is plain text or markup.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct TableLooks {
     /// The units that the reader sees.
     pub units: DisplayUnits,
     /// The kind of text.
     pub style: TableStyle,
-    /// Whether heads say the units of their columns.
+    /// Whether heads give the units of their columns.
     pub has_units_in_heads: bool,
 }
 
@@ -27,17 +27,17 @@ pub(crate) enum TableStyle {
 }
 
 impl TableLooks {
-    /// Makes the looks of plain text.
+    /// Makes the style of plain text.
     pub const fn plain(units: DisplayUnits) -> Self {
         Self { units, style: TableStyle::Plain, has_units_in_heads: true }
     }
 
-    /// Makes the looks of Markdown and HTML.
+    /// Makes the style of Markdown and HTML.
     pub const fn markup(units: DisplayUnits) -> Self {
         Self { units, style: TableStyle::Markup, has_units_in_heads: true }
     }
 
-    /// Leaves the units out of the heads, because a line above the table says them.
+    /// Leaves the units out of the heads, because a line above the table gives them.
     pub fn without_units_in_heads(self) -> Self {
         Self { has_units_in_heads: false, ..self }
     }
@@ -85,9 +85,9 @@ impl TableLooks {
         }
     }
 
-    /// Tells a largest value in a sentence: `thickest chip: 0.0512 mm on line 17`. Returns `None` if it is
+    /// Words a largest value as a sentence: `thickest chip: 0.0512 mm on line 17`. Returns `None` if it is
     /// not known, or if the column is not for sentences.
-    pub fn tell_peak<R>(self, column: &Column<R>, row: &R) -> Option<String> {
+    pub fn word_peak<R>(self, column: &Column<R>, row: &R) -> Option<String> {
         let sentence = column.sentence()?;
         let TableValue::Peak { value, place } = column.value(row) else { return None };
         let value = self.units.convert(column.unit(), value);

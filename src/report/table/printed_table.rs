@@ -1,4 +1,4 @@
-//! Tables whose cells are printed, as plain text, Markdown and HTML.
+//! This module holds tables with printed cells, as plain text, Markdown and HTML.
 
 use super::column::Column;
 use super::printed_cell::TableLooks;
@@ -68,8 +68,8 @@ impl PrintedTable {
         self.rows.is_empty()
     }
 
-    /// Returns the table as plain text: the first column to the left, the others to the right, and a last
-    /// line about the rows that are left out.
+    /// Returns the table as plain text, with the first column to the left, the others to the right, and a
+    /// last line about the rows that are left out.
     pub fn to_text(&self) -> String {
         let head = self.head.iter().map(|head| head.text.clone()).collect();
         let mut all: Vec<Vec<String>> = vec![head];

@@ -1,4 +1,4 @@
-//! Rows for machines: CSV tables and JSON objects.
+//! This module writes rows for machines: CSV tables and JSON objects.
 
 use super::column::Column;
 use super::column_unit::{ColumnUnit, DisplayUnits};

@@ -1,4 +1,4 @@
-//! Values of cells, before anything is printed.
+//! This module holds values of cells before anything is printed.
 
 use std::borrow::Cow;
 
@@ -23,14 +23,14 @@ pub(crate) enum TableValue<'r> {
     Peak { value: f64, place: PeakPlace },
     /// Several intervals in the column's unit.
     Intervals(&'r [[f64; 2]]),
-    /// The number of an entry in another list, and the name that people know it by.
+    /// The index of an entry in another list, and the name that people know.
     Reference { index: Option<usize>, name: Cow<'r, str> },
 }
 
 /// The place of a largest value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum PeakPlace {
-    /// The line of a motion; `None` for a motion that a step inserted.
+    /// The line of a motion. It is `None` for a motion that a step has inserted.
     Line(Option<usize>),
     /// The line of a motion and the height of the layer in mm; a value of the whole motion has no height.
     Layer { line: usize, z_mm: Option<f64> },

@@ -35,7 +35,7 @@ fn columns() -> Vec<Column<Cut>> {
             None => TableValue::Missing,
         })
         .titled("chip")
-        .told_as("thickest chip", 3)
+        .worded_as("thickest chip", 3)
         .decimals(3),
         Column::new("arcs", ColumnUnit::Angle, |cut: &Cut| TableValue::Intervals(&cut.arcs)),
     ]
@@ -174,7 +174,7 @@ fn figures_stand_side_by_side() {
 fn a_peak_is_told_with_its_place() {
     let [before, after] = cuts();
     let columns = pick_columns(&columns(), &["chip_thickness"]);
-    let tell = |cut, units| TableLooks::plain(units).tell_peak(&columns[0], cut);
+    let tell = |cut, units| TableLooks::plain(units).word_peak(&columns[0], cut);
     assert_eq!(tell(&before, DisplayUnits::MM).unwrap(), "thickest chip: 0.127 mm on line 9");
     assert_eq!(tell(&before, INCH).unwrap(), "thickest chip: 0.0050 in on line 9");
     assert_eq!(tell(&after, INCH), None);

@@ -1,4 +1,4 @@
-//! Hunks: changes with the lines around them.
+//! This module writes hunks: changes with the lines around them.
 
 use super::UnifiedDiffOptions;
 use crate::presentation::safe_text::{decode_characters, to_visible_character};
@@ -16,7 +16,7 @@ pub(super) struct HunkWriter<'o> {
     out: &'o mut dyn Write,
     name: &'o str,
     options: &'o UnifiedDiffOptions,
-    /// Lines of both files before the next one.
+    /// The number of lines of both files before the next one.
     at: (usize, usize),
     /// Unchanged lines that may become the context of a change.
     before: VecDeque<Vec<u8>>,
@@ -37,7 +37,7 @@ impl<'o> HunkWriter<'o> {
         Self { out, name, options, at: (0, 0), before: VecDeque::new(), hunk: None, headed: false }
     }
 
-    /// A line of both files.
+    /// Adds a line of both files.
     pub(super) fn push_unchanged(&mut self, line: &[u8]) -> io::Result<()> {
         self.at = (self.at.0 + 1, self.at.1 + 1);
         let context = self.options.context;
@@ -50,7 +50,7 @@ impl<'o> HunkWriter<'o> {
                 }
             }
             None if context > 0 => {
-                // The line that falls out lends its memory to the one that comes in.
+                // The memory of the line that leaves is used again for the line that enters.
                 let mut kept = if self.before.len() == context { self.before.pop_front() } else { None }
                     .unwrap_or_default();
                 kept.clear();
@@ -62,17 +62,17 @@ impl<'o> HunkWriter<'o> {
         Ok(())
     }
 
-    /// A line of the file that the program does not have.
+    /// Adds a line of the file that the program does not have.
     pub(super) fn push_removed(&mut self, line: &[u8]) {
         self.push_change(b'-', RED, line, (1, 0));
     }
 
-    /// A line of the program that the file does not have.
+    /// Adds a line of the program that the file does not have.
     pub(super) fn push_added(&mut self, line: &[u8]) {
         self.push_change(b'+', GREEN, line, (0, 1));
     }
 
-    /// Writes what is left.
+    /// Writes the last hunk.
     pub(super) fn finish(mut self) -> io::Result<()> {
         self.write_hunk()
     }
@@ -134,7 +134,7 @@ impl<'o> HunkWriter<'o> {
     }
 }
 
-/// `start,length` of a hunk; a stretch of no lines stands after the line it names.
+/// Formats `start,length` of a hunk. A range of no lines names the line before it.
 fn format_hunk_range(before: usize, length: usize) -> String {
     match length {
         0 => format!("{before},0"),
@@ -143,7 +143,8 @@ fn format_hunk_range(before: usize, length: usize) -> String {
     }
 }
 
-/// The name as git writes it: in quotes when it holds what could end it, with a tab after it when it holds a blank.
+/// Returns the name as git writes it: in quotes if it has a character that could end it, and with a tab after
+/// it if it has a blank.
 fn format_file_name(folder: &str, name: &str) -> String {
     let name = format!("{folder}{}", name.trim_start_matches('/'));
     if name.chars().any(|c| c.is_control() || matches!(c, '"' | '\\')) {

@@ -1,8 +1,8 @@
-//! What steps made of a program, as a unified diff.
+//! This module writes what steps have made of a program as a unified diff.
 //!
-//! A program carries its changes: each statement knows its place in the file and its text now. So the diff needs no search;
-//! it is written statement by statement, in time linear in the file. It is a patch: applied to the file it gives the program
-//! byte for byte, whatever the encoding and the line ends.
+//! A program carries its changes: each statement knows its place in the file and its current text. So the
+//! diff needs no search. It is written statement by statement, in time linear in the file. It is a patch:
+//! applied to the file, it gives the program byte for byte, whatever the encoding and the line ends.
 
 mod hunk;
 
@@ -10,16 +10,17 @@ use crate::program::{Program, StatementChange};
 use hunk::HunkWriter;
 use std::io::{self, Write};
 
-/// How a unified diff is written.
+/// The options of a unified diff.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct UnifiedDiffOptions {
-    /// Unchanged lines around a change.
+    /// The number of unchanged lines around a change.
     pub context: usize,
-    /// ANSI colours.
+    /// Whether to write ANSI colours.
     pub color: bool,
-    /// For a terminal: a CR before a line's end is left out and control characters are replaced, since text in a CL file
-    /// must not talk to the terminal. What is written is no patch any more.
+    /// Whether the diff is for a terminal. Then a CR before a line's end is left out and control characters
+    /// are replaced, because text in a CL file must not send commands to the terminal. The result is no patch
+    /// any more.
     pub display: bool,
 }
 
@@ -54,10 +55,10 @@ impl UnifiedDiffOptions {
 
 /// Writes the changes that a program carries as a unified diff; nothing when it carries none.
 ///
-/// Lines end at LF, as `patch` has it.
+/// Lines end at LF, as for `patch`.
 ///
 /// # Errors
-/// What the writer returns.
+/// Returns the errors of the writer.
 pub fn write_unified_diff(
     out: &mut dyn Write,
     program: &Program,
@@ -67,7 +68,8 @@ pub fn write_unified_diff(
     let (mut old, mut new) = (Vec::new(), Vec::new());
     for statement in program.statements() {
         let origin = program.source().slice(statement.origin());
-        // An untouched statement is whole lines, unless lone CRs put several on one line.
+        // An untouched statement is a number of whole lines, unless single CRs put several statements on one
+        // line.
         let untouched = statement.change() == StatementChange::Untouched && origin.ends_with(b"\n");
         if untouched && old.is_empty() && new.is_empty() {
             split_lines(origin).try_for_each(|line| hunks.push_unchanged(line))?;
@@ -87,7 +89,7 @@ pub fn write_unified_diff(
     hunks.finish()
 }
 
-/// The diff as bytes, for callers that keep it.
+/// Returns the diff as bytes, for callers that keep it.
 ///
 /// ```
 /// use clsmith::parameters::Factor;
@@ -116,7 +118,7 @@ fn ends_complete(text: &[u8]) -> bool {
     text.is_empty() || text.ends_with(b"\n")
 }
 
-/// Lines that became others, those at both ends that did not taken out.
+/// Writes lines that have changed, without the unchanged ones at both ends.
 fn write_changed_lines(hunks: &mut HunkWriter<'_>, old: &[u8], new: &[u8]) -> io::Result<()> {
     let old: Vec<&[u8]> = split_lines(old).collect();
     let new: Vec<&[u8]> = split_lines(new).collect();
@@ -135,7 +137,7 @@ fn write_changed_lines(hunks: &mut HunkWriter<'_>, old: &[u8], new: &[u8]) -> io
     Ok(())
 }
 
-/// Lines as `patch` sees them, each with its LF; the last one perhaps without.
+/// Returns lines as `patch` sees them, each with its LF. The last one may have none.
 fn split_lines(text: &[u8]) -> impl Iterator<Item = &[u8]> {
     text.split_inclusive(|byte| *byte == b'\n')
 }

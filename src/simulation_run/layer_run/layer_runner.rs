@@ -220,13 +220,15 @@ impl<'r> LayerRunner<'r> {
             })
             .collect();
         for WaitingMotion { motion, line, cutter, left_out, steps } in std::mem::take(&mut self.waiting) {
+            let pieces = found.get(steps);
+            debug_assert!(pieces.is_some(), "a motion has pieces of this batch");
             let cut = MotionChips {
                 motion: &motion,
                 line,
                 asked: self.options.lines.contains(&line),
                 cutter,
                 left_out,
-                pieces: found.get(steps).unwrap_or_default(),
+                pieces: pieces.unwrap_or_default(),
                 stack: &self.stack,
             };
             check_layer_motion(&mut self.faults, self.machining, self.options, &mills, &cut);

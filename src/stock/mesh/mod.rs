@@ -163,7 +163,10 @@ impl Mesh {
 
     /// Returns the vertices of one triangle.
     fn vertices_of(&self, triangle: [u32; 3]) -> [[f64; 3]; 3] {
-        // All indices were checked when the mesh was made.
-        triangle.map(|vertex| self.vertices.get(vertex as usize).copied().unwrap_or_default())
+        triangle.map(|vertex| {
+            let vertex = self.vertices.get(vertex as usize);
+            debug_assert!(vertex.is_some(), "all indices were checked when the mesh was made");
+            vertex.copied().unwrap_or_default()
+        })
     }
 }

@@ -207,7 +207,9 @@ fn prove_mesh_passes(
 ) -> Result<(), Failure> {
     let mm_per_unit = job.file.mm_per_unit();
     let path = |range: &Range<usize>| -> Vec<[f64; 3]> {
-        let written = after.get(range.clone()).unwrap_or_default();
+        let written = after.get(range.clone());
+        debug_assert!(written.is_some(), "a written pass consists of motions of the program");
+        let written = written.unwrap_or_default();
         let start = written.first().map(|motion| motion.from.point);
         let points = start.into_iter().chain(written.iter().map(|motion| motion.to.point));
         points.map(|point| (point * mm_per_unit - lift).coords.into()).collect()
@@ -316,6 +318,7 @@ fn deepest_gouge_mm(
 ) -> f64 {
     let [from, to] = pair else { return 0.0 };
     let (from, to) = (from * mm_per_unit, to * mm_per_unit);
+    // Between two points R / 8 apart, a sharp edge lifts a ball by at most (R / 8)^2 / (8 R) = R / 512 more.
     let count = ((to - from).xy().norm() / (job.radius / 8.0)).ceil().clamp(1.0, 1e5) as usize;
     let below = |part: usize| {
         let at = from + (to - from) * (part as f64 / count as f64);

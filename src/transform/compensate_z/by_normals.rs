@@ -108,6 +108,7 @@ impl CompensateZJob {
         let axis = Unit::try_new(motion.to.axis, 1e-9)?;
         let at = motion.to.point * mm_per_unit;
         let was = self.was.unwrap_or(0.0);
+        // A path of tips is led back to its contacts by Pc = Ps - R (n - a), one of centres by Pc = C - R n.
         let back: Vector3<f64> = match (self.was, self.was_centre) {
             (None, _) => Vector3::zeros(),
             (Some(_), true) => normal.into_inner() * was,

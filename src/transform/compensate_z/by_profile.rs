@@ -17,7 +17,8 @@ use crate::write::ProgramEditor;
 use nalgebra::Point3;
 use rayon::prelude::*;
 
-/// What printing may add to gouge and gap, in the file's unit: both ends of a chord are off by half the fourth decimal.
+/// What printing may add to gouge and gap, in the file's unit: both ends of a chord are off by half the
+/// fourth decimal.
 const PRINTED: f64 = 1e-4;
 
 /// A pass while it is compensated.

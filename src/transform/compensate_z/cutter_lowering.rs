@@ -19,6 +19,8 @@ pub(super) fn project_from_above(
         let points = match &motion.path {
             MotionPath::Line | MotionPath::Start => vec![motion.from.point, motion.to.point],
             MotionPath::Arc(arc) => {
+                // A chord of sweep a is R (1 - cos(a / 2)), about R a^2 / 8, off its arc, so a = 2 sqrt(2 t /
+                // R).
                 let least = (tolerance / (arc.radius * mm_per_unit)).clamp(1e-12, 0.5);
                 let count = (arc.sweep / (2.0 * (2.0 * least).sqrt())).ceil().clamp(1.0, 1e6) as usize;
                 (0..=count).map(|part| arc.point_at(part as f64 / count as f64)).collect()

@@ -117,6 +117,7 @@ impl<'a> PassSurroundings<'a> {
             .motions
             .get(before)
             .is_some_and(|motion| motion.rapid || matches!(motion.path, MotionPath::Start));
+        // A rapid may end higher along the axis, but moving it sideways or down could put it into the part.
         let displacement = pass.start - self.end_point_mm(before).unwrap_or(pass.start);
         let up = self.tool_axis(before);
         let across = (displacement - up * displacement.dot(&up)).norm();
@@ -212,6 +213,7 @@ fn move_between_passes(
     let Some(old) = ahead.motions.start.checked_sub(1).and_then(|before| around.end_point_mm(before)) else {
         return;
     };
+    // The leads of the next pass are found backwards from its start, so that the nearest motions count first.
     let mut lead = true;
     for index in range.clone().rev() {
         let (Some(motion), Some(at)) = (around.motions.get(index), around.end_point_mm(index)) else { break };
@@ -220,6 +222,7 @@ fn move_between_passes(
             break;
         }
         let wanted = shift_with_pass(at, (old, ahead.start), around.tool_axis(index), above, around.lift_mm);
+        // The displacement of a link grows by motions, not by length: a step over is only a few motions long.
         let fraction = (index + 1 - range.start) as f64 / range.len() as f64;
         let link = !motion.rapid && !above && index + 1 < ahead.motions.start;
         let new = match (ends.get(&index), behind.get(&index)) {
@@ -282,6 +285,7 @@ pub(super) fn write_leads(
             .unwrap_or_else(Point3::origin)
     };
     let within = |index: usize| moved.iter().any(|pass: &MovedPass| contains(&pass.motions, index));
+    // A motion that starts where a moved one ends changes, too: its arc or its GODLTA depends on its start.
     let touched = ends
         .keys()
         .copied()

@@ -41,6 +41,8 @@ impl PassWriter<'_> {
             }
             MotionPath::Arc(_) if moves(by) || moves(from) => {
                 self.check_writable(editor.program(), index)?;
+                // An arc that moves as a whole keeps its shape; with unequal ends no circle of its record
+                // fits.
                 if (by - from).amax() <= 1e-6 {
                     self.shift_points(editor, motion, by)?;
                 } else if matches!(editor.program().statement(last).record(), Record::Goto(_)) {

@@ -132,10 +132,13 @@ fn fit_arc_to_ends(arc: &ArcPiece, from: Point, to: Point) -> ArcPiece {
     }
     let middle = from.lerp(to, 0.5);
     let (nu, nz) = (-dz / chord, du / chord);
+    // The projection of the old centre onto the bisector is the nearest point that is equally far from both
+    // ends.
     let aside = (arc.centre.u - middle.u) * nu + (arc.centre.z - middle.z) * nz;
     let centre = Point::new(middle.u + nu * aside, middle.z + nz * aside);
     let angle = |at: Point| (at.z - centre.z).atan2(at.u - centre.u);
     let start = angle(from);
+    // The sense of the arc stays, even if rounding has moved its ends past each other.
     let turn = (angle(to) - start).rem_euclid(std::f64::consts::TAU);
     let sweep = if arc.sweep_rad > 0.0 { turn } else { turn - std::f64::consts::TAU };
     ArcPiece { centre, radius_mm: from.distance(centre), start_rad: start, sweep_rad: sweep }
@@ -176,6 +179,8 @@ pub(super) fn compensate_pass(path: &Chain, ball: &CompensatingBall) -> Result<C
             recover_profile(&tip, was).map_err(|why| geometry(why.to_string()))?
         }
     };
+    // The tip's path is the envelope of the ball rolling on the profile, not the offset of its points: the
+    // offset would gouge concave corners.
     let exact = compensate_profile(&contact, ball.radius).map_err(|why| geometry(why.to_string()))?;
     let path = fit_chords(&exact, ball.tolerance * CHORDS, ball.arcs, ChordSide::Both)
         .map_err(|why| geometry(why.to_string()))?;

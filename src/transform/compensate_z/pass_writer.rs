@@ -73,6 +73,7 @@ impl<'a> PassWriter<'a> {
     pub fn check_writable(&self, program: &Program, index: usize) -> Result<(), UnwritableMotion> {
         let motion = self.motions.get(index).ok_or(UnwritableMotion::NoGoto)?;
         let last = motion.last_statement();
+        // A GOTO of several points cannot be split without changing the neighbouring motions.
         let beside = [index.wrapping_sub(1), index + 1];
         let shares =
             |other: &usize| self.motions.get(*other).is_some_and(|other| other.last_statement() == last);
@@ -114,6 +115,8 @@ impl<'a> PassWriter<'a> {
         let Some(goto) = self.find_goto(editor.program(), &pass.motions) else {
             return Err(UnwritableMotion::NoGoto.into());
         };
+        // Cycles, feeds and comments between the old motions stay where their contact was, so the new path is
+        // distributed over the old motions.
         let breaks = self.find_motion_breaks(pass, path, if contact { radius } else { 0.0 });
         let forward = if path.end().u >= path.start().u { 1.0 } else { -1.0 };
         let mut pieces = split_long_arcs(path).into_iter().peekable();
@@ -201,12 +204,15 @@ impl<'a> PassWriter<'a> {
     fn find_motion_breaks(&self, pass: &VerticalPass, path: &Chain, radius: f64) -> Vec<f64> {
         let forward = if path.end().u >= path.start().u { 1.0 } else { -1.0 };
         let flat = |point: Point3<f64>| pass.plane.to_plane(point * self.mm_per_unit);
-        let all = self.motions.get(pass.motions.clone()).unwrap_or_default();
+        let all = self.motions.get(pass.motions.clone());
+        debug_assert!(all.is_some(), "a pass consists of motions of the program");
+        let all = all.unwrap_or_default();
         let mut reached = f64::NEG_INFINITY;
         let mut breaks = Vec::with_capacity(all.len());
         for (index, motion) in all.iter().enumerate() {
             let (from, at) = (flat(motion.from.point), flat(motion.to.point));
             let to = all.get(index + 1).map_or(at, |next| flat(next.to.point));
+            // At the end of the pass there is no next side, so the slope of the last side counts fully.
             let lean = if to == at { slope_sine(from, at, at) * 2.0 } else { slope_sine(from, at, to) };
             reached = reached.max((at.u - radius * lean) * forward);
             breaks.push(reached);

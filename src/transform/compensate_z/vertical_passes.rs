@@ -124,7 +124,9 @@ fn passes_of_run(
                 || (motion.to.axis - first.from.axis).amax() > 1e-6
         })
     };
-    let all = motions.get(run.clone()).unwrap_or_default();
+    let all = motions.get(run.clone());
+    debug_assert!(all.is_some(), "a run consists of motions of the program");
+    let all = all.unwrap_or_default();
     if let Some(at) = all.iter().position(|motion| turns(&motion)) {
         return Err(NoPassReason::AxisTurns(run.start + at));
     }
@@ -172,6 +174,7 @@ fn find_turn_back(
         (low, high) = (low.min(from.min(to)), high.max(from.max(to)));
         if to > from { forward += to - from } else { back += from - to }
     }
+    // The profile of an undercut also runs back a little, which is no second pass.
     if f64::min(forward, back) <= 0.25 * (high - low) {
         return None;
     }
@@ -205,6 +208,7 @@ fn find_main_direction(segments: &[PlanarRun]) -> Vector3<f64> {
 }
 
 fn is_parallel(one: Vector3<f64>, other: Vector3<f64>) -> bool {
+    // For unit vectors, the cross product is the sine of the angle. So opposite directions are parallel, too.
     one.cross(&other).norm() <= PARALLEL
 }
 
@@ -213,7 +217,9 @@ fn split_into_planar_runs(motions: &[Motion], run: Range<usize>, mm_per_unit: f6
     let mut start = run.start;
     while start < run.end {
         let (end, plane) = find_planar_run(motions, start, run.end, mm_per_unit);
-        let part = motions.get(start..end).unwrap_or_default();
+        let part = motions.get(start..end);
+        debug_assert!(part.is_some(), "a segment consists of motions of the program");
+        let part = part.unwrap_or_default();
         let length = part.iter().map(|motion| motion.length() * mm_per_unit).sum();
         found.push(PlanarRun { motions: start..end, plane, length });
         start = end;

@@ -65,6 +65,7 @@ pub fn place_on_circle(
     let s = chord.norm();
     let along = |fraction: f64| first + (last - first) * fraction;
     let (sweep, centre) = if closed {
+        // A closed ramp is a regular polygon of `legs` sides, whose side is 2 R sin(pi / legs).
         let radius = leg / (2.0 * (PI / legs as f64).sin());
         let (towards, side) = find_centre_direction(points, side)?;
         (if side == BulgeSide::Left { TAU } else { -TAU }, first + towards * radius)
@@ -72,6 +73,7 @@ pub fn place_on_circle(
         let Some(arc) = find_arc_angle(s, leg, legs) else {
             return Some((0..=legs).map(|index| along(index as f64 / legs as f64)).collect());
         };
+        // A leg is the chord of arc / legs.
         let radius = leg / (2.0 * (arc / (2.0 * legs as f64)).sin());
         let left = Vector2::new(-chord.y, chord.x) / s;
         let (bulge, sweep) = match side {

@@ -41,6 +41,7 @@ impl MilledArea {
             let by = Coord { x: by, y: by };
             own.bounding_rect().map_or(nothing, |bounds| Rect::new(bounds.min() - by, bounds.max() + by))
         };
+        // The dilation and the erosion each reach one radius, so paths farther away cannot change the result.
         let (reach, seen) = (grown(reach), grown(reach + 2.0 * radius));
         let mut near: Vec<LineString> = Vec::new();
         for path in paths {

@@ -96,6 +96,7 @@ impl RampStep {
     pub fn sample_points_across(&self, from: Point3<f64>) -> Vec<Point2<f64>> {
         let Some(bend) = self.bend else { return vec![self.to.xy()] };
         let turns = bend.sweep.abs();
+        // One turn and the remainder reach the same points as all turns do.
         let sweep = bend.sweep.signum() * if turns > TAU { TAU + wrap_angle(turns) } else { turns };
         let count = (sweep.abs() / 5f64.to_radians()).ceil().max(1.0) as usize;
         let spoke = from.xy() - bend.centre;
@@ -210,6 +211,7 @@ impl Ramp {
             }
             let turns = match (before, directions) {
                 (None, _) => false,
+                // Directions are unit vectors, so their dot product is the cosine of the turn.
                 (Some(Some(end)), Some([start, _])) => end.dot(&start) < CORNER.to_radians().cos(),
                 (Some(None), None) => false,
                 (Some(_), _) => true,

@@ -101,6 +101,8 @@ pub fn correct_ramp(ramp: &Ramp, task: &RampTask<'_>) -> Result<Option<Corrected
     if longer.is_empty() {
         return Err(ImpossibleCorrection::NoDirection);
     }
+    // The last reason is reported: a candidate that only fails its slope is nearer to a solution than one
+    // that leaves the region.
     let mut why = ImpossibleCorrection::Region(task.limits.shortest_leg);
     for (lengthened, candidate) in longer {
         if !task.region.contains_path(&candidate.path_across())
@@ -190,6 +192,7 @@ fn make_shallower(
     let mut ratio = 1.0;
     let mut lowered = ramp.clone();
     if !is_shallow_enough(ramp, &task.limits, task.rounding) {
+        // Compression only removes height above the depth of cut, where there is air anyway.
         let begin = task.begin.filter(|begin| *begin > 0.0 && *begin < ramp.height_mm());
         if let Some(begin) = begin {
             ratio = begin / ramp.height_mm();

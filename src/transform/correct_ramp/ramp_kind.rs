@@ -85,6 +85,7 @@ fn fit_helix(ramp: &Ramp) -> Option<Helix> {
         }
     };
     let radius = (first.0.xy() - centre).norm();
+    // Printed points and chords of large circles deviate in proportion to the radius.
     let round = ROUND.max(radius * 1e-3);
     let (mut sweep, mut widest_step) = (0.0f64, 0.0f64);
     for (from, step) in &steps {
@@ -94,6 +95,7 @@ fn fit_helix(ramp: &Ramp) -> Option<Helix> {
             _ => return None,
         };
         let off = ((step.to.xy() - centre).norm() - radius).abs();
+        // A helix never turns back, and a step that does not turn at all is radial.
         if off > round || turn * sweep < 0.0 || turn == 0.0 {
             return None;
         }

@@ -37,6 +37,8 @@ pub fn count_passes(steepest: f64, limit: f64, closed: bool) -> Result<usize, To
     if ratio >= 1.0 - SLACK {
         return Ok(1);
     }
+    // Each pass descends by limit / steepest of the height. A closed ramp needs w more of them with
+    // 1 + w >= 1 / ratio, an open one goes forward and back, so w counts pairs.
     let step = if closed { ratio } else { 2.0 * ratio };
     let more = ((1.0 - ratio) / step - SLACK).ceil();
     let passes = 1.0 + if closed { more } else { 2.0 * more };
@@ -117,6 +119,7 @@ fn count_added_turns(ramp: &Ramp, helix: &Helix, limits: &RampLimits) -> Result<
     // A chord of sweep 2h is shorter than its arc by sin(h) / h, and so it is steeper.
     let half = helix.widest_step / 2.0;
     let chords = if helix.arcs || half <= 0.0 { 1.0 } else { half.sin() / half };
+    // The slope of a helix is height / (radius * sweep), so the limit of the slope gives the least sweep.
     let needed = ramp.height_mm() / (helix.radius * chords * limits.steepest);
     let more = ((needed - helix.sweep.abs()) / TAU - SLACK).ceil().max(0.0);
     let turns = helix.sweep.abs() / TAU + more;

@@ -307,6 +307,7 @@ fn survey_operations(motions: &[Motion], mm_per_unit: f64) -> Vec<OperationSurve
         if motion.rapid || motion.hole.is_some() || motion.class_is_told || up * mm_per_unit < -LEVEL {
             continue;
         }
+        // Pythagoras: only the part across the axis counts, so a plunge does not make an operation level.
         let across = (motion.length().powi(2) - up * up).max(0.0).sqrt() * mm_per_unit;
         survey.level_or_rising += across;
         survey.level += if is_level(motion, mm_per_unit) { across } else { 0.0 };

@@ -91,7 +91,9 @@ pub(super) fn check_writable(
 
 /// Returns whether a single feed governs the whole ramp. If not, its last feed has to be the lowest.
 fn has_single_feed(motions: &[Motion], range: &Range<usize>) -> Result<bool, UnwritableRamp> {
-    let all = motions.get(range.clone()).unwrap_or_default();
+    let all = motions.get(range.clone());
+    debug_assert!(all.is_some(), "a ramp consists of motions of the program");
+    let all = all.unwrap_or_default();
     let last = all.last().and_then(|motion| motion.feed);
     // A FEDRAT between CIRCLE and its GOTO governs that arc, but not what would be inserted before the
     // CIRCLE.

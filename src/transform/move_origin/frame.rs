@@ -165,6 +165,7 @@ fn compute_frame_edits(frame: &FrameRecord, place: &Affine) -> Vec<(usize, f64)>
         (FrameWord::Msys, [ox, oy, oz, xi, xj, xk, yi, yj, yk]) => {
             let (x, y) = (Vector3::new(*xi, *xj, *xk), Vector3::new(*yi, *yj, *yk));
             let axes = Matrix3::from_columns(&[x, y, x.cross(&y)]);
+            // F * T: the columns of F turn the offset of T into outside coordinates.
             let origin = Vector3::new(*ox, *oy, *oz) + axes * place.offset;
             let mut edits: Vec<_> = origin.iter().copied().enumerate().collect();
             if place.changes_directions() {

@@ -182,6 +182,7 @@ impl<'p> MoveTracker<'p> {
         if axis.is_some() {
             return Ok(None);
         }
+        // In such dialects a GOTO of three values means the axis 0,0,1 again.
         let every_line =
             self.form == AxisNotation::EveryLine && self.written && !is_same_vector(wanted, Vector3::z());
         if is_same_vector(wanted, self.new) && !every_line {

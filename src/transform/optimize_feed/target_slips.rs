@@ -9,7 +9,8 @@ use crate::transform::StepContext;
 /// A target that is so many times what the program does, or so small a part of it, is unusual.
 const DISTANT: f64 = 20.0;
 
-/// A target is reached where a load comes so near to it: feeds are rounded down, and small changes are left out.
+/// A target is reached where a load comes so near to it: feeds are rounded down, and small changes are left
+/// out.
 const NEAR: f64 = 0.8;
 
 /// Reports a chip thickness that is above the radius of every tool: no tooth can take it.
@@ -74,7 +75,7 @@ pub(super) fn warn_of_unreached_targets(
     }
 }
 
-/// The largest estimate of a load over all cuts; `index` is that of its limit.
+/// Returns the largest estimate of a load over all cuts; `index` is that of its limit.
 fn largest_load(blocks: &MeasuredBlocks, index: usize) -> f64 {
     let cuts = blocks.measurements.iter().filter(|measurement| measurement.cuts);
     let loads = cuts.filter_map(|measurement| measurement.measured.get(index));

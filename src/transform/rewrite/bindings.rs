@@ -51,8 +51,8 @@ impl<'t> Bindings<'t> {
         self.found.iter().find(|(bound, _)| *bound == name).map(|(_, at)| at.clone())
     }
 
-    /// Returns the bytes of a name's argument as they stand, without the breaks of full lines, which belong to
-    /// their columns. They are empty if the name is not bound.
+    /// Returns the bytes of a name's argument as they stand, without the breaks of full lines, which belong
+    /// to their columns. They are empty if the name is not bound.
     pub fn argument_text(&self, name: &str) -> Cow<'t, [u8]> {
         let range = self.argument_range(name).unwrap_or_default();
         without_full_breaks(self.text, &range)

@@ -107,6 +107,7 @@ fn cut_at_margins(
     margin: f64,
 ) -> Vec<ClassedPiece> {
     let chain = |piece: &ClassedPiece| chains.get(piece.block).copied();
+    // One pass in each direction finds the nearest cuts of all pieces in linear time.
     let before = find_nearest_cuts(plain.iter().enumerate(), chain);
     let mut after = find_nearest_cuts(plain.iter().enumerate().rev(), chain);
     after.reverse();

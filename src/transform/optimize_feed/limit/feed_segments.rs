@@ -99,11 +99,13 @@ fn find_window_content(
     }
     let in_chain = |other: &&FeedSegment| other.chain == segment.chain;
     let before = index.checked_sub(1).and_then(|before| segments.get(before)).filter(in_chain);
+    // Eq. 1 of the paper: the feed at point k follows from the halves of the blocks on both sides of it.
     let start = if before.is_some() { segment.length / 2.0 } else { 0.0 };
     let mut content = content_between(segment, pieces, start, segment.length);
     if let Some(after) = segments.get(index + 1).filter(in_chain) {
         content = content.combined_with(content_between(after, pieces, 0.0, after.length / 2.0));
     }
+    // A block that cuts anywhere never takes the air feed.
     if own.cutting && !content.cutting { own } else { content }
 }
 
@@ -111,7 +113,9 @@ fn find_window_content(
 fn content_between(segment: &FeedSegment, pieces: &[ClassedPiece], from: f64, to: f64) -> WindowContent {
     let mut content = WindowContent::NOTHING;
     let mut start = 0.0;
-    for piece in pieces.get(segment.pieces.clone()).unwrap_or_default() {
+    let own = pieces.get(segment.pieces.clone());
+    debug_assert!(own.is_some(), "a segment consists of pieces of the list");
+    for piece in own.unwrap_or_default() {
         let end = start + piece.length;
         if end.min(to) - start.max(from) > NOTHING.min(piece.length / 2.0) {
             content = content.combined_with(WindowContent::from_piece(piece, pieces));
@@ -124,6 +128,7 @@ fn content_between(segment: &FeedSegment, pieces: &[ClassedPiece], from: f64, to
 /// Limits the feed in margins to the feed of the segment that cuts beside them, before acceleration lowers
 /// anything.
 fn keep_margins(segments: &mut [FeedSegment], pieces: &[ClassedPiece]) {
+    // The limits are read before any margin changes, so that the order of segments does not matter.
     let mut limit_at = vec![f64::INFINITY; pieces.len()];
     for segment in segments.iter() {
         limit_at.get_mut(segment.pieces.clone()).unwrap_or_default().fill(segment.feed);

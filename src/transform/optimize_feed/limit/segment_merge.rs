@@ -56,6 +56,8 @@ pub(super) fn merge_into_segments(
         let joined = path.join_segments(a, b);
         !apart(a, b) && joined.time <= (1.0 + rules.min_change) * joined.least_time * (1.0 + NOISE)
     };
+    // Merging the cheapest pair first keeps the expensive boundaries, as bottom-up segmentation of time
+    // series does.
     while let Some(at) = path.find_cheapest_pair(&segments, cheap) {
         path.merge_pair(&mut segments, at);
     }
@@ -97,7 +99,9 @@ impl SegmentMerger<'_> {
 
     fn build_segment(&self, range: Range<usize>) -> CandidateSegment {
         let (mut content, mut length, mut least_time) = (WindowContent::NOTHING, 0.0, 0.0);
-        for piece in self.pieces.get(range.clone()).unwrap_or_default() {
+        let own = self.pieces.get(range.clone());
+        debug_assert!(own.is_some(), "a segment consists of pieces of the list");
+        for piece in own.unwrap_or_default() {
             let own = WindowContent::from_piece(piece, self.pieces);
             content = content.combined_with(own);
             length += piece.length;
@@ -155,6 +159,7 @@ impl SegmentMerger<'_> {
         let options = [at.checked_sub(1), Some(at)].into_iter().flatten();
         let options = options.filter_map(|first| {
             let (a, b) = (segments.get(first)?, segments.get(first + 1)?);
+            // Growing piece by piece leaves the neighbour as much of its own feed as possible.
             let boundary = if first == at { b.pieces.start + 1 } else { a.pieces.end - 1 };
             let (left, right) =
                 (self.build_segment(a.pieces.start..boundary), self.build_segment(boundary..b.pieces.end));

@@ -90,6 +90,8 @@ impl MeasuredBlocks {
         let program = machining.program();
         let at_feed = !motion.rapid && !matches!(motion.path, MotionPath::Start);
         let last = motion.last_statement();
+        // The machine stands still or moves at rapid where a chain breaks, so the feed can change freely
+        // there.
         let goes_on = before.as_ref().is_some_and(|before| {
             before.moves_at_feed
                 && at_feed

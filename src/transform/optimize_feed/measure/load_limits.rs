@@ -80,6 +80,7 @@ impl LoadLimits {
                 )
             }
         };
+        // Each load grows with the feed, so the lowest of these feeds keeps all limits.
         FeedLimit::Limit(self.limits.iter().map(feed).fold(f64::INFINITY, f64::min))
     }
 
@@ -120,6 +121,7 @@ impl LoadLimits {
     /// half a cell more material on either side, or half a layer more above and below.
     fn bound_engagement(&self, found: &Engagement) -> Engagement {
         let mut bounded = found.clone();
+        // Loads grow with every fraction and with the volume, so the bounds of both give bounds of the loads.
         bounded.bins.iter_mut().for_each(|bin| bin.share = bin.share_bound);
         let more = |extent: f64, resolution: f64| {
             if extent > 0.0 { resolution / extent.max(resolution) } else { 0.0 }

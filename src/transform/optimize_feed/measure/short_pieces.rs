@@ -28,6 +28,7 @@ pub(super) fn lower_short_pieces(blocks: &mut [FeedBlock], reach: f64) {
             at = end;
         }
     }
+    // Pieces are in the order of the path, so the start of the window only moves forwards.
     let mut first = 0;
     for placed in &pieces {
         while pieces

@@ -87,6 +87,7 @@ fn number_chains(blocks: &[FeedBlock]) -> Vec<usize> {
     let mut found = Vec::with_capacity(blocks.len());
     for block in blocks {
         let known = block.has_known_feed();
+        // Acceleration cannot be computed across an unknown feed, so a chain ends before and after it.
         chain += usize::from(block.breaks_chain || !known || !last_known);
         last_known = known;
         found.push(chain);

@@ -57,6 +57,7 @@ fn even_out(run: &mut [FeedSegment], programmed: &impl Fn(&FeedSegment) -> f64, 
     }
     let lowest = run.iter().map(|segment| segment.feed).fold(f64::INFINITY, f64::min);
     let stays = |feed: f64| (keeps * lowest * (1.0 - NOISE)..=lowest).contains(&feed);
+    // A programmed feed that is slightly lower is kept, because it needs no FEDRAT of its own.
     let kept = run.iter().map(programmed).filter(|feed| stays(*feed)).reduce(f64::max);
     let all_stay = run.iter().map(programmed).all(stays);
     for segment in run {

@@ -14,6 +14,7 @@ pub struct TimedSegment {
 /// Returns the length of path in mm that a change between two feeds (mm/min) needs at an acceleration
 /// ((mm/min)/s).
 pub fn speed_change_distance_mm(from: f64, to: f64, acceleration: f64) -> f64 {
+    // v dv = a ds, with speeds in mm/min and the acceleration in (mm/min)/s: 2 x 60 = 120.
     (to * to - from * from).abs() / (120.0 * acceleration)
 }
 
@@ -83,6 +84,7 @@ fn chain_time_s(chain: &[TimedSegment], acceleration: f64) -> f64 {
         *speed = speed.min(reachable_feed_mm_min(before, acceleration, length));
         before = *speed;
     }
+    // Slowing down is speeding up in the opposite direction, so the same pass runs backwards.
     let mut after = f64::INFINITY;
     for (speed, length) in
         speeds.iter_mut().rev().zip(std::iter::once(0.0).chain(segment_lengths_mm(chain).rev()))

@@ -21,6 +21,7 @@ pub(in crate::transform::optimize_feed) fn build_report(
         StockResolution::Cell(cell) => (Some(cell), None),
         StockResolution::Layer(layer) => (None, Some(layer)),
     };
+    debug_assert!(!goals.limits.is_empty(), "the target is the first limit");
     let (criterion, target) = goals.limits.first().copied().unwrap_or_default();
     let uncertainty = touched_blocks(after)
         .filter_map(|(_, measurement)| measurement.measured.first())

@@ -53,7 +53,9 @@ fn describe_optimized_feed(report: &OptimizeFeedReport) -> String {
     );
     let resolution = match (report.cell_mm, report.layer_mm) {
         (_, Some(layer)) => format!("layers of {} mm; for them", format_significant(layer)),
-        (cell, None) => format!("cell {} mm; for the grid", format_significant(cell.unwrap_or_default())),
+        (Some(cell), None) => format!("cell {} mm; for the grid", format_significant(cell)),
+        // A report has either cells or layers, so this sentence without a size is never printed.
+        (None, None) => "for the grid".to_owned(),
     };
     let _ = writeln!(
         out,

@@ -35,7 +35,9 @@ pub(in crate::transform::optimize_feed) fn add_load_notes(
     let estimate =
         |measurement: &BlockMeasurement| measurement.measured.first().map_or(0.0, |[estimate, _]| *estimate);
     for measurement in &before.measurements {
-        let parts = parts.get(measurement.motion).cloned().unwrap_or_default();
+        let parts = parts.get(measurement.motion);
+        debug_assert!(parts.is_some(), "every motion of the program before has parts");
+        let parts = parts.cloned().unwrap_or_default();
         let split = parts.len() > 1;
         for governor in parts.filter_map(governor) {
             let loads = loads.entry(governor).or_default();
