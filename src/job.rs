@@ -124,7 +124,7 @@ impl CorrectionJob<'_> {
         Ok(JobOutcome { program, findings, reports })
     }
 
-    /// Returns the steps, the comments, and the look at what came of them.
+    /// Runs the steps, adds the comments and checks the result.
     fn run_steps(
         &self,
         source: &Arc<Source>,

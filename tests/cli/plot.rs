@@ -58,7 +58,7 @@ fn what_cannot_be_drawn_is_told() {
     let folder = job();
     for (args, said) in [
         (&["part.cls", "-o", "a.pdf"][..], "give it .svg or .png"),
-        (&["part.cls", "-o", "a.svg", "--of", "chip"], "needs --setup"),
+        (&["part.cls", "-o", "a.svg", "--of", "chip"], "add --setup"),
         (&["-", "--after", "-", "-o", "a.svg"], "read only once"),
         (&["part.cls", "-o", "a.svg", "--of", "speed"], "possible values"),
     ] {

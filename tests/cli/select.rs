@@ -92,7 +92,7 @@ fn what_becomes_of_the_others_is_said() {
     let done = command.assert().code(125);
     let text = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
     assert!(text.contains("CL0416") && text.contains("POCKET_ROUGH, HOLES"), "{text}");
-    assert!(text.contains("machine: not said") && text.contains("3 (EM12), 8 (DRILL8)"), "{text}");
+    assert!(text.contains("machine: not stated") && text.contains("3 (EM12), 8 (DRILL8)"), "{text}");
 }
 
 #[test]

@@ -170,7 +170,7 @@ fn a_turn_about_the_tip_has_no_feed() {
     let turned = row(&found, 13);
     assert!(turned.volume_mm3 > 1.0 && turned.chip_thickness_mm.is_none());
     assert!(
-        found.assumptions.iter().any(|said| said.contains("turn about a tip that stands")),
+        found.assumptions.iter().any(|said| said.contains("turn about a tip at rest")),
         "{:?}",
         found.assumptions
     );

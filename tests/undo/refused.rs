@@ -79,8 +79,8 @@ fn what_is_no_report_is_said_to_be_none() {
     let (file, report) = run();
     let whole = report.bytes();
     for (bytes, says) in [
-        (&whole[..whole.len() / 2], "cut off"),
-        (b"".as_slice(), "cut off"),
+        (&whole[..whole.len() / 2], "ends in the middle"),
+        (b"".as_slice(), "ends in the middle"),
         (b"<!doctype html><html></html>", "a page for people"),
         (b"# Summary", "no JSON"),
         (b"{\"version\":1}", "not the report of a run"),
