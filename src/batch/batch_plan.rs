@@ -21,9 +21,9 @@ use std::sync::Arc;
 pub struct PreparedRecipe {
     /// The recipe as the batch names it.
     pub name: PortablePath,
-    /// The recipe.
-    pub recipe: Recipe,
     /// The recipe that was read.
+    pub recipe: Recipe,
+    /// The setup that applies.
     pub setup: Setup,
     /// The digests of all files that it depends on.
     pub print: RecipeFingerprint,

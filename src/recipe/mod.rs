@@ -48,19 +48,19 @@ use std::sync::{Arc, OnceLock};
 /// ```
 #[derive(Debug)]
 pub struct Recipe<S> {
-    /// The file it was read from, for diagnostics that point into it.
-    pub source: Arc<Source>,
     /// The file from which it was read. Diagnostics point into it.
-    pub version: u32,
+    pub source: Arc<Source>,
     /// The version of the rules by which it was written.
-    pub units: LengthUnit,
+    pub version: u32,
     /// The unit of every length in it. Feeds are in this unit per minute.
-    pub setup_file: Option<String>,
+    pub units: LengthUnit,
     /// The path of a setup file, relative to the recipe's folder; see [`Recipe::load_setup_file`].
+    pub setup_file: Option<String>,
+    /// The recipe's own `setup:`, in millimetres; see [`Recipe::merge_setups`].
     pub setup: Setup,
-    /// What the corrected file says about its run.
-    pub provenance: Provenance,
     /// What the corrected file states about its run.
+    pub provenance: Provenance,
+    /// The steps in the order in which they are applied.
     pub steps: Vec<S>,
     document: Arc<YamlDocument>,
     step_places: Vec<OnceLock<Span>>,

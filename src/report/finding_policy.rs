@@ -79,10 +79,10 @@ pub enum FindingPolicyError {
     /// All warnings together cannot be allowed.
     #[error("`warnings` can be denied but not allowed; name the codes you know to be harmless")]
     WarningsAllowed,
-    /// The finding ends the run, which must not end without a word.
+    /// The finding ends the run, which must not end without a message.
     #[error("{code} cannot be allowed: {meaning} ends the run", code = .0, meaning = .0.meaning())]
     EndsRun(DiagnosticCode),
-    /// The finding ends the run, which must not end without a message.
+    /// The finding is about the run itself.
     #[error("{code} cannot be allowed, because it is always reported: {meaning}", code = .0, meaning = .0.meaning())]
     AlwaysTold(DiagnosticCode),
     /// The code is in both lists.

@@ -4,6 +4,7 @@
 //! a step that fails leaves no half-edited program behind.
 
 mod affine;
+mod empty_selection;
 mod feed_plan;
 mod motion_insertion;
 mod motion_selection;

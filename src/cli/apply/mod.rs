@@ -50,10 +50,10 @@ pub struct ApplyArgs {
     /// The programs; `-` is standard input
     #[arg(required = true, value_name = "INPUT")]
     inputs: Vec<PathBuf>,
-    /// Where to write: a file, `-` for standard output, or with several inputs a folder
+    /// Where to write: a file, `-` for standard output, or a folder if there are several inputs
     #[arg(short, long, value_name = "PATH", required_unless_present_any = ["dry_run", "diff"])]
     output: Option<PathBuf>,
-    /// Where to write: a file, `-` for standard output, or a folder if there are several inputs
+    /// Run and report, write nothing
     #[arg(long)]
     dry_run: bool,
     /// Show the changed lines on standard output as a patch; writes nothing unless -o is given
@@ -70,10 +70,10 @@ pub struct ApplyArgs {
     /// What the output states about the run, in comments: none, header or comments. It overrides the recipe
     #[arg(long, value_parser = input_files::parse_provenance, value_name = "WHAT")]
     provenance: Option<Provenance>,
-    /// A setup file; overrides the recipe's setup
+    /// A setup file. It overrides the recipe's setup
     #[arg(long, value_name = "FILE")]
     setup: Option<PathBuf>,
-    /// A setup file. It overrides the recipe's setup
+    /// The dialect, instead of finding it from the text
     #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
     dialect: Option<Dialect>,
     /// Say nothing but findings

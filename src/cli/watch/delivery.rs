@@ -22,10 +22,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// What only the lines of a watch say.
+/// The fields that only a watch logs.
 #[derive(Debug, Serialize)]
 struct WatchLogFields<'r> {
-    /// The fields that only a watch logs.
+    /// The place of a refused program now.
     refused_to: Option<&'r str>,
 }
 

@@ -10,7 +10,7 @@ use std::io;
 /// A program in a drawing.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ProgramTimeSeries {
-    /// A program in a drawing.
+    /// The name of the program.
     pub name: String,
     /// Its motions over time.
     pub moments: Vec<PlottedMotion>,

@@ -4,7 +4,7 @@ use super::ramp::Ramp;
 use super::ramp_kind::RampKind;
 use std::fmt;
 
-/// The diameter D, in mm.
+/// An indexable cutter. It does not cut within `diameter - 2 insert_radius` around its axis.
 ///
 /// ```
 /// use clsmith::transform::correct_ramp::ramp_limits::IndexableCutter;
