@@ -43,7 +43,7 @@ fn empty_panels_are_told() {
         |done: assert_cmd::assert::Assert| String::from_utf8_lossy(&done.get_output().stderr).into_owned();
     let said = told(run(&[]).code(1));
     assert!(
-        said.contains("the panel of z is empty: nothing is known of it along time; try --along path"),
+        said.contains("the panel of z is empty, because no value is known over time; try --along path"),
         "{said}"
     );
     assert!(said.contains("there is nothing to draw"), "{said}");

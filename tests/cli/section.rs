@@ -135,7 +135,7 @@ fn what_is_wrong_is_shown_at_its_place_and_nothing_is_written() {
         (
             "open.stl --step 1 --radius 5 --feed 8 -o a.cls",
             1,
-            "CL0602: the model open.stl cannot be gone over: the surface is not closed",
+            "CL0602: the model open.stl cannot be milled: the surface is not closed",
             "",
         ),
         ("profile.yaml --step 1 --radius 5 --feed 8 -o a.cls", 1, "CL0602: the model profile.yaml", ""),

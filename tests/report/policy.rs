@@ -50,7 +50,7 @@ fn what_cannot_be_wished() {
     );
     assert_eq!(
         refused(&[], &["CL0410"]),
-        "CL0410 cannot be allowed, it is always told: the untouched program was handed on"
+        "CL0410 cannot be allowed, because it is always reported: the untouched program was handed on"
     );
     assert!(refused(&[], &["warnings"]).starts_with("`warnings` can be denied but not allowed"));
     assert!(refused(&["CL1"], &[]).contains("did you mean CL0001"));
