@@ -3,7 +3,7 @@
 use super::chip_merging::merge_piece_chips;
 use super::chip_thickness::{ChipThicknessModel, LEAST_TRAVEL_MM, tip_travel_mm};
 use super::move_scene::{MoveScene, build_scene};
-use super::{ChipReport, ChipReportOptions, ChipRow, ChipTotals, OperationChips, UncutMotion};
+use super::{ChipLayerRow, ChipReport, ChipReportOptions, ChipRow, ChipTotals, OperationChips, UncutMotion};
 use crate::engagement::MotionPiece;
 use crate::layered_chips::chip::LayerChip;
 use crate::program::geometry::MotionPath;
@@ -108,18 +108,19 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
             feed_mm_min: self.motion_feed_mm_min(cut.motion),
             volume_mm3: cut.volume_mm3(),
             inside_mm3,
-            chip_thickness_mm: match layers
-                .iter()
-                .filter_map(|layer| layer.chip_thickness_mm)
-                .reduce(f64::max)
-            {
+            chip_thickness_mm: match find_thickest_chip_mm(&layers) {
                 _ if cut.volume_mm3() <= 0.0 => Some(0.0),
                 most => most.filter(|_| pace.known),
             },
             layers,
             tool,
         };
-        if let Some(sums) = self.operations.get_mut(cut.motion.operation) {
+        self.push_row(cut.motion.operation, row);
+    }
+
+    /// Takes a row, also into the sums of its operation.
+    fn push_row(&mut self, operation: usize, row: ChipRow) {
+        if let Some(sums) = self.operations.get_mut(operation) {
             if sums.motions == 0 {
                 sums.tool.clone_from(&row.tool);
             }
@@ -254,4 +255,8 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
         }
         said
     }
+}
+
+fn find_thickest_chip_mm(layers: &[ChipLayerRow]) -> Option<f64> {
+    layers.iter().filter_map(|layer| layer.chip_thickness_mm).reduce(f64::max)
 }

@@ -40,14 +40,7 @@ pub(super) fn compensate_by_profile(
     let mm_per_unit = job.file.mm_per_unit();
     let place = MotionFindings { program: &program, motions };
     let writer = PassWriter::new(&program, motions, mm_per_unit);
-    let ball = CompensatingBall {
-        radius: job.radius,
-        was: job.was,
-        was_centre: job.was_centre,
-        centre: job.centre,
-        tolerance: job.tolerance,
-        arcs: job.arcs && writer.has_arcs(),
-    };
+    let ball = make_ball(job, writer.has_arcs());
     let found = find_vertical_passes(motions, meant, mm_per_unit)
         .map_err(|why| place.describe_no_pass(why, context))?;
     let made: Vec<_> =
@@ -90,6 +83,18 @@ pub(super) fn compensate_by_profile(
     let report = CompensateZReport::new("profile", (job.radius, job.corner), job.tolerance);
     let report = CompensateZReport { passes: reports, ..report };
     Ok((program, report))
+}
+
+/// Takes what a pass has to know of the ball from the step; arcs are kept where the program has some.
+fn make_ball(job: &CompensateZJob, has_arcs: bool) -> CompensatingBall {
+    CompensatingBall {
+        radius: job.radius,
+        was: job.was,
+        was_centre: job.was_centre,
+        centre: job.centre,
+        tolerance: job.tolerance,
+        arcs: job.arcs && has_arcs,
+    }
 }
 
 fn make_profile_pass(

@@ -43,14 +43,7 @@ pub(in crate::transform::optimize_feed) fn build_report(
         }
     };
     let used: BTreeSet<usize> = before.measurements.iter().map(|measurement| measurement.operation).collect();
-    let count = |fits: fn(&Record) -> bool, inserted: bool| {
-        let mine = |statement: &&Statement| match statement.change() {
-            StatementChange::Inserted(by) => inserted && by == step,
-            StatementChange::Edited(by) => !inserted && by == step,
-            _ => false,
-        };
-        program.statements().iter().filter(mine).filter(|statement| fits(statement.record())).count()
-    };
+    let count = |fits: fn(&Record) -> bool, inserted: bool| count_changes(program, step, fits, inserted);
     let is_feed = |record: &Record| matches!(record, Record::Feed(_) | Record::Cycle(_));
     OptimizeFeedReport {
         criterion,
@@ -69,6 +62,16 @@ pub(in crate::transform::optimize_feed) fn build_report(
             true,
         ),
     }
+}
+
+/// Counts the statements of a kind that a step put in, or that it changed.
+fn count_changes(program: &Program, step: StepId, fits: fn(&Record) -> bool, inserted: bool) -> usize {
+    let mine = |statement: &&Statement| match statement.change() {
+        StatementChange::Inserted(by) => inserted && by == step,
+        StatementChange::Edited(by) => !inserted && by == step,
+        _ => false,
+    };
+    program.statements().iter().filter(mine).filter(|statement| fits(statement.record())).count()
 }
 
 fn sum_up_blocks(
