@@ -6,9 +6,12 @@
 mod broken_lines;
 mod card_columns;
 mod cases;
+mod curves;
 mod harmless_records;
 mod names_and_labels;
 mod odd_lines;
+mod own_words;
+mod threads;
 
 use crate::support;
 use crate::transform::try_apply;

@@ -53,6 +53,8 @@ pub struct Motion {
     pub frame: Option<Arc<CoordinateFrame>>,
     /// The class of the motion.
     pub class: MotionClass,
+    /// Whether the motion cuts a thread, tapping or turning: its feed is the pitch times the spindle speed.
+    pub cuts_thread: bool,
     /// Whether the file states the class. Otherwise it was found from rapid, axis and direction.
     pub class_is_told: bool,
     /// The index of the operation, as [`super::operation::find_operations`] counts them.

@@ -27,6 +27,7 @@ pub struct MotionMark {
 pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordReading {
     Some(Ok(match major {
         "PAINT" => read_paint(syntax),
+        "CHANNEL" => read_channel(syntax),
         "TOOL PATH" if !syntax.fields.is_empty() => read_listed_name(syntax),
         "MOVE_ATTRIB" => read_move_attribute(syntax),
         "END-OF-PATH" => Record::OperationEnd,
@@ -117,6 +118,27 @@ fn read_paint(syntax: &StatementSyntax<'_>) -> Record {
     Record::Marked(MotionMark { class })
 }
 
+/// Reads a word with numbers behind a comma, in place of a slash. Words of the standard do not have that form, so
+/// only those that are known to have it mean something.
+pub(super) fn read_comma_record(major: &str, syntax: &StatementSyntax<'_>) -> Record {
+    match major {
+        "CHANNEL" => read_channel(syntax),
+        _ => Record::Other,
+    }
+}
+
+/// Reads the number of a channel; one that is no number is passed on.
+fn read_channel(syntax: &StatementSyntax<'_>) -> Record {
+    match syntax.number_at(0) {
+        Some(channel)
+            if channel.fract() == 0.0 && (0.0..1e6).contains(&channel) && syntax.fields.len() == 1 =>
+        {
+            Record::Channel(channel as u32)
+        }
+        _ => Record::Known,
+    }
+}
+
 /// Reads the marks of CLT: `MOVE_ATTRIB/ LEADIN,END_ATTRIB`.
 fn read_move_attribute(syntax: &StatementSyntax<'_>) -> Record {
     let class = match syntax.word_at(0).as_deref() {
@@ -197,7 +219,6 @@ fn is_known_word(major: &str) -> bool {
         "STOP",
         "SWITCH",
         "SYN",
-        "THREAD",
         "TMARK",
         "TOOL",
         "TRACUT",
@@ -214,6 +235,9 @@ fn is_known_word(major: &str) -> bool {
 pub(super) fn number_roles(syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
     let major = syntax.major_word();
     let numbers = syntax.numbers().len();
+    if major == "PSIS" {
+        return super::axial_arc::nested_roles(syntax, &syntax.fields);
+    }
     let role = match major.as_str() {
         "BOX"
         | "INTOL"

@@ -12,8 +12,8 @@ use crate::write::{self, ProgramEditor};
 
 /// Known words whose numbers are lengths only their post understands; a zero is the same in every unit.
 const LENGTHS_OF_POSTS: &[&str] = &[
-    "CLRSRF", "FACEMILL", "GOCLER", "LEADER", "MCHTOL", "PIVOTZ", "PLUNGE", "PSIS", "RETRCT", "SAFETY",
-    "SHIFT", "SMOOTH", "THREAD", "TRACUT", "TURRET", "WCORN",
+    "CLRSRF", "FACEMILL", "GOCLER", "LEADER", "MCHTOL", "PIVOTZ", "PLUNGE", "RETRCT", "SAFETY", "SHIFT",
+    "SMOOTH", "TRACUT", "TURRET", "WCORN",
 ];
 
 /// Converts every statement.
