@@ -21,8 +21,8 @@ pub(crate) struct ToolText {
     /// Which tools are meant; `{}` for every tool.
     #[serde(rename = "match")]
     matches: ToolMatchText,
-    /// Diameter, where the lines of bottom and flank meet.
-    diameter: Option<Positive>,
+    /// Diameter, where the lines of bottom and flank meet; 0 for a pointed cutter, which has a `taper`.
+    diameter: Option<NonNegative>,
     /// Corner radius; half the diameter for a ball-nose cutter.
     corner_radius: Option<NonNegative>,
     /// Angle of the flank against the axis in degrees; the cutter widens upwards.
@@ -123,7 +123,7 @@ impl ToolText {
         let entry = ToolEntry {
             number: self.matches.number,
             name: self.matches.name,
-            diameter_mm: reader.optional_size_mm(self.diameter, &place, "diameter"),
+            diameter_mm: reader.optional_length_mm(self.diameter.map(NonNegative::get), &place, "diameter"),
             corner_radius_mm: reader.optional_length_mm(
                 self.corner_radius.map(NonNegative::get),
                 &place,
