@@ -123,7 +123,10 @@ impl ToolText {
         let entry = ToolEntry {
             number: self.matches.number,
             name: self.matches.name,
-            diameter_mm: reader.optional_length_mm(self.diameter.map(NonNegative::get), &place, "diameter"),
+            diameter_mm: self.diameter.map(|diameter| match Positive::new(diameter.get()) {
+                Some(diameter) => reader.size_mm(diameter, || place.at_key("diameter")),
+                None => 0.0,
+            }),
             corner_radius_mm: reader.optional_length_mm(
                 self.corner_radius.map(NonNegative::get),
                 &place,
