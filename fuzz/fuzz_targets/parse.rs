@@ -3,7 +3,7 @@
 
 #![no_main]
 
-use clsmith::parse::{parse, read_whole_record, syntax};
+use clsmith::parse::{parse, read_record, syntax};
 use clsmith::program::operation::find_operations;
 use clsmith::source::Source;
 use libfuzzer_sys::fuzz_target;
@@ -45,8 +45,11 @@ fn assert_reads_alike_when_broken(text: &[u8]) {
         rest = tail;
     }
     broken.extend_from_slice(rest);
-    match (read_whole_record(line), read_whole_record(&broken)) {
-        (Ok(whole), Ok(joined)) => assert_eq!(whole, joined),
+    match (read_record(line), read_record(&broken)) {
+        (Ok((whole, _)), Ok((joined, syntax))) => {
+            assert_eq!(whole, joined);
+            assert_eq!(syntax.text.len(), broken.len());
+        }
         (Err(_), Err(_)) => {}
         (whole, joined) => panic!("{whole:?} {joined:?}"),
     }
