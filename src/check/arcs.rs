@@ -2,10 +2,12 @@
 
 use super::{Lint, LintFindings};
 use crate::diagnostic::{DiagnosticCode, codes};
-use crate::program::geometry::MotionPath;
+use crate::program::geometry::{MotionPath, SAME_POINT};
 use crate::program::motion::{Motion, MotionProblem, MotionProblemKind};
-use crate::program::{NumberRole, Record, StatementId};
+use crate::program::{NumberRole, Record, StatementId, StatementRange};
 use crate::source::Span;
+use nalgebra::Vector3;
+use std::f64::consts::{PI, TAU};
 
 pub(super) const CODES: &[DiagnosticCode] = &[
     codes::RAPID_WITHOUT_MOTION,
@@ -17,6 +19,7 @@ pub(super) const CODES: &[DiagnosticCode] = &[
     codes::TANGENT_MISMATCH,
     codes::BROKEN_SPLINE,
     codes::ASSUMED_SENSE,
+    codes::SENSE_FROM_ANGLE,
     codes::BROKEN_FRAME,
 ];
 
@@ -65,6 +68,11 @@ impl Lint for MotionProblemLint {
                     "counter-clockwise about this axis",
                 );
             }
+            MotionProblemKind::SenseFromAngle => {
+                let message =
+                    "the angle of this arc tells the other sense than its axis; the angle was followed";
+                return found.report(codes::SENSE_FROM_ANGLE, axis_span(at, found), message, "");
+            }
             MotionProblemKind::BrokenFrame => {
                 (codes::BROKEN_FRAME, "three rows of four numbers should follow this mark".to_owned(), "")
             }
@@ -79,7 +87,7 @@ fn axis_span(at: StatementId, found: &LintFindings<'_>) -> Span {
 
 fn report_end_off_circle(at: StatementId, off: f64, motion: Option<&Motion>, found: &mut LintFindings<'_>) {
     let code = choose_code(codes::ARC_END_OFF_CIRCLE, off, found);
-    let message = format!("the end of this arc is {} off its circle", found.format_length(off));
+    let message = format!("the end of this arc is {} off its circle", format_off(off, found));
     let arc = (found.statement_span(at), "the arc");
     match motion {
         Some(motion) if motion.last_statement() != at => {
@@ -94,7 +102,7 @@ fn report_radius_difference(at: StatementId, off: f64, found: &mut LintFindings<
     let code = choose_code(codes::ARC_RADIUS_DIFFERS, off, found);
     let message = format!(
         "the radius is {} off the distance from the centre to where the tool starts",
-        found.format_length(off)
+        format_off(off, found)
     );
     let span = match found.program.statement(at).record() {
         Record::Circle(_) => found.numbers_span(at, 6..7),
@@ -103,11 +111,59 @@ fn report_radius_difference(at: StatementId, off: f64, found: &mut LintFindings<
     found.report(code, span, message, "this radius");
 }
 
+/// A distance; coordinates of hundreds of digits are farther apart than numbers reach.
+fn format_off(off: f64, found: &LintFindings<'_>) -> String {
+    if off.is_finite() { found.format_length(off) } else { "immeasurably far".to_owned() }
+}
+
 fn choose_code(code: DiagnosticCode, off: f64, found: &LintFindings<'_>) -> DiagnosticCode {
     if off < found.mm_to_file_unit(REFUSED_FROM) { codes::ARC_ROUGH } else { code }
 }
 
-/// Reports arcs and splines at rapid.
+/// Arcs that turn back where the path comes from and where it goes, although their other sense would go on smoothly.
+#[derive(Default)]
+pub(super) struct OtherSenseLint {
+    /// The tangent at the end of the feed motion before.
+    before: Option<Vector3<f64>>,
+    /// The arc that starts against it, its tangent at the end, and its sweep in degrees.
+    arc: Option<(StatementRange, Vector3<f64>, f64)>,
+}
+
+/// The cosine beyond which two tangents are opposite: 8 degrees.
+const OPPOSITE: f64 = -0.99;
+
+impl Lint for OtherSenseLint {
+    fn check_motion(&mut self, motion: &Motion, found: &mut LintFindings<'_>) {
+        let (from, to) = (motion.from.point, motion.to.point);
+        let start = match &motion.path {
+            _ if motion.rapid => None,
+            MotionPath::Arc(arc) => Some(arc.tangent_at(0.0)),
+            MotionPath::Line => (to - from).try_normalize(SAME_POINT),
+            MotionPath::Spline(_) | MotionPath::Start => None,
+        };
+        if let (Some((statements, end, degrees)), Some(start)) = (self.arc.take(), start)
+            && end.dot(&start) < OPPOSITE
+        {
+            let message = format!(
+                "this arc of {degrees:.0} degrees turns back at both ends; the other sense ({:.0} degrees) would be tangent",
+                360.0 - degrees
+            );
+            let span = found.statement_span(statements.first());
+            found.report(codes::OTHER_SENSE_FITS, span, message, "the sense of this arc");
+        }
+        // A cusp in a corner is the smaller part of its circle; only the larger part is suspicious.
+        if let (MotionPath::Arc(arc), Some(before), Some(start)) = (&motion.path, self.before, start)
+            && before.dot(&start) < OPPOSITE
+            && (PI..TAU - 1e-3).contains(&arc.sweep)
+        {
+            self.arc = Some((motion.statements, arc.tangent_at(1.0), arc.sweep.to_degrees()));
+        }
+        let tangent = motion.path.end_tangent(from, to).filter(|_| !motion.rapid);
+        self.before = if motion.rapid { None } else { tangent.or(self.before) };
+    }
+}
+
+/// Arcs and splines at rapid.
 #[derive(Default)]
 pub(super) struct RapidArcLint;
 

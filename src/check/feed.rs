@@ -35,7 +35,8 @@ impl Lint for FeedLint {
             return;
         }
         let (Some(feed), Some(from)) = (motion.feed, motion.feed_from) else {
-            if !self.missing && !found.facts.wire {
+            // A thread has its pitch, whatever feed is in force.
+            if !self.missing && !found.facts.wire && !motion.cuts_thread {
                 self.missing = true;
                 let span = found.end_point_span(motion);
                 found.report(codes::CUT_WITHOUT_FEED, span, "no feed is in force at this motion", "");

@@ -11,7 +11,10 @@ pub(super) const LINE_CODES: &[DiagnosticCode] =
 
 /// Reports missing commas and unusual numbers.
 #[derive(Default)]
-pub(super) struct FieldLint;
+pub(super) struct FieldLint {
+    /// Whether CAMWorks' missing commas were reported: it leaves one out in every cycle.
+    commas_reported: bool,
+}
 
 impl Lint for FieldLint {
     fn check_statement(&mut self, id: StatementId, statement: &Statement, found: &mut LintFindings<'_>) {
@@ -37,9 +40,13 @@ impl Lint for FieldLint {
         for pair in syntax.fields.windows(2) {
             let [one, two] = pair else { continue };
             let between = syntax.text.get(one.at.end..two.at.start).unwrap_or_default();
-            if !between.is_empty() && between.iter().all(|byte| matches!(byte, b' ' | b'\t')) {
+            if !between.is_empty()
+                && !self.commas_reported
+                && between.iter().all(|byte| matches!(byte, b' ' | b'\t'))
+            {
                 let span = found.text_span(id, &(one.at.start..two.at.end));
                 found.report(codes::MISSING_COMMA, span, "a comma is missing between these two fields", "");
+                self.commas_reported = found.program.dialect() == Dialect::CamWorks;
             }
         }
         for StatementField { at, kind } in &syntax.fields {

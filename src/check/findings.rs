@@ -175,6 +175,11 @@ impl<'p> LintFindings<'p> {
             // LINE.
             Record::DriveArc(arc) if arc.beyond_half => self.numbers_span(at, 8..11),
             Record::DriveArc(_) => self.numbers_span(at, 7..10),
+            record @ Record::AxialArc(_) => {
+                let roles = record.number_roles(&self.statement_syntax(at));
+                let end = roles.iter().rposition(|role| *role == NumberRole::Point(0)).unwrap_or(0);
+                self.numbers_span(at, end..end + 3)
+            }
             _ => self.numbers_span(at, 0..3),
         }
     }

@@ -92,6 +92,7 @@ const fn lint_row<L: Lint + Default + 'static>(codes: &'static [DiagnosticCode])
 pub const LINTS: &[LintRow] = &[
     lint_row::<arcs::MotionProblemLint>(arcs::CODES),
     lint_row::<arcs::RapidArcLint>(&[codes::RAPID_ARC]),
+    lint_row::<arcs::OtherSenseLint>(&[codes::OTHER_SENSE_FITS]),
     lint_row::<axis::UnitAxisLint>(&[codes::AXIS_NOT_UNIT, codes::NO_AXIS]),
     lint_row::<axis::MultaxLint>(&[codes::AXIS_WITHOUT_MULTAX]),
     lint_row::<axis::AxisJumpLint>(&[codes::AXIS_JUMP]),
@@ -104,7 +105,7 @@ pub const LINTS: &[LintRow] = &[
     lint_row::<tool::ToolNumberLint>(&[codes::TOOL_NUMBERS_DIFFER]),
     lint_row::<compensation::CompensationLint>(compensation::CODES),
     lint_row::<cycle::CycleLint>(cycle::CODES),
-    lint_row::<unknown_words::UnknownWordLint>(&[codes::UNKNOWN_WORD, codes::MISSPELT_WORD]),
+    lint_row::<unknown_words::UnknownWordLint>(unknown_words::CODES),
     lint_row::<structure::OperationLint>(&[codes::OPERATION_OPEN, codes::EMPTY_OPERATION]),
     lint_row::<structure::ProgramEndLint>(&[codes::AFTER_END, codes::MISSING_END]),
     lint_row::<frame::FrameLint>(&[codes::FRAME_SKEWED, codes::FRAME_LEFT_HANDED]),

@@ -4,8 +4,9 @@ use super::{Lint, LintFindings};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::MotionClass;
 use crate::program::geometry::MotionPath;
-use crate::program::motion::Motion;
+use crate::program::motion::{ActiveTool, Motion};
 use crate::program::{Record, Statement, StatementId};
+use std::sync::Arc;
 
 /// A hundred metres in mm.
 const FAR: f64 = 1e5;
@@ -14,6 +15,8 @@ const FAR: f64 = 1e5;
 #[derive(Default)]
 pub(super) struct PointLint {
     moved: bool,
+    /// The tool of the motion before.
+    tool: Option<Arc<ActiveTool>>,
 }
 
 impl Lint for PointLint {
@@ -33,8 +36,17 @@ impl Lint for PointLint {
             let message = format!("this coordinate is {} away", found.format_length(value.abs()));
             found.report(codes::FAR_AWAY, span, message, "");
         }
-        let stays =
-            matches!(motion.path, MotionPath::Line) && motion.from == motion.to && motion.hole.is_none();
+        // Behind a tool change the machine comes from elsewhere, whatever the file prints.
+        let same = |a: &ActiveTool, b: &ActiveTool| a.number == b.number && a.name == b.name;
+        let changed = match (&self.tool, &motion.tool) {
+            (Some(before), Some(tool)) => !Arc::ptr_eq(before, tool) && !same(before, tool),
+            (before, tool) => before.is_some() != tool.is_some(),
+        };
+        self.tool.clone_from(&motion.tool);
+        let stays = !changed
+            && matches!(motion.path, MotionPath::Line)
+            && motion.from == motion.to
+            && motion.hole.is_none();
         if stays {
             let span = found.end_point_span(motion);
             found.report(

@@ -1,8 +1,9 @@
 //! This module reports words that clsmith does not know.
 
 use super::{Lint, LintFindings};
-use crate::diagnostic::codes;
-use crate::program::{Record, Statement, StatementId};
+use crate::diagnostic::{DiagnosticCode, codes};
+use crate::program::motion::Motion;
+use crate::program::{Dialect, FieldKind, Record, Statement, StatementId};
 
 /// Words without which the machine would do something else.
 const IMPORTANT_WORDS: &[&str] = &[
@@ -41,10 +42,27 @@ const IMPORTANT_WORDS: &[&str] = &[
     "END-OF-PATH",
 ];
 
-/// Reports unknown words, and those that are probably misspelt.
+/// Words that only NX writes: in a file of another system they are no slip.
+const OF_NX: &[&str] = &["TLDATA", "MSYS", "NURBS", "KNOT", "CNTRL", "END-OF-PATH"];
+
+/// Drive motions of part programs, of which some forms are read.
+const DRIVE_MOTIONS: &[&str] =
+    &["TLON", "TLLFT", "TLRGT", "GOFWD", "GOBACK", "GOLFT", "GORGT", "GOUP", "GODOWN"];
+
+pub(super) const CODES: &[DiagnosticCode] =
+    &[codes::UNKNOWN_WORD, codes::MISSPELT_WORD, codes::POINTS_MISSING];
+
+/// Unknown words, those that look like a slip, and those that may move the tool.
 #[derive(Default)]
 pub(super) struct UnknownWordLint {
     ended: bool,
+    moved: bool,
+    /// The unknown words in the order in which they appear, with their statements.
+    words: Vec<(String, Vec<StatementId>)>,
+    /// Statements since the last motion that may be points.
+    since_motion: Vec<(String, StatementId)>,
+    /// Statements that may be points between motions, by their words.
+    points: Vec<(String, Vec<StatementId>)>,
 }
 
 impl Lint for UnknownWordLint {
@@ -56,14 +74,69 @@ impl Lint for UnknownWordLint {
         }
         let syntax = found.statement_syntax(id);
         let major = syntax.major_word();
-        let span = found.text_span(id, &syntax.word);
-        let meant = IMPORTANT_WORDS.iter().find(|word| strsim::osa_distance(&major, word) == 1);
-        match meant {
-            Some(word) => {
-                let message = format!("`{major}` is not known; did you mean `{word}`?");
-                found.report(codes::MISSPELT_WORD, span, message, "");
+        let slip = |word: &&&str| {
+            strsim::osa_distance(&major, word) == 1
+                && (found.program.dialect() == Dialect::Nx || !OF_NX.contains(word))
+        };
+        if let Some(word) = MATTER.iter().find(slip) {
+            let message = format!("`{major}` is not known; did you mean `{word}`?");
+            let span = found.text_span(id, &syntax.word);
+            return found.report(codes::MISSPELT_WORD, span, message, "");
+        }
+        let numbers = syntax.fields.iter().all(|field| matches!(field.kind, FieldKind::Number(_)));
+        let first = major.split(',').next().unwrap_or_default();
+        if DRIVE_MOTIONS.contains(&first) {
+            add_statement(&mut self.points, major.clone(), id);
+        } else if numbers && matches!(syntax.fields.len(), 3 | 6) {
+            self.since_motion.push((major.clone(), id));
+        }
+        add_statement(&mut self.words, major, id);
+    }
+
+    fn check_motion(&mut self, _motion: &Motion, _found: &mut LintFindings<'_>) {
+        for (word, id) in std::mem::take(&mut self.since_motion) {
+            if self.moved {
+                add_statement(&mut self.points, word, id);
             }
-            None => found.report(codes::UNKNOWN_WORD, span, format!("the word `{major}` is not known"), ""),
+        }
+        self.moved = true;
+    }
+
+    fn finish(&mut self, found: &mut LintFindings<'_>) {
+        for (word, statements) in &self.words {
+            let Some(first) = statements.first() else { continue };
+            let message = match statements.len() {
+                1 => format!("the word `{word}` is not known"),
+                count => format!("the word `{word}` is not known ({count} statements)"),
+            };
+            found.report(codes::UNKNOWN_WORD, found.word_span(*first), message, "");
+        }
+        for (word, statements) in &self.points {
+            let Some(first) = statements.first() else { continue };
+            let message = match statements.len() {
+                1 => format!("this `{word}` may be a point: the path may lack it"),
+                count => format!(
+                    "{count} statements `{word}` may be points: the path may lack them ({})",
+                    list_lines(statements, found)
+                ),
+            };
+            found.report(codes::POINTS_MISSING, found.statement_span(*first), message, "");
         }
     }
+}
+
+fn add_statement(list: &mut Vec<(String, Vec<StatementId>)>, word: String, id: StatementId) {
+    match list.iter_mut().find(|(known, _)| *known == word) {
+        Some((_, statements)) => statements.push(id),
+        None => list.push((word, vec![id])),
+    }
+}
+
+/// Lists the lines of statements, the first few of them.
+fn list_lines(statements: &[StatementId], found: &LintFindings<'_>) -> String {
+    const MOST: usize = 10;
+    let line = |id: &StatementId| found.program.source().line_column(found.statement_span(*id).start).0;
+    let lines: Vec<String> = statements.iter().take(MOST).map(|id| line(id).to_string()).collect();
+    let more = if statements.len() > MOST { ", ..." } else { "" };
+    format!("lines {}{more}", lines.join(", "))
 }

@@ -43,11 +43,12 @@ pub enum Dialect {
 pub enum ArcRule {
     /// Left-hand: about +z the arc is clockwise (measured: NX 1,143 of 1,143 tangent arcs, FF 53 of 53).
     LeftHand,
-    /// Right-hand: about +z the arc is counter-clockwise (measured: SolidWorks 2,914 of 2,953).
+    /// Right-hand: about +z the arc is counter-clockwise (measured: SolidWorks 2,914 of 2,953;
+    /// documented: Creo).
     RightHand,
     /// A word in the record gives the direction.
     ByWord,
-    /// Nothing gives the direction, and nobody has measured it (Creo, plain ISO). The arc takes the direction
+    /// Nothing gives the direction, and nobody has measured it (plain ISO). The arc takes the direction
     /// that continues the motion before it. If that does not decide, it is right-hand, as in ISO 4343, and a
     /// note says so.
     FromTangent,
@@ -106,9 +107,9 @@ impl Dialect {
     pub fn arc_rule(self) -> ArcRule {
         match self {
             Self::Nx | Self::MakinoFf => ArcRule::LeftHand,
-            Self::SolidWorks => ArcRule::RightHand,
+            Self::SolidWorks | Self::Creo | Self::CreoGpost => ArcRule::RightHand,
             Self::CamWorks => ArcRule::ByWord,
-            Self::Catia | Self::CatiaIcam | Self::Creo | Self::CreoGpost | Self::Iso => ArcRule::FromTangent,
+            Self::Catia | Self::CatiaIcam | Self::Iso => ArcRule::FromTangent,
         }
     }
 

@@ -48,12 +48,14 @@ impl RecordKind {
             | Record::From(_)
             | Record::GoHome(_)
             | Record::GoDelta(_) => Self::Point,
-            Record::Circle(_) | Record::MoveArc(_) | Record::DriveArc(_) | Record::StartDirection(_) => {
-                Self::Arc
-            }
+            Record::Circle(_)
+            | Record::MoveArc(_)
+            | Record::DriveArc(_)
+            | Record::AxialArc(_)
+            | Record::StartDirection(_) => Self::Arc,
             Record::Nurbs | Record::Knot(_) | Record::Control(_) => Self::Spline,
             Record::Rapid => Self::Rapid,
-            Record::Feed(_) => Self::Feed,
+            Record::Feed(_) | Record::Threading(_) => Self::Feed,
             Record::Spindle(_) => Self::Spindle,
             Record::CutterCompensation(_) => Self::Compensation,
             Record::ToolCall(_) | Record::ToolData(_) => Self::Tool,
@@ -61,9 +63,11 @@ impl RecordKind {
             Record::Frame(_) | Record::FrameMark | Record::MatrixRow(_) => Self::Frame,
             Record::Cycle(_) | Record::CycleOn | Record::CycleOff => Self::Cycle,
             Record::Marked(_) => Self::Mark,
-            Record::OperationStart(_) | Record::OperationEnd | Record::Units(_) | Record::ProgramEnd => {
-                Self::Structure
-            }
+            Record::OperationStart(_)
+            | Record::OperationEnd
+            | Record::Channel(_)
+            | Record::Units(_)
+            | Record::ProgramEnd => Self::Structure,
             Record::ByteOrderMark | Record::Blank | Record::Comment | Record::Text => Self::Comment,
             Record::Known | Record::Other | Record::Definition | Record::Unparsed => Self::Other,
         }

@@ -88,7 +88,9 @@ fn must_stay_together(program: &Program, above: &Statement, below: &Statement) -
         Record::Circle(_) | Record::MoveArc(_) | Record::StartDirection(_) | Record::Rapid => true,
         Record::Nurbs | Record::Knot(_) => true,
         Record::Control(_) => matches!(below.record(), Record::Control(_) | Record::Knot(_)),
-        Record::DriveArc(_) => matches!(below.record(), Record::DriveArc(_) | Record::StartDirection(_)),
+        Record::DriveArc(_) | Record::AxialArc(_) => {
+            matches!(below.record(), Record::DriveArc(_) | Record::AxialArc(_) | Record::StartDirection(_))
+        }
         Record::Cycle(_) | Record::CycleOn => true,
         // CATIA's frame consists of the mark, a name and three rows.
         Record::FrameMark => true,

@@ -33,6 +33,48 @@ struct WantedFeed {
 #[derive(Debug, Default)]
 pub struct FeedPlan {
     wishes: Vec<WantedFeed>,
+    threads: KeptThreads,
+}
+
+/// Taps and thread passes whose feed a step would have changed. It is the pitch times the spindle speed, so it is kept.
+#[derive(Debug, Default)]
+struct KeptThreads {
+    first: Option<StatementId>,
+    holes: std::collections::BTreeSet<usize>,
+    passes: usize,
+}
+
+impl KeptThreads {
+    fn add_motion(&mut self, motion: &Motion) {
+        self.first.get_or_insert(motion.feed_from.unwrap_or(motion.last_statement()));
+        match &motion.hole {
+            Some((hole, _)) => _ = self.holes.insert(*hole),
+            None => self.passes += 1,
+        }
+    }
+
+    fn describe(&self, program: &Program) -> Option<Diagnostic> {
+        let first = self.first?;
+        let count = |count: usize, one: &str, many: &str| match count {
+            0 => None,
+            1 => Some(format!("1 {one}")),
+            _ => Some(format!("{count} {many}")),
+        };
+        let kept: Vec<String> = [
+            count(self.holes.len(), "tapped hole", "tapped holes"),
+            count(self.passes, "thread pass", "thread passes"),
+        ]
+        .into_iter()
+        .flatten()
+        .collect();
+        let verb = if self.holes.len() + self.passes == 1 { "was" } else { "were" };
+        let message = format!(
+            "{} {verb} left alone: the feed is the pitch times the spindle speed",
+            kept.join(" and ")
+        );
+        let finding = Diagnostic::new(codes::THREADS_KEPT, message);
+        Some(finding.with_label(program.source(), statement_span(program, first), "keeps its feed"))
+    }
 }
 
 impl FeedPlan {
@@ -49,17 +91,25 @@ impl FeedPlan {
         mut want: impl FnMut(usize, &Motion) -> Option<f64>,
     ) -> Self {
         let mut wishes = Vec::new();
+        let mut threads = KeptThreads::default();
         let mut insertion = MotionInsertion::new(program);
         for (number, motion) in program.motions().enumerate() {
             let place = insertion.find_statements(&motion);
             if motion.rapid {
                 continue;
             }
-            let (Some(feed), Some(governor)) = (motion.feed, motion.feed_from) else { continue };
-            let wanted = want(number, &motion).unwrap_or(feed.value);
+            let Some(feed) = motion.feed.filter(|_| motion.feed_from.is_some() || motion.cuts_thread) else {
+                continue;
+            };
+            let mut wanted = want(number, &motion).unwrap_or(feed.value);
+            if motion.cuts_thread && wanted != feed.value {
+                threads.add_motion(&motion);
+                wanted = feed.value;
+            }
+            let Some(governor) = motion.feed_from else { continue };
             wishes.push(WantedFeed { first: place.first(), last: place.last(), governor, feed: wanted });
         }
-        Self { wishes }
+        Self { wishes, threads }
     }
 
     /// Returns the statements that govern a feed motion.
@@ -77,6 +127,7 @@ impl FeedPlan {
         findings: &mut Vec<Diagnostic>,
     ) -> Result<(), Failure> {
         findings.extend(describe_unknown_feeds(editor.program()));
+        findings.extend(self.threads.describe(editor.program()));
         self.unify_statement_feeds(editor.program(), findings);
         // After any number of cycles with feeds of their own, a FEDRAT is in force again, and a cycle after
         // FEDRATs. So only the newest of each kind has to be remembered.

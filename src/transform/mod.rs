@@ -14,6 +14,7 @@ mod statement_numbers;
 mod statement_selection;
 mod step_context;
 mod step_report;
+mod thread_pitches;
 mod unchanged_statements;
 pub mod unit_slips;
 

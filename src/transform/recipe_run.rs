@@ -1,5 +1,6 @@
 //! This module runs the steps of a recipe, or transforms that were built in Rust, on a program.
 
+use super::thread_pitches;
 use super::{Recipe, Step, StepContext, Transform, TransformReport, step_id};
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::{LengthUnit, Program};
@@ -119,6 +120,7 @@ impl StepSequence<'_> {
             context.step = step_id(index);
             self.watch.check_stop()?;
             let earlier = context.findings.len();
+            let threads = thread_pitches::find_thread_pitches(&program);
             let applied = step.apply(program, &mut context);
             for found in context.findings.iter_mut().skip(earlier) {
                 found.step = Some(index + 1);
@@ -128,6 +130,11 @@ impl StepSequence<'_> {
                     program = changed;
                     // The history is recorded before the next step signs the same statements.
                     program.close_step(context.step);
+                    let told = context.findings.len();
+                    thread_pitches::report_changed_pitches(&threads, &program, &mut context);
+                    for found in context.findings.iter_mut().skip(told) {
+                        found.step = Some(index + 1);
+                    }
                 }
                 Err(failure) => {
                     let of_step = |found| Diagnostic { step: Some(index + 1), ..found };

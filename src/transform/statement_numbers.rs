@@ -114,7 +114,23 @@ pub fn set_matrix_row(
 /// comparisons with lists of words.
 pub fn major_word(text: &[u8]) -> String {
     let text = text.trim_ascii_start();
-    let end = text.iter().position(|byte| matches!(byte, b'/' | b'$' | b'\r' | b'\n')).unwrap_or(text.len());
+    // The number of a statement stands in front of its word (`N10 GOTO/`), numbers behind a comma (`CHANNEL,1`).
+    let label = text.strip_prefix(b"N").or(text.strip_prefix(b"n")).unwrap_or(text);
+    let digits = label.iter().take_while(|byte| byte.is_ascii_digit()).count();
+    let text = match label.get(digits..) {
+        Some([b' ' | b'\t', rest @ ..]) if digits > 0 => rest.trim_ascii_start(),
+        _ => text,
+    };
+    let number = |at: usize| {
+        let behind = text.get(at + 1..).unwrap_or_default().trim_ascii_start();
+        behind.first().is_some_and(|first| first.is_ascii_digit() || b".-+".contains(first))
+    };
+    let ends = |(at, byte): (usize, &u8)| match byte {
+        b'/' | b'$' | b'\r' | b'\n' => true,
+        b',' => number(at),
+        _ => false,
+    };
+    let end = text.iter().enumerate().position(ends).unwrap_or(text.len());
     crate::program::fold_text(text.get(..end).unwrap_or_default().trim_ascii_end())
 }
 

@@ -151,7 +151,9 @@ impl StyleSample {
         let mut seen = Self::default();
         for (_, statement) in program.live_statements() {
             let kind = match statement.record() {
-                Record::Goto(_) | Record::Circle(_) | Record::DriveArc(_) => &mut seen.points,
+                Record::Goto(_) | Record::Circle(_) | Record::DriveArc(_) | Record::AxialArc(_) => {
+                    &mut seen.points
+                }
                 Record::Feed(_) => &mut seen.feeds,
                 Record::ToolAxis(_) => &mut seen.axes,
                 _ => continue,

@@ -46,5 +46,6 @@ fn the_camworks_oddity_of_missing_commas_is_known() {
         .filter(|found| found.code == codes::MISSING_COMMA)
         .map(|found| String::from_utf8_lossy(source.slice(found.labels[0].span)).into_owned())
         .collect();
-    assert_eq!(commas, ["46.927686 46.927686", "46.927686 DWELL"]);
+    // Every cycle lacks some, so the first one is enough.
+    assert_eq!(commas, ["46.927686 46.927686"]);
 }

@@ -19,6 +19,11 @@ fn arcs() -> Vec<Case> {
             "AUTOPS\nINDIRV/ {direction}\nTLON,GOFWD/ (CIRCLE/ 10.0, 0.0, 0.0,$\n 10.0),ON,(LINE/ 10.0, 0.0, 0.0,$\n 10.0, 10.0, 0.0)\n"
         ))
     };
+    // A path along x that turns up with a radius of 8.
+    let corner = |k: &str| {
+        let circle = format!("CIRCLE/40.0,8.0,0.0,0.0,0.0,{k},8.0");
+        nx(&format!("GOTO/40.0,0.0,0.0\n{circle}\nGOTO/48.0,8.0,0.0\nGOTO/48.0,40.0,0.0\n"))
+    };
     let controls = "CNTRL/1.0,0.0,0.0\nCNTRL/2.0,0.0,0.0\nCNTRL/3.0,0.0,0.0\n";
     vec![
         case(
@@ -72,6 +77,13 @@ fn arcs() -> Vec<Case> {
             "0,0,1.",
             "GOTO/0,-9.,0\nGOTO/0,0,0\nCIRCLE/10.,0,0,0,0,1.,10.\nGOTO/10.,10.,0\n",
         ),
+        case(
+            codes::SENSE_FROM_ANGLE,
+            "GOTO/10.,0,0\nMOVARC/0,0,0,0,0,1.,10.,ANGLE,90.\nGOTO/0,-10.,0\n",
+            "0,0,1.",
+            "GOTO/10.,0,0\nMOVARC/0,0,0,0,0,1.,10.,ANGLE,90.\nGOTO/0,10.,0\n",
+        ),
+        case(codes::OTHER_SENSE_FITS, corner("1.0"), "CIRCLE/40.0,8.0,0.0,0.0,0.0,1.0,8.0", corner("-1.0")),
         case(
             codes::RAPID_ARC,
             nx("RAPID\nCIRCLE/10.0,0.0,0.0,0.0,0.0,1.0,10.0\nGOTO/10.0,10.0,0.0\n"),

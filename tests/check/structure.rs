@@ -11,6 +11,12 @@ fn structure() -> Vec<Case> {
     let two = |end: &str| format!("{}TOOL PATH/C,TOOL,D\nGOTO/9.0,0.0,0.0\n{end}", nx(""));
     vec![
         case(codes::UNKNOWN_WORD, nx("NONSENSE/1\n"), "NONSENSE", nx("COOLNT/ON\n")),
+        case(
+            codes::POINTS_MISSING,
+            nx("SPLPNT/1.0,2.0,3.0\n"),
+            "SPLPNT/1.0,2.0,3.0",
+            nx("SPLPNT/1.0,A,3.0\n"),
+        ),
         case(codes::MISSPELT_WORD, nx("FEDRATE/100.0\n"), "FEDRATE", nx("NONSENSE/1\n")),
         case(codes::MISSPELT_WORD, nx("GO TO/1.0,2.0,3.0\n"), "GO TO", nx("GOTO/1.0,2.0,3.0\n")),
         case(codes::OPERATION_OPEN, two(""), "TOOL PATH/C,TOOL,D", two("END-OF-PATH\n")),

@@ -57,11 +57,19 @@ fn the_word_decides_in_clt() {
 }
 
 #[test]
-fn iso_and_creo_continue_the_motion_before() {
-    for dialect in [Dialect::Iso, Dialect::Creo, Dialect::CreoGpost] {
-        for axis in ["0,0,1", "0,0,-1"] {
-            assert_counter_clockwise(&quarter(dialect, BELOW, &format!("CIRCLE/0,0,0,{axis},10")));
-            assert_clockwise(&quarter(dialect, ABOVE, &format!("CIRCLE/0,0,0,{axis},10")));
+fn iso_continues_the_motion_before() {
+    for axis in ["0,0,1", "0,0,-1"] {
+        assert_counter_clockwise(&quarter(Dialect::Iso, BELOW, &format!("CIRCLE/0,0,0,{axis},10")));
+        assert_clockwise(&quarter(Dialect::Iso, ABOVE, &format!("CIRCLE/0,0,0,{axis},10")));
+    }
+}
+
+#[test]
+fn creo_is_right_hand_whatever_comes_before() {
+    for dialect in [Dialect::Creo, Dialect::CreoGpost] {
+        for before in [BELOW, ABOVE] {
+            assert_counter_clockwise(&quarter(dialect, before, "CIRCLE/0,0,0,0,0,1,10"));
+            assert_clockwise(&quarter(dialect, before, "CIRCLE/0,0,0,0,0,-1,10"));
         }
     }
 }
@@ -79,7 +87,7 @@ fn where_the_motion_before_does_not_tell_the_sense_is_right_hand_and_said_to_be_
 #[test]
 fn an_arc_continues_an_arc() {
     let text = "GOTO/10,-5,0\nGOTO/10,0,0\nCIRCLE/0,0,0,0,0,1,10\nGOTO/0,10,0\nCIRCLE/0,15,0,0,0,1,5\nGOTO/-5,15,0\n";
-    let found = clean_motions(&program_of(Dialect::Creo, text));
+    let found = clean_motions(&program_of(Dialect::Iso, text));
     let clsmith::program::geometry::MotionPath::Arc(second) = &found[3].path else { panic!() };
     // Counter-clockwise into (0,10) the tool goes to -x; about (0,15) that is clockwise.
     assert!(

@@ -90,6 +90,15 @@ super::area! {
         "The last motion before a tool change, or of the whole program, is marked as a cut, and nothing retracts the tool. \
          The post's own retract then starts inside the material, often as a rapid to the tool change position. A file that \
          was cut off looks like this too.";
+    SENSE_FROM_ANGLE = "CL0118", Note, "the angle of an arc tells its sense",
+        "Nothing has to be done where the arc is meant so; newer posts turn the normal over instead.",
+        "MOVARC is counter-clockwise about its normal. Older posts print the same normal for both senses, and only ANGLE fits \
+         the sense that is meant. The end point and the angle agree for the other sense here, so that one was taken.";
+    OTHER_SENSE_FITS = "CL0119", Warning, "an arc whose other sense would be tangent at both ends",
+        "Compare the arc with the CAM system's path; where it is a corner, its axis has the wrong sign.",
+        "The path comes to this arc in one direction and leaves it in another, and the arc turns back against both: as it is \
+         written it goes round most of its circle. The other sense would go on smoothly at both ends. That is what a lost \
+         sign or a wrong dialect looks like, and the tool would gouge.";
 
     CUT_WITHOUT_FEED = "CL0120", Warning, "a feed motion before any feed",
         "Put a FEDRAT before it, or RAPID if it was meant as one.",
@@ -233,6 +242,11 @@ super::area! {
         "CATIA writes where the part's frame stands into comments: the mark, a name, and three rows of four numbers. The \
          rows are missing or incomplete, so a post that reads them finds none.";
 
+    POINTS_MISSING = "CL0159", Warning, "statements between motions that may be points",
+        "Tell what the word means, or rewrite it; until then lengths and times are not to be trusted.",
+        "A word that clsmith does not know has three numbers, as a point has, and stands between motions; or it is a drive \
+         motion of a form that is not understood. If the post moves there, the path that clsmith sees lacks these points: \
+         lengths, times, boxes and simulations are wrong, and steps that move points leave them behind.";
     UNITS_DIFFER = "CL0160", Error, "the unit of lengths changes within the program",
         "Export all operations in one unit.",
         "Two UNITS records disagree. clsmith and most posts know one unit in a program; every coordinate on one side of the \

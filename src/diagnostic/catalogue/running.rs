@@ -42,6 +42,10 @@ super::area! {
          before it, has taken out already, or one that the program never had. What it means to do is then not what would be \
          written, so the run stops here and nothing is written. clsmith's own steps never do that; a step of another program \
          that uses clsmith as a library may.";
+    THREADS_KEPT = "CL0309", Warning, "taps and thread passes keep their feed",
+        "Change the spindle speed instead (`set_spindle` with `feeds: follow`), or the pitch in the CAM system.",
+        "A tap and a threading tool move by one pitch in each turn of the spindle, so their feed is no choice. A step that \
+         scales or limits feeds leaves them as they are, in `CYCLE/TAP` and between `THREAD/...` and `THREAD/OFF`.";
     RULE_UNUSED = "CL0310", Warning, "a rule of `rewrite` applies to no statement",
         "Compare it with a statement of the file; a statement that an earlier rule takes does not reach this one.",
         "No statement of this program fits the rule's `match` where the step's `where` selects one. Spacing, case of letters and \
@@ -65,6 +69,10 @@ super::area! {
         "Look at `max_feed` and `max_ratio` of the step and at `max_feed` of the machine: one of them holds every feed down.",
         "`optimize_feed` raises feeds until the load reaches its target. Here the highest feed allowed was reached first \
          everywhere, so the target decides nothing.";
+    THREAD_PITCH_CHANGED = "CL0315", Warning, "a step parts the feed and the speed of a thread",
+        "Change feed and speed of a tap together: `set_spindle` with `feeds: follow` does.",
+        "The feed of a tap is its pitch times the spindle speed. A step changed one of them and not the other, so the tool \
+         would move by another length in each turn than the thread has: it breaks, or cuts the thread away.";
     RAMP_OUT_OF_LIMITS = "CL0320", Warning, "a ramp is too short or too steep for an indexable cutter",
         "The step corrects it; `--diff` shows the new points.",
         "An indexable cutter does not cut within D - 2r around its axis (D its diameter, r the radius of the inserts' bottom \

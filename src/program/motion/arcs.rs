@@ -4,7 +4,7 @@
 use super::modal_state::MotionProblemKind;
 use crate::program::dialect::ArcRule;
 use crate::program::geometry::{CircularArc, SAME_POINT};
-use crate::program::record::{ArcSense, Circle, DriveArc, MoveArc};
+use crate::program::record::{ArcSense, AxialArc, Circle, DriveArc, MoveArc};
 use nalgebra::{Point3, Unit, Vector3};
 use std::f64::consts::{PI, TAU};
 
@@ -22,6 +22,7 @@ pub(super) enum PendingArc {
     Circle(Circle),
     MoveArc(MoveArc),
     Drive(DriveArc),
+    Axial(AxialArc),
 }
 
 /// The arc, if there is one, and the problems found with it.
@@ -31,6 +32,18 @@ pub(super) struct ResolvedArc {
 }
 
 impl PendingArc {
+    /// Returns whether points after the announcement may all lie on the arc, as Creo writes them.
+    pub(super) fn takes_points(&self) -> bool {
+        matches!(self, Self::Circle(_))
+    }
+
+    /// Returns how far a point is from the circle of a CIRCLE that starts at `start`.
+    pub(super) fn distance_of(&self, start: Point3<f64>, point: Point3<f64>) -> Option<f64> {
+        let Self::Circle(circle) = self else { return None };
+        let axis = Unit::new_normalize(circle.axis);
+        Some(CircularArc::from_endpoints(start, point, circle.center, axis, 0).end_deviation(point))
+    }
+
     /// Resolves the arc. `direction` is that of INDIRV, and `before` is the unit tangent of the feed motion
     /// before.
     pub(super) fn resolve(
@@ -45,6 +58,7 @@ impl PendingArc {
             Self::Circle(circle) => resolve_circle(&circle, rule, start, end, before),
             Self::MoveArc(arc) => resolve_move_arc(&arc, start, end),
             Self::Drive(arc) => resolve_drive_arc(&arc, start, end, direction),
+            Self::Axial(arc) => resolve_axial_arc(&arc, start, end, arc.start_direction.or(direction)),
         }
     }
 }
@@ -102,6 +116,15 @@ fn resolve_move_arc(record: &MoveArc, start: Point3<f64>, end: Point3<f64>) -> R
     );
     if let Some(degrees) = record.sweep_degrees {
         let told = degrees.to_radians();
+        let tolerance = RADIUS_TOLERANCE + ANGLE_TOLERANCE * arc.radius;
+        let differs =
+            |arc: &CircularArc| 2.0 * arc.radius * ((told - arc.sweep) / 2.0).sin().abs() > tolerance;
+        // Older posts print one normal for both senses, and only the angle tells them apart.
+        let other = CircularArc::from_endpoints(start, end, record.center, -arc.axis, record.times - 1);
+        if differs(&arc) && !differs(&other) {
+            arc = other;
+            problems.push(MotionProblemKind::SenseFromAngle);
+        }
         // Both the end point and the angle give the end of the arc, but only the angle gives whole turns.
         // Ends that coincide, or change their order by rounding, are either a full circle or an arc too short
         // to show in the decimals.
@@ -112,7 +135,7 @@ fn resolve_move_arc(record: &MoveArc, start: Point3<f64>, end: Point3<f64>) -> R
         }
         arc.sweep += ((told - arc.sweep) / TAU).round().clamp(0.0, 10_000.0) * TAU;
         let off = 2.0 * arc.radius * ((told - arc.sweep) / 2.0).sin().abs();
-        if off > RADIUS_TOLERANCE + ANGLE_TOLERANCE * arc.radius {
+        if off > tolerance {
             problems.push(MotionProblemKind::ArcEndOffCircle(off));
         }
     }
@@ -156,6 +179,50 @@ fn resolve_drive_arc(
     }
     check_arc_end(&arc, end, &mut problems);
     if record.beyond_half != (arc.sweep > PI + 1e-4) && (arc.sweep - PI).abs() > 1e-3 {
+        problems.push(MotionProblemKind::TangentMismatch);
+    }
+    ResolvedArc { arc: Some(arc), problems }
+}
+
+/// Resolves an arc about an axis. Its start direction tells its sense, and its angle how many turns it has.
+fn resolve_axial_arc(
+    record: &AxialArc,
+    start: Point3<f64>,
+    end: Point3<f64>,
+    direction: Option<Vector3<f64>>,
+) -> ResolvedArc {
+    let mut problems = Vec::new();
+    let spoke = start - record.center;
+    let turned = direction.map(|direction| spoke.cross(&direction));
+    let axis = match (record.axis, turned) {
+        (Some(axis), Some(turned)) => {
+            let along = axis.dot(&turned);
+            let expected = axis.norm() * turned.norm();
+            (along.abs() > 0.5 * expected && expected > 0.0).then(|| axis * along.signum())
+        }
+        (None, Some(turned)) => Some(turned),
+        _ => None,
+    };
+    let Some(axis) = axis.and_then(|axis| Unit::try_new(axis, 1e-9)) else {
+        return ResolvedArc { arc: None, problems: vec![MotionProblemKind::TangentMismatch] };
+    };
+    let mut arc = CircularArc::from_endpoints(start, end, record.center, axis, 0);
+    if let Some(degrees) = record.sweep_degrees {
+        let told = degrees.abs().to_radians();
+        arc.sweep += ((told - arc.sweep) / TAU).round().clamp(0.0, 10_000.0) * TAU;
+        let off = 2.0 * arc.radius * ((told - arc.sweep) / 2.0).sin().abs();
+        if off > RADIUS_TOLERANCE + ANGLE_TOLERANCE * arc.radius {
+            problems.push(MotionProblemKind::ArcEndOffCircle(off));
+        }
+    }
+    if let Some(off) = record.radius.map(|radius| (radius - arc.radius).abs())
+        && off > RADIUS_TOLERANCE
+    {
+        problems.push(MotionProblemKind::ArcStartOffCircle(off));
+    }
+    check_arc_end(&arc, end, &mut problems);
+    let half = (arc.sweep - PI).abs() <= 1e-3;
+    if record.beyond_half.is_some_and(|beyond| beyond != (arc.sweep > PI + 1e-4) && !half) {
         problems.push(MotionProblemKind::TangentMismatch);
     }
     ResolvedArc { arc: Some(arc), problems }

@@ -1,10 +1,10 @@
 //! This module processes statements that set something until it is set again: feed, spindle, tool, axis,
 //! frame, cycle and operation.
 
-use super::modal_state::{CoordinateFrame, MotionProblemKind};
+use super::modal_state::{CoordinateFrame, ModalState, MotionProblemKind};
 use super::state_machine::Motions;
 use crate::program::geometry::Pose;
-use crate::program::record::{FrameRecord, FrameWord};
+use crate::program::record::{FrameRecord, FrameWord, Threading};
 use crate::program::{Record, StatementId, operation};
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
@@ -59,6 +59,8 @@ impl Motions<'_> {
                     }
                 }
             }
+            Record::Threading(Threading::Pitch(pitch)) => state.pitch = Some(*pitch),
+            Record::Threading(threading) => state.threading = *threading == Threading::On,
             Record::Cycle(cycle) => {
                 // CYCLE/ON with words only changes some values of the cycle in force.
                 let before = state.cycle.as_ref().map(|(before, _)| before.as_ref());
@@ -72,9 +74,28 @@ impl Motions<'_> {
             Record::Marked(mark) => state.marked = mark.class,
             Record::OperationStart(_) => self.start_operation(id),
             Record::OperationEnd => state.marked = None,
+            Record::Channel(channel) => self.change_channel(*channel),
             Record::Units(units) => state.units = Some(*units),
             _ => {}
         }
+    }
+
+    /// Goes on with the path of another channel, where it was left. Only what the whole program shares is taken
+    /// over: units, the frame, and the count of operations.
+    fn change_channel(&mut self, channel: u32) {
+        let (units, frame, operation) = (self.state.units, self.state.frame.clone(), self.state.operation);
+        let left = std::mem::take(&mut self.state);
+        // Before the first channel nothing has moved, and what was set there is for all.
+        let fresh = if self.channel.is_none() { left.clone() } else { ModalState::default() };
+        if let Some(before) = self.channel {
+            self.channels.insert(before, left);
+        }
+        self.state = self.channels.remove(&channel).unwrap_or(fresh);
+        self.state.units = self.state.units.or(units);
+        self.state.frame = self.state.frame.take().or(frame);
+        self.state.operation = operation;
+        self.channel = Some(channel);
+        self.last_tangent = None;
     }
 
     /// Starts an operation: counts it, and takes over the tool that an NX TOOL PATH names.

@@ -77,6 +77,8 @@ pub enum MotionProblemKind {
     BrokenSpline,
     /// The direction of an arc is not given and was assumed to be right-hand.
     AssumedSense,
+    /// The angle of a MOVARC tells the other sense than its axis, and was followed.
+    SenseFromAngle,
     /// Three rows of four numbers do not follow a CATIA0 mark.
     BrokenFrame,
 }
@@ -105,6 +107,10 @@ pub struct ModalState {
     pub compensation: Option<(CutterCompensation, StatementId)>,
     /// The cycle, and the statement that set it.
     pub cycle: Option<(Arc<DrillingCycle>, StatementId)>,
+    /// The pitch of threads in the file's unit per revolution, if the file gives it.
+    pub pitch: Option<f64>,
+    /// Whether the motions at feed cut a thread.
+    pub threading: bool,
     /// The class of motions that the file has marked.
     pub marked: Option<MotionClass>,
     /// The unit of lengths, if the file states it.
@@ -126,6 +132,8 @@ impl Default for ModalState {
             shift: Vector3::zeros(),
             compensation: None,
             cycle: None,
+            pitch: None,
+            threading: false,
             marked: None,
             units: None,
             operation: 0,

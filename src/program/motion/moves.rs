@@ -6,12 +6,15 @@ use super::modal_records::normalize_axis;
 use super::modal_state::MotionProblemKind;
 use super::state_machine::{MotionTarget, Motions, PendingMotion};
 use super::{Motion, drilling_cycles};
-use crate::program::geometry::{MotionPath, Pose, SAME_POINT, Spline};
+use crate::program::geometry::{CircularArc, MotionPath, Pose, SAME_POINT, Spline};
 use crate::program::motion_class::MotionClass;
-use crate::program::record::{Goto, has_contact_normal, has_tool_axes};
-use crate::program::{StatementId, StatementRange};
+use crate::program::record::{Goto, SpindleUnit, ToolWord, has_contact_normal, has_tool_axes};
+use crate::program::{Feed, FeedUnit, Record, StatementId, StatementRange};
 use nalgebra::Vector3;
 use std::sync::Arc;
+
+/// How far a point may be from a circle that it lies on, in the file's unit: its decimals and those of the centre.
+const POINT_ON_ARC: f64 = 2e-3;
 
 impl Motions<'_> {
     /// Keeps an arc until its end point follows.
@@ -25,7 +28,11 @@ impl Motions<'_> {
     /// Moves to the point of a GOTO.
     pub(super) fn process_goto(&mut self, id: StatementId, goto: &Goto) {
         let axis = goto.axis.map_or(self.state.axis, normalize_axis);
-        self.move_to(MotionTarget { pose: Pose { point: goto.point, axis }, normal: None, statement: id });
+        let pose = Pose { point: goto.point, axis };
+        if self.collects_arc_points(id, 1) {
+            return self.collect_arc_points(id, &[pose]);
+        }
+        self.move_to(MotionTarget { pose, normal: None, statement: id });
     }
 
     /// Moves to the points of a long GOTO or of a line of numbers: one point with axis and normal, points
@@ -38,14 +45,59 @@ impl Motions<'_> {
         }
         let with_axes = self.state.multi_axis && has_tool_axes(numbers);
         let step = if with_axes { 6 } else { 3 };
+        let axis = |start| if with_axes { normalize_axis(at(start + 3)) } else { self.state.axis };
+        let pose = |start| Pose { point: at(start).into(), axis: axis(start) };
+        let poses: Vec<Pose> = (0..numbers.len()).step_by(step).map(pose).collect();
+        if self.collects_arc_points(id, poses.len()) {
+            return self.collect_arc_points(id, &poses);
+        }
         // RAPID holds for the next record, however many points it has.
         let rapid = self.pending.rapid;
-        for start in (0..numbers.len()).step_by(step) {
+        for pose in poses {
             self.pending.rapid = rapid;
-            let axis = if with_axes { normalize_axis(at(start + 3)) } else { self.state.axis };
-            let pose = Pose { point: at(start).into(), axis };
             self.move_to(MotionTarget { pose, normal: None, statement: id });
         }
+    }
+
+    /// Returns whether the points of a statement belong to an announced arc that has several: Creo writes points
+    /// on the arc before its end, in lines of bare numbers.
+    fn collects_arc_points(&self, id: StatementId, points: usize) -> bool {
+        let takes = self.pending.arc.as_ref().is_some_and(|(arc, _)| arc.takes_points());
+        takes && (points > 1 || !self.pending.arc_points.is_empty() || self.has_more_points(id))
+    }
+
+    /// Returns whether a line of bare numbers follows a statement.
+    fn has_more_points(&self, id: StatementId) -> bool {
+        let Some(next) = self.program.next_live_statement(id) else { return false };
+        let next = self.program.statement(next);
+        let text = self.program.statement_text(next).trim_ascii_start();
+        let number = text.first().is_some_and(|first| first.is_ascii_digit() || b".-+".contains(first));
+        matches!(next.record(), Record::Points(_)) && number
+    }
+
+    /// Keeps points of an arc; with the last one the tool moves along the arc through all of them. Points that lie
+    /// elsewhere are points after the arc, as in dialects where only the first one belongs to it.
+    fn collect_arc_points(&mut self, id: StatementId, poses: &[Pose]) {
+        self.pending.arc_points.extend(poses.iter().map(|pose| (*pose, id)));
+        if self.has_more_points(id) {
+            return;
+        }
+        let points = std::mem::take(&mut self.pending.arc_points);
+        let on_arc = match (&self.pending.arc, self.state.pose) {
+            (Some((arc, _)), Some(from)) => points.iter().all(|(pose, _)| {
+                let off = arc.distance_of(from.point, pose.point);
+                off.is_some_and(|off| off < POINT_ON_ARC * (1.0 + pose.point.coords.amax() * 1e-4))
+            }),
+            _ => false,
+        };
+        let rapid = self.pending.rapid;
+        let (through, ends) = points.split_at(if on_arc { points.len().saturating_sub(1) } else { 0 });
+        self.pending.arc_through = through.iter().map(|(pose, _)| pose.point).collect();
+        for (pose, statement) in ends {
+            self.pending.rapid = rapid;
+            self.move_to(MotionTarget { pose: *pose, normal: None, statement: *statement });
+        }
+        self.pending.arc_through.clear();
     }
 
     /// Sets the tool's pose at a FROM.
@@ -129,7 +181,20 @@ impl Motions<'_> {
         for kind in resolved.problems {
             self.report_problem(statement, kind);
         }
-        resolved.arc.map_or(MotionPath::Line, |arc| MotionPath::Arc(Box::new(arc)))
+        let mut resolved_arc = resolved.arc;
+        if let Some(arc) = resolved_arc.as_mut().filter(|_| !self.pending.arc_through.is_empty()) {
+            // The points between tell how far the arc turns, also beyond a full turn.
+            let stations = self.pending.arc_through.iter().copied().chain([target.pose.point]);
+            let mut last = from.point;
+            arc.sweep = stations
+                .map(|next| {
+                    let part = CircularArc::from_endpoints(last, next, arc.center, arc.axis, 0).sweep;
+                    last = next;
+                    part
+                })
+                .sum();
+        }
+        resolved_arc.map_or(MotionPath::Line, |arc| MotionPath::Arc(Box::new(arc)))
     }
 
     /// Adds a motion and updates the pose. The tangent only continues through feed motions.
@@ -154,6 +219,7 @@ impl Motions<'_> {
             let mut motion = self.build_motion(leg.from, leg.to, leg.path, target.statement);
             motion.rapid = leg.rapid;
             motion.class = MotionClass::Drill;
+            motion.cuts_thread = cycle.cuts_thread && !leg.rapid;
             if let Some(feed) = cycle.feed {
                 motion.feed = Some(feed);
                 motion.feed_from = self.cycle_feed;
@@ -199,6 +265,10 @@ impl Motions<'_> {
         self.pending.direction = None;
         let (class, class_is_told) = self.classify_motion(rapid, &from, &to, &path);
         let state = &self.state;
+        let pitch = state.pitch.filter(|_| state.threading && !rapid);
+        let surface_rpm = self.mean_surface_rpm(&from, &to, &path);
+        let state = &self.state;
+        let thread = pitch.map(|value| Feed { value, unit: Some(FeedUnit::PerRevolution) });
         Motion {
             statements: StatementRange::new(first, statement),
             from,
@@ -206,9 +276,11 @@ impl Motions<'_> {
             path,
             normal: None,
             rapid,
-            feed: state.feed.map(|(feed, _)| feed),
-            feed_from: state.feed.map(|(_, statement)| statement),
+            feed: thread.or(state.feed.map(|(feed, _)| feed)),
+            feed_from: state.feed.map(|(_, statement)| statement).filter(|_| thread.is_none()),
+            cuts_thread: state.threading && !rapid,
             spindle: state.spindle.clone(),
+            surface_rpm,
             tool: state.tool.clone(),
             frame: state.frame.clone(),
             class,
@@ -216,6 +288,33 @@ impl Motions<'_> {
             operation: state.operation,
             hole: None,
         }
+    }
+
+    /// Returns the speed that a lathe's surface speed makes at the mean radius of a motion in rev/min.
+    ///
+    /// With the feed per revolution, the mean radius gives the exact time of a straight motion: the time of each
+    /// piece grows with its radius. The work turns about z, and the tool is in the plane of x and z; what is no
+    /// lathe, or runs along its axis, has no such speed.
+    fn mean_surface_rpm(&mut self, from: &Pose, to: &Pose, path: &MotionPath) -> Option<f64> {
+        let spindle = self.state.spindle.clone()?;
+        let metres = match (spindle.unit, spindle.speed?) {
+            (SpindleUnit::RevolutionsPerMinute, _) => return None,
+            (SpindleUnit::SurfaceMetres, speed) => speed,
+            (SpindleUnit::SurfaceFeet, speed) => speed * 0.3048,
+        };
+        let data = self.state.tool.as_ref().and_then(|tool| tool.data.as_ref());
+        let turns = data.is_none_or(|data| data.word == ToolWord::TlDataOther || data.length.is_none());
+        if !turns || from.point.y != 0.0 || to.point.y != 0.0 {
+            return None;
+        }
+        let points = path.sample_points(from.point, to.point);
+        let mean = points.iter().map(|point| point.x.abs()).sum::<f64>() / points.len().max(1) as f64;
+        let program = self.program;
+        let unit = *self.length_unit.get_or_insert_with(|| {
+            program.stated_length_unit().or_else(|| program.feed_length_unit()).unwrap_or_default()
+        });
+        let radius_m = mean * unit.mm_per_unit() / 1000.0;
+        (radius_m > 1e-6).then(|| metres / (std::f64::consts::TAU * radius_m))
     }
 
     /// Returns the class that the file marked. Without a mark, rapids are rapid, a straight feed motion down

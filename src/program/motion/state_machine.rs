@@ -5,9 +5,9 @@ use super::arcs::PendingArc;
 use super::modal_state::{ModalState, MotionProblem, MotionProblemKind};
 use crate::program::geometry::Pose;
 use crate::program::record::DrillingCycle;
-use crate::program::{Program, Record, StatementId};
+use crate::program::{LengthUnit, Program, Record, StatementId};
 use nalgebra::{Point3, Vector3};
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
 /// An iterator over the motions of a program.
@@ -22,6 +22,11 @@ pub struct Motions<'p> {
     pub(super) last_tangent: Option<Vector3<f64>>,
     pub(super) operations_seen: bool,
     pub(super) holes: usize,
+    /// The file's unit of lengths, once it was asked for.
+    pub(super) length_unit: Option<LengthUnit>,
+    /// The channel in force, and the states of the others.
+    pub(super) channel: Option<u32>,
+    pub(super) channels: BTreeMap<u32, ModalState>,
     /// The cycle that CYCLE/ON switches on again.
     pub(super) last_cycle: Option<(Arc<DrillingCycle>, StatementId)>,
     /// The CYCLE statement that has the feed of the cycle in force: CYCLE/ON,FEDTO,... takes the feed over
@@ -38,6 +43,10 @@ pub(super) struct PendingMotion {
     pub(super) rapid: Option<StatementId>,
     /// The arc of a CIRCLE or MOVARC, and its statement.
     pub(super) arc: Option<(PendingArc, StatementId)>,
+    /// Points of a CIRCLE that were read before its last one, with their statements.
+    pub(super) arc_points: Vec<(Pose, StatementId)>,
+    /// Points on the arc between its start and its end, while it is resolved.
+    pub(super) arc_through: Vec<Point3<f64>>,
     /// The direction of an INDIRV, and its statement.
     pub(super) direction: Option<(Vector3<f64>, StatementId)>,
     /// The spline of a NURBS as far as it has been read.
@@ -74,6 +83,9 @@ impl<'p> Motions<'p> {
             last_tangent: None,
             operations_seen: false,
             holes: 0,
+            length_unit: None,
+            channel: None,
+            channels: BTreeMap::new(),
             last_cycle: None,
             cycle_feed: None,
         }
@@ -152,6 +164,12 @@ impl<'p> Motions<'p> {
                 let arc = arc.as_ref().clone();
                 let pose = Pose { point: arc.end, axis: self.state.axis };
                 self.pending.arc = Some((PendingArc::Drive(arc), id));
+                self.move_to(MotionTarget { pose, normal: None, statement: id });
+            }
+            Record::AxialArc(arc) => {
+                let arc = arc.as_ref().clone();
+                let pose = Pose { point: arc.end, axis: self.state.axis };
+                self.pending.arc = Some((PendingArc::Axial(arc), id));
                 self.move_to(MotionTarget { pose, normal: None, statement: id });
             }
             Record::Nurbs => {

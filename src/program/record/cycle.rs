@@ -20,6 +20,8 @@ pub enum CycleKind {
 pub struct DrillingCycle {
     /// The motions in the hole.
     pub kind: CycleKind,
+    /// Whether a thread is cut (TAP, RTAP, THREAD), so that the feed is its pitch times the spindle speed.
+    pub cuts_thread: bool,
     /// The depth: `FEDTO`, `DEPTH`, or the first number without a word.
     pub depth: Option<f64>,
     /// Whether `depth` came from `FEDTO`. NX prints a coordinate there (negative is down), others print a
@@ -49,6 +51,7 @@ pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordRe
         // CYCLE/INIT. NX's CYCLE/ON,FEDTO,... changes the cycle in force.
         "ON" if syntax.fields.len() == 1 => Ok(Record::CycleOn),
         "INIT" | "" => Ok(Record::Known),
+        "CLEAR" if syntax.fields.len() == 1 => Ok(Record::Known),
         _ => read_cycle(&first, syntax).map(|cycle| Record::Cycle(Box::new(cycle))),
     })
 }
@@ -81,6 +84,7 @@ fn read_cycle(first: &str, syntax: &StatementSyntax<'_>) -> Result<DrillingCycle
     };
     let mut cycle = DrillingCycle {
         kind,
+        cuts_thread: matches!(first.split(' ').next(), Some("TAP" | "RTAP" | "THREAD")),
         depth: None,
         depth_is_fedto: false,
         clearance: None,
@@ -92,9 +96,12 @@ fn read_cycle(first: &str, syntax: &StatementSyntax<'_>) -> Result<DrillingCycle
     let mut rapid_to = None;
     let mut bare = Vec::new();
     let mut word = String::new();
+    let mut returns_to_clearance = false;
     for item in collect_cycle_items(syntax) {
         let value = match item {
             CycleItem::Word(next) => {
+                // CAMWorks names the return plane as controls do: G98 the height before, G99 the clearance.
+                returns_to_clearance |= next == "G99";
                 cycle.retract_is_auto |= word == "RTRCTO" && next == "AUTO";
                 word = next;
                 continue;
@@ -137,6 +144,9 @@ fn read_cycle(first: &str, syntax: &StatementSyntax<'_>) -> Result<DrillingCycle
     }
     cycle.clearance = cycle.clearance.or_else(|| bare.next());
     cycle.retract = cycle.retract.or_else(|| bare.next());
+    if returns_to_clearance {
+        (cycle.retract, cycle.retract_is_auto) = (None, true);
+    }
     Ok(cycle)
 }
 
@@ -148,6 +158,7 @@ impl DrillingCycle {
         let old_retract = before.retract.filter(|_| !self.retract_is_auto);
         Self {
             kind: before.kind,
+            cuts_thread: before.cuts_thread,
             depth: self.depth.or(before.depth),
             depth_is_fedto: if new_depth { self.depth_is_fedto } else { before.depth_is_fedto },
             clearance: self.clearance.or(before.clearance),

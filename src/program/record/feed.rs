@@ -72,9 +72,31 @@ pub enum CutterCompensation {
     Off,
 }
 
+/// The cutting of a thread with a turning tool, whose feed is its pitch times the spindle speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Threading {
+    /// `PITCH/`: the pitch of the threads that follow, in the file's unit per revolution.
+    Pitch(f64),
+    /// `THREAD/TURN` and the like: the motions that follow cut a thread.
+    On,
+    /// `THREAD/OFF`: they no longer do.
+    Off,
+}
+
 /// Reads a record of this family.
 pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordReading {
     Some(match major {
+        "PITCH" => Ok(match syntax.fields.as_slice() {
+            // PITCH/TPI,8 and the like give threads in another way; only their post knows it.
+            [field] if field.number_value().is_some_and(|pitch| pitch > 0.0) => {
+                Record::Threading(Threading::Pitch(field.number_value().unwrap_or_default()))
+            }
+            _ => Record::Known,
+        }),
+        "THREAD" => Ok(Record::Threading(match syntax.word_at(0).as_deref() {
+            Some("OFF" | "NOMORE") => Threading::Off,
+            _ => Threading::On,
+        })),
         "FEDRAT" => read_feed(syntax),
         "SPINDL" => read_spindle(syntax),
         "CUTCOM" => read_cutter_compensation(syntax),
@@ -180,10 +202,14 @@ fn read_cutter_compensation(syntax: &StatementSyntax<'_>) -> Result<Record, BadR
 
 /// Returns the roles of the numbers of a feed or a spindle.
 pub(super) fn number_roles(record: &Record, syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
+    if let Record::CutterCompensation(_) = record {
+        return syntax.roles_by_word(|word| word == "OFFSET");
+    }
     let surface =
         matches!(record, Record::Spindle(spindle) if spindle.unit != SpindleUnit::RevolutionsPerMinute);
     let first = match record {
         Record::Feed(_) => NumberRole::Feed,
+        Record::Threading(Threading::Pitch(_)) => NumberRole::Length,
         _ if surface => NumberRole::SurfaceSpeed,
         _ => NumberRole::Plain,
     };

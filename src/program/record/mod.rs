@@ -4,6 +4,7 @@
 //! number ([`NumberRole`]), so that transforms of geometry and units need no list of records of their own. A
 //! record is always well formed; a known word with wrong arguments is a [`BadRecord`].
 
+mod axial_arc;
 mod cycle;
 mod feed;
 mod frame;
@@ -12,13 +13,14 @@ mod role;
 mod structure;
 mod tool;
 
+pub use axial_arc::AxialArc;
 pub use cycle::{CycleKind, DrillingCycle};
-pub use feed::{CompensationSide, CutterCompensation, Spindle, SpindleDirection, SpindleUnit};
+pub use feed::{CompensationSide, CutterCompensation, Spindle, SpindleDirection, SpindleUnit, Threading};
 pub use frame::{FrameRecord, FrameWord};
 pub use path::{ArcSense, Circle, DriveArc, Goto, MoveArc};
 pub(crate) use path::{goto_roles as path_roles, has_contact_normal, has_direction, has_tool_axes};
 pub use role::NumberRole;
-pub use structure::{MotionMark, OperationNames};
+pub use structure::{MotionMark, OperationNames, known_words};
 pub use tool::{ToolCall, ToolData, ToolWord};
 
 use super::syntax::{StatementKind, StatementSyntax};
@@ -69,6 +71,9 @@ pub enum Record {
     StartDirection(Box<Vector3<f64>>),
     /// CATIA's `TLON,GOFWD/(CIRCLE/...),ON,(LINE/...)`: an arc with its end in the record.
     DriveArc(Box<DriveArc>),
+    /// CATIA's `HELICAL/...`, and `TLON,GOFWD/(CYLNDR/...)`: an arc or helix about any axis with its end in the
+    /// record.
+    AxialArc(Box<AxialArc>),
     /// `NURBS/`: a spline follows.
     Nurbs,
     /// `KNOT/`: knots of the spline.
@@ -82,6 +87,8 @@ pub enum Record {
     Feed(Feed),
     /// `SPINDL/`: the spindle's speed and direction.
     Spindle(Box<Spindle>),
+    /// `PITCH/`, `THREAD/`: a thread is cut, at its pitch times the spindle speed.
+    Threading(Threading),
     /// `CUTCOM/`: cutter compensation is switched.
     CutterCompensation(CutterCompensation),
 
@@ -115,6 +122,8 @@ pub enum Record {
     OperationStart(OperationNames),
     /// An operation ends.
     OperationEnd,
+    /// `CHANNEL,n`: what follows is the path of another channel of the machine.
+    Channel(u32),
     /// `UNITS/`, `UNIT/`: the unit of lengths.
     Units(LengthUnit),
     /// `FINI`, `END`: the program ends.
@@ -162,6 +171,10 @@ impl Record {
             StatementKind::Numbers => return path::read_points_line(syntax),
             StatementKind::Structured | StatementKind::Words => {}
         }
+        let separator = syntax.text.get(syntax.word.end..).unwrap_or_default().trim_ascii_start().first();
+        if separator == Some(&b',') {
+            return Ok(structure::read_comma_record(&syntax.major_word(), syntax));
+        }
         // A word belongs to at most one family, so the first one that reads it decides.
         let major = syntax.major_word();
         let families = [
@@ -197,7 +210,10 @@ impl Record {
             | Self::DriveArc(_)
             | Self::Knot(_)
             | Self::Control(_) => path::number_roles(self, syntax),
-            Self::Feed(_) | Self::Spindle(_) => feed::number_roles(self, syntax),
+            Self::AxialArc(_) => axial_arc::number_roles(syntax),
+            Self::Feed(_) | Self::Spindle(_) | Self::Threading(_) | Self::CutterCompensation(_) => {
+                feed::number_roles(self, syntax)
+            }
             Self::ToolData(_) | Self::ToolAxis(_) | Self::ToolCall(_) => tool::number_roles(self, syntax),
             Self::Frame(_) | Self::MatrixRow(_) => frame::number_roles(self),
             Self::Cycle(_) => cycle::number_roles(syntax),
@@ -217,6 +233,7 @@ impl Record {
                 | Self::GoHome(_)
                 | Self::GoDelta(_)
                 | Self::DriveArc(_)
+                | Self::AxialArc(_)
                 | Self::Control(_)
         )
     }

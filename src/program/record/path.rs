@@ -1,8 +1,8 @@
 //! This module reads points, arcs and splines.
 
 use super::{
-    BadRecord, NumberRole, Record, RecordReading, bad_record, point_from_numbers, read_all_numbers,
-    read_number, vector_from_numbers, wrong_count,
+    BadRecord, NumberRole, Record, RecordReading, axial_arc, bad_record, point_from_numbers,
+    read_all_numbers, read_number, vector_from_numbers, wrong_count,
 };
 use crate::program::syntax::{FieldGroup, FieldKind, StatementSyntax, fold_text};
 use nalgebra::{Point3, Vector3};
@@ -88,6 +88,7 @@ pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordRe
         "CIRCLE" => read_circle(syntax),
         "MOVARC" => read_move_arc(syntax),
         "INDIRV" => read_vector(major, syntax).map(|vector| Record::StartDirection(Box::new(vector))),
+        "HELICAL" => axial_arc::read_helical(syntax),
         "TLON,GOFWD" | "TLON,GOBACK" => read_drive_arc(major, syntax),
         "NURBS" => Ok(Record::Nurbs),
         "KNOT" => read_counted_numbers(major, syntax, "numbers", |count| count > 0).map(Record::Knot),
@@ -347,13 +348,13 @@ fn read_drive_arc(major: &str, syntax: &StatementSyntax<'_>) -> Result<Record, B
             FieldKind::Group(group) => match syntax.bytes_at(&group.word).to_ascii_uppercase().as_slice() {
                 b"CIRCLE" => circle = Some(read_group_numbers(syntax, group)?),
                 b"LINE" => line = Some(read_group_numbers(syntax, group)?),
-                _ => return Ok(Record::Other),
+                _ => return read_other_drive_arc(syntax),
             },
             FieldKind::Text => beyond_half |= syntax.bytes_at(&field.at).eq_ignore_ascii_case(b"INTOF"),
             _ => {}
         }
     }
-    let (Some(circle), Some(line)) = (circle, line) else { return Ok(Record::Other) };
+    let (Some(circle), Some(line)) = (circle, line) else { return read_other_drive_arc(syntax) };
     match (point_from_numbers(&circle), circle.get(3), line.get(3..).and_then(point_from_numbers)) {
         (Some(center), Some(&radius), Some(end)) if circle.len() == 4 && line.len() == 6 => {
             Ok(Record::DriveArc(Box::new(DriveArc { center, radius, end, beyond_half })))
@@ -367,8 +368,17 @@ fn read_drive_arc(major: &str, syntax: &StatementSyntax<'_>) -> Result<Record, B
     }
 }
 
+/// Reads a drive motion that is not CATIA's common arc. One that is no arc at all is passed on, and a check says
+/// that points may be missing.
+fn read_other_drive_arc(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
+    axial_arc::read_cylinder_arc(syntax).map(|arc| arc.unwrap_or(Record::Other))
+}
+
 /// Reads all fields of a nested record as numbers.
-fn read_group_numbers(syntax: &StatementSyntax<'_>, group: &FieldGroup) -> Result<Vec<f64>, BadRecord> {
+pub(super) fn read_group_numbers(
+    syntax: &StatementSyntax<'_>,
+    group: &FieldGroup,
+) -> Result<Vec<f64>, BadRecord> {
     group.fields.iter().map(|field| read_number(syntax, field)).collect()
 }
 

@@ -27,6 +27,7 @@ pub struct MotionMark {
 pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordReading {
     Some(Ok(match major {
         "PAINT" => read_paint(syntax),
+        "CHANNEL" => read_channel(syntax),
         "TOOL PATH" if !syntax.fields.is_empty() => read_listed_name(syntax),
         "MOVE_ATTRIB" => read_move_attribute(syntax),
         "END-OF-PATH" => Record::OperationEnd,
@@ -117,6 +118,27 @@ fn read_paint(syntax: &StatementSyntax<'_>) -> Record {
     Record::Marked(MotionMark { class })
 }
 
+/// Reads a word with numbers behind a comma, in place of a slash. Words of the standard do not have that form, so
+/// only those that are known to have it mean something.
+pub(super) fn read_comma_record(major: &str, syntax: &StatementSyntax<'_>) -> Record {
+    match major {
+        "CHANNEL" => read_channel(syntax),
+        _ => Record::Other,
+    }
+}
+
+/// Reads the number of a channel; one that is no number is passed on.
+fn read_channel(syntax: &StatementSyntax<'_>) -> Record {
+    match syntax.number_at(0) {
+        Some(channel)
+            if channel.fract() == 0.0 && (0.0..1e6).contains(&channel) && syntax.fields.len() == 1 =>
+        {
+            Record::Channel(channel as u32)
+        }
+        _ => Record::Known,
+    }
+}
+
 /// Reads the marks of CLT: `MOVE_ATTRIB/ LEADIN,END_ATTRIB`.
 fn read_move_attribute(syntax: &StatementSyntax<'_>) -> Record {
     let class = match syntax.word_at(0).as_deref() {
@@ -136,77 +158,82 @@ fn read_units(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     }
 }
 
-/// Returns whether a word of the standard or of the measured dialects is known to have no effect on the tool
-/// path.
+/// The words of the standard and of the measured dialects that are known to have no effect on the tool path, sorted.
+const KNOWN: &[&str] = &[
+    "ARCSLP",
+    "AUTOPS",
+    "AUXFUN",
+    "BOX",
+    "BREAK",
+    "CHECK",
+    "CLAMP",
+    "CLEARP",
+    "CLRSRF",
+    "COOLNT",
+    "COUPLE",
+    "CSI_SET_EXTENSION_LENGTH",
+    "CSI_SET_FLUTE_LENGTH",
+    "CUTCOM_GEOMETRY_TYPE",
+    "DELAY",
+    "DISPLY",
+    "FACEMILL",
+    "FLUSH",
+    "GOCLER",
+    "HEAD",
+    "INTCOD",
+    "INTOL",
+    "LEADER",
+    "LINTOL",
+    "LOAD",
+    "LOADTL",
+    "MACHIN",
+    "MCHTOL",
+    "MFGNO",
+    "MODE",
+    "NOPOST",
+    "OFSTNO",
+    "OPSKIP",
+    "OPSTOP",
+    "OUTTOL",
+    "OVPLOT",
+    "PIVOTZ",
+    "PLUNGE",
+    "PPFUN",
+    "PPWORD",
+    "PREFUN",
+    "PSIS",
+    "RESET",
+    "RETRCT",
+    "REWIND",
+    "SAFETY",
+    "SELCTL",
+    "SELECT",
+    "SEQNO",
+    "SET",
+    "SETUP",
+    "SHIFT",
+    "SLOWDN",
+    "SMOOTH",
+    "STOP",
+    "SWITCH",
+    "SYN",
+    "TMARK",
+    "TOOL",
+    "TRACUT",
+    "TRNTYP",
+    "TURRET",
+    "VERIFY",
+    "WCORN",
+];
+
+/// Returns whether a word is known to have no effect on the tool path.
 fn is_known_word(major: &str) -> bool {
-    // The list is sorted for the binary search below.
-    const KNOWN: &[&str] = &[
-        "AUTOPS",
-        "AUXFUN",
-        "BOX",
-        "BREAK",
-        "CHECK",
-        "CLAMP",
-        "CLEARP",
-        "CLRSRF",
-        "COOLNT",
-        "COUPLE",
-        "CSI_SET_EXTENSION_LENGTH",
-        "CSI_SET_FLUTE_LENGTH",
-        "CUTCOM_GEOMETRY_TYPE",
-        "DELAY",
-        "DISPLY",
-        "FACEMILL",
-        "FLUSH",
-        "GOCLER",
-        "HEAD",
-        "INTCOD",
-        "INTOL",
-        "LEADER",
-        "LINTOL",
-        "LOAD",
-        "LOADTL",
-        "MACHIN",
-        "MCHTOL",
-        "MFGNO",
-        "MODE",
-        "NOPOST",
-        "OFSTNO",
-        "OPSKIP",
-        "OPSTOP",
-        "OUTTOL",
-        "OVPLOT",
-        "PIVOTZ",
-        "PLUNGE",
-        "PPFUN",
-        "PPWORD",
-        "PREFUN",
-        "PSIS",
-        "RESET",
-        "RETRCT",
-        "REWIND",
-        "SAFETY",
-        "SELCTL",
-        "SELECT",
-        "SEQNO",
-        "SET",
-        "SETUP",
-        "SHIFT",
-        "SLOWDN",
-        "SMOOTH",
-        "STOP",
-        "SWITCH",
-        "SYN",
-        "THREAD",
-        "TMARK",
-        "TOOL",
-        "TRACUT",
-        "TRNTYP",
-        "TURRET",
-        "VERIFY",
-        "WCORN",
-    ];
     KNOWN.binary_search(&major).is_ok()
+}
+
+/// Returns the words that are known to have no effect on the tool path, sorted.
+pub fn known_words() -> &'static [&'static str] {
+    KNOWN
 }
 
 /// Returns the roles of numbers in words without effect: tolerances and boxes are lengths, all others are
@@ -214,7 +241,17 @@ fn is_known_word(major: &str) -> bool {
 pub(super) fn number_roles(syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
     let major = syntax.major_word();
     let numbers = syntax.numbers().len();
+    if major == "PSIS" {
+        return super::axial_arc::nested_roles(syntax, &syntax.fields);
+    }
     let role = match major.as_str() {
+        // A plane is its normal and its distance; anything else is a height.
+        "CLRSRF" if numbers == 4 => {
+            return vec![NumberRole::Plain, NumberRole::Plain, NumberRole::Plain, NumberRole::Length];
+        }
+        // A slope by its rise (MOVARC's posts) and heights; a CUTCOM's OFFSET is a length, its ADJUST a register.
+        "ARCSLP" | "CLRSRF" | "RETRCT" | "SAFETY" => NumberRole::Length,
+        "CUTCOM" => return syntax.roles_by_word(|word| word == "OFFSET"),
         "BOX"
         | "INTOL"
         | "OUTTOL"
@@ -231,6 +268,7 @@ pub(super) fn number_roles(syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
 mod tests {
     #[test]
     fn known_words_are_sorted_for_the_search() {
+        assert!(super::KNOWN.is_sorted());
         for word in ["AUTOPS", "COOLNT", "PPWORD", "WCORN", "TRNTYP"] {
             assert!(super::is_known_word(word), "{word}");
         }

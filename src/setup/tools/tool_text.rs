@@ -22,9 +22,9 @@ pub(crate) struct ToolText {
     /// The tools that are meant; `{}` for every tool.
     #[serde(rename = "match")]
     matches: ToolMatchText,
-    /// The diameter, where the lines of bottom and flank meet.
-    diameter: Option<Positive>,
-    /// The corner radius. For a ball-nose cutter it is half the diameter.
+    /// Diameter, where the lines of bottom and flank meet; 0 for a pointed cutter, which has a `taper`.
+    diameter: Option<NonNegative>,
+    /// Corner radius; half the diameter for a ball-nose cutter.
     corner_radius: Option<NonNegative>,
     /// The angle between flank and axis in degrees. The cutter widens upwards.
     taper: Option<Slope>,
@@ -127,7 +127,10 @@ impl ToolText {
         let entry = ToolEntry {
             number: self.matches.number,
             name: self.matches.name,
-            diameter_mm: reader.optional_size_mm(self.diameter, &place, "diameter"),
+            diameter_mm: self.diameter.map(|diameter| match Positive::new(diameter.get()) {
+                Some(diameter) => reader.size_mm(diameter, || place.at_key("diameter")),
+                None => 0.0,
+            }),
             corner_radius_mm: reader.optional_length_mm(
                 self.corner_radius.map(NonNegative::get),
                 &place,

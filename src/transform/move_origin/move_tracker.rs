@@ -112,7 +112,7 @@ impl<'p> MoveTracker<'p> {
                 };
                 return self.observe_motion(id, moved, axis.map(Vector3::from_column_slice), false);
             }
-            Record::GoDelta(_) | Record::DriveArc(_) | Record::Control(_) => {
+            Record::GoDelta(_) | Record::DriveArc(_) | Record::AxialArc(_) | Record::Control(_) => {
                 return self.observe_motion(id, moved, None, true);
             }
             Record::Rapid => {

@@ -117,6 +117,8 @@ fn compute_edits(record: &Record, text: &[u8], place: &Affine, multi_axis: bool)
         | Record::MoveArc(_)
         | Record::StartDirection(_)
         | Record::DriveArc(_)
+        | Record::AxialArc(_)
+        | Record::Known
         | Record::Control(_)
         | Record::ToolAxis(_) => {
             let values: Vec<f64> =
