@@ -51,8 +51,8 @@ fn estimate_line_count(path: &Path, bytes: u64) -> io::Result<u64> {
     }
     let mut file = File::open(path)?;
     let mut most = 0.0_f64;
-    // The head of a file often has long lines of remarks, so its middle is sampled, too. The denser sample
-    // counts, because a batch that runs out of memory loses more than one that waits.
+    // Remarks at the head of a file may be longer than its other lines, so its middle is sampled, too. The
+    // denser sample counts, because a batch that runs out of memory loses more than one that waits.
     for place in [0, bytes / 2] {
         file.seek(SeekFrom::Start(place))?;
         let mut sample = Vec::new();

@@ -178,8 +178,8 @@ impl<'w> WatchRun<'w> {
                 None => Digest::from_file(&export.path)?,
             };
             let is_done = self.state.is_done(&export.name, digest);
-            // Some programs that copy give a file its size and time before its content. Only a second reading
-            // shows that they are still at work.
+            // Some programs reserve the whole size of a file before they write its content, and a network
+            // drive may tell its new time late. Then only a second reading shows that they are still at work.
             let rests = is_done || Digest::from_file(&export.path)? == digest;
             Ok((bytes, digest, is_done, rests && ExportStamp::read_stamp(&export.path)? == export.stamp))
         };

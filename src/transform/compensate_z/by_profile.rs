@@ -61,8 +61,8 @@ pub(super) fn compensate_by_profile(
         &over,
     )
     .map_err(|why| place.describe_lead_conflict(why, context))?;
-    // All motions are checked before the first edit, so that a program is compensated as a whole or not at
-    // all.
+    // A statement that several points share cannot be changed for one of them, so every motion is checked
+    // before the first edit.
     for index in ends.keys().copied().chain(all.iter().flat_map(|work| work.pass.motions.clone())) {
         writer
             .check_writable(&program, index)

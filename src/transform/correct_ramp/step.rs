@@ -68,8 +68,8 @@ impl Transform for CorrectRamp {
         let file = context.file_length_unit(&program);
         let motions: Vec<Motion> = program.motions().collect();
         let mut judge = RampJudge::new(self, &program, &motions, file, context);
-        // All ramps are judged before any is written, so a ramp that cannot be corrected leaves the whole
-        // program as it was.
+        // All ramps are judged before any is written: the plans count the motions of the program as it was,
+        // and every ramp that cannot be corrected is reported in one run.
         judge.judge_ramps(context)?;
         let RampJudge { plans, mut reports, .. } = judge;
         let mut editor = ProgramEditor::new(program, context.step);
