@@ -89,6 +89,8 @@ impl BatchRun<'_> {
         let id = self.plan.batch_id(self.works, self.options);
         let mine = self.plan.files_of_shard(self.folder.folder().shard());
         self.folder.check_same_batch(id)?;
+        // The folder is locked, so temporary files of this batch or shard can only be left from a run that
+        // was killed.
         self.folder.remove_leftovers(self.plan.files.iter().map(|file| file.output.as_path()));
         let known = if self.resume { self.find_finished_files(&mine) } else { BTreeMap::new() };
         let unwritable = |error: io::Error| {
@@ -125,6 +127,7 @@ impl BatchRun<'_> {
         };
         let work = &work;
         std::thread::scope(|scope| {
+            // This thread works, too, so one less is started.
             for _ in 1..self.pool.current_num_threads().min(mine.len()) {
                 let sender = sender.clone();
                 // If the system gives no more threads, the existing ones do the work.
@@ -168,6 +171,8 @@ impl BatchRun<'_> {
         };
         drop(steps);
         watch.end_file(file, &record, &findings, before);
+        // A journal that cannot be written does not make the file fail: its output is right, and a resumed
+        // batch only repeats it.
         let lost = key.and_then(|key| journal.add_entry(&JournalEntry { key, record: record.clone() }).err());
         Some((ticket.file, FileCompletion { record, before, lost }))
     }

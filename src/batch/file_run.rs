@@ -75,6 +75,7 @@ fn is_still_done(
 ) -> bool {
     let is_file = |path: &Path| fs::symlink_metadata(path).is_ok_and(|there| there.is_file());
     let output = settings.folder.folder().root().join(&file.output);
+    // The digests read both files from end to end, so what is known without reading is asked first.
     done.record.outcome.is_written()
         && fs::metadata(&file.path).is_ok_and(|there| there.is_file())
         && is_file(&output)
@@ -113,9 +114,11 @@ fn correct_file(
         watch,
     };
     let done = job.correct_source(&source);
+    // A job that was stopped ends with an error, which is no fault of the file.
     if settings.interrupt.is_raised() {
         return Err(Failure::Interrupted);
     }
+    // This comes before the findings of the job: those of a file that was only half written would mislead.
     if !is_unchanged(&file.path, &stamp, began, digest).map_err(unreadable)? {
         return Err(report_input_changed(&name).into());
     }

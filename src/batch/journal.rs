@@ -62,6 +62,8 @@ impl BatchJournal {
     ) -> io::Result<Self> {
         let path = folder.folder().journal_path();
         let mut text = json_line(&JournalHead { clsmith_journal: 1, batch })?;
+        // The new journal replaces the old one, so what earlier runs have done must be in it, or a second
+        // --resume would repeat that.
         for done in known {
             text.extend(json_line(done)?);
         }
@@ -79,6 +81,8 @@ impl BatchJournal {
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         let Some(open) = file.as_mut() else { return Ok(()) };
         let written = json_line(done).and_then(|line| open.write_all(&line));
+        // The end of the file may be half a line now, and the next line would be lost in it. A full disk
+        // would also fail again for every file.
         if written.is_err() {
             *file = None;
         }

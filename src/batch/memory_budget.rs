@@ -51,6 +51,8 @@ fn estimate_line_count(path: &Path, bytes: u64) -> io::Result<u64> {
     }
     let mut file = File::open(path)?;
     let mut most = 0.0_f64;
+    // Remarks at the head of a file may be longer than its other lines, so its middle is sampled, too. The
+    // denser sample counts, because a batch that runs out of memory loses more than one that waits.
     for place in [0, bytes / 2] {
         file.seek(SeekFrom::Start(place))?;
         let mut sample = Vec::new();
@@ -113,6 +115,8 @@ impl MemoryQueue {
                 return None;
             }
             let room = self.budget.saturating_sub(state.used);
+            // The files are sorted by need, so this is the largest one that still fits. If none fits and
+            // nothing runs, waiting would never end, so the largest one starts all the same.
             let fits = state.waiting.iter().position(|&(_, need)| need <= room);
             if let Some(next) = fits.or((state.running == 0).then_some(0)) {
                 let (file, need) = state.waiting.remove(next);
@@ -141,6 +145,8 @@ impl Drop for MemoryTicket<'_> {
         let mut state = self.queue.lock_state();
         state.used = state.used.saturating_sub(self.need);
         state.running = state.running.saturating_sub(1);
+        // The threads that wake need this lock, so it is released first. All of them are woken, because the
+        // memory of a large file may be enough for several small ones.
         drop(state);
         self.queue.wake.notify_all();
     }

@@ -137,6 +137,7 @@ impl OutputFolder {
         path: &Path,
         lock: impl FnOnce(&File) -> Result<(), TryLockError>,
     ) -> Result<File, Failure> {
+        // Another process may hold the lock of this file, so the file is opened without any change to it.
         let open = File::options().create(true).truncate(false).read(true).write(true).open(path);
         let file = open.map_err(|error| report_unwritable(path, &error))?;
         match lock(&file) {
@@ -176,6 +177,8 @@ impl LockedFolder {
             if *journal == self.folder.journal_path() || lock == whole {
                 return false;
             }
+            // The file of a lock stays when its run has ended. Only an attempt to lock it tells whether
+            // somebody holds it.
             File::open(&lock)
                 .is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
         };

@@ -108,6 +108,7 @@ fn report_turned_frames(step: StepId, found: &mut LintFindings<'_>) {
         if let Some(frame) = &motion.frame
             && by_step(motion.last_statement())
             && !by_step(frame.statement)
+            // Both are unit vectors, so their product is the cosine of the angle between them.
             && frame.axes.column(2).dot(&motion.to.axis) < SAME_AXIS
         {
             turned.insert(frame.statement);

@@ -32,6 +32,7 @@ impl SetupReader {
             return value_mm;
         }
         self.add_fault(place, "this is more than a kilometre", "too large", "Compare it with `units:`.");
+        // Reading goes on with a harmless number, so that one run finds all faults of the file.
         LARGEST_LENGTH_MM.copysign(value_mm)
     }
 
@@ -100,6 +101,7 @@ impl SetupReader {
         if self.found.is_empty() {
             return Ok(value);
         }
+        // Faults are found in the order of the checks, but people mend a file from top to bottom.
         self.found.sort_by_key(|diagnostic| diagnostic.labels.first().map(|label| label.span));
         Err(self.found.into())
     }

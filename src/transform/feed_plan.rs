@@ -144,6 +144,8 @@ impl FeedPlan {
                         findings.push(describe_kept_cycle_feed(editor.program(), governor));
                         continue;
                     };
+                    // No text can state such a number. Setting it gives the proper error, while a new record
+                    // would silently repeat the old feed.
                     if !wish.feed.is_finite() {
                         return set_feed(editor, governor, wish.feed);
                     }
@@ -170,6 +172,7 @@ impl FeedPlan {
             let rest = self.wishes.get_mut(start..).unwrap_or_default();
             let count = rest.iter().take_while(|other| other.last == wish.last).count().max(1);
             let group = rest.get_mut(..count).unwrap_or_default();
+            // The lowest feed is the only one that keeps the limits of all these points.
             let lowest = group.iter().map(|wish| wish.feed).fold(f64::INFINITY, f64::min);
             if group.iter().any(|wish| wish.feed != lowest) {
                 group.iter_mut().for_each(|wish| wish.feed = lowest);

@@ -84,6 +84,8 @@ impl<'de> Deserializer<'de> for NodeDeserializer<'_> {
     ) -> Result<V::Value, YamlFault> {
         match self.0 {
             YamlNode::Null => visitor.visit_map(NodeMapAccess { entries: [].iter(), value: None }),
+            // serde would take the elements of a list for the fields in their order, and a wrong order would
+            // go unnoticed.
             YamlNode::List(_) => Err(YamlFault::invalid_type(Unexpected::Seq, &visitor)),
             _ => self.deserialize_any(visitor),
         }

@@ -125,6 +125,8 @@ impl<'h> HookRun<'h> {
             }
             Err(stop) => return Err(stop),
         }
+        // The CAM system may still be writing while the beginning of its file is corrected, so this is
+        // checked as late as possible: directly before the post.
         if let Some(found) = self.check_input_unchanged() {
             self.show_and_keep_findings(vec![found])?;
             self.correction.outcome = UnattendedOutcome::Refused;
@@ -263,6 +265,8 @@ impl<'h> HookRun<'h> {
 
     /// Prints the last message and writes the line in the log.
     fn finish_and_log(mut self, exit: i32) -> Result<CommandExit, Stop> {
+        // Ctrl-C after the post has ended by itself changes nothing. Its NC program is complete, and the
+        // caller has to see the post's own code.
         let stopped = self.outputs.interrupt().is_raised()
             && self.post.as_ref().is_none_or(|post| matches!(post.ended, "stopped"));
         let exit = if stopped { STOPPED } else { exit };

@@ -42,6 +42,8 @@ pub fn run_post(
 ) -> io::Result<PostOutcome> {
     let mut command = Command::new(program);
     command.args(arguments).stdin(Stdio::null());
+    // A post is often a script that starts the real program. In a group of their own, both can be ended
+    // together.
     let mut command = CommandWrap::from(command);
     #[cfg(unix)]
     command.wrap(process_wrap::std::ProcessGroup::leader());
@@ -53,6 +55,8 @@ pub fn run_post(
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(PostOutcome::Missing(error)),
         Err(error) => return Ok(PostOutcome::NotStarted(error)),
     };
+    // Many posts end within moments and should not be waited for, but a long one must not keep a core busy.
+    // So the pauses begin short and double.
     let mut pause = Duration::from_millis(1);
     loop {
         if let Some(status) = child.try_wait()? {

@@ -122,6 +122,7 @@ impl WatchRun<'_> {
         self.watch.show_findings(&correction.findings, &name)?;
         eprintln!("{}: refused -> {}", escape_controls(&name), escape_controls(&to.to_string_lossy()));
         let before = self.folders.out.join(&export.name);
+        // Somebody might take the older output for the result of this export, and machine a part with it.
         if before.is_file() {
             let before = before.to_string_lossy();
             eprintln!(

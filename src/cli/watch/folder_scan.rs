@@ -77,6 +77,8 @@ pub fn scan_exports(watched: &Path, glob: &GlobMatcher) -> (Vec<ExportedFile>, V
             }
         }
     }
+    // The order in a folder depends on its file system. In the order of names every watch does the same, and
+    // a name is found by bisection.
     found.sort_by(|a, b| a.name.cmp(&b.name));
     (found, faults)
 }

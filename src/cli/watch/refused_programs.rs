@@ -51,6 +51,8 @@ pub fn move_aside(
             }
             return Ok(RefusedMove::Changed);
         }
+        // This is checked directly before the export is removed, so that a newer one of the same name is not
+        // removed in its place.
         if ExportStamp::read_stamp(&export.path).ok() != Some(export.stamp) {
             return Ok(RefusedMove::Changed);
         }

@@ -41,6 +41,7 @@ impl WatchFolders {
         let files = [Some(&state), watch.log.as_ref()].into_iter().flatten().map(|file| (file, false));
         for (path, is_folder) in folders.into_iter().chain(files) {
             let real = resolve_future_path(path);
+            // Outputs below the watched folder would be taken for new exports, and corrected again and again.
             if real.starts_with(&watched) || (is_folder && watched.starts_with(&real)) {
                 let message = format!(
                     "{} and the watched folder {} lie in each other",

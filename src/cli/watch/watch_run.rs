@@ -71,6 +71,8 @@ impl<'w> WatchRun<'w> {
     /// Watches until Ctrl-C, or with `--once` until all existing files are processed.
     pub fn watch_folder(mut self) -> Result<CommandExit, Stop> {
         let begun = Instant::now();
+        // With --once somebody waits for the end, so the watch does not sleep longer than a file needs to
+        // settle.
         let pause = if self.watch.once { self.watch.poll.min(self.watch.settle) } else { self.watch.poll };
         let mut first: Option<BTreeSet<PathBuf>> = None;
         loop {
@@ -79,10 +81,13 @@ impl<'w> WatchRun<'w> {
                 self.tell_once(fault)?;
             }
             if self.watch.once {
+                // With --once only the files of the first look count, or a folder that is always busy would
+                // never let it end.
                 let names = || exports.iter().map(|export| export.name.clone()).collect();
                 let first = first.get_or_insert_with(names);
                 exports.retain(|export| first.contains(&export.name));
             }
+            // A file that is gone is forgotten, so that a later one of the same name has to settle, too.
             // Exports are in the order of their names.
             self.seen.retain(|name, _| exports.binary_search_by(|export| export.name.cmp(name)).is_ok());
             for export in &exports {
@@ -111,6 +116,7 @@ impl<'w> WatchRun<'w> {
         if settling.is_empty() {
             return Ok(true);
         }
+        // Without this bound, a single file that is written to all the time would keep --once from ending.
         if begun.elapsed() < self.watch.settle * 3 {
             return Ok(false);
         }
@@ -136,6 +142,8 @@ impl<'w> WatchRun<'w> {
             ExportStatus::Settling(since) if now.duration_since(*since) < self.watch.settle => return Ok(()),
             ExportStatus::Failed { next, .. } if now < *next => return Ok(()),
             ExportStatus::Settling(_) => self.watch.poll,
+            // A full disk or a lost network drive stays so for some time, so each pause is twice the last
+            // one.
             ExportStatus::Failed { pause, .. } => (*pause * 2).min(LONGEST_PAUSE),
         };
         let after = match self.take_export(export) {
@@ -170,6 +178,8 @@ impl<'w> WatchRun<'w> {
                 None => Digest::from_file(&export.path)?,
             };
             let is_done = self.state.is_done(&export.name, digest);
+            // Some programs reserve the whole size of a file before they write its content, and a network
+            // drive may tell its new time late. Then only a second reading shows that they are still at work.
             let rests = is_done || Digest::from_file(&export.path)? == digest;
             Ok((bytes, digest, is_done, rests && ExportStamp::read_stamp(&export.path)? == export.stamp))
         };
@@ -201,6 +211,8 @@ impl<'w> WatchRun<'w> {
         if correction.outcome == UnattendedOutcome::Stopped {
             return Err(Stop::Interrupted);
         }
+        // The fault is not in the program but in a recipe or setup. So the program stays, and is tried again
+        // once that is mended.
         if correction.surroundings {
             return Err(correction.findings.into());
         }

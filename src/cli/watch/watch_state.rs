@@ -88,6 +88,8 @@ impl WatchState {
             self.file.write_all(&line)?;
             self.file.sync_data()
         });
+        // It counts as done in this run even if the line could not be written. Otherwise a full disk would
+        // have it done again at every look.
         self.done.insert(key, digest);
         written.map_err(|error| report_unwritable(&self.path, &error))
     }

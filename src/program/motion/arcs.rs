@@ -83,6 +83,8 @@ fn resolve_circle(
             // same way confirms it.
             let tangent = printed.cross(&(start - circle.center));
             match before.map(|before| before.dot(&tangent)) {
+                // 0.9 is the cosine of about 26 degrees. A motion at a larger angle to the tangent is no
+                // smooth entry, so it tells nothing about the sense of the arc.
                 Some(along) if along.abs() > 0.9 * tangent.norm() => along > 0.0,
                 _ => {
                     problems.push(MotionProblemKind::AssumedSense);
@@ -134,6 +136,8 @@ fn resolve_move_arc(record: &MoveArc, start: Point3<f64>, end: Point3<f64>) -> R
             arc.sweep = told;
         }
         arc.sweep += ((told - arc.sweep) / TAU).round().clamp(0.0, 10_000.0) * TAU;
+        // The ends are apart by the chord 2 R sin(a / 2) of the angle a between them. The sine of half a
+        // whole turn is 0, so only the remainder counts.
         let off = 2.0 * arc.radius * ((told - arc.sweep) / 2.0).sin().abs();
         if off > tolerance {
             problems.push(MotionProblemKind::ArcEndOffCircle(off));
@@ -161,6 +165,8 @@ fn resolve_drive_arc(
         return ResolvedArc { arc: None, problems: vec![MotionProblemKind::TangentMismatch] };
     };
     let normal = spoke.cross(&direction);
+    // The length of the cross product is |spoke| |direction| sin(angle). A tangent is at 90 degrees to its
+    // spoke; less than 30 degrees (or more than 150) is no tangent at all.
     if normal.norm() < 0.5 * spoke.norm() * direction.norm() || spoke.norm() < SAME_POINT {
         return ResolvedArc { arc: None, problems: vec![MotionProblemKind::TangentMismatch] };
     }
@@ -178,6 +184,7 @@ fn resolve_drive_arc(
         problems.push(MotionProblemKind::ArcStartOffCircle(off));
     }
     check_arc_end(&arc, end, &mut problems);
+    // Very close to half a turn, rounding alone decides on which side of it an arc lies.
     if record.beyond_half != (arc.sweep > PI + 1e-4) && (arc.sweep - PI).abs() > 1e-3 {
         problems.push(MotionProblemKind::TangentMismatch);
     }

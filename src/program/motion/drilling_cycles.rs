@@ -48,6 +48,7 @@ pub(super) fn plan_hole_moves(
     }
     go(clearance, true);
     go(bottom, false);
+    // Only a drill may leave its hole at rapid. A tap would tear the thread, and a reamer mark the wall.
     go(retract, cycle.kind == CycleKind::Drill);
     legs
 }

@@ -157,7 +157,10 @@ impl Motions<'_> {
         if (old.origin, old.axes) == (new.origin, new.axes) {
             return;
         }
+        // The last direction is given in the old frame, and would be wrong in the new one.
         self.last_tangent = None;
+        // The tool does not move. Its point p is led out of the old frame (axes O, origin o) and into the new
+        // one (N, n): p' = N^-1 (o + O p - n).
         self.state.pose = new.axes.try_inverse().map(|inverse| Pose {
             point: (inverse * (old.origin + old.axes * pose.point.coords - new.origin)).into(),
             axis: normalize_axis(inverse * (old.axes * pose.axis)),

@@ -202,6 +202,8 @@ impl Motions<'_> {
         let tangent = path.end_tangent(from.point, to.point);
         let mut motion = self.build_motion(from, to, path, target.statement);
         motion.normal = target.normal;
+        // Many machines do not go straight at rapid, so a rapid tells nothing about the direction in which an
+        // arc begins.
         self.last_tangent = if motion.rapid { None } else { tangent.or(self.last_tangent) };
         self.state.pose = Some(to);
         self.queue.push_back(motion);
@@ -341,6 +343,8 @@ impl Motions<'_> {
         let travel = to.point - from.point;
         let along = travel.dot(&to.axis);
         let straight = matches!(path, MotionPath::Line) && travel.norm() > SAME_POINT;
+        // 0.999 is the cosine of 2.6 degrees: a motion that is so close to the tool axis goes straight in or
+        // out.
         let class = if straight && along.abs() > travel.norm() * 0.999 {
             if along < 0.0 { MotionClass::Engage } else { MotionClass::Retract }
         } else {

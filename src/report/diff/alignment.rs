@@ -37,6 +37,8 @@ pub(super) fn align_statements(
     let anchors = find_anchors(a, &middle_a, b, &middle_b);
     if out.have_same_shape(&middle_a, &middle_b) {
         let at_place = out.count_equal_in_place(&middle_a, &middle_b);
+        // With equal shapes throughout, a step has most likely edited numbers in place. Anchors count against
+        // that only if they are many, and more than the statements that are equal in place.
         let few = anchors.len() * 2 < middle_a.len();
         if few || at_place >= anchors.len() || shifted(middle_a.clone(), middle_b.clone()) {
             out.push_pairs(middle_a.clone(), middle_b.clone());
@@ -100,6 +102,8 @@ fn find_longest_ascending(pairs: &[(usize, usize)]) -> Vec<(usize, usize)> {
     let mut tops: Vec<(usize, usize)> = Vec::new();
     let mut before: Vec<Option<usize>> = Vec::with_capacity(pairs.len());
     for (index, (_, at_b)) in pairs.iter().enumerate() {
+        // The tops of the piles ascend, so bisection finds the pile, and the whole search takes n log n
+        // steps.
         let pile = tops.partition_point(|(top, _)| top < at_b);
         before.push(pile.checked_sub(1).and_then(|left| tops.get(left)).map(|(_, index)| *index));
         match tops.get_mut(pile) {
@@ -168,6 +172,8 @@ impl AlignmentBuilder<'_> {
         self.push_pairs(a.start..a.start + head, b.start..b.start + head);
         let inner_a = a.start + head..a.end - tail;
         let inner_b = b.start + head..b.end - tail;
+        // Equal shapes throughout mean that only numbers were changed, so each statement belongs to the one
+        // in its place.
         if self.have_same_shape(&inner_a, &inner_b) {
             self.push_pairs(inner_a.clone(), inner_b.clone());
         } else {
@@ -212,6 +218,8 @@ fn diff_in_windows<T: std::hash::Hash + Eq + Ord + Clone>(
         let early =
             |op: &DiffOp| op.old_range().start < WINDOW * 3 / 4 && op.new_range().start < WINDOW * 3 / 4;
         let equal = |op: &&DiffOp| matches!(op, DiffOp::Equal { .. });
+        // Without an equal segment early in the window there is nothing to continue from, so all of it is
+        // kept, and the search moves on.
         let kept = ops.iter().rposition(|op| equal(&op) && early(op)).map_or(ops.len(), |at| at + 1);
         let kept = if last { ops.len() } else { kept };
         let (base_a, base_b) = (at_a, at_b);

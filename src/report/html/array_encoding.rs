@@ -39,6 +39,8 @@ impl PageArray {
             Self::Growing(values) => {
                 let before = std::iter::once(0).chain(values.iter().copied());
                 split_byte_planes(
+                    // `NONE` is the largest number, so a difference can be negative. It wraps here, and wraps
+                    // back when the page adds it up in 32 bits.
                     values.iter().zip(before).map(|(value, before)| value.wrapping_sub(before).to_le_bytes()),
                 )
             }

@@ -10,5 +10,7 @@ pub fn write_text(out: &mut dyn Write, text: &str) -> io::Result<()> {
 
 /// Returns a value as JSON that is safe in a script element.
 pub fn to_script_json(value: &serde_json::Value) -> String {
+    // `</script`, `<script` and `<!--` would be read as HTML even inside of a script element. All of them
+    // begin with this character.
     value.to_string().replace('<', "\\u003c")
 }

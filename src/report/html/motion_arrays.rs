@@ -124,6 +124,8 @@ impl PageMotionArrays {
         let mut flags = if rapid { RAPID } else { 0 };
         for (index, step) in steps.iter().enumerate() {
             let from = to_drawing_vertex(&step.piece.from, origin);
+            // Nearly every motion begins where the one before it has ended. Without a second copy of that
+            // point, a straight motion needs one vertex instead of two.
             if index == 0 && self.vertices.last() != Some(&from) {
                 flags |= JUMPS;
                 self.vertices.push(from);

@@ -53,6 +53,7 @@ pub fn pair_motions(before: &mut PageMotionArrays, after: &mut PageMotionArrays,
 /// statement it is the next motion that ends.
 fn find_origin_motions(before: &PageMotionArrays, statements: usize, listing: &ProgramListing) -> Vec<u32> {
     let mut found = vec![NONE; statements];
+    // This runs backwards, because an inserted statement belongs to the motion that comes after it.
     let mut ends = listing.origins.iter().zip(&before.ended_by).rev().peekable();
     let mut next = NONE;
     for (statement, place) in found.iter_mut().enumerate().rev() {
@@ -79,8 +80,12 @@ fn compare_motions(
     }
     let feeds = before.feed.get(pair).zip(after.feed.get(motion));
     match feeds {
+        // The feeds are `f32` numbers of about seven digits, so a smaller difference may be nothing but
+        // rounding.
         Some((old, new)) if *new < *old * (1.0 - 1e-5) => PageMotionChange::Slower,
         Some((old, new)) if *new > *old * (1.0 + 1e-5) => PageMotionChange::Faster,
+        // The feed of a rapid is NaN, which is neither slower nor faster than anything. Without this arm, a
+        // rapid that became a motion at feed would count as unchanged.
         Some((old, new)) if old.is_nan() != new.is_nan() => PageMotionChange::Elsewhere,
         _ => PageMotionChange::Same,
     }

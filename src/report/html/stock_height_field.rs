@@ -38,6 +38,7 @@ impl StockHeightField {
                 let mut top = None;
                 for [bottom, upper] in band.column_spans(index) {
                     low = low.min(bottom);
+                    // The intervals come from above to below, so the first one has the top of the column.
                     top.get_or_insert(upper);
                 }
                 if let (Some(top), Some(height)) =
@@ -53,6 +54,8 @@ impl StockHeightField {
         }
         heights.iter_mut().for_each(|height| *height -= low);
         let [x, y] = layout.origin_mm;
+        // The grid states the centre of its first column. The centre of a block of n columns is (n - 1) / 2
+        // columns farther in.
         let inward = (coarser as f64 - 1.0) / 2.0 * layout.cell_mm;
         Some(Self {
             first_mm: [x + inward, y + inward],

@@ -61,6 +61,8 @@ pub(super) fn compensate_by_profile(
         &over,
     )
     .map_err(|why| place.describe_lead_conflict(why, context))?;
+    // A statement that several points share cannot be changed for one of them, so every motion is checked
+    // before the first edit.
     for index in ends.keys().copied().chain(all.iter().flat_map(|work| work.pass.motions.clone())) {
         writer
             .check_writable(&program, index)
@@ -212,6 +214,8 @@ fn prove_profile_passes(
         report.gap_mm = Some(verdict.gap_mm);
         report.path = path;
         report.naive = naive_offset_points(&work.done.contact, ball.radius);
+        // Besides the tolerance, printing moves points, and the measurement itself is only exact up to its
+        // bound.
         let allowed = ball.tolerance + PRINTED * mm_per_unit + verdict.bound_mm;
         if verdict.gouge_mm > allowed || verdict.gap_mm > allowed {
             let message = format!(

@@ -158,6 +158,7 @@ pub(super) fn move_surroundings(
             continue;
         }
         let up = around.tool_axis(*index);
+        // A rapid may pass over clamps or stock that no profile shows, so it never gets lower than it was.
         let rapid = around.motions.get(*index).is_some_and(|motion| motion.rapid);
         let old =
             around.end_point_mm(*index).filter(|_| rapid).map(|old| old.coords.dot(&up) + around.lift_mm);
@@ -180,6 +181,8 @@ fn move_between_passes(
 ) {
     let own = left.or(reached).and_then(|pass| around.operation_index(pass.motions.start));
     let next = reached.and_then(|pass| around.operation_index(pass.motions.start));
+    // Where tips become centres, everything first rises by the radius. The leads below are then placed by
+    // their passes, which replaces this.
     if around.lift_mm > 0.0 {
         for index in range.clone().filter(|index| !around.is_immovable(*index)) {
             let operation = around.operation_index(index);

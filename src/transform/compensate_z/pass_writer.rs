@@ -57,6 +57,8 @@ pub(super) struct PassWriter<'a> {
 
 impl<'a> PassWriter<'a> {
     pub fn new(program: &Program, motions: &'a [Motion], mm_per_unit: f64) -> Self {
+        // A file may print its own points with two or three decimals, but a compensated path would lose its
+        // tolerance to them.
         let decimals = FileStyle::from_program(program).length_decimals.max(4);
         Self { motions, mm_per_unit, decimals, arc: find_arc_template(program) }
     }
@@ -126,7 +128,10 @@ impl<'a> PassWriter<'a> {
             let Some(motion) = self.motions.get(index) else { continue };
             let mut own: Vec<ChainPiece> = Vec::new();
             while let Some(piece) = pieces.peek() {
+                // In an undercut the path runs back a little. The farthest place so far keeps the pieces in
+                // their order.
                 reached = reached.max(piece.end().u * forward);
+                // The last motion takes all the rest, so that no piece is lost to rounding.
                 if reached > until + 1e-9 && place + 1 < count {
                     break;
                 }

@@ -12,6 +12,7 @@ pub(super) fn lowest_tip_height_mm<'a>(
     at: Point3<f64>,
 ) -> Option<f64> {
     let one = |(plane, exact): (&ProfilePlane, &Chain)| {
+        // A profile only describes the part in its own plane. Beside it nothing is known.
         if plane.signed_distance_mm(at).abs() > 0.01 {
             return None;
         }

@@ -127,6 +127,8 @@ fn passes_of_run(
     let all = motions.get(run.clone());
     debug_assert!(all.is_some(), "a run consists of motions of the program");
     let all = all.unwrap_or_default();
+    // The profile of a pass has a single axis. Where the tool turns, no vertical plane tells what the ball
+    // touches.
     if let Some(at) = all.iter().position(|motion| turns(&motion)) {
         return Err(NoPassReason::AxisTurns(run.start + at));
     }
@@ -277,6 +279,7 @@ fn fit_plane(
     points: &[Point3<f64>],
 ) -> Option<(ProfilePlane, Vector3<f64>)> {
     let across = |point: &Point3<f64>| {
+        // Without its part along the axis, only the direction across is left, which decides the plane.
         let offset = point - origin;
         offset - up * offset.dot(&up)
     };

@@ -41,6 +41,7 @@ fn check_same_motions(
     let one = before.get(old..old + count).ok_or(old)?;
     let other = after.get(new..new + count).ok_or(old)?;
     let same = |(one, other): (&Motion, &Motion)| {
+        // Points are not compared, because those around a pass may have moved with its ends.
         one.rapid == other.rapid
             && one.feed == other.feed
             && one.operation == other.operation

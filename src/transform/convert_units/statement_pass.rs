@@ -38,6 +38,8 @@ pub fn convert_statements(
         let row = rows.observe_record(record);
         match record {
             Record::Goto(goto) => {
+                // Most statements are points, so they are converted here, without the search for roles and
+                // words that others need.
                 let point = goto.point.coords.map(|value| conversion.convert_length(value));
                 editor.set_numbers(id, &[(0, point.x), (1, point.y), (2, point.z)])?;
                 continue;
@@ -97,6 +99,8 @@ fn compute_edits(
     };
     let metric_speed =
         matches!(record, Record::Spindle(spindle) if spindle.unit == SpindleUnit::SurfaceMetres);
+    // Metres per minute belong to millimetres, and feet per minute to inches. A speed that is in the new
+    // system already stays as it is.
     let speed_changes = metric_speed == (conversion.from == LengthUnit::Mm);
     let mut edits = Vec::new();
     for (number, ((_, value), role)) in parse::statement_numbers(text).into_iter().zip(roles).enumerate() {

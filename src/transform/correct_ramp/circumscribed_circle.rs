@@ -32,9 +32,12 @@ impl BulgeSide {
 /// then the points lie on the chord.
 pub fn find_arc_angle(s: f64, leg: f64, legs: usize) -> Option<f64> {
     let count = legs as f64;
+    // Legs that just reach from end to end lie on the chord. Any arc that was found for them would be nothing
+    // but rounding.
     if leg * count <= s * (1.0 + 1e-12) {
         return None;
     }
+    // The equation is multiplied by sin(arc / 2), which is 0 at both ends of the interval.
     let too_short = |arc: f64| s * (arc / (2.0 * count)).sin() < leg * (arc / 2.0).sin();
     let (mut low, mut high) = (0.0, TAU);
     // The right side grows with the arc, so bisection finds it. After 60 steps no double lies between the
@@ -108,6 +111,8 @@ pub fn find_own_side(points: &[Point2<f64>], closed: bool) -> BulgeSide {
     let (Some(first), Some(last)) = (points.first(), points.last()) else { return BulgeSide::Left };
     let chord = last - first;
     if !closed {
+        // The cross product with the chord, divided by its length, is the signed distance from it, positive
+        // on the left.
         let aside = |point: &Point2<f64>| chord.perp(&(point - first)) / chord.norm();
         let inner = points.get(1..points.len().saturating_sub(1)).unwrap_or_default();
         let (left, right) = (inner.iter().any(|p| aside(p) > 1e-6), inner.iter().any(|p| aside(p) < -1e-6));
@@ -117,6 +122,7 @@ pub fn find_own_side(points: &[Point2<f64>], closed: bool) -> BulgeSide {
             (true, true) => {}
         }
     }
+    // The shoelace formula: the signed triangles from P1 to each pair of neighbours add up to the area.
     let area: f64 = points.windows(2).map(|pair| twice_area(first, pair)).sum();
     // A counter-clockwise path runs on the right of its chord, but a closed ramp that is counter-clockwise
     // turns left.

@@ -48,6 +48,8 @@ pub fn lengthen_along_chord(ramp: &Ramp, least: f64) -> Vec<Ramp> {
         return build_over_turns(ramp, &[]).into_iter().collect();
     }
     let at = |distance: f64| start + along * distance;
+    // With l for `least`, the legs are s + l and l; l and s + l; l, 2 l - s and l. As s < l here, none is
+    // shorter than l.
     let turns = [vec![at(s + least)], vec![at(-least)], vec![at(least), at(s - least)]];
     turns.iter().filter_map(|turns| build_over_turns(ramp, turns)).collect()
 }

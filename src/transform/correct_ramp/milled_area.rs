@@ -46,6 +46,8 @@ impl MilledArea {
         let mut near: Vec<LineString> = Vec::new();
         for path in paths {
             let whole: LineString = path.iter().map(at).collect();
+            // The time for buffers grows with the number of points, and dense paths have many more than their
+            // shape needs.
             let whole = whole.simplify(CHORD_TOLERANCE);
             let mut open: Vec<Coord> = Vec::new();
             for line in whole.lines() {

@@ -13,6 +13,8 @@ pub(super) fn contains_line(polygon: &Polygon, line: Line) -> bool {
     let length_squared = delta.x * delta.x + delta.y * delta.y;
     let share =
         |at: geo::Coord| ((at.x - line.start.x) * delta.x + (at.y - line.start.y) * delta.y) / length_squared;
+    // Between two neighbouring cuts a line does not cross the boundary, so the middle decides for all of that
+    // part.
     let mut cuts = vec![0.0, 1.0];
     if length_squared > 0.0 {
         for edge in boundary_rings(polygon).flat_map(LineString::lines) {

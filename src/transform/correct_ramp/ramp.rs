@@ -82,6 +82,8 @@ impl RampStep {
             }
             Some(bend) => {
                 let tangent = |at: Point2<f64>| {
+                    // The spoke turned by 90 degrees is the tangent of a counter-clockwise arc. The sign of
+                    // the sweep reverses it for a clockwise one.
                     let spoke = at - bend.centre;
                     Vector2::new(-spoke.y, spoke.x).try_normalize(0.0).map(|side| side * bend.sweep.signum())
                 };
@@ -190,6 +192,7 @@ impl Ramp {
             let (down, across) = (from.z - step.to.z, step.length_across_mm(from));
             if down <= 0.0 {
                 0.0
+            // Over so short a length the last printed digits alone would decide the slope.
             } else if across <= NOTHING {
                 f64::INFINITY
             } else {
@@ -249,6 +252,8 @@ impl Ramp {
             (offset - along * along.dot(&offset)).norm()
         };
         let straight = points.iter().all(|point| beside(point) <= STRAIGHT);
+        // A curved leg may come back to its start, so its chord says nothing. What counts is how far the
+        // middle of the cutter, which does not cut, gets away from where it was.
         let extent = if straight { chord.norm() } else { largest_distance(&points) };
         RampLeg { steps, extent, straight }
     }

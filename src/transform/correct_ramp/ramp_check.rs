@@ -26,6 +26,7 @@ pub fn check_ramps(program: &Program, setup: &Setup, unit: LengthUnit) -> Vec<Di
     let depth_mm = find_level_step_mm(program, unit);
     let step = CorrectRamp {
         depth_of_cut: depth_mm.and_then(Positive::new),
+        // A check must not stop at a ramp that cannot be corrected. It reports that one like the others.
         if_impossible: ImpossibleRampHandling::Keep,
         plunges: PlungeHandling::Correct,
         ..CorrectRamp::default()
@@ -47,6 +48,7 @@ pub fn check_ramps(program: &Program, setup: &Setup, unit: LengthUnit) -> Vec<Di
     });
     of_ramps
         .map(|found| with_proposal(found, &proposals))
+        // The step only ran on a copy of the program, so its number would point to no step of a recipe.
         .map(|found| Diagnostic { step: None, ..found })
         .collect()
 }
@@ -103,5 +105,7 @@ fn find_level_step_mm(program: &Program, unit: LengthUnit) -> Option<f64> {
     levels.sort_by(|(a, from), (b, to)| a.cmp(b).then(to.total_cmp(from)));
     let steps = levels.iter().zip(levels.iter().skip(1)).filter(|((a, _), (b, _))| a == b);
     let steps = steps.map(|((_, upper), (_, lower))| upper - lower).filter(|step| *step > SAME_LEVEL);
+    // A_p of the paper is the largest depth of cut, so a ramp that begins above it begins in the air at every
+    // level.
     steps.reduce(f64::max)
 }

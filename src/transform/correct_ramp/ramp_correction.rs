@@ -96,6 +96,8 @@ pub fn correct_ramp(ramp: &Ramp, task: &RampTask<'_>) -> Result<Option<Corrected
     if is_long_enough(ramp, &task.limits, task.rounding) {
         return make_shallower(ramp, LengtheningMethod::No, task).map(Some);
     }
+    // The length comes before the angle, as in the paper, because longer legs over the same height are
+    // shallower already.
     let least = task.limits.shortest_leg + task.rounding;
     let longer = find_longer_ramps(ramp, least, task.passes);
     if longer.is_empty() {
@@ -105,6 +107,7 @@ pub fn correct_ramp(ramp: &Ramp, task: &RampTask<'_>) -> Result<Option<Corrected
     // that leaves the region.
     let mut why = ImpossibleCorrection::Region(task.limits.shortest_leg);
     for (lengthened, candidate) in longer {
+        // No rounding is granted to a new ramp, because printing may still shorten its legs by as much.
         if !task.region.contains_path(&candidate.path_across())
             || !is_long_enough(&candidate, &task.limits, 0.0)
         {
@@ -130,6 +133,8 @@ fn find_longer_ramps(ramp: &Ramp, least: f64, passes: &[Vector2<f64>]) -> Vec<(L
             let places: Vec<Point2<f64>> = points.iter().map(Point3::xy).collect();
             let legs = points.len().saturating_sub(1).max(1);
             let path: f64 = ramp.steps_with_starts().map(|(from, step)| step.length_across_mm(from)).sum();
+            // The paper leaves the position e of the centre open. This leg is the shortest one that is long
+            // enough and not shorter than the legs are on average, which would make them steeper.
             let (leg, closed) = (least.max(path / legs as f64), ramp.is_closed());
             let own = find_own_side(&places, closed);
             let sides =
@@ -187,6 +192,7 @@ fn make_shallower(
     task: &RampTask<'_>,
 ) -> Result<CorrectedRamp, ImpossibleCorrection> {
     let straight =
+        // An even slope is tried first, because it needs neither a lower start nor more passes.
         if is_shallow_enough(ramp, &task.limits, task.rounding) { None } else { straighten_legs(ramp) };
     let ramp = straight.as_ref().unwrap_or(ramp);
     let mut ratio = 1.0;
@@ -195,6 +201,8 @@ fn make_shallower(
         // Compression only removes height above the depth of cut, where there is air anyway.
         let begin = task.begin.filter(|begin| *begin > 0.0 && *begin < ramp.height_mm());
         if let Some(begin) = begin {
+            // nu = h1' / h1, with both heights above the ramp's end. The paper prints z2' = z2 + h1', but its
+            // figure measures from the end.
             ratio = begin / ramp.height_mm();
             lowered = compress_heights(ramp, ratio);
         }

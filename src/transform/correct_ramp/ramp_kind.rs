@@ -117,6 +117,7 @@ fn signed_turn(from: Vector2<f64>, to: Vector2<f64>) -> f64 {
 /// Returns the centre of the circle that fits the points best (algebraic least squares, Kasa 1976). Returns
 /// `None` for fewer than four points, or if they lie on a line.
 fn fit_circle_centre(points: &[Point2<f64>]) -> Option<Point2<f64>> {
+    // Any three points that are not in line lie on a circle, so they prove nothing.
     if points.len() < 4 {
         return None;
     }
@@ -131,6 +132,7 @@ fn fit_circle_centre(points: &[Point2<f64>]) -> Option<Point2<f64>> {
         right += row * at.norm_squared();
     }
     let found = normal.lu().solve(&right)?;
+    // The unknowns of the equation are 2 a and 2 b, so the centre is half of them.
     let centre = mean + found.xy() / 2.0;
     centre.iter().all(|value| value.is_finite()).then(|| centre.into())
 }

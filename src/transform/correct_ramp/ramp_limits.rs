@@ -58,6 +58,8 @@ impl IndexableCutter {
             let Self { diameter, insert_radius, .. } = *self;
             return Err(CutsToCentre { diameter, insert_radius });
         }
+        // Eq. (1): a leg has to be so long that the cutting edge passes over what the blind middle has left.
+        // Eq. (2): over that length the tool may sink by no more than the height of the insert.
         Ok(RampLimits { shortest_leg: blind, steepest: self.insert_height / blind })
     }
 }
@@ -105,6 +107,8 @@ pub fn is_within_limits(ramp: &Ramp, limits: &RampLimits, rounding: f64) -> bool
 pub fn is_long_enough(ramp: &Ramp, limits: &RampLimits, rounding: f64) -> bool {
     let least = limits.shortest_leg - rounding - 1e-9;
     match RampKind::classify_ramp(ramp) {
+        // A helix has no turning points. Its diameter takes the place of a leg, or every one of its short
+        // chords would be too short.
         RampKind::Helix(helix) => 2.0 * helix.radius >= least,
         _ => ramp.descending_legs().iter().all(|leg| leg.extent >= least),
     }
@@ -113,6 +117,8 @@ pub fn is_long_enough(ramp: &Ramp, limits: &RampLimits, rounding: f64) -> bool {
 /// Returns whether no step is too steep.
 pub fn is_shallow_enough(ramp: &Ramp, limits: &RampLimits, rounding: f64) -> bool {
     ramp.steps_with_starts().all(|(from, step)| {
+        // Heights are compared, not slopes: on a short chord the rounding of two printed heights alone would
+        // look steep.
         let most = limits.steepest * step.length_across_mm(from);
         from.z - step.to.z <= most * (1.0 + 1e-9) + rounding + 1e-9
     })

@@ -54,6 +54,8 @@ pub fn repeat_in_passes(ramp: &Ramp, passes: usize) -> Ramp {
     let count = passes as f64;
     let mut steps = Vec::with_capacity(ramp.steps.len() * passes);
     for pass in 0..passes {
+        // Every pass takes an equal part of the height (nu = 1 / passes), so all are equally steep and the
+        // last one ends at Pn.
         let at = |fraction: f64| top - height * (pass as f64 + fraction) / count;
         if pass % 2 == 0 || closed {
             steps.extend(ramp.steps.iter().map(|step| {
@@ -62,6 +64,8 @@ pub fn repeat_in_passes(ramp: &Ramp, passes: usize) -> Ramp {
             }));
         } else {
             let back = ramp.steps_with_starts().map(|(from, step)| {
+                // On the way back a step ends where it began on the way forward. The part of the height that
+                // lay ahead of that point then lies behind it.
                 let to = Point3::new(from.x, from.y, at(1.0 - fallen(from.z)));
                 RampStep { to, bend: step.bend.map(|bend| RampArc { sweep: -bend.sweep, ..bend }) }
             });
@@ -110,6 +114,7 @@ pub fn add_passes_or_turns(
     if fits(&found) {
         return Ok((found, least));
     }
+    // An open ramp only ends at Pn after an odd number of passes, so it gets two more.
     let more = least + if closed { 1 } else { 2 };
     Ok((repeat_in_passes(ramp, more), more))
 }

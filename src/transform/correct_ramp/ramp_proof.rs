@@ -107,6 +107,7 @@ fn check_ramp(
         }
         _ => false,
     });
+    // Pn is compared exactly, because everything behind the ramp starts from it and must not change.
     if !near || !bends || ramp.end_point() != plan.found.ramp.end_point() {
         return Err(RampProofError::Points);
     }

@@ -68,6 +68,8 @@ impl Transform for CorrectRamp {
         let file = context.file_length_unit(&program);
         let motions: Vec<Motion> = program.motions().collect();
         let mut judge = RampJudge::new(self, &program, &motions, file, context);
+        // All ramps are judged before any is written: the plans count the motions of the program as it was,
+        // and every ramp that cannot be corrected is reported in one run.
         judge.judge_ramps(context)?;
         let RampJudge { plans, mut reports, .. } = judge;
         let mut editor = ProgramEditor::new(program, context.step);
@@ -232,6 +234,7 @@ impl<'a> RampJudge<'a> {
         let clearance = step.clearance.map_or(CLEARANCE, |clearance: NonNegative| clearance.get() * recipe);
         let begin = step.depth_of_cut.map(|depth: Positive| depth.get() * recipe + clearance);
         let rounding = ROUNDING * mm;
+        // A ramp that fits needs no region, and computing one takes long.
         if is_within_limits(&found.ramp, &limits, rounding) {
             let report = self.build_report(&found, limits, RampOutcome::Fits);
             self.reports.push(report);
@@ -253,6 +256,8 @@ impl<'a> RampJudge<'a> {
         let mut report = self.build_report(&found, limits, RampOutcome::Kept);
         let written =
             ramp_writer::check_writable(self.program, self.motions, &found.motions).and_then(|()| {
+                // With cutter compensation on, the control moves the path sideways, so points for the centre
+                // of the tool would be wrong.
                 if self.is_compensated(&found) { Err(UnwritableRamp::Compensation) } else { Ok(()) }
             });
         let why_not = match (&corrected, written, found.has_level) {

@@ -29,6 +29,8 @@ pub fn collect_sweeps(program: &Program) -> Vec<ArcSweep> {
 pub fn check_sweeps(program: &Program, before: &[ArcSweep]) -> Result<(), Span> {
     let mut before = before.iter();
     for after in iter_arcs(program) {
+        // Moving a program keeps the sweep of its arcs, and rounding changes it very little. A change by more
+        // than half a turn means that a short arc is read as a full turn now, or the other way round.
         if before.next().is_none_or(|before| (before.sweep - after.sweep).abs() > PI) {
             return Err(after.place);
         }

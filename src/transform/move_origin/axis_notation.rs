@@ -104,6 +104,8 @@ fn append_axis(editor: &mut ProgramEditor, id: StatementId, axis: Vector3<f64>) 
     let end = third.end;
     // The new numbers are separated like the last two numbers of the statement.
     let between = text.get(second.end..third.start).unwrap_or_default();
+    // The separator may hold a continuation mark and a line break, which must not be repeated between the new
+    // numbers.
     let plain = between.iter().all(|byte| matches!(byte, b' ' | b','));
     let between = if plain { String::from_utf8_lossy(between).into_owned() } else { ",".to_owned() };
     let line_end = editor.style().line_end;

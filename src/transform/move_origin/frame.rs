@@ -188,6 +188,8 @@ fn compute_frame_edits(frame: &FrameRecord, place: &Affine) -> Vec<(usize, f64)>
 /// Returns the edits of a row of CATIA's matrix: three numbers of the rotation and one of the translation.
 fn compute_row_edits(row: &[f64; 4], place: &Affine) -> Vec<(usize, f64)> {
     let [a, b, c, d] = *row;
+    // This is one row of the product F * T: its axes times T's directions, and its origin plus its axes times
+    // T's offset.
     let axes = nalgebra::RowVector3::new(a, b, c);
     let mut edits = vec![(3, d + (axes * place.offset).x)];
     if place.changes_directions() {

@@ -107,6 +107,7 @@ impl<'w> RewriteRun<'w> {
     /// Inserts the statements that do not stand there yet.
     fn insert_missing(&self, insertion: PendingInsertion, editor: &mut ProgramEditor) -> Result<(), Failure> {
         let PendingInsertion { hit, before, after } = insertion;
+        // A recipe that runs on its own output must not insert the same statements a second time.
         if !is_already_inserted(&before, editor.program(), hit.statement, true) {
             self.insert_texts(&before, hit.statement.before(), hit, "insert_before", editor)?;
         }

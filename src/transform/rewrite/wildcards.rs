@@ -113,6 +113,7 @@ impl WildcardPattern {
             let is_last = index + 1 == self.0.len();
             match part {
                 WildcardPart::Literal(literal) => {
+                    // A wildcard takes at least one character, so what follows it begins one later.
                     let earliest = next + usize::from(open.is_some());
                     let Some(found) = find_literal(&bytes, literal, earliest, open.is_some(), is_last) else {
                         return false;
@@ -169,6 +170,8 @@ fn find_literal(bytes: &[u8], literal: &[u8], earliest: usize, floats: bool, is_
     let found = match (floats, is_last) {
         (false, _) => rest.starts_with(literal).then_some(0),
         (true, true) => rest.ends_with(literal).then(|| rest.len() - literal.len()),
+        // The first place is as good as any later one, because it leaves the most text for the parts that
+        // follow. So no search back is needed.
         (true, false) => memchr::memmem::find(rest, literal),
     };
     found.map(|at| earliest + at)

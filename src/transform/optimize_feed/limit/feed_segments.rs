@@ -55,6 +55,8 @@ pub(in crate::transform::optimize_feed) fn build_feed_segments(
                 end: end / block.length,
                 feed: block.programmed,
                 least: bounds.least,
+                // A segment is fixed until a window limits it, so whatever nothing limits keeps its
+                // programmed feed.
                 fixed: true,
                 below: false,
             });
@@ -81,6 +83,8 @@ fn apply_window_limits(
         let bounds = FeedBounds::from_rules(block, rules);
         if let Some(feed) = bounds.window_feed_mm_min(content) {
             (segment.feed, segment.fixed) = (feed, false);
+            // Only the limit of the material itself tells that a block exceeds its target. In a margin there
+            // is only air, whatever its feed.
             segment.below = content.lowest_cut < bounds.least;
         }
     }
@@ -117,6 +121,8 @@ fn content_between(segment: &FeedSegment, pieces: &[ClassedPiece], from: f64, to
     debug_assert!(own.is_some(), "a segment consists of pieces of the list");
     for piece in own.unwrap_or_default() {
         let end = start + piece.length;
+        // A piece that is itself shorter than the tolerance has to count for its own segment, or its limit
+        // would be lost. So half of its length is the tolerance there.
         if end.min(to) - start.max(from) > NOTHING.min(piece.length / 2.0) {
             content = content.combined_with(WindowContent::from_piece(piece, pieces));
         }
@@ -138,6 +144,8 @@ fn keep_margins(segments: &mut [FeedSegment], pieces: &[ClassedPiece]) {
             let PieceClass::Margin(left, right) = piece.kind else { continue };
             for cut in [left, right].into_iter().flatten() {
                 let beside = limit_at.get(cut).copied().unwrap_or(f64::INFINITY);
+                // The lowest feed of this block still holds, even if the cut beside the margin lies in a
+                // block that may run slower.
                 segment.feed = segment.feed.min(beside.max(segment.least));
             }
         }

@@ -54,6 +54,8 @@ pub(super) fn merge_into_segments(
     };
     let cheap = |a: &CandidateSegment, b: &CandidateSegment| {
         let joined = path.join_segments(a, b);
+        // With a `min_change` of 0, only a merge that costs no time is cheap. The noise covers the rounding
+        // of the sums.
         !apart(a, b) && joined.time <= (1.0 + rules.min_change) * joined.least_time * (1.0 + NOISE)
     };
     // Merging the cheapest pair first keeps the expensive boundaries, as bottom-up segmentation of time
@@ -61,10 +63,14 @@ pub(super) fn merge_into_segments(
     while let Some(at) = path.find_cheapest_pair(&segments, cheap) {
         path.merge_pair(&mut segments, at);
     }
+    // The sum of several pieces may miss the shortest length by a rounding error, and must not grow by a
+    // whole piece for that.
     let enough = rule.shortest * (1.0 - NOISE);
     while let Some(at) = find_too_short(&segments, enough) {
         path.grow_segment(&mut segments, at, enough);
     }
+    // The number of parts comes last: growing may have removed some already, and merging never makes one too
+    // short again.
     while segments.len() > rule.at_most.max(1) {
         match path.find_cheapest_pair(&segments, |_, _| true) {
             Some(at) => path.merge_pair(&mut segments, at),
@@ -139,6 +145,8 @@ impl SegmentMerger<'_> {
         for (at, pair) in segments.windows(2).enumerate() {
             let [a, b] = pair else { continue };
             let cost = self.added_time_min([a, b], &[self.join_segments(a, b)]);
+            // `may` is asked last, because it joins the pair once more, and few pairs are the cheapest so
+            // far.
             if best.is_none_or(|(_, least)| cost < least) && may(a, b) {
                 best = Some((at, cost));
             }

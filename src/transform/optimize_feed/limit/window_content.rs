@@ -29,6 +29,8 @@ impl WindowContent {
                         Some(PieceClass::Cut(limit)) => limit,
                         _ => f64::INFINITY,
                     };
+                // Where two cuts lie close together their margins overlap, and the slower cut decides. A
+                // margin counts as cutting, so that it never gets the air feed.
                 let lowest = limit(left).min(limit(right));
                 Self { lowest, cutting: true, ..Self::NOTHING }
             }
@@ -66,6 +68,8 @@ impl FeedBounds {
         let air = if content.air { self.air } else { None };
         let wanted = match (content.cutting, air) {
             (false, air) => air?,
+            // A segment has a single feed. If it holds air and a cut, the slower of their feeds is right for
+            // both.
             (true, air) => content.lowest.min(air.unwrap_or(f64::INFINITY)),
         };
         // The highest feed is applied last: it is a limit of the machine, the lowest feed only a wish.

@@ -58,6 +58,7 @@ pub(in crate::transform::optimize_feed) fn measure_blocks(
         StockResolution::Cell(cell) => AROUND * cell,
         StockResolution::Layer(_) => SHORT,
     };
+    // Only now are the pieces behind a short piece known, and they count for it as well.
     lower_short_pieces(&mut gathered.blocks, reach);
     Ok((gathered, ran))
 }
@@ -137,10 +138,14 @@ impl MeasuredBlocks {
                 }
             }
         }
+        // A hole is one point of a cycle, and the parts of a spline would need control points and knots of
+        // their own. So neither is split.
         let whole = motion.hole.is_some() || matches!(motion.path, MotionPath::Spline(_));
         self.blocks.push(FeedBlock {
             length,
             programmed: feed.unwrap_or(0.0),
+            // Without a FEDRAT to change or to copy, no feed can be written. The feed of a hole belongs to
+            // its whole cycle.
             touched: touched && feed.is_some() && motion.feed_from.is_some() && motion.hole.is_none(),
             splittable: !whole,
             breaks_chain: !goes_on,

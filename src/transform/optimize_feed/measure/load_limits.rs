@@ -123,6 +123,8 @@ impl LoadLimits {
         let mut bounded = found.clone();
         // Loads grow with every fraction and with the volume, so the bounds of both give bounds of the loads.
         bounded.bins.iter_mut().for_each(|bin| bin.share = bin.share_bound);
+        // Half a cell (or layer) on either side makes an extent longer by one, so the volume grows by the
+        // fraction resolution / extent.
         let more = |extent: f64, resolution: f64| {
             if extent > 0.0 { resolution / extent.max(resolution) } else { 0.0 }
         };

@@ -47,6 +47,8 @@ pub(super) fn lower_short_pieces(blocks: &mut [FeedBlock], reach: f64) {
             limit = limit.min(other.limit);
             air &= other.air;
         }
+        // A short piece is air only if everything around it is air as well. Otherwise the columns may just
+        // have missed what it cuts.
         let piece = blocks.get_mut(placed.block).and_then(|block| block.pieces.get_mut(placed.piece));
         if let Some(piece) = piece.filter(|_| !air) {
             piece.limit = FeedLimit::Limit(limit);

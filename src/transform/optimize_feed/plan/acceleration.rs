@@ -10,6 +10,8 @@ use crate::transform::optimize_feed::limit::FeedSegment;
 /// for the one after it, within its own length. Feeds are never raised.
 pub(super) fn limit_feed_changes(segments: &mut [FeedSegment], acceleration: f64) {
     let within = |segment: &mut FeedSegment, beside: Option<(usize, f64)>| {
+        // A fixed segment keeps its programmed feed, but it still bounds its neighbours, because the machine
+        // does have that speed there.
         if let Some((_, feed)) = beside.filter(|(chain, _)| *chain == segment.chain && !segment.fixed) {
             segment.feed = segment.feed.min(reachable_feed_mm_min(feed, acceleration, segment.length));
         }

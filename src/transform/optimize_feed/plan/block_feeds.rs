@@ -72,6 +72,7 @@ pub fn plan_block_feeds(blocks: &[FeedBlock], rules: &FeedRules) -> BlockFeeds {
     let mut below_minimum: Vec<usize> =
         segments.iter().filter(|segment| segment.below).map(|segment| segment.block).collect();
     below_minimum.dedup();
+    // This comes before rounding, because the feeds that it makes are no multiples of the rounding step.
     if let Some(acceleration) = rules.max_acceleration {
         limit_feed_changes(&mut segments, acceleration);
     }
@@ -108,6 +109,8 @@ fn collect_planned_segments(blocks: &[FeedBlock], segments: &[FeedSegment]) -> V
     let mut before = None;
     for (segments, block) in found.iter_mut().zip(blocks) {
         match segments.last_mut() {
+            // The lengths of the parts sum up to the whole only up to rounding. With an exact end, no motion
+            // is split a hair before its end.
             Some(last) => last.end = 1.0,
             None => segments.push(PlannedSegment { end: 1.0, feed: inherit_feed(block, before) }),
         }

@@ -32,7 +32,11 @@ fn round_to_step(feed: f64, least: f64, step: f64) -> f64 {
     if step <= 0.0 {
         return feed;
     }
+    // A multiple of the step may come out of the division a hair too low. Without the noise it would lose a
+    // whole step, and a second run would change the program again.
     let down = ((feed / step * (1.0 + NOISE)).floor() * step).min(feed);
+    // Acceleration may have lowered a feed below the lowest one. Raising it again here would ask the machine
+    // for a change that it cannot make.
     let down = if feed >= least { down.max(least) } else { down };
     if down > 0.0 { down } else { feed }
 }
@@ -43,6 +47,8 @@ fn count_sharing_segments(segments: &[FeedSegment], keeps: f64) -> usize {
     let mut count = 0;
     for segment in segments {
         (lowest, highest) = (lowest.min(segment.feed), highest.max(segment.feed));
+        // The whole run is compared, not just neighbours, because many small changes in a row add up to a
+        // large one.
         if segment.fixed || lowest < keeps * highest {
             break;
         }
@@ -59,6 +65,8 @@ fn even_out(run: &mut [FeedSegment], programmed: &impl Fn(&FeedSegment) -> f64, 
     let stays = |feed: f64| (keeps * lowest * (1.0 - NOISE)..=lowest).contains(&feed);
     // A programmed feed that is slightly lower is kept, because it needs no FEDRAT of its own.
     let kept = run.iter().map(programmed).filter(|feed| stays(*feed)).reduce(f64::max);
+    // If every programmed feed is close enough, each block keeps its own and nothing has to be written at
+    // all.
     let all_stay = run.iter().map(programmed).all(stays);
     for segment in run {
         segment.feed = if all_stay { programmed(segment) } else { kept.unwrap_or(lowest) };

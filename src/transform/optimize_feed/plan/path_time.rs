@@ -79,6 +79,7 @@ fn chain_time_s(chain: &[TimedSegment], acceleration: f64) -> f64 {
         _ => None,
     });
     let mut speeds: Vec<f64> = first.into_iter().chain(inner).chain(last).collect();
+    // Forwards: F_k^2 <= F_{k-1}^2 + 120 a L_k. A chain is entered at its feed, so its start has no limit.
     let mut before = f64::INFINITY;
     for (speed, length) in speeds.iter_mut().zip(std::iter::once(0.0).chain(segment_lengths_mm(chain))) {
         *speed = speed.min(reachable_feed_mm_min(before, acceleration, length));
@@ -109,9 +110,12 @@ fn segment_lengths_mm(chain: &[TimedSegment]) -> impl DoubleEndedIterator<Item =
 fn trapezoid_time_s(segment: &TimedSegment, entry: f64, exit: f64, acceleration: f64) -> f64 {
     // Both ramps meet where peak^2 - entry^2 + peak^2 - exit^2 = 120 a L.
     let crossing = ((entry * entry + exit * exit) / 2.0 + 60.0 * acceleration * segment.length).sqrt();
+    // Both passes have made the ends reachable, so only rounding can put the peak below one of them.
     let peak = segment.feed.min(crossing).max(entry).max(exit);
     let ramps = speed_change_distance_mm(entry, peak, acceleration)
         + speed_change_distance_mm(exit, peak, acceleration);
+    // If the ramps meet, they fill the segment, and rounding alone could make the rest negative.
     let flat = (segment.length - ramps).max(0.0);
+    // A speed in mm/min divided by an acceleration in (mm/min)/s gives seconds, without a factor.
     (peak - entry + peak - exit) / acceleration + time_at_feed_s(flat, peak)
 }
