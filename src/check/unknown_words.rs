@@ -78,7 +78,7 @@ impl Lint for UnknownWordLint {
             strsim::osa_distance(&major, word) == 1
                 && (found.program.dialect() == Dialect::Nx || !OF_NX.contains(word))
         };
-        if let Some(word) = MATTER.iter().find(slip) {
+        if let Some(word) = IMPORTANT_WORDS.iter().find(slip) {
             let message = format!("`{major}` is not known; did you mean `{word}`?");
             let span = found.text_span(id, &syntax.word);
             return found.report(codes::MISSPELT_WORD, span, message, "");
