@@ -87,7 +87,7 @@ fn axis_span(at: StatementId, found: &LintFindings<'_>) -> Span {
 
 fn report_end_off_circle(at: StatementId, off: f64, motion: Option<&Motion>, found: &mut LintFindings<'_>) {
     let code = choose_code(codes::ARC_END_OFF_CIRCLE, off, found);
-    let message = format!("the end of this arc is {} off its circle", found.format_length(off));
+    let message = format!("the end of this arc is {} off its circle", format_off(off, found));
     let arc = (found.statement_span(at), "the arc");
     match motion {
         Some(motion) if motion.last_statement() != at => {
@@ -102,13 +102,18 @@ fn report_radius_difference(at: StatementId, off: f64, found: &mut LintFindings<
     let code = choose_code(codes::ARC_RADIUS_DIFFERS, off, found);
     let message = format!(
         "the radius is {} off the distance from the centre to where the tool starts",
-        found.format_length(off)
+        format_off(off, found)
     );
     let span = match found.program.statement(at).record() {
         Record::Circle(_) => found.numbers_span(at, 6..7),
         _ => found.role_span(at, NumberRole::Length),
     };
     found.report(code, span, message, "this radius");
+}
+
+/// A distance; coordinates of hundreds of digits are farther apart than numbers reach.
+fn format_off(off: f64, found: &LintFindings<'_>) -> String {
+    if off.is_finite() { found.format_length(off) } else { "immeasurably far".to_owned() }
 }
 
 fn choose_code(code: DiagnosticCode, off: f64, found: &LintFindings<'_>) -> DiagnosticCode {

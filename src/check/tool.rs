@@ -137,6 +137,11 @@ impl ToolShapeLint {
 
 fn report_impossible_shape(data: &ToolData, at: StatementId, found: &mut LintFindings<'_>) {
     let Some(diameter) = data.diameter else { return };
+    // A cone that stands on its tip has no diameter there: engravers, chamfer mills, conical mills.
+    let pointed = data.taper_degrees.is_some_and(|taper| taper > 0.0);
+    if diameter <= 0.0 && pointed {
+        return;
+    }
     if diameter <= 0.0 {
         let span = found.role_span(at, NumberRole::Length);
         found.report(codes::IMPOSSIBLE_TOOL, span, "a tool without a diameter cuts", "no diameter");

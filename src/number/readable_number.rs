@@ -2,6 +2,9 @@
 
 use super::{strip_negative_zero, trim_trailing_zeros};
 
+/// Numbers from here on are printed with an exponent.
+const LARGEST_PLAIN: f64 = 1e15;
+
 /// Prints a number with a fixed number of decimals: `2.500`.
 pub(crate) fn format_fixed_number(value: f64, decimals: usize) -> String {
     strip_negative_zero(format!("{value:.decimals$}"))
@@ -9,6 +12,10 @@ pub(crate) fn format_fixed_number(value: f64, decimals: usize) -> String {
 
 /// Prints a number with at most so many decimals and without trailing zeros: `2.5`, `120`.
 pub(crate) fn format_trimmed_number(value: f64, most_decimals: usize) -> String {
+    // So many digits tell people nothing: 9e290 has 291.
+    if value.abs() >= LARGEST_PLAIN {
+        return format!("{value:e}");
+    }
     // What is "-0.0" before the zeros go must be "0" after it.
     let text = format_fixed_number(value, most_decimals);
     trim_trailing_zeros(&text).to_owned()

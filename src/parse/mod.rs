@@ -4,7 +4,7 @@
 //! pest keeps a line index of its whole input, so it gets one statement at a time. If the grammar reports
 //! that a statement continues past its window of lines, the window is doubled.
 
-pub mod columns;
+pub(crate) mod columns;
 mod foreign_files;
 mod grammar;
 mod shortcut;

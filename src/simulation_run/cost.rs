@@ -1,6 +1,7 @@
 //! This module estimates the cost of a run before it starts.
 
 use super::{Machining, SimulationRunOptions};
+use crate::cutter::CutterModel;
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::number::format_significant_number;
 use crate::stock::Dexels;
@@ -61,6 +62,16 @@ const CELLS_ACROSS: f64 = 40.0;
 /// fifth of the radius.
 const FEWEST_ACROSS: f64 = 10.0;
 
+/// A bottom at least this steep, in radians, is a cone that mostly cuts near its tip: 44 degrees.
+const STEEP_BOTTOM: f64 = 0.77;
+
+/// Returns the width of a cutter for the choice of cells, mm: its diameter, or half of it for a cone, of which only the
+/// lower part cuts.
+fn across_mm(cutter: &CutterModel) -> f64 {
+    let cone = cutter.profile.bottom_angle_rad() > STEEP_BOTTOM;
+    2.0 * cutter.radius_mm() * if cone { 0.5 } else { 1.0 }
+}
+
 impl Machining<'_> {
     /// Estimates the cost of a run with these options.
     ///
@@ -68,12 +79,7 @@ impl Machining<'_> {
     /// Returns [`codes::TOO_MUCH`] with a cell that fits if the cost exceeds the budget, and
     /// [`codes::CELL_TOO_COARSE`] if the cell is too coarse for a cutter.
     pub fn estimate_cost(&self, options: &SimulationRunOptions) -> Result<SimulationCost, Failure> {
-        let smallest = self
-            .tooling
-            .cutters()
-            .iter()
-            .map(|cutter| 2.0 * cutter.radius_mm())
-            .fold(f64::INFINITY, f64::min);
+        let smallest = self.tooling.cutters().iter().map(across_mm).fold(f64::INFINITY, f64::min);
         let asked = options.cell_mm;
         let (path_mm, area, pieces) = self.measure_path(options.longest_piece_mm);
         // Every column under a piece is examined once for that piece, so the visits are its area divided by

@@ -3,6 +3,7 @@
 use super::{HALF, MOVE, TO_INCH, alarms, apply, read, totals};
 use clsmith::program::Record;
 use clsmith::program::record::Goto;
+use proptest::prelude::*;
 
 /// A CATIA program around some lines, with CRLF.
 fn catia(lines: &str) -> String {
@@ -131,4 +132,41 @@ fn a_word_that_is_broken_is_that_word() {
     let program = read(&text);
     assert_eq!(program.motions().last().and_then(|motion| motion.spindle_rpm()), Some(2500.0), "{text}");
     assert_eq!(alarms(&text), []);
+}
+
+/// A number as CAM systems print it, with up to six decimals.
+fn number() -> impl Strategy<Value = String> {
+    (any::<bool>(), 0..100_000u32, 0..7usize).prop_map(|(minus, whole, decimals)| {
+        let sign = if minus { "-" } else { "" };
+        format!("{sign}{whole}.{:0<decimals$}", "")
+    })
+}
+
+proptest! {
+    #![proptest_config(crate::support::property(400))]
+
+    #[test]
+    fn a_broken_statement_means_what_it_means_in_one_line(
+        word in "GOTO|CIRCLE|MSYS|TLDATA|CYCLE|OWNWORD",
+        fields in prop::collection::vec(prop_oneof![4 => number(), 1 => "[A-Z]{1,9}"], 8..30),
+    ) {
+        let whole = format!("{word}/{}\n", fields.join(","));
+        prop_assume!(whole.len() > 81);
+        let broken = broken(whole.trim_end());
+        let joined = clsmith::parse::read_record(broken.as_bytes()).ok();
+        let expected = clsmith::parse::read_record(whole.as_bytes()).ok();
+        prop_assert!(joined.iter().all(|(_, syntax)| syntax.text.len() == broken.len()), "{}", broken);
+        prop_assert_eq!(joined.map(|(record, _)| record), expected.map(|(record, _)| record));
+    }
+
+    #[test]
+    fn points_move_alike_in_one_line_and_broken(
+        values in prop::collection::vec(number(), 3),
+        width in 10..40usize,
+    ) {
+        let statement = format!("GOTO  /{:>width$},{:>width$},{:>width$}", values[0], values[1], values[2]);
+        let broken = broken(&statement);
+        let moved = |text: &str| gotos(&apply(MOVE, catia(text)))[0].point;
+        prop_assert!((moved(&broken) - moved(&format!("{statement}\n"))).norm() < 1e-4, "{}", broken);
+    }
 }

@@ -31,6 +31,9 @@ const CLEAN: &[Case] = &[
     ("29-cycle-clear.apt", 24.0, 168.0, 6.0),
     ("30-tool-change-point.cls", 142.0, 244.0, f64::NAN),
     ("31-tap-no-feed.aptsource", 78.0, f64::NAN, f64::NAN),
+    ("25-conical-mill.aptsource", 54.0, f64::NAN, 12.96),
+    ("26-engraver.cls", 59.5, f64::NAN, 11.9),
+    ("32-turning-surface-speed.aptsource", 64.0, f64::NAN, 14.278),
     ("33-numbered.cls", 140.708, f64::NAN, 14.731),
     ("34-comma-names.cls", 84.5, f64::NAN, f64::NAN),
 ];

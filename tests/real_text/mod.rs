@@ -8,9 +8,11 @@ mod card_columns;
 mod cases;
 mod curves;
 mod harmless_records;
+mod lengths;
 mod names_and_labels;
 mod odd_lines;
 mod own_words;
+mod record_table;
 mod threads;
 
 use crate::support;

@@ -19,7 +19,7 @@ pub use state_machine::Motions;
 
 use super::geometry::{MotionPath, Pose};
 use super::motion_class::MotionClass;
-use super::record::{DrillingCycle, Spindle};
+use super::record::{DrillingCycle, Spindle, SpindleUnit};
 use super::{Feed, Program, StatementId, StatementRange};
 use std::sync::Arc;
 
@@ -47,6 +47,9 @@ pub struct Motion {
     pub feed_from: Option<StatementId>,
     /// The spindle in force.
     pub spindle: Option<Arc<Spindle>>,
+    /// The spindle speed in rev/min that a lathe's surface speed makes at the mean radius of the motion, if it is
+    /// known.
+    pub surface_rpm: Option<f64>,
     /// The tool in force.
     pub tool: Option<Arc<ActiveTool>>,
     /// The frame in force.
@@ -75,10 +78,14 @@ impl Motion {
         self.path.length(self.from.point, self.to.point)
     }
 
-    /// Returns the spindle speed in rev/min, if it is given in that unit and the spindle turns.
+    /// Returns the spindle speed in rev/min if the spindle turns: the programmed one, or the mean one of a lathe
+    /// that keeps its surface speed.
     pub fn spindle_rpm(&self) -> Option<f64> {
         let spindle = self.spindle.as_deref().filter(|spindle| spindle.on)?;
-        (spindle.unit == super::record::SpindleUnit::RevolutionsPerMinute).then_some(spindle.speed).flatten()
+        match spindle.unit {
+            SpindleUnit::RevolutionsPerMinute => spindle.speed,
+            SpindleUnit::SurfaceFeet | SpindleUnit::SurfaceMetres => self.surface_rpm,
+        }
     }
 }
 

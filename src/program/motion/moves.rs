@@ -8,7 +8,7 @@ use super::state_machine::{MotionTarget, Motions, PendingMotion};
 use super::{Motion, drilling_cycles};
 use crate::program::geometry::{CircularArc, MotionPath, Pose, SAME_POINT, Spline};
 use crate::program::motion_class::MotionClass;
-use crate::program::record::{Goto, has_contact_normal, has_tool_axes};
+use crate::program::record::{Goto, SpindleUnit, ToolWord, has_contact_normal, has_tool_axes};
 use crate::program::{Feed, FeedUnit, Record, StatementId, StatementRange};
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -266,6 +266,8 @@ impl Motions<'_> {
         let (class, class_is_told) = self.classify_motion(rapid, &from, &to, &path);
         let state = &self.state;
         let pitch = state.pitch.filter(|_| state.threading && !rapid);
+        let surface_rpm = self.mean_surface_rpm(&from, &to, &path);
+        let state = &self.state;
         let thread = pitch.map(|value| Feed { value, unit: Some(FeedUnit::PerRevolution) });
         Motion {
             statements: StatementRange::new(first, statement),
@@ -278,6 +280,7 @@ impl Motions<'_> {
             feed_from: state.feed.map(|(_, statement)| statement).filter(|_| thread.is_none()),
             cuts_thread: state.threading && !rapid,
             spindle: state.spindle.clone(),
+            surface_rpm,
             tool: state.tool.clone(),
             frame: state.frame.clone(),
             class,
@@ -285,6 +288,33 @@ impl Motions<'_> {
             operation: state.operation,
             hole: None,
         }
+    }
+
+    /// Returns the speed that a lathe's surface speed makes at the mean radius of a motion in rev/min.
+    ///
+    /// With the feed per revolution, the mean radius gives the exact time of a straight motion: the time of each
+    /// piece grows with its radius. The work turns about z, and the tool is in the plane of x and z; what is no
+    /// lathe, or runs along its axis, has no such speed.
+    fn mean_surface_rpm(&mut self, from: &Pose, to: &Pose, path: &MotionPath) -> Option<f64> {
+        let spindle = self.state.spindle.clone()?;
+        let metres = match (spindle.unit, spindle.speed?) {
+            (SpindleUnit::RevolutionsPerMinute, _) => return None,
+            (SpindleUnit::SurfaceMetres, speed) => speed,
+            (SpindleUnit::SurfaceFeet, speed) => speed * 0.3048,
+        };
+        let data = self.state.tool.as_ref().and_then(|tool| tool.data.as_ref());
+        let turns = data.is_none_or(|data| data.word == ToolWord::TlDataOther || data.length.is_none());
+        if !turns || from.point.y != 0.0 || to.point.y != 0.0 {
+            return None;
+        }
+        let points = path.sample_points(from.point, to.point);
+        let mean = points.iter().map(|point| point.x.abs()).sum::<f64>() / points.len().max(1) as f64;
+        let program = self.program;
+        let unit = *self.length_unit.get_or_insert_with(|| {
+            program.stated_length_unit().or_else(|| program.feed_length_unit()).unwrap_or_default()
+        });
+        let radius_m = mean * unit.mm_per_unit() / 1000.0;
+        (radius_m > 1e-6).then(|| metres / (std::f64::consts::TAU * radius_m))
     }
 
     /// Returns the class that the file marked. Without a mark, rapids are rapid, a straight feed motion down

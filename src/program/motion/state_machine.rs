@@ -5,7 +5,7 @@ use super::arcs::PendingArc;
 use super::modal_state::{ModalState, MotionProblem, MotionProblemKind};
 use crate::program::geometry::Pose;
 use crate::program::record::DrillingCycle;
-use crate::program::{Program, Record, StatementId};
+use crate::program::{LengthUnit, Program, Record, StatementId};
 use nalgebra::{Point3, Vector3};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
@@ -22,6 +22,8 @@ pub struct Motions<'p> {
     pub(super) last_tangent: Option<Vector3<f64>>,
     pub(super) operations_seen: bool,
     pub(super) holes: usize,
+    /// The file's unit of lengths, once it was asked for.
+    pub(super) length_unit: Option<LengthUnit>,
     /// The channel in force, and the states of the others.
     pub(super) channel: Option<u32>,
     pub(super) channels: BTreeMap<u32, ModalState>,
@@ -81,6 +83,7 @@ impl<'p> Motions<'p> {
             last_tangent: None,
             operations_seen: false,
             holes: 0,
+            length_unit: None,
             channel: None,
             channels: BTreeMap::new(),
             last_cycle: None,

@@ -20,7 +20,7 @@ pub use frame::{FrameRecord, FrameWord};
 pub use path::{ArcSense, Circle, DriveArc, Goto, MoveArc};
 pub(crate) use path::{goto_roles as path_roles, has_contact_normal, has_direction, has_tool_axes};
 pub use role::NumberRole;
-pub use structure::{MotionMark, OperationNames};
+pub use structure::{MotionMark, OperationNames, known_words};
 pub use tool::{ToolCall, ToolData, ToolWord};
 
 use super::syntax::{StatementKind, StatementSyntax};
@@ -211,7 +211,9 @@ impl Record {
             | Self::Knot(_)
             | Self::Control(_) => path::number_roles(self, syntax),
             Self::AxialArc(_) => axial_arc::number_roles(syntax),
-            Self::Feed(_) | Self::Spindle(_) | Self::Threading(_) => feed::number_roles(self, syntax),
+            Self::Feed(_) | Self::Spindle(_) | Self::Threading(_) | Self::CutterCompensation(_) => {
+                feed::number_roles(self, syntax)
+            }
             Self::ToolData(_) | Self::ToolAxis(_) | Self::ToolCall(_) => tool::number_roles(self, syntax),
             Self::Frame(_) | Self::MatrixRow(_) => frame::number_roles(self),
             Self::Cycle(_) => cycle::number_roles(syntax),

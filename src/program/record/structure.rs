@@ -158,76 +158,82 @@ fn read_units(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     }
 }
 
-/// Returns whether a word of the standard or of the measured dialects is known to have no effect on the tool
-/// path.
+/// The words of the standard and of the measured dialects that are known to have no effect on the tool path, sorted.
+const KNOWN: &[&str] = &[
+    "ARCSLP",
+    "AUTOPS",
+    "AUXFUN",
+    "BOX",
+    "BREAK",
+    "CHECK",
+    "CLAMP",
+    "CLEARP",
+    "CLRSRF",
+    "COOLNT",
+    "COUPLE",
+    "CSI_SET_EXTENSION_LENGTH",
+    "CSI_SET_FLUTE_LENGTH",
+    "CUTCOM_GEOMETRY_TYPE",
+    "DELAY",
+    "DISPLY",
+    "FACEMILL",
+    "FLUSH",
+    "GOCLER",
+    "HEAD",
+    "INTCOD",
+    "INTOL",
+    "LEADER",
+    "LINTOL",
+    "LOAD",
+    "LOADTL",
+    "MACHIN",
+    "MCHTOL",
+    "MFGNO",
+    "MODE",
+    "NOPOST",
+    "OFSTNO",
+    "OPSKIP",
+    "OPSTOP",
+    "OUTTOL",
+    "OVPLOT",
+    "PIVOTZ",
+    "PLUNGE",
+    "PPFUN",
+    "PPWORD",
+    "PREFUN",
+    "PSIS",
+    "RESET",
+    "RETRCT",
+    "REWIND",
+    "SAFETY",
+    "SELCTL",
+    "SELECT",
+    "SEQNO",
+    "SET",
+    "SETUP",
+    "SHIFT",
+    "SLOWDN",
+    "SMOOTH",
+    "STOP",
+    "SWITCH",
+    "SYN",
+    "TMARK",
+    "TOOL",
+    "TRACUT",
+    "TRNTYP",
+    "TURRET",
+    "VERIFY",
+    "WCORN",
+];
+
+/// Returns whether a word is known to have no effect on the tool path.
 fn is_known_word(major: &str) -> bool {
-    // The list is sorted for the binary search below.
-    const KNOWN: &[&str] = &[
-        "AUTOPS",
-        "AUXFUN",
-        "BOX",
-        "BREAK",
-        "CHECK",
-        "CLAMP",
-        "CLEARP",
-        "CLRSRF",
-        "COOLNT",
-        "COUPLE",
-        "CSI_SET_EXTENSION_LENGTH",
-        "CSI_SET_FLUTE_LENGTH",
-        "CUTCOM_GEOMETRY_TYPE",
-        "DELAY",
-        "DISPLY",
-        "FACEMILL",
-        "FLUSH",
-        "GOCLER",
-        "HEAD",
-        "INTCOD",
-        "INTOL",
-        "LEADER",
-        "LINTOL",
-        "LOAD",
-        "LOADTL",
-        "MACHIN",
-        "MCHTOL",
-        "MFGNO",
-        "MODE",
-        "NOPOST",
-        "OFSTNO",
-        "OPSKIP",
-        "OPSTOP",
-        "OUTTOL",
-        "OVPLOT",
-        "PIVOTZ",
-        "PLUNGE",
-        "PPFUN",
-        "PPWORD",
-        "PREFUN",
-        "PSIS",
-        "RESET",
-        "RETRCT",
-        "REWIND",
-        "SAFETY",
-        "SELCTL",
-        "SELECT",
-        "SEQNO",
-        "SET",
-        "SETUP",
-        "SHIFT",
-        "SLOWDN",
-        "SMOOTH",
-        "STOP",
-        "SWITCH",
-        "SYN",
-        "TMARK",
-        "TOOL",
-        "TRACUT",
-        "TRNTYP",
-        "TURRET",
-        "VERIFY",
-        "WCORN",
-    ];
     KNOWN.binary_search(&major).is_ok()
+}
+
+/// Returns the words that are known to have no effect on the tool path, sorted.
+pub fn known_words() -> &'static [&'static str] {
+    KNOWN
 }
 
 /// Returns the roles of numbers in words without effect: tolerances and boxes are lengths, all others are
@@ -239,6 +245,13 @@ pub(super) fn number_roles(syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
         return super::axial_arc::nested_roles(syntax, &syntax.fields);
     }
     let role = match major.as_str() {
+        // A plane is its normal and its distance; anything else is a height.
+        "CLRSRF" if numbers == 4 => {
+            return vec![NumberRole::Plain, NumberRole::Plain, NumberRole::Plain, NumberRole::Length];
+        }
+        // A slope by its rise (MOVARC's posts) and heights; a CUTCOM's OFFSET is a length, its ADJUST a register.
+        "ARCSLP" | "CLRSRF" | "RETRCT" | "SAFETY" => NumberRole::Length,
+        "CUTCOM" => return syntax.roles_by_word(|word| word == "OFFSET"),
         "BOX"
         | "INTOL"
         | "OUTTOL"
@@ -255,6 +268,7 @@ pub(super) fn number_roles(syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
 mod tests {
     #[test]
     fn known_words_are_sorted_for_the_search() {
+        assert!(super::KNOWN.is_sorted());
         for word in ["AUTOPS", "COOLNT", "PPWORD", "WCORN", "TRNTYP"] {
             assert!(super::is_known_word(word), "{word}");
         }

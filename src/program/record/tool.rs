@@ -160,6 +160,10 @@ pub(super) fn number_roles(record: &Record, syntax: &StatementSyntax<'_>) -> Vec
         // TOOLNO/2,10.0 (CATIA) has the number and the diameter; its long forms mix angles, feeds and
         // lengths.
         Record::ToolCall(call) if !call.loads && count == 2 => vec![NumberRole::Plain, NumberRole::Length],
+        // The length of the tool, and the place of its tip in a lathe's turret.
+        Record::ToolCall(call) if call.loads => {
+            syntax.roles_by_word(|word| matches!(word, "LENGTH" | "SETOOL"))
+        }
         _ => vec![NumberRole::Plain; count],
     }
 }

@@ -10,6 +10,7 @@ use crate::program::LengthUnit;
 use crate::program::motion::ActiveTool;
 use crate::setup::Setup;
 use crate::source::{Source, Span};
+use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 /// Flutes of unknown length are this many diameters long: more than those of any cutter whose flutes would matter to
@@ -89,6 +90,13 @@ struct CutterResolver<'a> {
     assumptions: Vec<String>,
 }
 
+/// Makes a cone that stands on its tip (diameter 0) a cutter whose bottom is all of it. Returns diameter, taper and angle
+/// of the bottom; `None` for every other cutter.
+fn point_cutter(diameter_mm: f64, corner_mm: f64, taper_rad: f64, flutes_mm: f64) -> Option<(f64, f64, f64)> {
+    let pointed = diameter_mm <= SAME && corner_mm <= SAME && taper_rad > 0.0 && flutes_mm > 0.0;
+    pointed.then(|| (2.0 * flutes_mm * taper_rad.tan(), 0.0, FRAC_PI_2 - taper_rad))
+}
+
 impl CutterResolver<'_> {
     fn resolve_cutter(mut self) -> Result<ResolvedCutter, ToolDataFault> {
         let own = |field: fn(&ToolEntry) -> Option<f64>| self.entry.and_then(field);
@@ -111,6 +119,8 @@ impl CutterResolver<'_> {
         let corner = self.snap_to_ball_mm(diameter, corner);
         let taper = taper.or(self.told.taper_rad).unwrap_or_else(|| self.assume_zero("taper 0", "one"));
         let flute_length = self.resolve_flute_length_mm(diameter, tip);
+        let (diameter, taper, tip) =
+            point_cutter(diameter, corner, taper, flute_length).unwrap_or((diameter, taper, tip));
         let profile = Meridian::new(diameter, corner, taper, tip, flute_length).map_err(|error| {
             let (taper, tip) = (taper.to_degrees(), tip.to_degrees());
             self.make_gap(ToolDataFaultKind::Shape {

@@ -39,9 +39,11 @@ impl FileToolData {
             Some(point) if drill => (point > 0.0).then(|| FRAC_PI_2 - point.to_radians() / 2.0),
             tip => tip.map(f64::to_radians),
         };
+        // A diameter of 0 is a field that nobody has filled in, too, but for a cone.
+        let cone = data.diameter == Some(0.0) && data.taper_degrees.is_some_and(|taper| taper > 0.0);
         Self {
             other: data.word == ToolWord::TlDataOther,
-            diameter_mm: length(data.diameter),
+            diameter_mm: length(data.diameter).or(cone.then_some(0.0)),
             corner_radius_mm: to_mm(data.corner_radius),
             // A drill's flank is its bore's: it has no taper to tell.
             taper_rad: data.taper_degrees.map(f64::to_radians).or(drill.then_some(0.0)),

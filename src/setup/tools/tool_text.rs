@@ -21,8 +21,8 @@ pub(crate) struct ToolText {
     /// Which tools are meant; `{}` for every tool.
     #[serde(rename = "match")]
     matches: ToolMatchText,
-    /// Diameter, where the lines of bottom and flank meet.
-    diameter: Option<Positive>,
+    /// Diameter, where the lines of bottom and flank meet; 0 for a pointed cutter, which has a `taper`.
+    diameter: Option<NonNegative>,
     /// Corner radius; half the diameter for a ball-nose cutter.
     corner_radius: Option<NonNegative>,
     /// Angle of the flank against the axis in degrees; the cutter widens upwards.
@@ -123,7 +123,10 @@ impl ToolText {
         let entry = ToolEntry {
             number: self.matches.number,
             name: self.matches.name,
-            diameter_mm: reader.optional_size_mm(self.diameter, &place, "diameter"),
+            diameter_mm: self.diameter.map(|diameter| match Positive::new(diameter.get()) {
+                Some(diameter) => reader.size_mm(diameter, || place.at_key("diameter")),
+                None => 0.0,
+            }),
             corner_radius_mm: reader.optional_length_mm(
                 self.corner_radius.map(NonNegative::get),
                 &place,
@@ -148,6 +151,11 @@ impl ToolEntry {
     /// Reports lengths of one entry that cannot be of one tool. What the CL file adds is looked at when both are known.
     fn check_lengths(&self, reader: &mut SetupReader) {
         let place = &self.place;
+        if self.diameter_mm == Some(0.0) && self.taper_rad.is_none_or(|taper| taper <= 0.0) {
+            let help = "Say the cone's `taper`, or a diameter above 0.";
+            let message = "a diameter of 0 is that of a cone on its tip, which has a taper";
+            reader.add_fault(|| place.at_key("diameter"), message, "no taper", help);
+        }
         if let (Some(diameter), Some(corner)) = (self.diameter_mm, self.corner_radius_mm)
             && corner > diameter / 2.0 + SAME
         {

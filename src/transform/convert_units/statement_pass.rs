@@ -12,8 +12,8 @@ use crate::write::{self, ProgramEditor};
 
 /// Known words whose numbers are lengths only their post understands; a zero is the same in every unit.
 const LENGTHS_OF_POSTS: &[&str] = &[
-    "CLRSRF", "FACEMILL", "GOCLER", "LEADER", "MCHTOL", "PIVOTZ", "PLUNGE", "RETRCT", "SAFETY", "SHIFT",
-    "SMOOTH", "TRACUT", "TURRET", "WCORN",
+    "COUPLE", "CUTCOM", "FACEMILL", "GOCLER", "LEADER", "MCHTOL", "PIVOTZ", "PLUNGE", "SHIFT", "SMOOTH",
+    "TRACUT", "TURRET", "WCORN",
 ];
 
 /// Converts every statement.
@@ -140,6 +140,12 @@ fn report_unconverted(
         Record::ToolCall(call) if !call.loads && parse::statement_numbers(text).len() > 2 => {
             "this TOOLNO mixes lengths, angles, feeds and speeds in an order of its own: none of them is converted"
         }
+        Record::ToolCall(call) if call.loads && bare_numbers(text) > 2 => {
+            "only the first number of this tool change is understood, the tool's: none of the others is converted"
+        }
+        Record::CutterCompensation(_) if has_plain_number(statement.record(), text) => {
+            "the numbers of this CUTCOM may be registers or lengths: they are not converted"
+        }
         Record::ToolData(data) if data.word == ToolWord::TlDataOther => {
             "the numbers of this kind of tool are not understood: none of them is converted"
         }
@@ -153,9 +159,7 @@ fn report_unconverted(
         }
         Record::Known
             if LENGTHS_OF_POSTS.contains(&major_word(text).as_str())
-                && parse::statement_numbers(text).iter().any(|(at, value)| {
-                    *value != 0.0 && text.get(at.clone()).is_some_and(|it| it.contains(&b'.'))
-                }) =>
+                && has_plain_number(statement.record(), text) =>
         {
             "the numbers of this word are its post's business and may be lengths: they are not converted"
         }
@@ -166,4 +170,16 @@ fn report_unconverted(
         context.report_unchanged(message, program, id);
         reported.push(word);
     }
+}
+
+/// Whether a statement has a number, not zero, that no role makes a length.
+fn has_plain_number(record: &Record, text: &[u8]) -> bool {
+    let roles = parse::number_roles(record, text);
+    let mut numbers = parse::statement_numbers(text).into_iter().zip(roles);
+    numbers.any(|((_, value), role)| value != 0.0 && role == NumberRole::Plain)
+}
+
+/// How many numbers a statement starts with before its first word: `LOADTL/2, 2, 60.0, 2`.
+fn bare_numbers(text: &[u8]) -> usize {
+    parse::syntax(text).fields.iter().take_while(|field| field.number_value().is_some()).count()
 }

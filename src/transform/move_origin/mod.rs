@@ -4,6 +4,7 @@ mod arc_sweeps;
 mod axis_notation;
 mod frame;
 mod handedness_words;
+mod lathe_plane;
 mod move_parameters;
 mod move_tracker;
 mod points;
@@ -116,6 +117,9 @@ impl Transform for MoveOrigin {
             &mut found,
         );
         let found = found.findings;
+        lathe_plane::check_lathe_plane(&program, &place, &scope).map_err(|refusal| {
+            context.statement_failure(refusal.message, &program, refusal.statement, refusal.label)
+        })?;
         let sweeps = arc_sweeps::collect_sweeps(&program);
         let program = points::move_points(program, &place, &scope, context)?;
         arc_sweeps::check_sweeps(&program, &sweeps)
