@@ -10,6 +10,7 @@ use crate::program::LengthUnit;
 pub use text::{steps_to_text, to_text};
 
 use super::stats::{MotionLengthAndTime, MotionTotals, ResolvedLengthUnit};
+use super::table::DisplayUnits;
 use crate::program::RecordKind;
 use crate::program::{Program, StepEdits};
 use serde::Serialize;
@@ -88,7 +89,7 @@ impl RecipeChanges {
         };
         let (units_before, units) = (told(before), told(after));
         // A step may have changed the unit; numbers that stand side by side must not.
-        let scale = units_before.unit.mm_per_unit() / units.unit.mm_per_unit();
+        let as_after = DisplayUnits { values_in: units_before.unit, shown_in: units.unit };
         let (steps, untouched) = count_step_changes(after, steps);
         Self {
             version: 1,
@@ -96,9 +97,19 @@ impl RecipeChanges {
             units,
             steps,
             untouched,
-            before: sum_motions(before, units_before).scaled_by(scale),
+            before: sum_motions(before, units_before).converted(as_after),
             after: sum_motions(after, units),
         }
+    }
+
+    /// Converts all lengths to the unit that a reader wants to see; `None` leaves them in the program's.
+    #[must_use]
+    pub fn shown_in(mut self, unit: Option<LengthUnit>) -> Self {
+        if let Some((units, shown)) = self.units.show_in(unit) {
+            self.units = shown;
+            (self.before, self.after) = (self.before.converted(units), self.after.converted(units));
+        }
+        self
     }
 
     /// Whether the program is as it was.

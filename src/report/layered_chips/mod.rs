@@ -1,7 +1,7 @@
 //! The chips of a program, layer by layer: one row a motion, sums of operations, pictures.
 //!
 //! [`ChipReport::simulate_layers`] runs a [`Machining`] in layers and keeps what it hears; [`to_text`], [`write_csv`] and [`write_json`] present it,
-//! [`draw_layers`] draws layers. Lengths are in mm, whatever the file's unit. What is not known is an empty cell, `null` in JSON, and
+//! [`draw_layers`] draws layers. Lengths are in mm, and a reader sees them in [`ChipReport::units`]. What is not known is an empty cell, `null` in JSON, and
 //! one of the assumptions says why.
 
 mod chip_collector;
@@ -31,6 +31,7 @@ pub use text::to_text;
 
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::layered_chips::stack::LayerStack;
+use crate::report::table::DisplayUnits;
 use crate::simulation_run::layer_run::LayerRunOptions;
 use crate::simulation_run::{Machining, RunWatcher};
 
@@ -75,6 +76,8 @@ impl ChipReportOptions {
 pub struct ChipReport {
     /// The file's name.
     pub file: String,
+    /// The units that a reader sees: those of the program, until a caller sets others. All values here are in mm.
+    pub units: DisplayUnits,
     /// How it was run.
     pub options: LayerRunOptions,
     /// Sums of everything that ran.

@@ -1,7 +1,7 @@
 //! One motion, and the table of them all.
 
 use super::{MotionRows, SimulationReport};
-use crate::report::table::{Column, ColumnUnit, CsvTable, DisplayUnits, TableValue};
+use crate::report::table::{Column, ColumnUnit, CsvTable, TableValue};
 use std::io::{self, Write};
 
 /// What a motion engaged and what the tool had to bear. `None` is not known.
@@ -92,7 +92,7 @@ fn name_at(names: &[String], index: usize) -> TableValue<'_> {
 /// # Errors
 /// What `out` returns.
 pub fn write_csv(simulated: &SimulationReport, out: &mut dyn Write) -> io::Result<()> {
-    let mut table = CsvTable::begin(&motion_columns(), DisplayUnits::MM, out)?;
+    let mut table = CsvTable::begin(&motion_columns(), simulated.units, out)?;
     for named in simulated.motions.named_rows() {
         table.write_row(&named)?;
     }

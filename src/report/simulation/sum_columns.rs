@@ -1,10 +1,7 @@
 //! Sums of simulations by name, unit and printing.
 
 use super::{OperationSums, SimulationPeak, SimulationSums};
-use crate::report::table::{
-    Column, ColumnUnit, DisplayUnits, JsonColumns, PeakPlace, RecordNumbers, TableValue,
-};
-use serde::{Serialize, Serializer};
+use crate::report::table::{Column, ColumnUnit, PeakPlace, TableValue};
 
 impl AsRef<SimulationSums> for SimulationSums {
     fn as_ref(&self) -> &SimulationSums {
@@ -15,13 +12,6 @@ impl AsRef<SimulationSums> for SimulationSums {
 impl AsRef<SimulationSums> for OperationSums {
     fn as_ref(&self) -> &SimulationSums {
         &self.sums
-    }
-}
-
-impl Serialize for SimulationSums {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let columns = JsonColumns::new(&sum_columns(), DisplayUnits::MM, RecordNumbers::Rounded);
-        columns.object(self).serialize(serializer)
     }
 }
 

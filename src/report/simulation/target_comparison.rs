@@ -3,17 +3,14 @@
 use super::SimulationReport;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::number::format_named_point;
-use crate::report::rounding::serialize_rounded;
 use crate::stock::{Mesh, TargetDeviation};
-use serde::Serialize;
 
 /// How what is left differs from the target. What is within the tolerance in some direction does not count.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct TargetComparison {
     /// What the target is called.
     pub file: String,
     /// The tolerance, mm.
-    #[serde(serialize_with = "serialize_rounded")]
     pub tolerance_mm: f64,
     /// Material of the target that is gone.
     pub gouge: TargetMismatch,
@@ -22,10 +19,9 @@ pub struct TargetComparison {
 }
 
 /// Material on one side only.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TargetMismatch {
     /// Its volume, mm3.
-    #[serde(serialize_with = "serialize_rounded")]
     pub volume_mm3: f64,
     /// Columns with it.
     pub columns: usize,
@@ -34,13 +30,11 @@ pub struct TargetMismatch {
 }
 
 /// The thickest piece along z.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThickestMismatch {
     /// Its thickness, mm.
-    #[serde(rename = "mm", serialize_with = "serialize_rounded")]
     pub thickness_mm: f64,
     /// Where, in mm: of a gouge the lower end, of excess the upper one.
-    #[serde(rename = "at")]
     pub at_mm: [f64; 3],
 }
 

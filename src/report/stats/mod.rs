@@ -5,6 +5,7 @@
 //! minute except in `feeds`, where they are as programmed; times are in seconds. What is not known is `null`, never guessed.
 
 mod bounding_box;
+mod conversion;
 mod feed_rows;
 mod stats_collector;
 mod stats_columns;
@@ -53,6 +54,9 @@ pub struct ProgramStats {
     pub dialect: DialectName,
     /// The unit of all lengths here, and how it is known.
     pub units: ResolvedLengthUnit,
+    /// The unit of the file, where another is shown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file_units: Option<ResolvedLengthUnit>,
     /// Statements, comments and empty lines included.
     pub statements: usize,
     /// Statements that could not be read.
@@ -118,6 +122,8 @@ pub enum LengthUnitOrigin {
     Feeds,
     /// Nothing says it; millimetres are assumed.
     Assumed,
+    /// It is not the file's: the caller wants lengths in it.
+    Shown,
 }
 
 /// The motions of one class.

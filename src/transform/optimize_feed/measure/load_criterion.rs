@@ -1,5 +1,6 @@
 //! What may load the cutter.
 
+use crate::presentation::display_units::ColumnUnit;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -30,6 +31,17 @@ impl LoadCriterion {
             Self::Force => "N",
             Self::Torque => "Nm",
             Self::Power => "kW",
+        }
+    }
+
+    /// Its unit for people, who may see inches.
+    pub(in crate::transform::optimize_feed) fn column_unit(self) -> ColumnUnit {
+        match self {
+            Self::ChipThickness => ColumnUnit::Length,
+            Self::RemovalRate => ColumnUnit::RemovalRate,
+            Self::Force => ColumnUnit::Force,
+            Self::Torque => ColumnUnit::Torque,
+            Self::Power => ColumnUnit::Power,
         }
     }
 
