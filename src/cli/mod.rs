@@ -8,6 +8,7 @@ mod chips;
 mod command_exit;
 mod command_outputs;
 mod diff;
+mod display_args;
 mod finding_args;
 mod hook;
 mod init;

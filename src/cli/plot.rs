@@ -2,6 +2,7 @@
 
 use super::command_exit::CommandExit;
 use super::command_outputs::{CommandOutputs, ignore_closed_pipe, refuse_overwritten_input};
+use super::display_args::DisplayArgs;
 use super::finding_args::FindingArgs;
 use super::input_files::{self, STANDARD};
 use super::output_endings::{OutputContent, find_wrong_ending};
@@ -13,6 +14,7 @@ use clsmith::check::read_and_check;
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::parameters::LengthUnit;
 use clsmith::program::{Dialect, Program};
+use clsmith::report::DisplayUnits;
 use clsmith::report::finding_policy::FindingPolicy;
 use clsmith::report::plot::{self, CurvePanel, PlotAbscissa, PlotQuantity, PlottedProgram};
 use clsmith::report::simulation::SimulationReport;
@@ -63,17 +65,19 @@ pub struct PlotArgs {
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
+    display: DisplayArgs,
+    #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
 }
 
 /// The quantity of the vertical axis.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum PlotQuantityArg {
-    /// Programmed feed, mm/min
+    /// Programmed feed
     Feed,
-    /// Thickest chip, mm
+    /// Thickest chip
     Chip,
-    /// Removal rate, mm3/min
+    /// Removal rate
     Removal,
     /// Cutting force, N
     Force,
@@ -82,7 +86,7 @@ enum PlotQuantityArg {
     /// Power, kW
     #[value(alias = "load")]
     Power,
-    /// Height of the tip, mm
+    /// Height of the tip
     Z,
 }
 
@@ -105,7 +109,7 @@ impl PlotQuantityArg {
 enum PlotAxisArg {
     /// Time, s; without dwells and acceleration
     Time,
-    /// Length of the path, mm
+    /// Length of the path
     Path,
 }
 
@@ -132,13 +136,14 @@ fn explain_empty_panel(
     plotted: &[PlottedProgram<'_>],
     quantity: PlotQuantity,
     along: PlotAbscissa,
+    units: DisplayUnits,
 ) -> String {
     let name = quantity.name();
     if along == PlotAbscissa::Path {
         return format!("the panel of {name} is empty, because no value is known");
     }
     let helps =
-        !plot::build_panels(plotted, &[quantity], PlotAbscissa::Path).iter().all(CurvePanel::is_empty);
+        !plot::build_panels(plotted, &[quantity], PlotAbscissa::Path, units).iter().all(CurvePanel::is_empty);
     let help = if helps { "; try --along path" } else { "" };
     format!("the panel of {name} is empty, because no value is known over time{help}")
 }
@@ -241,15 +246,18 @@ impl PlotArgs {
             PlotAxisArg::Time => PlotAbscissa::Time,
             PlotAxisArg::Path => PlotAbscissa::Path,
         };
-        let panels = plot::build_panels(&plotted, &quantities, along);
+        // The last program is the one that stands in front.
+        let program_unit = plotted.last().map_or(LengthUnit::Mm, |last| last.units);
+        let units = self.display.of_program(program_unit);
+        let panels = plot::build_panels(&plotted, &quantities, along, units);
         let empty = |(quantity, panel): (&PlotQuantity, &CurvePanel)| {
-            panel.is_empty().then(|| explain_empty_panel(&plotted, *quantity, along))
+            panel.is_empty().then(|| explain_empty_panel(&plotted, *quantity, along, units))
         };
         let empty: Vec<String> = quantities.iter().zip(&panels).filter_map(empty).collect();
         if empty.len() == panels.len() {
             return Ok(PlotDrawing { svg: None, empty });
         }
-        let svg = plot::draw_curve_panels(along.axis_title(), &panels)
+        let svg = plot::draw_curve_panels(&along.axis_title(units), &panels)
             .map_err(|error| Diagnostic::new(codes::UNWRITABLE, error.to_string()))?;
         Ok(PlotDrawing { svg: Some(svg), empty })
     }

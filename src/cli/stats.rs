@@ -1,6 +1,7 @@
 //! This module runs `clsmith stats`.
 
 use super::command_exit::CommandExit;
+use super::display_args::DisplayArgs;
 use super::finding_args::FindingArgs;
 use super::input_files;
 use super::terminal;
@@ -42,6 +43,8 @@ pub struct StatsArgs {
     #[arg(long, value_name = "FILE")]
     setup: Option<PathBuf>,
     #[command(flatten)]
+    display: DisplayArgs,
+    #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
 }
 
@@ -68,6 +71,7 @@ impl StatsArgs {
                 exit = CommandExit::Errors;
             }
             let stats = stats::ProgramStats::with_assumed_unit(&parsed.program, &setup, self.units);
+            let stats = stats.shown_in(self.display.asked());
             if self.json {
                 out.write_all(stats::to_json(&stats).as_bytes())?;
             } else {

@@ -1,18 +1,32 @@
 //! This module holds line drawings as data: panels, each with a few paths on top of each other.
 
-/// A drawing.
+use super::display_units::{ColumnUnit, DisplayUnits};
+
+/// One drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathPanel {
     /// The title above it.
     pub title: String,
-    /// The label of the horizontal axis.
-    pub right: &'static str,
-    /// The label of the vertical axis.
-    pub up: &'static str,
-    /// Whether both axes have the same scale.
+    /// What goes to the right.
+    pub right: String,
+    /// What goes up.
+    pub up: String,
+    /// Whether both directions have one scale.
     pub one_scale: bool,
     /// The paths. Later ones are drawn over earlier ones.
     pub paths: Vec<PanelPath>,
+}
+
+impl PathPanel {
+    /// Converts lengths along both axes to the units that a reader sees.
+    #[must_use]
+    pub fn convert_lengths(mut self, units: DisplayUnits) -> Self {
+        let shown = |value: f64| units.convert(ColumnUnit::Length, value);
+        for (right, up) in self.paths.iter_mut().flat_map(|path| &mut path.points) {
+            (*right, *up) = (shown(*right), shown(*up));
+        }
+        self
+    }
 }
 
 /// A path in a panel.

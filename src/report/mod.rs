@@ -27,6 +27,7 @@ mod svg_chart;
 pub(crate) mod table;
 pub mod unified_diff;
 
+pub use crate::presentation::display_units::DisplayUnits;
 pub(crate) use crate::presentation::text_format;
 
 use crate::program::motion::ActiveTool;

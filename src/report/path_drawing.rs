@@ -53,7 +53,7 @@ fn draw_path_panel(area: &SvgArea<'_>, panel: &PathPanel) -> io::Result<()> {
         margin: 12,
         left_labels: 76,
         label_font: 13,
-        axis_texts: Some(([panel.right, panel.up], 14)),
+        axis_texts: Some(([&panel.right, &panel.up], 14)),
         ..ChartFrame::default()
     };
     let mut chart = frame.draw(area, right.0..right.1, up.0..up.1)?;

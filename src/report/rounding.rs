@@ -1,25 +1,9 @@
 //! This module rounds the numbers of reports to six decimals: nanometres and micronewtons, far below the
 //! precision of the model.
 
-use serde::Serializer;
-
-/// Rounds a number to at most six decimals. The result is never `-0`.
+/// A number with at most six decimals; never `-0`.
 pub(super) fn round_to_micro(value: f64) -> f64 {
     let scaled = value * 1e6;
     // Beyond 2^53 there are no decimals to round.
     if scaled.abs() < 9e15 { scaled.round() / 1e6 + 0.0 } else { value }
-}
-
-pub(super) fn serialize_rounded<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_f64(round_to_micro(*value))
-}
-
-pub(super) fn serialize_rounded_option<S: Serializer>(
-    value: &Option<f64>,
-    serializer: S,
-) -> Result<S::Ok, S::Error> {
-    match value {
-        Some(value) => serializer.serialize_some(&round_to_micro(*value)),
-        None => serializer.serialize_none(),
-    }
 }

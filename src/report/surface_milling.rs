@@ -139,8 +139,8 @@ pub fn draw_middle_plane(surfaced: &SurfaceProgram, options: &SurfaceMillingOpti
     };
     let panel = |title: String, paths| PathPanel {
         title,
-        right: abscissa_title(units),
-        up: ordinate_title(units),
+        right: abscissa_title(units).to_owned(),
+        up: ordinate_title(units).to_owned(),
         one_scale: true,
         paths,
     };

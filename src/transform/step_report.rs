@@ -1,5 +1,6 @@
 //! This module holds what a step reports about itself besides findings.
 
+use crate::presentation::display_units::DisplayUnits;
 use crate::presentation::path_panel::PathPanel;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::any::Any;
@@ -13,14 +14,14 @@ pub trait TransformReport: Any + Debug + Send + Sync {
     /// Returns the name of the step in recipes, under which the report stands in JSON.
     fn step_name(&self) -> &'static str;
 
-    /// Returns the report for people. It consists of whole lines, the first of which is empty.
-    fn to_text(&self) -> String;
+    /// The report for people in the units that they see: lines that end in a line end, the first of them empty.
+    fn to_text(&self, units: DisplayUnits) -> String;
 
     /// Returns the report as a JSON value. [`to_json_value`] makes it from what serde can write.
     fn to_json(&self) -> serde_json::Value;
 
-    /// Returns the drawings of the report.
-    fn build_panels(&self) -> Vec<PathPanel> {
+    /// What it draws, in the units that people see.
+    fn build_panels(&self, _units: DisplayUnits) -> Vec<PathPanel> {
         Vec::new()
     }
 }

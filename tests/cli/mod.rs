@@ -3,6 +3,7 @@
 mod apply;
 mod batch;
 mod chips;
+mod display_units;
 mod first_steps;
 mod gates;
 mod hook;

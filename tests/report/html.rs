@@ -42,6 +42,7 @@ pub fn told<T>(
         setup: &setup,
         setup_files: &[],
         units: Some(recipe.units),
+        shown_in: None,
         findings: &findings,
         reports: &reports,
         print: None,

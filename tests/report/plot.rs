@@ -3,6 +3,7 @@
 use super::simulation::{SHOP, SLOT, simulate};
 use crate::support::program;
 use clsmith::program::LengthUnit;
+use clsmith::report::DisplayUnits;
 use clsmith::report::plot::{PlotAbscissa, PlotQuantity, PlottedProgram, draw_programs, render_png};
 
 fn drawn(quantities: &[PlotQuantity], along: PlotAbscissa) -> String {
@@ -19,7 +20,7 @@ fn drawn(quantities: &[PlotQuantity], along: PlotAbscissa) -> String {
             simulated: Some(simulated),
         })
         .collect();
-    draw_programs(&plotted, quantities, along).unwrap()
+    draw_programs(&plotted, quantities, along, DisplayUnits::MM).unwrap()
 }
 
 /// Largest coordinate to the right of all lines.
@@ -40,7 +41,7 @@ fn a_panel_for_each_quantity_and_a_line_for_each_program() {
     let svg = drawn(&PlotQuantity::ALL, PlotAbscissa::Time);
     assert!(svg.starts_with("<svg width=\"1200\" height=\"2800\""), "{}", &svg[..80]);
     for quantity in PlotQuantity::ALL {
-        assert!(svg.contains(quantity.axis_title()), "{}", quantity.name());
+        assert!(svg.contains(&quantity.axis_title(DisplayUnits::MM)), "{}", quantity.name());
     }
     for name in ["before.cls", "after.cls"] {
         assert_eq!(svg.matches(name).count(), 1);

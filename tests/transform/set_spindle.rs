@@ -225,7 +225,7 @@ CYCLE/OFF
     let followed = kept.replace("MMPM,500.0000", "MMPM,375.0000").replace("MMPM,160.0000", "MMPM,120.0000");
     assert_eq!(String::from_utf8(program.to_bytes()).unwrap(), followed);
     assert_eq!((report.feeds_followed, report.tap_feeds), (3, 1));
-    let told = clsmith::transform::TransformReport::to_text(&report);
+    let told = clsmith::transform::TransformReport::to_text(&report, Default::default());
     assert_eq!(
         told,
         "\nset_spindle: 1 speed changed, 0 put in; 3 feeds per minute follow, 1 of taps (pitch times speed)\n"

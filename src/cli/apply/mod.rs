@@ -5,6 +5,7 @@ mod usage_problem;
 
 use super::command_exit::CommandExit;
 use super::command_outputs::{CommandOutputs, ignore_closed_pipe, refuse_overwritten_input};
+use super::display_args::DisplayArgs;
 use super::finding_args::FindingArgs;
 use super::input_files::{self, LoadedRecipe, STANDARD};
 use super::progress::CommandProgress;
@@ -80,6 +81,8 @@ pub struct ApplyArgs {
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
+    display: DisplayArgs,
+    #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
 }
 
@@ -148,7 +151,7 @@ impl ApplyArgs {
                 ApplyOutcome { program: parse(&source, job.dialect).program, findings, reports: Vec::new() }
             }
         };
-        let mut run = ApplyRun { job, setup_files, source: &source, outcome };
+        let mut run = ApplyRun { job, setup_files, source: &source, outcome, shown_in: self.display.asked() };
         self.finish_run(&mut run, target.as_deref(), outputs, progress)
             .map_err(|stop| stop.about(Path::new(source.name())))
     }

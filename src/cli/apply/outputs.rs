@@ -10,7 +10,8 @@ use clsmith::diagnostic::Diagnostic;
 use clsmith::fingerprint::RecipeFingerprint;
 use clsmith::job::{CorrectionJob, is_program_changed};
 use clsmith::parse::parse;
-use clsmith::program::Program;
+use clsmith::program::{LengthUnit, Program};
+use clsmith::report::DisplayUnits;
 use clsmith::report::changes::{self, RecipeChanges};
 use clsmith::report::comparison::{Comparison, ComparisonRuns, ComparisonSubject};
 use clsmith::report::finding_policy::sort_findings;
@@ -37,6 +38,8 @@ pub(super) struct ApplyRun<'r> {
     pub setup_files: &'r [Arc<Source>],
     pub source: &'r Arc<Source>,
     pub outcome: ApplyOutcome,
+    /// The unit that readers asked for.
+    pub shown_in: Option<LengthUnit>,
 }
 
 impl ApplyRun<'_> {
@@ -47,7 +50,14 @@ impl ApplyRun<'_> {
 
     fn compare_with_original(&self, before: &Program) -> RecipeChanges {
         let recipe = self.job.recipe;
-        RecipeChanges::from_programs(before, &self.outcome.program, &recipe.step_names(), Some(recipe.units))
+        let steps = recipe.step_names();
+        RecipeChanges::from_programs(before, &self.outcome.program, &steps, Some(recipe.units))
+            .shown_in(self.shown_in)
+    }
+
+    /// The units that readers see.
+    fn display_units(&self) -> DisplayUnits {
+        DisplayUnits::of_recipe(&self.outcome.program, self.job.recipe.units, self.shown_in)
     }
 
     /// Returns what reports tell of.
@@ -59,6 +69,7 @@ impl ApplyRun<'_> {
             setup: self.job.setup,
             setup_files: self.setup_files,
             units: Some(self.job.recipe.units),
+            shown_in: self.shown_in,
             findings: &self.outcome.findings,
             reports: &self.outcome.reports,
             print,
@@ -109,7 +120,7 @@ impl ApplyArgs {
             self.write_run_report(path, run, print, target, outputs)?;
         }
         if let Some(path) = &self.plot {
-            self.draw_step_reports(path, &run.outcome.reports, outputs)?;
+            self.draw_step_reports(path, &run.outcome.reports, run.display_units(), outputs)?;
         }
         let Some(simulated) = simulated else { return Ok(()) };
         let digits = run.job.print.map(|print| print.sha256.to_string());
@@ -140,9 +151,10 @@ impl ApplyArgs {
         &self,
         path: &Path,
         reports: &[Box<dyn TransformReport>],
+        units: DisplayUnits,
         outputs: &CommandOutputs,
     ) -> Result<(), Stop> {
-        let panels: Vec<_> = reports.iter().flat_map(|report| report.build_panels()).collect();
+        let panels: Vec<_> = reports.iter().flat_map(|report| report.build_panels(units)).collect();
         let Some(text) = path_drawing::draw_path_panels(&panels)? else {
             if !self.quiet {
                 eprintln!("{}: not drawn, because no step has a drawing", path.display());
@@ -163,17 +175,21 @@ impl ApplyArgs {
         };
         if !is_program_changed(&run.outcome.program) {
             writeln!(err, "{}{to}: nothing to change, every byte as it was", run.source.name())?;
-            return write_step_reports(&mut err, &run.outcome.reports);
+            return write_step_reports(&mut err, &run.outcome.reports, run.display_units());
         }
         err.write_all(changes::to_text(&run.compare_with_original(&run.parse_original())).as_bytes())?;
-        write_step_reports(&mut err, &run.outcome.reports)?;
+        write_step_reports(&mut err, &run.outcome.reports, run.display_units())?;
         if to.is_empty() { Ok(()) } else { writeln!(err, "{to}", to = to.trim_start()) }
     }
 }
 
-/// Writes the reports of the steps, even if they had nothing to change.
-fn write_step_reports(err: &mut impl Write, reports: &[Box<dyn TransformReport>]) -> io::Result<()> {
-    reports.iter().try_for_each(|report| err.write_all(report.to_text().as_bytes()))
+/// What the steps say about themselves, also when they had nothing to change.
+fn write_step_reports(
+    err: &mut impl Write,
+    reports: &[Box<dyn TransformReport>],
+    units: DisplayUnits,
+) -> io::Result<()> {
+    reports.iter().try_for_each(|report| err.write_all(report.to_text(units).as_bytes()))
 }
 
 /// Writes the program. Returns a finding if that fails.

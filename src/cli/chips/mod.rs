@@ -5,6 +5,7 @@ mod outputs;
 
 use crate::cli::bad_argument::BadArgument;
 use crate::cli::command_exit::CommandExit;
+use crate::cli::display_args::DisplayArgs;
 use crate::cli::finding_args::FindingArgs;
 use crate::cli::input_files;
 use crate::cli::measuring_command::{MeasuringCommand, MeasuringContext};
@@ -33,6 +34,7 @@ Examples:
 Chips are those of flat end mills in three and five axes; other tools are told and left out, and so are moves whose
 axis is more than 80 degrees from z. The setup says stock, tools and machine: see configs/README.md. Lengths of the
 command line are in mm. Outputs appear whole or not at all, and never over an input.
+Outputs are in the unit of the program, or in that of --display-units; of a program in inches the names end in _in.
 The columns of the CSV: line, operation, tool, length_mm, feed_mm_min, z_mm, thickness_mm, area_mm2, volume_mm3,
 inside_mm2, pieces, chip_thickness_mm, engaged_deg, arcs_deg. Thickness is the largest on the way, engagement that at the
 motion's end. An empty cell is a value that is not known, as engagement where the cutter has left the chip by then.";
@@ -91,6 +93,8 @@ pub struct ChipsArgs {
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
+    display: DisplayArgs,
+    #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
 }
 
@@ -140,6 +144,7 @@ impl ChipsArgs {
             .with_at_z_mm(self.at);
         under.progress.begin_bar(program.source().name());
         let mut report = ChipReport::simulate_layers(&machining, &options, keep, under.progress)?;
+        report.units = self.display.of_program(units);
         under.findings.append(&mut report.findings);
         let drawn = self.draw_chips(&report)?;
         Ok((report, drawn))

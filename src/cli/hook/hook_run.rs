@@ -260,7 +260,7 @@ impl<'h> HookRun<'h> {
             UnattendedOutcome::PassedOriginal | UnattendedOutcome::Refused | UnattendedOutcome::Stopped => {}
         }
         let mut reports = self.correction.reports.iter();
-        reports.try_for_each(|report| err.write_all(report.to_text().as_bytes()))
+        reports.try_for_each(|report| err.write_all(report.to_text(self.correction.units).as_bytes()))
     }
 
     /// Prints the last message and writes the line in the log.

@@ -4,6 +4,7 @@ mod outputs;
 
 use crate::cli::bad_argument::BadArgument;
 use crate::cli::command_exit::CommandExit;
+use crate::cli::display_args::DisplayArgs;
 use crate::cli::finding_args::FindingArgs;
 use crate::cli::input_files;
 use crate::cli::measuring_command::{MeasuringCommand, MeasuringContext};
@@ -39,6 +40,7 @@ Examples:
 The setup says stock, tools and material: see configs/README.md. Outputs appear whole or not at all, never
 over an input. They are written also when errors were found (a collision is one), with exit code 1; only
 --save-stock is not. `--allow CL0511` lets collisions pass.
+Lengths are in the unit of the program, or in that of --display-units; of a program in inches the names end in _in.
 The columns of the CSV: line, operation, tool, length_mm, feed_mm_min, chip_thickness_mm,
 removal_rate_mm3_min, axial_depth_mm, radial_depth_mm, engagement_start_deg, engagement_end_deg, force_n,
 torque_nm, power_kw. An empty cell is a value that is not known.";
@@ -98,6 +100,8 @@ pub struct SimulateArgs {
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
+    display: DisplayArgs,
+    #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
 }
 
@@ -114,6 +118,8 @@ struct SimulateOutcome {
     setup_file: Arc<Source>,
     runs: ComparisonRuns,
     drawn: Option<Vec<u8>>,
+    /// The unit that readers see.
+    shown_in: LengthUnit,
 }
 
 impl SimulateOutcome {
@@ -130,6 +136,7 @@ impl SimulateOutcome {
             setup: &self.setup,
             setup_files: std::slice::from_ref(&self.setup_file),
             units,
+            shown_in: Some(self.shown_in),
             findings,
             reports: &[],
             print: None,
@@ -164,6 +171,7 @@ impl SimulateArgs {
         let units = ResolvedLengthUnit::from_program(&program, self.units).unit;
         let target = self.target.as_deref().map(|path| read_target(path, units)).transpose()?;
         let mut simulated = self.simulate_program(&program, &setup, under.progress, under.findings)?;
+        let shown_in = simulated.units.shown_in;
         under.findings.append(&mut simulated.findings);
         if let (Some(mesh), Some(path)) = (target, &self.target) {
             simulated.compare_with_target(&mesh, &path.to_string_lossy(), self.tolerance);
@@ -179,6 +187,7 @@ impl SimulateArgs {
             setup_file,
             runs: ComparisonRuns { after: Some(simulated), ..ComparisonRuns::default() },
             drawn,
+            shown_in,
         })
     }
 
@@ -215,7 +224,9 @@ impl SimulateArgs {
             .with_cell_mm(self.cell)
             .with_budget(SimulationBudget::default().with_bytes(bytes));
         progress.begin_bar(program.source().name());
-        Ok(SimulationReport::simulate_program(&machining, &options, progress)?)
+        let mut simulated = SimulationReport::simulate_program(&machining, &options, progress)?;
+        simulated.units = self.display.of_program(units);
+        Ok(simulated)
     }
 }
 

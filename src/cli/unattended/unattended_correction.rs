@@ -8,6 +8,7 @@ use clsmith::job::{CorrectionJob, JobOutcome, is_program_changed};
 use clsmith::parse::parse;
 use clsmith::program::Program;
 use clsmith::recipe_rules::RecipeChoice;
+use clsmith::report::DisplayUnits;
 use clsmith::report::changes::{self, StepChanges};
 use clsmith::report::finding_policy::FindingPolicy;
 use clsmith::simulation_run::RunWatcher;
@@ -56,6 +57,8 @@ pub struct UnattendedCorrection {
     pub steps: Vec<StepChanges>,
     /// What steps report about themselves.
     pub reports: Vec<Box<dyn TransformReport>>,
+    /// The units that people see: those of the program.
+    pub units: DisplayUnits,
     /// The recipe, once it was read.
     pub recipe: Option<LoggedRecipe>,
     /// Whether it is refused because of something else, such as a broken recipe, and may succeed when that is
@@ -71,6 +74,7 @@ impl UnattendedCorrection {
             findings,
             steps: Vec::new(),
             reports: Vec::new(),
+            units: DisplayUnits::MM,
             recipe: None,
             surroundings: false,
         }
@@ -149,6 +153,7 @@ pub fn correct_unattended(
     };
     UnattendedCorrection {
         outcome,
+        units: DisplayUnits::of_recipe(&program, recipe.units, None),
         program: Some(program),
         findings,
         steps,

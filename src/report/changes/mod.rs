@@ -10,6 +10,7 @@ use crate::program::LengthUnit;
 pub use text::{steps_to_text, to_text};
 
 use super::stats::{MotionLengthAndTime, MotionTotals, ResolvedLengthUnit};
+use super::table::DisplayUnits;
 use crate::program::RecordKind;
 use crate::program::{Program, StepEdits};
 use serde::Serialize;
@@ -87,8 +88,8 @@ impl RecipeChanges {
             ResolvedLengthUnit::from_program(program, caller.filter(|_| program.feed_length_unit().is_none()))
         };
         let (units_before, units) = (told(before), told(after));
-        // A step may have changed the unit, but the numbers of both programs must be comparable.
-        let scale = units_before.unit.mm_per_unit() / units.unit.mm_per_unit();
+        // A step may have changed the unit; numbers that stand side by side must not.
+        let as_after = DisplayUnits { values_in: units_before.unit, shown_in: units.unit };
         let (steps, untouched) = count_step_changes(after, steps);
         Self {
             version: 1,
@@ -96,12 +97,22 @@ impl RecipeChanges {
             units,
             steps,
             untouched,
-            before: sum_motions(before, units_before).scaled_by(scale),
+            before: sum_motions(before, units_before).converted(as_after),
             after: sum_motions(after, units),
         }
     }
 
-    /// Returns whether the program is unchanged.
+    /// Converts all lengths to the unit that a reader wants to see; `None` leaves them in the program's.
+    #[must_use]
+    pub fn shown_in(mut self, unit: Option<LengthUnit>) -> Self {
+        if let Some((units, shown)) = self.units.show_in(unit) {
+            self.units = shown;
+            (self.before, self.after) = (self.before.converted(units), self.after.converted(units));
+        }
+        self
+    }
+
+    /// Whether the program is as it was.
     pub fn is_empty(&self) -> bool {
         self.steps.iter().all(StepChanges::is_empty)
     }

@@ -4,8 +4,8 @@
 use super::{Comparison, ComparisonFigures, ComparisonPeak, ComparisonRow};
 use crate::presentation::safe_text::to_safe_line;
 use crate::report::table::{
-    Column, ColumnUnit, DisplayUnits, PeakPlace, PrintedTable, TableLooks, TableValue, compare_figures,
-    list_figures, pick_columns, print_change,
+    Column, ColumnUnit, PeakPlace, PrintedTable, TableLooks, TableValue, compare_figures, list_figures,
+    pick_columns, print_change,
 };
 use crate::report::text_format::format_count;
 
@@ -23,9 +23,6 @@ const WHOLE: [&str; 11] = [
     "torque",
     "power",
 ];
-
-/// Figures are in mm, whatever the program's unit.
-const LOOKS: TableLooks = TableLooks::markup(DisplayUnits::MM);
 
 fn figure_columns() -> Vec<Column<ComparisonFigures>> {
     let mut columns = path_columns();
@@ -106,9 +103,10 @@ fn peak_value(peak: Option<ComparisonPeak>) -> TableValue<'static> {
 pub(in crate::report) fn build_whole_table(comparison: &Comparison<'_>) -> PrintedTable {
     let columns = pick_columns(&figure_columns(), &WHOLE);
     let ComparisonRow { before, after, .. } = &comparison.whole;
+    let looks = TableLooks::markup(comparison.units());
     match comparison.subject.before {
-        Some(_) => compare_figures(&columns, before.as_ref(), after.as_ref(), LOOKS),
-        None => list_figures(&columns, after.as_ref(), LOOKS),
+        Some(_) => compare_figures(&columns, before.as_ref(), after.as_ref(), looks),
+        None => list_figures(&columns, after.as_ref(), looks),
     }
 }
 
@@ -117,12 +115,13 @@ pub(in crate::report) fn build_whole_table(comparison: &Comparison<'_>) -> Print
 pub(in crate::report) fn build_operation_table(comparison: &Comparison<'_>) -> PrintedTable {
     let both = comparison.subject.before.is_some();
     let columns = pick_operation_figures(comparison);
+    let looks = TableLooks::markup(comparison.units());
     let mut table = PrintedTable::default();
     for (head, is_left_aligned) in [("operation", true), ("tool", true), ("motions", false)] {
         table.push_column(head, is_left_aligned);
     }
     for (index, column) in columns.iter().enumerate() {
-        table.push_column(column.head(LOOKS), false);
+        table.push_column(column.head(looks), false);
         if both {
             table.push_column("after", false);
         }
@@ -131,10 +130,10 @@ pub(in crate::report) fn build_operation_table(comparison: &Comparison<'_>) -> P
         }
     }
     for row in &comparison.operations {
-        table.push_row(print_operation(&row.name, row, &columns, both));
+        table.push_row(print_operation(&row.name, row, &columns, both, looks));
     }
     if comparison.operations.len() > 1 {
-        table.push_row(print_operation("all", &comparison.whole, &columns, both));
+        table.push_row(print_operation("all", &comparison.whole, &columns, both, looks));
     }
     table
 }
@@ -144,6 +143,7 @@ fn print_operation(
     row: &ComparisonRow,
     columns: &[Column<ComparisonFigures>],
     both: bool,
+    looks: TableLooks,
 ) -> Vec<String> {
     let (before, after) = (row.before.as_ref(), row.after.as_ref());
     let motions = after.or(before).map_or(0, |figures| figures.motions);
@@ -151,7 +151,7 @@ fn print_operation(
         vec![to_safe_line(name), to_safe_line(&row.tools.join(", ")), format_count(motions as u64)];
     for (index, column) in columns.iter().enumerate() {
         let print = |figures: Option<&ComparisonFigures>| {
-            figures.map(|figures| LOOKS.print_cell(column, figures)).unwrap_or_default()
+            figures.map(|figures| looks.print_cell(column, figures)).unwrap_or_default()
         };
         cells.extend(both.then(|| print(before)));
         cells.push(print(after));

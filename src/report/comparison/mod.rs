@@ -1,9 +1,8 @@
 //! This module compares a program before and after a change, for a page ([`super::html`]) and for a summary
 //! in merge requests ([`to_markdown`]).
 //!
-//! [`ComparisonSubject`] holds the inputs, [`ComparisonRuns`] its simulations, and [`Comparison`] what
-//! follows from both. Lengths are in mm and feeds in mm/min as in a simulation, whatever the file's unit.
-//! Without `before`, a single program is described.
+//! [`ComparisonSubject`] is what there is, [`ComparisonRuns`] its simulations, [`Comparison`] what follows from both. Lengths are in mm and feeds in mm/min,
+//! as in a simulation, and a reader sees them in [`Comparison::units`]. Without `before` one program is told of.
 
 mod compared_files;
 mod figure_columns;
@@ -23,6 +22,7 @@ pub(in crate::report) use markdown::build_step_table;
 use super::changes::RecipeChanges;
 use super::simulation::SimulationReport;
 use super::stats::{LengthUnitOrigin, ResolvedLengthUnit};
+use super::table::{ColumnUnit, DisplayUnits};
 use super::text_format::{format_counted, format_duration};
 use crate::diagnostic::Diagnostic;
 use crate::program::motion::Motion;
@@ -49,7 +49,9 @@ pub struct ComparisonSubject<'a> {
     pub setup_files: &'a [Arc<Source>],
     /// The unit of lengths of a file that does not state it.
     pub units: Option<LengthUnit>,
-    /// The findings.
+    /// The unit that a reader sees; that of the program as it stands if `None`.
+    pub shown_in: Option<LengthUnit>,
+    /// What was found.
     pub findings: &'a [Diagnostic],
     /// What steps report about themselves.
     pub reports: &'a [Box<dyn TransformReport>],
@@ -96,7 +98,12 @@ impl<'a> ComparisonSubject<'a> {
         ResolvedLengthUnit::from_program(program, self.units.filter(|_| program.feed_length_unit().is_none()))
     }
 
-    /// Returns the machine's rapid feed, mm/min.
+    /// The units that a reader sees.
+    pub fn display_units(&self) -> DisplayUnits {
+        DisplayUnits::of_program(self.resolve_length_unit(self.program).unit, self.shown_in)
+    }
+
+    /// The machine's rapid feed, mm/min.
     pub(in crate::report) fn rapid_feed_mm_min(&self) -> Option<f64> {
         self.setup.machine.rapid_feed.map(|feed| feed.get())
     }
@@ -108,7 +115,12 @@ impl<'a> ComparisonSubject<'a> {
 }
 
 impl<'a> Comparison<'a> {
-    /// Collects all figures.
+    /// The units that a reader sees.
+    pub fn units(&self) -> DisplayUnits {
+        self.subject.display_units()
+    }
+
+    /// Brings everything together.
     pub fn from_runs(subject: ComparisonSubject<'a>, runs: &'a ComparisonRuns) -> Self {
         let changes = subject.before.map(|before| {
             let steps = subject.recipe.map(Recipe::step_names).unwrap_or_default();
@@ -232,6 +244,7 @@ fn list_assumptions(
     whole: &ComparisonRow,
     runs: &ComparisonRuns,
 ) -> Vec<String> {
+    let units = subject.display_units();
     let mut said = Vec::new();
     match subject.resolve_length_unit(subject.program) {
         ResolvedLengthUnit { from: LengthUnitOrigin::Assumed, .. } => {
@@ -245,7 +258,7 @@ fn list_assumptions(
         ResolvedLengthUnit { unit, from: LengthUnitOrigin::Caller } => {
             said.push(format!("the program does not state its unit of length: {unit} was given"));
         }
-        ResolvedLengthUnit { from: LengthUnitOrigin::File, .. } => {}
+        ResolvedLengthUnit { from: LengthUnitOrigin::File | LengthUnitOrigin::Shown, .. } => {}
     }
     said.push("times are without dwells, and without the machine's acceleration".to_owned());
     said.extend(describe_accelerated_time(runs));
@@ -258,10 +271,10 @@ fn list_assumptions(
     for simulated in [&runs.before, &runs.after].into_iter().flatten() {
         let accuracy = &simulated.accuracy;
         said.push(format!(
-            "simulated with columns {} mm apart: boundaries of material are known to {} mm across z, curves to {} mm",
-            super::text_format::format_short(accuracy.cell_mm),
-            super::text_format::format_short(accuracy.lateral_mm),
-            accuracy.chord_mm
+            "simulated with columns {} apart: borders of material are known to {} across z, curves to {}",
+            units.tell_trimmed(ColumnUnit::Length, accuracy.cell_mm, 3),
+            units.tell_trimmed(ColumnUnit::Length, accuracy.lateral_mm, 3),
+            units.tell_trimmed(ColumnUnit::Length, accuracy.chord_mm, 6)
         ));
         said.extend(simulated.assumptions.iter().cloned());
     }

@@ -9,6 +9,7 @@ use crate::program::operation::find_operations;
 use crate::program::{MotionClass, Program};
 use crate::report::comparison::{ComparisonSubject, measure_motion};
 use crate::report::simulation::{MotionRow, SimulationReport};
+use crate::report::table::{ColumnUnit, DisplayUnits};
 
 /// The largest distance between chords and their arcs in the drawing, mm.
 pub const CHORD_MM: f64 = 0.02;
@@ -44,9 +45,9 @@ pub struct PageMotionArrays {
     pub seconds: Vec<f32>,
     /// The feed in mm/min; NaN in rapids and if it is not known.
     pub feed: Vec<f32>,
-    /// The results of the simulation, by name.
-    pub loads: Vec<(&'static str, Vec<f32>)>,
-    /// The change of each motion ([`super::motion_change`]).
+    /// What the simulation told, by name.
+    pub loads: Vec<(&'static str, ColumnUnit, Vec<f32>)>,
+    /// What became of each motion ([`super::motion_change`]).
     pub change: Vec<u8>,
     /// The motion before from which each comes, or [`NONE`].
     pub pair: Vec<u32>,
@@ -60,16 +61,16 @@ pub struct PageMotionArrays {
     pub statement: Vec<u32>,
 }
 
-/// The name of a quantity, and its value in a motion's row.
-type PageLoadColumn = (&'static str, fn(&MotionRow) -> Option<f64>);
+/// A quantity's name, its unit, and where a motion's row has it.
+type PageLoadColumn = (&'static str, ColumnUnit, fn(&MotionRow) -> Option<f64>);
 
 /// The quantities of a simulation that charts show.
 const LOADS: [PageLoadColumn; 5] = [
-    ("chip", |row| row.chip_thickness_mm),
-    ("removal", |row| row.removal_rate_mm3_min),
-    ("force", |row| row.force_n),
-    ("torque", |row| row.torque_nm),
-    ("power", |row| row.power_kw),
+    ("chip", ColumnUnit::Length, |row| row.chip_thickness_mm),
+    ("removal", ColumnUnit::RemovalRate, |row| row.removal_rate_mm3_min),
+    ("force", ColumnUnit::Force, |row| row.force_n),
+    ("torque", ColumnUnit::Torque, |row| row.torque_nm),
+    ("power", ColumnUnit::Power, |row| row.power_kw),
 ];
 
 impl PageMotionArrays {
@@ -110,10 +111,10 @@ impl PageMotionArrays {
             for (flags, _) in side.flags.iter_mut().zip(rows).filter(|(_, row)| row.is_crash) {
                 *flags |= CRASH;
             }
-            for (name, value) in LOADS {
+            for (name, unit, value) in LOADS {
                 if rows.iter().any(|row| value(row).is_some()) {
                     let values = rows.iter().map(|row| value(row).map_or(f32::NAN, |value| value as f32));
-                    side.loads.push((name, values.collect()));
+                    side.loads.push((name, unit, values.collect()));
                 }
             }
         }
@@ -165,10 +166,12 @@ impl PageMotionArrays {
         self.vertices.get(first..end).unwrap_or_default()
     }
 
-    /// Returns the arrays by name.
-    pub fn into_arrays(self, prefix: &str) -> Vec<(String, PageArray)> {
+    /// The arrays by name, in the units that a reader sees.
+    pub fn into_arrays(self, prefix: &str, units: DisplayUnits) -> Vec<(String, PageArray)> {
+        let shown = |unit: ColumnUnit, values: Vec<f32>| PageArray::F32(show_values(units, unit, values));
         let vertices = |axis: usize| {
-            PageArray::F32(self.vertices.iter().filter_map(|vertex| vertex.get(axis).copied()).collect())
+            let values = self.vertices.iter().filter_map(|vertex| vertex.get(axis).copied());
+            shown(ColumnUnit::Length, values.collect())
         };
         let mut all = vec![
             ("x", vertices(0)),
@@ -180,15 +183,21 @@ impl PageMotionArrays {
             ("operation", PageArray::U16(self.operation)),
             ("tool", PageArray::U16(self.tool)),
             ("row", PageArray::Growing(self.row)),
-            ("length", PageArray::F32(self.length)),
+            ("length", shown(ColumnUnit::Length, self.length)),
             ("seconds", PageArray::F32(self.seconds)),
-            ("feed", PageArray::F32(self.feed)),
+            ("feed", shown(ColumnUnit::FeedPerMinute, self.feed)),
             ("change", PageArray::U8(self.change)),
             ("pair", PageArray::Growing(self.pair)),
         ];
-        all.extend(self.loads.into_iter().map(|(name, values)| (name, PageArray::F32(values))));
+        all.extend(self.loads.into_iter().map(|(name, unit, values)| (name, shown(unit, values))));
         all.into_iter().map(|(name, array)| (format!("{prefix}.{name}"), array)).collect()
     }
+}
+
+/// Converts values to the units that a reader sees.
+pub(super) fn show_values(units: DisplayUnits, unit: ColumnUnit, mut values: Vec<f32>) -> Vec<f32> {
+    values.iter_mut().for_each(|value| *value = units.convert(unit, f64::from(*value)) as f32);
+    values
 }
 
 fn to_drawing_vertex(place: &Pose, [x, y, z]: [f64; 3]) -> [f32; 3] {

@@ -2,12 +2,13 @@
 
 use super::array_encoding::PageArray;
 use super::listing::ProgramListing;
-use super::motion_arrays::PageMotionArrays;
+use super::motion_arrays::{PageMotionArrays, show_values};
 use super::stock_height_field::StockHeightField;
 use super::{markup, motion_change};
 use crate::program::{MotionClass, Program};
 use crate::report::comparison::{Comparison, ComparisonSubject};
-use crate::report::text_format::{format_count, format_short};
+use crate::report::table::{ColumnUnit, DisplayUnits};
+use crate::report::text_format::format_count;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -39,6 +40,7 @@ impl PageArrays {
             return Self { facts: json!({ "sides": [] }), arrays: Vec::new(), missing };
         }
         let listing = ProgramListing::from_program(program);
+        let units = subject.display_units();
         let origin = choose_drawing_origin(subject, program);
         let runs = comparison.runs;
         let mut after =
@@ -52,11 +54,11 @@ impl PageArrays {
         let stock = runs.after.as_ref().and_then(|simulated| StockHeightField::from_dexels(&simulated.left));
         if let Some(stock) = &stock {
             missing.push(format!(
-                "the stock that is left is drawn as {} x {} columns {} mm apart, each as high as the highest material in it{}; \
+                "the stock that is left is drawn as {} x {} columns {} apart, each as high as the highest material in it{}; \
                  undercuts are not drawn",
                 stock.columns,
                 stock.rows,
-                format_short(stock.cell_mm),
+                units.tell_trimmed(ColumnUnit::Length, stock.cell_mm, 3),
                 if stock.coarser > 1 {
                     format!(" ({0} x {0} columns of the simulation)", stock.coarser)
                 } else {
@@ -70,9 +72,12 @@ impl PageArrays {
             ("kinds".to_owned(), PageArray::U8(listing.kinds)),
             ("steps".to_owned(), PageArray::U16(listing.steps)),
         ];
-        arrays.extend(before.map(|side| side.into_arrays("before")).into_iter().flatten());
-        arrays.extend(after.into_arrays("after"));
-        arrays.extend(stock.map(|stock| ("stock".to_owned(), PageArray::F32(stock.heights))));
+        arrays.extend(before.map(|side| side.into_arrays("before", units)).into_iter().flatten());
+        arrays.extend(after.into_arrays("after", units));
+        arrays.extend(stock.map(|stock| {
+            let heights = show_values(units, ColumnUnit::Length, stock.heights);
+            ("stock".to_owned(), PageArray::F32(heights))
+        }));
         Self { facts, arrays, missing }
     }
 
@@ -107,20 +112,34 @@ fn build_facts(
     origin: [f64; 3],
 ) -> Value {
     let side = |name: &str, side: &PageMotionArrays| {
-        let loads: Vec<&str> = side.loads.iter().map(|(name, _)| *name).collect();
+        let loads: Vec<&str> = side.loads.iter().map(|(name, ..)| *name).collect();
         json!({ "name": name, "tools": side.tools, "operations": side.operations, "loads": loads })
     };
     let steps: Vec<&str> =
         comparison.changes.iter().flat_map(|changes| &changes.steps).map(|step| step.name.as_str()).collect();
     let sides: Vec<Value> =
         before.map(|before| side("before", before)).into_iter().chain([side("after", after)]).collect();
+    let units = comparison.units();
+    let shown = |value: f64| units.convert(ColumnUnit::Length, value);
     json!({
         "sides": sides,
         "steps": steps,
         "classes": MotionClass::ALL.map(|class| class.to_string().replace('_', " ")),
-        "origin": origin,
+        "units": unit_facts(units),
+        "origin": origin.map(shown),
         "stock": stock.map(|stock| json!({
-            "first": stock.first_mm, "cell": stock.cell_mm, "columns": stock.columns, "rows": stock.rows, "low": stock.low_mm,
+            "first": stock.first_mm.map(shown), "cell": shown(stock.cell_mm), "columns": stock.columns, "rows": stock.rows,
+            "low": shown(stock.low_mm),
         })),
+    })
+}
+
+/// The names of units at axes and values, and the decimals that values have more than in mm.
+fn unit_facts(units: DisplayUnits) -> Value {
+    let unit = |unit: ColumnUnit| json!({ "name": unit.marked_symbol(units.shown_in), "more": units.decimals(unit, 0) });
+    json!({
+        "length": unit(ColumnUnit::Length),
+        "feed": unit(ColumnUnit::FeedPerMinute),
+        "removal": unit(ColumnUnit::RemovalRate),
     })
 }

@@ -29,6 +29,7 @@ pub fn write_section(
         "lead" => write_lead(comparison, out),
         "parts" => write_compared_files(comparison, out),
         "whole" => build_whole_table(comparison).write_html(out),
+        "units" => write_units(comparison, out),
         "steps" => write_steps(comparison, out),
         "operations" => build_operation_table(comparison).write_html(out),
         "findings" => write_findings(comparison, out),
@@ -74,12 +75,18 @@ fn file_columns() -> [Column<ComparedFile>; 4] {
     ]
 }
 
+fn write_units(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let [length, feed] =
+        [ColumnUnit::Length, ColumnUnit::FeedPerMinute].map(|unit| unit.symbol(comparison.units().shown_in));
+    write!(out, "Lengths in {length}, feeds in {feed}.")
+}
+
 fn write_steps(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
     let Some(table) = build_step_table(comparison) else { return Ok(()) };
     out.write_all(b"<h2>Steps</h2>\n")?;
     table.write_html(out)?;
     for report in comparison.subject.reports {
-        writeln!(out, "<pre>{}</pre>", escape_html(report.to_text().trim_matches('\n')))?;
+        writeln!(out, "<pre>{}</pre>", escape_html(report.to_text(comparison.units()).trim_matches('\n')))?;
     }
     Ok(())
 }

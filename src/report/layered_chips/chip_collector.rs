@@ -9,6 +9,7 @@ use crate::layered_chips::chip::LayerChip;
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::program::operation;
+use crate::report::table::DisplayUnits;
 use crate::report::text_format::format_counted;
 use crate::report::tool_name;
 use crate::simulation_run::Machining;
@@ -209,6 +210,7 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
         let assumptions = self.list_assumptions();
         ChipReport {
             file: self.machining.program().source().name().to_owned(),
+            units: DisplayUnits::of_program(self.machining.length_unit(), None),
             options,
             totals: self.totals,
             operations: self.operations.into_iter().filter(|sums| sums.motions > 0).collect(),

@@ -2,40 +2,64 @@
 
 use super::chip_columns::{ChipLayerOfMotion, layer_columns, motion_columns};
 use super::json_formatter::DepthLimitedFormatter;
-use super::{ChipLayerRow, ChipReport, ChipRow, ChipTotals, OperationChips, UncutMotion};
+use super::sum_columns::{operation_columns, totals_columns};
+use super::{ChipLayerRow, ChipReport, ChipRow};
 use crate::diagnostic::Diagnostic;
 use crate::report::render::json::FindingsJson;
-use crate::report::rounding::{round_to_micro, serialize_rounded};
-use crate::report::table::{CsvTable, DisplayUnits, JsonColumns, RecordNumbers};
+use crate::report::rounding::round_to_micro;
+use crate::report::table::{ColumnUnit, CsvTable, DisplayUnits, JsonColumns, RecordNumbers};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 use std::io::{self, Write};
 
-/// A boundary as it is in JSON.
-struct BoundaryJson<'a>(&'a [[f64; 2]]);
+/// A boundary as the JSON has it.
+struct BoundaryJson<'a> {
+    points: &'a [[f64; 2]],
+    units: DisplayUnits,
+}
 
 impl Serialize for BoundaryJson<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(self.0.iter().map(|point| point.map(round_to_micro)))
+        serializer.collect_seq(self.points.iter().map(|point| point.map(|at| round_length(at, self.units))))
     }
 }
 
 /// The document.
-#[derive(Serialize)]
 struct ChipDocument<'a> {
-    /// Version of the structure: 1. It changes when a reader would have to; new keys may be added without.
-    version: u32,
-    file: &'a str,
-    #[serde(serialize_with = "serialize_rounded")]
-    layer_mm: f64,
-    #[serde(serialize_with = "serialize_rounded")]
-    tolerance_mm: f64,
-    totals: &'a ChipTotals,
-    assumptions: &'a [String],
-    operations: &'a [OperationChips],
-    skipped: &'a [UncutMotion],
-    findings: FindingsJson<'a>,
-    motions: MotionList<'a>,
+    report: &'a ChipReport,
+    findings: &'a [Diagnostic],
+}
+
+impl Serialize for ChipDocument<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let (report, units) = (self.report, self.report.units);
+        let length = |value: f64| round_length(value, units);
+        let mut map = serializer.serialize_map(None)?;
+        // It changes when a reader of the structure would have to; new keys may be added without.
+        map.serialize_entry("version", &1)?;
+        map.serialize_entry("file", &report.file)?;
+        map.serialize_entry("units", &units.shown_in)?;
+        map.serialize_entry(&units.key("layer", ColumnUnit::Length), &length(report.options.layer_mm))?;
+        map.serialize_entry(
+            &units.key("tolerance", ColumnUnit::Length),
+            &length(report.options.tolerance_mm),
+        )?;
+        let totals = JsonColumns::new(&totals_columns(), units, RecordNumbers::Rounded);
+        map.serialize_entry("totals", &totals.object(&report.totals))?;
+        map.serialize_entry("assumptions", &report.assumptions)?;
+        let operations = JsonColumns::new(&operation_columns(), units, RecordNumbers::Rounded);
+        let rows: Vec<_> = report.operations.iter().map(|row| operations.object(row)).collect();
+        map.serialize_entry("operations", &rows)?;
+        map.serialize_entry("skipped", &report.skipped)?;
+        map.serialize_entry("findings", &FindingsJson::from_findings(self.findings))?;
+        let columns = ChipJsonColumns::new(units);
+        map.serialize_entry("motions", &MotionList { rows: &report.rows, columns: &columns })?;
+        map.end()
+    }
+}
+
+fn round_length(value_mm: f64, units: DisplayUnits) -> f64 {
+    round_to_micro(units.convert(ColumnUnit::Length, value_mm))
 }
 
 /// Writes the chips as one JSON document, a line for each layer, with a line end. The borders of pieces are
@@ -44,21 +68,8 @@ struct ChipDocument<'a> {
 /// # Errors
 /// Returns the errors of `out`.
 pub fn write_json(report: &ChipReport, findings: &[Diagnostic], out: &mut dyn Write) -> io::Result<()> {
-    let columns = ChipJsonColumns::new();
-    let document = ChipDocument {
-        version: 1,
-        file: &report.file,
-        layer_mm: report.options.layer_mm,
-        tolerance_mm: report.options.tolerance_mm,
-        totals: &report.totals,
-        assumptions: &report.assumptions,
-        operations: &report.operations,
-        skipped: &report.skipped,
-        findings: FindingsJson::from_findings(findings),
-        motions: MotionList { rows: &report.rows, columns: &columns },
-    };
     let mut serializer = serde_json::Serializer::with_formatter(&mut *out, DepthLimitedFormatter::default());
-    document.serialize(&mut serializer)?;
+    ChipDocument { report, findings }.serialize(&mut serializer)?;
     out.write_all(b"\n")
 }
 
@@ -66,12 +77,14 @@ pub fn write_json(report: &ChipReport, findings: &[Diagnostic], out: &mut dyn Wr
 struct ChipJsonColumns {
     motion: JsonColumns<ChipRow>,
     layer: JsonColumns<ChipLayerRow>,
+    units: DisplayUnits,
 }
 
 impl ChipJsonColumns {
-    fn new() -> Self {
-        let (units, numbers) = (DisplayUnits::MM, RecordNumbers::Rounded);
+    fn new(units: DisplayUnits) -> Self {
+        let numbers = RecordNumbers::Rounded;
         Self {
+            units,
             motion: JsonColumns::new(&motion_columns(), units, numbers),
             layer: JsonColumns::new(&layer_columns(), units, numbers),
         }
@@ -118,12 +131,14 @@ struct LayerJson<'a> {
 impl Serialize for LayerJson<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let polygons = &self.layer.polygons;
+        let units = self.columns.units;
         let holes = || {
             let pieces = polygons.iter().enumerate();
             pieces.flat_map(|(index, polygon)| polygon.holes.iter().map(move |hole| (index, hole)))
         };
-        let pieces: Vec<_> = polygons.iter().map(|polygon| BoundaryJson(&polygon.outer)).collect();
-        let hole_borders: Vec<_> = holes().map(|(_, hole)| BoundaryJson(hole)).collect();
+        let pieces: Vec<_> =
+            polygons.iter().map(|polygon| BoundaryJson { points: &polygon.outer, units }).collect();
+        let hole_borders: Vec<_> = holes().map(|(_, points)| BoundaryJson { points, units }).collect();
         let hole_of: Vec<usize> = holes().map(|(index, _)| index).collect();
         let mut map = serializer.serialize_map(None)?;
         self.columns.layer.object(self.layer).serialize_entries(&mut map)?;
@@ -143,7 +158,7 @@ impl Serialize for LayerJson<'_> {
 pub fn write_csv(report: &ChipReport, out: &mut dyn Write) -> io::Result<()> {
     let mut columns = motion_columns().to_vec();
     columns.extend(layer_columns());
-    let mut table = CsvTable::begin(&columns, DisplayUnits::MM, out)?;
+    let mut table = CsvTable::begin(&columns, report.units, out)?;
     for motion in &report.rows {
         for layer in &motion.layers {
             table.write_row(&ChipLayerOfMotion { motion, layer })?;

@@ -2,13 +2,14 @@
 //! from which they come.
 
 use super::ChipReport;
+use super::layer_drawing::format_layer_height;
 use super::move_scene::{MoveScene, MoveSceneLayer};
 use super::panel_sheet::{ADVANCING, BRANCH, EDGE, LegendSample, OUTSIDE, RETREATING, draw_sheet};
 use crate::layered_chips::MillStep;
 use crate::layered_chips::boundary_diagram::{BoundaryDiagram, BranchEnd, EdgeState, EnvelopeBranch};
 use crate::layered_chips::section_family::{DiagramCurve, SectionFamily};
 use crate::report::svg_chart::{ChartFrame, SvgArea, draw_line, drawing_error};
-use crate::report::text_format::format_short;
+use crate::report::table::DisplayUnits;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use std::f64::consts::TAU;
@@ -45,7 +46,7 @@ pub fn draw_diagrams(report: &ChipReport, at_z_mm: Option<f64>) -> io::Result<St
         (LegendSample::Ring(BRANCH), "split"),
     ];
     draw_sheet((columns, rows), PANEL, &legend, |number, area| match report.scenes.get(number) {
-        Some(scene) => draw_diagram(area, scene, at_z_mm),
+        Some(scene) => draw_diagram(area, scene, at_z_mm, report.units),
         None => Ok(()),
     })
 }
@@ -61,13 +62,18 @@ fn choose_diagram_layer(scene: &MoveScene, at: Option<f64>) -> Option<&MoveScene
     }
 }
 
-fn draw_diagram(area: &SvgArea<'_>, scene: &MoveScene, at: Option<f64>) -> io::Result<()> {
+fn draw_diagram(
+    area: &SvgArea<'_>,
+    scene: &MoveScene,
+    at: Option<f64>,
+    units: DisplayUnits,
+) -> io::Result<()> {
     let (Some(layer), Some(piece)) = (choose_diagram_layer(scene, at), scene.pieces.first()) else {
         return Ok(());
     };
     let Ok(step) = MillStep::new(scene.mill, piece) else { return Ok(()) };
     let diagram = BoundaryDiagram::new(&SectionFamily::new(&step, layer.z_mm));
-    let mut title = format!("line {}, z {}", scene.line, format_short(layer.z_mm));
+    let mut title = format!("line {}, z {}", scene.line, format_layer_height(layer.z_mm, units));
     if scene.pieces.len() > 1 {
         title.push_str(&format!(", first of {} pieces", scene.pieces.len()));
     }

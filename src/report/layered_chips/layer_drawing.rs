@@ -11,7 +11,8 @@ use crate::layered_chips::section_family::SectionFamily;
 use crate::layered_chips::swept_area::{LayerSweptArea, RimDirections};
 use crate::layered_chips::{MillStep, Polygon};
 use crate::report::svg_chart::{ChartFrame, SvgArea, drawing_error};
-use crate::report::text_format::format_short;
+use crate::report::table::{ColumnUnit, DisplayUnits};
+use crate::report::text_format::format_trimmed;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use std::io;
@@ -59,7 +60,7 @@ pub fn draw_layers(report: &ChipReport, at_z_mm: Option<f64>) -> io::Result<Stri
         (LegendSample::Line(EDGE), "cutter after"),
     ];
     draw_sheet((columns, rows), PANEL, &legend, |number, area| match panels.get(number) {
-        Some(panel) => panel.draw_panel(area, half, report.left.grid()),
+        Some(panel) => panel.draw_panel(area, half, report),
         None => Ok(()),
     })
 }
@@ -119,14 +120,17 @@ impl<'r> LayerPanel<'r> {
         self.content_corners().into_iter().flat_map(|([x0, y0], [x1, y1])| [x1 - x0, y1 - y0])
     }
 
-    fn draw_panel(&self, area: &SvgArea<'_>, half: f64, grid: &AreaGrid) -> io::Result<()> {
+    fn draw_panel(&self, area: &SvgArea<'_>, half: f64, report: &ChipReport) -> io::Result<()> {
+        let (grid, units) = (report.left.grid(), report.units);
+        // The chart is in the reader's unit; what is drawn into it is converted point by point.
+        let shown = |value: f64| units.convert(ColumnUnit::Length, value);
         let Some(([x0, y0], [x1, y1])) = self.content_corners() else { return Ok(()) };
         let (x, y) = (f64::midpoint(x0, x1), f64::midpoint(y0, y1));
         let tall = half * f64::from(PANEL.1 - AROUND.1) / f64::from(PANEL.0 - AROUND.0);
         let (wide, tall) = (half * (half / tall).max(1.0), tall.max(half));
         let mut title = format!("line {}", self.scene.line);
         if let Some(layer) = self.layer {
-            title.push_str(&format!(", z {}", format_short(layer.z_mm)));
+            title.push_str(&format!(", z {}", format_layer_height(layer.z_mm, units)));
         }
         let frame = ChartFrame {
             title: Some((&title, 14)),
@@ -138,12 +142,14 @@ impl<'r> LayerPanel<'r> {
             label_font: 11,
             ..ChartFrame::default()
         };
-        let mut chart = frame.draw(area, x - wide..x + wide, y - tall..y + tall)?;
+        let mut chart =
+            frame.draw(area, shown(x - wide)..shown(x + wide), shown(y - tall)..shown(y + tall))?;
         let window = [[x - wide, y - tall], [x + wide, y - tall], [x + wide, y + tall], [x - wide, y + tall]];
         let filled = |polygons: &[Polygon], color: RGBColor| {
             let seen = clip_to_window(polygons, &window, grid);
             let shapes = seen.into_iter().map(move |polygon| {
-                let points = join_boundaries(&polygon).into_iter().map(|[x, y]| (x, y)).collect::<Vec<_>>();
+                let points = join_boundaries(&polygon).into_iter().map(|[x, y]| (shown(x), shown(y)));
+                let points = points.collect::<Vec<_>>();
                 plotters::element::Polygon::new(points, color.filled())
             });
             shapes.collect::<Vec<_>>()
@@ -153,7 +159,7 @@ impl<'r> LayerPanel<'r> {
             chart.draw_series(filled(&layer.chip, CHIP)).map_err(drawing_error)?;
         }
         let closed = |border: &[[f64; 2]]| {
-            let points = border.iter().chain(border.first()).map(|[x, y]| (*x, *y));
+            let points = border.iter().chain(border.first()).map(|[x, y]| (shown(*x), shown(*y)));
             points.collect::<Vec<_>>()
         };
         if !self.first.is_empty() {
@@ -187,4 +193,9 @@ fn join_boundaries(polygon: &Polygon) -> Vec<[f64; 2]> {
     }
     border.extend(back.filter(|_| !polygon.holes.is_empty()));
     border
+}
+
+/// Returns the height of a layer in a title, in the unit of the axes.
+pub(super) fn format_layer_height(z_mm: f64, units: DisplayUnits) -> String {
+    format_trimmed(units.convert(ColumnUnit::Length, z_mm), units.decimals(ColumnUnit::Length, 3))
 }

@@ -1,10 +1,9 @@
 //! This module reports the chips of a program layer by layer: a row for each motion, sums of operations, and
 //! pictures.
 //!
-//! [`ChipReport::simulate_layers`] runs a [`Machining`] in layers and collects its results. [`to_text`],
-//! [`write_csv`] and [`write_json`] present them, and [`draw_layers`] draws layers. Lengths are in mm,
-//! whatever the file's unit. An unknown value is an empty cell, `null` in JSON, and one of the assumptions
-//! gives the reason.
+//! [`ChipReport::simulate_layers`] runs a [`Machining`] in layers and keeps what it hears; [`to_text`], [`write_csv`] and [`write_json`] present it,
+//! [`draw_layers`] draws layers. Lengths are in mm, and a reader sees them in [`ChipReport::units`]. What is not known is an empty cell, `null` in JSON, and
+//! one of the assumptions says why.
 
 mod chip_collector;
 mod chip_columns;
@@ -33,6 +32,7 @@ pub use text::to_text;
 
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::layered_chips::stack::LayerStack;
+use crate::report::table::DisplayUnits;
 use crate::simulation_run::layer_run::LayerRunOptions;
 use crate::simulation_run::{Machining, RunWatcher};
 
@@ -77,7 +77,9 @@ impl ChipReportOptions {
 pub struct ChipReport {
     /// The file's name.
     pub file: String,
-    /// The options of the run.
+    /// The units that a reader sees: those of the program, until a caller sets others. All values here are in mm.
+    pub units: DisplayUnits,
+    /// How it was run.
     pub options: LayerRunOptions,
     /// Sums of everything that ran.
     pub totals: ChipTotals,

@@ -1,26 +1,10 @@
 //! This module holds sums over chips with names, units and printing.
 
 use super::{ChipPeak, ChipTotals, OperationChips};
-use crate::report::table::{
-    Column, ColumnUnit, DisplayUnits, JsonColumns, PeakPlace, RecordNumbers, TableValue,
-};
-use serde::{Serialize, Serializer};
+use crate::report::table::{Column, ColumnUnit, PeakPlace, TableValue};
 
-impl Serialize for ChipTotals {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let columns = JsonColumns::new(&totals_columns(), DisplayUnits::MM, RecordNumbers::Rounded);
-        columns.object(self).serialize(serializer)
-    }
-}
-
-impl Serialize for OperationChips {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let columns = JsonColumns::new(&operation_columns(), DisplayUnits::MM, RecordNumbers::Rounded);
-        columns.object(self).serialize(serializer)
-    }
-}
-
-fn totals_columns() -> [Column<ChipTotals>; 6] {
+/// Returns the sums of the run as columns, in the order of the JSON.
+pub(super) fn totals_columns() -> [Column<ChipTotals>; 6] {
     use ColumnUnit as Unit;
     [
         Column::new("stock", Unit::Volume, |totals: &ChipTotals| totals.stock_mm3.into()).decimals(1),

@@ -6,6 +6,7 @@ use crate::program::geometry::MotionPath;
 use crate::program::{LengthUnit, Program};
 use crate::report::comparison::measure_motion;
 use crate::report::simulation::{MotionRow, SimulationReport};
+use crate::report::table::{ColumnUnit, DisplayUnits};
 use std::io;
 
 /// The largest distance between chords and their arcs in a drawing, mm.
@@ -49,16 +50,28 @@ impl PlotQuantity {
         }
     }
 
-    /// Returns its name and unit at an axis.
-    pub fn axis_title(self) -> &'static str {
+    /// Its name and unit at an axis.
+    pub fn axis_title(self, units: DisplayUnits) -> String {
+        let words = match self {
+            Self::Feed => "feed",
+            Self::Chip => "thickest chip",
+            Self::Removal => "removal rate",
+            Self::Force => "force",
+            Self::Torque => "torque",
+            Self::Power => "power",
+            Self::Z => "z",
+        };
+        units.title(words, self.unit())
+    }
+
+    fn unit(self) -> ColumnUnit {
         match self {
-            Self::Feed => "feed, mm/min",
-            Self::Chip => "thickest chip, mm",
-            Self::Removal => "removal rate, mm³/min",
-            Self::Force => "force, N",
-            Self::Torque => "torque, N m",
-            Self::Power => "power, kW",
-            Self::Z => "z, mm",
+            Self::Feed => ColumnUnit::FeedPerMinute,
+            Self::Chip | Self::Z => ColumnUnit::Length,
+            Self::Removal => ColumnUnit::RemovalRate,
+            Self::Force => ColumnUnit::Force,
+            Self::Torque => ColumnUnit::Torque,
+            Self::Power => ColumnUnit::Power,
         }
     }
 
@@ -90,11 +103,11 @@ pub enum PlotAbscissa {
 }
 
 impl PlotAbscissa {
-    /// Returns its name and unit at an axis.
-    pub fn axis_title(self) -> &'static str {
+    /// Its name and unit at an axis.
+    pub fn axis_title(self, units: DisplayUnits) -> String {
         match self {
-            Self::Time => "time, s",
-            Self::Path => "path, mm",
+            Self::Time => "time, s".to_owned(),
+            Self::Path => units.title("path", ColumnUnit::Length),
         }
     }
 }
@@ -114,13 +127,13 @@ pub struct PlottedProgram<'a> {
     pub simulated: Option<&'a SimulationReport>,
 }
 
-/// Draws quantities of programs as SVG, with a panel for each. All but the last program are grey and behind
-/// it.
+/// Draws quantities of programs as SVG, a panel each, in the units that a reader sees. With several programs, all but the last are grey and stand behind it.
 ///
 /// ```
 /// use clsmith::parse::parse;
 /// use clsmith::program::LengthUnit;
 /// use clsmith::report::plot::{PlotAbscissa, PlotQuantity, PlottedProgram, draw_programs};
+/// use clsmith::report::DisplayUnits;
 /// use clsmith::source::Source;
 ///
 /// let part = b"FROM/0,0,0\nFEDRAT/MMPM,600.\nGOTO/100,0,0\nFEDRAT/MMPM,900.\nGOTO/200,0,0\n";
@@ -132,7 +145,8 @@ pub struct PlottedProgram<'a> {
 ///     rapid_feed_mm_min: None,
 ///     simulated: None,
 /// };
-/// let svg = draw_programs(&[plotted], &[PlotQuantity::Feed, PlotQuantity::Z], PlotAbscissa::Time)?;
+/// let shown = [PlotQuantity::Feed, PlotQuantity::Z];
+/// let svg = draw_programs(&[plotted], &shown, PlotAbscissa::Time, DisplayUnits::MM)?;
 /// assert!(svg.starts_with("<svg") && svg.contains("feed, mm/min"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -143,8 +157,9 @@ pub fn draw_programs(
     programs: &[PlottedProgram<'_>],
     quantities: &[PlotQuantity],
     along: PlotAbscissa,
+    units: DisplayUnits,
 ) -> io::Result<String> {
-    draw_curve_panels(along.axis_title(), &build_panels(programs, quantities, along))
+    draw_curve_panels(&along.axis_title(units), &build_panels(programs, quantities, along, units))
 }
 
 /// Returns what [`draw_programs`] draws: a panel for each quantity, in their order.
@@ -152,16 +167,23 @@ pub fn build_panels(
     programs: &[PlottedProgram<'_>],
     quantities: &[PlotQuantity],
     along: PlotAbscissa,
+    units: DisplayUnits,
 ) -> Vec<CurvePanel> {
     let panel = |quantity: &PlotQuantity| CurvePanel {
-        up: quantity.axis_title().to_owned(),
+        up: quantity.axis_title(units),
         from_zero: *quantity != PlotQuantity::Z,
-        curves: programs.iter().map(|program| build_curve(program, *quantity, along)).collect(),
+        curves: programs.iter().map(|program| build_curve(program, *quantity, along, units)).collect(),
     };
     quantities.iter().map(panel).collect()
 }
 
-fn build_curve(plotted: &PlottedProgram<'_>, quantity: PlotQuantity, along: PlotAbscissa) -> PlotCurve {
+fn build_curve(
+    plotted: &PlottedProgram<'_>,
+    quantity: PlotQuantity,
+    along: PlotAbscissa,
+    units: DisplayUnits,
+) -> PlotCurve {
+    let shown = |value: f64| units.convert(quantity.unit(), value);
     let mut trace = PathLinearizer::new(plotted.units.mm_per_unit(), CHORD_MM, f64::INFINITY);
     let mut segments = Vec::new();
     let mut pieces = Vec::new();
@@ -174,7 +196,7 @@ fn build_curve(plotted: &PlottedProgram<'_>, quantity: PlotQuantity, along: Plot
         let moved = measure_motion(&motion, plotted.units, plotted.rapid_feed_mm_min);
         let size = match along {
             PlotAbscissa::Time => moved.seconds.unwrap_or(0.0),
-            PlotAbscissa::Path => moved.length_mm,
+            PlotAbscissa::Path => units.convert(ColumnUnit::Length, moved.length_mm),
         };
         let (from, to) = (at, at + size);
         let row = plotted.simulated.and_then(|simulated| simulated.motions.rows.get(number));
@@ -190,16 +212,16 @@ fn build_curve(plotted: &PlottedProgram<'_>, quantity: PlotQuantity, along: Plot
                 segments.extend(pieces.iter().map(|step| PlotSegment {
                     from: from + size * step.from,
                     to: from + size * step.to,
-                    values: Some([step.piece.from.point.z, step.piece.to.point.z]),
+                    values: Some([step.piece.from.point.z, step.piece.to.point.z].map(shown)),
                 }));
             }
             PlotQuantity::Feed => {
                 let feed = moved.feed_mm_min.filter(|_| !moved.rapid);
-                segments.push(PlotSegment { from, to, values: feed.map(|feed| [feed; 2]) });
+                stretches.push(PlotSegment { from, to, values: feed.map(|feed| [shown(feed); 2]) });
             }
             _ => {
                 let value = row.and_then(|row| quantity.row_value(row));
-                segments.push(PlotSegment { from, to, values: value.map(|value| [value; 2]) });
+                stretches.push(PlotSegment { from, to, values: value.map(|value| [shown(value); 2]) });
             }
         }
     }

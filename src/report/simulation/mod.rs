@@ -1,17 +1,17 @@
 //! This module reports a simulation: a row for each motion, sums of operations and of the program, the
 //! remaining stock, and the accuracy.
 //!
-//! [`SimulationReport::simulate_program`] runs a [`Machining`] and collects its results. [`to_text`],
-//! [`write_csv`] and [`to_json`] present them. Lengths are in mm, whatever the file's unit. An unknown value
-//! is an empty cell, `null` in JSON: the chip without teeth, forces without a material, and everything that
-//! needs the unknown feed of a rapid. A motion in air has zeros, and no angles.
+//! [`SimulationReport::simulate_program`] runs a [`Machining`] and keeps what it hears; [`to_text`], [`write_csv`] and [`to_json`] present it. Lengths are in mm,
+//! and a reader sees them in [`SimulationReport::units`]. What is not known is an empty cell, `null` in JSON: the chip without teeth, forces without a material,
+//! all that needs the feed of a rapid whose speed nobody says. A motion in air has zeros, and no angles.
 //!
-//! The JSON is [`SimulationReport`] as it stands, with `"version": 1`; numbers are rounded to six decimals.
-//! `findings` is the run's list. `version` changes when a reader of the structure would have to, new keys may
-//! be added without.
+//! The JSON has the fields of [`SimulationReport`], with `"version": 1` and the unit of its lengths as `units`; the motions have the names of the CSV's
+//! columns, and numbers are rounded to six decimals. `findings` is the run's list. `version` changes when a reader of the structure would have to, new
+//! keys may be added without.
 
 mod motion_row;
 mod simulation_collector;
+mod simulation_document;
 mod sum_columns;
 mod sums;
 mod target_comparison;
@@ -20,20 +20,18 @@ pub mod time_plot;
 mod unknown_feeds;
 
 pub use motion_row::{MotionRow, write_csv};
+pub use simulation_document::to_json;
 pub use sums::{OperationSums, SimulationPeak, SimulationSums};
 pub use target_comparison::TargetComparison;
 pub use text::to_text;
 
 use crate::diagnostic::{Diagnostic, Failure};
-use crate::report::render::json::FindingsJson;
-use crate::report::rounding::{serialize_rounded, serialize_rounded_option};
-use crate::report::table::{DisplayUnits, JsonColumns, RecordNumbers};
+use crate::report::table::DisplayUnits;
 use crate::simulation_run::{
     Machining, RunWatcher, SimulationCost, SimulationRunOptions, chord_tolerance_mm,
 };
 use crate::stock::Dexels;
-use motion_row::motion_columns;
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 /// A program that was simulated.
 ///
@@ -60,14 +58,14 @@ use serde::{Serialize, Serializer};
 /// assert!(String::from_utf8(table)?.lines().next().is_some_and(|head| head.contains("chip_thickness")));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug, Serialize)]
+#[derive(Debug)]
 #[non_exhaustive]
 pub struct SimulationReport {
-    /// Version of the JSON structure: 1.
-    pub version: u32,
     /// The file's name.
     pub file: String,
-    /// The name of the material, if the setup gives it.
+    /// The units that a reader sees: those of the program, until a caller sets others. All values here are in mm.
+    pub units: DisplayUnits,
+    /// What is cut, if the setup says its name.
     pub material: Option<String>,
     /// The cost of the run.
     pub cost: ReportedCost,
@@ -77,9 +75,7 @@ pub struct SimulationReport {
     pub stock: StockVolumes,
     /// Sums of the whole program.
     pub totals: SimulationSums,
-    /// The time at feed when the feed changes no faster than the machine's `max_acceleration`, in s; `null`
-    /// if that is not known.
-    #[serde(serialize_with = "serialize_rounded_option")]
+    /// Time at feed when the feed changes no faster than the machine's `max_acceleration`, s; `null` when that is not known.
     pub accelerated_seconds: Option<f64>,
     /// The numbers of faults.
     pub faults: SimulationFaultCounts,
@@ -90,14 +86,11 @@ pub struct SimulationReport {
     /// The comparison of the remaining stock with the target part, if
     /// [`SimulationReport::compare_with_target`] was called.
     pub target: Option<TargetComparison>,
-    /// The motions. In JSON they have the names of the CSV's columns.
-    #[serde(serialize_with = "serialize_motion_rows")]
+    /// The motions.
     pub motions: MotionRows,
-    /// The findings.
-    #[serde(skip)]
+    /// What went wrong, with its places.
     pub findings: Vec<Diagnostic>,
-    /// The remaining stock.
-    #[serde(skip)]
+    /// What is left.
     pub left: Dexels,
 }
 
@@ -113,46 +106,38 @@ pub struct MotionRows {
     pub tools: Vec<String>,
 }
 
-/// The cost of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// What a run cost.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReportedCost {
     /// Columns of the stock.
     pub columns: u64,
     /// Bytes of the stock, overhangs aside.
     pub bytes: u64,
-    /// An upper estimate of how many times a column is read.
-    #[serde(serialize_with = "serialize_rounded")]
+    /// About how many times a column was looked at, at most.
     pub visits: f64,
     /// Length of the path, mm.
-    #[serde(serialize_with = "serialize_rounded")]
     pub path_mm: f64,
 }
 
-/// The accuracy of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// How exact a run is.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SimulationAccuracy {
     /// Distance of columns, mm.
-    #[serde(serialize_with = "serialize_rounded")]
     pub cell_mm: f64,
-    /// The accuracy of boundaries of material across z, in mm: half a cell.
-    #[serde(serialize_with = "serialize_rounded")]
+    /// Across z, borders of material are known to this, mm: half a cell.
     pub lateral_mm: f64,
-    /// The largest distance between arcs and splines and the chords that replace them, mm.
-    #[serde(serialize_with = "serialize_rounded")]
+    /// Arcs and splines run as chords that are no further than this from them, mm.
     pub chord_mm: f64,
 }
 
 /// Volumes in mm3.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StockVolumes {
     /// Before the first cut.
-    #[serde(serialize_with = "serialize_rounded")]
     pub before_mm3: f64,
     /// Removed by all motions.
-    #[serde(serialize_with = "serialize_rounded")]
     pub removed_mm3: f64,
     /// After the last.
-    #[serde(serialize_with = "serialize_rounded")]
     pub left_mm3: f64,
 }
 
@@ -192,8 +177,8 @@ impl SimulationReport {
         let left_mm3 = ran.left.volume_mm3();
         let removed_mm3 = gathered.totals.removed_mm3;
         Ok(Self {
-            version: 1,
             file: machining.program().source().name().to_owned(),
+            units: DisplayUnits::of_program(machining.length_unit(), None),
             material: material.and_then(|material| material.name.clone()),
             cost: plan.into(),
             accuracy: SimulationAccuracy {
@@ -219,22 +204,4 @@ impl From<SimulationCost> for ReportedCost {
     fn from(plan: SimulationCost) -> Self {
         Self { columns: plan.columns, bytes: plan.bytes, visits: plan.visits, path_mm: plan.path_mm }
     }
-}
-
-fn serialize_motion_rows<S: Serializer>(motions: &MotionRows, serializer: S) -> Result<S::Ok, S::Error> {
-    let columns = JsonColumns::new(&motion_columns(), DisplayUnits::MM, RecordNumbers::Rounded);
-    columns.serialize_rows(motions.named_rows(), serializer)
-}
-
-/// Writes the simulation as one JSON document, indented and with a line end. `findings` are those of the
-/// whole run, as the policy left them; they stand in it as `findings`.
-pub fn to_json(simulated: &SimulationReport, findings: &[Diagnostic]) -> String {
-    super::to_json_text(&SimulationDocument { simulated, findings: FindingsJson::from_findings(findings) })
-}
-
-#[derive(Serialize)]
-struct SimulationDocument<'a> {
-    #[serde(flatten)]
-    simulated: &'a SimulationReport,
-    findings: FindingsJson<'a>,
 }

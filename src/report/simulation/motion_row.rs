@@ -1,7 +1,7 @@
 //! This module holds the row of a motion, and the table of all motions.
 
 use super::{MotionRows, SimulationReport};
-use crate::report::table::{Column, ColumnUnit, CsvTable, DisplayUnits, TableValue};
+use crate::report::table::{Column, ColumnUnit, CsvTable, TableValue};
 use std::io::{self, Write};
 
 /// The engagement of a motion and the loads of the tool. `None` means that a value is not known.
@@ -95,7 +95,7 @@ fn name_at(names: &[String], index: usize) -> TableValue<'_> {
 /// # Errors
 /// Returns the errors of `out`.
 pub fn write_csv(simulated: &SimulationReport, out: &mut dyn Write) -> io::Result<()> {
-    let mut table = CsvTable::begin(&motion_columns(), DisplayUnits::MM, out)?;
+    let mut table = CsvTable::begin(&motion_columns(), simulated.units, out)?;
     for named in simulated.motions.named_rows() {
         table.write_row(&named)?;
     }

@@ -1,10 +1,7 @@
 //! This module holds sums of simulations with names, units and printing.
 
 use super::{OperationSums, SimulationPeak, SimulationSums};
-use crate::report::table::{
-    Column, ColumnUnit, DisplayUnits, JsonColumns, PeakPlace, RecordNumbers, TableValue,
-};
-use serde::{Serialize, Serializer};
+use crate::report::table::{Column, ColumnUnit, PeakPlace, TableValue};
 
 impl AsRef<SimulationSums> for SimulationSums {
     fn as_ref(&self) -> &SimulationSums {
@@ -18,14 +15,7 @@ impl AsRef<SimulationSums> for OperationSums {
     }
 }
 
-impl Serialize for SimulationSums {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let columns = JsonColumns::new(&sum_columns(), DisplayUnits::MM, RecordNumbers::Rounded);
-        columns.object(self).serialize(serializer)
-    }
-}
-
-/// Returns the columns that name the operation of the sums.
+/// Returns the columns that say of which operation the sums are.
 pub(super) fn operation_columns() -> [Column<OperationSums>; 2] {
     [
         Column::new("operation", ColumnUnit::None, |row: &OperationSums| TableValue::text(&row.name))

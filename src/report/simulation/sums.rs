@@ -1,7 +1,6 @@
 //! This module sums up motions and finds their peaks.
 
 use super::MotionRow;
-use serde::Serialize;
 
 /// A largest value with the line of the motion that has it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,7 +47,7 @@ pub struct SimulationSums {
 }
 
 /// The sums of an operation.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct OperationSums {
     /// Its name. It is empty if the file has none.
     pub name: String,

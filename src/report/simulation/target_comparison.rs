@@ -3,18 +3,14 @@
 use super::SimulationReport;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::number::format_named_point;
-use crate::report::rounding::serialize_rounded;
 use crate::stock::{Mesh, TargetDeviation};
-use serde::Serialize;
 
-/// The differences between the remaining stock and the target. Differences within the tolerance in some
-/// direction do not count.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// How what is left differs from the target. What is within the tolerance in some direction does not count.
+#[derive(Debug, Clone, PartialEq)]
 pub struct TargetComparison {
     /// The name of the target.
     pub file: String,
     /// The tolerance, mm.
-    #[serde(serialize_with = "serialize_rounded")]
     pub tolerance_mm: f64,
     /// Material of the target that was removed.
     pub gouge: TargetMismatch,
@@ -22,11 +18,10 @@ pub struct TargetComparison {
     pub excess: TargetMismatch,
 }
 
-/// Material that is only on one side.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// Material on one side only.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TargetMismatch {
     /// Its volume, mm3.
-    #[serde(serialize_with = "serialize_rounded")]
     pub volume_mm3: f64,
     /// The number of columns with it.
     pub columns: usize,
@@ -34,14 +29,12 @@ pub struct TargetMismatch {
     pub thickest: Option<ThickestMismatch>,
 }
 
-/// The thickest place along z.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// The thickest piece along z.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThickestMismatch {
     /// Its thickness, mm.
-    #[serde(rename = "mm", serialize_with = "serialize_rounded")]
     pub thickness_mm: f64,
-    /// The place in mm: the lower end of a gouge, or the upper end of excess.
-    #[serde(rename = "at")]
+    /// Where, in mm: of a gouge the lower end, of excess the upper one.
     pub at_mm: [f64; 3],
 }
 

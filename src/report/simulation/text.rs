@@ -5,26 +5,21 @@ use super::target_comparison::TargetMismatch;
 use super::{SimulationReport, SimulationSums};
 use crate::number::format_named_point;
 use crate::presentation::safe_text::to_safe_line;
-use crate::report::table::{DisplayUnits, PrintedTable, TableLooks, pick_columns};
-use crate::report::text_format::{
-    format_count, format_counted, format_duration, format_fixed, format_short, format_trimmed,
-};
+use crate::report::table::{ColumnUnit, PrintedTable, TableLooks, pick_columns};
+use crate::report::text_format::{format_count, format_counted, format_duration, format_fixed};
 use std::fmt::Write;
 
 /// The number of rows of a table that are shown. The JSON has all of them.
 const MOST_ROWS: usize = 24;
 
-/// Simulations are reported in mm, whatever the program's unit.
-const LOOKS: TableLooks = TableLooks::plain(DisplayUnits::MM);
-
-/// Returns the simulation as tables.
+/// The simulation as tables.
 pub fn to_text(simulated: &SimulationReport) -> String {
     let mut out = String::new();
     let _ = writeln!(out, "{}", to_safe_line(&simulated.file));
     append_stock(&mut out, simulated);
     append_times(&mut out, simulated);
     append_operations(&mut out, simulated);
-    append_peaks(&mut out, &simulated.totals);
+    append_peaks(&mut out, simulated);
     append_faults(&mut out, simulated);
     append_target(&mut out, simulated);
     for assumption in &simulated.assumptions {
@@ -34,29 +29,29 @@ pub fn to_text(simulated: &SimulationReport) -> String {
 }
 
 fn append_stock(out: &mut String, simulated: &SimulationReport) {
-    let (cost, accuracy) = (&simulated.cost, &simulated.accuracy);
+    let (cost, accuracy, units) = (&simulated.cost, &simulated.accuracy, simulated.units);
     let _ = writeln!(
         out,
-        "  {} columns {} mm apart ({} MiB), about {:.0e} readings of them along {} mm of path",
+        "  {} columns {} apart ({} MiB), about {:.0e} looks at them along {} of path",
         format_count(cost.columns),
-        format_short(accuracy.cell_mm),
+        units.tell_trimmed(ColumnUnit::Length, accuracy.cell_mm, 3),
         format_fixed(cost.bytes as f64 / f64::from(1 << 20), 1),
         cost.visits,
-        format_fixed(cost.path_mm, 1),
+        units.tell_fixed(ColumnUnit::Length, cost.path_mm, 1),
     );
     let _ = writeln!(
         out,
-        "  boundaries of material are known to {} mm across z, curves to {} mm",
-        format_trimmed(accuracy.lateral_mm, 4),
-        format_trimmed(accuracy.chord_mm, 4),
+        "  borders of material are known to {} across z, curves to {}",
+        units.tell_trimmed(ColumnUnit::Length, accuracy.lateral_mm, 4),
+        units.tell_trimmed(ColumnUnit::Length, accuracy.chord_mm, 4),
     );
     let stock = &simulated.stock;
     let _ = writeln!(
         out,
-        "  stock {} mm3, removed {} mm3, left {} mm3",
-        format_fixed(stock.before_mm3, 1),
-        format_fixed(stock.removed_mm3, 1),
-        format_fixed(stock.left_mm3, 1),
+        "  stock {}, removed {}, left {}",
+        units.tell_fixed(ColumnUnit::Volume, stock.before_mm3, 1),
+        units.tell_fixed(ColumnUnit::Volume, stock.removed_mm3, 1),
+        units.tell_fixed(ColumnUnit::Volume, stock.left_mm3, 1),
     );
 }
 
@@ -99,12 +94,14 @@ fn append_operations(out: &mut String, simulated: &SimulationReport) {
     if simulated.motions.rows.iter().any(|row| row.force_n.is_some()) {
         columns.extend(pick_columns(&sum_columns(), &["force", "power"]));
     }
-    let table = PrintedTable::from_rows(&columns, &simulated.operations, LOOKS).keep_rows(MOST_ROWS);
+    let table = PrintedTable::from_rows(&columns, &simulated.operations, TableLooks::plain(simulated.units))
+        .keep_rows(MOST_ROWS);
     let _ = writeln!(out, "\n{}", table.to_text());
 }
 
-fn append_peaks(out: &mut String, totals: &SimulationSums) {
-    for sentence in sum_columns().iter().filter_map(|column| LOOKS.word_peak(column, totals)) {
+fn append_peaks(out: &mut String, simulated: &SimulationReport) {
+    let (totals, looks) = (&simulated.totals, TableLooks::plain(simulated.units));
+    for sentence in sum_columns().iter().filter_map(|column| looks.tell_peak(column, totals)) {
         let _ = writeln!(out, "  {sentence}");
     }
     if totals.cutting == 0 {
@@ -134,17 +131,23 @@ fn append_faults(out: &mut String, simulated: &SimulationReport) {
 fn append_target(out: &mut String, simulated: &SimulationReport) {
     let Some(compared) = &simulated.target else { return };
     let name = to_safe_line(&compared.file);
-    let _ = writeln!(out, "  against {name}, tolerance {} mm:", format_trimmed(compared.tolerance_mm, 4));
+    let units = simulated.units;
+    let tolerance = units.tell_trimmed(ColumnUnit::Length, compared.tolerance_mm, 4);
+    let _ = writeln!(out, "  against {name}, tolerance {tolerance}:");
     let mut side = |what: &str, found: &TargetMismatch| {
         let _ = match &found.thickest {
             None => writeln!(out, "    no {what}"),
             Some(thickest) => {
                 writeln!(
                     out,
-                    "    {what} {} mm3, at most {} mm along z, at {} mm",
-                    format_fixed(found.volume_mm3, 1),
-                    format_fixed(thickest.thickness_mm, 3),
-                    format_named_point(thickest.at_mm, 3),
+                    "    {what} {}, at most {} along z, at {} {}",
+                    units.tell_fixed(ColumnUnit::Volume, found.volume_mm3, 1),
+                    units.tell_fixed(ColumnUnit::Length, thickest.thickness_mm, 3),
+                    format_named_point(
+                        thickest.at_mm.map(|at| units.convert(ColumnUnit::Length, at)),
+                        units.decimals(ColumnUnit::Length, 3)
+                    ),
+                    ColumnUnit::Length.symbol(units.shown_in),
                 )
             }
         };

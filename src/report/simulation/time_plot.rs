@@ -5,6 +5,7 @@
 
 use super::SimulationReport;
 use crate::report::plot::{CurvePanel, PlotCurve, PlotSegment, draw_curve_panels};
+use crate::report::table::{ColumnUnit, DisplayUnits};
 use std::io;
 
 /// A program in a drawing.
@@ -12,7 +13,9 @@ use std::io;
 pub struct ProgramTimeSeries {
     /// The name of the program.
     pub name: String,
-    /// Its motions over time.
+    /// The units that the drawing shows; those of the last program count.
+    pub units: DisplayUnits,
+    /// Its motions along time.
     pub moments: Vec<PlottedMotion>,
 }
 
@@ -46,7 +49,7 @@ impl SimulationReport {
                 feed_mm_min,
             })
         });
-        ProgramTimeSeries { name: name.into(), moments: timed.collect() }
+        ProgramTimeSeries { name: name.into(), units: self.units, moments: timed.collect() }
     }
 }
 
@@ -55,22 +58,26 @@ impl SimulationReport {
 /// # Errors
 /// Returns the errors of the drawing library. A drawing in memory has none.
 pub fn draw_time_series(series: &[ProgramTimeSeries]) -> io::Result<String> {
-    let panel = |up: &str, value: fn(&PlottedMotion) -> Option<f64>| CurvePanel {
-        up: up.to_owned(),
-        from_zero: true,
-        curves: series.iter().map(|series| build_curve(series, value)).collect(),
+    let units = series.last().map_or(DisplayUnits::MM, |last| last.units);
+    let panel = |up: &str, unit: ColumnUnit, value: fn(&PlottedMotion) -> Option<f64>| {
+        let shown = |moment: &PlottedMotion| value(moment).map(|value| units.convert(unit, value));
+        CurvePanel {
+            up: units.title(up, unit),
+            from_zero: true,
+            curves: series.iter().map(|series| build_curve(series, shown)).collect(),
+        }
     };
     draw_curve_panels(
         "time, s",
         &[
-            panel("thickest chip, mm", |moment| moment.chip_thickness_mm),
-            panel("feed, mm/min", |moment| moment.feed_mm_min),
+            panel("thickest chip", ColumnUnit::Length, |moment| moment.chip_thickness_mm),
+            panel("feed", ColumnUnit::FeedPerMinute, |moment| moment.feed_mm_min),
         ],
     )
 }
 
-fn build_curve(series: &ProgramTimeSeries, value: fn(&PlottedMotion) -> Option<f64>) -> PlotCurve {
-    let segment = |moment: &PlottedMotion| PlotSegment {
+fn build_curve(series: &ProgramTimeSeries, value: impl Fn(&PlottedMotion) -> Option<f64>) -> PlotCurve {
+    let stretch = |moment: &PlottedMotion| PlotSegment {
         from: moment.from_s,
         to: moment.to_s,
         values: value(moment).map(|value| [value; 2]),

@@ -6,6 +6,7 @@
 //! Times are in seconds. An unknown value is `null` and never guessed.
 
 mod bounding_box;
+mod conversion;
 mod feed_rows;
 mod stats_collector;
 mod stats_columns;
@@ -54,7 +55,10 @@ pub struct ProgramStats {
     pub dialect: DialectName,
     /// The unit of all lengths here, and how it is known.
     pub units: ResolvedLengthUnit,
-    /// The number of statements, including comments and empty lines.
+    /// The unit of the file, where another is shown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file_units: Option<ResolvedLengthUnit>,
+    /// Statements, comments and empty lines included.
     pub statements: usize,
     /// Statements that could not be read.
     pub unreadable: usize,
@@ -119,6 +123,8 @@ pub enum LengthUnitOrigin {
     Feeds,
     /// Nothing states it, and millimetres are assumed.
     Assumed,
+    /// It is not the file's: the caller wants lengths in it.
+    Shown,
 }
 
 /// The motions of one class.

@@ -68,6 +68,7 @@ pub(super) fn collect_stats(program: &Program, setup: &Setup, units: ResolvedLen
         lines,
         dialect: program.dialect().into(),
         units,
+        file_units: None,
         statements: program.live_statements().count(),
         unreadable: program.live_statements().filter(|(_, statement)| unreadable(statement.record())).count(),
         totals: all.totals,

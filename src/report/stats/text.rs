@@ -32,7 +32,13 @@ pub fn to_text(stats: &ProgramStats) -> String {
     let _ = writeln!(
         out,
         "  lengths in {unit} ({}), feeds in {unit}/min",
-        describe_unit_origin(stats.units.from)
+        match stats.file_units {
+            None => describe_unit_origin(stats.units.from).to_owned(),
+            Some(file) => {
+                let origin = describe_unit_origin(file.from);
+                format!("as asked for; those of the file are in {}, {origin}", file.unit)
+            }
+        }
     );
     append_path_shapes(&mut out, stats);
     append_classes(&mut out, stats);
@@ -46,9 +52,10 @@ pub fn to_text(stats: &ProgramStats) -> String {
 fn describe_unit_origin(from: LengthUnitOrigin) -> &'static str {
     match from {
         LengthUnitOrigin::File => "stated in the file",
-        LengthUnitOrigin::Caller => "as given; the file does not state it",
-        LengthUnitOrigin::Feeds => "from the unit of its feeds; the file does not state it",
-        LengthUnitOrigin::Assumed => "assumed; the file does not state it",
+        LengthUnitOrigin::Caller => "as told; the file does not say",
+        LengthUnitOrigin::Feeds => "from the unit of its feeds; the file does not say",
+        LengthUnitOrigin::Assumed => "assumed; the file does not say",
+        LengthUnitOrigin::Shown => "as asked for",
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::program::{FeedUnit, LengthUnit};
+use crate::report::table::{ColumnUnit, DisplayUnits};
 use serde::Serialize;
 
 /// Sums over motions. Lengths in the file's unit, times in seconds.
@@ -120,12 +121,12 @@ impl MotionTotals {
         unknown.length += motion.length;
     }
 
-    /// Returns the sums in a unit of which `factor` make one of this unit.
+    /// The same in another unit of length.
     #[must_use]
-    pub(crate) fn scaled_by(mut self, factor: f64) -> Self {
-        self.feed_length *= factor;
-        self.rapid_length *= factor;
-        self.unknown_time.length *= factor;
+    pub(in crate::report) fn converted(mut self, units: DisplayUnits) -> Self {
+        for length in [&mut self.feed_length, &mut self.rapid_length, &mut self.unknown_time.length] {
+            *length = units.convert(ColumnUnit::Length, *length);
+        }
         self
     }
 

@@ -1,8 +1,8 @@
 //! This module holds columns: a name, a unit, the value of a row and its printing, all in one place.
 
-use super::column_unit::{ColumnUnit, DisplayUnits};
 use super::printed_cell::TableLooks;
 use super::table_value::TableValue;
+use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use std::borrow::Cow;
 
 /// One column of a table whose rows are of type `R`.
@@ -157,16 +157,12 @@ impl<R> Column<R> {
 
     /// Returns the head of the column in CSV: its key and its unit.
     pub fn csv_head(&self, units: DisplayUnits) -> String {
-        format!("{}{}", self.key, self.unit.key_suffix(units.shown_in))
+        units.key(self.key, self.unit).into_owned()
     }
 
     /// Returns the key of the column in JSON.
     pub fn json_key(&self, units: DisplayUnits) -> Cow<'static, str> {
-        match (self.json_key, self.unit.key_suffix(units.shown_in)) {
-            (Some(key), _) => Cow::Borrowed(key),
-            (None, "") => Cow::Borrowed(self.key),
-            (None, suffix) => Cow::Owned(format!("{}{suffix}", self.key)),
-        }
+        self.json_key.map_or_else(|| units.key(self.key, self.unit), Cow::Borrowed)
     }
 
     /// Returns the head of the column in tables for people: its title and its unit, `at feed, mm`.

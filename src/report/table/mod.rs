@@ -9,7 +9,6 @@
 
 mod before_after;
 mod column;
-mod column_unit;
 mod printed_cell;
 mod printed_table;
 mod record;
@@ -17,9 +16,9 @@ mod table_value;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 pub(crate) use before_after::{compare_figures, list_figures, print_change};
 pub(crate) use column::{Column, pick_columns};
-pub(crate) use column_unit::{ColumnUnit, DisplayUnits};
 pub(crate) use printed_cell::TableLooks;
 pub(crate) use printed_table::PrintedTable;
 pub(crate) use record::{CsvTable, JsonColumns, RecordNumbers};

@@ -1,10 +1,10 @@
 //! This module prints cells as text for people.
 
 use super::column::{Column, ColumnDecimals};
-use super::column_unit::{ColumnUnit, DisplayUnits};
 use super::table_value::{PeakPlace, TableValue};
+use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use crate::presentation::safe_text::to_safe_line;
-use crate::report::text_format::{format_count, format_duration, format_fixed, format_short, format_trimmed};
+use crate::report::text_format::{format_count, format_duration, format_fixed, format_trimmed};
 
 /// The style of a table: its units, and whether it is plain text or markup.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,15 +44,9 @@ impl TableLooks {
 
     /// Returns a unit as people write it.
     pub fn unit_symbol(self, unit: ColumnUnit) -> &'static str {
-        let symbol = unit.symbol(self.units.shown_in);
-        match (self.style, symbol) {
-            (TableStyle::Markup, "mm2") => "mm²",
-            (TableStyle::Markup, "mm3") => "mm³",
-            (TableStyle::Markup, "mm3/min") => "mm³/min",
-            (TableStyle::Markup, "in2") => "in²",
-            (TableStyle::Markup, "in3") => "in³",
-            (TableStyle::Markup, "in3/min") => "in³/min",
-            _ => symbol,
+        match self.style {
+            TableStyle::Plain => unit.symbol(self.units.shown_in),
+            TableStyle::Markup => unit.marked_symbol(self.units.shown_in),
         }
     }
 
@@ -100,7 +94,9 @@ impl TableLooks {
             PeakPlace::Line(line) => line.map_or_else(String::new, |line| format!(" on line {line}")),
             PeakPlace::Layer { line, z_mm: None } => format!(" on line {line}"),
             PeakPlace::Layer { line, z_mm: Some(z) } => {
-                format!(" on line {line} at z {}", format_short(self.units.convert(ColumnUnit::Length, z)))
+                let decimals = self.units.decimals(ColumnUnit::Length, 3);
+                let z = format_trimmed(self.units.convert(ColumnUnit::Length, z), decimals);
+                format!(" on line {line} at z {z}")
             }
         };
         Some(format!("{}: {number}{unit}{place}", sentence.words))

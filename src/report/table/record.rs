@@ -1,8 +1,8 @@
 //! This module writes rows for machines: CSV tables and JSON objects.
 
 use super::column::Column;
-use super::column_unit::{ColumnUnit, DisplayUnits};
 use super::table_value::{PeakPlace, TableValue};
+use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use crate::report::rounding::round_to_micro;
 use serde::ser::{SerializeMap, SerializeSeq};
 use serde::{Serialize, Serializer};

@@ -156,6 +156,11 @@ impl ToolEntry {
     /// both are known.
     fn check_lengths(&self, reader: &mut SetupReader) {
         let place = &self.place;
+        if self.diameter_mm == Some(0.0) && self.taper_rad.is_none_or(|taper| taper <= 0.0) {
+            let help = "Say the cone's `taper`, or a diameter above 0.";
+            let message = "a diameter of 0 is that of a cone on its tip, which has a taper";
+            reader.add_fault(|| place.at_key("diameter"), message, "no taper", help);
+        }
         if let (Some(diameter), Some(corner)) = (self.diameter_mm, self.corner_radius_mm)
             && corner > diameter / 2.0 + LENGTH_TOLERANCE_MM
         {

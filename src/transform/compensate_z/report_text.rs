@@ -1,9 +1,10 @@
 //! This module shows what `compensate_z` did, as a table and as drawings.
 
 use super::report::{CompensateZReport, PassReport};
+use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use crate::presentation::path_panel::{PanelPath, PanelPathStyle, PathPanel};
 use crate::presentation::safe_text::to_safe_line;
-use crate::presentation::text_format::{format_fixed, format_short, format_table};
+use crate::presentation::text_format::{format_fixed, format_table, format_trimmed};
 use crate::transform::step_report::{TransformReport, to_json_value};
 use std::fmt::Write;
 
@@ -18,41 +19,53 @@ impl TransformReport for CompensateZReport {
         "compensate_z"
     }
 
-    fn to_text(&self) -> String {
-        describe_passes(self)
+    fn to_text(&self, units: DisplayUnits) -> String {
+        describe_passes(self, units)
     }
 
     fn to_json(&self) -> serde_json::Value {
         to_json_value(self)
     }
 
-    /// Draws the first passes as the paper does: the profile, the path that moving it point by point would
-    /// give, and the compensated path.
-    fn build_panels(&self) -> Vec<PathPanel> {
+    /// The first passes as the paper draws them: the profile, the path that moving point by point would give, and
+    /// the compensated path.
+    fn build_panels(&self, units: DisplayUnits) -> Vec<PathPanel> {
         let drawn = self.passes.iter().filter(|pass| !pass.path.is_empty());
-        drawn.take(MOST_DRAWN).map(build_pass_panel).collect()
+        drawn.take(DRAWN).map(|pass| build_pass_panel(pass, units).convert_lengths(units)).collect()
     }
 }
 
-fn describe_passes(report: &CompensateZReport) -> String {
+fn describe_passes(report: &CompensateZReport, units: DisplayUnits) -> String {
+    let unit = ColumnUnit::Length.symbol(units.shown_in);
+    let short = |value: f64| {
+        format_trimmed(units.convert(ColumnUnit::Length, value), units.decimals(ColumnUnit::Length, 3))
+    };
     let cutter = if report.corner_radius_mm == report.radius_mm {
-        format!("ball R{}", format_short(report.radius_mm))
+        format!("ball R{}", short(report.radius_mm))
     } else {
-        format!("cutter D{} R{}", format_short(2.0 * report.radius_mm), format_short(report.corner_radius_mm))
+        format!("cutter D{} R{}", short(2.0 * report.radius_mm), short(report.corner_radius_mm))
     };
     let mut out = format!(
-        "\ncompensate_z: {cutter} against {}, tolerance {} mm, measured again as written\n",
+        "\ncompensate_z: {cutter} against {}, tolerance {} {unit}, measured again as written\n",
         report.against,
-        format_short(report.tolerance_mm)
+        short(report.tolerance_mm)
     );
     let mut rows = vec![
-        ["", "line", "motions", "after", "deepest gouge mm", "largest gap mm", "left mm"]
-            .map(str::to_owned)
-            .to_vec(),
+        [
+            "",
+            "line",
+            "motions",
+            "after",
+            &format!("deepest gouge {unit}"),
+            &format!("largest gap {unit}"),
+            &format!("left {unit}"),
+        ]
+        .map(str::to_owned)
+        .to_vec(),
     ];
-    rows.extend(report.passes.iter().take(MOST_ROWS).map(pass_cells));
+    rows.extend(report.passes.iter().take(TOLD).map(|pass| pass_cells(pass, units)));
     if report.passes.len() > 1 {
-        rows.push(pass_cells(&summarize_passes(report)));
+        rows.push(pass_cells(&summarize_passes(report), units));
     }
     out.push_str(&format_table(&rows));
     if report.passes.len() > MOST_ROWS {
@@ -64,16 +77,19 @@ fn describe_passes(report: &CompensateZReport) -> String {
     out
 }
 
-fn pass_cells(pass: &PassReport) -> Vec<String> {
+fn pass_cells(pass: &PassReport, units: DisplayUnits) -> Vec<String> {
+    let length = |value: f64, decimals: usize| {
+        format_fixed(units.convert(ColumnUnit::Length, value), units.decimals(ColumnUnit::Length, decimals))
+    };
     let line = if pass.line > 0 { pass.line.to_string() } else { String::new() };
     vec![
         to_safe_line(&pass.operation),
         line,
         pass.motions_before.to_string(),
         pass.motions_after.to_string(),
-        format_fixed(pass.gouge_mm, 4),
-        pass.gap_mm.map_or_else(String::new, |gap| format_fixed(gap, 4)),
-        if pass.left_mm > 0.0 { format_fixed(pass.left_mm, 3) } else { String::new() },
+        length(pass.gouge_mm, 4),
+        pass.gap_mm.map_or_else(String::new, |gap| length(gap, 4)),
+        if pass.left_mm > 0.0 { length(pass.left_mm, 3) } else { String::new() },
     ]
 }
 
@@ -93,7 +109,7 @@ fn summarize_passes(report: &CompensateZReport) -> PassReport {
     }
 }
 
-fn build_pass_panel(pass: &PassReport) -> PathPanel {
+fn build_pass_panel(pass: &PassReport, units: DisplayUnits) -> PathPanel {
     let name = if pass.operation.is_empty() { String::new() } else { format!("{}, ", pass.operation) };
     let path = |name: &str, look: PanelPathStyle, points: &[(f64, f64)]| PanelPath {
         name: name.to_owned(),
@@ -102,8 +118,8 @@ fn build_pass_panel(pass: &PassReport) -> PathPanel {
     };
     PathPanel {
         title: format!("{name}line {}", pass.line),
-        right: "along the pass, mm",
-        up: "z, mm",
+        right: units.title("along the pass", ColumnUnit::Length),
+        up: units.title("z", ColumnUnit::Length),
         one_scale: true,
         paths: vec![
             path("profile", PanelPathStyle::Reference, &pass.profile),

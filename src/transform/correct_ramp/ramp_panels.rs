@@ -1,16 +1,18 @@
 //! This module draws ramps from above, and their height along the path.
 
 use super::report::{CorrectRampReport, RampOutcome, RampReport};
+use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use crate::presentation::path_panel::{PanelPath, PanelPathStyle, PathPanel};
 
 /// The largest number of ramps that are drawn.
 const MOST_DRAWN: usize = 12;
 
-/// Draws two panels for each corrected ramp: the view along the tool axis, and the height along the path with
-/// the steepest allowed slope.
-pub(super) fn build_ramp_panels(report: &CorrectRampReport) -> Vec<PathPanel> {
+/// Two panels for each ramp that was corrected: across the tool axis, and height along the path, with the steepest slope allowed.
+pub(super) fn build_ramp_panels(report: &CorrectRampReport, units: DisplayUnits) -> Vec<PathPanel> {
     let corrected = report.ramps.iter().filter(|ramp| ramp.outcome == RampOutcome::Corrected);
-    corrected.take(MOST_DRAWN).flat_map(|ramp| [build_top_view(ramp), build_height_panel(ramp)]).collect()
+    let panels =
+        corrected.take(DRAWN).flat_map(|ramp| [build_top_view(ramp, units), build_height_panel(ramp, units)]);
+    panels.map(|panel| panel.convert_lengths(units)).collect()
 }
 
 fn panel_title(ramp: &RampReport) -> String {
@@ -18,7 +20,7 @@ fn panel_title(ramp: &RampReport) -> String {
     format!("{name}line {}: {}", ramp.line, ramp.kind)
 }
 
-fn build_top_view(ramp: &RampReport) -> PathPanel {
+fn build_top_view(ramp: &RampReport, units: DisplayUnits) -> PathPanel {
     let flat = |path: &[[f64; 3]]| path.iter().map(|[x, y, _]| (*x, *y)).collect();
     let path = |name: &str, look: PanelPathStyle, points: &[[f64; 3]]| PanelPath {
         name: name.to_owned(),
@@ -27,8 +29,8 @@ fn build_top_view(ramp: &RampReport) -> PathPanel {
     };
     PathPanel {
         title: panel_title(ramp),
-        right: "x, mm",
-        up: "y, mm",
+        right: units.title("x", ColumnUnit::Length),
+        up: units.title("y", ColumnUnit::Length),
         one_scale: true,
         paths: vec![
             path("before", PanelPathStyle::Before, &ramp.path_before),
@@ -37,7 +39,7 @@ fn build_top_view(ramp: &RampReport) -> PathPanel {
     }
 }
 
-fn build_height_panel(ramp: &RampReport) -> PathPanel {
+fn build_height_panel(ramp: &RampReport, units: DisplayUnits) -> PathPanel {
     let before = unroll_heights(&ramp.path_before);
     let after = unroll_heights(&ramp.path_after);
     let end = before.last().map_or(0.0, |last| last.1);
@@ -51,9 +53,9 @@ fn build_height_panel(ramp: &RampReport) -> PathPanel {
         points,
     };
     PathPanel {
-        title: "height along the path".to_owned(),
-        right: "distance across the tool axis, mm",
-        up: "z, mm",
+        title: "height along the way".to_owned(),
+        right: units.title("way across the tool axis", ColumnUnit::Length),
+        up: units.title("z", ColumnUnit::Length),
         one_scale: false,
         paths: vec![
             path(

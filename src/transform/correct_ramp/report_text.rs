@@ -2,6 +2,7 @@
 
 use super::ramp_panels::build_ramp_panels;
 use super::report::{CorrectRampReport, RampOutcome, RampReport};
+use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use crate::presentation::path_panel::PathPanel;
 use crate::presentation::safe_text::to_safe_line;
 use crate::presentation::text_format::{format_duration, format_fixed, format_table};
@@ -16,20 +17,21 @@ impl TransformReport for CorrectRampReport {
         "correct_ramp"
     }
 
-    fn to_text(&self) -> String {
-        describe_ramps(self)
+    fn to_text(&self, units: DisplayUnits) -> String {
+        describe_ramps(self, units)
     }
 
     fn to_json(&self) -> serde_json::Value {
         to_json_value(self)
     }
 
-    fn build_panels(&self) -> Vec<PathPanel> {
-        build_ramp_panels(self)
+    fn build_panels(&self, units: DisplayUnits) -> Vec<PathPanel> {
+        build_ramp_panels(self, units)
     }
 }
 
-fn describe_ramps(report: &CorrectRampReport) -> String {
+fn describe_ramps(report: &CorrectRampReport, units: DisplayUnits) -> String {
+    let unit = ColumnUnit::Length.symbol(units.shown_in);
     let count = |outcome: RampOutcome| report.ramps.iter().filter(|ramp| ramp.outcome == outcome).count();
     let (fit, corrected, kept) =
         (count(RampOutcome::Fits), count(RampOutcome::Corrected), count(RampOutcome::Kept));
@@ -50,20 +52,20 @@ fn describe_ramps(report: &CorrectRampReport) -> String {
             "operation",
             "ramp",
             "legs",
-            "shortest mm",
+            &format!("shortest {unit}"),
             "limit",
             "steepest deg",
             "limit",
-            "height mm",
+            &format!("height {unit}"),
             "passes",
-            "added mm",
+            &format!("added {unit}"),
             "time",
         ]
         .map(str::to_owned)
         .to_vec(),
     ];
     for ramp in &shown {
-        rows.extend(ramp_rows(ramp));
+        rows.extend(ramp_rows(ramp, units));
     }
     out.push_str(&format_table(&rows));
     let more = report.ramps.len() - shown.len();
@@ -73,8 +75,11 @@ fn describe_ramps(report: &CorrectRampReport) -> String {
     out
 }
 
-/// Returns a row for the ramp before the correction, and one for the result.
-fn ramp_rows(ramp: &RampReport) -> Vec<Vec<String>> {
+/// A row for the ramp as it came, and one for what it became.
+fn ramp_rows(ramp: &RampReport, units: DisplayUnits) -> Vec<Vec<String>> {
+    let length = |value: f64, decimals: usize| {
+        format_fixed(units.convert(ColumnUnit::Length, value), units.decimals(ColumnUnit::Length, decimals))
+    };
     let passes = |count: usize| if count == 0 { String::new() } else { count.to_string() };
     let row = |line: String, name: String, kind: String, measured: &super::ramp_limits::RampMeasurement| {
         vec![
@@ -82,11 +87,11 @@ fn ramp_rows(ramp: &RampReport) -> Vec<Vec<String>> {
             name,
             kind,
             measured.legs.to_string(),
-            format_fixed(measured.shortest_leg_mm, 3),
-            format_fixed(ramp.limit_leg_mm, 3),
+            length(measured.shortest_leg_mm, 3),
+            length(ramp.limit_leg_mm, 3),
             format_fixed(measured.steepest_degrees, 2),
             format_fixed(ramp.limit_degrees, 2),
-            format_fixed(measured.height_mm, 3),
+            length(measured.height_mm, 3),
         ]
     };
     let state = match ramp.outcome {
@@ -98,14 +103,18 @@ fn ramp_rows(ramp: &RampReport) -> Vec<Vec<String>> {
     let Some(measured) = &ramp.after else { return vec![before] };
     let mut after = row(String::new(), String::new(), "corrected".to_owned(), measured);
     let time = ramp.added_seconds.map_or_else(|| "?".to_owned(), format_signed_duration);
-    after.extend([passes(ramp.passes), format_signed(ramp.added_mm), time]);
+    after.extend([
+        passes(ramp.passes),
+        format!("{}{}", sign(ramp.added_mm), length(ramp.added_mm.abs(), 1)),
+        time,
+    ]);
     vec![before, after]
 }
 
-fn format_signed(value: f64) -> String {
-    format!("{}{}", if value < 0.0 { "-" } else { "+" }, format_fixed(value.abs(), 1))
+fn sign(value: f64) -> &'static str {
+    if value < 0.0 { "-" } else { "+" }
 }
 
 fn format_signed_duration(seconds: f64) -> String {
-    format!("{}{}", if seconds < 0.0 { "-" } else { "+" }, format_duration(seconds.abs()))
+    format!("{}{}", sign(seconds), format_duration(seconds.abs()))
 }

@@ -8,6 +8,7 @@ use super::unit_slips::check_factor;
 use super::{SelectedStatements, StepContext, Transform};
 use crate::diagnostic::Failure;
 use crate::parameters::{Factor, Positive};
+use crate::presentation::display_units::DisplayUnits;
 use crate::presentation::text_format::{format_count, format_counted};
 use crate::program::{Program, Record, StatementId};
 use crate::recipe::StatementFilter;
@@ -181,7 +182,7 @@ impl TransformReport for SetSpindleReport {
         "set_spindle"
     }
 
-    fn to_text(&self) -> String {
+    fn to_text(&self, _units: DisplayUnits) -> String {
         let feeds = |count| format_counted(count, "feed per minute follows", "feeds per minute follow");
         let taps = match self.tap_feeds {
             0 => String::new(),

@@ -132,6 +132,10 @@ fn programs_are_drawn_over_each_other() {
         chip_thickness_mm: Some(0.01 * f64::from(index % 7)),
         feed_mm_min: (!index.is_multiple_of(1000)).then_some(500.0),
     };
-    let long = ProgramTimeSeries { name: "long".to_owned(), moments: (0..200_000).map(moment).collect() };
+    let long = ProgramTimeSeries {
+        name: "long".to_owned(),
+        moments: (0..200_000).map(moment).collect(),
+        ..ProgramTimeSeries::default()
+    };
     assert!(draw_time_series(&[long]).unwrap().len() < 200_000);
 }

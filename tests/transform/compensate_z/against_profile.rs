@@ -210,7 +210,7 @@ fn what_a_person_reads() {
     clsmith::report::unified_diff::write_unified_diff(&mut shown, &done.program, &Default::default())
         .unwrap();
     let mut shown = String::from_utf8(shown).unwrap();
-    shown.push_str(&clsmith::transform::TransformReport::to_text(&done.report));
+    shown.push_str(&clsmith::transform::TransformReport::to_text(&done.report, Default::default()));
     for found in &done.findings {
         shown.push_str(&format!("\n{}: {}\n", found.code, found.message));
     }

@@ -120,7 +120,7 @@ fn what_a_person_reads() {
             .unwrap();
         let mut shown = String::from_utf8_lossy(&out).into_owned();
         for report in &done.reports {
-            shown.push_str(&report.to_text());
+            shown.push_str(&report.to_text(Default::default()));
         }
         for found in &done.findings {
             shown.push_str(&format!(

@@ -178,7 +178,7 @@ class Charts {
 
   end() { return Math.max(...this.programs.map((program) => program.along(this.along)[program.count - 1] || 0), 1e-9); }
 
-  placeText(value) { return this.along === "time" ? `${value.toFixed(2)} s` : `${value.toFixed(2)} mm`; }
+  placeText(value) { return this.along === "time" ? `${value.toFixed(2)} s` : `${value.toFixed(2 + MORE)} ${LENGTH}`; }
 
   show(quantities) {
     this.quantities = quantities;

@@ -94,14 +94,14 @@ class Page {
   readout() {
     const { shown, motion } = this, other = this.programs.find((program) => program !== shown);
     const pair = other ? shown.pair[motion] : NONE, known = pair !== undefined && pair !== NONE;
-    const point = shown.point(shown.lastVertex(motion)).map((value) => value.toFixed(3)).join(", ");
+    const point = shown.point(shown.lastVertex(motion)).map((value) => value.toFixed(3 + MORE)).join(", ");
     const cells = [
       ["motion", `${motion + 1} of ${shown.count}`],
       ["line", `${(shown.name === "before" ? this.listing.oldNumber : this.listing.newNumber)[this.row]}`],
       ["operation", shown.operations[shown.operation[motion]] ?? ""],
       ["tool", shown.tools[shown.tool[motion]] ?? ""],
       ["class", facts.classes[shown.class[motion]]],
-      ["x, y, z in mm", point],
+      [`x, y, z in ${LENGTH}`, point],
       ["time", `${shown.alongTime[motion].toFixed(2)} s`],
     ];
     for (const name of ["feed", ...shown.loads]) {

@@ -3,15 +3,18 @@
 const NONE = 0xffffffff;
 const RAPID = 1, JUMPS = 2, CRASH = 4;
 
+// The unit of lengths, and the digits that they have more than in mm. A page without a drawing has none.
+const LENGTH = facts.units?.length.name, MORE = facts.units?.length.more ?? 0;
+
 // Names, units and digits of what a motion has.
 const QUANTITIES = {
-  feed: { title: "feed", unit: "mm/min", digits: 0 },
-  chip: { title: "thickest chip", unit: "mm", digits: 4 },
-  removal: { title: "removal rate", unit: "mm³/min", digits: 0 },
+  feed: { title: "feed", unit: facts.units?.feed.name, digits: 0 + (facts.units?.feed.more ?? 0) },
+  chip: { title: "thickest chip", unit: LENGTH, digits: 4 + MORE },
+  removal: { title: "removal rate", unit: facts.units?.removal.name, digits: 0 + (facts.units?.removal.more ?? 0) },
   force: { title: "force", unit: "N", digits: 0 },
   torque: { title: "torque", unit: "N m", digits: 2 },
   power: { title: "power", unit: "kW", digits: 3 },
-  z: { title: "z", unit: "mm", digits: 3 },
+  z: { title: "z", unit: LENGTH, digits: 3 + MORE },
 };
 
 // How many entries of a growing array are at most `value`.
@@ -54,7 +57,7 @@ class Program {
     return sums;
   }
 
-  // Where each motion ends along time (s) or path (mm).
+  // Where each motion ends along time (s) or path.
   along(what) { return what === "time" ? this.alongTime : this.alongPath; }
 
   // Where each vertex is along time or path: a motion's vertices by their share of its length.

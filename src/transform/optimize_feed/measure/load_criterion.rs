@@ -1,5 +1,6 @@
 //! This module names the loads of the cutter that can be limited.
 
+use crate::presentation::display_units::ColumnUnit;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -33,7 +34,18 @@ impl LoadCriterion {
         }
     }
 
-    /// Returns its name for people.
+    /// Its unit for people, who may see inches.
+    pub(in crate::transform::optimize_feed) fn column_unit(self) -> ColumnUnit {
+        match self {
+            Self::ChipThickness => ColumnUnit::Length,
+            Self::RemovalRate => ColumnUnit::RemovalRate,
+            Self::Force => ColumnUnit::Force,
+            Self::Torque => ColumnUnit::Torque,
+            Self::Power => ColumnUnit::Power,
+        }
+    }
+
+    /// Its name for people.
     pub fn display_name(self) -> &'static str {
         match self {
             Self::ChipThickness => "chip thickness",

@@ -2,6 +2,7 @@
 
 use super::report::{OperationFeedReport, OptimizeFeedReport};
 use crate::number::format_significant_number;
+use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use crate::presentation::safe_text::to_safe_line;
 use crate::presentation::text_format::{format_count, format_duration, format_fixed, format_table};
 use crate::transform::step_report::{TransformReport, to_json_value};
@@ -12,8 +13,8 @@ impl TransformReport for OptimizeFeedReport {
         "optimize_feed"
     }
 
-    fn to_text(&self) -> String {
-        describe_optimized_feed(self)
+    fn to_text(&self, units: DisplayUnits) -> String {
+        describe_optimized_feed(self, units)
     }
 
     fn to_json(&self) -> serde_json::Value {
@@ -21,14 +22,14 @@ impl TransformReport for OptimizeFeedReport {
     }
 }
 
-fn describe_optimized_feed(report: &OptimizeFeedReport) -> String {
+fn describe_optimized_feed(report: &OptimizeFeedReport, units: DisplayUnits) -> String {
+    let load = LoadFormat { unit: report.criterion.column_unit(), units };
     let mut out = String::new();
     let name = report.criterion.display_name();
     let _ = writeln!(
         out,
-        "\noptimize_feed: {name} to {} {}, simulated again after the change",
-        format_significant(report.target),
-        report.unit
+        "\noptimize_feed: {name} to {}, simulated again after the change",
+        load.format_with_unit(report.target),
     );
     let mut rows = vec![
         ["", "time before", "after", "saved", "largest before", "after", "at target before", "after"]
@@ -36,13 +37,19 @@ fn describe_optimized_feed(report: &OptimizeFeedReport) -> String {
             .to_vec(),
     ];
     if report.operations.len() > 1 {
-        rows.extend(report.operations.iter().map(|operation| operation_cells(&operation.name, operation)));
+        rows.extend(
+            report.operations.iter().map(|operation| operation_cells(&operation.name, operation, load)),
+        );
     }
-    rows.push(operation_cells("all", &report.whole));
+    rows.push(operation_cells("all", &report.whole, load));
     out.push_str(&format_table(&rows));
     let with = report.acceleration.map_or_else(
         || "feeds that change at once".to_owned(),
-        |acceleration| format!("{} (mm/min)/s", format_fixed(acceleration, 0)),
+        |acceleration| {
+            let feed = ColumnUnit::FeedPerMinute;
+            let acceleration = format_fixed(units.convert(feed, acceleration), 0);
+            format!("{acceleration} ({})/s", feed.symbol(units.shown_in))
+        },
     );
     let _ = writeln!(
         out,
@@ -51,36 +58,48 @@ fn describe_optimized_feed(report: &OptimizeFeedReport) -> String {
         format_count(report.feeds_changed as u64),
         format_count(report.points_added as u64),
     );
-    let resolution = match (report.cell_mm, report.layer_mm) {
-        (_, Some(layer)) => format!("layers of {} mm; for them", format_significant(layer)),
-        (Some(cell), None) => format!("cell {} mm; for the grid", format_significant(cell)),
-        // A report has either cells or layers, so this sentence without a size is never printed.
-        (None, None) => "for the grid".to_owned(),
+    let length = LoadFormat { unit: ColumnUnit::Length, units };
+    let grain = match (report.cell_mm, report.layer_mm) {
+        (_, Some(layer)) => format!("layers of {}; for them", length.format_with_unit(layer)),
+        (cell, None) => {
+            format!("cell {}; for the grid", length.format_with_unit(cell.unwrap_or_default()))
+        }
     };
     let _ = writeln!(
         out,
-        "  {resolution}, the {name} may be up to {} {} above these figures",
-        format_significant(report.uncertainty),
-        report.unit,
+        "  {grain}, the {name} may be up to {} above what is told",
+        load.format_with_unit(report.uncertainty),
     );
     out
 }
 
-fn operation_cells(name: &str, figures: &OperationFeedReport) -> Vec<String> {
-    let percent = |fraction: f64| format!("{:.0} %", fraction * 100.0);
+fn operation_cells(name: &str, figures: &OperationFeedReport, load: LoadFormat) -> Vec<String> {
+    let share = |share: f64| format!("{:.0} %", share * 100.0);
     vec![
         to_safe_line(name),
         format_duration(figures.seconds_before),
         format_duration(figures.seconds_after),
         format!("{:.1} %", figures.saved_fraction() * 100.0),
-        format_significant(figures.largest_before),
-        format_significant(figures.largest_after),
-        percent(figures.at_target_before),
-        percent(figures.at_target_after),
+        load.format(figures.largest_before),
+        load.format(figures.largest_after),
+        share(figures.at_target_before),
+        share(figures.at_target_after),
     ]
 }
 
-/// Formats a load or a feed with four significant digits.
-fn format_significant(value: f64) -> String {
-    format_significant_number(value, 4, 9)
+/// How loads and lengths are printed: with four significant digits, in the units that a reader sees.
+#[derive(Debug, Clone, Copy)]
+struct LoadFormat {
+    unit: ColumnUnit,
+    units: DisplayUnits,
+}
+
+impl LoadFormat {
+    fn format(self, value: f64) -> String {
+        format_significant_number(self.units.convert(self.unit, value), 4, 9)
+    }
+
+    fn format_with_unit(self, value: f64) -> String {
+        format!("{} {}", self.format(value), self.unit.symbol(self.units.shown_in))
+    }
 }

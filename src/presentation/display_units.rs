@@ -1,10 +1,15 @@
-//! This module holds the units of columns, and is the only place where values are converted for the reader.
+//! Units of columns, and the one place where values are converted for the reader.
+//!
+//! The library measures in mm. What a reader sees is in the unit of the program unless `--display-units` says
+//! otherwise ([`DisplayUnits::of_program`]); every output takes its [`DisplayUnits`] from there.
 
-use crate::program::LengthUnit;
+use super::text_format::{format_fixed, format_trimmed};
+use crate::program::{LengthUnit, Program};
+use std::borrow::Cow;
 
 /// The unit of a column. It is a type and not a text, so that a table can be shown in another unit of length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ColumnUnit {
+pub(crate) enum ColumnUnit {
     /// A count, a text, or a value that says its unit itself.
     None,
     /// mm or inch.
@@ -47,8 +52,25 @@ impl DisplayUnits {
         Self { values_in: unit, shown_in: unit }
     }
 
+    /// Values in mm that are shown in a unit.
+    pub fn from_mm(shown_in: LengthUnit) -> Self {
+        Self { values_in: LengthUnit::Mm, shown_in }
+    }
+
+    /// Values in mm of a program whose lengths are in `program_unit`. They are shown in that unit, or in the one
+    /// that was asked for.
+    pub fn of_program(program_unit: LengthUnit, asked: Option<LengthUnit>) -> Self {
+        Self::from_mm(asked.unwrap_or(program_unit))
+    }
+
+    /// Values in mm of a program that a recipe changed. `recipe_unit` is that of a file that does not tell its own.
+    pub fn of_recipe(program: &Program, recipe_unit: LengthUnit, asked: Option<LengthUnit>) -> Self {
+        let told = program.stated_length_unit().or_else(|| program.feed_length_unit());
+        Self::of_program(told.unwrap_or(recipe_unit), asked)
+    }
+
     /// Converts a value of a column to what the reader sees. A value that is not converted keeps every bit.
-    pub fn convert(self, unit: ColumnUnit, value: f64) -> f64 {
+    pub(crate) fn convert(self, unit: ColumnUnit, value: f64) -> f64 {
         if self.values_in == self.shown_in {
             return value;
         }
@@ -56,21 +78,62 @@ impl DisplayUnits {
         value * factor.powi(unit.length_exponent())
     }
 
-    /// Returns how many decimals a converted value needs where the unconverted one has `decimals`: an inch is
-    /// 10^1.4 mm, so a length gains one decimal and a volume four on the way to inches, and loses them on the
-    /// way back.
-    pub fn decimals(self, unit: ColumnUnit, decimals: usize) -> usize {
+    /// Returns how many decimals a shown value needs where the same in mm has `decimals`: an inch is 10^1.4 mm,
+    /// so a length in inches has one decimal more and a volume four.
+    pub(crate) fn decimals(self, unit: ColumnUnit, decimals: usize) -> usize {
         let more = match unit.length_exponent() {
             1 => 1,
             2 => 3,
             3 => 4,
             _ => 0,
         };
-        match (self.values_in, self.shown_in) {
-            (LengthUnit::Mm, LengthUnit::Inch) => decimals + more,
-            (LengthUnit::Inch, LengthUnit::Mm) => decimals.saturating_sub(more),
-            _ => decimals,
+        match self.shown_in {
+            LengthUnit::Inch => decimals + more,
+            LengthUnit::Mm => decimals,
         }
+    }
+
+    /// Returns a name for machines with the unit at its end: `cell_mm`.
+    pub(crate) fn key(self, name: &'static str, unit: ColumnUnit) -> Cow<'static, str> {
+        match unit.key_suffix(self.shown_in) {
+            "" => Cow::Borrowed(name),
+            suffix => Cow::Owned(format!("{name}{suffix}")),
+        }
+    }
+
+    /// Returns a name for people with the unit behind it: `feed, mm/min`.
+    pub(crate) fn title(self, name: &str, unit: ColumnUnit) -> String {
+        match unit.marked_symbol(self.shown_in) {
+            "" => name.to_owned(),
+            symbol => format!("{name}, {symbol}"),
+        }
+    }
+
+    /// Prints a value with its unit in a sentence: `12.30 mm`. `decimals` are those in mm.
+    pub(crate) fn tell_fixed(self, unit: ColumnUnit, value: f64, decimals: usize) -> String {
+        let number = format_fixed(self.convert(unit, value), self.decimals(unit, decimals));
+        self.join_symbol(unit, number)
+    }
+
+    /// Prints a value with its unit in a sentence and without trailing zeros: `12.3 mm`. `most_decimals` are
+    /// those in mm.
+    pub(crate) fn tell_trimmed(self, unit: ColumnUnit, value: f64, most_decimals: usize) -> String {
+        let number = format_trimmed(self.convert(unit, value), self.decimals(unit, most_decimals));
+        self.join_symbol(unit, number)
+    }
+
+    fn join_symbol(self, unit: ColumnUnit, number: String) -> String {
+        match unit.symbol(self.shown_in) {
+            "" => number,
+            symbol => format!("{number} {symbol}"),
+        }
+    }
+}
+
+/// Values in mm that are shown in mm.
+impl Default for DisplayUnits {
+    fn default() -> Self {
+        Self::MM
     }
 }
 
@@ -130,6 +193,19 @@ impl ColumnUnit {
             (Self::Power, _) => "kW",
         }
     }
+
+    /// Returns the unit as people write it where exponents can be raised: `mm³/min`.
+    pub fn marked_symbol(self, shown_in: LengthUnit) -> &'static str {
+        match self.symbol(shown_in) {
+            "mm2" => "mm²",
+            "mm3" => "mm³",
+            "mm3/min" => "mm³/min",
+            "in2" => "in²",
+            "in3" => "in³",
+            "in3/min" => "in³/min",
+            symbol => symbol,
+        }
+    }
 }
 
 #[cfg(test)]
@@ -154,8 +230,8 @@ mod tests {
     fn values_in_inches_are_shown_in_mm() {
         let units = DisplayUnits { values_in: LengthUnit::Inch, shown_in: LengthUnit::Mm };
         assert!((units.convert(ColumnUnit::Length, 2.0) - 50.8).abs() < 1e-12);
-        assert_eq!(units.decimals(ColumnUnit::Length, 4), 3);
-        assert_eq!(units.decimals(ColumnUnit::Volume, 1), 0);
+        assert_eq!(units.decimals(ColumnUnit::Length, 4), 4, "decimals are those in mm");
+        assert_eq!(units.tell_fixed(ColumnUnit::Length, 2.0, 1), "50.8 mm");
     }
 
     #[test]
@@ -163,7 +239,6 @@ mod tests {
         for unit in [LengthUnit::Mm, LengthUnit::Inch] {
             let units = DisplayUnits::unconverted(unit);
             assert_eq!(units.convert(ColumnUnit::Volume, 0.1 + 0.2).to_bits(), (0.1f64 + 0.2).to_bits());
-            assert_eq!(units.decimals(ColumnUnit::Volume, 1), 1);
         }
     }
 }
