@@ -1,6 +1,7 @@
 //! What the terminal can do.
 
 use clap::ValueEnum;
+use clsmith::presentation::to_safe_line;
 use std::io::IsTerminal;
 
 /// When to use colours.
@@ -55,5 +56,5 @@ pub fn has_unicode() -> bool {
 
 /// A name as it may be shown: one from outside must not be able to talk to the terminal.
 pub fn escape_controls(name: &str) -> String {
-    name.replace(char::is_control, "?")
+    to_safe_line(name)
 }

@@ -4,5 +4,8 @@
 //! Transforms describe themselves with it (`transform::TransformReport`), and `report` draws and prints it.
 
 pub(crate) mod path_panel;
+pub mod safe_json;
 pub(crate) mod safe_text;
 pub(crate) mod text_format;
+
+pub use safe_text::to_safe_line;

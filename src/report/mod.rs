@@ -28,6 +28,7 @@ pub mod unified_diff;
 
 pub(crate) use crate::presentation::text_format;
 
+use crate::presentation::safe_json::write_json_pretty;
 use crate::program::motion::ActiveTool;
 use crate::program::{Program, Statement, StatementChange};
 use serde::Serialize;
@@ -35,9 +36,11 @@ use serde::Serialize;
 /// A report as one JSON document, indented and with a line end.
 fn to_json_text(report: &impl Serialize) -> String {
     // Strings, numbers and lists always serialize; only a writer or a map with odd keys could fail.
-    let mut text = serde_json::to_string_pretty(report).unwrap_or_default();
-    text.push('\n');
-    text
+    let mut text = Vec::new();
+    let written = write_json_pretty(&mut text, report);
+    debug_assert!(written.is_ok(), "{written:?}");
+    text.push(b'\n');
+    String::from_utf8(text).unwrap_or_default()
 }
 
 /// The 1-based line a statement stands on in its file; `None` for one that was not in the file.

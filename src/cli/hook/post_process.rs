@@ -10,6 +10,12 @@ use std::time::{Duration, Instant};
 /// The longest pause between two looks at the post.
 const LONGEST_PAUSE: Duration = Duration::from_millis(50);
 
+/// How long a post that took too long may tidy up before it is killed.
+const GRACE_TIMED_OUT: Duration = Duration::from_secs(2);
+
+/// The same for a post that is stopped together with the hook, which itself has to end within two seconds.
+const GRACE_STOPPED: Duration = Duration::from_millis(700);
+
 /// What stands for the program in arguments.
 pub const MARK: &str = "{}";
 
@@ -57,12 +63,12 @@ pub fn run_post(
             return Ok(outcome_of_status(status));
         }
         if interrupt.is_raised() {
-            stop_process_group(child.as_mut())?;
+            stop_process_group(child.as_mut(), GRACE_STOPPED)?;
             return Ok(PostOutcome::Stopped);
         }
         let left = timeout.map(|timeout| timeout.saturating_sub(started.elapsed()));
         if left.is_some_and(|left| left.is_zero()) {
-            stop_process_group(child.as_mut())?;
+            stop_process_group(child.as_mut(), GRACE_TIMED_OUT)?;
             return Ok(PostOutcome::TimedOut);
         }
         std::thread::sleep(left.map_or(pause, |left| pause.min(left)));
@@ -80,15 +86,13 @@ fn outcome_of_status(status: ExitStatus) -> PostOutcome {
 }
 
 /// Ends a program and all it started: asks first where that can be done, then kills.
-fn stop_process_group(child: &mut dyn ChildWrapper) -> io::Result<()> {
+fn stop_process_group(child: &mut dyn ChildWrapper, grace: Duration) -> io::Result<()> {
     #[cfg(unix)]
     {
-        /// How long a post that is to end may tidy up before it is killed.
-        const GRACE: Duration = Duration::from_secs(2);
         const SIGTERM: i32 = 15;
         let asked = Instant::now();
         if child.signal(SIGTERM).is_ok() {
-            while asked.elapsed() < GRACE && child.try_wait()?.is_none() {
+            while asked.elapsed() < grace && child.try_wait()?.is_none() {
                 std::thread::sleep(LONGEST_PAUSE);
             }
         }

@@ -5,6 +5,7 @@ use super::listing::ProgramListing;
 use super::motion_arrays::PageMotionArrays;
 use super::stock_height_field::StockHeightField;
 use super::{markup, motion_change};
+use crate::presentation::safe_text::to_safe_line;
 use crate::program::{MotionClass, Program};
 use crate::report::comparison::{Comparison, ComparisonSubject};
 use crate::report::text_format::{format_count, format_short};
@@ -107,7 +108,9 @@ fn build_facts(
 ) -> Value {
     let side = |name: &str, side: &PageMotionArrays| {
         let loads: Vec<&str> = side.loads.iter().map(|(name, _)| *name).collect();
-        json!({ "name": name, "tools": side.tools, "operations": side.operations, "loads": loads })
+        let [tools, operations] = [&side.tools, &side.operations]
+            .map(|names| names.iter().map(|name| to_safe_line(name)).collect::<Vec<_>>());
+        json!({ "name": name, "tools": tools, "operations": operations, "loads": loads })
     };
     let steps: Vec<&str> =
         comparison.changes.iter().flat_map(|changes| &changes.steps).map(|step| step.name.as_str()).collect();

@@ -4,6 +4,7 @@ use super::chip_columns::{ChipLayerOfMotion, layer_columns, motion_columns};
 use super::json_formatter::DepthLimitedFormatter;
 use super::{ChipLayerRow, ChipReport, ChipRow, ChipTotals, OperationChips, UncutMotion};
 use crate::diagnostic::Diagnostic;
+use crate::presentation::safe_json::SafeJsonWriter;
 use crate::report::render::json::FindingsJson;
 use crate::report::rounding::{round_to_micro, serialize_rounded};
 use crate::report::table::{CsvTable, DisplayUnits, JsonColumns, RecordNumbers};
@@ -57,7 +58,8 @@ pub fn write_json(report: &ChipReport, findings: &[Diagnostic], out: &mut dyn Wr
         findings: FindingsJson::from_findings(findings),
         motions: MotionList { rows: &report.rows, columns: &columns },
     };
-    let mut serializer = serde_json::Serializer::with_formatter(&mut *out, DepthLimitedFormatter::default());
+    let mut serializer =
+        serde_json::Serializer::with_formatter(SafeJsonWriter(&mut *out), DepthLimitedFormatter::default());
     document.serialize(&mut serializer)?;
     out.write_all(b"\n")
 }

@@ -35,6 +35,7 @@
 
 use super::SeverityCounts;
 use crate::diagnostic::{Diagnostic, DiagnosticLabel};
+use crate::presentation::safe_json::write_json_pretty;
 use crate::presentation::safe_text;
 use crate::source::Source;
 use serde::Serialize;
@@ -47,7 +48,7 @@ const LONGEST_TEXT: usize = 1000;
 /// # Errors
 /// What the writer returns.
 pub fn render_json(out: &mut dyn Write, diagnostics: &[Diagnostic]) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, &FindingsJson::from_findings(diagnostics))?;
+    write_json_pretty(&mut *out, &FindingsJson::from_findings(diagnostics))?;
     writeln!(out)
 }
 
