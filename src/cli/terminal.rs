@@ -1,7 +1,7 @@
 //! What the terminal can do.
 
 use clap::ValueEnum;
-use clsmith::presentation::to_safe_line;
+use clsmith::report::to_safe_line;
 use std::io::IsTerminal;
 
 /// When to use colours.

@@ -45,7 +45,7 @@ pub(crate) fn to_safe_paragraph(text: &str, unicode: bool) -> String {
 /// A message or name made safe and folded into one line: what is hidden shows as a stand-in.
 ///
 /// ```
-/// use clsmith::presentation::to_safe_line;
+/// use clsmith::report::to_safe_line;
 ///
 /// assert_eq!(to_safe_line("part\u{202e}slc.exe\n"), "part\u{fffd}slc.exe");
 /// ```

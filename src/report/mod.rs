@@ -27,6 +27,7 @@ pub(crate) mod table;
 pub mod unified_diff;
 
 pub(crate) use crate::presentation::text_format;
+pub use crate::presentation::{safe_json, to_safe_line};
 
 use crate::presentation::safe_json::write_json_pretty;
 use crate::program::motion::ActiveTool;

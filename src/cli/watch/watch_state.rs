@@ -7,7 +7,7 @@ use crate::cli::command_outputs::report_unwritable;
 use crate::cli::unattended::{UnattendedOutcome, utc_now};
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::fingerprint::Digest;
-use clsmith::presentation::safe_json::to_json_line;
+use clsmith::report::safe_json::to_json_line;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
