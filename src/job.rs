@@ -5,6 +5,10 @@
 //! before anything is written. Record by record it must be what the steps made of it. Then [`check`] looks at
 //! it, and each finding that the same statement of the original did not have counts as a finding of this run.
 
+mod defect_guard;
+
+pub use defect_guard::{catch_defect, remember_panics};
+
 use crate::check;
 use crate::diagnostic::{Diagnostic, DiagnosticCode, Failure, codes};
 use crate::fingerprint::RecipeFingerprint;
@@ -107,6 +111,7 @@ impl CorrectionJob<'_> {
     /// [`Failure::Interrupted`] when `watch` stopped the job.
     pub fn correct_source(&self, source: &Arc<Source>) -> Result<JobOutcome, Failure> {
         let (program, found) = check::read_and_check(source, self.dialect);
+        self.watch.check_stop()?;
         // Which findings are known is asked before the steps, since they take the program.
         let known = KnownFindings::new(&program, &found);
         let mut findings = self.policy.apply(found);
@@ -140,6 +145,7 @@ impl CorrectionJob<'_> {
             Ok(program) => program,
             Err(failure) => return Err(failure.after(new)),
         };
+        self.watch.check_stop()?;
         let unit = ResolvedLengthUnit::from_program(&program, Some(self.recipe.units)).unit;
         new.extend(unit_slips::find_feeds_above_machine(&program, self.setup, unit));
         if is_program_changed(&program) {

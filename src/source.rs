@@ -2,6 +2,10 @@
 //!
 //! All other modules give places as a [`Span`] of bytes; only people see lines and columns.
 
+mod bounded_read;
+
+pub use bounded_read::{LARGEST_FILE_BYTES, read_file_bytes, read_stream_bytes, refuse_device};
+
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 

@@ -109,7 +109,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
         "provenance",
         &["source", "diagnostic", "program", "parse", "write", "recipe", "transform", "fingerprint"],
     ),
-    ("undo", &["source", "diagnostic", "program", "recipe", "report", "fingerprint"]),
+    ("undo", &["source", "diagnostic", "program", "recipe", "presentation", "report", "fingerprint"]),
     (
         "job",
         &[
@@ -143,6 +143,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
             "setup",
             "recipe",
             "simulation_run",
+            "presentation",
             "transform",
             "report",
             "fingerprint",

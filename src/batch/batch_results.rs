@@ -12,6 +12,7 @@
 use super::{BatchRecord, Shard};
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::fingerprint::{Digest, VERSION};
+use crate::presentation::safe_json::to_json_line;
 use crate::source::{Source, Span};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -79,9 +80,9 @@ pub fn results_to_bytes(head: &ResultsHead, records: &[BatchRecord], times: bool
 }
 
 fn push_json_line(text: &mut Vec<u8>, line: &impl Serialize) {
-    // Writing structs into memory cannot fail.
-    if serde_json::to_writer(&mut *text, line).is_ok() {
-        text.push(b'\n');
+    // Into memory, and without maps: nothing here can fail.
+    if let Ok(line) = to_json_line(line) {
+        text.extend_from_slice(&line);
     }
 }
 

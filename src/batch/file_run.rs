@@ -10,7 +10,7 @@ use crate::output_files::{Interrupt, WriteError};
 use crate::program::{Dialect, Program};
 use crate::report::finding_policy::FindingPolicy;
 use crate::simulation_run::RunWatcher;
-use crate::source::Source;
+use crate::source::{Source, read_stream_bytes};
 use std::fs::{self, Metadata};
 use std::io::{self, Read, Write};
 use std::path::Path;
@@ -53,12 +53,14 @@ pub(super) fn run_file(
     }
     let started = Instant::now();
     let mut record = BatchRecord::new(file, work, FileOutcome::Failed);
-    let findings = match correct_file(settings, file, work, &mut record, watch) {
+    let name = file.input.to_string();
+    let corrected = job::catch_defect(&name, || correct_file(settings, file, work, &mut record, watch));
+    let findings = match corrected.unwrap_or_else(|defect| Err(defect.into())) {
         Ok(findings) => findings,
         Err(Failure::Interrupted) => return FileRunResult::Interrupted,
         Err(Failure::Found(found)) => found,
     };
-    record.count_findings(&findings, &file.input.to_string());
+    record.count_findings(&findings, &name);
     record.seconds = Some(started.elapsed().as_secs_f64());
     let input = record.sha256.input.filter(|_| record.outcome.is_written());
     let key = input.map(|input| work.print.result_key(input, settings.options));
@@ -97,8 +99,10 @@ fn correct_file(
     watch: &dyn RunWatcher,
 ) -> Result<Vec<Diagnostic>, Failure> {
     let name = file.input.to_string();
-    let unreadable =
-        |error: io::Error| Diagnostic::new(codes::UNREADABLE, format!("{name} cannot be read: {error}"));
+    let unreadable = |error: io::Error| match error.kind() {
+        io::ErrorKind::FileTooLarge => Diagnostic::new(codes::TOO_LARGE, error.to_string()),
+        _ => Diagnostic::new(codes::UNREADABLE, format!("{name} cannot be read: {error}")),
+    };
     let began = SystemTime::now();
     let (bytes, stamp) = read_input(&file.path).map_err(unreadable)?;
     let source = Source::new(name.clone(), bytes)
@@ -150,11 +154,9 @@ fn read_input(path: &Path) -> io::Result<(Vec<u8>, InputStamp)> {
     if !fs::metadata(path)?.is_file() {
         return Err(io::Error::other("it is not a file"));
     }
-    let mut file = fs::File::open(path)?;
+    let file = fs::File::open(path)?;
     let there = file.metadata()?;
-    // The length only reserves memory; without it, the list grows as it is read.
-    let mut bytes = Vec::with_capacity(usize::try_from(there.len()).unwrap_or_default());
-    file.read_to_end(&mut bytes)?;
+    let bytes = read_stream_bytes(&file, there.len())?;
     Ok((bytes, InputStamp::from_metadata(&there)))
 }
 

@@ -3,6 +3,7 @@
 use super::{BatchRecord, LockedFolder, PortablePath};
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::fingerprint::Digest;
+use crate::presentation::safe_json::to_json_line;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -118,7 +119,5 @@ fn read_batch_id(path: &Path) -> Option<Digest> {
 }
 
 fn json_line(value: &impl Serialize) -> io::Result<Vec<u8>> {
-    let mut line = serde_json::to_vec(value)?;
-    line.push(b'\n');
-    Ok(line)
+    to_json_line(value)
 }

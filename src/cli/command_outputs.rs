@@ -3,16 +3,31 @@
 use super::input_files::STANDARD;
 use crate::cli::stop::Stop;
 use clsmith::diagnostic::{Diagnostic, codes};
-use clsmith::output_files::{Interrupt, WriteError, is_same_file, write_atomically_unless};
+use clsmith::output_files::{Interrupt, TemporaryFiles, WriteError, is_same_file, write_atomically_unless};
+use std::collections::BTreeSet;
 use std::io::{self, Write};
-use std::path::Path;
-use std::sync::{Arc, LockResult, Mutex, MutexGuard};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, LockResult, Mutex, MutexGuard, PoisonError, TryLockError};
+use std::time::{Duration, Instant};
+
+/// How long after a wish to stop the work may go on to end by itself. With what it takes to notice the wish and to tell
+/// of it, a command ends within two seconds.
+const GRACE: Duration = Duration::from_millis(1500);
+
+/// How often the handler of a wish to stop looks whether the work has ended.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(10);
+
+/// What is done when the process is ended from outside of the work: a line in a log, say.
+type LastWords = Box<dyn FnOnce() + Send>;
 
 /// The writer of outputs. It writes one at a time, either completely or not at all.
 #[derive(Clone, Default)]
 pub struct CommandOutputs {
     interrupt: Interrupt,
     writing: Arc<Mutex<()>>,
+    last_words: Arc<Mutex<Option<LastWords>>>,
+    /// Folders from which the left-overs of killed runs are gone.
+    tidy_folders: Arc<Mutex<BTreeSet<PathBuf>>>,
 }
 
 impl CommandOutputs {
@@ -21,35 +36,66 @@ impl CommandOutputs {
         &self.interrupt
     }
 
-    /// Makes Ctrl-C end the process at once, except while an output is written. Then the writer stops between
-    /// two chunks and removes its temporary file. `before` is called before the last message.
+    /// Ctrl-C ends the process at once, but while an output is written: then the writer stops between two chunks and takes its
+    /// temporary file along. Work that does not end by itself, because a pipe or a share gives no answer, is left where it is
+    /// after [`GRACE`]. `before` is done before the last word.
     pub fn stop_on_ctrl_c(&self, before: impl Fn() + Send + 'static) -> io::Result<()> {
-        let Self { interrupt, writing } = self.clone();
+        let outputs = self.clone();
         ctrlc::set_handler(move || {
-            interrupt.raise();
-            if let Ok(_nobody_writes) = writing.try_lock() {
-                before();
-                eprintln!("clsmith: stopped");
-                std::process::exit(130);
+            outputs.interrupt.raise();
+            match outputs.writing.try_lock() {
+                Err(TryLockError::WouldBlock) => {}
+                // Nobody begins to write meanwhile.
+                _held => outputs.end_process(&before),
             }
+            let raised = Instant::now();
+            while raised.elapsed() < GRACE {
+                std::thread::sleep(BETWEEN_LOOKS);
+            }
+            outputs.end_process(&before);
         })
         .map_err(io::Error::other)
     }
 
-    /// Makes the first Ctrl-C ask work on many files to stop, so that it can finish what it has begun. The
-    /// second one ends the process at once. `before` is called before any message.
-    pub fn stop_gently(&self, before: impl Fn() + Send + 'static) -> io::Result<()> {
-        let interrupt = self.interrupt.clone();
+    /// For work on many files: the first Ctrl-C asks it to stop, so that it can end what it began, the second ends the process
+    /// at once, and so does [`GRACE`]. `before` is done before any word.
+    pub fn stop_gently(&self, before: impl Fn() + Send + Sync + 'static) -> io::Result<()> {
+        let outputs = self.clone();
+        let before = Arc::new(before);
         ctrlc::set_handler(move || {
-            before();
-            if interrupt.is_raised() {
-                eprintln!("clsmith: stopped");
-                std::process::exit(130);
+            if outputs.interrupt.is_raised() {
+                outputs.end_process(&*before);
             }
-            interrupt.raise();
+            before();
+            outputs.interrupt.raise();
             eprintln!("clsmith: stopping; Ctrl-C again ends it at once");
+            let (late, before) = (outputs.clone(), Arc::clone(&before));
+            std::thread::spawn(move || {
+                std::thread::sleep(GRACE);
+                late.end_process(&*before);
+            });
         })
         .map_err(io::Error::other)
+    }
+
+    /// Keeps what is to be done when the process is ended from outside of the work.
+    pub fn keep_last_words(&self, words: impl FnOnce() + Send + 'static) {
+        *self.last_words.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(words));
+    }
+
+    /// Takes back what was kept; `false` if it is being done at this moment.
+    pub fn take_last_words(&self) -> bool {
+        self.last_words.lock().unwrap_or_else(PoisonError::into_inner).take().is_some()
+    }
+
+    fn end_process(&self, before: &dyn Fn()) {
+        before();
+        let words = self.last_words.lock().unwrap_or_else(PoisonError::into_inner).take();
+        if let Some(words) = words {
+            words();
+        }
+        eprintln!("clsmith: stopped");
+        std::process::exit(130);
     }
 
     /// Writes an output.
@@ -82,6 +128,7 @@ impl CommandOutputs {
             let mut out = io::BufWriter::new(io::stdout().lock());
             write_all(&mut out).and_then(|()| out.flush()).map_err(WriteError::from)
         } else {
+            self.tidy_folder_of(target);
             write_atomically_unless(target, &self.interrupt, write_all)
         };
         match done {
@@ -93,7 +140,21 @@ impl CommandOutputs {
     }
 }
 
-/// Refuses outputs that would overwrite an input. Standard input and output are no files.
+impl CommandOutputs {
+    /// Removes what killed runs left in the folder of an output, once in a run.
+    fn tidy_folder_of(&self, target: &Path) {
+        let folder = match target.parent() {
+            Some(folder) if !folder.as_os_str().is_empty() => folder,
+            _ => Path::new("."),
+        };
+        let mut tidy = self.tidy_folders.lock().unwrap_or_else(PoisonError::into_inner);
+        if tidy.insert(folder.to_path_buf()) {
+            TemporaryFiles::default().remove_leftovers(folder);
+        }
+    }
+}
+
+/// Refuses outputs that would go over an input; standard input and output are no files.
 ///
 /// # Errors
 /// Returns a finding about the first such output.

@@ -5,10 +5,10 @@ use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::program::{Dialect, LengthUnit};
 use clsmith::recipe::Provenance;
 use clsmith::setup::Setup;
-use clsmith::source::{Source, SourceReadError};
+use clsmith::source::{Source, SourceReadError, read_file_bytes, read_stream_bytes, refuse_device};
 use clsmith::transform::Recipe;
 use std::cell::RefCell;
-use std::io::Read;
+use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
@@ -31,14 +31,28 @@ pub fn read_source(path: &Path) -> Result<Arc<Source>, Failure> {
 pub fn read_bytes(path: &Path) -> Result<Arc<Source>, SourceReadError> {
     let standard = path == Path::new(STANDARD);
     let name = if standard { "standard input".to_owned() } else { path.to_string_lossy().into_owned() };
-    let bytes = if standard {
-        let mut bytes = Vec::new();
-        std::io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)
-    } else {
-        std::fs::read(path)
-    };
-    let bytes = bytes.map_err(|error| SourceReadError::Unreadable { name: name.clone(), error })?;
+    let bytes = if standard { read_standard_input() } else { read_file_bytes(path) };
+    let bytes = bytes.map_err(|error| match error.get_ref().and_then(|inner| inner.downcast_ref()) {
+        Some(too_large) => SourceReadError::TooLarge(*too_large),
+        None => SourceReadError::Unreadable { name: name.clone(), error },
+    })?;
     Ok(Source::new(name, bytes)?)
+}
+
+/// Reads standard input, unless that is a device without an end.
+fn read_standard_input() -> io::Result<Vec<u8>> {
+    let input = io::stdin().lock();
+    // A terminal has an end, which somebody types; so has the device that is empty.
+    #[cfg(unix)]
+    if !input.is_terminal() {
+        use std::os::fd::AsFd;
+        use std::os::unix::fs::MetadataExt;
+        let there = std::fs::File::from(input.as_fd().try_clone_to_owned()?).metadata()?;
+        if !std::fs::metadata("/dev/null").is_ok_and(|null| null.rdev() == there.rdev()) {
+            refuse_device(&there)?;
+        }
+    }
+    read_stream_bytes(input, 0)
 }
 
 /// Reads a setup file.

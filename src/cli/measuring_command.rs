@@ -5,6 +5,7 @@ use crate::cli::command_outputs::{CommandOutputs, ignore_closed_pipe, print_summ
 use crate::cli::finding_args::FindingArgs;
 use crate::cli::input_files::STANDARD;
 use crate::cli::progress::CommandProgress;
+use crate::cli::run_limits::RunLimits;
 use crate::cli::stop::Stop;
 use crate::cli::terminal;
 use clsmith::check::check_program;
@@ -25,7 +26,9 @@ pub struct MeasuringCommand<'a> {
     pub quiet: bool,
     /// The number of threads. With `None` it is the number of cores.
     pub threads: Option<u16>,
-    /// The options of findings.
+    /// Memory and time that it may take.
+    pub limits: RunLimits,
+    /// Which findings stop, and how they are shown.
     pub findings: &'a FindingArgs,
 }
 
@@ -44,6 +47,7 @@ impl MeasuringContext<'_> {
     /// program is seen better in the measurement.
     pub fn read_program(&mut self, path: &Path, dialect: Option<Dialect>) -> Result<Program, Stop> {
         let source = crate::cli::input_files::read_source(path)?;
+        self.progress.check_size(&source)?;
         let parsed = parse(&source, dialect);
         let unread = self.policy.apply(parsed.diagnostics.clone()).iter().any(Diagnostic::is_error);
         self.findings.extend(parsed.diagnostics);
@@ -74,8 +78,9 @@ impl MeasuringCommand<'_> {
             pool.build_global().map_err(io::Error::other)?;
         }
         let outputs = CommandOutputs::default();
-        let progress = CommandProgress::new(self.quiet, outputs.interrupt());
+        let progress = CommandProgress::with_limits(self.quiet, outputs.interrupt(), self.limits);
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
+        progress.begin_program(&self.program.to_string_lossy());
         let mut findings = Vec::new();
         let done =
             measure(&mut MeasuringContext { policy: &policy, progress: &progress, findings: &mut findings });

@@ -19,6 +19,7 @@ mod plot;
 mod progress;
 mod reference;
 mod report_args;
+mod run_limits;
 mod section;
 mod simulate;
 mod stats;
@@ -29,7 +30,11 @@ mod undo;
 mod watch;
 
 use clap::{CommandFactory, Parser, Subcommand};
+use clsmith::job::{catch_defect, remember_panics};
+use command_exit::CommandExit;
+use finding_args::FindingArgs;
 use std::process::ExitCode;
+use stop::Stop;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -101,27 +106,62 @@ enum CliCommand {
 
 /// Runs the command of the process's arguments.
 pub fn run_command_line() -> ExitCode {
+    remember_panics();
     let cli = Cli::parse();
-    let (name, findings, done) = match &cli.command {
-        CliCommand::Apply(command) => ("apply", Some(&command.findings), command.run()),
-        CliCommand::Batch(command) => ("batch", Some(&command.findings), command.run()),
-        CliCommand::Merge(command) => ("merge", Some(&command.findings), command.run()),
-        CliCommand::Check(command) => ("check", Some(&command.findings), command.run()),
-        CliCommand::Init(command) => ("init", Some(&command.findings), command.run()),
-        CliCommand::Stats(command) => ("stats", Some(&command.findings), command.run()),
-        CliCommand::Simulate(command) => ("simulate", Some(&command.findings), command.run()),
-        CliCommand::Chips(command) => ("chips", Some(&command.findings), command.run()),
-        CliCommand::Section(command) => ("section", Some(&command.findings), command.run()),
-        CliCommand::Diff(command) => ("diff", Some(&command.findings), command.run()),
-        CliCommand::Hook(command) => ("hook", Some(&command.findings), command.run()),
-        CliCommand::Watch(command) => ("watch", Some(&command.findings), command.run()),
-        CliCommand::Plot(command) => ("plot", Some(&command.findings), command.run()),
-        CliCommand::Undo(command) => ("undo", Some(&command.findings), command.run()),
-        CliCommand::Transforms(command) => ("transforms", None, command.run()),
-        CliCommand::Schema(command) => ("schema", None, command.run()),
-        CliCommand::Explain(command) => ("explain", None, command.run()),
-        CliCommand::Completions(command) => ("completions", None, command.run(&mut Cli::command())),
-        CliCommand::Man(command) => ("man", None, command.run(Cli::command())),
-    };
+    // What fails outside of the work on a file is told like all else, too.
+    let run = || cli.command.run_command();
+    let (name, findings) = cli.command.name_and_findings();
+    let done = catch_defect(&format!("`clsmith {name}`"), run).unwrap_or_else(|defect| Err(defect.into()));
     done.unwrap_or_else(|stop| stop.finish_command(name, findings)).exit_process()
+}
+
+impl CliCommand {
+    fn run_command(&self) -> Result<CommandExit, Stop> {
+        match self {
+            Self::Apply(command) => command.run(),
+            Self::Batch(command) => command.run(),
+            Self::Merge(command) => command.run(),
+            Self::Check(command) => command.run(),
+            Self::Init(command) => command.run(),
+            Self::Stats(command) => command.run(),
+            Self::Simulate(command) => command.run(),
+            Self::Chips(command) => command.run(),
+            Self::Section(command) => command.run(),
+            Self::Diff(command) => command.run(),
+            Self::Hook(command) => command.run(),
+            Self::Watch(command) => command.run(),
+            Self::Plot(command) => command.run(),
+            Self::Undo(command) => command.run(),
+            Self::Transforms(command) => command.run(),
+            Self::Schema(command) => command.run(),
+            Self::Explain(command) => command.run(),
+            Self::Completions(command) => command.run(&mut Cli::command()),
+            Self::Man(command) => command.run(Cli::command()),
+        }
+    }
+
+    /// The name of the command, and its options for findings if it has any.
+    fn name_and_findings(&self) -> (&'static str, Option<&FindingArgs>) {
+        match self {
+            Self::Apply(command) => ("apply", Some(&command.findings)),
+            Self::Batch(command) => ("batch", Some(&command.findings)),
+            Self::Merge(command) => ("merge", Some(&command.findings)),
+            Self::Check(command) => ("check", Some(&command.findings)),
+            Self::Init(command) => ("init", Some(&command.findings)),
+            Self::Stats(command) => ("stats", Some(&command.findings)),
+            Self::Simulate(command) => ("simulate", Some(&command.findings)),
+            Self::Chips(command) => ("chips", Some(&command.findings)),
+            Self::Section(command) => ("section", Some(&command.findings)),
+            Self::Diff(command) => ("diff", Some(&command.findings)),
+            Self::Hook(command) => ("hook", Some(&command.findings)),
+            Self::Watch(command) => ("watch", Some(&command.findings)),
+            Self::Plot(command) => ("plot", Some(&command.findings)),
+            Self::Undo(command) => ("undo", Some(&command.findings)),
+            Self::Transforms(_) => ("transforms", None),
+            Self::Schema(_) => ("schema", None),
+            Self::Explain(_) => ("explain", None),
+            Self::Completions(_) => ("completions", None),
+            Self::Man(_) => ("man", None),
+        }
+    }
 }

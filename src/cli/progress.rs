@@ -1,18 +1,27 @@
 //! This module shows the progress of a simulation on a terminal, with the remaining time.
 
+use super::run_limits::{RunLimitWatch, RunLimits};
 use super::terminal;
+use clsmith::diagnostic::Failure;
 use clsmith::output_files::Interrupt;
 use clsmith::simulation_run::RunWatcher;
+use clsmith::source::Source;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 /// A bar on standard error. Nothing is drawn if it is no terminal, or if it is not wanted.
 pub struct CommandProgress {
     bar: ProgressBar,
     interrupt: Interrupt,
+    limits: RunLimitWatch,
 }
 
 impl CommandProgress {
     pub fn new(quiet: bool, interrupt: &Interrupt) -> Self {
+        Self::with_limits(quiet, interrupt, RunLimits::default())
+    }
+
+    /// A bar of work that is stopped when it takes more than its limits.
+    pub fn with_limits(quiet: bool, interrupt: &Interrupt, limits: RunLimits) -> Self {
         let seen = terminal::is_stderr_terminal() && !quiet;
         let target = if seen { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         let bar = ProgressBar::with_draw_target(Some(0), target);
@@ -24,7 +33,7 @@ impl CommandProgress {
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style.progress_chars(marks));
         }
-        Self { bar, interrupt: interrupt.clone() }
+        Self { bar, interrupt: interrupt.clone(), limits: RunLimitWatch::new(limits, "the program") }
     }
 
     /// Begins again with another name.
@@ -33,7 +42,18 @@ impl CommandProgress {
         self.bar.reset();
     }
 
-    /// Removes the bar.
+    /// The work on a program begins: its limits count from now on.
+    pub fn begin_program(&self, name: &str) {
+        self.limits.begin_program(name);
+        self.begin_bar(name);
+    }
+
+    /// Refuses a program whose size alone tells that it takes too much memory.
+    pub fn check_size(&self, source: &Source) -> Result<(), Failure> {
+        self.limits.check_size(source)
+    }
+
+    /// Takes the bar away.
     pub fn clear_bar(&self) {
         self.bar.finish_and_clear();
     }
@@ -55,5 +75,13 @@ impl RunWatcher for CommandProgress {
 
     fn is_stop_requested(&self) -> bool {
         self.interrupt.is_raised()
+    }
+
+    fn check_stop(&self) -> Result<(), Failure> {
+        if self.is_stop_requested() { Err(Failure::Interrupted) } else { self.limits.check_limits() }
+    }
+
+    fn memory_limit_bytes(&self) -> Option<u64> {
+        self.limits.memory_bytes()
     }
 }

@@ -1,6 +1,7 @@
 //! This module finds out what the terminal can do.
 
 use clap::ValueEnum;
+use clsmith::report::to_safe_line;
 use std::io::IsTerminal;
 
 /// When to use colours.
@@ -55,5 +56,5 @@ pub fn has_unicode() -> bool {
 
 /// Returns a name that is safe to show. One from outside must not send commands to the terminal.
 pub fn escape_controls(name: &str) -> String {
-    name.replace(char::is_control, "?")
+    to_safe_line(name)
 }

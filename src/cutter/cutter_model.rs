@@ -63,6 +63,13 @@ impl CutterModel {
         self.profile.radius_mm()
     }
 
+    /// Returns the distance of the furthest point of the tool, its shank and holder included, from the tip, mm.
+    pub fn reach_mm(&self) -> f64 {
+        let of_collar = |collar: &NonCuttingCylinder| collar.to_mm.hypot(collar.radius_mm);
+        let cutting = self.flute_length_mm().hypot(self.radius_mm());
+        self.collars.iter().map(of_collar).fold(cutting, f64::max)
+    }
+
     /// Returns the height of the cutting part above the tip, mm.
     pub fn flute_length_mm(&self) -> f64 {
         self.profile.height_mm()

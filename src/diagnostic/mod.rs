@@ -5,12 +5,14 @@
 
 mod catalogue;
 mod failure;
+mod short_text;
 
 pub use catalogue::codes;
 pub use catalogue::{CATALOGUE, DiagnosticCode, find_code};
 pub use failure::Failure;
 
 use crate::source::{Source, Span};
+use short_text::shorten_text;
 use std::fmt;
 use std::sync::Arc;
 
@@ -86,13 +88,14 @@ pub struct Diagnostic {
 }
 
 impl Diagnostic {
-    /// Makes a finding with the severity and the help of the catalogue.
+    /// A finding with the catalogue's severity and help. A message of more than some hundred characters, as one with a
+    /// word of 70,000, is cut in its middle; so are labels and helps.
     pub fn new(code: DiagnosticCode, message: impl Into<String>) -> Self {
         let help = (!code.help().is_empty()).then(|| code.help().to_owned());
         Self {
             code,
             severity: code.severity(),
-            message: message.into(),
+            message: shorten_text(message.into()),
             labels: Vec::new(),
             help,
             is_allowed: false,
@@ -104,14 +107,18 @@ impl Diagnostic {
     /// Adds a place. The first one that is added is the primary one.
     #[must_use]
     pub fn with_label(mut self, source: &Arc<Source>, span: Span, message: impl Into<String>) -> Self {
-        self.labels.push(DiagnosticLabel { source: Arc::clone(source), span, message: message.into() });
+        self.labels.push(DiagnosticLabel {
+            source: Arc::clone(source),
+            span,
+            message: shorten_text(message.into()),
+        });
         self
     }
 
     /// Replaces the help of the catalogue by a help for this finding.
     #[must_use]
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
+        self.help = Some(shorten_text(help.into()));
         self
     }
 

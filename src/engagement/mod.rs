@@ -24,7 +24,7 @@ pub use cutting_coefficients::CuttingCoefficients;
 pub use cutting_force::{CuttingLoads, LoadModel};
 pub use engagement_bins::{Engagement, EngagementBin};
 pub use exact_tooth_paths::{ExactChipThickness, ToothMotion, ToothSampling, measure_exact_chips};
-pub use path_linearizer::MotionPiece;
 pub(crate) use path_linearizer::PathLinearizer;
+pub use path_linearizer::{MOST_PIECES, MotionPiece};
 pub use path_piece::PathPiece;
 pub use simulation::Simulation;

@@ -7,6 +7,7 @@ use crate::engagement::PathPiece;
 use crate::program::geometry::Pose;
 use crate::program::geometry::{CircularArc, MotionPath, Spline};
 use crate::program::motion::{CoordinateFrame, Motion};
+use crate::stock::AirClip;
 use nalgebra::{Point3, Vector3};
 
 /// A piece of a motion.
@@ -20,7 +21,17 @@ pub struct MotionPiece {
     pub to: f64,
 }
 
+/// The largest number of pieces of one motion. With so many, their engagements take about a gigabyte.
+pub const MOST_PIECES: usize = 100_000;
+
+/// How often a knot span of a spline is halved at most, which makes 256 chords of it.
+const SPLINE_HALVINGS: u32 = 8;
+
 /// Converts motions to pieces.
+///
+/// A motion that is divided is divided where it is near the stock, if [`PathLinearizer::with_air_clip`] says where
+/// that is: a part that is far longer than the stock is cut at its box. A motion has at most [`MOST_PIECES`] pieces;
+/// one that would need more is divided less finely, and [`PathLinearizer::take_limit_reached`] says so.
 ///
 /// Motions in another frame than that of the program's first motion (NX's MSYS, a CSYS) are converted to it.
 /// Arcs and splines become chords that are at most `sagitta_mm` from the curve.
@@ -28,6 +39,8 @@ pub struct MotionPiece {
 pub(crate) struct PathLinearizer {
     mm_per_unit: f64,
     home: Option<Option<CoordinateFrame>>,
+    air: Option<AirClip>,
+    is_limit_reached: bool,
     /// The largest distance of a chord from its curve, mm.
     pub sagitta_mm: f64,
     /// The length of the longest piece, mm.
@@ -37,7 +50,19 @@ pub(crate) struct PathLinearizer {
 impl PathLinearizer {
     /// Makes a converter for a file whose lengths are in units of `mm_per_unit` mm.
     pub fn new(mm_per_unit: f64, sagitta_mm: f64, longest_piece_mm: f64) -> Self {
-        Self { mm_per_unit, home: None, sagitta_mm, longest_piece_mm }
+        Self { mm_per_unit, home: None, air: None, is_limit_reached: false, sagitta_mm, longest_piece_mm }
+    }
+
+    /// Cuts long motions where they enter and leave the surroundings of the stock, in the workpiece frame, and divides
+    /// no part that is outside.
+    #[must_use]
+    pub fn with_air_clip(self, air: AirClip) -> Self {
+        Self { air: Some(air), ..self }
+    }
+
+    /// Returns whether a motion since the last call would have needed more than [`MOST_PIECES`] pieces.
+    pub fn take_limit_reached(&mut self) -> bool {
+        std::mem::take(&mut self.is_limit_reached)
     }
 
     /// Converts a pose of a motion to the workpiece frame, in mm.
@@ -85,16 +110,12 @@ impl PathLinearizer {
             let axis = slerp_axis(&motion.from.axis, &motion.to.axis, turn, share);
             self.to_workpiece_frame(motion.frame.as_deref(), Pose { point, axis })
         };
-        let mut places: Vec<Pose> = Vec::with_capacity(shares.len());
-        for share in shares {
-            let next = place(share);
+        let vertices: Vec<Pose> = shares.into_iter().map(place).collect();
+        let mut places: Vec<Pose> = Vec::with_capacity(vertices.len());
+        for next in vertices {
             if let Some(last) = places.last().copied() {
-                // A chord that is longer than the longest piece is divided evenly; its axis turns at a
-                // constant rate.
-                let parts = ((next.point - last.point).norm() / self.longest_piece_mm).ceil().clamp(1.0, 1e6);
                 let turn = last.axis.angle(&next.axis);
-                for part in 1..parts as usize {
-                    let share = part as f64 / parts;
+                for share in self.divide_chord(last.point, next.point, places.len()) {
                     let point: Point3<f64> = last.point + (next.point - last.point) * share;
                     places.push(Pose { point, axis: slerp_axis(&last.axis, &next.axis, turn, share) });
                 }
@@ -118,29 +139,52 @@ impl PathLinearizer {
         }
     }
 
+    /// Returns the shares at which a chord that is longer than the longest piece is divided. It is divided evenly, and
+    /// its axis turns at a constant rate. `taken` pieces of the motion are there already.
+    fn divide_chord(&mut self, from: Point3<f64>, to: Point3<f64>, taken: usize) -> Vec<f64> {
+        let length = (to - from).norm();
+        let far = self.air.and_then(|air| air.cut_far_way(from.coords.into(), to.coords.into()));
+        let [enters, leaves] = far.unwrap_or([0.0, 1.0]);
+        if enters >= leaves {
+            return Vec::new();
+        }
+        let near = leaves - enters;
+        let wanted = (length * near / self.longest_piece_mm).ceil().max(1.0);
+        let most = MOST_PIECES.saturating_sub(taken).max(1) as f64;
+        self.is_limit_reached |= wanted > most;
+        let parts = wanted.min(most);
+        let enters_inside = (enters > 0.0).then_some(enters);
+        let inner = (1..parts as usize).map(|part| enters + near * (part as f64 / parts));
+        enters_inside.into_iter().chain(inner).chain((leaves < 1.0).then_some(leaves)).collect()
+    }
+
     /// Returns the number of chords that keep the sagitta.
-    fn count_chords(&self, arc: &CircularArc) -> usize {
+    fn count_chords(&mut self, arc: &CircularArc) -> usize {
         let radius = arc.radius * self.mm_per_unit;
         // A chord over the angle a is R (1 - cos(a / 2)) from its arc; this is solved for a.
         let step = 2.0 * (1.0 - (self.sagitta_mm / radius).min(1.0)).acos();
         // The chords of a helix are no further from it than the chords of its circle.
-        (arc.sweep / step.max(1e-4)).ceil().clamp(1.0, 1e6) as usize
+        let wanted = (arc.sweep / step.max(1e-4)).ceil().max(1.0);
+        self.is_limit_reached |= wanted > MOST_PIECES as f64;
+        wanted.min(MOST_PIECES as f64) as usize
     }
 
     /// Returns the parameters of a spline between which chords are close enough, found by bisection.
-    fn subdivide_spline(&self, spline: &Spline) -> Vec<f64> {
+    fn subdivide_spline(&mut self, spline: &Spline) -> Vec<f64> {
         // There are as many equal parts to begin with as knot spans, so that no bend is missed.
         let spans = spline.controls.len().saturating_sub(3).max(1);
         let mut shares = vec![0.0];
         for span in 0..spans {
             let (from, to) = (span as f64 / spans as f64, (span + 1) as f64 / spans as f64);
-            self.bisect_spline(spline, from, to, 8, &mut shares);
+            let is_fine = self.bisect_spline(spline, from, to, SPLINE_HALVINGS, &mut shares);
+            self.is_limit_reached |= !is_fine;
         }
         shares
     }
 
-    /// Bisects a part of a spline until three points within are at most the sagitta from the chord.
-    fn bisect_spline(&self, spline: &Spline, from: f64, to: f64, depth: u32, shares: &mut Vec<f64>) {
+    /// Bisects a part of a spline until three points within are at most the sagitta from the chord. Returns whether
+    /// that was reached with so many halvings and pieces.
+    fn bisect_spline(&self, spline: &Spline, from: f64, to: f64, depth: u32, shares: &mut Vec<f64>) -> bool {
         let [a, b] = [spline.point_at(from), spline.point_at(to)];
         let off = |share: f64| {
             let point = spline.point_at(from + (to - from) * share);
@@ -148,13 +192,14 @@ impl PathLinearizer {
             let along = (point - a).dot(&chord) / chord.norm_squared().max(1e-300);
             (point - a - chord * along.clamp(0.0, 1.0)).norm() * self.mm_per_unit
         };
-        if depth > 0 && [0.25, 0.5, 0.75].into_iter().any(|share| off(share) > self.sagitta_mm) {
-            let middle = (from + to) / 2.0;
-            self.bisect_spline(spline, from, middle, depth - 1, shares);
-            self.bisect_spline(spline, middle, to, depth - 1, shares);
-        } else {
+        let is_fine = [0.25, 0.5, 0.75].into_iter().all(|share| off(share) <= self.sagitta_mm);
+        if is_fine || depth == 0 || shares.len() >= MOST_PIECES {
             shares.push(to);
+            return is_fine;
         }
+        let middle = (from + to) / 2.0;
+        let first = self.bisect_spline(spline, from, middle, depth - 1, shares);
+        self.bisect_spline(spline, middle, to, depth - 1, shares) && first
     }
 }
 

@@ -9,6 +9,7 @@ use crate::engagement::engagement_bins::Engagement;
 use crate::engagement::path_piece::PathPiece;
 use crate::engagement::sweep::{BandEngagement, PieceSweep, StraightSweep, SweepContext, TiltedSweep};
 use crate::program::geometry::Pose;
+use crate::stock::AirClip;
 use crate::stock::dexel::Dexels;
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -121,6 +122,14 @@ impl Simulation {
         engagements
     }
 
+    /// Returns the box from which a tool that reaches so far can touch the stock.
+    fn surroundings_of_stock(&self, reach_mm: f64) -> AirClip {
+        let layout = self.stock.grid();
+        let [x, y] = layout.column_center(layout.columns, layout.rows);
+        let [x0, y0] = layout.origin_mm;
+        AirClip::around(([x0, y0, layout.base_mm], [x, y, self.highest]), reach_mm + layout.cell_mm)
+    }
+
     /// Prepares the sweep of one piece. `ends` says that the next piece does not continue it.
     fn prepare_sweep(
         &mut self,
@@ -133,11 +142,14 @@ impl Simulation {
         self.last = Some((piece.to, piece.cutter));
         let around = SweepContext { continues, ends, highest: self.highest, detail: self.detail };
         let layout = self.stock.grid();
+        let [from, to] = [piece.from.point, piece.to.point].map(|point| [point.x, point.y, point.z]);
+        if self.surroundings_of_stock(cutter.reach_mm()).is_far_air(from, to) {
+            return None;
+        }
         // Only a vertical axis has the closed form; see `sweep`.
         if !is_vertical(&piece.from.axis) || !is_vertical(&piece.to.axis) {
             return Some(PieceSweep::Tilted(Box::new(TiltedSweep::new(piece, cutter, layout, around))));
         }
-        let [from, to] = [piece.from.point, piece.to.point].map(|point| [point.x, point.y, point.z]);
         Some(PieceSweep::Straight(Box::new(StraightSweep::new(from, to, cutter, layout, around))))
     }
 }

@@ -5,5 +5,8 @@
 
 pub(crate) mod display_units;
 pub(crate) mod path_panel;
+pub mod safe_json;
 pub(crate) mod safe_text;
 pub(crate) mod text_format;
+
+pub use safe_text::to_safe_line;

@@ -13,16 +13,20 @@ pub(crate) fn decode_characters(bytes: &[u8]) -> impl Iterator<Item = (char, usi
     })
 }
 
-/// Returns a replacement for characters that would be invisible, move the cursor or reverse the line.
+/// Whether a character would be invisible, move the cursor or reverse the line.
+pub(crate) fn is_hidden_character(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{ad}' | '\u{61c}' | '\u{feff}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}')
+        || matches!(c, '\u{2060}'..='\u{206f}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}')
+}
+
+/// A stand-in for characters that would be invisible, move the cursor or reverse the line.
 ///
 /// A comment in a CL file must not be able to send commands to the terminal.
 pub(crate) fn to_visible_character(c: char, unicode: bool) -> char {
-    let hidden = c.is_control()
-        || matches!(c, '\u{ad}' | '\u{61c}' | '\u{feff}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}')
-        || matches!(c, '\u{2060}'..='\u{206f}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}');
     match c {
         '\t' => c,
-        _ if !hidden => c,
+        _ if !is_hidden_character(c) => c,
         _ if !unicode => '?',
         '\0'..='\u{1f}' => char::from_u32(0x2400 + u32::from(c)).unwrap_or('\u{fffd}'),
         '\u{7f}' => '\u{2421}',
@@ -38,8 +42,14 @@ pub(crate) fn to_safe_paragraph(text: &str, unicode: bool) -> String {
         .collect()
 }
 
-/// Returns a message that is safe to show, in a single line.
-pub(crate) fn to_safe_line(text: &str) -> String {
+/// A message or name made safe and folded into one line: what is hidden shows as a stand-in.
+///
+/// ```
+/// use clsmith::report::to_safe_line;
+///
+/// assert_eq!(to_safe_line("part\u{202e}slc.exe\n"), "part\u{fffd}slc.exe");
+/// ```
+pub fn to_safe_line(text: &str) -> String {
     let words: Vec<&str> = text.split(['\n', '\r']).map(str::trim).filter(|part| !part.is_empty()).collect();
     words.join(" ").chars().map(|c| to_visible_character(c, true)).collect()
 }

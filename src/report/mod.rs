@@ -29,7 +29,9 @@ pub mod unified_diff;
 
 pub use crate::presentation::display_units::DisplayUnits;
 pub(crate) use crate::presentation::text_format;
+pub use crate::presentation::{safe_json, to_safe_line};
 
+use crate::presentation::safe_json::write_json_pretty;
 use crate::program::motion::ActiveTool;
 use crate::program::{Program, Statement, StatementChange};
 use serde::Serialize;
@@ -37,9 +39,11 @@ use serde::Serialize;
 /// Returns a report as a JSON document, indented and with a line end.
 fn to_json_text(report: &impl Serialize) -> String {
     // Strings, numbers and lists always serialize; only a writer or a map with odd keys could fail.
-    let mut text = serde_json::to_string_pretty(report).unwrap_or_default();
-    text.push('\n');
-    text
+    let mut text = Vec::new();
+    let written = write_json_pretty(&mut text, report);
+    debug_assert!(written.is_ok(), "{written:?}");
+    text.push(b'\n');
+    String::from_utf8(text).unwrap_or_default()
 }
 
 /// Returns the line of a statement in its file, counted from 1. Returns `None` for one that was not in the

@@ -3,7 +3,9 @@
 use super::{Machining, SimulationRunOptions};
 use crate::cutter::CutterModel;
 use crate::diagnostic::{Diagnostic, Failure, codes};
+use crate::engagement::MOST_PIECES;
 use crate::number::format_significant_number;
+use crate::program::geometry::MotionPath;
 use crate::stock::Dexels;
 
 /// The most that a run may cost.
@@ -138,6 +140,7 @@ impl Machining<'_> {
     /// pieces. Tools without a known shape do not count.
     fn measure_path(&self, longest: f64) -> (f64, f64, u64) {
         let unit = self.units.mm_per_unit();
+        let far = self.surroundings_of_stock().far_mm();
         let (mut path, mut area, mut pieces) = (0.0, 0.0, 0);
         for motion in self.program.motions() {
             let Some(cutter) =
@@ -147,11 +150,13 @@ impl Machining<'_> {
             };
             let length = motion.length() * unit;
             let radius = cutter.radius_mm();
-            let count = (length / longest).ceil().max(1.0);
             path += length;
+            // Of a straight line that goes far away, no more than the surroundings' diagonal is near the stock.
+            let near = if motion.path == MotionPath::Line { length.min(far) } else { length };
+            let count = (near / longest).ceil().clamp(1.0, MOST_PIECES as f64);
             // A piece is a strip with a disc's ends. One that continues the piece before examines at most
             // half of the disc again.
-            area += length * 2.0 * radius + count * std::f64::consts::PI * radius * radius;
+            area += near * 2.0 * radius + count * std::f64::consts::PI * radius * radius;
             pieces += count as u64;
         }
         (path, area, pieces)

@@ -70,7 +70,7 @@ impl Machining<'_> {
         watch: &dyn RunWatcher,
         sink: &mut dyn FnMut(&EngagedMotion<'_>),
     ) -> Result<DexelRunResult, Failure> {
-        let plan = self.estimate_cost(options)?;
+        let plan = self.estimate_cost(&options.within_limits(watch))?;
         // The estimate has already compared the number of columns with the budget, so no limit is needed
         // here.
         let stock = self.stock.to_dexels(plan.cell_mm, usize::MAX).map_err(|error| {
@@ -82,7 +82,8 @@ impl Machining<'_> {
             self.units.mm_per_unit(),
             chord_tolerance_mm(plan.cell_mm),
             options.longest_piece_mm,
-        );
+        )
+        .with_air_clip(self.surroundings_of_stock());
         let mut faults = FaultCollector::default();
         let mut batch = PieceBatch::default();
         let mut done = 0.0;
@@ -96,6 +97,9 @@ impl Machining<'_> {
                 let start = batch.steps.len();
                 if let Some(cutter) = cutter {
                     trace.append_pieces(motion, cutter, &mut batch.steps);
+                }
+                if trace.take_limit_reached() {
+                    faults.report_piece_limit(self.program, motion);
                 }
                 done += motion.length() * self.units.mm_per_unit();
                 batch.motions.push((*number, motion.clone(), cutter, start..batch.steps.len()));

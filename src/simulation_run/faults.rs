@@ -3,7 +3,7 @@
 use super::tooling::statement_span;
 use crate::cutter::{CutterModel, NonCuttingKind};
 use crate::diagnostic::{Diagnostic, codes};
-use crate::engagement::Engagement;
+use crate::engagement::{Engagement, MOST_PIECES};
 use crate::program::Program;
 use crate::program::motion::Motion;
 
@@ -53,6 +53,13 @@ impl FaultCollector {
             let message = "the tool cuts while the spindle stands".to_owned();
             self.add_finding(program, motion, Diagnostic::new(codes::SPINDLE_STANDS, message), "cuts");
         }
+    }
+
+    /// Reports a motion that is divided less finely than the tolerance asks for.
+    pub fn report_piece_limit(&mut self, program: &Program, motion: &Motion) {
+        let message =
+            format!("this motion would need more than {MOST_PIECES} pieces and is divided less finely");
+        self.add_finding(program, motion, Diagnostic::new(codes::PIECE_LIMIT, message), "divided coarsely");
     }
 
     /// Adds a finding at a motion.

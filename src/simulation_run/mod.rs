@@ -24,10 +24,11 @@ pub(crate) use engagement_model::{EngagementModel, EngagementRunResult, StockRes
 pub use tooling::{NeededTools, Tooling};
 pub use watcher::{RunWatcher, SilentWatcher};
 
+use crate::cutter::CutterModel;
 use crate::diagnostic::{Diagnostic, Failure};
 use crate::program::{LengthUnit, Program};
 use crate::setup::Setup;
-use crate::stock::{Mesh, Stock};
+use crate::stock::{AirClip, Mesh, Stock};
 use std::sync::Arc;
 
 /// The options of a run.
@@ -81,6 +82,15 @@ impl SimulationRunOptions {
     #[must_use]
     pub fn with_budget(mut self, budget: SimulationBudget) -> Self {
         self.budget = budget;
+        self
+    }
+
+    /// Lowers the budget of memory to what the watcher of a run allows.
+    #[must_use]
+    pub fn within_limits(mut self, watch: &dyn RunWatcher) -> Self {
+        if let Some(most) = watch.memory_limit_bytes() {
+            self.budget.bytes = self.budget.bytes.min(most);
+        }
         self
     }
 }
@@ -182,6 +192,12 @@ impl<'p> Machining<'p> {
     /// Returns the stock before the first cut.
     pub fn stock(&self) -> &Stock {
         &self.stock
+    }
+
+    /// Returns the box in which any part of any tool can touch the stock.
+    fn surroundings_of_stock(&self) -> AirClip {
+        let reach = self.tooling.cutters().iter().map(CutterModel::reach_mm).fold(0.0, f64::max);
+        AirClip::around(self.stock.bounds(), reach)
     }
 
     /// Reads a target part from an STL file whose numbers have these units.

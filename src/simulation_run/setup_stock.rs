@@ -3,6 +3,7 @@
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::LengthUnit;
 use crate::setup::{FileRef, Setup, StockBodyShape};
+use crate::source::read_file_bytes;
 use crate::stock::{Mesh, MeshError, SolidBody, Stock, stock_file};
 use std::sync::Arc;
 
@@ -42,16 +43,16 @@ pub(super) fn build_stock(setup: &Setup) -> Result<Stock, Failure> {
     Ok(stock)
 }
 
-fn read_file_bytes(file: &FileRef) -> Result<Vec<u8>, Diagnostic> {
-    std::fs::read(&file.path).map_err(|error| file.make_stock_finding(&error.to_string()))
+fn read_stock_file(file: &FileRef) -> Result<Vec<u8>, Diagnostic> {
+    read_file_bytes(&file.path).map_err(|error| file.make_stock_finding(&error.to_string()))
 }
 
 fn read_stl_mesh(file: &FileRef, units: LengthUnit) -> Result<Mesh, Diagnostic> {
-    read_mesh_mm(&read_file_bytes(file)?, units).map_err(|error| file.make_stock_finding(&error.to_string()))
+    read_mesh_mm(&read_stock_file(file)?, units).map_err(|error| file.make_stock_finding(&error.to_string()))
 }
 
 fn read_saved_stock(file: &FileRef) -> Result<SolidBody, Diagnostic> {
-    let dexels = stock_file::read_clstock(&read_file_bytes(file)?)
+    let dexels = stock_file::read_clstock(&read_stock_file(file)?)
         .map_err(|error| file.make_stock_finding(&error.to_string()))?;
     Ok(SolidBody::Remains(Arc::new(dexels)))
 }

@@ -15,9 +15,15 @@ pub trait RunWatcher: Sync {
     /// Stops long work if the run must stop; it is called between two parts of the work.
     ///
     /// # Errors
-    /// Returns [`Failure::Interrupted`] if the run must stop.
+    /// Returns [`Failure::Interrupted`] if the run must stop, or findings if the run takes more than it may.
     fn check_stop(&self) -> Result<(), Failure> {
         if self.is_stop_requested() { Err(Failure::Interrupted) } else { Ok(()) }
+    }
+
+    /// Returns the memory in bytes that the run may take, where there is a limit. It is asked before the run, so that
+    /// stock that is too large is not made.
+    fn memory_limit_bytes(&self) -> Option<u64> {
+        None
     }
 }
 

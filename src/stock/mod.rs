@@ -5,6 +5,7 @@
 //! kept in a file ([`stock_file`]), written as a surface ([`stl_export`]) and compared with the target part
 //! ([`TargetDeviation`]).
 
+mod air_clip;
 mod axis_box;
 pub(crate) mod dexel;
 mod dexel_spans;
@@ -17,6 +18,7 @@ mod stock_error;
 pub mod stock_file;
 mod target_deviation;
 
+pub use air_clip::AirClip;
 pub use axis_box::AxisBox;
 pub(crate) use dexel::DexelBand;
 pub use dexel::{DexelGrid, DexelSpan, Dexels};

@@ -3,6 +3,7 @@
 use super::{BlockChecksums, UndoPatch};
 use crate::diagnostic::Diagnostic;
 use crate::fingerprint::{Digest, RecipeFingerprint, VERSION};
+use crate::presentation::safe_json::write_json;
 use crate::program::Program;
 use crate::recipe::Provenance;
 use crate::report::changes::RecipeChanges;
@@ -111,7 +112,7 @@ impl<'r> RunReport<'r> {
     /// # Errors
     /// Returns the error of the writer.
     pub fn write_json(&self, out: &mut dyn Write) -> io::Result<()> {
-        serde_json::to_writer(&mut *out, self)?;
+        write_json(&mut *out, self)?;
         out.write_all(b"\n")
     }
 }

@@ -9,18 +9,31 @@ use std::ops::Range;
 pub(super) struct JoinedText<'t> {
     /// The text.
     pub(super) text: Cow<'t, [u8]>,
-    /// The breaks that were taken out: their places in the original text.
-    breaks: Vec<Range<usize>>,
+    /// The breaks that were taken out, in the order of the text.
+    breaks: Vec<RemovedBreak>,
+}
+
+/// A break of a line that was taken out of a text.
+#[derive(Debug, Clone, Copy)]
+struct RemovedBreak {
+    /// Its end in the original text.
+    end: usize,
+    /// The number of bytes that were taken out up to there.
+    removed: usize,
 }
 
 impl<'t> JoinedText<'t> {
     /// Joins the full lines of a text, and every number that is broken. `numbers` are the places of numbers in
-    /// the text.
+    /// the text, in their order. A statement may have hundreds of thousands of them.
     pub(super) fn new(text: &'t [u8], numbers: &[(Range<usize>, f64)]) -> Self {
         let mut breaks = Vec::new();
         for (start, line) in lines_with_starts(text) {
             let (end, after) = (start + line.len(), start + line.len() < text.len());
-            let within_number = || numbers.iter().any(|(at, _)| at.start < end && end < at.end);
+            let within_number = || {
+                let before = numbers.partition_point(|(at, _)| at.start < end);
+                let last = before.checked_sub(1).and_then(|last| numbers.get(last));
+                last.is_some_and(|(at, _)| end < at.end)
+            };
             let mark = match inspect_line(line).full {
                 Some(at) if after => Some(start + at),
                 None if after && within_number() => {
@@ -31,22 +44,26 @@ impl<'t> JoinedText<'t> {
             breaks.extend(mark.map(|mark| mark..end));
         }
         if breaks.is_empty() {
-            return Self { text: Cow::Borrowed(text), breaks };
+            return Self { text: Cow::Borrowed(text), breaks: Vec::new() };
         }
         let mut joined = Vec::with_capacity(text.len());
-        let mut copied = 0;
-        for at in &breaks {
+        let (mut copied, mut removed) = (0, 0);
+        let remove_break = |at: Range<usize>| {
             joined.extend_from_slice(text.get(copied..at.start).unwrap_or_default());
             copied = at.end;
-        }
+            removed += at.len();
+            RemovedBreak { end: at.end, removed }
+        };
+        let breaks = breaks.into_iter().map(remove_break).collect();
         joined.extend_from_slice(text.get(copied..).unwrap_or_default());
         Self { text: Cow::Owned(joined), breaks }
     }
 
     /// Returns the offset in the joined text of an offset in the original one.
     pub(super) fn joined_offset(&self, at: usize) -> usize {
-        let before = self.breaks.iter().take_while(|broken| broken.end <= at);
-        at - before.map(|broken| broken.len()).sum::<usize>()
+        let before = self.breaks.partition_point(|broken| broken.end <= at);
+        let last = before.checked_sub(1).and_then(|last| self.breaks.get(last));
+        at - last.map_or(0, |broken| broken.removed)
     }
 }
 
@@ -178,6 +195,30 @@ mod tests {
     fn assert_fit(old: &str, new: &str, full_column: Option<usize>, expected: &str) {
         let fitted = fit_lines(old.as_bytes(), new.as_bytes().to_vec(), full_column);
         assert_eq!(String::from_utf8(fitted).unwrap(), expected);
+    }
+
+    #[test]
+    fn offsets_in_a_joined_text_are_those_of_the_original_without_its_breaks() {
+        let text = format!("{}1$\n2,{}3$\n4\n", "X".repeat(70), "Y".repeat(68));
+        let joined = JoinedText::new(text.as_bytes(), &[]);
+        assert_eq!(*joined.text, *text.replace("$\n", "").as_bytes());
+        for (at, byte) in text.bytes().enumerate().filter(|(_, byte)| !matches!(byte, b'$' | b'\n')) {
+            assert_eq!(joined.text.get(joined.joined_offset(at)), Some(&byte), "{at}");
+        }
+    }
+
+    /// Every line looked through all numbers, and every number through all breaks.
+    #[test]
+    fn a_statement_of_many_lines_is_joined_in_linear_time() {
+        let line = format!("{}1$\n", "X".repeat(70));
+        let text = line.repeat(160_000);
+        let numbers: Vec<_> =
+            (0..160_000).map(|index| (index * line.len() + 70..index * line.len() + 71, 1.0)).collect();
+        let begun = std::time::Instant::now();
+        let joined = JoinedText::new(text.as_bytes(), &numbers);
+        let last = numbers.iter().map(|(at, _)| joined.joined_offset(at.start)).max();
+        assert_eq!(last, Some(159_999 * 71 + 70));
+        assert!(begun.elapsed() < std::time::Duration::from_secs(4), "{:?}", begun.elapsed());
     }
 
     #[test]

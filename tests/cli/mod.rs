@@ -3,11 +3,13 @@
 mod apply;
 mod batch;
 mod chips;
-mod display_units;
+mod defects;
 mod first_steps;
 mod gates;
+mod hidden_text;
 mod hook;
 mod hook_examples;
+mod limits;
 mod one_list;
 mod other;
 mod plot;
@@ -15,6 +17,7 @@ mod reports;
 mod section;
 mod select;
 mod simulate;
+mod stopping;
 mod undo;
 mod watch;
 

@@ -10,12 +10,13 @@ use super::finding_args::FindingArgs;
 use super::input_files::{self, LoadedRecipe, STANDARD};
 use super::progress::CommandProgress;
 use super::report_args::ReportArgs;
+use super::run_limits::{MemoryLimitArgs, TimeLimitArgs};
 use super::terminal;
 use crate::cli::stop::Stop;
 use clap::Args;
 use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::fingerprint::RecipeFingerprint;
-use clsmith::job::{CorrectionJob, JobOutcome};
+use clsmith::job::{CorrectionJob, JobOutcome, catch_defect};
 use clsmith::parse::parse;
 use clsmith::program::{Dialect, Program};
 use clsmith::recipe::Provenance;
@@ -81,7 +82,9 @@ pub struct ApplyArgs {
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
-    display: DisplayArgs,
+    memory: MemoryLimitArgs,
+    #[command(flatten)]
+    time: TimeLimitArgs,
     #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
 }
@@ -106,7 +109,8 @@ impl ApplyArgs {
         // The first one is the recipe.
         let setup_files = texts.get(1..).unwrap_or_default();
         let outputs = CommandOutputs::default();
-        let progress = CommandProgress::new(self.quiet, outputs.interrupt());
+        let progress =
+            CommandProgress::with_limits(self.quiet, outputs.interrupt(), self.memory.with_time(self.time));
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
         let job = CorrectionJob::new(&recipe, &setup, &policy)
             .with_print(print.as_ref())
@@ -117,8 +121,12 @@ impl ApplyArgs {
             if outputs.interrupt().is_raised() {
                 return Err(Stop::Interrupted);
             }
-            progress.begin_bar(&input.to_string_lossy());
-            if let Err(stop) = self.apply_to_input(&job, setup_files, input, &outputs, &progress) {
+            progress.begin_program(&input.to_string_lossy());
+            let applied = catch_defect(&input.to_string_lossy(), || {
+                self.apply_to_input(&job, setup_files, input, &outputs, &progress)
+            });
+            if let Err(stop) = applied.unwrap_or_else(|defect| Err(defect.into())) {
+                progress.clear_bar();
                 worst = worst.max(stop.about(input).tell_of_one_file(&self.findings)?);
             }
         }
@@ -141,6 +149,7 @@ impl ApplyArgs {
         self.check_outputs(outs, setup_file.as_deref(), job)?;
         self.find_wrong_ending(target.as_deref()).map_or(Ok(()), |wrong| Err(Stop::Usage(wrong)))?;
         let source = input_files::read_source(input)?;
+        progress.check_size(&source)?;
         let corrected = job.correct_source(&source);
         progress.clear_bar();
         let outcome = match corrected {

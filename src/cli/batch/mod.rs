@@ -9,6 +9,7 @@ use super::command_exit::CommandExit;
 use super::command_outputs::{CommandOutputs, ignore_closed_pipe, print_summary};
 use super::finding_args::FindingArgs;
 use super::input_files::{self, LoadedRecipe, STANDARD};
+use super::run_limits::TimeLimitArgs;
 use super::terminal;
 use crate::cli::stop::Stop;
 use bytesize::ByteSize;
@@ -83,6 +84,8 @@ pub struct BatchArgs {
     /// Memory for all files together: 512M, 2G, 1.5GiB; by default half of what is available
     #[arg(long, value_name = "SIZE")]
     memory: Option<ByteSize>,
+    #[command(flatten)]
+    time: TimeLimitArgs,
     /// Begin no file after one has failed
     #[arg(long)]
     fail_fast: bool,
@@ -146,7 +149,12 @@ impl BatchArgs {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(self.worker_count()).stack_size(STACK).build();
         let pool = pool.map_err(io::Error::other)?;
         let outputs = CommandOutputs::default();
-        let bars = BatchProgress::new(self.quiet, &self.findings, outputs.interrupt());
+        let bars = BatchProgress::new(
+            self.quiet,
+            &self.findings,
+            outputs.interrupt(),
+            (self.time.of_batch_file(), self.memory.map(|size| size.as_u64())),
+        );
         outputs.stop_gently(bars.clear_on_ctrl_c())?;
         let options = format!("{policy:?} {:?}", self.dialect);
         let mine = ready.plan.files_of_shard(self.shard);

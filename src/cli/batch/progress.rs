@@ -3,9 +3,10 @@
 
 use crate::cli::command_outputs::ignore_closed_pipe;
 use crate::cli::finding_args::FindingArgs;
+use crate::cli::run_limits::{RunLimitWatch, RunLimits};
 use crate::cli::terminal;
 use clsmith::batch::{BatchRecord, BatchWatcher, FileOutcome, PlannedFile};
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::output_files::Interrupt;
 use clsmith::simulation_run;
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -20,15 +21,23 @@ pub struct BatchProgress<'a> {
     failed: AtomicUsize,
     findings: &'a FindingArgs,
     interrupt: &'a Interrupt,
+    limits: RunLimits,
+    /// What the stock of one file may take, in bytes, where somebody says how much memory there is.
+    stock_bytes: Option<u64>,
 }
 
 impl<'a> BatchProgress<'a> {
-    pub fn new(quiet: bool, findings: &'a FindingArgs, interrupt: &'a Interrupt) -> Self {
+    pub fn new(
+        quiet: bool,
+        findings: &'a FindingArgs,
+        interrupt: &'a Interrupt,
+        (limits, stock_bytes): (RunLimits, Option<u64>),
+    ) -> Self {
         let seen = terminal::is_stderr_terminal() && !quiet;
         let target = if seen { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         let all = MultiProgress::with_draw_target(target);
         let whole = all.add(ProgressBar::new(0));
-        Self { all, whole, failed: AtomicUsize::new(0), findings, interrupt }
+        Self { all, whole, failed: AtomicUsize::new(0), findings, interrupt, limits, stock_bytes }
     }
 
     /// Begins with the files to process. Bytes are counted, because they take the time.
@@ -80,7 +89,8 @@ impl BatchWatcher for BatchProgress<'_> {
         if !self.all.is_hidden() {
             bar.enable_steady_tick(Duration::from_millis(200));
         }
-        Box::new(FileBar { bar, interrupt: self.interrupt })
+        let limits = RunLimitWatch::new(self.limits, &file.input.to_string());
+        Box::new(FileBar { bar, interrupt: self.interrupt, limits, stock_bytes: self.stock_bytes })
     }
 
     fn end_file(&self, file: &PlannedFile, record: &BatchRecord, findings: &[Diagnostic], _before: bool) {
@@ -110,6 +120,8 @@ fn set_bar_style(bar: &ProgressBar, template: &str) {
 struct FileBar<'a> {
     bar: ProgressBar,
     interrupt: &'a Interrupt,
+    limits: RunLimitWatch,
+    stock_bytes: Option<u64>,
 }
 
 impl simulation_run::RunWatcher for FileBar<'_> {
@@ -124,6 +136,14 @@ impl simulation_run::RunWatcher for FileBar<'_> {
 
     fn is_stop_requested(&self) -> bool {
         self.interrupt.is_raised()
+    }
+
+    fn check_stop(&self) -> Result<(), Failure> {
+        if self.is_stop_requested() { Err(Failure::Interrupted) } else { self.limits.check_limits() }
+    }
+
+    fn memory_limit_bytes(&self) -> Option<u64> {
+        self.stock_bytes
     }
 }
 

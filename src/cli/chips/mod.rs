@@ -9,6 +9,7 @@ use crate::cli::display_args::DisplayArgs;
 use crate::cli::finding_args::FindingArgs;
 use crate::cli::input_files;
 use crate::cli::measuring_command::{MeasuringCommand, MeasuringContext};
+use crate::cli::run_limits::{MemoryLimitArgs, TimeLimitArgs};
 use crate::cli::stop::Stop;
 use clap::Args;
 use clsmith::parameters::LengthUnit;
@@ -37,7 +38,8 @@ command line are in mm. Outputs appear whole or not at all, and never over an in
 Outputs are in the unit of the program, or in that of --display-units; of a program in inches the names end in _in.
 The columns of the CSV: line, operation, tool, length_mm, feed_mm_min, z_mm, thickness_mm, area_mm2, volume_mm3,
 inside_mm2, pieces, chip_thickness_mm, engaged_deg, arcs_deg. Thickness is the largest on the way, engagement that at the
-motion's end. An empty cell is a value that is not known, as engagement where the cutter has left the chip by then.";
+motion's end. An empty cell is a value that is not known, as engagement where the cutter has left the chip by then.
+A name that begins as a formula does (= + - @) has an apostrophe in front.";
 
 /// Finds the exact undeformed chip of every motion, layer by layer, in three and five axes
 #[derive(Debug, Args)]
@@ -93,7 +95,9 @@ pub struct ChipsArgs {
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
-    display: DisplayArgs,
+    memory: MemoryLimitArgs,
+    #[command(flatten)]
+    time: TimeLimitArgs,
     #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
 }
@@ -118,6 +122,7 @@ impl ChipsArgs {
             outputs: self.output_paths().collect(),
             quiet: self.quiet,
             threads: self.threads,
+            limits: self.memory.with_time(self.time),
             findings: &self.findings,
         };
         measuring.run_measurement(

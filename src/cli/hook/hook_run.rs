@@ -1,8 +1,9 @@
 //! This module holds one run of the hook, from the export to the line in the log.
 
 use super::exit_codes::{REFUSED, STOPPED, judge_post_outcome};
+use super::older_results;
 use super::post_process::{self, PostOutcome};
-use super::post_workspace::PostWorkspace;
+use super::post_workspace::{PostWorkspace, refuse_link_out};
 use super::{HookArgs, OnError};
 use crate::cli::command_exit::CommandExit;
 use crate::cli::command_outputs::{CommandOutputs, ignore_closed_pipe, report_unwritable};
@@ -14,7 +15,7 @@ use crate::cli::unattended::{
     self, LogLine, LoggedInput, LoggedOutput, RunLog, UnattendedCorrection, UnattendedOutcome,
 };
 use clsmith::batch;
-use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::fingerprint::Digest;
 use clsmith::output_files::is_same_file;
 use clsmith::report::changes;
@@ -38,6 +39,8 @@ pub struct HookRun<'h> {
     correction: UnattendedCorrection,
     output: Option<LoggedOutput>,
     post: Option<LoggedPost>,
+    /// Whether the handler of a wish to stop may write the line of the log.
+    has_last_line: bool,
 }
 
 /// The post in the log.
@@ -74,6 +77,7 @@ impl<'h> HookRun<'h> {
             correction: UnattendedCorrection::refused(Vec::new()),
             output: None,
             post: None,
+            has_last_line: false,
         }
     }
 
@@ -83,7 +87,8 @@ impl<'h> HookRun<'h> {
         policy: &FindingPolicy,
         progress: &CommandProgress,
     ) -> Result<CommandExit, Stop> {
-        let source = match input_files::read_source(&self.hook.input) {
+        self.keep_last_line();
+        let source = match self.read_export() {
             Ok(source) => source,
             Err(failure) => {
                 self.show_and_keep_findings(failure.into_findings())?;
@@ -94,7 +99,7 @@ impl<'h> HookRun<'h> {
         // From here on, Ctrl-C leaves a line in the log and no file behind.
         let outputs = self.outputs;
         let _held = outputs.hold_ctrl_c();
-        progress.begin_bar(&self.input.path);
+        progress.begin_program(&self.input.path);
         self.correction = self.correct_source(policy, progress, &source);
         progress.clear_bar();
         if outputs.interrupt().is_raised() {
@@ -136,6 +141,33 @@ impl<'h> HookRun<'h> {
         self.finish_and_log(exit)
     }
 
+    /// Keeps the line of the log that is written when the work does not end after a wish to stop.
+    fn keep_last_line(&mut self) {
+        let Some(mut log) = self.log.as_ref().and_then(RunLog::try_clone) else { return };
+        let (input, time, started) = (self.input.clone(), self.time.clone(), self.started);
+        self.has_last_line = true;
+        self.outputs.keep_last_words(move || {
+            let more = HookLogFields { post: None, exit: STOPPED };
+            let correction = UnattendedCorrection::stopped();
+            let record = LogLine::from_correction("hook", (&time, started), &input, &correction, None, more);
+            // The process ends at this moment, and nobody could be told.
+            let _ = log.add_line(&record);
+        });
+    }
+
+    /// Reads the export. It is read once more before the post runs, so it must be a file.
+    fn read_export(&self) -> Result<Arc<Source>, Failure> {
+        let input = &self.hook.input;
+        if std::fs::metadata(input).is_ok_and(|there| !there.is_file()) {
+            let message = format!(
+                "{} is no file; a hook corrects the file that a CAM system has written",
+                input.display()
+            );
+            return Err(Diagnostic::new(codes::UNREADABLE, message).into());
+        }
+        input_files::read_source(input)
+    }
+
     fn correct_source(
         &self,
         policy: &FindingPolicy,
@@ -144,6 +176,9 @@ impl<'h> HookRun<'h> {
     ) -> UnattendedCorrection {
         let args = &self.hook.recipe;
         let name = self.hook.program_file_name().to_string_lossy();
+        if let Err(failure) = progress.check_size(source) {
+            return UnattendedCorrection::refused(failure.into_findings());
+        }
         match args.read_chooser() {
             Ok(chooser) => unattended::correct_unattended(args, &chooser, policy, progress, &name, source),
             Err(failure) => UnattendedCorrection::without_recipe(failure.into_findings()),
@@ -169,6 +204,12 @@ impl<'h> HookRun<'h> {
         if let Some(hit) = self.list_read_files().into_iter().find(|path| is_same_file(path, &target)) {
             let message = format!("keeping {} would overwrite {}", target.display(), hit.display());
             return Err(Diagnostic::new(codes::OUTPUT_IS_INPUT, message).into());
+        }
+        if self.hook.keep.as_ref() != Some(&target)
+            && let Some((folder, name)) = target.parent().zip(target.file_name())
+            && let Some(found) = refuse_link_out(folder, Path::new(name))
+        {
+            return Err(found.into());
         }
         if let Some(folder) = self.hook.keep_folder()
             && let Err(error) = std::fs::create_dir_all(folder)
@@ -276,15 +317,39 @@ impl<'h> HookRun<'h> {
         } else if self.correction.outcome == UnattendedOutcome::Refused {
             eprintln!("{}: nothing was posted", escape_controls(&self.input.path));
         }
+        if !stopped && exit != 0 && self.post.as_ref().is_none_or(|post| post.ended != "exit") {
+            let found = self.set_older_results_aside();
+            self.show_and_keep_findings(found)?;
+        }
         let Some(mut log) = self.log.take() else { return Ok(CommandExit::Posted(exit)) };
+        if self.has_last_line && !self.outputs.take_last_words() {
+            // The handler of the wish to stop was faster: it ends the process, and the line is there.
+            return Ok(CommandExit::Posted(STOPPED));
+        }
         let more = HookLogFields { post: self.post.as_ref(), exit };
         let when = (self.time.as_str(), self.started);
         let output = self.output.as_ref();
         let record = LogLine::from_correction("hook", when, &self.input, &self.correction, output, more);
         if let Err(found) = log.add_line(&record) {
             self.hook.show_findings(&[found])?;
+            // A shop that wants a log wants it whole: a run without its line is no run that went well.
+            if exit == 0 && self.hook.on_error == OnError::Stop {
+                return Ok(CommandExit::Posted(REFUSED));
+            }
         }
         Ok(CommandExit::Posted(exit))
+    }
+
+    /// Renames what earlier runs left beside the export, so that it does not look like the result of this one.
+    fn set_older_results_aside(&self) -> Vec<Diagnostic> {
+        let logged =
+            self.log.as_ref().map(|log| older_results::list_logged_results(log.path(), &self.input.path));
+        let kept = self.hook.keep_path();
+        let protected = self.list_read_files();
+        let all = logged.into_iter().flatten().chain(kept);
+        all.filter(|path| !protected.iter().any(|read| is_same_file(read, path)))
+            .filter_map(|path| older_results::set_aside(&path))
+            .collect()
     }
 }
 

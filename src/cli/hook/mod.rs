@@ -7,6 +7,7 @@
 
 mod exit_codes;
 mod hook_run;
+mod older_results;
 mod post_process;
 mod post_workspace;
 
@@ -15,11 +16,13 @@ use super::command_outputs::{CommandOutputs, ignore_closed_pipe};
 use super::finding_args::FindingArgs;
 use super::input_files::{self, STANDARD};
 use super::progress::CommandProgress;
+use super::run_limits::{MemoryLimitArgs, TimeLimitArgs};
 use super::terminal;
 use super::unattended::{RecipeArgs, RunLog};
 use crate::cli::stop::Stop;
 use clap::{Args, ValueEnum};
 use clsmith::diagnostic::Diagnostic;
+use clsmith::job::catch_defect;
 use exit_codes::REFUSED;
 use hook_run::HookRun;
 use post_process::MARK;
@@ -86,6 +89,10 @@ pub struct HookArgs {
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
+    memory: MemoryLimitArgs,
+    #[command(flatten)]
+    time: TimeLimitArgs,
+    #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
     /// The exported program
     #[arg(value_name = "INPUT")]
@@ -113,9 +120,15 @@ impl HookArgs {
             }
         };
         let outputs = CommandOutputs::default();
-        let progress = CommandProgress::new(self.quiet, outputs.interrupt());
+        let progress =
+            CommandProgress::with_limits(self.quiet, outputs.interrupt(), self.memory.with_time(self.time));
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
-        HookRun::new(self, &outputs, log).run_hook(&policy, &progress)
+        let run = || HookRun::new(self, &outputs, log).run_hook(&policy, &progress);
+        catch_defect(&self.input.to_string_lossy(), run).unwrap_or_else(|defect| {
+            self.show_findings(&[defect])?;
+            eprintln!("{}: nothing was posted", terminal::escape_controls(&self.input.to_string_lossy()));
+            Ok(CommandExit::Posted(REFUSED))
+        })
     }
 
     /// Returns the fault of the command line, as far as clap cannot find it.

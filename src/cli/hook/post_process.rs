@@ -11,7 +11,13 @@ use std::time::{Duration, Instant};
 /// The longest pause between two checks of the post.
 const LONGEST_PAUSE: Duration = Duration::from_millis(50);
 
-/// The mark for the program in arguments.
+/// How long a post that took too long may tidy up before it is killed.
+const GRACE_TIMED_OUT: Duration = Duration::from_secs(2);
+
+/// The same for a post that is stopped together with the hook, which itself has to end within two seconds.
+const GRACE_STOPPED: Duration = Duration::from_millis(700);
+
+/// What stands for the program in arguments.
 pub const MARK: &str = "{}";
 
 /// How the post ended.
@@ -63,12 +69,12 @@ pub fn run_post(
             return Ok(outcome_of_status(status));
         }
         if interrupt.is_raised() {
-            stop_process_group(child.as_mut())?;
+            stop_process_group(child.as_mut(), GRACE_STOPPED)?;
             return Ok(PostOutcome::Stopped);
         }
         let left = timeout.map(|timeout| timeout.saturating_sub(started.elapsed()));
         if left.is_some_and(|left| left.is_zero()) {
-            stop_process_group(child.as_mut())?;
+            stop_process_group(child.as_mut(), GRACE_TIMED_OUT)?;
             return Ok(PostOutcome::TimedOut);
         }
         std::thread::sleep(left.map_or(pause, |left| pause.min(left)));
@@ -85,17 +91,14 @@ fn outcome_of_status(status: ExitStatus) -> PostOutcome {
     PostOutcome::Exit(status.code().unwrap_or(1))
 }
 
-/// Ends a program and everything that it has started. It is asked first if that is possible, then it is
-/// killed.
-fn stop_process_group(child: &mut dyn ChildWrapper) -> io::Result<()> {
+/// Ends a program and all it started: asks first where that can be done, then kills.
+fn stop_process_group(child: &mut dyn ChildWrapper, grace: Duration) -> io::Result<()> {
     #[cfg(unix)]
     {
-        /// The time for the post to clean up before it is killed.
-        const GRACE: Duration = Duration::from_secs(2);
         const SIGTERM: i32 = 15;
         let asked = Instant::now();
         if child.signal(SIGTERM).is_ok() {
-            while asked.elapsed() < GRACE && child.try_wait()?.is_none() {
+            while asked.elapsed() < grace && child.try_wait()?.is_none() {
                 std::thread::sleep(LONGEST_PAUSE);
             }
         }

@@ -11,9 +11,13 @@ use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
 use tempfile::TempDir;
 
-/// The private folder. It is removed when this is dropped.
+/// How the names of private folders begin.
+const PREFIX: &str = "clsmith-hook-";
+
+/// The private folder; it goes when this goes.
 pub struct PostWorkspace {
     folder: TempDir,
     file: PathBuf,
@@ -25,8 +29,9 @@ impl PostWorkspace {
         name: &OsStr,
         pieces: impl Iterator<Item = &'b [u8]>,
     ) -> Result<Self, Failure> {
+        remove_abandoned_folders();
         let mut builder = tempfile::Builder::new();
-        builder.prefix("clsmith-hook-");
+        builder.prefix(PREFIX);
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;
@@ -82,6 +87,10 @@ impl PostWorkspace {
                 found.push(Diagnostic::new(codes::OUTPUT_IS_INPUT, message));
                 continue;
             }
+            if let Some(outside) = refuse_link_out(to, name) {
+                found.push(outside);
+                continue;
+            }
             match copy_file(&from, &target, interrupt) {
                 Ok(()) => put.push(target),
                 // This is reported as well: the post has ended, and this output of it is missing.
@@ -133,4 +142,40 @@ fn copy_file(from: &Path, to: &Path, interrupt: &Interrupt) -> Result<(), WriteE
     }
     let mut file = File::open(from)?;
     write_atomically_unless(to, interrupt, |out| io::copy(&mut file, out).map(drop))
+}
+
+/// Refuses to write a file below a folder if a link on the way leads out of the folder: nobody who writes beside an export
+/// means to change a file elsewhere.
+pub fn refuse_link_out(folder: &Path, name: &Path) -> Option<Diagnostic> {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    // A folder that is yet to be made holds no link.
+    let root = fs::canonicalize(folder).ok()?;
+    let mut parts =
+        name.ancestors().filter(|part| !part.as_os_str().is_empty()).map(|part| folder.join(part));
+    let link = parts.find(|path| {
+        fs::symlink_metadata(path).is_ok_and(|there| there.is_symlink())
+            && !fs::canonicalize(path).is_ok_and(|real| real.starts_with(&root))
+    })?;
+    let message =
+        format!("{} is a link that leads out of {}, and is not followed", link.display(), folder.display());
+    Some(Diagnostic::new(codes::OUTSIDE_OUTPUT, message))
+}
+
+/// From this age on a private folder is taken for one that a killed hook left behind: no post runs for a day.
+const ABANDONED: Duration = Duration::from_secs(24 * 60 * 60);
+
+/// Removes private folders that killed hooks left behind; programs are a shop's knowledge.
+fn remove_abandoned_folders() {
+    let Some(oldest) = SystemTime::now().checked_sub(ABANDONED) else { return };
+    let Ok(entries) = fs::read_dir(std::env::temp_dir()) else { return };
+    let is_abandoned = |entry: &fs::DirEntry| {
+        entry.file_name().as_encoded_bytes().starts_with(PREFIX.as_bytes())
+            && entry
+                .metadata()
+                .is_ok_and(|there| there.is_dir() && there.modified().is_ok_and(|modified| modified < oldest))
+    };
+    for entry in entries.flatten().filter(is_abandoned) {
+        // Those of other users stay.
+        let _ = fs::remove_dir_all(entry.path());
+    }
 }

@@ -11,6 +11,7 @@ use crate::cli::measuring_command::{MeasuringCommand, MeasuringContext};
 use crate::cli::plot::encode_drawing;
 use crate::cli::progress::CommandProgress;
 use crate::cli::report_args::ReportArgs;
+use crate::cli::run_limits::{MemoryLimitArgs, TimeLimitArgs};
 use crate::cli::stop::Stop;
 use clap::Args;
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
@@ -43,7 +44,8 @@ over an input. They are written also when errors were found (a collision is one)
 Lengths are in the unit of the program, or in that of --display-units; of a program in inches the names end in _in.
 The columns of the CSV: line, operation, tool, length_mm, feed_mm_min, chip_thickness_mm,
 removal_rate_mm3_min, axial_depth_mm, radial_depth_mm, engagement_start_deg, engagement_end_deg, force_n,
-torque_nm, power_kw. An empty cell is a value that is not known.";
+torque_nm, power_kw. An empty cell is a value that is not known.
+A name that begins as a formula does (= + - @) has an apostrophe in front.";
 
 /// Removes the stock motion by motion: chips, depths, forces, collisions, remaining stock
 #[derive(Debug, Args)]
@@ -100,7 +102,9 @@ pub struct SimulateArgs {
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
-    display: DisplayArgs,
+    memory: MemoryLimitArgs,
+    #[command(flatten)]
+    time: TimeLimitArgs,
     #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
 }
@@ -151,6 +155,7 @@ impl SimulateArgs {
             outputs: self.output_paths().collect(),
             quiet: self.quiet,
             threads: self.threads,
+            limits: self.memory.with_time(self.time),
             findings: &self.findings,
         };
         measuring.run_measurement(

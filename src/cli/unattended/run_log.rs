@@ -7,6 +7,7 @@ use clsmith::fingerprint::{Digest, VERSION};
 use clsmith::output_files::is_same_file;
 use clsmith::report::changes::StepChanges;
 use clsmith::report::render::line;
+use clsmith::report::safe_json::to_json_line;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -154,12 +155,19 @@ impl RunLog {
         Ok(Self { path: path.to_path_buf(), file })
     }
 
-    /// Adds a line in a single write at the end of the file, so that lines of several runs do not mix.
+    /// The same log once more, for who may have to write the last line in another's place.
+    pub fn try_clone(&self) -> Option<Self> {
+        Some(Self { path: self.path.clone(), file: self.file.try_clone().ok()? })
+    }
+
+    /// The path of the file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Adds a line, in one write to the end of the file: lines of several runs do not mix.
     pub fn add_line(&mut self, record: &impl Serialize) -> Result<(), Diagnostic> {
-        let written = serde_json::to_vec(record).map_err(io::Error::from).and_then(|mut line| {
-            line.push(b'\n');
-            self.file.write_all(&line)
-        });
+        let written = to_json_line(record).and_then(|line| self.file.write_all(&line));
         written.map_err(|error| report_unwritable(&self.path, &error))
     }
 }

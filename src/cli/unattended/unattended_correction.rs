@@ -4,7 +4,7 @@ use super::{RecipeArgs, RecipeChooser};
 use crate::cli::input_files::{self, LoadedRecipe};
 use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::fingerprint::RecipeFingerprint;
-use clsmith::job::{CorrectionJob, JobOutcome, is_program_changed};
+use clsmith::job::{CorrectionJob, JobOutcome, catch_defect, is_program_changed};
 use clsmith::parse::parse;
 use clsmith::program::Program;
 use clsmith::recipe_rules::RecipeChoice;
@@ -85,7 +85,12 @@ impl UnattendedCorrection {
         Self::without_program(UnattendedOutcome::Refused, findings)
     }
 
-    /// Makes the result for a program whose recipe cannot be used.
+    /// A program on which the work was stopped.
+    pub fn stopped() -> Self {
+        Self::without_program(UnattendedOutcome::Stopped, Vec::new())
+    }
+
+    /// A program whose recipe cannot be used.
     pub fn without_recipe(findings: Vec<Diagnostic>) -> Self {
         Self { surroundings: true, ..Self::refused(findings) }
     }
@@ -99,8 +104,21 @@ impl UnattendedCorrection {
     }
 }
 
-/// Chooses the recipe for a program and applies it. `file` is the name of its file, without the folder.
+/// Chooses the recipe for a program and applies it. `file` is the name of its file, without the folder. A program on
+/// which clsmith itself fails is refused, and the next one goes on.
 pub fn correct_unattended(
+    args: &RecipeArgs,
+    chooser: &RecipeChooser,
+    policy: &FindingPolicy,
+    watch: &dyn RunWatcher,
+    file: &str,
+    source: &Arc<Source>,
+) -> UnattendedCorrection {
+    catch_defect(source.name(), || choose_and_correct(args, chooser, policy, watch, file, source))
+        .unwrap_or_else(|defect| UnattendedCorrection::refused(vec![defect]))
+}
+
+fn choose_and_correct(
     args: &RecipeArgs,
     chooser: &RecipeChooser,
     policy: &FindingPolicy,

@@ -20,6 +20,7 @@ use super::command_outputs::{CommandOutputs, ignore_closed_pipe};
 use super::finding_args::FindingArgs;
 use super::input_files;
 use super::progress::CommandProgress;
+use super::run_limits::{MemoryLimitArgs, TimeLimitArgs};
 use super::terminal;
 use super::unattended::{RecipeArgs, RunLog};
 use crate::cli::bad_argument::BadArgument;
@@ -95,6 +96,10 @@ pub struct WatchArgs {
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
+    memory: MemoryLimitArgs,
+    #[command(flatten)]
+    time: TimeLimitArgs,
+    #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
 }
 
@@ -104,7 +109,8 @@ impl WatchArgs {
         let (folders, log, state) =
             self.prepare_watch().map_err(|failure| Stop::from(failure).about(&self.folder))?;
         let outputs = CommandOutputs::default();
-        let progress = CommandProgress::new(self.quiet, outputs.interrupt());
+        let progress =
+            CommandProgress::with_limits(self.quiet, outputs.interrupt(), self.memory.with_time(self.time));
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
         WatchRun::new(self, &folders, &outputs, &policy, &progress, (log, state)).watch_folder()
     }

@@ -13,10 +13,10 @@ use crate::cli::terminal::escape_controls;
 use crate::cli::unattended::{self, RunLog, UnattendedCorrection, UnattendedOutcome};
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::fingerprint::Digest;
+use clsmith::job::catch_defect;
 use clsmith::report::finding_policy::FindingPolicy;
-use clsmith::source::Source;
+use clsmith::source::{Source, read_file_bytes};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -146,7 +146,8 @@ impl<'w> WatchRun<'w> {
             // one.
             ExportStatus::Failed { pause, .. } => (*pause * 2).min(LONGEST_PAUSE),
         };
-        let after = match self.take_export(export) {
+        let taken = catch_defect(&export.path.to_string_lossy(), || self.take_export(export));
+        let after = match taken.unwrap_or_else(|defect| Err(defect.into())) {
             Ok(after) => after,
             Err(Stop::Found { findings: found, .. }) => {
                 self.worst = self.worst.max(CommandExit::Errors);
@@ -172,7 +173,7 @@ impl<'w> WatchRun<'w> {
         let changed = || Ok(ExportStatus::Settling(Instant::now()));
         let fits = export.stamp.size < u64::from(u32::MAX);
         let read = || -> io::Result<_> {
-            let bytes = if fits { Some(fs::read(&export.path)?) } else { None };
+            let bytes = if fits { Some(read_file_bytes(&export.path)?) } else { None };
             let digest = match &bytes {
                 Some(bytes) => Digest::from_bytes(bytes),
                 None => Digest::from_file(&export.path)?,
@@ -197,7 +198,7 @@ impl<'w> WatchRun<'w> {
         }
         let when = (unattended::utc_now(), Instant::now());
         let name = export.path.to_string_lossy().into_owned();
-        self.progress.begin_bar(&export.name.to_string_lossy());
+        self.progress.begin_program(&export.name.to_string_lossy());
         let source = Source::new(name, bytes.unwrap_or_default());
         let correction = match (&source, fits) {
             (Ok(source), true) => self.correct_source(&export.name, source),
@@ -231,8 +232,10 @@ impl<'w> WatchRun<'w> {
     fn correct_source(&self, name: &Path, source: &std::sync::Arc<Source>) -> UnattendedCorrection {
         let args = &self.watch.recipe;
         let file = name.file_name().unwrap_or_default().to_string_lossy();
-        // The rules are read again for each program, so that a corrected recipe counts from the next program
-        // on.
+        if let Err(failure) = self.progress.check_size(source) {
+            return UnattendedCorrection::refused(failure.into_findings());
+        }
+        // Read anew for each program, so that a corrected recipe counts from the next one on.
         match args.read_chooser() {
             Ok(chooser) => {
                 unattended::correct_unattended(args, &chooser, self.policy, self.progress, &file, source)

@@ -8,6 +8,7 @@ use crate::cli::command_outputs::report_unwritable;
 use crate::cli::unattended::{UnattendedOutcome, utc_now};
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::fingerprint::Digest;
+use clsmith::report::safe_json::to_json_line;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -83,8 +84,7 @@ impl WatchState {
     ) -> Result<(), Diagnostic> {
         let key = encode_name(name);
         let line = WatchStateLine { version: 1, time: utc_now(), path: &key, sha256: digest, outcome };
-        let written = serde_json::to_vec(&line).map_err(io::Error::from).and_then(|mut line| {
-            line.push(b'\n');
+        let written = to_json_line(&line).and_then(|line| {
             self.file.write_all(&line)?;
             self.file.sync_data()
         });

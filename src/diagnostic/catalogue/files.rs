@@ -174,4 +174,22 @@ super::area! {
          numbers there are not those of the records below them. clsmith does not take comments out of a file by itself. With \
          `provenance: comments` in this recipe, or `--provenance comments`, the new lines stand below the earlier ones and the file tells \
          its whole history.";
+    DEFECT = "CL0440", Error, "a defect of clsmith itself",
+        "Send this message, the program, the recipe and the setup to whoever maintains clsmith for you; this file was not written.",
+        "clsmith came to a state that cannot be: an index beyond the end of a list, a sum that does not come out. It is a fault          of clsmith and not of your files, though some unusual thing in this file brought it to light. The message names what          was wrong and the place in clsmith's source, so with the program, the recipe and the setup the fault can be found.\n\n         Nothing of this file is written. `batch`, `watch` and `apply` go on with the next file; `hook` posts nothing and ends with          125, as for any other program that cannot be corrected.";
+    TIME_LIMIT = "CL0441", Error, "a program that takes longer than it may",
+        "Allow more by `--time-limit`, simulate with a coarser `cell`, or split the program by operation.",
+        "The run was given a longest time for each program (`--time-limit SECONDS`), and this one was not done by then. It was stopped \
+         between two parts of the work, and nothing of it is written; other programs of the run are not touched by that. A single \
+         coordinate with a lost decimal point may be the reason: see whether CL0115 is among the findings.";
+    MEMORY_LIMIT = "CL0442", Error, "a program that takes more memory than it may",
+        "Allow more by `--memory`, simulate with a coarser `cell`, or split the program by operation.",
+        "The run was given a limit of memory (`--memory SIZE`). Before the work the size of the program is held against it, about 4 bytes \
+         for a byte and 320 for a line, and so is the stock of a simulation; during the work it is what the process really takes. This \
+         program needs more. It was stopped, and nothing of it is written.";
+    OLDER_RESULT = "CL0443", Warning, "the result of an earlier export, set aside",
+        "Correct the program and post it again. What was set aside belongs to an earlier export.",
+        "The hook posted nothing this time, and what the post made of an earlier export still stood beside the program. Under its own name \
+         it would look like the result of this export and could go to the machine. So it was renamed: `part.nc` is `part.nc.outdated` \
+         now. The next export that is posted writes `part.nc` anew.";
 }

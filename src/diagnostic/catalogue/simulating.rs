@@ -131,4 +131,9 @@ super::area! {
          a taper or a point has no such chip, nor has a motion whose axis is more than 80 degrees from z or turns by half a turn. Nothing \
          is guessed: without the engagement of one motion, its feed and what it leaves for later motions would both be wrong, so \
          the step stops.";
+    PIECE_LIMIT = "CL0527", Warning, "a motion that is divided less finely than its tolerance asks for",
+        "Look at the motion: a helix of so many turns, or a spline with a point far away, is mostly a slip in the export.",
+        "Arcs, helices and splines are simulated as short straight pieces, no further from the curve than a fiftieth of a column. A motion \
+         gets 100,000 pieces at most, and a spline 256 between two of its knots, since each piece takes memory: a helix whose height was \
+         written without its decimal point has turns without end. The motion is simulated all the same, with longer pieces.";
 }

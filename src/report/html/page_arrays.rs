@@ -5,6 +5,7 @@ use super::listing::ProgramListing;
 use super::motion_arrays::{PageMotionArrays, show_values};
 use super::stock_height_field::StockHeightField;
 use super::{markup, motion_change};
+use crate::presentation::safe_text::to_safe_line;
 use crate::program::{MotionClass, Program};
 use crate::report::comparison::{Comparison, ComparisonSubject};
 use crate::report::table::{ColumnUnit, DisplayUnits};
@@ -112,8 +113,10 @@ fn build_facts(
     origin: [f64; 3],
 ) -> Value {
     let side = |name: &str, side: &PageMotionArrays| {
-        let loads: Vec<&str> = side.loads.iter().map(|(name, ..)| *name).collect();
-        json!({ "name": name, "tools": side.tools, "operations": side.operations, "loads": loads })
+        let loads: Vec<&str> = side.loads.iter().map(|(name, _)| *name).collect();
+        let [tools, operations] = [&side.tools, &side.operations]
+            .map(|names| names.iter().map(|name| to_safe_line(name)).collect::<Vec<_>>());
+        json!({ "name": name, "tools": tools, "operations": operations, "loads": loads })
     };
     let steps: Vec<&str> =
         comparison.changes.iter().flat_map(|changes| &changes.steps).map(|step| step.name.as_str()).collect();

@@ -5,6 +5,7 @@ use super::json_formatter::DepthLimitedFormatter;
 use super::sum_columns::{operation_columns, totals_columns};
 use super::{ChipLayerRow, ChipReport, ChipRow};
 use crate::diagnostic::Diagnostic;
+use crate::presentation::safe_json::SafeJsonWriter;
 use crate::report::render::json::FindingsJson;
 use crate::report::rounding::round_to_micro;
 use crate::report::table::{ColumnUnit, CsvTable, DisplayUnits, JsonColumns, RecordNumbers};
@@ -68,8 +69,22 @@ fn round_length(value_mm: f64, units: DisplayUnits) -> f64 {
 /// # Errors
 /// Returns the errors of `out`.
 pub fn write_json(report: &ChipReport, findings: &[Diagnostic], out: &mut dyn Write) -> io::Result<()> {
-    let mut serializer = serde_json::Serializer::with_formatter(&mut *out, DepthLimitedFormatter::default());
-    ChipDocument { report, findings }.serialize(&mut serializer)?;
+    let columns = ChipJsonColumns::new();
+    let document = ChipDocument {
+        version: 1,
+        file: &report.file,
+        layer_mm: report.options.layer_mm,
+        tolerance_mm: report.options.tolerance_mm,
+        totals: &report.totals,
+        assumptions: &report.assumptions,
+        operations: &report.operations,
+        skipped: &report.skipped,
+        findings: FindingsJson::from_findings(findings),
+        motions: MotionList { rows: &report.rows, columns: &columns },
+    };
+    let mut serializer =
+        serde_json::Serializer::with_formatter(SafeJsonWriter(&mut *out), DepthLimitedFormatter::default());
+    document.serialize(&mut serializer)?;
     out.write_all(b"\n")
 }
 

@@ -36,6 +36,7 @@
 
 use super::SeverityCounts;
 use crate::diagnostic::{Diagnostic, DiagnosticLabel};
+use crate::presentation::safe_json::write_json_pretty;
 use crate::presentation::safe_text;
 use crate::source::Source;
 use serde::Serialize;
@@ -48,7 +49,7 @@ const LONGEST_TEXT: usize = 1000;
 /// # Errors
 /// Returns the errors of the writer.
 pub fn render_json(out: &mut dyn Write, diagnostics: &[Diagnostic]) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, &FindingsJson::from_findings(diagnostics))?;
+    write_json_pretty(&mut *out, &FindingsJson::from_findings(diagnostics))?;
     writeln!(out)
 }
 

@@ -4,6 +4,7 @@
 //! byte offsets are given as well.
 
 use crate::diagnostic::{Diagnostic, DiagnosticCode, DiagnosticLabel, Severity};
+use crate::presentation::safe_json::write_json_pretty;
 use crate::presentation::safe_text;
 use crate::source::Source;
 use serde_sarif::sarif::{
@@ -37,7 +38,7 @@ pub fn render_sarif(out: &mut dyn Write, diagnostics: &[Diagnostic], file: Optio
         .results(diagnostics.iter().map(|found| to_sarif_result(found, &codes, file)).collect::<Vec<_>>())
         .build();
     let log = Sarif::builder().schema(SCHEMA).version("2.1.0").runs(vec![run]).build();
-    serde_json::to_writer_pretty(&mut *out, &log)?;
+    write_json_pretty(&mut *out, &log)?;
     writeln!(out)
 }
 

@@ -166,7 +166,7 @@ impl SimulationReport {
         watch: &dyn RunWatcher,
     ) -> Result<Self, Failure> {
         let material = machining.setup().require_material().ok();
-        let options = SimulationRunOptions { forces: material.is_some(), ..*options };
+        let options = SimulationRunOptions { forces: material.is_some(), ..options.within_limits(watch) };
         let plan = machining.estimate_cost(&options)?;
         let mut gathering = simulation_collector::SimulationCollector::new(machining, plan.cell_mm);
         let mut sink = |cut: &crate::simulation_run::EngagedMotion<'_>| gathering.add_motion(cut);

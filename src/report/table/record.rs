@@ -2,7 +2,7 @@
 
 use super::column::Column;
 use super::table_value::{PeakPlace, TableValue};
-use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
+use crate::presentation::safe_text::{is_hidden_character, to_safe_line};
 use crate::report::rounding::round_to_micro;
 use serde::ser::{SerializeMap, SerializeSeq};
 use serde::{Serialize, Serializer};
@@ -176,6 +176,17 @@ impl<R, W: Write> CsvTable<R, W> {
     }
 }
 
+/// Returns a text as a cell that a spreadsheet shows and does not run. A text that begins as a formula does, with
+/// `=`, `+`, `-`, `@` or a control character, gets an apostrophe in front, which spreadsheets take for "this is text".
+/// A text that is a number stays one, and hidden characters are replaced.
+fn to_csv_text(text: &str) -> String {
+    let begins_formula =
+        text.starts_with(|first: char| matches!(first, '=' | '+' | '-' | '@') || is_hidden_character(first));
+    let is_number = text.parse::<f64>().is_ok();
+    let shown = to_safe_line(text);
+    if begins_formula && !is_number { format!("'{shown}") } else { shown }
+}
+
 struct CsvRow<'a, R> {
     columns: &'a [Column<R>],
     row: &'a R,
@@ -191,7 +202,7 @@ impl<R> Serialize for CsvRow<'_, R> {
             match column.value(self.row) {
                 TableValue::Missing => cells.serialize_element(&None::<f64>)?,
                 TableValue::Text(text) | TableValue::Reference { name: text, .. } => {
-                    cells.serialize_element(text.as_ref())?;
+                    cells.serialize_element(&to_csv_text(text.as_ref()))?;
                 }
                 TableValue::Flag(flag) => cells.serialize_element(&flag)?,
                 TableValue::Count(count) => cells.serialize_element(&count)?,
@@ -221,5 +232,28 @@ fn to_io_error(error: csv::Error) -> io::Error {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => error,
         other => io::Error::other(format!("{other:?}")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::to_csv_text;
+
+    #[test]
+    fn no_text_is_a_formula_and_numbers_stay_numbers() {
+        for (text, cell) in [
+            ("=1+2", "'=1+2"),
+            ("+CHAMFER", "'+CHAMFER"),
+            ("-2+3 FACE", "'-2+3 FACE"),
+            ("@SUM(A1)", "'@SUM(A1)"),
+            ("\t=1", "'=1"),
+            ("\u{202e}REVERSED", "'\u{fffd}REVERSED"),
+            ("POCKET-1", "POCKET-1"),
+            ("-12.5", "-12.5"),
+            ("+3", "+3"),
+            ("", ""),
+        ] {
+            assert_eq!(to_csv_text(text), cell);
+        }
     }
 }

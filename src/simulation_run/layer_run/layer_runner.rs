@@ -149,7 +149,8 @@ impl<'r> LayerRunner<'r> {
                 machining.units.mm_per_unit(),
                 options.tolerance_mm,
                 options.longest_piece_mm,
-            ),
+            )
+            .with_air_clip(machining.surroundings_of_stock()),
             mills,
             faults: FaultCollector::default(),
             steps: Vec::new(),
@@ -166,6 +167,9 @@ impl<'r> LayerRunner<'r> {
         let left_out = self.check_uncut(&motion, cutter);
         if let Some(cutter) = cutter.filter(|_| left_out.is_none()) {
             self.trace.append_pieces(&motion, cutter, &mut self.steps);
+        }
+        if self.trace.take_limit_reached() {
+            self.faults.report_piece_limit(self.machining.program, &motion);
         }
         let steps = start..self.steps.len();
         self.waiting.push(WaitingMotion { motion, line, cutter, left_out, steps });
@@ -201,7 +205,14 @@ impl<'r> LayerRunner<'r> {
         let nothing = FlatMill { radius_mm: 0.0, flute_length_mm: 0.0 };
         let mills: Vec<FlatMill> =
             self.mills.iter().map(|mill| mill.as_ref().copied().unwrap_or(nothing)).collect();
-        let pieces: Vec<PathPiece> = self.steps.iter().map(|step| step.piece).collect();
+        let air = self.machining.surroundings_of_stock();
+        // A piece that goes far away through the air cuts nothing, but finding that out would take long.
+        let near = |step: &MotionPiece| {
+            let [from, to] = [step.piece.from.point, step.piece.to.point].map(|point| point.coords.into());
+            let is_air = air.is_far_air(from, to);
+            if is_air { PathPiece { to: step.piece.from, ..step.piece } } else { step.piece }
+        };
+        let pieces: Vec<PathPiece> = self.steps.iter().map(near).collect();
         let chips = cut_chips(&mut self.stack, &mills, &pieces, self.options.tolerance_mm);
         let bounds = self.machining.stock.bounds();
         let harmless = |step: &MotionPiece| {

@@ -6,7 +6,7 @@
 //! edges and the inside, and does not use the code that lowers cutters, so it is an independent proof.
 
 use super::triangle_columns::TriangleColumns;
-use crate::stock::Mesh;
+use crate::stock::{AirClip, Mesh};
 use nalgebra::Vector3;
 
 type Triangle = [Vector3<f64>; 3];
@@ -31,6 +31,8 @@ pub(crate) struct BallClearanceField {
     radius: f64,
     columns: TriangleColumns,
     triangles: Vec<(Triangle, Vector3<f64>, Vector3<f64>)>,
+    /// Outside of it, the distance is more than the radius, which is the most that is told.
+    air: AirClip,
 }
 
 impl BallClearanceField {
@@ -44,6 +46,7 @@ impl BallClearanceField {
             radius: radius_mm,
             columns: TriangleColumns::new(mesh, radius_mm),
             triangles: mesh.triangle_vertices().map(bounded).collect(),
+            air: AirClip::around_from_above(mesh.bounds(), 2.0 * radius_mm),
         }
     }
 
@@ -63,7 +66,8 @@ impl BallClearanceField {
             let [from, to] = [*from, *to].map(Vector3::from);
             let length = (to - from).norm();
             let count = (length / step_mm).ceil().max(1.0);
-            let mut index = 1.0;
+            let near = self.air.near_steps(from.into(), to.into(), count);
+            let mut index = near[0];
             while index <= count {
                 let tip: [f64; 3] = from.lerp(&to, index / count).into();
                 // The distance cannot grow by more than the travel since the sample before.
@@ -74,7 +78,7 @@ impl BallClearanceField {
                 if distance > found.high_mm {
                     (found.high_mm, found.high_at_mm) = (distance, tip);
                 }
-                index += 1.0;
+                index = AirClip::step_behind(index, near, count);
             }
         }
         Some(found)

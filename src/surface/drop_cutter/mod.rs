@@ -21,7 +21,7 @@ pub(crate) use ball_clearance::BallClearanceField;
 pub use cutter_shape::{CutterShapeError, DropCutterShape};
 pub use path_deviation::{PathDeviation, measure_deviation};
 
-use crate::stock::Mesh;
+use crate::stock::{AirClip, Mesh};
 use facet_contact::{Facet, HighestTouch};
 use facet_tree::{FacetTreeNode, NodeChildren};
 
@@ -47,6 +47,8 @@ pub struct DropCutter {
     facets: Vec<Facet>,
     /// The nodes of the tree; the first one is the root.
     nodes: Vec<FacetTreeNode>,
+    /// Where triangles may be under the cutter.
+    air: AirClip,
 }
 
 /// The position of a lowered cutter.
@@ -67,12 +69,18 @@ impl DropCutter {
         let mut facets: Vec<Facet> =
             mesh.triangle_vertices().map(|corners| Facet::new(corners, &cutter)).collect();
         let nodes = facet_tree::build_tree(&mut facets);
-        Self { cutter, facets, nodes }
+        let air = AirClip::around_from_above(mesh.bounds(), cutter.radius_mm());
+        Self { cutter, facets, nodes, air }
     }
 
     /// Returns the cutter.
     pub fn cutter(&self) -> DropCutterShape {
         self.cutter
+    }
+
+    /// Returns the box outside of which no triangle is under the cutter.
+    pub fn surroundings(&self) -> AirClip {
+        self.air
     }
 
     /// Returns the lowest height of the tip over (x, y), mm, at which no part of the mesh is inside the

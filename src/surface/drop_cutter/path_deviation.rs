@@ -8,7 +8,7 @@
 
 use super::DropCutterShape;
 use super::triangle_columns::TriangleColumns;
-use crate::stock::Mesh;
+use crate::stock::{AirClip, Mesh};
 use nalgebra::Vector3;
 
 type Triangle = [Vector3<f64>; 3];
@@ -42,6 +42,8 @@ pub fn measure_deviation(
     let first = path.first().filter(|_| path.iter().flatten().all(|value| value.is_finite()))?;
     let error = resolution / 2.0;
     let field = TriangleField::new(mesh, &cutter);
+    // Further away, the distance is more than the radius, which is the most that is told.
+    let air = AirClip::around_from_above(mesh.bounds(), 2.0 * cutter.radius_mm());
     let mut distance = field.distance_to_cutter(&cutter, *first, cutter.radius_mm(), error);
     let (mut low, mut low_at, mut high, mut high_at) = (distance, *first, distance, *first);
     for pair in path.windows(2) {
@@ -49,7 +51,8 @@ pub fn measure_deviation(
         let [from, to] = [*from, *to].map(Vector3::from);
         let length = (to - from).norm();
         let count = (length / resolution).ceil().max(1.0);
-        let mut index = 1.0;
+        let near = air.near_steps(from.into(), to.into(), count);
+        let mut index = near[0];
         while index <= count {
             let tip: [f64; 3] = from.lerp(&to, index / count).into();
             // The distance cannot grow by more than the travel since the sample before.
@@ -61,7 +64,7 @@ pub fn measure_deviation(
             if distance > high {
                 (high, high_at) = (distance, tip);
             }
-            index += 1.0;
+            index = AirClip::step_behind(index, near, count);
         }
     }
     Some(PathDeviation {

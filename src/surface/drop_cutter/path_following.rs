@@ -18,6 +18,7 @@
 //! narrower than the largest step; the cutter then stays above them.
 
 use super::{DropCutter, DropPosition, simplify};
+use crate::stock::AirClip;
 
 /// The finest tolerance, mm; a smaller one is replaced by it.
 const FINEST: f64 = 1e-6;
@@ -140,13 +141,15 @@ impl<'a> DropLeg<'a> {
         let count = (self.length / (4.0 * step)).ceil().max(1.0);
         let mut last = self.sample_at(0.0);
         let mut samples = vec![last];
-        let mut index = 1.0;
+        let [from, to] = [self.from, self.to].map(|[x, y]| [x, y, 0.0]);
+        let near = self.cutter.air.near_steps(from, to, count);
+        let mut index = near[0];
         while index <= count {
             let along = if index == count { self.length } else { self.length * (index / count) };
             let next = self.sample_at(along);
             self.refine_samples(last, next, &mut samples);
             last = next;
-            index += 1.0;
+            index = AirClip::step_behind(index, near, count);
         }
         samples
     }

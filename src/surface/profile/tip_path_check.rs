@@ -6,6 +6,9 @@ use super::chain_piece::{ChainPiece, Point};
 /// The number of samples in a block that is examined or skipped as a whole.
 const BLOCK: usize = 64;
 
+/// The largest number of samples of a chain: one lost decimal point would else take gigabytes and hours.
+const MOST_SAMPLES: f64 = 5e6;
+
 /// The deviation of a tip path from a profile, measured with samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -34,7 +37,11 @@ pub struct ProfileDeviation {
 /// radii, both results are within the bound: gouges are measured too small, gaps too large. Whether all of
 /// the profile was reached is not checked here: see
 /// [`find_unreachable_parts`](super::find_unreachable_parts).
+///
+/// A chain that would have more than five million samples gets them further apart, and the bound says so.
 pub fn check_tip_path(profile: &Chain, tip: &Chain, radius_mm: f64, step_mm: f64) -> ProfileDeviation {
+    let length_mm = |chain: &Chain| chain.pieces().iter().map(ChainPiece::length_mm).sum::<f64>();
+    let step_mm = step_mm.max(length_mm(profile).max(length_mm(tip)) / MOST_SAMPLES);
     let mut samples = Vec::new();
     sample_chain(profile, step_mm, |point, _| samples.push(point));
     samples.sort_by(|a, b| a.u.total_cmp(&b.u));
@@ -77,7 +84,7 @@ fn sample_chain(chain: &Chain, step: f64, mut give: impl FnMut(Point, bool)) {
     for piece in chain.pieces() {
         // A slightly tilted joint beside a wall counts as vertical.
         let upright = matches!(piece, ChainPiece::Line(line) if (line.to.u - line.from.u).abs() < 1e-9);
-        let count = (piece.length_mm() / step).ceil().clamp(1.0, 1e8) as usize;
+        let count = (piece.length_mm() / step).ceil().clamp(1.0, 2.0 * MOST_SAMPLES) as usize;
         for index in 0..=count {
             give(piece.point_at(index as f64 / count as f64), upright);
         }

@@ -13,7 +13,9 @@ use crate::number::format_point;
 use crate::parameters::FilePath;
 use crate::program::Program;
 use crate::program::motion::Motion;
-use crate::stock::Mesh;
+use crate::simulation_run::RunWatcher;
+use crate::source::read_file_bytes;
+use crate::stock::{AirClip, Mesh};
 use crate::surface::drop_cutter::{
     BallClearanceField, DropCutter, DropCutterShape, PathDeviation, measure_deviation,
 };
@@ -21,6 +23,7 @@ use crate::transform::StepContext;
 use crate::write::ProgramEditor;
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// The number of points at which all written passes together are measured. More points would take minutes.
@@ -62,8 +65,9 @@ pub(super) fn compensate_by_mesh(
     let near = find_contact_motions(job, motions, meant, &dropped);
     let runs = find_cutting_runs(motions, &near, mm_per_unit);
     let count = runs.len();
-    let made: Vec<Option<MeshPass>> =
-        runs.into_par_iter().map(|run| make_mesh_pass(job, motions, run, &dropped)).collect();
+    let watch = context.watch;
+    let make = |run| watch.check_stop().map(|()| make_mesh_pass(job, motions, run, &dropped));
+    let made = runs.into_par_iter().map(make).collect::<Result<Vec<Option<MeshPass>>, Failure>>()?;
     let all: Vec<MeshPass> = made.into_iter().flatten().collect();
     let beside = count - all.len();
     if all.is_empty() {
@@ -110,7 +114,7 @@ pub(super) fn compensate_by_mesh(
         place.build_failure(message.to_owned(), motion, "from here on", context)
     })?;
     prove_mesh_passes(job, &mesh, cutter, &after, &ranges, lift, &all, &mut reports, &place, context)?;
-    report_gouging_links(job, &dropped, &after, &ranges, lift, &program, context);
+    report_gouging_links(job, &dropped, &after, &ranges, lift, &program, context)?;
     let report = CompensateZReport::new("mesh", (job.radius, job.corner), job.tolerance);
     let report = CompensateZReport { passes: reports, beside, ..report };
     Ok((program, report))
@@ -142,7 +146,7 @@ fn read_mesh(path: &FilePath, mm_per_unit: f64, context: &StepContext<'_>) -> Re
     let fail = |why: String| {
         context.step_failure(format!("{} cannot be used: {why}", path.as_str()), &["against", "mesh"])
     };
-    let bytes = std::fs::read(context.resolve_file(path)).map_err(|error| fail(error.to_string()))?;
+    let bytes = read_file_bytes(&context.resolve_file(path)).map_err(|error| fail(error.to_string()))?;
     let mesh = Mesh::from_stl(&bytes).map_err(|error| fail(error.to_string()))?;
     if mm_per_unit == 1.0 {
         Ok(mesh)
@@ -215,7 +219,7 @@ fn prove_mesh_passes(
         points.map(|point| (point * mm_per_unit - lift).coords.into()).collect()
     };
     let paths: Vec<Vec<[f64; 3]>> = ranges.iter().map(path).collect();
-    let found = measure_tip_paths(job, mesh, cutter, &paths);
+    let found = measure_tip_paths(job, mesh, cutter, &paths, context.watch)?;
     for ((work, found), report) in all.iter().zip(found).zip(reports) {
         let Some(found) = found else { continue };
         report.gouge_mm = found.gouge_mm;
@@ -239,7 +243,8 @@ fn measure_tip_paths(
     mesh: &Mesh,
     cutter: DropCutterShape,
     paths: &[Vec<[f64; 3]>],
-) -> Vec<Option<PathDeviation>> {
+    watch: &dyn RunWatcher,
+) -> Result<Vec<Option<PathDeviation>>, Failure> {
     if job.corner == job.radius {
         // A ball that is free at two points d apart can dip between them into a sharp edge by the sagitta d^2
         // / (8 R). The step below keeps that to a tenth of the tolerance.
@@ -257,11 +262,15 @@ fn measure_tip_paths(
                 error_mm: error,
             })
         };
-        return paths.par_iter().map(one).collect();
+        return paths.par_iter().map(|path| watch.check_stop().map(|()| one(path))).collect();
     }
-    let length: f64 = paths.iter().flat_map(|path| path.windows(2)).map(segment_length).sum();
-    let resolution = job.tolerance.max(length / MEASURED_POINTS);
-    paths.par_iter().map(|path| measure_deviation(mesh, cutter, path, resolution)).collect()
+    // Of a way that goes far away, no more than this is over the model.
+    let far = AirClip::around_from_above(mesh.bounds(), 2.0 * job.radius).far_mm();
+    let length: f64 =
+        paths.iter().flat_map(|path| path.windows(2)).map(|pair| segment_length(pair).min(far)).sum();
+    let resolution = job.tolerance.max(length / LOOKS);
+    let measure = |path: &Vec<[f64; 3]>| measure_deviation(mesh, cutter, path, resolution);
+    paths.par_iter().map(|path| watch.check_stop().map(|()| measure(path))).collect()
 }
 
 fn segment_length(pair: &[[f64; 3]]) -> f64 {
@@ -280,15 +289,19 @@ fn report_gouging_links(
     lift: Vector3<f64>,
     program: &Program,
     context: &mut StepContext<'_>,
-) {
+) -> Result<(), Failure> {
     let mm_per_unit = job.file.mm_per_unit();
     let place = MotionFindings { program, motions: after };
-    let operations: Vec<usize> =
+    let operations: BTreeSet<usize> =
         ranges.iter().filter_map(|range| after.get(range.start)).map(|motion| motion.operation).collect();
     for (index, motion) in after.iter().enumerate() {
-        if !operations.contains(&motion.operation) || ranges.iter().any(|range| range.contains(&index)) {
+        // Passes follow each other, so the last one that begins before a motion is the one that may hold it.
+        let begun = ranges.partition_point(|range| range.start <= index);
+        let in_pass = begun.checked_sub(1).and_then(|last| ranges.get(last));
+        if !operations.contains(&motion.operation) || in_pass.is_some_and(|range| range.contains(&index)) {
             continue;
         }
+        context.watch.check_stop()?;
         let points = motion.path.sample_points(motion.from.point, motion.to.point);
         let deepest = points
             .windows(2)
@@ -305,6 +318,7 @@ fn report_gouging_links(
             ));
         }
     }
+    Ok(())
 }
 
 /// Returns how far a straight move goes below the lowest allowed height. It is measured at every eighth of
@@ -318,11 +332,16 @@ fn deepest_gouge_mm(
 ) -> f64 {
     let [from, to] = pair else { return 0.0 };
     let (from, to) = (from * mm_per_unit, to * mm_per_unit);
-    // Between two points R / 8 apart, a sharp edge lifts a ball by at most (R / 8)^2 / (8 R) = R / 512 more.
-    let count = ((to - from).xy().norm() / (job.radius / 8.0)).ceil().clamp(1.0, 1e5) as usize;
-    let below = |part: usize| {
-        let at = from + (to - from) * (part as f64 / count as f64);
+    let count = ((to - from).xy().norm() / (job.radius / 8.0)).ceil().max(1.0);
+    let below = |part: f64| {
+        let at = from + (to - from) * (part / count);
         cutter.drop_at(at.x, at.y).map_or(0.0, |drop| drop.tip_z_mm + lift - at.z)
     };
-    (0..=count).map(below).fold(0.0, f64::max)
+    let near = cutter.surroundings().near_steps(from.coords.into(), to.coords.into(), count);
+    let (mut deepest, mut part) = (below(0.0).max(0.0), near[0]);
+    while part <= count {
+        deepest = deepest.max(below(part));
+        part = AirClip::step_behind(part, near, count);
+    }
+    deepest
 }

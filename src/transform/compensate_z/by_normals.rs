@@ -174,13 +174,15 @@ fn build_reports(
     (contacts, owners): (&[BallContact], &[usize]),
     names: &PassReporter<'_>,
 ) -> Vec<PassReport> {
-    let all = find_gouges(contacts, job.radius, 0.0);
-    let deepest = |run: &Range<usize>| {
-        let own =
-            all.iter().filter(|gouge| owners.get(gouge.contact).is_some_and(|owner| run.contains(owner)));
-        own.map(|gouge| gouge.depth_mm).fold(0.0, f64::max)
-    };
-    runs.iter()
-        .map(|run| PassReport { gouge_mm: deepest(run), ..names.start_report(run, run.len()) })
-        .collect()
+    let mut reports: Vec<PassReport> = runs.iter().map(|run| names.start_report(run, run.len())).collect();
+    for gouge in find_gouges(contacts, job.radius, 0.0) {
+        let Some(owner) = owners.get(gouge.contact) else { continue };
+        // Runs follow each other, so the last one that begins before a motion is the one that may hold it.
+        let last = runs.partition_point(|run| run.start <= *owner).checked_sub(1);
+        let run = last.filter(|last| runs.get(*last).is_some_and(|run| run.contains(owner)));
+        if let Some(report) = run.and_then(|run| reports.get_mut(run)) {
+            report.gouge_mm = report.gouge_mm.max(gouge.depth_mm);
+        }
+    }
+    reports
 }

@@ -43,8 +43,9 @@ pub(super) fn compensate_by_profile(
     let ball = make_ball(job, writer.has_arcs());
     let found = find_vertical_passes(motions, meant, mm_per_unit)
         .map_err(|why| place.describe_no_pass(why, context))?;
-    let made: Vec<_> =
-        found.into_par_iter().map(|pass| make_profile_pass(pass, motions, mm_per_unit, &ball)).collect();
+    let watch = context.watch;
+    let make = |pass| watch.check_stop().map(|()| make_profile_pass(pass, motions, mm_per_unit, &ball));
+    let made = found.into_par_iter().map(make).collect::<Result<Vec<_>, Failure>>()?;
     let mut all: Vec<ProfilePass> = Vec::with_capacity(made.len());
     for made in made {
         all.push(made.map_err(|(motion, why)| place.describe_pass_fault(&why, motion, context))?);

@@ -106,7 +106,7 @@ impl OptimizeFeedJob {
             cell_mm: step.cell.map(Positive::get).map(|cell| cell * mm_per_unit),
             longest_piece_mm: longest,
             forces: limits.iter().any(|(criterion, _)| criterion.needs_material()),
-            ..SimulationRunOptions::default()
+            ..SimulationRunOptions::default().within_limits(context.watch)
         };
         let goals = FeedGoals { limits, rules, units: context.file_length_unit(program) };
         Ok(Self { goals, options, engagement })

@@ -5,9 +5,9 @@ use super::target_proof::touched_blocks;
 use crate::program::{Program, Record, Statement, StatementChange, StepId, operation};
 use crate::simulation_run::StockResolution;
 use crate::transform::optimize_feed::limit::FeedGoals;
-use crate::transform::optimize_feed::measure::{BlockMeasurement, MeasuredBlocks};
+use crate::transform::optimize_feed::measure::{BlockMeasurement, FeedBlock, MeasuredBlocks};
 use crate::transform::optimize_feed::plan::{TimedSegment, path_time_s};
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 pub(in crate::transform::optimize_feed) fn build_report(
     goals: &FeedGoals,
@@ -29,21 +29,32 @@ pub(in crate::transform::optimize_feed) fn build_report(
         .fold(0.0, f64::max);
     let names: Vec<String> =
         operation::find_operations(program).into_iter().map(|operation| operation.name).collect();
-    let of = |operation: Option<usize>| {
-        let name = operation.and_then(|index| names.get(index)).cloned().unwrap_or_default();
-        let [one, other] = [before, after].map(|gathered| sum_up_blocks(goals, gathered, operation, target));
-        OperationFeedReport {
-            name,
-            seconds_before: one.seconds,
-            seconds_after: other.seconds,
-            largest_before: one.largest,
-            largest_after: other.largest,
-            at_target_before: one.at_target,
-            at_target_after: other.at_target,
-        }
+    let sum_up = |pairs: &[MeasuredBlock<'_>]| sum_up_blocks(goals, pairs, target);
+    let of = |name: String, [one, other]: [BlockTotals; 2]| OperationFeedReport {
+        name,
+        seconds_before: one.seconds,
+        seconds_after: other.seconds,
+        largest_before: one.largest,
+        largest_after: other.largest,
+        at_target_before: one.at_target,
+        at_target_after: other.at_target,
     };
-    let used: BTreeSet<usize> = before.measurements.iter().map(|measurement| measurement.operation).collect();
-    let count = |fits: fn(&Record) -> bool, inserted: bool| count_changes(program, step, fits, inserted);
+    // A program may have tens of thousands of operations, so the blocks are gone through once for all of them.
+    let [by_operation, mut by_operation_after] = [before, after].map(group_by_operation);
+    let operations = by_operation.iter().map(|(operation, blocks)| {
+        let name = names.get(*operation).cloned().unwrap_or_default();
+        let blocks_after = by_operation_after.remove(operation).unwrap_or_default();
+        of(name, [sum_up(blocks), sum_up(&blocks_after)])
+    });
+    let operations = operations.collect();
+    let count = |fits: fn(&Record) -> bool, inserted: bool| {
+        let mine = |statement: &&Statement| match statement.change() {
+            StatementChange::Inserted(by) => inserted && by == step,
+            StatementChange::Edited(by) => !inserted && by == step,
+            _ => false,
+        };
+        program.statements().iter().filter(mine).filter(|statement| fits(statement.record())).count()
+    };
     let is_feed = |record: &Record| matches!(record, Record::Feed(_) | Record::Cycle(_));
     OptimizeFeedReport {
         criterion,
@@ -53,8 +64,8 @@ pub(in crate::transform::optimize_feed) fn build_report(
         layer_mm: layer,
         uncertainty,
         acceleration: goals.rules.max_acceleration,
-        whole: of(None),
-        operations: used.into_iter().map(|operation| of(Some(operation))).collect(),
+        whole: of(String::new(), [before, after].map(|gathered| sum_up(&list_blocks(gathered)))),
+        operations,
         feeds_added: count(is_feed, true),
         feeds_changed: count(is_feed, false),
         points_added: count(
@@ -64,27 +75,25 @@ pub(in crate::transform::optimize_feed) fn build_report(
     }
 }
 
-/// Counts the statements of a kind that a step put in, or that it changed.
-fn count_changes(program: &Program, step: StepId, fits: fn(&Record) -> bool, inserted: bool) -> usize {
-    let mine = |statement: &&Statement| match statement.change() {
-        StatementChange::Inserted(by) => inserted && by == step,
-        StatementChange::Edited(by) => !inserted && by == step,
-        _ => false,
-    };
-    program.statements().iter().filter(mine).filter(|statement| fits(statement.record())).count()
+/// A block with its measurement.
+type MeasuredBlock<'b> = (&'b FeedBlock, &'b BlockMeasurement);
+
+fn list_blocks(gathered: &MeasuredBlocks) -> Vec<MeasuredBlock<'_>> {
+    gathered.blocks.iter().zip(&gathered.measurements).collect()
 }
 
-fn sum_up_blocks(
-    goals: &FeedGoals,
-    gathered: &MeasuredBlocks,
-    operation: Option<usize>,
-    target: f64,
-) -> BlockTotals {
-    let mine =
-        |measurement: &BlockMeasurement| operation.is_none_or(|operation| measurement.operation == operation);
-    let pairs =
-        || gathered.blocks.iter().zip(&gathered.measurements).filter(|(_, measurement)| mine(measurement));
-    let segments: Vec<TimedSegment> = pairs()
+/// The blocks of each operation, in their order.
+fn group_by_operation(gathered: &MeasuredBlocks) -> BTreeMap<usize, Vec<MeasuredBlock<'_>>> {
+    let mut groups: BTreeMap<usize, Vec<MeasuredBlock<'_>>> = BTreeMap::new();
+    for pair in list_blocks(gathered) {
+        groups.entry(pair.1.operation).or_default().push(pair);
+    }
+    groups
+}
+
+fn sum_up_blocks(goals: &FeedGoals, pairs: &[MeasuredBlock<'_>], target: f64) -> BlockTotals {
+    let segments: Vec<TimedSegment> = pairs
+        .iter()
         .map(|(block, _)| TimedSegment {
             length: block.length,
             feed: block.programmed,
@@ -92,7 +101,8 @@ fn sum_up_blocks(
         })
         .collect();
     let (mut largest, mut cutting, mut at_target) = (0.0_f64, 0.0, 0.0);
-    for (block, measurement) in pairs().filter(|(block, measurement)| block.touched && measurement.cuts) {
+    for (block, measurement) in pairs.iter().filter(|(block, measurement)| block.touched && measurement.cuts)
+    {
         let estimate = measurement.measured.first().map_or(0.0, |[_, bound]| *bound);
         largest = largest.max(measurement.measured.first().map_or(0.0, |[estimate, _]| *estimate));
         cutting += block.length;

@@ -1,0 +1,168 @@
+//! Limits of memory and time for the work on one program.
+
+use super::input_files;
+use bytesize::ByteSize;
+use clap::Args;
+use clsmith::batch::memory_budget::estimate_memory_bytes;
+use clsmith::diagnostic::{Diagnostic, Failure, codes};
+use clsmith::source::Source;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// How often the memory of the process is looked at.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
+
+#[derive(Debug, Clone, Copy, Default, Args)]
+#[command(next_help_heading = "Limits")]
+pub struct MemoryLimitArgs {
+    /// Memory that the run may take: 512M, 2G, 1.5GiB. It ends with an error when it needs more
+    #[arg(long, value_name = "SIZE")]
+    memory: Option<ByteSize>,
+}
+
+#[derive(Debug, Clone, Copy, Default, Args)]
+#[command(next_help_heading = "Limits")]
+pub struct TimeLimitArgs {
+    /// Longest time for one program. It ends with an error when it takes longer, and nothing of it is written
+    #[arg(long, value_name = "SECONDS", value_parser = input_files::parse_seconds)]
+    time_limit: Option<Duration>,
+}
+
+impl MemoryLimitArgs {
+    /// The limits that these options and those of time ask for.
+    pub fn with_time(self, time: TimeLimitArgs) -> RunLimits {
+        RunLimits { memory_bytes: self.memory.map(|size| size.as_u64()), time: time.time_limit }
+    }
+}
+
+impl TimeLimitArgs {
+    /// The limits of a program of a batch, whose memory is planned for all programs together.
+    pub fn of_batch_file(self) -> RunLimits {
+        RunLimits { memory_bytes: None, time: self.time_limit }
+    }
+}
+
+/// What the work on one program may take.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct RunLimits {
+    /// Memory of the process, in bytes.
+    pub memory_bytes: Option<u64>,
+    /// Time.
+    pub time: Option<Duration>,
+}
+
+/// Looks whether the work on a program keeps its limits.
+#[derive(Debug)]
+pub struct RunLimitWatch {
+    limits: RunLimits,
+    program: Mutex<WatchedProgram>,
+}
+
+#[derive(Debug)]
+struct WatchedProgram {
+    name: String,
+    started: Instant,
+    looked: Option<Instant>,
+}
+
+impl RunLimitWatch {
+    /// Watches the work on a program that begins now.
+    pub fn new(limits: RunLimits, name: &str) -> Self {
+        Self { limits, program: Mutex::new(WatchedProgram::begin(name)) }
+    }
+
+    /// The work on the next program begins.
+    pub fn begin_program(&self, name: &str) {
+        *self.lock_program() = WatchedProgram::begin(name);
+    }
+
+    /// The largest memory of the process, in bytes.
+    pub fn memory_bytes(&self) -> Option<u64> {
+        self.limits.memory_bytes
+    }
+
+    /// Refuses a program before it is worked on if its size alone tells that it takes too much memory.
+    ///
+    /// # Errors
+    /// Returns [`codes::MEMORY_LIMIT`].
+    pub fn check_size(&self, source: &Source) -> Result<(), Failure> {
+        let Some(most) = self.limits.memory_bytes else { return Ok(()) };
+        let bytes = source.bytes();
+        // The samples of a large file would do, but it is in memory already.
+        let lines = bytes.iter().filter(|byte| **byte == b'\n').count();
+        let need = estimate_memory_bytes(bytes.len() as u64, lines as u64);
+        if need <= most {
+            return Ok(());
+        }
+        let [need, most] = [need, most].map(|bytes| ByteSize::b(bytes).display().si());
+        let message =
+            format!("{} may need {need} of memory, more than the {most} of `--memory`", source.name());
+        Err(Diagnostic::new(codes::MEMORY_LIMIT, message).into())
+    }
+
+    /// Looks whether the limits are kept; called from time to time.
+    ///
+    /// # Errors
+    /// Returns [`codes::TIME_LIMIT`] or [`codes::MEMORY_LIMIT`] once one of them is not.
+    pub fn check_limits(&self) -> Result<(), Failure> {
+        let mut program = self.lock_program();
+        panic_if_asked(&program.name);
+        if let Some(most) = self.limits.time.filter(|most| program.started.elapsed() > *most) {
+            let message =
+                format!("{} takes longer than the {} s of `--time-limit`", program.name, most.as_secs_f64());
+            return Err(Diagnostic::new(codes::TIME_LIMIT, message).into());
+        }
+        let Some(most) = self.limits.memory_bytes else { return Ok(()) };
+        if program.looked.is_some_and(|looked| looked.elapsed() < BETWEEN_LOOKS) {
+            return Ok(());
+        }
+        program.looked = Some(Instant::now());
+        match resident_memory_bytes() {
+            Some(taken) if taken > most => {
+                let [taken, most] = [taken, most].map(|bytes| ByteSize::b(bytes).display().si());
+                let message = format!(
+                    "{} has taken {taken} of memory, more than the {most} of `--memory`",
+                    program.name
+                );
+                Err(Diagnostic::new(codes::MEMORY_LIMIT, message).into())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn lock_program(&self) -> MutexGuard<'_, WatchedProgram> {
+        self.program.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl WatchedProgram {
+    fn begin(name: &str) -> Self {
+        Self { name: name.to_owned(), started: Instant::now(), looked: None }
+    }
+}
+
+/// The memory that this process takes at this moment; `None` where the system does not say it.
+fn resident_memory_bytes() -> Option<u64> {
+    use sysinfo::{ProcessRefreshKind, ProcessesToUpdate, System};
+    let own = sysinfo::get_current_pid().ok()?;
+    let mut system = System::new();
+    let kind = ProcessRefreshKind::nothing().with_memory();
+    system.refresh_processes_specifics(ProcessesToUpdate::Some(&[own]), false, kind);
+    system.process(own).map(sysinfo::Process::memory)
+}
+
+/// Panics for a program whose name holds what the environment variable `CLSMITH_TEST_PANIC` says: so tests see that the
+/// defect of clsmith in one file stops no other file. A release does not look at the variable.
+#[cfg(debug_assertions)]
+#[allow(clippy::panic)] // that is what it is for
+fn panic_if_asked(name: &str) {
+    if let Ok(mark) = std::env::var("CLSMITH_TEST_PANIC")
+        && !mark.is_empty()
+        && name.contains(&mark)
+    {
+        panic!("the test asked for it");
+    }
+}
+
+#[cfg(not(debug_assertions))]
+fn panic_if_asked(_: &str) {}

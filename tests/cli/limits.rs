@@ -1,0 +1,115 @@
+//! Limits of memory and time, and programs that would take far too much of both.
+
+use super::{clsmith, names};
+use assert_cmd::assert::Assert;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+const PROGRAM: &str = "RAPID\nGOTO/0.0,0.0,5.0\nFEDRAT/MMPM,800.0\nGOTO/10.0,0.0,-1.0\n";
+const RECIPE: &str = "version: 1\nsteps:\n  - scale_feed: { factor: 0.5 }\n";
+
+fn shop() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("part.cls"), PROGRAM).unwrap();
+    fs::write(folder.path().join("recipe.yaml"), RECIPE).unwrap();
+    folder
+}
+
+fn stderr(done: &Assert) -> String {
+    String::from_utf8_lossy(&done.get_output().stderr).into_owned()
+}
+
+/// A pocket with a coordinate that has lost its decimal point; the stock and the tool are in the recipe.
+fn lost_point() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let pocket = "TOOL PATH/POCKET,TOOL,EM12\nTLDATA/MILL,12.0000,0.0000,75.0000,0.0000,0.0000\nLOAD/TOOL,3,ADJUST,3\n\
+        SPINDL/RPM,3200,CLW\nRAPID\nGOTO/-20.0000,-10.0000,30.0000\nFEDRAT/MMPM,700.0000\nGOTO/-20.0000,-10.0000,-3.0000\n\
+        GOTO/20.0000,-10.0000,-3.0000\nGOTO/20.0000,100000000.0000,-3.0000\nGOTO/-20.0000,10.0000,-3.0000\n\
+        GOTO/-20.0000,-10.0000,-3.0000\nRAPID\nGOTO/-20.0000,-10.0000,30.0000\nEND-OF-PATH\n";
+    fs::write(folder.path().join("part.cls"), pocket).unwrap();
+    let setup = "  machine: { max_feed: 3000, rapid_feed: 15000 }\n  stock: { block: { from: [-35, -25, -15], to: [35, 25, 0] } }\n  \
+        tools: [ { match: {}, teeth: 3 } ]\n";
+    let recipe =
+        format!("version: 1\nsetup:\n{setup}steps:\n  - optimize_feed: {{ target: 0.08, air_feed: 2500 }}\n");
+    fs::write(folder.path().join("recipe.yaml"), recipe).unwrap();
+    fs::write(folder.path().join("shop.yaml"), setup.replace("\n  ", "\n").trim_start()).unwrap();
+    folder
+}
+
+/// A motion of 100 km took 11 GB and hours; nearly all of it is air.
+#[test]
+fn a_lost_decimal_point_takes_neither_memory_nor_hours() {
+    let folder = lost_point();
+    let begun = Instant::now();
+    for args in [
+        &["apply", "recipe.yaml", "part.cls", "-o", "out.cls", "--memory", "700M"][..],
+        &["simulate", "part.cls", "--setup", "shop.yaml", "--csv", "loads.csv", "--memory", "700M"],
+        &[
+            "chips",
+            "part.cls",
+            "--setup",
+            "shop.yaml",
+            "--layer",
+            "1",
+            "--csv",
+            "chips.csv",
+            "--memory",
+            "700M",
+        ],
+    ] {
+        let text = stderr(&clsmith(folder.path()).args(args).assert());
+        assert!(text.contains("CL0115"), "{args:?}: {text}");
+        assert!(!text.contains("CL0442"), "{args:?}: {text}");
+    }
+    // Some seconds for all three; a debug build on a busy machine gets more.
+    assert!(begun.elapsed() < Duration::from_secs(120), "{:?}", begun.elapsed());
+    assert!(folder.path().join("loads.csv").exists());
+}
+
+#[test]
+fn a_program_that_takes_too_long_is_an_error_and_not_written() {
+    let folder = shop();
+    let limit = ["--time-limit", "0.000000001"];
+    let apply = ["apply", "recipe.yaml", "part.cls", "-o", "out.cls"];
+    let done = clsmith(folder.path()).args(apply).args(limit).assert().code(1);
+    assert!(stderr(&done).contains("CL0441"), "{}", stderr(&done));
+    assert!(!folder.path().join("out.cls").exists());
+    let batch = ["batch", "--recipe", "recipe.yaml", "--out", "done", "*.cls"];
+    clsmith(folder.path()).args(batch).args(limit).assert().code(1);
+    let results = fs::read_to_string(folder.path().join("done/results.jsonl")).unwrap();
+    assert!(results.contains("CL0441"), "{results}");
+    let hook = ["hook", "--recipe", "recipe.yaml"];
+    clsmith(folder.path())
+        .args(hook)
+        .args(limit)
+        .args(["part.cls", "--", "cp", "{}", "out"])
+        .assert()
+        .code(125);
+    assert!(!names(folder.path()).contains(&PathBuf::from("out")));
+}
+
+#[test]
+fn a_program_that_takes_too_much_memory_is_an_error_and_not_written() {
+    let folder = shop();
+    let limit = ["--memory", "1M"];
+    let apply = ["apply", "recipe.yaml", "part.cls", "-o", "out.cls"];
+    let done = clsmith(folder.path()).args(apply).args(limit).assert().code(1);
+    assert!(stderr(&done).contains("CL0442") && stderr(&done).contains("1.0 MB"), "{}", stderr(&done));
+    assert!(!folder.path().join("out.cls").exists());
+    // The size of the program fits here, what the process takes does not.
+    let done = clsmith(folder.path()).args(apply).args(["--memory", "5M"]).assert().code(1);
+    assert!(stderr(&done).contains("has taken"), "{}", stderr(&done));
+}
+
+/// Whoever gives no limit gets none.
+#[test]
+fn limits_that_are_kept_change_nothing() {
+    let folder = shop();
+    let read = |name: &str| fs::read(folder.path().join(Path::new(name))).unwrap();
+    for (name, limits) in [("a.cls", &[][..]), ("b.cls", &["--memory", "2GiB", "--time-limit", "600"])] {
+        let apply = ["apply", "recipe.yaml", "part.cls", "-o", name];
+        clsmith(folder.path()).args(apply).args(limits).assert().success();
+    }
+    assert_eq!(read("a.cls"), read("b.cls"));
+}
