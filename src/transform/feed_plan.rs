@@ -36,6 +36,13 @@ pub struct FeedPlan {
     threads: KeptThreads,
 }
 
+/// What a plan does with feeds that are the pitch times the spindle speed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum ThreadFeeds {
+    Kept,
+    Changed,
+}
+
 /// Taps and thread passes whose feed a step would have changed. It is the pitch times the spindle speed, so it is kept.
 #[derive(Debug, Default)]
 struct KeptThreads {
@@ -86,8 +93,22 @@ impl FeedPlan {
 
     /// Does the same as [`FeedPlan::for_motions`], but `want` also gets the index of the motion among all
     /// motions of the program.
-    pub fn for_numbered_motions(
+    pub fn for_numbered_motions(program: &Program, want: impl FnMut(usize, &Motion) -> Option<f64>) -> Self {
+        Self::collect_wishes(program, ThreadFeeds::Kept, want)
+    }
+
+    /// Does the same as [`FeedPlan::for_numbered_motions`], but also changes the feeds of taps and threads: for a step
+    /// that changes the spindle speed, so that the pitch stays.
+    pub(super) fn for_motions_and_threads(
         program: &Program,
+        want: impl FnMut(usize, &Motion) -> Option<f64>,
+    ) -> Self {
+        Self::collect_wishes(program, ThreadFeeds::Changed, want)
+    }
+
+    fn collect_wishes(
+        program: &Program,
+        thread_feeds: ThreadFeeds,
         mut want: impl FnMut(usize, &Motion) -> Option<f64>,
     ) -> Self {
         let mut wishes = Vec::new();
@@ -102,7 +123,7 @@ impl FeedPlan {
                 continue;
             };
             let mut wanted = want(number, &motion).unwrap_or(feed.value);
-            if motion.cuts_thread && wanted != feed.value {
+            if motion.cuts_thread && wanted != feed.value && thread_feeds == ThreadFeeds::Kept {
                 threads.add_motion(&motion);
                 wanted = feed.value;
             }

@@ -85,7 +85,7 @@ fn reports_share_no_file_with_anything() {
             &["-o", "a.cls", "--report", "a.html", "--summary", "a.html"],
             "--summary and --report name one file",
         ),
-        (&["-o", "-", "--report", "-"], "--report - shares standard output"),
+        (&["-o", "-", "--report", "-"], "--report - would go to standard output"),
         (&["--dry-run", "--report", "-", "--summary", "-"], "both write to standard output"),
         (&["part.cls", "--dry-run", "--report", "a.html"], "--report shows one program"),
     ] {

@@ -86,6 +86,8 @@ pub struct ApplyArgs {
     #[command(flatten)]
     time: TimeLimitArgs,
     #[command(flatten)]
+    display: DisplayArgs,
+    #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
 }
 

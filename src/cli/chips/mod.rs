@@ -99,6 +99,8 @@ pub struct ChipsArgs {
     #[command(flatten)]
     time: TimeLimitArgs,
     #[command(flatten)]
+    display: DisplayArgs,
+    #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
 }
 

@@ -106,6 +106,8 @@ pub struct SimulateArgs {
     #[command(flatten)]
     time: TimeLimitArgs,
     #[command(flatten)]
+    display: DisplayArgs,
+    #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
 }
 

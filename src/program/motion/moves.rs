@@ -305,7 +305,7 @@ impl Motions<'_> {
             (SpindleUnit::SurfaceFeet, speed) => speed * 0.3048,
         };
         let data = self.state.tool.as_ref().and_then(|tool| tool.data.as_ref());
-        let turns = data.is_none_or(|data| data.word == ToolWord::TlDataOther || data.length.is_none());
+        let turns = data.is_some_and(|data| data.word == ToolWord::TlDataOther || data.length.is_none());
         if !turns || from.point.y != 0.0 || to.point.y != 0.0 {
             return None;
         }

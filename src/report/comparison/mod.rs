@@ -271,7 +271,7 @@ fn list_assumptions(
     for simulated in [&runs.before, &runs.after].into_iter().flatten() {
         let accuracy = &simulated.accuracy;
         said.push(format!(
-            "simulated with columns {} apart: borders of material are known to {} across z, curves to {}",
+            "simulated with columns {} apart: boundaries of material are known to {} across z, curves to {}",
             units.tell_trimmed(ColumnUnit::Length, accuracy.cell_mm, 3),
             units.tell_trimmed(ColumnUnit::Length, accuracy.lateral_mm, 3),
             units.tell_trimmed(ColumnUnit::Length, accuracy.chord_mm, 6)

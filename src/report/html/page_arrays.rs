@@ -1,4 +1,4 @@
-//! This module collects everything that scripts draw.
+//! Everything that scripts draw.
 
 use super::array_encoding::PageArray;
 use super::listing::ProgramListing;
@@ -14,18 +14,18 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
-/// A browser cannot open a page with more statements than this.
+/// More statements than this make no page that a browser opens.
 const MOST_STATEMENTS: usize = 6_000_000;
 
-/// A browser cannot open a page with more text than this, in bytes.
+/// Nor does more text, in bytes.
 const MOST_TEXT: usize = 300 << 20;
 
-/// The arrays, with remarks about them.
+/// The arrays, and what stands beside them.
 #[derive(Debug)]
 pub struct PageArrays {
     facts: Value,
     arrays: Vec<(String, PageArray)>,
-    /// The reasons why something is not drawn, and how the drawing is simplified.
+    /// Why something is not drawn, and how what is drawn is simplified.
     pub missing: Vec<String>,
 }
 
@@ -82,7 +82,7 @@ impl PageArrays {
         Self { facts, arrays, missing }
     }
 
-    /// Writes the arrays as elements of the page.
+    /// Writes them as elements of the page.
     pub fn write_elements(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(
             out,
@@ -95,8 +95,7 @@ impl PageArrays {
     }
 }
 
-/// Returns the origin of the drawing's coordinates. It is near the path, so that `f32` is precise enough, and
-/// in whole mm, so that nothing is rounded.
+/// Where the drawing's coordinates count from: near the path, so that `f32` is fine enough, and in whole mm, so that nothing is rounded.
 fn choose_drawing_origin(subject: &ComparisonSubject<'_>, program: &Program) -> [f64; 3] {
     let unit = subject.resolve_length_unit(program).unit.mm_per_unit();
     let first = ComparisonSubject::motions_after_start(program).next();
@@ -113,7 +112,7 @@ fn build_facts(
     origin: [f64; 3],
 ) -> Value {
     let side = |name: &str, side: &PageMotionArrays| {
-        let loads: Vec<&str> = side.loads.iter().map(|(name, _)| *name).collect();
+        let loads: Vec<&str> = side.loads.iter().map(|(name, ..)| *name).collect();
         let [tools, operations] = [&side.tools, &side.operations]
             .map(|names| names.iter().map(|name| to_safe_line(name)).collect::<Vec<_>>());
         json!({ "name": name, "tools": tools, "operations": operations, "loads": loads })

@@ -1,4 +1,4 @@
-//! This module writes chips as CSV and JSON.
+//! Chips as CSV and JSON.
 
 use super::chip_columns::{ChipLayerOfMotion, layer_columns, motion_columns};
 use super::json_formatter::DepthLimitedFormatter;
@@ -69,22 +69,9 @@ fn round_length(value_mm: f64, units: DisplayUnits) -> f64 {
 /// # Errors
 /// Returns the errors of `out`.
 pub fn write_json(report: &ChipReport, findings: &[Diagnostic], out: &mut dyn Write) -> io::Result<()> {
-    let columns = ChipJsonColumns::new();
-    let document = ChipDocument {
-        version: 1,
-        file: &report.file,
-        layer_mm: report.options.layer_mm,
-        tolerance_mm: report.options.tolerance_mm,
-        totals: &report.totals,
-        assumptions: &report.assumptions,
-        operations: &report.operations,
-        skipped: &report.skipped,
-        findings: FindingsJson::from_findings(findings),
-        motions: MotionList { rows: &report.rows, columns: &columns },
-    };
     let mut serializer =
         serde_json::Serializer::with_formatter(SafeJsonWriter(&mut *out), DepthLimitedFormatter::default());
-    document.serialize(&mut serializer)?;
+    ChipDocument { report, findings }.serialize(&mut serializer)?;
     out.write_all(b"\n")
 }
 

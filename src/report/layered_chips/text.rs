@@ -18,7 +18,7 @@ pub fn to_text(report: &ChipReport) -> String {
     let layers = report.left.layers().len();
     let _ = writeln!(
         out,
-        "  {} layers of {}, borders within {}",
+        "  {} layers of {}, boundaries within {}",
         format_count(layers as u64),
         units.tell_trimmed(ColumnUnit::Length, options.layer_mm, 3),
         units.tell_trimmed(ColumnUnit::Length, options.tolerance_mm, 3),
@@ -71,7 +71,7 @@ fn append_operations(out: &mut String, report: &ChipReport) {
 fn append_peaks(out: &mut String, report: &ChipReport) {
     let peaks = OperationChips::largest_of(&report.operations);
     let looks = TableLooks::plain(report.units);
-    for sentence in operation_columns().iter().filter_map(|column| looks.tell_peak(column, &peaks)) {
+    for sentence in operation_columns().iter().filter_map(|column| looks.word_peak(column, &peaks)) {
         let _ = writeln!(out, "  {sentence}");
     }
     if report.rows.iter().all(|row| row.volume_mm3 <= 0.0) {

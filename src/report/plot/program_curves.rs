@@ -217,11 +217,11 @@ fn build_curve(
             }
             PlotQuantity::Feed => {
                 let feed = moved.feed_mm_min.filter(|_| !moved.rapid);
-                stretches.push(PlotSegment { from, to, values: feed.map(|feed| [shown(feed); 2]) });
+                segments.push(PlotSegment { from, to, values: feed.map(|feed| [shown(feed); 2]) });
             }
             _ => {
                 let value = row.and_then(|row| quantity.row_value(row));
-                stretches.push(PlotSegment { from, to, values: value.map(|value| [shown(value); 2]) });
+                segments.push(PlotSegment { from, to, values: value.map(|value| [shown(value); 2]) });
             }
         }
     }

@@ -124,7 +124,7 @@ pub struct ReportedCost {
 pub struct SimulationAccuracy {
     /// Distance of columns, mm.
     pub cell_mm: f64,
-    /// Across z, borders of material are known to this, mm: half a cell.
+    /// Across z, boundaries of material are known to this, mm: half a cell.
     pub lateral_mm: f64,
     /// Arcs and splines run as chords that are no further than this from them, mm.
     pub chord_mm: f64,

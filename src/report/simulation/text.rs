@@ -32,7 +32,7 @@ fn append_stock(out: &mut String, simulated: &SimulationReport) {
     let (cost, accuracy, units) = (&simulated.cost, &simulated.accuracy, simulated.units);
     let _ = writeln!(
         out,
-        "  {} columns {} apart ({} MiB), about {:.0e} looks at them along {} of path",
+        "  {} columns {} apart ({} MiB), about {:.0e} readings of them along {} of path",
         format_count(cost.columns),
         units.tell_trimmed(ColumnUnit::Length, accuracy.cell_mm, 3),
         format_fixed(cost.bytes as f64 / f64::from(1 << 20), 1),
@@ -41,7 +41,7 @@ fn append_stock(out: &mut String, simulated: &SimulationReport) {
     );
     let _ = writeln!(
         out,
-        "  borders of material are known to {} across z, curves to {}",
+        "  boundaries of material are known to {} across z, curves to {}",
         units.tell_trimmed(ColumnUnit::Length, accuracy.lateral_mm, 4),
         units.tell_trimmed(ColumnUnit::Length, accuracy.chord_mm, 4),
     );
@@ -101,7 +101,7 @@ fn append_operations(out: &mut String, simulated: &SimulationReport) {
 
 fn append_peaks(out: &mut String, simulated: &SimulationReport) {
     let (totals, looks) = (&simulated.totals, TableLooks::plain(simulated.units));
-    for sentence in sum_columns().iter().filter_map(|column| looks.tell_peak(column, totals)) {
+    for sentence in sum_columns().iter().filter_map(|column| looks.word_peak(column, totals)) {
         let _ = writeln!(out, "  {sentence}");
     }
     if totals.cutting == 0 {

@@ -77,7 +77,7 @@ pub fn draw_time_series(series: &[ProgramTimeSeries]) -> io::Result<String> {
 }
 
 fn build_curve(series: &ProgramTimeSeries, value: impl Fn(&PlottedMotion) -> Option<f64>) -> PlotCurve {
-    let stretch = |moment: &PlottedMotion| PlotSegment {
+    let segment = |moment: &PlottedMotion| PlotSegment {
         from: moment.from_s,
         to: moment.to_s,
         values: value(moment).map(|value| [value; 2]),

@@ -1,7 +1,8 @@
-//! This module writes rows for machines: CSV tables and JSON objects.
+//! Rows for machines: CSV tables and JSON objects.
 
 use super::column::Column;
 use super::table_value::{PeakPlace, TableValue};
+use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use crate::presentation::safe_text::{is_hidden_character, to_safe_line};
 use crate::report::rounding::round_to_micro;
 use serde::ser::{SerializeMap, SerializeSeq};

@@ -95,7 +95,10 @@ struct CutterResolver<'a> {
 /// Makes a cone that stands on its tip (diameter 0) a cutter whose bottom is all of it. Returns diameter, taper and angle
 /// of the bottom; `None` for every other cutter.
 fn point_cutter(diameter_mm: f64, corner_mm: f64, taper_rad: f64, flutes_mm: f64) -> Option<(f64, f64, f64)> {
-    let pointed = diameter_mm <= SAME && corner_mm <= SAME && taper_rad > 0.0 && flutes_mm > 0.0;
+    let pointed = diameter_mm <= LENGTH_TOLERANCE_MM
+        && corner_mm <= LENGTH_TOLERANCE_MM
+        && taper_rad > 0.0
+        && flutes_mm > 0.0;
     pointed.then(|| (2.0 * flutes_mm * taper_rad.tan(), 0.0, FRAC_PI_2 - taper_rad))
 }
 

@@ -268,7 +268,7 @@ fn measure_tip_paths(
     let far = AirClip::around_from_above(mesh.bounds(), 2.0 * job.radius).far_mm();
     let length: f64 =
         paths.iter().flat_map(|path| path.windows(2)).map(|pair| segment_length(pair).min(far)).sum();
-    let resolution = job.tolerance.max(length / LOOKS);
+    let resolution = job.tolerance.max(length / MEASURED_POINTS);
     let measure = |path: &Vec<[f64; 3]>| measure_deviation(mesh, cutter, path, resolution);
     paths.par_iter().map(|path| watch.check_stop().map(|()| measure(path))).collect()
 }

@@ -31,7 +31,7 @@ impl TransformReport for CompensateZReport {
     /// the compensated path.
     fn build_panels(&self, units: DisplayUnits) -> Vec<PathPanel> {
         let drawn = self.passes.iter().filter(|pass| !pass.path.is_empty());
-        drawn.take(DRAWN).map(|pass| build_pass_panel(pass, units).convert_lengths(units)).collect()
+        drawn.take(MOST_DRAWN).map(|pass| build_pass_panel(pass, units).convert_lengths(units)).collect()
     }
 }
 
@@ -63,7 +63,7 @@ fn describe_passes(report: &CompensateZReport, units: DisplayUnits) -> String {
         .map(str::to_owned)
         .to_vec(),
     ];
-    rows.extend(report.passes.iter().take(TOLD).map(|pass| pass_cells(pass, units)));
+    rows.extend(report.passes.iter().take(MOST_ROWS).map(|pass| pass_cells(pass, units)));
     if report.passes.len() > 1 {
         rows.push(pass_cells(&summarize_passes(report), units));
     }

@@ -10,8 +10,9 @@ const MOST_DRAWN: usize = 12;
 /// Two panels for each ramp that was corrected: across the tool axis, and height along the path, with the steepest slope allowed.
 pub(super) fn build_ramp_panels(report: &CorrectRampReport, units: DisplayUnits) -> Vec<PathPanel> {
     let corrected = report.ramps.iter().filter(|ramp| ramp.outcome == RampOutcome::Corrected);
-    let panels =
-        corrected.take(DRAWN).flat_map(|ramp| [build_top_view(ramp, units), build_height_panel(ramp, units)]);
+    let panels = corrected
+        .take(MOST_DRAWN)
+        .flat_map(|ramp| [build_top_view(ramp, units), build_height_panel(ramp, units)]);
     panels.map(|panel| panel.convert_lengths(units)).collect()
 }
 
@@ -53,8 +54,8 @@ fn build_height_panel(ramp: &RampReport, units: DisplayUnits) -> PathPanel {
         points,
     };
     PathPanel {
-        title: "height along the way".to_owned(),
-        right: units.title("way across the tool axis", ColumnUnit::Length),
+        title: "height along the path".to_owned(),
+        right: units.title("distance across the tool axis", ColumnUnit::Length),
         up: units.title("z", ColumnUnit::Length),
         one_scale: false,
         paths: vec![

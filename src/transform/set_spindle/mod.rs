@@ -137,7 +137,7 @@ impl Transform for SetSpindle {
         report_speeds_of_cycles(&program, &selected, context);
         let plan = SpeedPlan::new(self.speed, &program, &selected, context);
         let (mut followed, mut taps) = (BTreeSet::new(), BTreeSet::new());
-        let feeds = FeedPlan::for_numbered_motions(&program, |number, motion| {
+        let feeds = FeedPlan::for_motions_and_threads(&program, |number, motion| {
             let speed = plan.find_motion(number).filter(|speed| speed.wanted != speed.programmed)?;
             let feed = motion.feed.filter(|feed| !feed.unit_or_default().is_per_revolution())?;
             if self.feeds == SpindleFeedHandling::Keep && !speed.is_tap {

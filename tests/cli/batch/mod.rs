@@ -130,7 +130,7 @@ fn the_summary_and_the_results_tell_what_happened() {
         "TOOL PATH/A,TOOL,T\nRAPID\nGOTO/0.0000,0.0000,50.0000\nEND-OF-PATH\n",
     );
     write(shop.path(), "programs/empty.cls", "$$ only a comment\n");
-    let done = batch(shop.path(), "done", &["--jobs", "2"]).code(1);
+    let done = batch(shop.path(), "done", &["--jobs", "1"]).code(1);
     let mut settings = support::snapshots("cli");
     settings.add_filter(r"in \d+\.\d s", "in [seconds]");
     settings.bind(|| insta::assert_snapshot!("batch_summary", format!("{}{}", stderr(&done), stdout(&done))));

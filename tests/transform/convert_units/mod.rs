@@ -120,7 +120,8 @@ INSERT/Stock Size X55. Y35. Z32.25
 DELAY/   50.000000
 ";
     let (after, findings) = apply("  - convert_units: { to: inch }", text);
-    assert_eq!(after, text.replace("UNITS/MM", "UNITS/INCHES"));
+    let inches = text.replace("UNITS/MM", "UNITS/INCHES").replace("1.500000,", "0.05905512,");
+    assert_eq!(after, inches);
     snapshots("convert_units").bind(|| insta::assert_snapshot!("reported", shown(&findings).join("\n")));
 }
 
