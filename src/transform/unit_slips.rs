@@ -5,16 +5,16 @@
 
 use super::StepContext;
 use crate::diagnostic::{Diagnostic, codes};
-use crate::program::Program;
-use crate::program::motion::Motion;
+use crate::program::{LengthUnit, Program, StatementId};
 use crate::setup::Setup;
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
 /// Factors outside are unusual: nobody makes a program twenty times slower or ten times faster on purpose.
-const USUAL_FACTORS: std::ops::RangeInclusive<f64> = 0.05..=10.0;
+const USUAL_FACTORS: RangeInclusive<f64> = 0.05..=10.0;
 
 /// Factors outside are absurd: a percentage that was not divided by 100 mostly is.
-const POSSIBLE_FACTORS: std::ops::RangeInclusive<f64> = 0.01..=50.0;
+const POSSIBLE_FACTORS: RangeInclusive<f64> = 0.01..=50.0;
 
 /// A feed that is so many times the machine's highest is a slip of units (25.4) or of a decimal point, no
 /// request.
@@ -34,16 +34,12 @@ pub(super) fn check_factor(factor: f64, keys: &[&str], context: &mut StepContext
 
 /// Finds the feeds of a program that are above the machine's `max_feed`, one finding for each statement that
 /// sets one.
-pub fn find_feeds_above_machine(
-    program: &Program,
-    setup: &Setup,
-    motion_unit: crate::program::LengthUnit,
-) -> Vec<Diagnostic> {
+pub fn find_feeds_above_machine(program: &Program, setup: &Setup, unit: LengthUnit) -> Vec<Diagnostic> {
     let Some(most) = setup.machine.max_feed.map(|feed| feed.get()) else { return Vec::new() };
-    let mut highest: BTreeMap<crate::program::StatementId, f64> = BTreeMap::new();
-    let feeds_above = program.motions().filter(|motion| !motion.rapid).filter_map(|motion: Motion| {
+    let mut highest: BTreeMap<StatementId, f64> = BTreeMap::new();
+    let feeds_above = program.motions().filter(|motion| !motion.rapid).filter_map(|motion| {
         let length = Some(motion.length());
-        let actual = motion.feed?.mm_per_minute(motion_unit, motion.spindle_rpm(), length)?;
+        let actual = motion.feed?.mm_per_minute(unit, motion.spindle_rpm(), length)?;
         // What arithmetic makes of the limit itself is not above it.
         (actual > most * (1.0 + 1e-6)).then_some((motion.feed_from?, actual))
     });
@@ -51,7 +47,7 @@ pub fn find_feeds_above_machine(
         let known = highest.entry(statement).or_insert(actual);
         *known = known.max(actual);
     }
-    let describe = |(statement, actual): (crate::program::StatementId, f64)| {
+    let describe = |(statement, actual): (StatementId, f64)| {
         let code = if actual > ABSURD_FEED * most { codes::ABSURD_VALUE } else { codes::FEED_ABOVE_MACHINE };
         let message = format!("this feed is {actual:.0} mm/min; the machine's `max_feed` is {most:.0}");
         let span = program.statement(statement).origin();

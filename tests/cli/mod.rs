@@ -4,6 +4,7 @@ mod apply;
 mod batch;
 mod chips;
 mod defects;
+mod display_units;
 mod first_steps;
 mod gates;
 mod hidden_text;

@@ -64,6 +64,7 @@ fn tools() {
             "tools: [ { match: { number: -3 } } ]",
             "tools: [ { match: { name: 3 } } ]",
             "tools: [ { match: {}, diametr: 5 } ]",
+            "tools: [ { match: {}, diameter: 0 } ]",
             "tools: [ { match: {}, diameter: 5 mm } ]",
             "tools: [ { match: {}, taper: 90 } ]",
             "tools: [ { match: {}, tip: -1 } ]",

@@ -52,7 +52,7 @@ pub fn to_text(stats: &ProgramStats) -> String {
 fn describe_unit_origin(from: LengthUnitOrigin) -> &'static str {
     match from {
         LengthUnitOrigin::File => "stated in the file",
-        LengthUnitOrigin::Caller => "as told; the file does not state it",
+        LengthUnitOrigin::Caller => "as given; the file does not state it",
         LengthUnitOrigin::Feeds => "from the unit of its feeds; the file does not state it",
         LengthUnitOrigin::Assumed => "assumed; the file does not state it",
         LengthUnitOrigin::Shown => "as asked for",
