@@ -5,7 +5,7 @@
 // A benchmark that cannot make its profile has nothing to measure.
 #![allow(clippy::expect_used)]
 
-use clsmith::surface::profile::{
+use clsmith::internals::surface::profile::{
     Chain, ChordSide, Point, compensate_profile, find_unreachable_parts, fit_chords, recover_profile,
 };
 use std::hint::black_box;

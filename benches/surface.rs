@@ -7,8 +7,8 @@
 #![allow(clippy::expect_used)]
 
 use clsmith::stock::Mesh;
-use clsmith::surface::drop_cutter::{DropCutter, DropCutterShape};
-use clsmith::surface::mesh_section::VerticalMeshSections;
+use clsmith::internals::surface::drop_cutter::{DropCutter, DropCutterShape};
+use clsmith::internals::surface::mesh_section::VerticalMeshSections;
 use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::time::Instant;

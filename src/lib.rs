@@ -148,7 +148,7 @@ pub mod cutter;
 #[cfg(feature = "simulation")]
 pub mod engagement;
 #[cfg(feature = "simulation")]
-pub mod layered_chips;
+mod layered_chips;
 #[cfg(feature = "simulation")]
 pub mod parameters;
 #[cfg(feature = "simulation")]
@@ -164,7 +164,7 @@ pub mod simulation_run;
 #[cfg(feature = "simulation")]
 pub mod stock;
 #[cfg(feature = "simulation")]
-pub mod surface;
+mod surface;
 #[cfg(feature = "simulation")]
 pub mod surface_milling;
 #[cfg(feature = "simulation")]
@@ -185,6 +185,10 @@ pub mod undo;
 
 #[cfg(feature = "cli")]
 pub mod batch;
+
+#[cfg(feature = "simulation")]
+#[doc(hidden)]
+pub mod internals;
 
 #[cfg(test)]
 #[path = "../tests/support/property.rs"]

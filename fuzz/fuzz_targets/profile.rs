@@ -3,7 +3,7 @@
 #![no_main]
 
 use clsmith::source::Source;
-use clsmith::surface::profile::{ChordSide, compensate_profile, fit_chords};
+use clsmith::internals::surface::profile::{ChordSide, compensate_profile, fit_chords};
 use clsmith::surface_milling::load_profile;
 use libfuzzer_sys::fuzz_target;
 

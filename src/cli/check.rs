@@ -12,7 +12,7 @@ use clsmith::program::Dialect;
 use clsmith::report::stats::ResolvedLengthUnit;
 use clsmith::setup::Setup;
 use clsmith::transform::correct_ramp::check_ramps;
-use clsmith::transform::unit_slips::find_feeds_above_machine;
+use clsmith::internals::transform::unit_slips::find_feeds_above_machine;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 

@@ -11,18 +11,18 @@
 //!
 //! Lengths are in mm, angles in radians, and points in the workpiece frame.
 
-pub mod area;
-pub mod boundary_diagram;
-pub mod chip;
+pub(crate) mod area;
+pub(crate) mod boundary_diagram;
+pub(crate) mod chip;
 mod engagement;
 mod interval;
 mod jet;
 mod layer_ellipse;
 mod mill_step;
-pub mod section_family;
-pub mod stack;
-pub mod stl_export;
-pub mod swept_area;
+pub(crate) mod section_family;
+pub(crate) mod stack;
+pub(crate) mod stl_export;
+pub(crate) mod swept_area;
 mod trig_polynomial;
 
 pub use area::Polygon;

@@ -5,6 +5,6 @@
 //! intersections) comes from the crate `geo`, nearest points from `rstar`. Nothing here knows CL text or
 //! recipes.
 
-pub mod drop_cutter;
-pub mod mesh_section;
-pub mod profile;
+pub(crate) mod drop_cutter;
+pub(crate) mod mesh_section;
+pub(crate) mod profile;

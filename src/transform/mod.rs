@@ -16,7 +16,7 @@ mod step_context;
 mod step_report;
 mod thread_pitches;
 mod unchanged_statements;
-pub mod unit_slips;
+pub(crate) mod unit_slips;
 
 pub use crate::presentation::path_panel::{PanelPath, PanelPathStyle, PathPanel};
 pub(crate) use affine::Affine;

@@ -1,7 +1,7 @@
 //! Vertical sections of meshes.
 
 use super::solids::{Triangles, cube, mesh, sphere, terrain, tetrahedron};
-use clsmith::surface::mesh_section::{VerticalMeshSections, section_mesh};
+use clsmith::internals::surface::mesh_section::{VerticalMeshSections, section_mesh};
 use proptest::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 

@@ -8,7 +8,7 @@ mod paths;
 
 use clsmith::program::{Dialect, LengthUnit, MotionClass};
 use clsmith::stock::Mesh;
-use clsmith::surface::profile::{Chain, Point};
+use clsmith::internals::surface::profile::{Chain, Point};
 use clsmith::surface_milling::{
     PassHeights, PassPattern, PassPlanes, SectionProfile, SurfaceMillingOptions, SurfacePart, SurfaceProgram,
     SurfaceProgramWords, make_surface_program,

@@ -11,7 +11,7 @@ use crate::program::operation;
 use crate::program::record::SpindleDirection;
 use crate::report::{statement_line, tool_name};
 use crate::simulation_run::{EngagedMotion, Machining};
-use crate::transform::optimize_feed::{TimedSegment, path_time_s};
+use crate::transform::optimize_feed::plan::{TimedSegment, path_time_s};
 use std::sync::Arc;
 
 /// The sums while motions are processed.

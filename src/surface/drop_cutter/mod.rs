@@ -29,7 +29,7 @@ use facet_tree::{FacetTreeNode, NodeChildren};
 ///
 /// ```
 /// use clsmith::stock::Mesh;
-/// use clsmith::surface::drop_cutter::{DropCutter, DropCutterShape};
+/// use clsmith::internals::surface::drop_cutter::{DropCutter, DropCutterShape};
 ///
 /// // A slope of 45 degrees: the lower face of a tetrahedron does not matter to a cutter from above.
 /// let corners = vec![[0.0, 0.0, 0.0], [40.0, 0.0, 0.0], [0.0, 40.0, 0.0], [0.0, 40.0, 40.0]];

@@ -106,7 +106,7 @@ impl VerticalMeshSections {
 ///
 /// ```
 /// use clsmith::stock::Mesh;
-/// use clsmith::surface::mesh_section::section_mesh;
+/// use clsmith::internals::surface::mesh_section::section_mesh;
 ///
 /// let corners = vec![[0.0, 0.0, 0.0], [8.0, 0.0, 0.0], [0.0, 8.0, 0.0], [0.0, 0.0, 8.0]];
 /// let tetrahedron = Mesh::new(corners, vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])?;

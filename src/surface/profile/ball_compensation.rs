@@ -48,7 +48,7 @@ pub enum BallCompensationError {
 /// section 3, with the loops of the offset removed.
 ///
 /// ```
-/// use clsmith::surface::profile::{Chain, Point, check_tip_path, compensate_profile};
+/// use clsmith::internals::surface::profile::{Chain, Point, check_tip_path, compensate_profile};
 ///
 /// let profile = Chain::from_points(&[Point::new(0.0, 0.0), Point::new(10.0, 0.0), Point::new(20.0, 10.0)])?;
 /// let tip = compensate_profile(&profile, 2.0)?;

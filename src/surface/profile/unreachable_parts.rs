@@ -38,7 +38,7 @@ struct TouchedPart {
 /// measured at the ends of pieces, and at the middle and the quarters of arcs.
 ///
 /// ```
-/// use clsmith::surface::profile::{Chain, Point, find_unreachable_parts};
+/// use clsmith::internals::surface::profile::{Chain, Point, find_unreachable_parts};
 ///
 /// let groove = [[0.0, 0.0], [10.0, 0.0], [11.0, -5.0], [12.0, 0.0], [22.0, 0.0]];
 /// let groove = Chain::from_points(&groove.map(|[u, z]| Point::new(u, z)))?;

@@ -17,7 +17,7 @@
 //! feed decreases during the descent, all new points are inserted where it is lowest. A ramp whose feed
 //! increases, or that is under CUTCOM, is not corrected.
 
-pub mod circumscribed_circle;
+pub(crate) mod circumscribed_circle;
 mod detour;
 mod findings;
 mod level_motions;
@@ -25,24 +25,24 @@ mod milled_area;
 mod parameters;
 mod planned_ramp;
 mod polygon_containment;
-pub mod ramp;
+pub(crate) mod ramp;
 mod ramp_check;
-mod ramp_correction;
+pub(crate) mod ramp_correction;
 mod ramp_cutter;
-pub mod ramp_kind;
-pub mod ramp_limits;
+pub(crate) mod ramp_kind;
+pub(crate) mod ramp_limits;
 mod ramp_panels;
-pub mod ramp_passes;
+pub(crate) mod ramp_passes;
 mod ramp_proof;
 mod ramp_search;
 mod ramp_writer;
 mod report;
 mod report_text;
 mod step;
-pub mod tool_region;
+pub(crate) mod tool_region;
 
 pub use milled_area::MilledArea;
 pub use parameters::{CorrectRamp, ImpossibleRampHandling, PlungeHandling, RampRegionSpec, RampToolSpec};
 pub use ramp_check::check_ramps;
-pub use ramp_correction::{CorrectedRamp, ImpossibleCorrection, LengtheningMethod, RampTask, correct_ramp};
+pub use ramp_correction::{ImpossibleCorrection, LengtheningMethod};
 pub use report::{CorrectRampReport, RampOutcome, RampReport};

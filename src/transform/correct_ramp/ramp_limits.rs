@@ -7,13 +7,13 @@ use std::fmt;
 /// An indexable cutter. It does not cut within `diameter - 2 insert_radius` around its axis.
 ///
 /// ```
-/// use clsmith::transform::correct_ramp::ramp_limits::IndexableCutter;
+/// use clsmith::internals::transform::correct_ramp::ramp_limits::IndexableCutter;
 ///
 /// let face_mill = IndexableCutter { diameter: 50.0, insert_radius: 6.0, insert_height: 5.0 };
 /// let limits = face_mill.ramp_limits()?;
 /// assert_eq!(limits.shortest_leg, 38.0);
 /// assert!((limits.steepest.atan().to_degrees() - 7.5).abs() < 0.01);
-/// # Ok::<(), clsmith::transform::correct_ramp::ramp_limits::CutsToCentre>(())
+/// # Ok::<(), clsmith::internals::transform::correct_ramp::ramp_limits::CutsToCentre>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IndexableCutter {

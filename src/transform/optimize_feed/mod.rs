@@ -11,20 +11,15 @@
 //! them. A motion part is one of the motions that a motion becomes in the CL text where its block has several
 //! segments.
 
-mod limit;
-mod measure;
+pub(crate) mod limit;
+pub(crate) mod measure;
 mod parameters;
-mod plan;
+pub(crate) mod plan;
 mod prove;
 mod step;
 mod target_slips;
-mod write;
+pub(crate) mod write;
 
-pub use limit::{FeedRules, FeedWindow, SplitRule};
-pub use measure::{FeedBlock, FeedLimit, LimitedPiece, LoadCriterion};
+pub use measure::LoadCriterion;
 pub use parameters::{EngagementSpec, LoadLimitSpec, OptimizeFeed, SplitSpec, WindowSpec};
-pub use plan::{
-    BlockFeeds, PlannedSegment, TimedSegment, path_time_s, plan_block_feeds, speed_change_distance_mm,
-};
 pub use prove::{OperationFeedReport, OptimizeFeedReport};
-pub use write::{SplitProgram, UnsplitReason, split_motions};

@@ -2,7 +2,7 @@
 
 use super::super::solids::{cube, mesh, sphere};
 use super::cutters;
-use clsmith::surface::drop_cutter::{DropCutterShape, measure_deviation};
+use clsmith::internals::surface::drop_cutter::{DropCutterShape, measure_deviation};
 
 #[test]
 fn depth_and_height_over_a_plane() {

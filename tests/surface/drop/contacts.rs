@@ -3,7 +3,7 @@
 use super::super::solids::{cube, mesh, sphere, terrain};
 use super::{cutters, over, tip};
 use clsmith::stock::Mesh;
-use clsmith::surface::drop_cutter::{DropCutter, DropCutterShape};
+use clsmith::internals::surface::drop_cutter::{DropCutter, DropCutterShape};
 
 fn near(found: f64, expected: f64, within: f64) {
     assert!((found - expected).abs() <= within, "{found} is not {expected}");

@@ -2,7 +2,7 @@
 
 use super::super::solids::{blade, mesh, needle};
 use super::{cutters, largest, over, tip};
-use clsmith::surface::drop_cutter::{DropCutterShape, measure_deviation};
+use clsmith::internals::surface::drop_cutter::{DropCutterShape, measure_deviation};
 use proptest::prelude::*;
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::super::solids::{Triangles, cube, mesh, needle, terrain};
 use super::{cutters, over, tip};
-use clsmith::surface::drop_cutter::{DropCutter, DropCutterShape, measure_deviation};
+use clsmith::internals::surface::drop_cutter::{DropCutter, DropCutterShape, measure_deviation};
 
 fn waves() -> Triangles {
     terrain(30.0, 60, |x, y| 2.0 * (x / 4.0).sin() * (y / 5.0).cos())

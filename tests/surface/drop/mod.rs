@@ -7,7 +7,7 @@ mod follow;
 mod soups;
 
 use super::solids::{Triangles, mesh};
-use clsmith::surface::drop_cutter::{DropCutter, DropCutterShape};
+use clsmith::internals::surface::drop_cutter::{DropCutter, DropCutterShape};
 
 /// Ball, bull-nose and flat end of 10 mm.
 fn cutters() -> [DropCutterShape; 3] {

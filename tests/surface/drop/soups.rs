@@ -2,7 +2,7 @@
 
 use super::super::solids::{Triangles, mesh, tetrahedron};
 use super::{over, searched_all};
-use clsmith::surface::drop_cutter::{DropCutterShape, measure_deviation};
+use clsmith::internals::surface::drop_cutter::{DropCutterShape, measure_deviation};
 use proptest::prelude::*;
 
 /// Corners on a coarse grid, where much is upright, level or in line, or anywhere.

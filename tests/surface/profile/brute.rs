@@ -1,6 +1,6 @@
 //! The envelope by brute force, for comparison.
 
-use clsmith::surface::profile::{Chain, ChainPiece, Point};
+use clsmith::internals::surface::profile::{Chain, ChainPiece, Point};
 
 /// A chain through points.
 pub fn polyline(points: &[[f64; 2]]) -> Chain {

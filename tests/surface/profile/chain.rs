@@ -1,6 +1,6 @@
 //! What makes a chain.
 
-use clsmith::surface::profile::{Chain, ChainError, ChainPiece, LARGEST, Point};
+use clsmith::internals::surface::profile::{Chain, ChainError, ChainPiece, LARGEST, Point};
 use std::f64::consts::PI;
 
 const O: Point = Point::new(0.0, 0.0);

@@ -2,7 +2,7 @@
 
 use super::brute::polyline;
 use crate::support::within_seconds;
-use clsmith::surface::profile::{
+use clsmith::internals::surface::profile::{
     Chain, ChainPiece, ChordError, ChordSide, Point, compensate_profile, fit_chords,
 };
 use std::f64::consts::PI;

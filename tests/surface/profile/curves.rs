@@ -1,7 +1,7 @@
 //! Curves that become chains.
 
 use clsmith::program::geometry::Spline;
-use clsmith::surface::profile::{
+use clsmith::internals::surface::profile::{
     Chain, EllipseArc, NurbsCurve, NurbsError, ParametricCurve, Point, ProfilePlane, check_tip_path,
     compensate_profile, to_arcs, to_chords,
 };

@@ -1,7 +1,7 @@
 //! Where a tip path starts and ends: free ends, walls, overhangs.
 
 use super::brute::{assert_runs, assert_touches, polyline};
-use clsmith::surface::profile::{Chain, ChainPiece, Point, compensate_profile};
+use clsmith::internals::surface::profile::{Chain, ChainPiece, Point, compensate_profile};
 use std::f64::consts::PI;
 
 const R: f64 = 5.0;

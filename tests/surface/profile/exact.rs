@@ -2,7 +2,7 @@
 
 use super::brute::{assert_runs, assert_touches, height, polyline};
 use crate::support::within_seconds;
-use clsmith::surface::profile::{
+use clsmith::internals::surface::profile::{
     BallCompensationError, Chain, ChainPiece, Point, check_tip_path, compensate_profile,
 };
 use std::f64::consts::{FRAC_PI_2, PI};

@@ -1,7 +1,7 @@
 //! What holds for any profile.
 
 use super::brute::{assert_runs, clearance, polyline};
-use clsmith::surface::profile::{
+use clsmith::internals::surface::profile::{
     Chain, ChainPiece, ChordSide, LARGEST, Point, compensate_profile, find_unreachable_parts, fit_chords,
     recover_profile,
 };

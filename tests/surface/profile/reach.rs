@@ -1,7 +1,7 @@
 //! What the ball does not touch.
 
 use super::brute::polyline;
-use clsmith::surface::profile::{Chain, ChainPiece, Point, find_unreachable_parts};
+use clsmith::internals::surface::profile::{Chain, ChainPiece, Point, find_unreachable_parts};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 const R: f64 = 5.0;

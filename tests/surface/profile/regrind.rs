@@ -1,7 +1,7 @@
 //! A reground ball: tip path, contact profile, and the other ball's tip path.
 
 use super::brute::{assert_runs, polyline};
-use clsmith::surface::profile::{
+use clsmith::internals::surface::profile::{
     Chain, ChainPiece, Point, check_tip_path, compensate_profile, recover_profile,
 };
 use std::f64::consts::PI;

@@ -1,6 +1,6 @@
 //! Feeds from loads, rule by rule.
 
-use clsmith::transform::optimize_feed::{
+use clsmith::internals::transform::optimize_feed::{
     BlockFeeds, FeedBlock, FeedLimit, FeedRules, FeedWindow, LimitedPiece, SplitRule, plan_block_feeds,
 };
 

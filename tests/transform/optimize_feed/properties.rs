@@ -1,7 +1,7 @@
 //! What holds for every path.
 
-use clsmith::transform::optimize_feed::path_time_s;
-use clsmith::transform::optimize_feed::{
+use clsmith::internals::transform::optimize_feed::path_time_s;
+use clsmith::internals::transform::optimize_feed::{
     BlockFeeds, FeedBlock, FeedLimit, FeedRules, FeedWindow, LimitedPiece, SplitRule, plan_block_feeds,
 };
 use proptest::prelude::*;
@@ -69,7 +69,7 @@ fn places(block: &FeedBlock) -> Vec<(f64, f64, FeedLimit)> {
 /// Parts of a block with their places in it, in mm, and feeds.
 fn parts(block: &FeedBlock, found: &BlockFeeds, index: usize) -> Vec<(f64, f64, f64)> {
     let mut start = 0.0;
-    let part = |part: &clsmith::transform::optimize_feed::PlannedSegment| {
+    let part = |part: &clsmith::internals::transform::optimize_feed::PlannedSegment| {
         let from = start;
         start = part.end * block.length;
         (from, start, part.feed)

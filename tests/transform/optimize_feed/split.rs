@@ -2,7 +2,7 @@
 
 use crate::support;
 use clsmith::program::{Dialect, StepId};
-use clsmith::transform::optimize_feed::{SplitProgram, UnsplitReason, split_motions};
+use clsmith::internals::transform::optimize_feed::{SplitProgram, UnsplitReason, split_motions};
 
 /// Splits one motion and gives the text and the result.
 fn split_one(dialect: Dialect, text: &str, motion: usize, shares: &[f64]) -> (String, SplitProgram) {

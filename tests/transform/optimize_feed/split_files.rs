@@ -4,7 +4,7 @@ use crate::support;
 use clsmith::program::geometry::MotionPath as ClPath;
 use clsmith::program::motion::Motion;
 use clsmith::program::{Dialect, Program, Record, StatementChange, StepId};
-use clsmith::transform::optimize_feed::{SplitProgram, UnsplitReason, split_motions};
+use clsmith::internals::transform::optimize_feed::{SplitProgram, UnsplitReason, split_motions};
 use nalgebra::Point3;
 use std::collections::BTreeMap;
 

@@ -1,7 +1,7 @@
 //! The circumscribed circle.
 
 use super::near;
-use clsmith::transform::correct_ramp::circumscribed_circle::{
+use clsmith::internals::transform::correct_ramp::circumscribed_circle::{
     BulgeSide, find_arc_angle, find_own_side, place_on_circle,
 };
 use nalgebra::Point2;

@@ -1,13 +1,13 @@
 //! Compression, layers and turns.
 
 use super::{LIMITS, Turns, all_near, near, points, ramp};
-use clsmith::transform::correct_ramp::ramp::Ramp;
-use clsmith::transform::correct_ramp::ramp_kind::RampKind;
-use clsmith::transform::correct_ramp::ramp_passes::{
+use clsmith::internals::transform::correct_ramp::ramp::Ramp;
+use clsmith::internals::transform::correct_ramp::ramp_kind::RampKind;
+use clsmith::internals::transform::correct_ramp::ramp_passes::{
     MOST_PASSES, TooManyPasses, add_passes_or_turns, build_helix_steps, compress_heights, count_passes,
     repeat_in_passes,
 };
-use clsmith::transform::correct_ramp::tool_region::ToolRegion;
+use clsmith::internals::transform::correct_ramp::tool_region::ToolRegion;
 use nalgebra::Point2;
 
 fn shallower(ramp: &Ramp) -> (Ramp, usize) {

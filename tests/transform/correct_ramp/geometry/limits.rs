@@ -1,7 +1,7 @@
 //! Equations (1) and (2), and what is measured against them.
 
 use super::{LIMITS, Turns, near, ramp};
-use clsmith::transform::correct_ramp::ramp_limits::{
+use clsmith::internals::transform::correct_ramp::ramp_limits::{
     IndexableCutter, RampMeasurement, is_long_enough, is_shallow_enough, is_within_limits,
 };
 

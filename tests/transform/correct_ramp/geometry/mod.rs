@@ -9,8 +9,8 @@ mod properties;
 mod region;
 mod shapes;
 
-use clsmith::transform::correct_ramp::ramp::{Ramp, RampArc, RampStep};
-use clsmith::transform::correct_ramp::ramp_limits::RampLimits;
+use clsmith::internals::transform::correct_ramp::ramp::{Ramp, RampArc, RampStep};
+use clsmith::internals::transform::correct_ramp::ramp_limits::RampLimits;
 use nalgebra::{Point2, Point3, Rotation2};
 use std::f64::consts::TAU;
 

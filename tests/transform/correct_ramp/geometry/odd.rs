@@ -1,11 +1,11 @@
 //! Ramps that no system writes on purpose.
 
 use super::{LIMITS, Turns, all_near, points, ramp};
-use clsmith::transform::correct_ramp::ramp::{Ramp, RampArc};
-use clsmith::transform::correct_ramp::ramp_kind::RampKind;
-use clsmith::transform::correct_ramp::ramp_limits::{RampLimits, RampMeasurement, is_within_limits};
-use clsmith::transform::correct_ramp::tool_region::ToolRegion;
-use clsmith::transform::correct_ramp::{ImpossibleCorrection, LengtheningMethod, RampTask, correct_ramp};
+use clsmith::internals::transform::correct_ramp::ramp::{Ramp, RampArc};
+use clsmith::internals::transform::correct_ramp::ramp_kind::RampKind;
+use clsmith::internals::transform::correct_ramp::ramp_limits::{RampLimits, RampMeasurement, is_within_limits};
+use clsmith::internals::transform::correct_ramp::tool_region::ToolRegion;
+use clsmith::internals::transform::correct_ramp::{ImpossibleCorrection, LengtheningMethod, RampTask, correct_ramp};
 use nalgebra::{Point2, Vector2};
 
 const ANYWHERE: RampTask<'_> =

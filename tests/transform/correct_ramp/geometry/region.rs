@@ -1,6 +1,6 @@
 //! Where the tool may go.
 
-use clsmith::transform::correct_ramp::tool_region::{ToolRegion, ToolRegionError};
+use clsmith::internals::transform::correct_ramp::tool_region::{ToolRegion, ToolRegionError};
 use nalgebra::Point2;
 
 /// A square of 30 mm with a notch from above, 10 mm wide and 20 mm deep.

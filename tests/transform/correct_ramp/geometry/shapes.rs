@@ -1,11 +1,11 @@
 //! Helices, ramps along a shape, and what printing takes away.
 
 use super::{LIMITS, Turns, all_near, near, points, ramp};
-use clsmith::transform::correct_ramp::ramp::{Ramp, RampArc, RampStep};
-use clsmith::transform::correct_ramp::ramp_kind::RampKind;
-use clsmith::transform::correct_ramp::ramp_limits::{RampLimits, is_within_limits};
-use clsmith::transform::correct_ramp::tool_region::ToolRegion;
-use clsmith::transform::correct_ramp::{CorrectedRamp, LengtheningMethod, RampTask, correct_ramp};
+use clsmith::internals::transform::correct_ramp::ramp::{Ramp, RampArc, RampStep};
+use clsmith::internals::transform::correct_ramp::ramp_kind::RampKind;
+use clsmith::internals::transform::correct_ramp::ramp_limits::{RampLimits, is_within_limits};
+use clsmith::internals::transform::correct_ramp::tool_region::ToolRegion;
+use clsmith::internals::transform::correct_ramp::{CorrectedRamp, LengtheningMethod, RampTask, correct_ramp};
 use nalgebra::{Point2, Point3};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
