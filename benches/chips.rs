@@ -8,7 +8,7 @@
 #![allow(clippy::expect_used)]
 
 use clsmith::engagement::PathPiece;
-use clsmith::internals::layered_chips::{
+use clsmith::layered_chips::{
     BoundaryDiagram, FlatMill, LayerStack, LayerSweptArea, MillStep, Polygon, RimDirections, SectionFamily,
     cut_chips,
 };

@@ -6,9 +6,9 @@
 // A benchmark that cannot make its mesh has nothing to measure.
 #![allow(clippy::expect_used)]
 
-use clsmith::stock::Mesh;
 use clsmith::internals::surface::drop_cutter::{DropCutter, DropCutterShape};
 use clsmith::internals::surface::mesh_section::VerticalMeshSections;
+use clsmith::stock::Mesh;
 use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::time::Instant;

@@ -1,7 +1,6 @@
 //! Opens private rooms to the tests and measurements of this crate. Nothing in here is promised: what another
 //! program needs is public in its own room.
 
-/// The private half of [`crate::layered_chips`].
 pub mod layered_chips {
     pub use crate::layered_chips::*;
 

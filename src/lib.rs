@@ -118,8 +118,8 @@
 //!
 //! - Text: [`source`], [`number`], [`diagnostic`]. Language: [`program`], [`parse`](mod@parse),
 //!   [`mod@write`], [`check`].
-//! - Feature `simulation`. Geometry: [`cutter`], [`stock`], [`engagement`], [`layered_chips`], [`surface`].
-//!   Shop: [`parameters`], [`setup`], [`recipe`], [`recipe_rules`]. What uses them: [`simulation_run`],
+//! - Feature `simulation`. Geometry: [`cutter`], [`stock`], [`engagement`], [`layered_chips`]. Shop:
+//!   [`parameters`], [`setup`], [`recipe`], [`recipe_rules`]. What uses them: [`simulation_run`],
 //!   [`transform`], [`surface_milling`].
 //! - Feature `report`: [`report`], [`fingerprint`], [`provenance`], [`undo`], and [`job`], which takes one
 //!   file through its recipe.
@@ -127,8 +127,10 @@
 //!
 //! Points, vectors and axes are those of [`nalgebra`].
 
+// What nobody outside can reach is not called public, and what they can reach they can name.
+#![warn(unreachable_pub, unnameable_types)]
 // A room may hold what only rooms of a larger set use; what nobody uses is found with all of them.
-#![cfg_attr(not(feature = "cli"), allow(dead_code, unused_imports))]
+#![cfg_attr(not(feature = "cli"), allow(dead_code, unused_imports, unreachable_pub))]
 // The front page names the rooms of all sets; without them its links lead nowhere.
 #![cfg_attr(not(feature = "cli"), allow(rustdoc::broken_intra_doc_links))]
 
@@ -148,7 +150,7 @@ pub mod cutter;
 #[cfg(feature = "simulation")]
 pub mod engagement;
 #[cfg(feature = "simulation")]
-mod layered_chips;
+pub mod layered_chips;
 #[cfg(feature = "simulation")]
 pub mod parameters;
 #[cfg(feature = "simulation")]
@@ -192,6 +194,7 @@ pub mod internals;
 
 #[cfg(test)]
 #[path = "../tests/support/property.rs"]
+#[allow(unreachable_pub)]
 mod property;
 
 #[doc(no_inline)]

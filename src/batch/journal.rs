@@ -13,7 +13,7 @@ use std::sync::{Mutex, PoisonError};
 
 /// A file that was processed, and everything on which its result depends.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct JournalEntry {
+pub(crate) struct JournalEntry {
     /// The digest of the input, the recipe with its files, the options and the version:
     /// [`RecipeFingerprint::result_key`](crate::fingerprint::RecipeFingerprint::result_key).
     pub key: Digest,
@@ -32,13 +32,15 @@ struct JournalHead {
 /// A line is only written when its output is on the disk, so it never claims too much. A power cut may lose
 /// or damage it; then its file is processed again.
 #[derive(Debug)]
-pub struct BatchJournal {
+pub(crate) struct BatchJournal {
     file: Mutex<Option<File>>,
 }
 
 impl BatchJournal {
     /// Returns the newest entry of each file that was processed in a folder, by this shard or any other.
-    pub fn read_entries(folder: &LockedFolder) -> BTreeMap<(PortablePath, PortablePath), JournalEntry> {
+    pub(crate) fn read_entries(
+        folder: &LockedFolder,
+    ) -> BTreeMap<(PortablePath, PortablePath), JournalEntry> {
         let mut done = BTreeMap::new();
         for path in folder.folder().list_journals() {
             let Ok(file) = File::open(path) else { continue };
@@ -56,7 +58,7 @@ impl BatchJournal {
     ///
     /// # Errors
     /// Returns the error of the operating system.
-    pub fn begin_journal<'d>(
+    pub(crate) fn begin_journal<'d>(
         folder: &LockedFolder,
         batch: Digest,
         known: impl IntoIterator<Item = &'d JournalEntry>,
@@ -78,7 +80,7 @@ impl BatchJournal {
     ///
     /// # Errors
     /// Returns the error of the operating system once. After that nothing more is written.
-    pub fn add_entry(&self, done: &JournalEntry) -> io::Result<()> {
+    pub(crate) fn add_entry(&self, done: &JournalEntry) -> io::Result<()> {
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         let Some(open) = file.as_mut() else { return Ok(()) };
         let written = json_line(done).and_then(|line| open.write_all(&line));

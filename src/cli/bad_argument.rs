@@ -6,11 +6,11 @@ use std::borrow::Cow;
 /// argument.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
-pub struct BadArgument(Cow<'static, str>);
+pub(super) struct BadArgument(Cow<'static, str>);
 
 impl BadArgument {
     /// Makes the error.
-    pub fn new(reason: impl Into<Cow<'static, str>>) -> Self {
+    pub(super) fn new(reason: impl Into<Cow<'static, str>>) -> Self {
         Self(reason.into())
     }
 }

@@ -12,7 +12,7 @@ use clsmith::program::Dialect;
 use clsmith::report::stats::ResolvedLengthUnit;
 use clsmith::setup::Setup;
 use clsmith::transform::correct_ramp::check_ramps;
-use clsmith::internals::transform::unit_slips::find_feeds_above_machine;
+use clsmith::transform::find_feeds_above_machine;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -29,7 +29,7 @@ Examples:
 /// Finds faults of programs, with their exact places
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct CheckArgs {
+pub(super) struct CheckArgs {
     /// The programs, and recipes and setups (`.yaml`); `-` is a program on standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
@@ -44,7 +44,7 @@ pub struct CheckArgs {
 }
 
 impl CheckArgs {
-    pub fn run(&self) -> Result<CommandExit, Stop> {
+    pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         let policy = self.findings.build_policy()?;
         let setup = self.setup.as_deref().map(input_files::read_setup).transpose()?;
         let mut out = io::stdout().lock();

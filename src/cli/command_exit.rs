@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum CommandExit {
+pub(crate) enum CommandExit {
     /// The work is done.
     Done,
     /// `diff`: the meanings differ.
@@ -23,7 +23,7 @@ pub enum CommandExit {
 
 impl CommandExit {
     /// Ends the process. All destructors have run by now.
-    pub fn exit_process(self) -> ExitCode {
+    pub(crate) fn exit_process(self) -> ExitCode {
         match self {
             // Windows has codes beyond a byte. Cut to a byte, 256 would be success.
             Self::Posted(code) => std::process::exit(code),

@@ -22,7 +22,7 @@ type LastWords = Box<dyn FnOnce() + Send>;
 
 /// The writer of outputs. It writes one at a time, either completely or not at all.
 #[derive(Clone, Default)]
-pub struct CommandOutputs {
+pub(super) struct CommandOutputs {
     interrupt: Interrupt,
     writing: Arc<Mutex<()>>,
     last_words: Arc<Mutex<Option<LastWords>>>,
@@ -32,14 +32,14 @@ pub struct CommandOutputs {
 
 impl CommandOutputs {
     /// Returns the request to stop.
-    pub fn interrupt(&self) -> &Interrupt {
+    pub(super) fn interrupt(&self) -> &Interrupt {
         &self.interrupt
     }
 
     /// Ctrl-C ends the process at once, but while an output is written: then the writer stops between two chunks and takes its
     /// temporary file along. Work that does not end by itself, because a pipe or a share gives no answer, is left where it is
     /// after [`GRACE`]. `before` is done before the last word.
-    pub fn stop_on_ctrl_c(&self, before: impl Fn() + Send + 'static) -> io::Result<()> {
+    pub(super) fn stop_on_ctrl_c(&self, before: impl Fn() + Send + 'static) -> io::Result<()> {
         let outputs = self.clone();
         ctrlc::set_handler(move || {
             outputs.interrupt.raise();
@@ -59,7 +59,7 @@ impl CommandOutputs {
 
     /// For work on many files: the first Ctrl-C asks it to stop, so that it can end what it began, the second ends the process
     /// at once, and so does [`GRACE`]. `before` is done before any word.
-    pub fn stop_gently(&self, before: impl Fn() + Send + Sync + 'static) -> io::Result<()> {
+    pub(super) fn stop_gently(&self, before: impl Fn() + Send + Sync + 'static) -> io::Result<()> {
         let outputs = self.clone();
         let before = Arc::new(before);
         ctrlc::set_handler(move || {
@@ -79,12 +79,12 @@ impl CommandOutputs {
     }
 
     /// Keeps what is to be done when the process is ended from outside of the work.
-    pub fn keep_last_words(&self, words: impl FnOnce() + Send + 'static) {
+    pub(super) fn keep_last_words(&self, words: impl FnOnce() + Send + 'static) {
         *self.last_words.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(words));
     }
 
     /// Takes back what was kept; `false` if it is being done at this moment.
-    pub fn take_last_words(&self) -> bool {
+    pub(super) fn take_last_words(&self) -> bool {
         self.last_words.lock().unwrap_or_else(PoisonError::into_inner).take().is_some()
     }
 
@@ -103,7 +103,7 @@ impl CommandOutputs {
     /// # Errors
     /// Returns a finding if the file cannot be written, an interruption, or that the reader of standard
     /// output went away.
-    pub fn write_output(
+    pub(super) fn write_output(
         &self,
         target: &Path,
         write_all: impl Fn(&mut dyn Write) -> io::Result<()>,
@@ -114,12 +114,12 @@ impl CommandOutputs {
 
     /// Keeps Ctrl-C from ending the process at once, for a caller that must remove something first and checks
     /// the interrupt.
-    pub fn hold_ctrl_c(&self) -> LockResult<MutexGuard<'_, ()>> {
+    pub(super) fn hold_ctrl_c(&self) -> LockResult<MutexGuard<'_, ()>> {
         self.writing.lock()
     }
 
     /// Does the same as [`CommandOutputs::write_output`], for a caller that already holds the outputs.
-    pub fn write_held_output(
+    pub(super) fn write_held_output(
         &self,
         target: &Path,
         write_all: impl Fn(&mut dyn Write) -> io::Result<()>,
@@ -158,7 +158,7 @@ impl CommandOutputs {
 ///
 /// # Errors
 /// Returns a finding about the first such output.
-pub fn refuse_overwritten_input<'a>(
+pub(super) fn refuse_overwritten_input<'a>(
     mut outputs: impl Iterator<Item = &'a Path>,
     inputs: &[&Path],
 ) -> Result<(), Stop> {
@@ -173,13 +173,13 @@ pub fn refuse_overwritten_input<'a>(
 }
 
 /// Reports an output that cannot be written.
-pub fn report_unwritable(target: &Path, error: &io::Error) -> Diagnostic {
+pub(super) fn report_unwritable(target: &Path, error: &io::Error) -> Diagnostic {
     Diagnostic::new(codes::UNWRITABLE, format!("{} cannot be written: {error}", target.display()))
 }
 
 /// Ignores a closed pipe. What only people see may fail: with `clsmith ... 2>&1 | head` the outputs are still
 /// written.
-pub fn ignore_closed_pipe(shown: io::Result<()>) -> io::Result<()> {
+pub(super) fn ignore_closed_pipe(shown: io::Result<()>) -> io::Result<()> {
     match shown {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         shown => shown,
@@ -187,7 +187,7 @@ pub fn ignore_closed_pipe(shown: io::Result<()>) -> io::Result<()> {
 }
 
 /// Prints a summary on standard output, or on standard error if an output goes there.
-pub fn print_summary(text: &str, output_is_taken: bool) -> io::Result<()> {
+pub(super) fn print_summary(text: &str, output_is_taken: bool) -> io::Result<()> {
     if output_is_taken {
         return io::stderr().lock().write_all(text.as_bytes());
     }

@@ -25,7 +25,7 @@ cannot be read.";
 /// Compares two programs by meaning: geometry, feeds, records
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct DiffArgs {
+pub(super) struct DiffArgs {
     /// The first program; `-` is standard input
     a: PathBuf,
     /// The second program
@@ -47,7 +47,7 @@ pub struct DiffArgs {
 }
 
 impl DiffArgs {
-    pub fn run(&self) -> Result<CommandExit, Stop> {
+    pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         let policy = self.findings.build_policy()?;
         if self.a == self.b && self.a == Path::new(input_files::STANDARD) {
             return Err(Stop::Usage("standard input can be read only once".to_owned()));

@@ -7,7 +7,7 @@ use clsmith::report::DisplayUnits;
 
 /// What people and other programs see.
 #[derive(Debug, Clone, Copy, Args)]
-pub struct DisplayArgs {
+pub(super) struct DisplayArgs {
     /// Unit that lengths and feeds are shown in, in every output of the command: mm or inch; that of the program if not given
     #[arg(long, value_parser = input_files::parse_length_unit, value_name = "UNIT")]
     display_units: Option<LengthUnit>,
@@ -15,12 +15,12 @@ pub struct DisplayArgs {
 
 impl DisplayArgs {
     /// The unit that was asked for.
-    pub fn asked(self) -> Option<LengthUnit> {
+    pub(super) fn asked(self) -> Option<LengthUnit> {
         self.display_units
     }
 
     /// The units that outputs about a program show, whose lengths are in this unit.
-    pub fn of_program(self, program_unit: LengthUnit) -> DisplayUnits {
+    pub(super) fn of_program(self, program_unit: LengthUnit) -> DisplayUnits {
         DisplayUnits::of_program(program_unit, self.display_units)
     }
 }

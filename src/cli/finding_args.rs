@@ -9,7 +9,7 @@ use std::io::{self, Write};
 
 /// The format of findings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum FindingFormat {
+pub(super) enum FindingFormat {
     /// With the lines of the program, for people
     Human,
     /// `file:line:column: CODE: message`, for editors.
@@ -22,7 +22,7 @@ pub enum FindingFormat {
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Findings")]
-pub struct FindingArgs {
+pub(super) struct FindingArgs {
     /// Treat a code as an error; `warnings` treats all of them so. It may be given several times
     #[arg(long, value_name = "CODE", value_delimiter = ',')]
     deny: Vec<String>,
@@ -46,7 +46,7 @@ pub struct FindingArgs {
 
 impl FindingArgs {
     /// Returns the policy of the options.
-    pub fn build_policy(&self) -> Result<FindingPolicy, FindingPolicyError> {
+    pub(super) fn build_policy(&self) -> Result<FindingPolicy, FindingPolicyError> {
         FindingPolicy::from_code_lists(
             self.deny.iter().map(String::as_str),
             self.allow.iter().map(String::as_str),
@@ -55,7 +55,7 @@ impl FindingArgs {
     }
 
     /// Writes findings in the requested format. `file` is the file of the run, if there is only one.
-    pub fn write_findings(
+    pub(super) fn write_findings(
         &self,
         out: &mut dyn Write,
         is_terminal: bool,

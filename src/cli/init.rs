@@ -29,7 +29,7 @@ stand beside them, so editors complete and check them. Files that are there alre
 /// Writes a first setup and a first recipe from what a program says
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct InitArgs {
+pub(super) struct InitArgs {
     /// The program
     #[arg(value_name = "PROGRAM")]
     program: PathBuf,
@@ -47,7 +47,7 @@ pub struct InitArgs {
 }
 
 impl InitArgs {
-    pub fn run(&self) -> Result<CommandExit, Stop> {
+    pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         let policy = self.findings.build_policy()?;
         let source = input_files::read_source(&self.program)?;
         let (program, found) = read_and_check(&source, self.dialect);

@@ -14,10 +14,10 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// The path that stands for standard input or output.
-pub const STANDARD: &str = "-";
+pub(super) const STANDARD: &str = "-";
 
 /// Reads a file; `-` is standard input.
-pub fn read_source(path: &Path) -> Result<Arc<Source>, Failure> {
+pub(super) fn read_source(path: &Path) -> Result<Arc<Source>, Failure> {
     Ok(read_bytes(path).map_err(|error| {
         let code = match error {
             SourceReadError::Unreadable { .. } => codes::UNREADABLE,
@@ -28,7 +28,7 @@ pub fn read_source(path: &Path) -> Result<Arc<Source>, Failure> {
 }
 
 /// Reads a file that another file names, which knows the place of the name; `-` is standard input.
-pub fn read_bytes(path: &Path) -> Result<Arc<Source>, SourceReadError> {
+pub(super) fn read_bytes(path: &Path) -> Result<Arc<Source>, SourceReadError> {
     let standard = path == Path::new(STANDARD);
     let name = if standard { "standard input".to_owned() } else { path.to_string_lossy().into_owned() };
     let bytes = if standard { read_standard_input() } else { read_file_bytes(path) };
@@ -56,12 +56,12 @@ fn read_standard_input() -> io::Result<Vec<u8>> {
 }
 
 /// Reads a setup file.
-pub fn read_setup(path: &Path) -> Result<Setup, Failure> {
+pub(super) fn read_setup(path: &Path) -> Result<Setup, Failure> {
     Setup::load(&read_source(path)?)
 }
 
 /// A recipe and the setup in force.
-pub struct LoadedRecipe {
+pub(super) struct LoadedRecipe {
     pub recipe: Recipe,
     pub setup: Setup,
     /// The texts that were read for them, with the recipe first.
@@ -69,7 +69,7 @@ pub struct LoadedRecipe {
 }
 
 /// Reads a recipe, the setup file that it names (beside it), and the one of the command line.
-pub fn read_recipe(path: &Path, setup: Option<&Path>) -> Result<LoadedRecipe, Failure> {
+pub(super) fn read_recipe(path: &Path, setup: Option<&Path>) -> Result<LoadedRecipe, Failure> {
     let texts = RefCell::new(Vec::new());
     let keep = |source: &Arc<Source>| texts.borrow_mut().push(Arc::clone(source));
     let read = |path: &Path| read_bytes(path).inspect(keep);
@@ -85,12 +85,12 @@ pub fn read_recipe(path: &Path, setup: Option<&Path>) -> Result<LoadedRecipe, Fa
 }
 
 /// Returns the path of a file that a recipe names, relative to the recipe's folder.
-pub fn path_beside_recipe(recipe: &Path, name: &str) -> PathBuf {
+pub(super) fn path_beside_recipe(recipe: &Path, name: &str) -> PathBuf {
     recipe.parent().unwrap_or(Path::new("")).join(name)
 }
 
 /// Reads `--dialect`.
-pub fn parse_dialect(name: &str) -> Result<Dialect, BadArgument> {
+pub(super) fn parse_dialect(name: &str) -> Result<Dialect, BadArgument> {
     Dialect::from_name(name).ok_or_else(|| {
         let names: Vec<&str> = Dialect::ALL.iter().map(|dialect| dialect.name()).collect();
         BadArgument::new(format!("the dialects are {}", names.join(", ")))
@@ -98,13 +98,13 @@ pub fn parse_dialect(name: &str) -> Result<Dialect, BadArgument> {
 }
 
 /// Reads `--provenance`.
-pub fn parse_provenance(name: &str) -> Result<Provenance, BadArgument> {
+pub(super) fn parse_provenance(name: &str) -> Result<Provenance, BadArgument> {
     let found = Provenance::ALL.into_iter().find(|provenance| provenance.name() == name);
     found.ok_or(BadArgument::new("this is none, header or comments"))
 }
 
 /// Reads `--units`.
-pub fn parse_length_unit(text: &str) -> Result<LengthUnit, BadArgument> {
+pub(super) fn parse_length_unit(text: &str) -> Result<LengthUnit, BadArgument> {
     match text {
         "mm" => Ok(LengthUnit::Mm),
         "inch" => Ok(LengthUnit::Inch),
@@ -113,7 +113,7 @@ pub fn parse_length_unit(text: &str) -> Result<LengthUnit, BadArgument> {
 }
 
 /// Reads a time in seconds, which must be above 0.
-pub fn parse_seconds(text: &str) -> Result<Duration, BadArgument> {
+pub(super) fn parse_seconds(text: &str) -> Result<Duration, BadArgument> {
     let seconds = text.parse().ok().filter(|&seconds: &f64| seconds > 0.0);
     seconds
         .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())

@@ -17,7 +17,7 @@ use std::io;
 use std::path::Path;
 
 /// The arguments of every such command.
-pub struct MeasuringCommand<'a> {
+pub(super) struct MeasuringCommand<'a> {
     /// The program.
     pub program: &'a Path,
     /// The paths of outputs.
@@ -33,7 +33,7 @@ pub struct MeasuringCommand<'a> {
 }
 
 /// What a command's own part gets: findings, and who may stop the run.
-pub struct MeasuringContext<'r> {
+pub(super) struct MeasuringContext<'r> {
     /// The policy of findings.
     pub policy: &'r FindingPolicy,
     /// Progress, and Ctrl-C.
@@ -45,7 +45,7 @@ pub struct MeasuringContext<'r> {
 impl MeasuringContext<'_> {
     /// Reads a program and checks it. A text that cannot be read stops the run; what else is wrong with the
     /// program is seen better in the measurement.
-    pub fn read_program(&mut self, path: &Path, dialect: Option<Dialect>) -> Result<Program, Stop> {
+    pub(super) fn read_program(&mut self, path: &Path, dialect: Option<Dialect>) -> Result<Program, Stop> {
         let source = crate::cli::input_files::read_source(path)?;
         self.progress.check_size(&source)?;
         let parsed = parse(&source, dialect);
@@ -64,7 +64,7 @@ impl MeasuringCommand<'_> {
     /// Measures, tells, and writes. The outputs of a measurement are written also when errors were found in
     /// the program: they show where. `problem` is what is wrong with the command line; `measure` makes
     /// everything but the outputs; `write` writes the outputs.
-    pub fn run_measurement<T>(
+    pub(super) fn run_measurement<T>(
         &self,
         problem: Option<String>,
         measure: impl FnOnce(&mut MeasuringContext<'_>) -> Result<T, Stop>,

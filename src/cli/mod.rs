@@ -105,7 +105,7 @@ enum CliCommand {
 }
 
 /// Runs the command of the process's arguments.
-pub fn run_command_line() -> ExitCode {
+pub(crate) fn run_command_line() -> ExitCode {
     remember_panics();
     let cli = Cli::parse();
     // What fails outside of the work on a file is told like all else, too.

@@ -6,7 +6,7 @@ use std::path::Path;
 
 /// What an output holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum OutputContent {
+pub(super) enum OutputContent {
     /// CL data, for a post.
     Program,
     /// An HTML page.
@@ -66,7 +66,7 @@ impl OutputContent {
 
 /// Finds the first output whose ending promises something else than what is written; says what to write
 /// instead. A file without an ending promises nothing.
-pub fn find_wrong_ending<'a>(
+pub(super) fn find_wrong_ending<'a>(
     outputs: impl IntoIterator<Item = (&'static str, Option<&'a Path>, OutputContent)>,
 ) -> Option<String> {
     outputs.into_iter().find_map(|(option, path, content)| {

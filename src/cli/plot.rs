@@ -36,7 +36,7 @@ the output says what it is, .svg or .png; `-` is SVG on standard output. The sam
 /// Draws feed, chips, loads or z of a program over time or path, as SVG or PNG
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct PlotArgs {
+pub(super) struct PlotArgs {
     /// The program; `-` is standard input
     #[arg(value_name = "PROGRAM")]
     program: PathBuf,
@@ -114,12 +114,12 @@ enum PlotAxisArg {
 }
 
 /// Returns whether a drawing is written as PNG.
-pub fn is_png(path: &Path) -> bool {
+pub(super) fn is_png(path: &Path) -> bool {
     path.extension().is_some_and(|end| end.eq_ignore_ascii_case("png"))
 }
 
 /// Encodes a drawing in the format of the file's extension.
-pub fn encode_drawing(path: &Path, svg: String) -> io::Result<Vec<u8>> {
+pub(super) fn encode_drawing(path: &Path, svg: String) -> io::Result<Vec<u8>> {
     if is_png(path) { plot::render_png(&svg) } else { Ok(svg.into_bytes()) }
 }
 
@@ -149,7 +149,7 @@ fn explain_empty_panel(
 }
 
 impl PlotArgs {
-    pub fn run(&self) -> Result<CommandExit, Stop> {
+    pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         self.find_usage_problem().map_or(Ok(()), |problem| Err(Stop::Usage(problem)))?;
         let policy = self.findings.build_policy()?;
         let outputs = CommandOutputs::default();

@@ -9,19 +9,19 @@ use clsmith::source::Source;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 /// A bar on standard error. Nothing is drawn if it is no terminal, or if it is not wanted.
-pub struct CommandProgress {
+pub(super) struct CommandProgress {
     bar: ProgressBar,
     interrupt: Interrupt,
     limits: RunLimitWatch,
 }
 
 impl CommandProgress {
-    pub fn new(quiet: bool, interrupt: &Interrupt) -> Self {
+    pub(super) fn new(quiet: bool, interrupt: &Interrupt) -> Self {
         Self::with_limits(quiet, interrupt, RunLimits::default())
     }
 
     /// A bar of work that is stopped when it takes more than its limits.
-    pub fn with_limits(quiet: bool, interrupt: &Interrupt, limits: RunLimits) -> Self {
+    pub(super) fn with_limits(quiet: bool, interrupt: &Interrupt, limits: RunLimits) -> Self {
         let seen = terminal::is_stderr_terminal() && !quiet;
         let target = if seen { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         let bar = ProgressBar::with_draw_target(Some(0), target);
@@ -37,29 +37,29 @@ impl CommandProgress {
     }
 
     /// Begins again with another name.
-    pub fn begin_bar(&self, name: &str) {
+    pub(super) fn begin_bar(&self, name: &str) {
         self.bar.set_message(terminal::escape_controls(name));
         self.bar.reset();
     }
 
     /// The work on a program begins: its limits count from now on.
-    pub fn begin_program(&self, name: &str) {
+    pub(super) fn begin_program(&self, name: &str) {
         self.limits.begin_program(name);
         self.begin_bar(name);
     }
 
     /// Refuses a program whose size alone tells that it takes too much memory.
-    pub fn check_size(&self, source: &Source) -> Result<(), Failure> {
+    pub(super) fn check_size(&self, source: &Source) -> Result<(), Failure> {
         self.limits.check_size(source)
     }
 
     /// Takes the bar away.
-    pub fn clear_bar(&self) {
+    pub(super) fn clear_bar(&self) {
         self.bar.finish_and_clear();
     }
 
     /// Returns a function that removes the bar, for the handler of Ctrl-C.
-    pub fn clear_on_ctrl_c(&self) -> impl Fn() + Send + 'static {
+    pub(super) fn clear_on_ctrl_c(&self) -> impl Fn() + Send + 'static {
         let bar = self.bar.clone();
         move || bar.finish_and_clear()
     }

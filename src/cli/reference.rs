@@ -22,13 +22,13 @@ fn print_text(text: &str) -> Result<CommandExit, Stop> {
 /// Lists the steps of recipes, or describes one
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  clsmith transforms\n  clsmith transforms move_origin")]
-pub struct TransformsArgs {
+pub(super) struct TransformsArgs {
     /// The step to describe
     name: Option<String>,
 }
 
 impl TransformsArgs {
-    pub fn run(&self) -> Result<CommandExit, Stop> {
+    pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         let Some(name) = &self.name else { return print_text(&step_descriptions::list_steps()) };
         match step_descriptions::describe_step(name) {
             Some(text) => print_text(&text),
@@ -45,7 +45,7 @@ impl TransformsArgs {
 #[command(
     after_help = "Examples:\n  clsmith schema > clsmith-recipe.schema.json\n  clsmith schema --setup > clsmith-setup.schema.json\n  clsmith schema --select > clsmith-select.schema.json\n  clsmith schema --jobs > clsmith-jobs.schema.json"
 )]
-pub struct SchemaArgs {
+pub(super) struct SchemaArgs {
     /// The schema of setup files instead
     #[arg(long)]
     setup: bool,
@@ -58,7 +58,7 @@ pub struct SchemaArgs {
 }
 
 impl SchemaArgs {
-    pub fn run(&self) -> Result<CommandExit, Stop> {
+    pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         let schema = match self {
             Self { jobs: true, .. } => clsmith::batch::jobs_file::jobs_schema(),
             Self { setup: true, .. } => Setup::schema(),
@@ -72,13 +72,13 @@ impl SchemaArgs {
 /// Explains a code of a finding, or lists all codes
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  clsmith explain CL0001\n  clsmith explain")]
-pub struct ExplainArgs {
+pub(super) struct ExplainArgs {
     /// The code
     code: Option<String>,
 }
 
 impl ExplainArgs {
-    pub fn run(&self) -> Result<CommandExit, Stop> {
+    pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         let Some(code) = &self.code else { return print_text(&explain::list_codes()) };
         match finding_policy::parse_code(code) {
             Ok(code) => print_text(&explain::explain_code(code)),
@@ -92,14 +92,14 @@ impl ExplainArgs {
 #[command(
     after_help = "Examples:\n  clsmith completions bash > /etc/bash_completion.d/clsmith\n  clsmith completions powershell >> $PROFILE"
 )]
-pub struct CompletionsArgs {
+pub(super) struct CompletionsArgs {
     /// The shell
     #[arg(value_enum)]
     shell: clap_complete::Shell,
 }
 
 impl CompletionsArgs {
-    pub fn run(&self, command: &mut clap::Command) -> Result<CommandExit, Stop> {
+    pub(super) fn run(&self, command: &mut clap::Command) -> Result<CommandExit, Stop> {
         // The script is made in memory first, because clap_complete treats a closed pipe as a bug.
         let mut script = Vec::new();
         clap_complete::generate(self.shell, command, "clsmith", &mut script);
@@ -111,14 +111,14 @@ impl CompletionsArgs {
 /// Prints the manual page, or writes one for each command into a folder
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  clsmith man | man -l -\n  clsmith man --out man1/")]
-pub struct ManArgs {
+pub(super) struct ManArgs {
     /// A folder for the pages of all commands
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
 }
 
 impl ManArgs {
-    pub fn run(&self, command: clap::Command) -> Result<CommandExit, Stop> {
+    pub(super) fn run(&self, command: clap::Command) -> Result<CommandExit, Stop> {
         match &self.out {
             Some(folder) => clap_mangen::generate_to(command, folder)?,
             None => {

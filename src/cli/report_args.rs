@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 /// Reports for people.
 #[derive(Debug, Args)]
-pub struct ReportArgs {
+pub(super) struct ReportArgs {
     /// What changed as an HTML page: tables, charts, the path in 3D. It simulates the program before and
     /// after if the setup has stock and tools
     #[arg(long, value_name = "FILE")]
@@ -22,18 +22,18 @@ pub struct ReportArgs {
 
 impl ReportArgs {
     /// Returns whether a report is requested.
-    pub fn is_wanted(&self) -> bool {
+    pub(super) fn is_wanted(&self) -> bool {
         self.named_outputs().next().is_some()
     }
 
     /// Returns the options that are given, with their files.
-    pub fn named_outputs(&self) -> impl Iterator<Item = (&'static str, &Path)> {
+    pub(super) fn named_outputs(&self) -> impl Iterator<Item = (&'static str, &Path)> {
         let both = [("--report", &self.report), ("--summary", &self.summary)];
         both.into_iter().filter_map(|(name, path)| Some((name, path.as_deref()?)))
     }
 
     /// Returns what is wrong with the ending of a file.
-    pub fn find_wrong_ending(&self) -> Option<String> {
+    pub(super) fn find_wrong_ending(&self) -> Option<String> {
         find_wrong_ending([
             ("--report", self.report.as_deref(), OutputContent::Page),
             ("--summary", self.summary.as_deref(), OutputContent::Markdown),
@@ -41,12 +41,16 @@ impl ReportArgs {
     }
 
     /// Returns the files.
-    pub fn output_paths(&self) -> impl Iterator<Item = &Path> {
+    pub(super) fn output_paths(&self) -> impl Iterator<Item = &Path> {
         self.named_outputs().map(|(_, path)| path)
     }
 
     /// Writes what is asked for.
-    pub fn write_reports(&self, comparison: &Comparison<'_>, outputs: &CommandOutputs) -> Result<(), Stop> {
+    pub(super) fn write_reports(
+        &self,
+        comparison: &Comparison<'_>,
+        outputs: &CommandOutputs,
+    ) -> Result<(), Stop> {
         if let Some(path) = &self.report {
             outputs.write_output(path, |out| html::write_page(comparison, out))?;
         }

@@ -14,7 +14,7 @@ const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
 
 #[derive(Debug, Clone, Copy, Default, Args)]
 #[command(next_help_heading = "Limits")]
-pub struct MemoryLimitArgs {
+pub(super) struct MemoryLimitArgs {
     /// Memory that the run may take: 512M, 2G, 1.5GiB. It ends with an error when it needs more
     #[arg(long, value_name = "SIZE")]
     memory: Option<ByteSize>,
@@ -22,7 +22,7 @@ pub struct MemoryLimitArgs {
 
 #[derive(Debug, Clone, Copy, Default, Args)]
 #[command(next_help_heading = "Limits")]
-pub struct TimeLimitArgs {
+pub(super) struct TimeLimitArgs {
     /// Longest time for one program. It ends with an error when it takes longer, and nothing of it is written
     #[arg(long, value_name = "SECONDS", value_parser = input_files::parse_seconds)]
     time_limit: Option<Duration>,
@@ -30,21 +30,21 @@ pub struct TimeLimitArgs {
 
 impl MemoryLimitArgs {
     /// The limits that these options and those of time ask for.
-    pub fn with_time(self, time: TimeLimitArgs) -> RunLimits {
+    pub(super) fn with_time(self, time: TimeLimitArgs) -> RunLimits {
         RunLimits { memory_bytes: self.memory.map(|size| size.as_u64()), time: time.time_limit }
     }
 }
 
 impl TimeLimitArgs {
     /// The limits of a program of a batch, whose memory is planned for all programs together.
-    pub fn of_batch_file(self) -> RunLimits {
+    pub(super) fn of_batch_file(self) -> RunLimits {
         RunLimits { memory_bytes: None, time: self.time_limit }
     }
 }
 
 /// What the work on one program may take.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct RunLimits {
+pub(super) struct RunLimits {
     /// Memory of the process, in bytes.
     pub memory_bytes: Option<u64>,
     /// Time.
@@ -53,7 +53,7 @@ pub struct RunLimits {
 
 /// Looks whether the work on a program keeps its limits.
 #[derive(Debug)]
-pub struct RunLimitWatch {
+pub(super) struct RunLimitWatch {
     limits: RunLimits,
     program: Mutex<WatchedProgram>,
 }
@@ -67,17 +67,17 @@ struct WatchedProgram {
 
 impl RunLimitWatch {
     /// Watches the work on a program that begins now.
-    pub fn new(limits: RunLimits, name: &str) -> Self {
+    pub(super) fn new(limits: RunLimits, name: &str) -> Self {
         Self { limits, program: Mutex::new(WatchedProgram::begin(name)) }
     }
 
     /// The work on the next program begins.
-    pub fn begin_program(&self, name: &str) {
+    pub(super) fn begin_program(&self, name: &str) {
         *self.lock_program() = WatchedProgram::begin(name);
     }
 
     /// The largest memory of the process, in bytes.
-    pub fn memory_bytes(&self) -> Option<u64> {
+    pub(super) fn memory_bytes(&self) -> Option<u64> {
         self.limits.memory_bytes
     }
 
@@ -85,7 +85,7 @@ impl RunLimitWatch {
     ///
     /// # Errors
     /// Returns [`codes::MEMORY_LIMIT`].
-    pub fn check_size(&self, source: &Source) -> Result<(), Failure> {
+    pub(super) fn check_size(&self, source: &Source) -> Result<(), Failure> {
         let Some(most) = self.limits.memory_bytes else { return Ok(()) };
         let bytes = source.bytes();
         // The samples of a large file would do, but it is in memory already.
@@ -104,7 +104,7 @@ impl RunLimitWatch {
     ///
     /// # Errors
     /// Returns [`codes::TIME_LIMIT`] or [`codes::MEMORY_LIMIT`] once one of them is not.
-    pub fn check_limits(&self) -> Result<(), Failure> {
+    pub(super) fn check_limits(&self) -> Result<(), Failure> {
         let mut program = self.lock_program();
         panic_if_asked(&program.name);
         if let Some(most) = self.limits.time.filter(|most| program.started.elapsed() > *most) {

@@ -26,7 +26,7 @@ Examples:
 /// Measures programs: operations, tools, lengths, times, feeds, bounding box
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct StatsArgs {
+pub(super) struct StatsArgs {
     /// The programs; `-` is standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
@@ -49,7 +49,7 @@ pub struct StatsArgs {
 }
 
 impl StatsArgs {
-    pub fn run(&self) -> Result<CommandExit, Stop> {
+    pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         let policy = self.findings.build_policy()?;
         let setup = self.setup.as_deref().map_or_else(|| Ok(Setup::default()), input_files::read_setup)?;
         let mut out = io::stdout().lock();

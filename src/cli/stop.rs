@@ -11,7 +11,7 @@ use std::path::Path;
 
 /// The reason why a command ended early. Commands pass it on by `?`, and [`Stop::finish_command`] reports it.
 #[derive(Debug)]
-pub enum Stop {
+pub(super) enum Stop {
     /// There are findings. `file` is the only file to which they belong, if there is one.
     Found { findings: Vec<Diagnostic>, file: Option<String> },
     /// The command line is not valid.
@@ -27,7 +27,7 @@ pub enum Stop {
 impl Stop {
     /// Sets the file of findings, unless it is known already.
     #[must_use]
-    pub fn about(self, path: &Path) -> Self {
+    pub(super) fn about(self, path: &Path) -> Self {
         match self {
             Self::Found { findings, file: None } => {
                 Self::Found { findings, file: Some(path.to_string_lossy().into_owned()) }
@@ -41,7 +41,7 @@ impl Stop {
     ///
     /// # Errors
     /// Returns what also stops the others.
-    pub fn tell_of_one_file(self, args: &FindingArgs) -> Result<CommandExit, Self> {
+    pub(super) fn tell_of_one_file(self, args: &FindingArgs) -> Result<CommandExit, Self> {
         match self {
             Self::Found { findings, file } => {
                 let mut err = io::stderr().lock();
@@ -56,7 +56,7 @@ impl Stop {
     }
 
     /// Reports what stopped a command. Returns its exit code.
-    pub fn finish_command(self, command: &str, args: Option<&FindingArgs>) -> CommandExit {
+    pub(super) fn finish_command(self, command: &str, args: Option<&FindingArgs>) -> CommandExit {
         let stop = match args {
             Some(args) => match self.tell_of_one_file(args) {
                 Ok(exit) => return exit,

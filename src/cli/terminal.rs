@@ -6,7 +6,7 @@ use std::io::IsTerminal;
 
 /// When to use colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum ColorMode {
+pub(super) enum ColorMode {
     /// On a terminal, unless NO_COLOR is set
     Auto,
     /// Always
@@ -17,7 +17,7 @@ pub enum ColorMode {
 
 impl ColorMode {
     /// Returns whether to write colours to a stream that is a terminal or not.
-    pub fn is_wanted(self, is_terminal: bool) -> bool {
+    pub(super) fn is_wanted(self, is_terminal: bool) -> bool {
         match self {
             Self::Always => true,
             Self::Never => false,
@@ -27,17 +27,17 @@ impl ColorMode {
 }
 
 /// Returns whether standard error is a terminal.
-pub fn is_stderr_terminal() -> bool {
+pub(super) fn is_stderr_terminal() -> bool {
     std::io::stderr().is_terminal()
 }
 
 /// Returns whether standard output is a terminal.
-pub fn is_stdout_terminal() -> bool {
+pub(super) fn is_stdout_terminal() -> bool {
     std::io::stdout().is_terminal()
 }
 
 /// Returns the columns to draw in: the value of COLUMNS, else 100.
-pub fn width_columns() -> usize {
+pub(super) fn width_columns() -> usize {
     std::env::var("COLUMNS")
         .ok()
         .and_then(|columns| columns.parse().ok())
@@ -46,7 +46,7 @@ pub fn width_columns() -> usize {
 }
 
 /// Returns whether lines and arrows may be other than ASCII: the locale is UTF-8, or not set.
-pub fn has_unicode() -> bool {
+pub(super) fn has_unicode() -> bool {
     let locale = ["LC_ALL", "LC_CTYPE", "LANG"]
         .into_iter()
         .filter_map(|name| std::env::var(name).ok())
@@ -55,6 +55,6 @@ pub fn has_unicode() -> bool {
 }
 
 /// Returns a name that is safe to show. One from outside must not send commands to the terminal.
-pub fn escape_controls(name: &str) -> String {
+pub(super) fn escape_controls(name: &str) -> String {
     to_safe_line(name)
 }

@@ -27,7 +27,7 @@ batches are none.";
 /// Restores the original from a corrected program and the report of the run
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct UndoArgs {
+pub(super) struct UndoArgs {
     /// The corrected program; `-` is standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
@@ -45,7 +45,7 @@ pub struct UndoArgs {
 }
 
 impl UndoArgs {
-    pub fn run(&self) -> Result<CommandExit, Stop> {
+    pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         self.findings.build_policy()?;
         if [&self.file, &self.report].iter().all(|path| *path == Path::new(STANDARD)) {
             return Err(Stop::Usage("standard input can be read only once".to_owned()));

@@ -50,7 +50,7 @@ pub(super) struct EngagedEdgePart {
 impl EdgeElement {
     /// Returns the part of the element between two lengths along the meridian, or `None` if it has none
     /// there. The error is of second order in the element's turn.
-    pub fn engaged_part(&self, low: f64, high: f64) -> Option<EngagedEdgePart> {
+    pub(super) fn engaged_part(&self, low: f64, high: f64) -> Option<EngagedEdgePart> {
         let (from, to) = (self.from.max(low), self.to.min(high));
         if to <= from {
             return None;

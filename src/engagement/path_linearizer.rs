@@ -49,19 +49,19 @@ pub(crate) struct PathLinearizer {
 
 impl PathLinearizer {
     /// Makes a converter for a file whose lengths are in units of `mm_per_unit` mm.
-    pub fn new(mm_per_unit: f64, sagitta_mm: f64, longest_piece_mm: f64) -> Self {
+    pub(crate) fn new(mm_per_unit: f64, sagitta_mm: f64, longest_piece_mm: f64) -> Self {
         Self { mm_per_unit, home: None, air: None, is_limit_reached: false, sagitta_mm, longest_piece_mm }
     }
 
     /// Cuts long motions where they enter and leave the surroundings of the stock, in the workpiece frame, and divides
     /// no part that is outside.
     #[must_use]
-    pub fn with_air_clip(self, air: AirClip) -> Self {
+    pub(crate) fn with_air_clip(self, air: AirClip) -> Self {
         Self { air: Some(air), ..self }
     }
 
     /// Returns whether a motion since the last call would have needed more than [`MOST_PIECES`] pieces.
-    pub fn take_limit_reached(&mut self) -> bool {
+    pub(crate) fn take_limit_reached(&mut self) -> bool {
         std::mem::take(&mut self.is_limit_reached)
     }
 
@@ -79,12 +79,12 @@ impl PathLinearizer {
     }
 
     /// Takes the frame of a motion as the workpiece frame if it is the first motion.
-    pub fn adopt_workpiece_frame(&mut self, motion: &Motion) {
+    pub(crate) fn adopt_workpiece_frame(&mut self, motion: &Motion) {
         self.home.get_or_insert_with(|| motion.frame.as_deref().cloned());
     }
 
     /// Adds the pieces of a motion. A motion that stays at its place has none.
-    pub fn append_pieces(&mut self, motion: &Motion, cutter: usize, out: &mut Vec<MotionPiece>) {
+    pub(crate) fn append_pieces(&mut self, motion: &Motion, cutter: usize, out: &mut Vec<MotionPiece>) {
         self.adopt_workpiece_frame(motion);
         let shares = match &motion.path {
             MotionPath::Start => return,

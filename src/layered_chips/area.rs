@@ -16,7 +16,7 @@ pub(crate) use grid_area::GridBox;
 /// counter-clockwise and holes go clockwise; no boundary repeats its first point.
 ///
 /// ```
-/// use clsmith::internals::layered_chips::Polygon;
+/// use clsmith::layered_chips::Polygon;
 ///
 /// let frame = Polygon {
 ///     outer: vec![[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]],

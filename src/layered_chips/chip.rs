@@ -61,7 +61,7 @@ impl Chip {
 ///
 /// ```
 /// use clsmith::engagement::PathPiece;
-/// use clsmith::internals::layered_chips::{FlatMill, LayerStack, cut_chips};
+/// use clsmith::layered_chips::{FlatMill, LayerStack, cut_chips};
 /// use clsmith::program::geometry::Pose;
 /// use clsmith::stock::{SolidBody, Stock};
 /// use nalgebra::{Point3, Vector3};

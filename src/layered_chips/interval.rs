@@ -9,7 +9,7 @@ const TRIG_ERROR: f64 = 4.0 * f64::EPSILON;
 
 /// The interval of all numbers from `lo` to `hi`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct IntervalF64 {
+pub(super) struct IntervalF64 {
     /// The least number.
     pub lo: f64,
     /// The largest number.
@@ -18,7 +18,7 @@ pub struct IntervalF64 {
 
 impl IntervalF64 {
     /// Makes the interval of a single number.
-    pub fn from_point(x: f64) -> Self {
+    pub(super) fn from_point(x: f64) -> Self {
         Self { lo: x, hi: x }
     }
 
@@ -31,13 +31,13 @@ impl IntervalF64 {
     }
 
     /// Returns the middle.
-    pub fn middle(self) -> f64 {
+    pub(super) fn middle(self) -> f64 {
         self.lo + (self.hi - self.lo) / 2.0
     }
 
     /// Returns the sign of every number in the interval, 1 or -1. Returns `None` if the signs differ or a
     /// number is zero.
-    pub fn sign(self) -> Option<i8> {
+    pub(super) fn sign(self) -> Option<i8> {
         match (self.lo > 0.0, self.hi < 0.0) {
             (true, _) => Some(1),
             (_, true) => Some(-1),
@@ -46,18 +46,18 @@ impl IntervalF64 {
     }
 
     /// Returns the largest absolute value.
-    pub fn magnitude(self) -> f64 {
+    pub(super) fn magnitude(self) -> f64 {
         self.hi.abs().max(self.lo.abs())
     }
 
     /// Returns the intersection of both intervals, or `self` if rounding left it empty.
-    pub fn intersect_or_self(self, other: Self) -> Self {
+    pub(super) fn intersect_or_self(self, other: Self) -> Self {
         let both = Self { lo: self.lo.max(other.lo), hi: self.hi.min(other.hi) };
         if both.lo <= both.hi { both } else { self }
     }
 
     /// Returns the reciprocal. It is the interval of all numbers if this one contains zero.
-    pub fn recip(self) -> Self {
+    pub(super) fn recip(self) -> Self {
         match self.sign() {
             Some(_) => Self::rounded_outward(1.0 / self.hi, 1.0 / self.lo),
             None => Self { lo: f64::NEG_INFINITY, hi: f64::INFINITY },
@@ -65,13 +65,13 @@ impl IntervalF64 {
     }
 
     /// Returns the sine and cosine of all angles in the interval, in radians.
-    pub fn sin_cos(self) -> (Self, Self) {
+    pub(super) fn sin_cos(self) -> (Self, Self) {
         let [single, _] = self.sin_cos_with_doubles();
         single
     }
 
     /// Returns the sine and cosine of all angles in the interval, and of twice those angles.
-    pub fn sin_cos_with_doubles(self) -> [(Self, Self); 2] {
+    pub(super) fn sin_cos_with_doubles(self) -> [(Self, Self); 2] {
         let ends = EndValues([self.lo.sin_cos(), self.hi.sin_cos()]);
         let slack = 2.0 * TRIG_ERROR * (1.0 + self.magnitude());
         let double = Self { lo: 2.0 * self.lo, hi: 2.0 * self.hi };

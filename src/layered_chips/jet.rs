@@ -5,7 +5,7 @@ use super::interval::IntervalF64;
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// The arithmetic of a function of time: numbers, or intervals that contain all values.
-pub trait Scalar:
+pub(super) trait Scalar:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
     /// Converts a number.
@@ -42,7 +42,7 @@ impl Scalar for IntervalF64 {
 
 /// A value with its first and second derivative with respect to time.
 #[derive(Debug, Clone, Copy)]
-pub struct Jet<S> {
+pub(super) struct Jet<S> {
     /// The value.
     pub v: S,
     /// The first derivative.
@@ -53,12 +53,12 @@ pub struct Jet<S> {
 
 impl<S: Scalar> Jet<S> {
     /// Makes a constant, whose derivatives are zero.
-    pub fn constant(x: f64) -> Self {
+    pub(super) fn constant(x: f64) -> Self {
         Self { v: S::from_f64(x), d: S::from_f64(0.0), dd: S::from_f64(0.0) }
     }
 
     /// Returns the reciprocal.
-    pub fn recip(self) -> Self {
+    pub(super) fn recip(self) -> Self {
         let r = self.v.recip();
         let rr = r * r;
         let d = -(self.d * rr);
@@ -67,7 +67,7 @@ impl<S: Scalar> Jet<S> {
     }
 
     /// Returns the value multiplied by a number.
-    pub fn scaled_by(self, factor: f64) -> Self {
+    pub(super) fn scaled_by(self, factor: f64) -> Self {
         let factor = S::from_f64(factor);
         Self { v: self.v * factor, d: self.d * factor, dd: self.dd * factor }
     }

@@ -281,18 +281,18 @@ pub(super) struct FamilyWindow<'f> {
 
 impl FamilyWindow<'_> {
     /// Returns half the length of the interval.
-    pub fn half_length(&self) -> f64 {
+    pub(super) fn half_length(&self) -> f64 {
         self.offset.magnitude()
     }
 
     /// Returns a curve at the time in the middle of the interval.
-    pub fn curve_at_middle(&self, curve: DiagramCurve) -> TrigPolynomial<IntervalF64> {
+    pub(super) fn curve_at_middle(&self, curve: DiagramCurve) -> TrigPolynomial<IntervalF64> {
         TrigPolynomial(self.family.expand_curve(curve, &self.middle).0)
     }
 
     /// Encloses a curve over all times of the interval: returns enclosures of its coefficients and of their
     /// derivatives with respect to time.
-    pub fn enclose_curve(
+    pub(super) fn enclose_curve(
         &self,
         curve: DiagramCurve,
     ) -> (TrigPolynomial<IntervalF64>, TrigPolynomial<IntervalF64>) {

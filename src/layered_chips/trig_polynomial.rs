@@ -6,11 +6,11 @@ use super::jet::Scalar;
 
 /// The polynomial, given by its coefficients k0 to k4.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TrigPolynomial<S>(pub [S; 5]);
+pub(super) struct TrigPolynomial<S>(pub [S; 5]);
 
 /// The cosine and sine of an angle and of twice that angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AngleSinCos<S> {
+pub(super) struct AngleSinCos<S> {
     /// The cosine.
     pub cos: S,
     /// The sine.
@@ -23,7 +23,7 @@ pub struct AngleSinCos<S> {
 
 impl AngleSinCos<f64> {
     /// Computes them for an angle in radians.
-    pub fn from_radians(x: f64) -> Self {
+    pub(super) fn from_radians(x: f64) -> Self {
         let (sin, cos) = x.sin_cos();
         Self { cos, sin, cos2: cos * cos - sin * sin, sin2: 2.0 * sin * cos }
     }
@@ -31,7 +31,7 @@ impl AngleSinCos<f64> {
 
 impl AngleSinCos<IntervalF64> {
     /// Encloses them for all angles of an interval, in radians.
-    pub fn from_interval(x: IntervalF64) -> Self {
+    pub(super) fn from_interval(x: IntervalF64) -> Self {
         let [(sin, cos), (sin2, cos2)] = x.sin_cos_with_doubles();
         Self { cos, sin, cos2, sin2 }
     }
@@ -39,19 +39,19 @@ impl AngleSinCos<IntervalF64> {
 
 impl<S: Scalar> TrigPolynomial<S> {
     /// Returns the value at an angle.
-    pub fn value_at(&self, x: &AngleSinCos<S>) -> S {
+    pub(super) fn value_at(&self, x: &AngleSinCos<S>) -> S {
         let [k0, k1, k2, k3, k4] = self.0;
         k0 + k1 * x.cos + k2 * x.sin + k3 * x.cos2 + k4 * x.sin2
     }
 
     /// Returns the derivative with respect to the angle.
-    pub fn derivative_at(&self, x: &AngleSinCos<S>) -> S {
+    pub(super) fn derivative_at(&self, x: &AngleSinCos<S>) -> S {
         let [_, k1, k2, k3, k4] = self.0;
         k2 * x.cos - k1 * x.sin + S::from_f64(2.0) * (k4 * x.cos2 - k3 * x.sin2)
     }
 
     /// Returns the second derivative with respect to the angle.
-    pub fn second_derivative_at(&self, x: &AngleSinCos<S>) -> S {
+    pub(super) fn second_derivative_at(&self, x: &AngleSinCos<S>) -> S {
         let [_, k1, k2, k3, k4] = self.0;
         -(k1 * x.cos + k2 * x.sin + S::from_f64(4.0) * (k3 * x.cos2 + k4 * x.sin2))
     }
@@ -59,7 +59,7 @@ impl<S: Scalar> TrigPolynomial<S> {
 
 impl TrigPolynomial<IntervalF64> {
     /// Returns an upper bound of the absolute value.
-    pub fn max_magnitude(&self) -> f64 {
+    pub(super) fn max_magnitude(&self) -> f64 {
         self.0.iter().map(|k| k.magnitude()).sum()
     }
 }
@@ -68,7 +68,7 @@ impl TrigPolynomial<f64> {
     /// Returns the angle in `[lo, hi]` at which the polynomial is zero, given that it rises (or falls) there;
     /// if it has the same sign everywhere, an end of the interval. The result is exact to the last bits
     /// except at a double root. It uses Newton's steps, and bisection where those leave the bracket.
-    pub fn find_root(&self, lo: f64, hi: f64, rising: bool) -> f64 {
+    pub(super) fn find_root(&self, lo: f64, hi: f64, rising: bool) -> f64 {
         let sign = if rising { 1.0 } else { -1.0 };
         let at = |x: f64| {
             let angle = AngleSinCos::from_radians(x);

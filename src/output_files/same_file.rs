@@ -25,13 +25,13 @@ pub(crate) struct FileSet {
 
 impl FileSet {
     /// Adds a file, which need not exist yet.
-    pub fn insert(&mut self, path: &Path) {
+    pub(crate) fn insert(&mut self, path: &Path) {
         self.paths.extend(real_path(path));
         self.inodes.extend(file_inode(path));
     }
 
     /// Returns whether writing to a path would change one of the files.
-    pub fn contains(&self, path: &Path) -> bool {
+    pub(crate) fn contains(&self, path: &Path) -> bool {
         real_path(path).is_some_and(|path| self.paths.contains(&path))
             || file_inode(path).is_some_and(|inode| self.inodes.contains(&inode))
     }

@@ -8,17 +8,17 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 /// The number of columns for data. Identification stands behind them.
-pub const DATA_COLUMNS: usize = 72;
+pub(crate) const DATA_COLUMNS: usize = 72;
 
 /// The number of columns of a card, with the identification.
-pub const CARD_COLUMNS: usize = 80;
+pub(crate) const CARD_COLUMNS: usize = 80;
 
 /// The byte that stands for a `$` at the end of a full line in the text that the grammar reads.
 pub(super) const FULL_LINE: u8 = 1;
 
 /// What columns say about a line; offsets are relative to its start.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct LineColumns {
+pub(crate) struct LineColumns {
     /// The bytes of the line without its line end.
     pub length: usize,
     /// The offset of the `$` that ends a full line.
@@ -31,7 +31,7 @@ pub struct LineColumns {
 ///
 /// A line is full if it ends in a single `$` in column 72 or behind it (a file that was converted to UTF-8 has
 /// more bytes than columns), or in column 72 with an identification after it.
-pub fn inspect_line(line: &[u8]) -> LineColumns {
+pub(crate) fn inspect_line(line: &[u8]) -> LineColumns {
     let length = line.len() - line.iter().rev().take_while(|byte| matches!(byte, b'\n' | b'\r')).count();
     let line = line.get(..length).unwrap_or_default();
     let mut found = LineColumns { length, full: None, identification: None };
@@ -119,7 +119,7 @@ pub(super) fn mask_for_grammar(window: &[u8]) -> Cow<'_, str> {
 }
 
 /// Returns a part of a statement's text without the breaks of full lines in it.
-pub fn without_full_breaks<'t>(text: &'t [u8], at: &Range<usize>) -> Cow<'t, [u8]> {
+pub(crate) fn without_full_breaks<'t>(text: &'t [u8], at: &Range<usize>) -> Cow<'t, [u8]> {
     let part = text.get(at.clone()).unwrap_or_default();
     if memchr::memchr(b'\n', part).is_none() {
         return Cow::Borrowed(part);

@@ -51,7 +51,7 @@ pub fn parse_statement(window: &[u8]) -> StatementSyntax<'_> {
 
 /// Returns the offset at which a refused line is no longer readable: the furthest byte that the strict forms
 /// reached.
-pub fn find_refusal_offset(text: &[u8]) -> usize {
+pub(super) fn find_refusal_offset(text: &[u8]) -> usize {
     if text.len() > LONGEST {
         return 0;
     }

@@ -149,7 +149,7 @@ impl ColumnUnit {
     }
 
     /// Returns what the name of a column ends with in CSV heads and JSON keys: `_mm`.
-    pub fn key_suffix(self, shown_in: LengthUnit) -> &'static str {
+    pub(crate) fn key_suffix(self, shown_in: LengthUnit) -> &'static str {
         use LengthUnit::{Inch, Mm};
         match (self, shown_in) {
             (Self::None, _) => "",
@@ -173,7 +173,7 @@ impl ColumnUnit {
 
     /// Returns the unit as people write it in plain text: `mm3/min`. Durations print their unit beside each
     /// value.
-    pub fn symbol(self, shown_in: LengthUnit) -> &'static str {
+    pub(crate) fn symbol(self, shown_in: LengthUnit) -> &'static str {
         use LengthUnit::{Inch, Mm};
         match (self, shown_in) {
             (Self::None | Self::Duration, _) => "",
@@ -195,7 +195,7 @@ impl ColumnUnit {
     }
 
     /// Returns the unit as people write it where exponents can be raised: `mm³/min`.
-    pub fn marked_symbol(self, shown_in: LengthUnit) -> &'static str {
+    pub(crate) fn marked_symbol(self, shown_in: LengthUnit) -> &'static str {
         match self.symbol(shown_in) {
             "mm2" => "mm²",
             "mm3" => "mm³",

@@ -148,7 +148,7 @@ pub(crate) struct DialectDetector {
 impl DialectDetector {
     /// Examines one statement. The marks are exact texts that only one system writes, so the first mark
     /// decides.
-    pub fn observe_statement(&mut self, syntax: &StatementSyntax<'_>, record: &Record) {
+    pub(crate) fn observe_statement(&mut self, syntax: &StatementSyntax<'_>, record: &Record) {
         if self.found.is_some() {
             return;
         }
@@ -171,12 +171,12 @@ impl DialectDetector {
     }
 
     /// Returns whether a mark of any system was found.
-    pub fn has_mark(&self) -> bool {
+    pub(crate) fn has_mark(&self) -> bool {
         self.found.is_some() || self.catia || self.icam
     }
 
     /// Returns the dialect, or [`Dialect::Iso`] if there was no mark.
-    pub fn detected_dialect(&self) -> Dialect {
+    pub(crate) fn detected_dialect(&self) -> Dialect {
         match self.found {
             Some(found) => found,
             None if self.icam => Dialect::CatiaIcam,

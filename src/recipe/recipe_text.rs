@@ -51,7 +51,7 @@ impl RecipeVersion {
     /// The only version so far.
     const KNOWN: u32 = 1;
 
-    pub fn get(self) -> u32 {
+    pub(super) fn get(self) -> u32 {
         self.0
     }
 }

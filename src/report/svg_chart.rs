@@ -58,7 +58,7 @@ impl Default for ChartFrame<'_> {
 
 impl ChartFrame<'_> {
     /// Draws the frame into `area` and returns its chart, whose axes have these ranges.
-    pub fn draw<'area, 'text>(
+    pub(super) fn draw<'area, 'text>(
         &self,
         area: &'area SvgArea<'text>,
         right: Range<f64>,

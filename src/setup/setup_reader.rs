@@ -21,12 +21,12 @@ pub(super) struct SetupReader {
 }
 
 impl SetupReader {
-    pub fn new(units: LengthUnit) -> Self {
+    pub(super) fn new(units: LengthUnit) -> Self {
         Self { units, found: Vec::new() }
     }
 
     /// Returns a length in millimetres.
-    pub fn length_mm(&mut self, value: f64, place: impl FnOnce() -> YamlLocation) -> f64 {
+    pub(super) fn length_mm(&mut self, value: f64, place: impl FnOnce() -> YamlLocation) -> f64 {
         let value_mm = value * self.units.mm_per_unit();
         if value_mm.abs() <= LARGEST_LENGTH_MM {
             return value_mm;
@@ -37,7 +37,7 @@ impl SetupReader {
     }
 
     /// Returns the size of something in millimetres.
-    pub fn size_mm(&mut self, value: Positive, place: impl Fn() -> YamlLocation) -> f64 {
+    pub(super) fn size_mm(&mut self, value: Positive, place: impl Fn() -> YamlLocation) -> f64 {
         let value_mm = self.length_mm(value.get(), &place);
         if value.get() * self.units.mm_per_unit() < SMALLEST_SIZE_MM {
             self.add_fault(place, "this is less than a micrometre", "too small", "Compare it with `units:`.");
@@ -46,7 +46,7 @@ impl SetupReader {
     }
 
     /// Returns a size that may be missing, in millimetres. It stands at `key` of `place`.
-    pub fn optional_size_mm(
+    pub(super) fn optional_size_mm(
         &mut self,
         value: Option<Positive>,
         place: &YamlLocation,
@@ -56,7 +56,7 @@ impl SetupReader {
     }
 
     /// Returns a length that may be missing, in millimetres. It stands at `key` of `place`.
-    pub fn optional_length_mm(
+    pub(super) fn optional_length_mm(
         &mut self,
         value: Option<f64>,
         place: &YamlLocation,
@@ -66,7 +66,7 @@ impl SetupReader {
     }
 
     /// Adds the fault of a value.
-    pub fn add_fault(
+    pub(super) fn add_fault(
         &mut self,
         place: impl FnOnce() -> YamlLocation,
         message: impl Into<String>,
@@ -81,7 +81,7 @@ impl SetupReader {
     }
 
     /// Adds a fault that lies in a key and not in its value, with the other keys that contradict it.
-    pub fn add_key_fault(
+    pub(super) fn add_key_fault(
         &mut self,
         code: DiagnosticCode,
         message: String,
@@ -97,7 +97,7 @@ impl SetupReader {
     }
 
     /// Returns the value, or the faults if there are any.
-    pub fn finish_value<T>(mut self, value: T) -> Result<T, Failure> {
+    pub(super) fn finish_value<T>(mut self, value: T) -> Result<T, Failure> {
         if self.found.is_empty() {
             return Ok(value);
         }

@@ -15,7 +15,7 @@ pub(super) struct FaultCollector {
 
 impl FaultCollector {
     /// Checks the engagement of a motion. `cell_mm` is the distance of columns, mm.
-    pub fn check_engagement(
+    pub(super) fn check_engagement(
         &mut self,
         program: &Program,
         motion: &Motion,
@@ -44,7 +44,7 @@ impl FaultCollector {
 
     /// Checks a motion that removed a volume in mm3. No rapid may remove material, and no tool whose spindle
     /// does not turn.
-    pub fn check_removal(&mut self, program: &Program, motion: &Motion, removed_mm3: f64) {
+    pub(super) fn check_removal(&mut self, program: &Program, motion: &Motion, removed_mm3: f64) {
         if motion.rapid {
             let message = format!("a rapid goes through material and takes {removed_mm3:.3} mm3 of it");
             let found = Diagnostic::new(codes::RAPID_THROUGH_STOCK, message).with_magnitude(removed_mm3);
@@ -56,20 +56,20 @@ impl FaultCollector {
     }
 
     /// Reports a motion that is divided less finely than the tolerance asks for.
-    pub fn report_piece_limit(&mut self, program: &Program, motion: &Motion) {
+    pub(super) fn report_piece_limit(&mut self, program: &Program, motion: &Motion) {
         let message =
             format!("this motion would need more than {MOST_PIECES} pieces and is divided less finely");
         self.add_finding(program, motion, Diagnostic::new(codes::PIECE_LIMIT, message), "divided coarsely");
     }
 
     /// Adds a finding at a motion.
-    pub fn add_finding(&mut self, program: &Program, motion: &Motion, found: Diagnostic, label: &str) {
+    pub(super) fn add_finding(&mut self, program: &Program, motion: &Motion, found: Diagnostic, label: &str) {
         let at = statement_span(program, motion.last_statement());
         self.found.push(found.with_label(program.source(), at, label));
     }
 
     /// Returns all findings in the order of the motions.
-    pub fn into_findings(self) -> Vec<Diagnostic> {
+    pub(super) fn into_findings(self) -> Vec<Diagnostic> {
         self.found
     }
 }

@@ -75,12 +75,12 @@ pub(crate) struct DexelBand {
 
 impl DexelBand {
     /// Returns the number of rows in this band.
-    pub fn row_count(&self) -> usize {
+    pub(crate) fn row_count(&self) -> usize {
         self.top.len().checked_div(self.columns).unwrap_or(0)
     }
 
     /// Returns the intervals of a column, from above to below.
-    pub fn column_spans(&self, index: usize) -> impl Iterator<Item = DexelSpan> + '_ {
+    pub(crate) fn column_spans(&self, index: usize) -> impl Iterator<Item = DexelSpan> + '_ {
         let first = self.top.get(index).zip(self.low.get(index)).map(|(top, low)| [*low, *top]);
         let first = first.filter(|[_, top]| *top > f32::NEG_INFINITY);
         let below = self.below.get(&(index as u32)).into_iter().flatten().copied();
@@ -99,12 +99,12 @@ impl DexelBand {
     }
 
     /// Returns whether a column has more than one interval.
-    pub fn has_lower_spans(&self, index: usize) -> bool {
+    pub(crate) fn has_lower_spans(&self, index: usize) -> bool {
         !self.below.is_empty() && self.below.contains_key(&(index as u32))
     }
 
     /// Replaces the intervals of a column. They must go from above to below and not touch.
-    pub fn set_column(&mut self, index: usize, intervals: &[DexelSpan]) {
+    pub(crate) fn set_column(&mut self, index: usize, intervals: &[DexelSpan]) {
         let (first, rest) = match intervals.split_first() {
             Some((first, rest)) => (*first, rest),
             None => ([f32::NEG_INFINITY; 2], [].as_slice()),
@@ -121,7 +121,7 @@ impl DexelBand {
 
     /// Removes the heights `from..to` from a column. `removed` gets the lower and upper end of each piece of
     /// material that is removed, from above to below.
-    pub fn cut_column(&mut self, index: usize, from: f32, to: f32, mut removed: impl FnMut(f32, f32)) {
+    pub(crate) fn cut_column(&mut self, index: usize, from: f32, to: f32, mut removed: impl FnMut(f32, f32)) {
         let (Some(top), Some(low)) = (self.top.get_mut(index), self.low.get_mut(index)) else { return };
         if *top <= from {
             return;
@@ -153,7 +153,7 @@ impl DexelBand {
     }
 
     /// Returns the memory in bytes; an entry of the map counts as 48 bytes.
-    pub fn memory_bytes(&self) -> usize {
+    pub(crate) fn memory_bytes(&self) -> usize {
         let below: usize = self.below.values().map(|more| 48 + more.len() * size_of::<DexelSpan>()).sum();
         self.top.len() * 2 * size_of::<f32>() + below
     }

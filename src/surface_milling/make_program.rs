@@ -40,7 +40,7 @@ type PreparedGround<'a> = (PassGround<'a>, f64, f64, Option<(f64, f64)>);
 ///
 /// ```
 /// use clsmith::program::Dialect;
-/// use clsmith::internals::surface::profile::{Chain, Point};
+/// use clsmith::surface_milling::{Chain, Point};
 /// use clsmith::surface_milling::{
 ///     SectionProfile, SurfaceMillingOptions, SurfacePart, SurfaceProgramWords, make_surface_program,
 /// };

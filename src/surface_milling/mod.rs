@@ -25,6 +25,10 @@ mod section_profile;
 mod surface_program;
 mod surface_proof;
 
+pub use crate::surface::profile::{
+    ArcPiece, Chain, ChainError, ChainPiece, ChordError, EllipseArc, LinePiece, NurbsCurve, NurbsError,
+    Point, ProfilePlane, UnreachablePart,
+};
 pub use make_program::make_surface_program;
 pub use pass_linking::PassPattern;
 pub use pass_planes::{MOST_PLANES, PassPlanes, plane_offsets};

@@ -36,28 +36,28 @@ pub(super) struct TrackStep {
 
 impl ProgramRounding {
     /// Converts a point from mm to the rounded numbers of the program.
-    pub fn round_point(&self, [x, y, z]: [f64; 3]) -> Point3<f64> {
+    pub(super) fn round_point(&self, [x, y, z]: [f64; 3]) -> Point3<f64> {
         Point3::new(self.round_length(x), self.round_length(y), self.round_length(z))
     }
 
     /// Converts a length from mm to the rounded number of the program.
-    pub fn round_length(&self, length_mm: f64) -> f64 {
+    pub(super) fn round_length(&self, length_mm: f64) -> f64 {
         round_coordinate(length_mm / self.units.mm_per_unit(), self.dialect)
     }
 
     /// Converts a feed from mm/min to the rounded number of the program.
-    pub fn round_feed(&self, feed_mm_min: f64) -> f64 {
+    pub(super) fn round_feed(&self, feed_mm_min: f64) -> f64 {
         round_feed(feed_mm_min / self.units.mm_per_unit(), self.dialect)
     }
 
     /// Returns one unit of the last decimal, mm.
-    pub fn last_decimal_mm(&self) -> f64 {
+    pub(super) fn last_decimal_mm(&self) -> f64 {
         10f64.powi(-(crate::write::new_program::coordinate_decimals(self.dialect) as i32))
             * self.units.mm_per_unit()
     }
 
     /// Converts a point of the program to mm.
-    pub fn point_in_mm(&self, point: Point3<f64>) -> [f64; 3] {
+    pub(super) fn point_in_mm(&self, point: Point3<f64>) -> [f64; 3] {
         (point * self.units.mm_per_unit()).into()
     }
 }
@@ -66,7 +66,7 @@ impl PassTrack {
     /// Converts a tip path in the plane at an offset to a track. Lines of at most `least_mm` between other
     /// pieces are left out, because a control would stop there. Returns `None` if nothing of the path is left
     /// in the program's decimals.
-    pub fn new(
+    pub(super) fn new(
         tip: &Chain,
         planes: &PassPlanes,
         offset_mm: f64,
@@ -120,13 +120,13 @@ impl PassTrack {
     }
 
     /// Returns the end of the track.
-    pub fn end_point(&self) -> Point3<f64> {
+    pub(super) fn end_point(&self) -> Point3<f64> {
         self.steps.last().map_or(self.start, |step| step.to)
     }
 
     /// Returns the track in its plane, mm. It consists of the printed numbers, not of those that were
     /// intended.
-    pub fn to_plane_chain(&self, planes: &PassPlanes, print: ProgramRounding) -> Option<Chain> {
+    pub(super) fn to_plane_chain(&self, planes: &PassPlanes, print: ProgramRounding) -> Option<Chain> {
         let flat = |point: Point3<f64>| point_in_plane(point, planes, print);
         let up = |axis: &Vector3<f64>| {
             let [cos, sin] = planes.direction();
@@ -146,7 +146,7 @@ impl PassTrack {
     }
 
     /// Returns points along the track in mm; arcs become chords that are at most `tolerance_mm` from them.
-    pub fn sample_points(
+    pub(super) fn sample_points(
         &self,
         planes: &PassPlanes,
         print: ProgramRounding,

@@ -34,7 +34,7 @@ pub(super) struct PlaneSlice {
 
 impl PassMaker {
     /// Makes the paths over a profile.
-    pub fn tips_over_profile(&self, profile: &Chain) -> Vec<Chain> {
+    pub(super) fn tips_over_profile(&self, profile: &Chain) -> Vec<Chain> {
         let upward = if profile.start().u <= profile.end().u { profile.clone() } else { profile.reversed() };
         let Ok(tip) = compensate_profile(&upward, self.radius_mm) else { return Vec::new() };
         self.simplify_tips(chain_cutting::cut_chain(&tip, &[], self.floor_mm, |at| {
@@ -43,7 +43,7 @@ impl PassMaker {
     }
 
     /// Makes the slice of a mesh from its line in the plane alone.
-    pub fn slice_in_plane(&self, sections: &VerticalMeshSections, offset_mm: f64) -> PlaneSlice {
+    pub(super) fn slice_in_plane(&self, sections: &VerticalMeshSections, offset_mm: f64) -> PlaneSlice {
         // The holes are bridged far below, so that one envelope covers the whole plane.
         let stretches = self.section_chains(sections, offset_mm);
         let Some(ground) = bridge_holes(&stretches, self.radius_mm) else {
@@ -64,7 +64,7 @@ impl PassMaker {
     }
 
     /// Makes the slice of a mesh with heights over the whole mesh.
-    pub fn slice_over_mesh(
+    pub(super) fn slice_over_mesh(
         &self,
         sections: &VerticalMeshSections,
         cutter: &DropCutter,

@@ -67,7 +67,7 @@ pub(super) struct PassProver<'a> {
 
 impl PassProver<'_> {
     /// Returns the worst values of all passes.
-    pub fn prove_all(&self, passes: &[ProvedPass<'_>]) -> SurfaceProof {
+    pub(super) fn prove_all(&self, passes: &[ProvedPass<'_>]) -> SurfaceProof {
         let all: Vec<SurfaceProof> = passes.par_iter().map(|pass| self.prove_pass(pass)).collect();
         all.into_iter().fold(SurfaceProof::default(), SurfaceProof::worse_of)
     }

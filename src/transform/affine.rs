@@ -18,18 +18,18 @@ pub(crate) struct Affine {
 
 impl Affine {
     /// Makes the transform that moves nothing.
-    pub fn identity() -> Self {
+    pub(crate) fn identity() -> Self {
         Self { linear: Matrix3::identity(), offset: Vector3::zeros() }
     }
 
     /// Makes the transform that displaces every point by the same vector.
-    pub fn translation(offset: Vector3<f64>) -> Self {
+    pub(crate) fn translation(offset: Vector3<f64>) -> Self {
         Self { linear: Matrix3::identity(), offset }
     }
 
     /// Makes a right-handed rotation about an axis through a point. Rotations by quarter turns about x, y or
     /// z are exact: their matrix holds only 0, 1 and -1.
-    pub fn rotation(axis: Unit<Vector3<f64>>, degrees: f64, about: Vector3<f64>) -> Self {
+    pub(crate) fn rotation(axis: Unit<Vector3<f64>>, degrees: f64, about: Vector3<f64>) -> Self {
         let (sine, cosine) = exact_sine_cosine(degrees);
         let outer = axis.into_inner() * axis.transpose();
         let linear = Matrix3::identity() * cosine + axis.cross_matrix() * sine + outer * (1.0 - cosine);
@@ -37,51 +37,51 @@ impl Affine {
     }
 
     /// Makes a mirror in the plane through a point.
-    pub fn mirror(normal: Unit<Vector3<f64>>, through: Vector3<f64>) -> Self {
+    pub(crate) fn mirror(normal: Unit<Vector3<f64>>, through: Vector3<f64>) -> Self {
         let linear = Matrix3::identity() - normal.into_inner() * normal.transpose() * 2.0;
         Self { linear, offset: through - linear * through }
     }
 
     /// Returns the transform that does this one first and `next` after it.
     #[must_use]
-    pub fn then(self, next: Self) -> Self {
+    pub(crate) fn then(self, next: Self) -> Self {
         Self { linear: next.linear * self.linear, offset: next.linear * self.offset + next.offset }
     }
 
     /// Transforms a point.
-    pub fn transform_point(&self, point: Point3<f64>) -> Point3<f64> {
+    pub(crate) fn transform_point(&self, point: Point3<f64>) -> Point3<f64> {
         Point3::from(self.linear * point.coords + self.offset)
     }
 
     /// Transforms a displacement or a direction. These are rotated and mirrored, but not moved by the offset.
-    pub fn transform_vector(&self, vector: Vector3<f64>) -> Vector3<f64> {
+    pub(crate) fn transform_vector(&self, vector: Vector3<f64>) -> Vector3<f64> {
         self.linear * vector
     }
 
     /// Transforms the axis of an arc. The axis is a pseudo-vector: a mirror reverses it, because it reverses
     /// the sense in which the arc runs.
-    pub fn transform_arc_axis(&self, axis: Vector3<f64>) -> Vector3<f64> {
+    pub(crate) fn transform_arc_axis(&self, axis: Vector3<f64>) -> Vector3<f64> {
         let turned = self.linear * axis;
         if self.has_mirror() { -turned } else { turned }
     }
 
     /// Returns whether the transform swaps left and right.
-    pub fn has_mirror(&self) -> bool {
+    pub(crate) fn has_mirror(&self) -> bool {
         self.linear.determinant() < 0.0
     }
 
     /// Returns whether the transform changes any direction.
-    pub fn changes_directions(&self) -> bool {
+    pub(crate) fn changes_directions(&self) -> bool {
         self.linear != Matrix3::identity()
     }
 
     /// Returns whether the transform changes nothing at all.
-    pub fn is_identity(&self) -> bool {
+    pub(crate) fn is_identity(&self) -> bool {
         *self == Self::identity()
     }
 
     /// Returns whether the transform leaves a direction unchanged.
-    pub fn keeps_direction(&self, direction: Vector3<f64>) -> bool {
+    pub(crate) fn keeps_direction(&self, direction: Vector3<f64>) -> bool {
         is_same_vector(self.transform_vector(direction), direction)
     }
 }

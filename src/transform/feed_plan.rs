@@ -221,7 +221,7 @@ fn is_cycle(program: &Program, statement: StatementId) -> bool {
 /// # Errors
 /// Returns an error if the statement states no feed, or if the feed cannot be printed as a record that reads
 /// back.
-pub fn set_feed(editor: &mut ProgramEditor, statement: StatementId, feed: f64) -> Result<(), Failure> {
+pub(super) fn set_feed(editor: &mut ProgramEditor, statement: StatementId, feed: f64) -> Result<(), Failure> {
     let program = editor.program();
     let Some(number) = feed_number_indices(program, statement).next() else {
         let error =

@@ -29,6 +29,7 @@ pub use rewrite::{RewriteRule, RuleFault};
 pub use statement_selection::{SelectedStatements, StatementSelection};
 pub use step_context::StepContext;
 pub use step_report::{TransformReport, to_json_value};
+pub use unit_slips::find_feeds_above_machine;
 
 use crate::diagnostic::Failure;
 use crate::parameters::FilePath;

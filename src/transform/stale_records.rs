@@ -14,7 +14,7 @@ use crate::program::{Program, Record, StatementId};
 type StaleRecord = (&'static str, &'static str);
 
 /// Reports records that do not fit any more after the points have moved.
-pub fn report_stale_after_move(program: &Program, place: &Affine, context: &mut StepContext<'_>) {
+pub(super) fn report_stale_after_move(program: &Program, place: &Affine, context: &mut StepContext<'_>) {
     let turns = place.changes_directions();
     let height = place.linear.row(2) != nalgebra::RowVector3::new(0.0, 0.0, 1.0) || place.offset.z != 0.0;
     report_stale_records(program, context, |record, text| match record {
@@ -44,7 +44,7 @@ pub fn report_stale_after_move(program: &Program, place: &Affine, context: &mut 
 }
 
 /// Reports records that are still in the old unit after lengths were converted.
-pub fn report_stale_after_conversion(program: &Program, context: &mut StepContext<'_>) {
+pub(super) fn report_stale_after_conversion(program: &Program, context: &mut StepContext<'_>) {
     report_stale_records(program, context, |record, text| match record {
         Record::Text if is_escape_height(text) => {
             Some(("ESCAPE-HEIGHT", "this escape height is still in the old unit"))

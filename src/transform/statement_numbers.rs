@@ -17,7 +17,7 @@ const MATRIX_TOLERANCE: f64 = 5e-8;
 
 /// Returns the roles of a statement's numbers. A GOTO of several points only holds axes under MULTAX, as
 /// motions read it.
-pub fn number_roles(record: &Record, text: &[u8], multi_axis: bool) -> Vec<NumberRole> {
+pub(super) fn number_roles(record: &Record, text: &[u8], multi_axis: bool) -> Vec<NumberRole> {
     match record {
         Record::Points(numbers) if !has_contact_normal(numbers) && has_tool_axes(numbers) && !multi_axis => {
             (0..numbers.len()).map(|index| NumberRole::Point((index % 3) as u8)).collect()
@@ -28,7 +28,7 @@ pub fn number_roles(record: &Record, text: &[u8], multi_axis: bool) -> Vec<Numbe
 
 /// Gives every point and vector among the numbers a new value. `change` gets the role of the first component,
 /// and returns `None` if the triple stays. The result is meant for [`ProgramEditor::set_numbers`].
-pub fn map_triples(
+pub(super) fn map_triples(
     values: &[f64],
     roles: &[NumberRole],
     change: impl Fn(NumberRole, Vector3<f64>) -> Option<Vector3<f64>>,
@@ -51,14 +51,14 @@ pub fn map_triples(
 
 /// Counts the rows of CATIA's matrix: three after each `$$*CATIA0`, with only comments between them.
 #[derive(Debug, Default)]
-pub struct MatrixRowCounter {
+pub(super) struct MatrixRowCounter {
     open: bool,
     next: u8,
 }
 
 impl MatrixRowCounter {
     /// Reads a record. Returns the index of the row (0 to 2) if it is one.
-    pub fn observe_record(&mut self, record: &Record) -> Option<u8> {
+    pub(super) fn observe_record(&mut self, record: &Record) -> Option<u8> {
         match record {
             Record::FrameMark => *self = Self { open: true, next: 0 },
             Record::MatrixRow(_) if self.open => {
@@ -78,7 +78,7 @@ impl MatrixRowCounter {
 /// blanks, so at least one blank stays.
 ///
 /// Returns an error if the row does not read back.
-pub fn set_matrix_row(
+pub(super) fn set_matrix_row(
     editor: &mut ProgramEditor,
     id: StatementId,
     edits: &[(usize, f64)],
@@ -112,7 +112,7 @@ pub fn set_matrix_row(
 
 /// Returns the major word of a statement in upper case, without the cost of the grammar. It is meant for
 /// comparisons with lists of words.
-pub fn major_word(text: &[u8]) -> String {
+pub(super) fn major_word(text: &[u8]) -> String {
     let text = text.trim_ascii_start();
     // The number of a statement stands in front of its word (`N10 GOTO/`), numbers behind a comma (`CHANNEL,1`).
     let label = text.strip_prefix(b"N").or(text.strip_prefix(b"n")).unwrap_or(text);
@@ -135,7 +135,7 @@ pub fn major_word(text: &[u8]) -> String {
 }
 
 /// Returns a statement's text without remark and line end.
-pub fn strip_remark(text: &[u8]) -> Vec<u8> {
+pub(super) fn strip_remark(text: &[u8]) -> Vec<u8> {
     let syntax = parse::syntax(text);
     let end = match (&syntax.remark, syntax.fields.last()) {
         (None, _) => syntax.text.len(),
@@ -149,7 +149,10 @@ pub fn strip_remark(text: &[u8]) -> Vec<u8> {
 ///
 /// # Errors
 /// Returns an error if the comment does not read back.
-pub fn delete_keeping_remark(editor: &mut ProgramEditor, statement: StatementId) -> Result<(), Failure> {
+pub(super) fn delete_keeping_remark(
+    editor: &mut ProgramEditor,
+    statement: StatementId,
+) -> Result<(), Failure> {
     let program = editor.program();
     let found = program.statement(statement);
     let text = program.statement_text(found);
@@ -161,18 +164,22 @@ pub fn delete_keeping_remark(editor: &mut ProgramEditor, statement: StatementId)
 }
 
 /// Rounds a coordinate to the decimals that a file prints. A machine gains nothing from more decimals.
-pub fn round_to_decimals(value: f64, decimals: usize) -> f64 {
+pub(super) fn round_to_decimals(value: f64, decimals: usize) -> f64 {
     let power = 10f64.powi(decimals as i32);
     (value * power).round() / power
 }
 
 /// Returns pairs of the numbers' indices, from `first` on, and their new values.
-pub fn pair_with_indices(first: usize, values: impl IntoIterator<Item = f64>) -> Vec<(usize, f64)> {
+pub(super) fn pair_with_indices(first: usize, values: impl IntoIterator<Item = f64>) -> Vec<(usize, f64)> {
     values.into_iter().enumerate().map(|(index, value)| (first + index, value)).collect()
 }
 
 /// Returns a statement's text with other numbers and without its remark, as a new statement in its form.
-pub fn copy_statement(editor: &ProgramEditor, statement: StatementId, numbers: &[(usize, f64)]) -> Vec<u8> {
+pub(super) fn copy_statement(
+    editor: &ProgramEditor,
+    statement: StatementId,
+    numbers: &[(usize, f64)],
+) -> Vec<u8> {
     let program = editor.program();
     let found = program.statement(statement);
     copy_with_numbers(&strip_remark(program.statement_text(found)), found.record(), numbers, editor.style())

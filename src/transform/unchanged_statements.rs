@@ -9,7 +9,7 @@ use crate::program::{FieldKind, Program, Record, StatementId};
 /// Reports unknown words with numbers that may be points or lengths, with one finding for each word, and
 /// statements that could not be read, with one finding for all of them. `meant` tells which statements the
 /// step changes, and `verb` is what it does to them.
-pub fn report_unchanged_statements(
+pub(super) fn report_unchanged_statements(
     program: &Program,
     meant: impl Fn(StatementId) -> bool,
     verb: &str,

@@ -48,25 +48,25 @@ impl YamlDocument {
     ///
     /// # Errors
     /// Returns the reason why the bytes are not a YAML document.
-    pub fn parse(source: &Arc<Source>) -> Result<Self, Failure> {
+    pub(crate) fn parse(source: &Arc<Source>) -> Result<Self, Failure> {
         let (text, base) = yaml_syntax::check_text(source)?;
         let root = yaml_syntax::parse_tree(source, text, base)?;
         Ok(Self { source: Arc::clone(source), base, root })
     }
 
     /// Returns the file from which it was read.
-    pub fn source(&self) -> &Arc<Source> {
+    pub(crate) fn source(&self) -> &Arc<Source> {
         &self.source
     }
 
     /// Returns the place of a value. An empty value has the place of its key. Returns `None` if there is no
     /// such value.
-    pub fn value_span(&self, path: &[YamlPathSegment<'_>]) -> Option<Span> {
+    pub(crate) fn value_span(&self, path: &[YamlPathSegment<'_>]) -> Option<Span> {
         self.node_span(&self.resolve_path(path)?, KeyOrValue::Value)
     }
 
     /// Returns the place of a value's key. List elements have no key, so the place of the value is returned.
-    pub fn key_span(&self, path: &[YamlPathSegment<'_>]) -> Option<Span> {
+    pub(crate) fn key_span(&self, path: &[YamlPathSegment<'_>]) -> Option<Span> {
         let numbers = self.resolve_path(path)?;
         let part = if matches!(path.last(), Some(YamlPathSegment::Key(_))) {
             KeyOrValue::Key
@@ -77,7 +77,7 @@ impl YamlDocument {
     }
 
     /// Returns the keys of the map at the end of a path.
-    pub fn list_keys(&self, path: &[YamlPathSegment<'_>]) -> Vec<&str> {
+    pub(crate) fn list_keys(&self, path: &[YamlPathSegment<'_>]) -> Vec<&str> {
         match self.resolve_path(path).and_then(|numbers| self.root.node_at_path(&numbers)) {
             Some(YamlNode::Map(entries)) => entries.iter().map(|entry| entry.key.as_str()).collect(),
             _ => Vec::new(),

@@ -21,7 +21,10 @@ impl YamlDocument {
     ///
     /// # Errors
     /// Returns all faults in the order of the text, at most 20 findings.
-    pub fn deserialize_checked<T: DeserializeOwned>(&self, special: FaultWording) -> Result<T, Failure> {
+    pub(crate) fn deserialize_checked<T: DeserializeOwned>(
+        &self,
+        special: FaultWording,
+    ) -> Result<T, Failure> {
         let mut tree = self.root.clone();
         let mut found = self.find_duplicate_keys();
         for (path, _, later) in yaml_tree::find_duplicate_entries(&self.root) {

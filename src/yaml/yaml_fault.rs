@@ -32,18 +32,18 @@ pub(crate) struct YamlFault {
 }
 
 impl YamlFault {
-    pub fn new(kind: YamlFaultKind) -> Self {
+    pub(super) fn new(kind: YamlFaultKind) -> Self {
         Self { kind, path: Vec::new(), at_key: false }
     }
 
     /// Returns the fault as seen from the parent, when it lies in the value of entry `index`.
-    pub fn in_value_of(mut self, index: usize) -> Self {
+    pub(super) fn in_value_of(mut self, index: usize) -> Self {
         self.path.push(index);
         self
     }
 
     /// Returns the fault as seen from the parent, when it is the key of entry `index`.
-    pub fn in_key_of(mut self, index: usize) -> Self {
+    pub(super) fn in_key_of(mut self, index: usize) -> Self {
         self.at_key = true;
         self.path.push(index);
         self

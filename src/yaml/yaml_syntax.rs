@@ -9,7 +9,7 @@ use serde::de::DeserializeSeed;
 use std::sync::Arc;
 
 /// The largest file that is read. A recipe of this size would have about 20 000 steps.
-pub const LARGEST_FILE_BYTES: usize = 1 << 20;
+pub(super) const LARGEST_FILE_BYTES: usize = 1 << 20;
 
 /// Checks that the bytes are text. Returns the text after the byte order mark, and the length of that mark,
 /// because serde_yaml does not count it.

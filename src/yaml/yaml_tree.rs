@@ -38,7 +38,7 @@ pub(super) struct YamlMapEntry {
 
 impl YamlNode {
     /// Returns the child that was entry `index` in the text.
-    pub fn child_at(&self, index: usize) -> Option<&YamlNode> {
+    pub(super) fn child_at(&self, index: usize) -> Option<&YamlNode> {
         match self {
             Self::List(items) => items.iter().find(|item| item.index == index).map(|item| &item.value),
             Self::Map(entries) => entries.iter().find(|entry| entry.index == index).map(|entry| &entry.value),
@@ -47,7 +47,7 @@ impl YamlNode {
     }
 
     /// Returns the entry that was number `index` of the map in the text.
-    pub fn entry_at(&self, index: usize) -> Option<&YamlMapEntry> {
+    pub(super) fn entry_at(&self, index: usize) -> Option<&YamlMapEntry> {
         match self {
             Self::Map(entries) => entries.iter().find(|entry| entry.index == index),
             _ => None,
@@ -55,7 +55,7 @@ impl YamlNode {
     }
 
     /// Returns the entry with a key; the first one if there are duplicates.
-    pub fn find_entry(&self, key: &str) -> Option<&YamlMapEntry> {
+    pub(super) fn find_entry(&self, key: &str) -> Option<&YamlMapEntry> {
         match self {
             Self::Map(entries) => entries.iter().find(|entry| entry.key == key),
             _ => None,
@@ -63,12 +63,12 @@ impl YamlNode {
     }
 
     /// Returns the node at the end of a path of entry indices.
-    pub fn node_at_path(&self, path: &[usize]) -> Option<&YamlNode> {
+    pub(super) fn node_at_path(&self, path: &[usize]) -> Option<&YamlNode> {
         path.iter().try_fold(self, |node, &index| node.child_at(index))
     }
 
     /// Removes the node at the end of a path from the tree. Returns whether there was one.
-    pub fn remove_at_path(&mut self, path: &[usize]) -> bool {
+    pub(super) fn remove_at_path(&mut self, path: &[usize]) -> bool {
         let Some((&index, rest)) = path.split_first() else { return false };
         if rest.is_empty() {
             let before = self.child_count();
@@ -120,14 +120,14 @@ pub(super) struct YamlTreeBuilder {
 impl YamlTreeBuilder {
     /// The largest sum of nodes and bytes of text. serde_yaml limits how often aliases are followed, but not
     /// how much each of them adds.
-    pub const BUDGET: usize = 2 << 20;
+    pub(super) const BUDGET: usize = 2 << 20;
 
-    pub fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self { budget: Cell::new(Self::BUDGET), refusal: Cell::new(None) }
     }
 
     /// Returns the reason why building failed, unless the YAML text itself was the reason.
-    pub fn refusal(&self) -> Option<YamlRefusal> {
+    pub(super) fn refusal(&self) -> Option<YamlRefusal> {
         self.refusal.get()
     }
 

@@ -1,8 +1,8 @@
 //! Areas on the grid.
 
 use super::brute;
-use clsmith::internals::layered_chips::Polygon;
 use clsmith::internals::layered_chips::area::{AreaGrid, Clipper, GridArea, signed_area_mm2};
+use clsmith::layered_chips::Polygon;
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 

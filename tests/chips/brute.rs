@@ -1,7 +1,7 @@
 //! Areas by brute force, with other means than the library's own.
 
-use clsmith::internals::layered_chips::Polygon;
 use clsmith::internals::layered_chips::area::signed_area_mm2;
+use clsmith::layered_chips::Polygon;
 use geo::{Area, BooleanOps, Coord, LineString, MultiPolygon, unary_union};
 
 /// Everything that is inside one of many sections, closed borders of x, y in mm.

@@ -3,9 +3,9 @@
 use super::brute;
 use super::sections::{axis, block, fresh, piece, place, place_at, section};
 use clsmith::engagement::PathPiece;
-use clsmith::internals::layered_chips::Polygon;
 use clsmith::internals::layered_chips::area::signed_area_mm2;
-use clsmith::internals::layered_chips::{
+use clsmith::layered_chips::Polygon;
+use clsmith::layered_chips::{
     BoundaryDiagram, FlatMill, LayerSweptArea, MillStep, RimDirections, SectionFamily,
 };
 use proptest::prelude::*;
@@ -25,7 +25,7 @@ fn cover_of(mill: FlatMill, piece: &PathPiece, z: f64, tolerance: f64) -> LayerS
 /// What is entered and was not covered at the beginning: taken from a large block.
 fn chip(cover: &LayerSweptArea) -> Vec<Polygon> {
     let stock = block([-400.0, -400.0, 0.0], [400.0, 400.0, 1.0]);
-    clsmith::internals::layered_chips::LayerStack::new(&stock, 1.0).unwrap().layers_mut()[0]
+    clsmith::layered_chips::LayerStack::new(&stock, 1.0).unwrap().layers_mut()[0]
         .remove_swept_area(cover)
         .pieces
 }

@@ -4,7 +4,7 @@ use super::sections::{axis, piece, place};
 use clsmith::engagement::PathPiece;
 use clsmith::internals::layered_chips::boundary_diagram::{BranchEnd, EdgeState};
 use clsmith::internals::layered_chips::section_family::DiagramCurve;
-use clsmith::internals::layered_chips::{BoundaryDiagram, FlatMill, MillStep, MillStepError, SectionFamily};
+use clsmith::layered_chips::{BoundaryDiagram, FlatMill, MillStep, MillStepError, SectionFamily};
 use clsmith::program::geometry::Pose;
 use nalgebra::Vector3;
 use proptest::prelude::*;

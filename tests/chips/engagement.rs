@@ -3,7 +3,7 @@
 use super::sections::{axis, block, piece, place};
 use clsmith::cutter::{CutterModel, Meridian};
 use clsmith::engagement::{Engagement, EngagementBin, PathPiece, Simulation};
-use clsmith::internals::layered_chips::{FlatMill, LayerStack, cut_chips, measure_engagement};
+use clsmith::layered_chips::{FlatMill, LayerStack, cut_chips, measure_engagement};
 use clsmith::stock::Stock;
 use proptest::prelude::*;
 

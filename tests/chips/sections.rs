@@ -2,7 +2,7 @@
 
 use super::brute;
 use clsmith::engagement::PathPiece;
-use clsmith::internals::layered_chips::{FlatMill, Polygon};
+use clsmith::layered_chips::{FlatMill, Polygon};
 use clsmith::program::geometry::Pose;
 use nalgebra::{Point3, Rotation3, Unit, Vector3};
 

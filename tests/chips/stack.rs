@@ -4,7 +4,7 @@ use super::area::{circle, square, star, turned};
 use super::brute;
 use crate::stock::shapes::{cube, mesh, sphere};
 use clsmith::internals::layered_chips::swept_area::LayerSweptArea;
-use clsmith::internals::layered_chips::{LayerRemoval, LayerStack, LayerStackError, Polygon};
+use clsmith::layered_chips::{LayerRemoval, LayerStack, LayerStackError, Polygon};
 use clsmith::stock::{DexelGrid, Dexels, Mesh, SolidBody, Stock};
 use proptest::prelude::*;
 use std::f64::consts::PI;

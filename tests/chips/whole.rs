@@ -3,7 +3,7 @@
 use super::brute;
 use super::sections::{axis, block, fresh, piece, place};
 use clsmith::engagement::{PathPiece, Simulation};
-use clsmith::internals::layered_chips::{Chip, FlatMill, LayerStack, MillStepError, cut_chips};
+use clsmith::layered_chips::{Chip, FlatMill, LayerStack, MillStepError, cut_chips};
 use clsmith::stock::{Dexels, Stock};
 use proptest::prelude::*;
 

@@ -3,9 +3,9 @@
 use super::options;
 use crate::surface::solids::{cube, mesh};
 use clsmith::diagnostic::codes;
+use clsmith::internals::surface::profile::{Chain, Point};
 use clsmith::program::{Dialect, LengthUnit};
 use clsmith::report::surface_milling::{collect_findings, draw_middle_plane, to_text};
-use clsmith::internals::surface::profile::{Chain, Point};
 use clsmith::surface_milling::{SectionProfile, SurfaceMillingOptions, SurfacePart, make_surface_program};
 
 fn block() -> SurfacePart {

@@ -3,8 +3,8 @@
 use super::options;
 use crate::support;
 use clsmith::diagnostic::codes;
-use clsmith::program::LengthUnit;
 use clsmith::internals::surface::profile::{Chain, ChainPiece, Point};
+use clsmith::program::LengthUnit;
 use clsmith::surface_milling::{
     SectionProfile, SurfaceMillingOptions, SurfacePart, load_profile, make_surface_program,
 };

@@ -6,9 +6,9 @@ mod faults;
 mod files;
 mod paths;
 
+use clsmith::internals::surface::profile::{Chain, Point};
 use clsmith::program::{Dialect, LengthUnit, MotionClass};
 use clsmith::stock::Mesh;
-use clsmith::internals::surface::profile::{Chain, Point};
 use clsmith::surface_milling::{
     PassHeights, PassPattern, PassPlanes, SectionProfile, SurfaceMillingOptions, SurfacePart, SurfaceProgram,
     SurfaceProgramWords, make_surface_program,

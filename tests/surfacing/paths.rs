@@ -2,8 +2,8 @@
 
 use super::{along, of_class, options, over};
 use crate::surface::solids::{cube, mesh, sphere, terrain};
-use clsmith::program::MotionClass;
 use clsmith::internals::surface::drop_cutter::{DropCutter, DropCutterShape};
+use clsmith::program::MotionClass;
 use clsmith::surface_milling::{PassPattern, SurfaceMillingOptions, plane_offsets};
 use clsmith::write::new_program::DraftMoveKind;
 

@@ -46,7 +46,7 @@ itself: those with errors are not written, the others are, and the exit code is 
 /// Corrects programs by a recipe
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct ApplyArgs {
+pub(super) struct ApplyArgs {
     /// The recipe (YAML)
     recipe: PathBuf,
     /// The programs; `-` is standard input
@@ -92,7 +92,7 @@ pub struct ApplyArgs {
 }
 
 impl ApplyArgs {
-    pub fn run(&self) -> Result<CommandExit, Stop> {
+    pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         self.find_usage_problem().map_or(Ok(()), |problem| Err(Stop::Usage(problem)))?;
         let policy = self.findings.build_policy()?;
         let loaded = input_files::read_recipe(&self.recipe, self.setup.as_deref());

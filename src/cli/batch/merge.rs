@@ -24,7 +24,7 @@ of the batch: 1 if any of its files failed.";
 /// Merges the results of a batch's shards, and reports if any are missing
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct MergeArgs {
+pub(crate) struct MergeArgs {
     /// Results of all shards
     #[arg(required = true, value_name = "RESULTS")]
     parts: Vec<PathBuf>,
@@ -39,7 +39,7 @@ pub struct MergeArgs {
 }
 
 impl MergeArgs {
-    pub fn run(&self) -> Result<CommandExit, Stop> {
+    pub(crate) fn run(&self) -> Result<CommandExit, Stop> {
         let policy = self.findings.build_policy()?;
         let standard = self.output == Path::new(input_files::STANDARD);
         if let Some(part) = self.parts.iter().find(|part| !standard && is_same_file(part, &self.output)) {

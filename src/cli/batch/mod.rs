@@ -3,7 +3,7 @@
 mod merge;
 mod progress;
 
-pub use merge::MergeArgs;
+pub(super) use merge::MergeArgs;
 
 use super::command_exit::CommandExit;
 use super::command_outputs::{CommandOutputs, ignore_closed_pipe, print_summary};
@@ -58,7 +58,7 @@ are { \"lossy\": ..., \"hex\": ... }. The folder also gets .clsmith-batch.journa
 /// Corrects many programs, in parallel within a memory budget
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct BatchArgs {
+pub(super) struct BatchArgs {
     /// A jobs file (YAML); with --recipe, programs or patterns for them
     #[arg(required = true, value_name = "JOBS|PATTERN")]
     what: Vec<PathBuf>,
@@ -120,7 +120,7 @@ struct PreparedBatch {
 }
 
 impl BatchArgs {
-    pub fn run(&self) -> Result<CommandExit, Stop> {
+    pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         let usage = |problem: &str| Err(Stop::Usage(problem.to_owned()));
         if self.recipe.is_none() && self.what.len() > 1 {
             return usage("give one jobs file; or a recipe with --recipe, and then programs or patterns");

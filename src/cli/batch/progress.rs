@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 /// Bars on standard error. Nothing is drawn if it is no terminal, or if bars are not wanted.
-pub struct BatchProgress<'a> {
+pub(super) struct BatchProgress<'a> {
     all: MultiProgress,
     whole: ProgressBar,
     failed: AtomicUsize,
@@ -27,7 +27,7 @@ pub struct BatchProgress<'a> {
 }
 
 impl<'a> BatchProgress<'a> {
-    pub fn new(
+    pub(super) fn new(
         quiet: bool,
         findings: &'a FindingArgs,
         interrupt: &'a Interrupt,
@@ -41,7 +41,7 @@ impl<'a> BatchProgress<'a> {
     }
 
     /// Begins with the files to process. Bytes are counted, because they take the time.
-    pub fn begin_files<'p>(&self, files: impl Iterator<Item = &'p PlannedFile>) {
+    pub(super) fn begin_files<'p>(&self, files: impl Iterator<Item = &'p PlannedFile>) {
         let (count, bytes) =
             files.fold((0, 0), |(count, bytes), file| (count + 1, bytes + progress_weight(file)));
         self.whole.set_length(bytes);
@@ -53,12 +53,12 @@ impl<'a> BatchProgress<'a> {
     }
 
     /// Removes the bars.
-    pub fn clear_bars(&self) {
+    pub(super) fn clear_bars(&self) {
         self.whole.finish_and_clear();
     }
 
     /// Returns a function that removes the bars, for the handler of Ctrl-C.
-    pub fn clear_on_ctrl_c(&self) -> impl Fn() + Send + 'static {
+    pub(super) fn clear_on_ctrl_c(&self) -> impl Fn() + Send + 'static {
         let all = self.all.clone();
         move || {
             // Nothing can be done about a terminal that cannot be cleared.

@@ -44,7 +44,7 @@ A name that begins as a formula does (= + - @) has an apostrophe in front.";
 /// Finds the exact undeformed chip of every motion, layer by layer, in three and five axes
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct ChipsArgs {
+pub(super) struct ChipsArgs {
     /// The program; `-` is standard input
     #[arg(value_name = "PROGRAM")]
     program: PathBuf,
@@ -118,7 +118,7 @@ fn parse_tolerance_mm(text: &str) -> Result<f64, BadArgument> {
 }
 
 impl ChipsArgs {
-    pub fn run(&self) -> Result<CommandExit, Stop> {
+    pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         let measuring = MeasuringCommand {
             program: &self.program,
             outputs: self.output_paths().collect(),

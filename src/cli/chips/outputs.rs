@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 /// The drawings that were requested.
 #[derive(Debug, Default)]
-pub struct ChipDrawings {
+pub(super) struct ChipDrawings {
     layers: Option<String>,
     diagrams: Option<String>,
 }

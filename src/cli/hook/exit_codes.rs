@@ -8,7 +8,7 @@ use std::time::Duration;
 /// The post took too long.
 const TIMED_OUT: i32 = 124;
 /// Nothing was posted.
-pub const REFUSED: i32 = 125;
+pub(super) const REFUSED: i32 = 125;
 /// The post could not be started.
 const NOT_STARTED: i32 = 126;
 /// The post was not found.
@@ -16,10 +16,10 @@ const MISSING: i32 = 127;
 /// This number is added to the number of a signal.
 const SIGNAL: i32 = 128;
 /// Ctrl-C.
-pub const STOPPED: i32 = 130;
+pub(super) const STOPPED: i32 = 130;
 
 /// Returns the exit code, and a finding about how the post ended if there is one.
-pub fn judge_post_outcome(
+pub(super) fn judge_post_outcome(
     name: &str,
     timeout: Option<Duration>,
     ended: &PostOutcome,

@@ -29,7 +29,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 /// What is known of a run so far. In the end it becomes a line of the log.
-pub struct HookRun<'h> {
+pub(super) struct HookRun<'h> {
     hook: &'h HookArgs,
     outputs: &'h CommandOutputs,
     log: Option<RunLog>,
@@ -65,7 +65,7 @@ struct HookLogFields<'r> {
 }
 
 impl<'h> HookRun<'h> {
-    pub fn new(hook: &'h HookArgs, outputs: &'h CommandOutputs, log: Option<RunLog>) -> Self {
+    pub(super) fn new(hook: &'h HookArgs, outputs: &'h CommandOutputs, log: Option<RunLog>) -> Self {
         let input = LoggedInput { path: hook.input.to_string_lossy().into_owned(), sha256: None };
         Self {
             hook,
@@ -82,7 +82,7 @@ impl<'h> HookRun<'h> {
     }
 
     /// Corrects, keeps, posts and logs the program.
-    pub fn run_hook(
+    pub(super) fn run_hook(
         mut self,
         policy: &FindingPolicy,
         progress: &CommandProgress,

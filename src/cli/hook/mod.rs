@@ -70,7 +70,7 @@ enum OnError {
 /// Corrects an exported program and runs the post-processor on the result
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct HookArgs {
+pub(super) struct HookArgs {
     #[command(flatten)]
     recipe: RecipeArgs,
     /// If the program cannot be corrected: post nothing, or post it unchanged
@@ -103,7 +103,7 @@ pub struct HookArgs {
 }
 
 impl HookArgs {
-    pub fn run(&self) -> Result<CommandExit, Stop> {
+    pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         self.find_usage_problem().map_or(Ok(()), |problem| Err(Stop::Usage(problem)))?;
         let policy = self.findings.build_policy()?;
         let log =

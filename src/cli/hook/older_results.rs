@@ -27,7 +27,7 @@ struct LoggedResults {
 }
 
 /// The files that the last run for this export put beside it, as the log says. A log that cannot be read names none.
-pub fn list_logged_results(log: &Path, export: &str) -> Vec<PathBuf> {
+pub(super) fn list_logged_results(log: &Path, export: &str) -> Vec<PathBuf> {
     let bytes = read_file_bytes(log).unwrap_or_default();
     let lines = bytes.split(|byte| *byte == b'\n').rev();
     let runs = lines.filter_map(|line| serde_json::from_slice::<LoggedRun>(line).ok());
@@ -38,7 +38,7 @@ pub fn list_logged_results(log: &Path, export: &str) -> Vec<PathBuf> {
 
 /// Renames a result of an earlier export to `NAME.outdated`. Says so, or why it cannot be renamed; `None` where there is
 /// none.
-pub fn set_aside(result: &Path) -> Option<Diagnostic> {
+pub(super) fn set_aside(result: &Path) -> Option<Diagnostic> {
     // A link is not followed: it is not a file that the hook has written.
     if !fs::symlink_metadata(result).is_ok_and(|there| there.is_file()) {
         return None;

@@ -18,11 +18,11 @@ const GRACE_TIMED_OUT: Duration = Duration::from_secs(2);
 const GRACE_STOPPED: Duration = Duration::from_millis(700);
 
 /// What stands for the program in arguments.
-pub const MARK: &str = "{}";
+pub(super) const MARK: &str = "{}";
 
 /// How the post ended.
 #[derive(Debug)]
-pub enum PostOutcome {
+pub(super) enum PostOutcome {
     /// It ended by itself, with this code.
     Exit(i32),
     /// It was ended by this signal.
@@ -40,7 +40,7 @@ pub enum PostOutcome {
 /// Starts a program with its arguments, waits for it, and kills it and everything that it has started when
 /// the time is over or a stop is requested. Its output goes where ours goes. Its input is empty, so that a
 /// question cannot make it hang.
-pub fn run_post(
+pub(super) fn run_post(
     program: &OsStr,
     arguments: &[OsString],
     timeout: Option<Duration>,
@@ -110,13 +110,13 @@ fn stop_process_group(child: &mut dyn ChildWrapper, grace: Duration) -> io::Resu
 }
 
 /// Returns whether an argument contains `{}`.
-pub fn has_path_mark(argument: &OsStr) -> bool {
+pub(super) fn has_path_mark(argument: &OsStr) -> bool {
     fill_path_mark(argument, OsStr::new("")) != argument
 }
 
 /// Replaces every `{}` of an argument by a path. All other bytes stay.
 #[cfg(unix)]
-pub fn fill_path_mark(argument: &OsStr, path: &OsStr) -> OsString {
+pub(super) fn fill_path_mark(argument: &OsStr, path: &OsStr) -> OsString {
     use std::os::unix::ffi::{OsStrExt, OsStringExt};
     OsString::from_vec(replace_all(argument.as_bytes(), MARK.as_bytes(), path.as_bytes()))
 }

@@ -18,14 +18,14 @@ use tempfile::TempDir;
 const PREFIX: &str = "clsmith-hook-";
 
 /// The private folder; it goes when this goes.
-pub struct PostWorkspace {
+pub(super) struct PostWorkspace {
     folder: TempDir,
     file: PathBuf,
 }
 
 impl PostWorkspace {
     /// Makes a folder that only this user can read, with one file in it.
-    pub fn create_with_program<'b>(
+    pub(super) fn create_with_program<'b>(
         name: &OsStr,
         pieces: impl Iterator<Item = &'b [u8]>,
     ) -> Result<Self, Failure> {
@@ -55,13 +55,13 @@ impl PostWorkspace {
     }
 
     /// Returns the path of the program for the post.
-    pub fn program_path(&self) -> &Path {
+    pub(super) fn program_path(&self) -> &Path {
         &self.file
     }
 
     /// Copies what the post left beside the program into a folder. It replaces outputs of earlier runs, but
     /// no protected file. Returns where everything is, and what could not be copied.
-    pub fn copy_post_outputs(
+    pub(super) fn copy_post_outputs(
         &self,
         to: &Path,
         protected: &[PathBuf],
@@ -127,7 +127,7 @@ impl PostWorkspace {
     }
 
     /// Removes the folder.
-    pub fn remove_folder(self) -> Result<(), Diagnostic> {
+    pub(super) fn remove_folder(self) -> Result<(), Diagnostic> {
         let path = self.folder.path().to_path_buf();
         self.folder.close().map_err(|error| {
             let message = format!("{} cannot be taken away: {error}", path.display());
@@ -146,7 +146,7 @@ fn copy_file(from: &Path, to: &Path, interrupt: &Interrupt) -> Result<(), WriteE
 
 /// Refuses to write a file below a folder if a link on the way leads out of the folder: nobody who writes beside an export
 /// means to change a file elsewhere.
-pub fn refuse_link_out(folder: &Path, name: &Path) -> Option<Diagnostic> {
+pub(super) fn refuse_link_out(folder: &Path, name: &Path) -> Option<Diagnostic> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     // A folder that is yet to be made holds no link.
     let root = fs::canonicalize(folder).ok()?;

@@ -6,7 +6,7 @@ use clsmith::source::{Source, Span};
 use std::sync::Arc;
 
 /// The arguments as they were typed, with the place of each.
-pub struct CommandLine {
+pub(super) struct CommandLine {
     source: Option<Arc<Source>>,
     words: Vec<(String, Span)>,
     units: LengthUnit,
@@ -15,7 +15,7 @@ pub struct CommandLine {
 
 impl CommandLine {
     /// Reads the arguments of the process.
-    pub fn from_process(units: LengthUnit) -> Self {
+    pub(super) fn from_process(units: LengthUnit) -> Self {
         let mut text = String::from("clsmith");
         let mut words = Vec::new();
         for word in std::env::args_os().skip(1) {
@@ -30,36 +30,36 @@ impl CommandLine {
     }
 
     /// Reads a length above 0 in mm.
-    pub fn parse_size_mm(&mut self, option: &'static str, text: Option<&str>) -> Option<f64> {
+    pub(super) fn parse_size_mm(&mut self, option: &'static str, text: Option<&str>) -> Option<f64> {
         let unit = self.units.mm_per_unit();
         self.parse_positive(option, text).map(|value| value * unit)
     }
 
     /// Reads a length of 0 or more in mm.
-    pub fn parse_distance_mm(&mut self, option: &'static str, text: Option<&str>) -> Option<f64> {
+    pub(super) fn parse_distance_mm(&mut self, option: &'static str, text: Option<&str>) -> Option<f64> {
         let unit = self.units.mm_per_unit();
         let value = self.parse_checked(option, text, "a number, 0 or more", |value| value >= 0.0)?;
         Some(value * unit)
     }
 
     /// Reads a coordinate in mm.
-    pub fn parse_coordinate_mm(&mut self, option: &'static str, text: Option<&str>) -> Option<f64> {
+    pub(super) fn parse_coordinate_mm(&mut self, option: &'static str, text: Option<&str>) -> Option<f64> {
         let unit = self.units.mm_per_unit();
         self.parse_number(option, text).map(|value| value * unit)
     }
 
     /// Reads a number above 0.
-    pub fn parse_positive(&mut self, option: &'static str, text: Option<&str>) -> Option<f64> {
+    pub(super) fn parse_positive(&mut self, option: &'static str, text: Option<&str>) -> Option<f64> {
         self.parse_checked(option, text, "a number above 0", |value| value > 0.0)
     }
 
     /// Reads a number.
-    pub fn parse_number(&mut self, option: &'static str, text: Option<&str>) -> Option<f64> {
+    pub(super) fn parse_number(&mut self, option: &'static str, text: Option<&str>) -> Option<f64> {
         self.parse_checked(option, text, "a number", |_| true)
     }
 
     /// Reads a name that a CL program can contain.
-    pub fn parse_name(&mut self, option: &'static str, text: Option<&str>) -> Option<String> {
+    pub(super) fn parse_name(&mut self, option: &'static str, text: Option<&str>) -> Option<String> {
         let text = text?;
         let fits = |c: char| c.is_ascii_graphic() && !matches!(c, ',' | '$' | '/');
         let fine = !text.is_empty() && text.len() <= 40 && text.chars().all(|c| fits(c) || c == ' ');
@@ -73,7 +73,7 @@ impl CommandLine {
     }
 
     /// Adds a fault at an option's value.
-    pub fn add_fault(&mut self, option: &'static str, message: impl Into<String>, label: &str) {
+    pub(super) fn add_fault(&mut self, option: &'static str, message: impl Into<String>, label: &str) {
         let found = Diagnostic::new(codes::SURFACE_OPTION, message);
         let span = self.option_span(option);
         self.found.push(match &self.source {
@@ -83,12 +83,12 @@ impl CommandLine {
     }
 
     /// Adds a fault for a required option that is missing.
-    pub fn add_missing(&mut self, option: &'static str, what: &str) {
+    pub(super) fn add_missing(&mut self, option: &'static str, what: &str) {
         self.add_fault(option, format!("{option} is missing: {what}"), &format!("without {option}"));
     }
 
     /// Returns the findings.
-    pub fn into_findings(self) -> Vec<Diagnostic> {
+    pub(super) fn into_findings(self) -> Vec<Diagnostic> {
         self.found
     }
 

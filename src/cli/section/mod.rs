@@ -42,7 +42,7 @@ pass to pass over the surface where that is near; else it is lifted --clearance 
 /// Makes a program for a ball that mills a part in parallel vertical planes
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct SectionArgs {
+pub(super) struct SectionArgs {
     /// The part: a closed STL
     #[arg(value_name = "MODEL", required_unless_present = "profile", conflicts_with = "profile")]
     model: Option<PathBuf>,
@@ -163,7 +163,7 @@ fn parse_writable_dialect(name: &str) -> Result<Dialect, BadArgument> {
 }
 
 impl SectionArgs {
-    pub fn run(&self) -> Result<CommandExit, Stop> {
+    pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         self.find_usage_problem().map_or(Ok(()), |problem| Err(Stop::Usage(problem)))?;
         let policy = self.findings.build_policy()?;
         let options = match self.check_options() {

@@ -50,7 +50,7 @@ A name that begins as a formula does (= + - @) has an apostrophe in front.";
 /// Removes the stock motion by motion: chips, depths, forces, collisions, remaining stock
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct SimulateArgs {
+pub(super) struct SimulateArgs {
     /// The program; `-` is standard input
     #[arg(value_name = "PROGRAM")]
     program: PathBuf,
@@ -151,7 +151,7 @@ impl SimulateOutcome {
 }
 
 impl SimulateArgs {
-    pub fn run(&self) -> Result<CommandExit, Stop> {
+    pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         let measuring = MeasuringCommand {
             program: &self.program,
             outputs: self.output_paths().collect(),

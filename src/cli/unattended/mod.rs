@@ -4,6 +4,6 @@ mod recipe_args;
 mod run_log;
 mod unattended_correction;
 
-pub use recipe_args::{RecipeArgs, RecipeChooser};
-pub use run_log::{LogLine, LoggedInput, LoggedOutput, RunLog, utc_now};
-pub use unattended_correction::{UnattendedCorrection, UnattendedOutcome, correct_unattended};
+pub(super) use recipe_args::{RecipeArgs, RecipeChooser};
+pub(super) use run_log::{LogLine, LoggedInput, LoggedOutput, RunLog, utc_now};
+pub(super) use unattended_correction::{UnattendedCorrection, UnattendedOutcome, correct_unattended};

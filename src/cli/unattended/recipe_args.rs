@@ -8,7 +8,7 @@ use clsmith::recipe_rules::{RecipeChoice, RecipeRuleFacts, RecipeRules};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
-pub struct RecipeArgs {
+pub(crate) struct RecipeArgs {
     /// The recipe (YAML)
     #[arg(long, value_name = "RECIPE", required_unless_present = "select", conflicts_with = "select")]
     recipe: Option<PathBuf>,
@@ -24,7 +24,7 @@ pub struct RecipeArgs {
 }
 
 /// What chooses the recipe of a program.
-pub enum RecipeChooser {
+pub(crate) enum RecipeChooser {
     /// All programs get the same recipe.
     One(RecipeChoice),
     /// The first rule that matches chooses it.
@@ -33,7 +33,7 @@ pub enum RecipeChooser {
 
 impl RecipeArgs {
     /// Reads the rules, if there are any.
-    pub fn read_chooser(&self) -> Result<RecipeChooser, Failure> {
+    pub(crate) fn read_chooser(&self) -> Result<RecipeChooser, Failure> {
         if let Some(path) = &self.select {
             let source = input_files::read_source(path)?;
             return RecipeRules::load(&source).map(RecipeChooser::Rules);
@@ -47,14 +47,14 @@ impl RecipeArgs {
     }
 
     /// Returns files that are read for every program. No output may be one of them.
-    pub fn input_files(&self) -> impl Iterator<Item = &PathBuf> {
+    pub(crate) fn input_files(&self) -> impl Iterator<Item = &PathBuf> {
         [&self.recipe, &self.select, &self.setup].into_iter().flatten()
     }
 }
 
 impl RecipeChooser {
     /// Decides what happens to a program.
-    pub fn choose_recipe(&self, file: &str, program: &Program) -> Result<RecipeChoice, Failure> {
+    pub(crate) fn choose_recipe(&self, file: &str, program: &Program) -> Result<RecipeChoice, Failure> {
         match self {
             Self::One(choice) => Ok(choice.clone()),
             Self::Rules(rules) => rules.choose_recipe(&RecipeRuleFacts::from_program(file, program)),
@@ -62,7 +62,7 @@ impl RecipeChooser {
     }
 
     /// Returns every recipe that may be chosen.
-    pub fn list_choices(&self) -> Vec<RecipeChoice> {
+    pub(crate) fn list_choices(&self) -> Vec<RecipeChoice> {
         match self {
             Self::One(choice) => vec![choice.clone()],
             Self::Rules(rules) => rules.list_choices(),

@@ -20,7 +20,7 @@ const ERRORS: usize = 5;
 
 /// A line of the log. New keys may be added. `version` changes when readers have to change.
 #[derive(Debug, Serialize)]
-pub struct LogLine<'r, More> {
+pub(crate) struct LogLine<'r, More> {
     /// Version of the structure: 1.
     version: u32,
     /// When the run began, UTC.
@@ -54,7 +54,7 @@ pub struct LogLine<'r, More> {
 
 /// The program as it was read. A name that is not UTF-8 has `\u{fffd}` for bytes that cannot be written.
 #[derive(Debug, Clone, Serialize)]
-pub struct LoggedInput {
+pub(crate) struct LoggedInput {
     pub path: String,
     /// The digest; `null` if the program could not be read.
     pub sha256: Option<Digest>,
@@ -62,7 +62,7 @@ pub struct LoggedInput {
 
 /// The program that was passed on.
 #[derive(Debug, Clone, Serialize)]
-pub struct LoggedOutput {
+pub(crate) struct LoggedOutput {
     /// Where it stays; `null` if it was only for the post.
     pub path: Option<String>,
     pub sha256: Digest,
@@ -70,7 +70,7 @@ pub struct LoggedOutput {
 
 impl<'r, More> LogLine<'r, More> {
     /// Makes the line of a program that was read at a time. `started` is the same moment for measuring.
-    pub fn from_correction(
+    pub(crate) fn from_correction(
         command: &'r str,
         (time, started): (&'r str, Instant),
         input: &'r LoggedInput,
@@ -98,7 +98,7 @@ impl<'r, More> LogLine<'r, More> {
 }
 
 /// Returns the current time in UTC, as RFC 3339 with milliseconds: `2026-03-01T06:30:00.250Z`.
-pub fn utc_now() -> String {
+pub(crate) fn utc_now() -> String {
     // The time is cut and not rounded, so that a time in a log is never in the future.
     format!("{:.3}", jiff::Timestamp::now())
 }
@@ -136,14 +136,17 @@ fn end_cut_line(file: &mut File) -> io::Result<()> {
 }
 
 /// A log that lines are added to.
-pub struct RunLog {
+pub(crate) struct RunLog {
     path: PathBuf,
     file: File,
 }
 
 impl RunLog {
     /// Opens a log, before anything is done that could not be logged.
-    pub fn open<'p>(path: &Path, inputs: impl IntoIterator<Item = &'p PathBuf>) -> Result<Self, Failure> {
+    pub(crate) fn open<'p>(
+        path: &Path,
+        inputs: impl IntoIterator<Item = &'p PathBuf>,
+    ) -> Result<Self, Failure> {
         if let Some(input) = inputs.into_iter().find(|input| is_same_file(input, path)) {
             let message =
                 format!("the log {} would be written into the input {}", path.display(), input.display());
@@ -156,17 +159,17 @@ impl RunLog {
     }
 
     /// The same log once more, for who may have to write the last line in another's place.
-    pub fn try_clone(&self) -> Option<Self> {
+    pub(crate) fn try_clone(&self) -> Option<Self> {
         Some(Self { path: self.path.clone(), file: self.file.try_clone().ok()? })
     }
 
     /// The path of the file.
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
     /// Adds a line, in one write to the end of the file: lines of several runs do not mix.
-    pub fn add_line(&mut self, record: &impl Serialize) -> Result<(), Diagnostic> {
+    pub(crate) fn add_line(&mut self, record: &impl Serialize) -> Result<(), Diagnostic> {
         let written = to_json_line(record).and_then(|line| self.file.write_all(&line));
         written.map_err(|error| report_unwritable(&self.path, &error))
     }

@@ -20,7 +20,7 @@ use std::sync::Arc;
 /// What happened to a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum UnattendedOutcome {
+pub(crate) enum UnattendedOutcome {
     /// The recipe changed it.
     Corrected,
     /// The recipe found nothing to change.
@@ -37,7 +37,7 @@ pub enum UnattendedOutcome {
 
 /// A recipe with everything on which it depends.
 #[derive(Debug, Clone, Serialize)]
-pub struct LoggedRecipe {
+pub(crate) struct LoggedRecipe {
     pub path: String,
     /// What chose it: `--recipe`, `rule 2` or `otherwise`.
     pub chosen_by: String,
@@ -46,7 +46,7 @@ pub struct LoggedRecipe {
 }
 
 /// A program after its recipe, or the reason why there is none.
-pub struct UnattendedCorrection {
+pub(crate) struct UnattendedCorrection {
     /// What happened to it. It is `Refused` if there is an error.
     pub outcome: UnattendedOutcome,
     /// The program that is passed on. It is `None` if it is refused or passes unchanged.
@@ -81,22 +81,22 @@ impl UnattendedCorrection {
     }
 
     /// Makes the result for a program that cannot be corrected.
-    pub fn refused(findings: Vec<Diagnostic>) -> Self {
+    pub(crate) fn refused(findings: Vec<Diagnostic>) -> Self {
         Self::without_program(UnattendedOutcome::Refused, findings)
     }
 
     /// A program on which the work was stopped.
-    pub fn stopped() -> Self {
+    pub(crate) fn stopped() -> Self {
         Self::without_program(UnattendedOutcome::Stopped, Vec::new())
     }
 
     /// A program whose recipe cannot be used.
-    pub fn without_recipe(findings: Vec<Diagnostic>) -> Self {
+    pub(crate) fn without_recipe(findings: Vec<Diagnostic>) -> Self {
         Self { surroundings: true, ..Self::refused(findings) }
     }
 
     /// Returns the bytes that are passed on: the corrected program, or the file as it was read.
-    pub fn byte_chunks<'p>(&'p self, source: &'p Source) -> Box<dyn Iterator<Item = &'p [u8]> + 'p> {
+    pub(crate) fn byte_chunks<'p>(&'p self, source: &'p Source) -> Box<dyn Iterator<Item = &'p [u8]> + 'p> {
         match &self.program {
             Some(program) => Box::new(program.byte_chunks()),
             None => Box::new(std::iter::once(source.bytes())),
@@ -106,7 +106,7 @@ impl UnattendedCorrection {
 
 /// Chooses the recipe for a program and applies it. `file` is the name of its file, without the folder. A program on
 /// which clsmith itself fails is refused, and the next one goes on.
-pub fn correct_unattended(
+pub(crate) fn correct_unattended(
     args: &RecipeArgs,
     chooser: &RecipeChooser,
     policy: &FindingPolicy,

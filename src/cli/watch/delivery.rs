@@ -31,7 +31,7 @@ struct WatchLogFields<'r> {
 
 impl WatchRun<'_> {
     /// Writes the result of a program and remembers it.
-    pub fn write_corrected(
+    pub(super) fn write_corrected(
         &mut self,
         export: &ExportedFile,
         digest: Digest,
@@ -96,7 +96,7 @@ impl WatchRun<'_> {
     }
 
     /// Moves a program that cannot be corrected aside.
-    pub fn move_refused(
+    pub(super) fn move_refused(
         &mut self,
         export: &ExportedFile,
         digest: Digest,

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 /// A file to be taken.
-pub struct ExportedFile {
+pub(super) struct ExportedFile {
     /// Its path below the watched folder. Names are bytes, not text.
     pub name: PathBuf,
     /// Where it is.
@@ -20,7 +20,7 @@ pub struct ExportedFile {
 
 /// The state of a file. If two are equal, nobody has written to the file between them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct ExportStamp {
+pub(super) struct ExportStamp {
     /// Bytes.
     pub size: u64,
     modified: Option<SystemTime>,
@@ -31,7 +31,7 @@ pub struct ExportStamp {
 
 impl ExportStamp {
     /// Reads the current state of a file.
-    pub fn read_stamp(path: &Path) -> io::Result<Self> {
+    pub(super) fn read_stamp(path: &Path) -> io::Result<Self> {
         fs::metadata(path).map(|metadata| Self::from(&metadata))
     }
 }
@@ -53,7 +53,7 @@ impl From<&Metadata> for ExportStamp {
 }
 
 /// Returns all files in a folder that match a pattern in the order of their names, and findings about others.
-pub fn scan_exports(watched: &Path, glob: &GlobMatcher) -> (Vec<ExportedFile>, Vec<Diagnostic>) {
+pub(super) fn scan_exports(watched: &Path, glob: &GlobMatcher) -> (Vec<ExportedFile>, Vec<Diagnostic>) {
     let (mut found, mut faults) = (Vec::new(), Vec::new());
     // A pattern without a slash or two stars can only match the folder's own files.
     let pattern = glob.glob().glob();
@@ -130,6 +130,6 @@ fn classify_entry(
 }
 
 /// Reports a file or folder that cannot be read.
-pub fn report_unreadable(path: &Path, error: &io::Error) -> Diagnostic {
+pub(super) fn report_unreadable(path: &Path, error: &io::Error) -> Diagnostic {
     Diagnostic::new(codes::UNREADABLE, format!("{} cannot be read: {error}", path.display()))
 }

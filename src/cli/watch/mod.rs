@@ -62,7 +62,7 @@ changing.";
 /// Corrects programs that are written to a folder
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub struct WatchArgs {
+pub(super) struct WatchArgs {
     /// The folder that is watched
     #[arg(value_name = "FOLDER")]
     folder: PathBuf,
@@ -104,7 +104,7 @@ pub struct WatchArgs {
 }
 
 impl WatchArgs {
-    pub fn run(&self) -> Result<CommandExit, Stop> {
+    pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         let policy = self.findings.build_policy()?;
         let (folders, log, state) =
             self.prepare_watch().map_err(|failure| Stop::from(failure).about(&self.folder))?;

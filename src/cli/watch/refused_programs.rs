@@ -14,7 +14,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// What happened to a refused program.
-pub enum RefusedMove {
+pub(super) enum RefusedMove {
     /// It is aside, and no longer among the exports.
     To(PathBuf),
     /// It is aside and still among the exports, because it cannot be removed there.
@@ -27,7 +27,7 @@ pub enum RefusedMove {
 const MOST_OF_ONE_NAME: usize = 10_000;
 
 /// Moves a program aside.
-pub fn move_aside(
+pub(super) fn move_aside(
     export: &ExportedFile,
     digest: Digest,
     diagnostics: &str,

@@ -7,10 +7,10 @@ use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
 
 /// The name of the lock in the watched folder and in the one for corrected programs.
-pub const LOCK: &str = ".clsmith-watch.lock";
+pub(super) const LOCK: &str = ".clsmith-watch.lock";
 
 /// The folders, with links resolved, and locked.
-pub struct WatchFolders {
+pub(super) struct WatchFolders {
     /// The folder of exports, with every link followed.
     pub watched: PathBuf,
     /// The folder for corrected programs.
@@ -25,7 +25,7 @@ pub struct WatchFolders {
 
 impl WatchFolders {
     /// Checks the folders, makes those for outputs, and locks them.
-    pub fn open_and_lock(watch: &WatchArgs) -> Result<Self, Failure> {
+    pub(super) fn open_and_lock(watch: &WatchArgs) -> Result<Self, Failure> {
         let watched = fs::canonicalize(&watch.folder).map_err(|error| {
             let message = format!("{} cannot be read: {error}", watch.folder.display());
             Diagnostic::new(codes::UNREADABLE, message)

@@ -25,7 +25,7 @@ use std::time::{Duration, Instant};
 const LONGEST_PAUSE: Duration = Duration::from_secs(300);
 
 /// The state of a watch.
-pub struct WatchRun<'w> {
+pub(super) struct WatchRun<'w> {
     pub(super) watch: &'w WatchArgs,
     pub(super) folders: &'w WatchFolders,
     pub(super) outputs: &'w CommandOutputs,
@@ -46,7 +46,7 @@ struct SeenExport {
 
 /// What a file waits for.
 #[derive(Clone)]
-pub enum ExportStatus {
+pub(super) enum ExportStatus {
     /// It must not change for some time, from then on.
     Settling(Instant),
     /// It waits for nothing, because it was processed, or reported and left.
@@ -56,7 +56,7 @@ pub enum ExportStatus {
 }
 
 impl<'w> WatchRun<'w> {
-    pub fn new(
+    pub(super) fn new(
         watch: &'w WatchArgs,
         folders: &'w WatchFolders,
         outputs: &'w CommandOutputs,
@@ -69,7 +69,7 @@ impl<'w> WatchRun<'w> {
     }
 
     /// Watches until Ctrl-C, or with `--once` until all existing files are processed.
-    pub fn watch_folder(mut self) -> Result<CommandExit, Stop> {
+    pub(super) fn watch_folder(mut self) -> Result<CommandExit, Stop> {
         let begun = Instant::now();
         // With --once somebody waits for the end, so the watch does not sleep longer than a file needs to
         // settle.

@@ -34,7 +34,7 @@ struct WatchStateEntry {
 }
 
 /// The finished programs.
-pub struct WatchState {
+pub(super) struct WatchState {
     path: PathBuf,
     file: File,
     /// The content that was processed last, by name.
@@ -43,7 +43,7 @@ pub struct WatchState {
 
 impl WatchState {
     /// Reads the finished programs of earlier runs. Returns how many lines could not be read as well.
-    pub fn open(path: &Path) -> Result<(Self, usize), Failure> {
+    pub(super) fn open(path: &Path) -> Result<(Self, usize), Failure> {
         let bytes = match fs::read(path) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
@@ -71,12 +71,12 @@ impl WatchState {
     }
 
     /// Returns whether this content was the last one processed under this name.
-    pub fn is_done(&self, name: &Path, digest: Digest) -> bool {
+    pub(super) fn is_done(&self, name: &Path, digest: Digest) -> bool {
         self.done.get(&encode_name(name)) == Some(&digest)
     }
 
     /// Remembers a program. It is on the disk before this returns.
-    pub fn remember_program(
+    pub(super) fn remember_program(
         &mut self,
         name: &Path,
         digest: Digest,

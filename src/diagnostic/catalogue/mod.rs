@@ -16,7 +16,7 @@ use std::fmt;
 
 /// A row of the catalogue.
 #[derive(Debug)]
-pub struct CatalogueEntry {
+pub(super) struct CatalogueEntry {
     /// The id of the code: `CL0001`.
     pub id: &'static str,
     /// The severity, unless it is changed on the command line.

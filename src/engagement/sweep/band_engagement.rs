@@ -66,7 +66,7 @@ impl RememberedContact {
 }
 
 impl BandEngagement {
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             removed: 0.0,
             lateral: [f32::INFINITY, f32::NEG_INFINITY],
@@ -82,7 +82,7 @@ impl BandEngagement {
     /// Returns whether a known contact dominates a column's contacts, that is, has at least their advance
     /// ratio. The thickness of the column's material then counts in the bin of that known contact.
     #[inline]
-    pub fn is_dominated(&mut self, place: &CrossPathPosition, climbs: bool, depth: f64) -> bool {
+    pub(crate) fn is_dominated(&mut self, place: &CrossPathPosition, climbs: bool, depth: f64) -> bool {
         let dominates = |known: &&RememberedContact| {
             known.place.greatest >= place.greatest
                 && known.place.side <= place.side
@@ -98,7 +98,13 @@ impl BandEngagement {
 
     /// Keeps a contact for comparison. It is merged with one whose heights it continues; otherwise it
     /// replaces one that it dominates, or the oldest.
-    pub fn remember_contact(&mut self, place: CrossPathPosition, climbs: bool, steepness: f64, angle: f32) {
+    pub(crate) fn remember_contact(
+        &mut self,
+        place: CrossPathPosition,
+        climbs: bool,
+        steepness: f64,
+        angle: f32,
+    ) {
         let touches = |known: &&mut RememberedContact| {
             climbs || (known.place.least <= place.greatest && known.place.greatest >= place.least)
         };
@@ -124,24 +130,24 @@ impl BandEngagement {
 
     /// Adds to the volume and the lateral extent only.
     #[inline]
-    pub fn add_volume(&mut self, removed: f32, left: f32) {
+    pub(crate) fn add_volume(&mut self, removed: f32, left: f32) {
         self.removed += f64::from(removed);
         self.lateral = interval_hull(self.lateral, [left, left]);
     }
 
     /// Returns whether nothing was found.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.removed <= 0.0 && self.graze <= 0.0 && self.contact.is_none()
     }
 
     /// Adds a column's removed height, lateral position and range of heights on the cutter.
-    pub fn add_column(&mut self, removed: f32, left: f32, height: [f32; 2]) {
+    pub(crate) fn add_column(&mut self, removed: f32, left: f32, height: [f32; 2]) {
         self.add_volume(removed, left);
         self.height = interval_hull(self.height, height);
     }
 
     /// Adds a contact to its bin.
-    pub fn add_contact(&mut self, contact: &BinContact) {
+    pub(crate) fn add_contact(&mut self, contact: &BinContact) {
         let bins = self.bins.get_or_insert_with(|| Box::new([EngagementBin::EMPTY; BINS]));
         let Some(bin) = bins.get_mut(bin_index_at(f64::from(contact.angle))) else { return };
         bin.merge_bin(&EngagementBin {
@@ -155,7 +161,7 @@ impl BandEngagement {
     }
 
     /// Records that a shank or holder is `depth` mm deep in material; the deepest one is kept.
-    pub fn record_collision(&mut self, collar: usize, depth: f64) {
+    pub(crate) fn record_collision(&mut self, collar: usize, depth: f64) {
         if self.contact.is_none_or(|(_, known)| depth > known) {
             self.contact = Some((collar, depth));
         }
@@ -163,7 +169,7 @@ impl BandEngagement {
 
     /// Adds everything to an engagement. `area` is the area of a column in mm2, and `half` is half a cell in
     /// mm.
-    pub fn add_to_engagement(&self, engagement: &mut Engagement, area: f64, half: f64) {
+    pub(crate) fn add_to_engagement(&self, engagement: &mut Engagement, area: f64, half: f64) {
         engagement.removed_mm3 += self.removed * area;
         if self.removed > 0.0 {
             let [least, greatest] = self.lateral.map(f64::from);

@@ -45,7 +45,7 @@ pub(super) enum CutterUnderside {
 
 impl CutterUnderside {
     /// Makes the underside of a cutter for paths with one slope.
-    pub fn new(profile: &Meridian, slope: f64) -> Self {
+    pub(super) fn new(profile: &Meridian, slope: f64) -> Self {
         let radius2 = (profile.radius_mm() * profile.radius_mm()) as f32;
         let (corner, [center, _]) = (profile.corner_radius_mm(), profile.corner_center());
         let plain = profile.taper_rad() == 0.0 && profile.bottom_angle_rad() == 0.0;
@@ -69,14 +69,14 @@ impl CutterUnderside {
     }
 
     /// Makes the underside of a flat disc for paths with one slope.
-    pub fn flat_disc(radius: f64, slope: f64) -> Self {
+    pub(super) fn flat_disc(radius: f64, slope: f64) -> Self {
         let side = if slope == 0.0 { 0.0 } else { slope.signum() as f32 };
         Self::Flat { radius2: (radius * radius) as f32, side }
     }
 
     /// Returns how far ahead of the axis the lowest contact over a column is, at lateral distance `q` from
     /// the path, mm.
-    pub fn contact_ahead_mm(&self, q: f32) -> f32 {
+    pub(super) fn contact_ahead_mm(&self, q: f32) -> f32 {
         match self {
             Self::Flat { radius2, side } | Self::Ball { radius2, side, .. } => {
                 side * (radius2 - q * q).max(0.0).sqrt()
@@ -88,7 +88,7 @@ impl CutterUnderside {
 
     /// Computes the lowest height of the sweep over each column of a row; infinite where the sweep does not
     /// pass.
-    pub fn sweep_heights(&self, out: &mut [f32], row: SweepRow, path: SweepPath) {
+    pub(super) fn sweep_heights(&self, out: &mut [f32], row: SweepRow, path: SweepPath) {
         match self {
             Self::Flat { radius2, side } => {
                 let (r2, side) = (*radius2, *side);

@@ -13,7 +13,7 @@
 
 mod band_engagement;
 mod cutter_underside;
-pub mod silhouette;
+pub(super) mod silhouette;
 mod straight;
 mod straight_contact;
 mod straight_footprint;
@@ -37,7 +37,7 @@ pub(super) enum PieceSweep {
 
 impl PieceSweep {
     /// Returns the rows that the piece can change.
-    pub fn row_range(&self) -> Range<usize> {
+    pub(super) fn row_range(&self) -> Range<usize> {
         match self {
             Self::Straight(sweep) => sweep.row_range(),
             Self::Tilted(sweep) => sweep.row_range(),
@@ -45,7 +45,7 @@ impl PieceSweep {
     }
 
     /// Removes what the piece sweeps from a band, and returns the band's contribution to the engagement.
-    pub fn sweep_band(&self, band: &mut DexelBand, scratch: &mut Vec<f32>) -> BandEngagement {
+    pub(super) fn sweep_band(&self, band: &mut DexelBand, scratch: &mut Vec<f32>) -> BandEngagement {
         match self {
             Self::Straight(sweep) => sweep.sweep_band(band, scratch),
             Self::Tilted(sweep) => sweep.sweep_band(band),

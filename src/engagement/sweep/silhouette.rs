@@ -19,7 +19,7 @@ const STEPS: usize = 24;
 
 /// The distance w of the contact ahead of the axis as a function of the lateral distance q, for one slope.
 #[derive(Debug, Clone)]
-pub struct Silhouette {
+pub(crate) struct Silhouette {
     /// The values of w at `q = radius (1 - x^2)` for evenly spaced x from 0 to 1. They are dense near the
     /// rim, where w changes fastest.
     table: Vec<f32>,
@@ -30,7 +30,7 @@ pub struct Silhouette {
 
 impl Silhouette {
     /// Computes the curve of a cutter that moves with a slope (rise per horizontal distance).
-    pub fn new(profile: &Meridian, slope: f64) -> Self {
+    pub(crate) fn new(profile: &Meridian, slope: f64) -> Self {
         let radius = profile.radius_mm();
         let cones = profile.taper_rad() > 0.0 || profile.bottom_angle_rad() > 0.0;
         let entries = if cones { CORNERED } else { SMOOTH };
@@ -59,7 +59,7 @@ impl Silhouette {
     /// Returns how far ahead of the axis the contact is over a column at lateral distance `q` (below the
     /// radius), mm.
     #[inline]
-    pub fn contact_ahead_mm(&self, q: f32) -> f32 {
+    pub(crate) fn contact_ahead_mm(&self, q: f32) -> f32 {
         let x = (1.0 - q * self.inverse_radius).max(0.0).sqrt() * self.steps;
         let index = (x as usize).min(self.table.len() - 2);
         let share = x - index as f32;

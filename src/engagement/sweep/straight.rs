@@ -46,7 +46,7 @@ pub(in crate::engagement) struct SweepContext {
 
 impl StraightSweep {
     /// Prepares a piece from tip to tip, with the axis along z.
-    pub fn new(
+    pub(crate) fn new(
         from: [f64; 3],
         to: [f64; 3],
         cutter: &CutterModel,
@@ -144,7 +144,7 @@ impl StraightSweep {
     }
 
     /// Returns the range of rows that the piece can change.
-    pub fn row_range(&self) -> std::ops::Range<usize> {
+    pub(crate) fn row_range(&self) -> std::ops::Range<usize> {
         let [low, high] = self.extent.y_range();
         let reach = self
             .collars
@@ -173,7 +173,7 @@ impl StraightSweep {
     }
 
     /// Removes what the piece sweeps from a band.
-    pub fn sweep_band(&self, band: &mut DexelBand, scratch: &mut Vec<f32>) -> BandEngagement {
+    pub(crate) fn sweep_band(&self, band: &mut DexelBand, scratch: &mut Vec<f32>) -> BandEngagement {
         let mut partial = BandEngagement::new();
         let rows = self.row_range();
         let (first, end) = (rows.start.max(band.first_row), rows.end.min(band.first_row + band.row_count()));

@@ -64,7 +64,7 @@ impl StraightContactFinder {
     /// dominated by another one that is further in and higher, or on a descent further in with a wider range
     /// of rise. Without detail, dominated columns are not examined more closely.
     #[inline]
-    pub fn add_column_contacts(
+    pub(super) fn add_column_contacts(
         &self,
         column: RemovedColumn,
         surface: &CutterUnderside,

@@ -18,13 +18,13 @@ pub(super) struct StraightFootprint {
 
 impl StraightFootprint {
     /// Returns the least and the greatest y.
-    pub fn y_range(&self) -> [f64; 2] {
+    pub(super) fn y_range(&self) -> [f64; 2] {
         let end = self.direction[1] * self.length;
         [end.min(0.0) - self.radius, end.max(0.0) + self.radius]
     }
 
     /// Returns at most two ranges of x in the row at `y`. An empty range has its ends in the wrong order.
-    pub fn x_ranges(&self, y: f64) -> [[f64; 2]; 2] {
+    pub(super) fn x_ranges(&self, y: f64) -> [[f64; 2]; 2] {
         let none = [f64::INFINITY, f64::NEG_INFINITY];
         let Some(mut whole) = self.covered_x_range(y) else { return [none; 2] };
         let [ux, uy] = self.direction;
@@ -66,7 +66,7 @@ impl StraightFootprint {
 
     /// Returns the ranges of x in a ring around the end of the path, `width` wide, of which only the part
     /// ahead of the end counts.
-    pub fn x_ranges_ahead(&self, y: f64, width: f64) -> [[f64; 2]; 2] {
+    pub(super) fn x_ranges_ahead(&self, y: f64, width: f64) -> [[f64; 2]; 2] {
         let [ux, uy] = self.direction;
         let (x, dy) = (ux * self.length, y - uy * self.length);
         let half = |radius: f64| (radius * radius - dy * dy).max(0.0).sqrt();
@@ -80,7 +80,7 @@ impl StraightFootprint {
 
     /// Returns the range of x beside the path, between two lateral distances and between the ends of the
     /// path.
-    pub fn x_range_beside(&self, y: f64, lateral: [f64; 2]) -> [f64; 2] {
+    pub(super) fn x_range_beside(&self, y: f64, lateral: [f64; 2]) -> [f64; 2] {
         let [ux, uy] = self.direction;
         let all = [f64::NEG_INFINITY, f64::INFINITY];
         let stretch = clip_to_half_plane(all, ux, -y * uy);

@@ -48,7 +48,7 @@ impl AngleCell {
 /// A bracket around a root: between the angles `lo` and `hi`, the curve is zero exactly once at each time of
 /// the interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RootBracket {
+pub(crate) struct RootBracket {
     /// An angle before the root, radians. The curve has one sign there all the time.
     pub lo: f64,
     /// An angle behind the root, radians. The curve has the other sign there all the time. It may exceed a
@@ -60,7 +60,7 @@ pub struct RootBracket {
 
 /// The roots of a curve during an interval of time.
 #[derive(Debug, Clone, PartialEq)]
-pub struct CurveRoots {
+pub(crate) struct CurveRoots {
     /// The brackets of the roots in the order of their angles.
     pub brackets: Vec<RootBracket>,
     /// Whether the curve is positive everywhere, if it has no root.
@@ -69,11 +69,11 @@ pub struct CurveRoots {
 
 /// The cells of the circle for one curve.
 #[derive(Debug, Clone)]
-pub struct CircleCells(Vec<AngleCell>);
+pub(super) struct CircleCells(Vec<AngleCell>);
 
 impl CircleCells {
     /// Makes the first cells, on which nothing is known yet.
-    pub fn new() -> Self {
+    pub(super) fn new() -> Self {
         let border = |index: usize| BEGIN + TAU * index as f64 / CELLS as f64;
         Self((0..CELLS).map(|index| AngleCell::new(border(index), border(index + 1))).collect())
     }
@@ -82,7 +82,7 @@ impl CircleCells {
     ///
     /// Knowledge from a longer interval of time stays valid for a shorter one within it. On cells of which
     /// the slope is known, the sign may become known too.
-    pub fn classify_cells(&mut self, curve: &TrigPolynomial<IntervalF64>, finest: f64) {
+    pub(super) fn classify_cells(&mut self, curve: &TrigPolynomial<IntervalF64>, finest: f64) {
         let mut done: Vec<AngleCell> = Vec::with_capacity(self.0.len() + 8);
         let mut waiting: Vec<AngleCell> = std::mem::take(&mut self.0);
         waiting.reverse();
@@ -110,7 +110,7 @@ impl CircleCells {
     }
 
     /// Returns the roots if everything is certain, else `None`.
-    pub fn isolate_roots(&self, curve: &TrigPolynomial<IntervalF64>) -> Option<CurveRoots> {
+    pub(super) fn isolate_roots(&self, curve: &TrigPolynomial<IntervalF64>) -> Option<CurveRoots> {
         // The scan begins at a cell with a known sign and goes once around the circle.
         let first = self.0.iter().position(|cell| cell.known.certain_sign().is_some())?;
         let (before, behind) = self.0.split_at_checked(first)?;
@@ -147,7 +147,7 @@ impl CircleCells {
 
     /// Returns the smallest interval of angles around the cells on which nothing is known, or `None` if there
     /// are none.
-    pub fn unknown_angles(&self) -> Option<IntervalF64> {
+    pub(super) fn unknown_angles(&self) -> Option<IntervalF64> {
         let unknown = self.0.iter().filter(|cell| cell.known == CellKnowledge::Nothing).map(|cell| cell.x);
         unknown.reduce(|a, b| IntervalF64 { lo: a.lo.min(b.lo), hi: a.hi.max(b.hi) })
     }

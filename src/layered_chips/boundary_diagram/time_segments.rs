@@ -36,7 +36,7 @@ pub(crate) struct TimeSegment {
 impl TimeSegment {
     /// Returns the angle of a track at a time, radians. It is on the same turn of the circle as the track's
     /// bracket.
-    pub fn track_angle_at(&self, family: &SectionFamily, track: &RootTrack, t: f64) -> f64 {
+    pub(crate) fn track_angle_at(&self, family: &SectionFamily, track: &RootTrack, t: f64) -> f64 {
         let slab = self.ends.partition_point(|end| *end < t).min(track.brackets.len().saturating_sub(1));
         let Some(bracket) = track.brackets.get(slab) else { return 0.0 };
         family.curve_at(track.curve, t).find_root(bracket.lo, bracket.hi, track.rising)

@@ -62,7 +62,7 @@ pub(super) struct CylinderContact {
 }
 
 impl MovingCylinder {
-    pub fn new(mill: &FlatMill, piece: &PathPiece, length: f64, near: f64) -> Self {
+    pub(super) fn new(mill: &FlatMill, piece: &PathPiece, length: f64, near: f64) -> Self {
         let (from, to) = (piece.from.axis.normalize(), piece.to.axis.normalize());
         let cross = from.cross(&to);
         let turn = cross.norm().atan2(from.dot(&to));
@@ -86,17 +86,17 @@ impl MovingCylinder {
         }
     }
 
-    pub fn radius_mm(&self) -> f64 {
+    pub(super) fn radius_mm(&self) -> f64 {
         self.radius
     }
 
     /// Returns the distance that chords may hide, mm.
-    pub fn chord_error_mm(&self) -> f64 {
+    pub(super) fn chord_error_mm(&self) -> f64 {
         self.near
     }
 
     /// Returns by how much an advance ratio changes per mm of distance from the tip, because the axis turns.
-    pub fn turn_per_mm(&self) -> f64 {
+    pub(super) fn turn_per_mm(&self) -> f64 {
         self.turn / self.pace
     }
 
@@ -130,7 +130,7 @@ impl MovingCylinder {
     }
 
     /// Returns the first contact with a point, or `None` if no advancing surface reaches it.
-    pub fn find_first_contact(&self, place: &Vector3<f64>) -> Option<CylinderContact> {
+    pub(super) fn find_first_contact(&self, place: &Vector3<f64>) -> Option<CylinderContact> {
         let out = |t: f64| {
             let (gap, face) = self.gap_at(place, t);
             (gap - self.near, face)
@@ -193,7 +193,7 @@ impl MovingCylinder {
     }
 
     /// Returns the lengths along the meridian between which a layer meets the cutter's axis at the start.
-    pub fn meridian_range_at_start(&self, slab: &LayerSlab) -> [f64; 2] {
+    pub(super) fn meridian_range_at_start(&self, slab: &LayerSlab) -> [f64; 2] {
         let upright = self.from.z.abs().max(1e-3);
         let height = (slab.z - self.tip.z).abs() / upright;
         let half = slab.thickness / 2.0 / upright;

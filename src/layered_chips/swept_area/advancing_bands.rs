@@ -36,7 +36,7 @@ pub(super) struct TrackRoot<'s> {
 
 impl<'s> TrackRoot<'s> {
     /// Returns the roots of a segment of time.
-    pub fn roots_of_segment(family: &SectionFamily, stretch: &'s TimeSegment) -> Vec<Self> {
+    pub(super) fn roots_of_segment(family: &SectionFamily, stretch: &'s TimeSegment) -> Vec<Self> {
         let [from, to] = stretch.t;
         let t = [from, 0.5 * (from + to), to];
         let root = |track| Self { track, t, angles: t.map(|t| stretch.track_angle_at(family, track, t)) };
@@ -44,12 +44,12 @@ impl<'s> TrackRoot<'s> {
     }
 
     /// Returns the curve that the root belongs to.
-    pub fn curve(&self) -> DiagramCurve {
+    pub(super) fn curve(&self) -> DiagramCurve {
         self.track.curve
     }
 
     /// Returns the angles at the beginning and the end, radians.
-    pub fn end_angles(&self) -> [f64; 2] {
+    pub(super) fn end_angles(&self) -> [f64; 2] {
         let [first, _, last] = self.angles;
         [first, last]
     }

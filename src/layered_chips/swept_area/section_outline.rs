@@ -24,10 +24,10 @@ pub(super) struct FluteEndCuts([FluteEndCut; 2]);
 
 impl FluteEndCuts {
     /// The relation as a section alone determines it, without the proof of a diagram.
-    pub const SEEN: Self = Self([FluteEndCut::Chord, FluteEndCut::Chord]);
+    pub(super) const SEEN: Self = Self([FluteEndCut::Chord, FluteEndCut::Chord]);
 
     /// Returns the relation that holds during a whole segment of time.
-    pub fn over_segment(family: &SectionFamily, stretch: &TimeSegment) -> Self {
+    pub(super) fn over_segment(family: &SectionFamily, stretch: &TimeSegment) -> Self {
         Self([DiagramCurve::Bottom, DiagramCurve::Top].map(|curve| {
             if curve == DiagramCurve::Top && !family.has_top() {
                 return FluteEndCut::Free;

@@ -12,7 +12,7 @@ use std::io::{self, Write};
 
 /// An array for the page.
 #[derive(Debug, Clone, PartialEq)]
-pub enum PageArray {
+pub(super) enum PageArray {
     /// Measured numbers. NaN means that the number is not known.
     F32(Vec<f32>),
     /// Ascending numbers, which are stored as their differences.
@@ -50,7 +50,7 @@ impl PageArray {
     }
 
     /// Returns the array as an element of the page. The browser does not execute scripts of an unknown type.
-    pub fn to_element(&self, name: &str) -> io::Result<String> {
+    pub(super) fn to_element(&self, name: &str) -> io::Result<String> {
         let mut deflated = DeflateEncoder::new(Vec::new(), Compression::new(6));
         deflated.write_all(&self.byte_planes())?;
         let text = STANDARD.encode(deflated.finish()?);

@@ -4,12 +4,12 @@
 use crate::program::{Program, Record, Statement, StatementChange};
 
 /// The value for no row.
-pub const NONE: u32 = u32::MAX;
+pub(super) const NONE: u32 = u32::MAX;
 
 /// The kind of a row, as in a patch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
-pub enum ListingRowKind {
+pub(super) enum ListingRowKind {
     /// It is in both programs.
     Kept = 0,
     /// It is only in the program before.
@@ -20,7 +20,7 @@ pub enum ListingRowKind {
 
 /// The rows, and the rows of statements.
 #[derive(Debug, Default)]
-pub struct ProgramListing {
+pub(super) struct ProgramListing {
     /// The bytes of the rows, each with LF at its end.
     pub text: Vec<u8>,
     /// The kind of each row.
@@ -37,7 +37,7 @@ pub struct ProgramListing {
 
 impl ProgramListing {
     /// Lists a program, whether steps changed it or not.
-    pub fn from_program(program: &Program) -> Self {
+    pub(super) fn from_program(program: &Program) -> Self {
         let mut listing = Self::default();
         for (index, statement) in program.statements().iter().enumerate() {
             let row = listing.kinds.len() as u32;

@@ -12,7 +12,7 @@ use crate::report::simulation::{MotionRow, SimulationReport};
 use crate::report::table::{ColumnUnit, DisplayUnits};
 
 /// The largest distance between chords and their arcs in the drawing, mm.
-pub const CHORD_MM: f64 = 0.02;
+pub(super) const CHORD_MM: f64 = 0.02;
 
 /// A flag of motions: it is a rapid.
 const RAPID: u8 = 1;
@@ -24,7 +24,7 @@ const CRASH: u8 = 4;
 /// The arrays of a program, with a value for each motion. First points are no motions, because no path leads
 /// to them.
 #[derive(Debug, Default)]
-pub struct PageMotionArrays {
+pub(super) struct PageMotionArrays {
     /// Vertices of the path, mm from `origin` in the workpiece frame.
     pub vertices: Vec<[f32; 3]>,
     /// The number of vertices up to the end of each motion.
@@ -75,7 +75,7 @@ const LOADS: [PageLoadColumn; 5] = [
 
 impl PageMotionArrays {
     /// Makes the arrays of a program. `rows` has the row of each of its statements.
-    pub fn from_program(
+    pub(super) fn from_program(
         subject: &ComparisonSubject<'_>,
         program: &Program,
         simulated: Option<&SimulationReport>,
@@ -157,7 +157,7 @@ impl PageMotionArrays {
     }
 
     /// Returns the vertices of a motion, including its start.
-    pub fn motion_vertices(&self, motion: usize) -> &[[f32; 3]] {
+    pub(super) fn motion_vertices(&self, motion: usize) -> &[[f32; 3]] {
         let end = self.ends.get(motion).map_or(0, |end| *end as usize);
         let start =
             motion.checked_sub(1).and_then(|before| self.ends.get(before)).map_or(0, |end| *end as usize);
@@ -167,7 +167,7 @@ impl PageMotionArrays {
     }
 
     /// The arrays by name, in the units that a reader sees.
-    pub fn into_arrays(self, prefix: &str, units: DisplayUnits) -> Vec<(String, PageArray)> {
+    pub(super) fn into_arrays(self, prefix: &str, units: DisplayUnits) -> Vec<(String, PageArray)> {
         let shown = |unit: ColumnUnit, values: Vec<f32>| PageArray::F32(show_values(units, unit, values));
         let vertices = |axis: usize| {
             let values = self.vertices.iter().filter_map(|vertex| vertex.get(axis).copied());

@@ -6,7 +6,7 @@ use super::motion_arrays::{CHORD_MM, PageMotionArrays};
 /// The change of a motion. The numbers are stored in the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
-pub enum PageMotionChange {
+pub(super) enum PageMotionChange {
     /// It is unchanged.
     Same = 0,
     /// It is slower than it was.
@@ -22,7 +22,11 @@ pub enum PageMotionChange {
 const SAME_MM: f32 = 0.002;
 
 /// Pairs the motions of a program with those from which they were made, and classifies their changes.
-pub fn pair_motions(before: &mut PageMotionArrays, after: &mut PageMotionArrays, listing: &ProgramListing) {
+pub(super) fn pair_motions(
+    before: &mut PageMotionArrays,
+    after: &mut PageMotionArrays,
+    listing: &ProgramListing,
+) {
     let origins = find_origin_motions(before, after.ended_by.len(), listing);
     before.change = vec![PageMotionChange::Elsewhere as u8; before.statement.len()];
     before.pair = vec![NONE; before.statement.len()];

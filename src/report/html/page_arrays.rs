@@ -22,7 +22,7 @@ const MOST_TEXT: usize = 300 << 20;
 
 /// The arrays, and what stands beside them.
 #[derive(Debug)]
-pub struct PageArrays {
+pub(super) struct PageArrays {
     facts: Value,
     arrays: Vec<(String, PageArray)>,
     /// Why something is not drawn, and how what is drawn is simplified.
@@ -30,7 +30,7 @@ pub struct PageArrays {
 }
 
 impl PageArrays {
-    pub fn from_comparison(comparison: &Comparison<'_>) -> Self {
+    pub(super) fn from_comparison(comparison: &Comparison<'_>) -> Self {
         let subject = &comparison.subject;
         let program = subject.program;
         let mut missing = Vec::new();
@@ -83,7 +83,7 @@ impl PageArrays {
     }
 
     /// Writes them as elements of the page.
-    pub fn write_elements(&self, out: &mut dyn Write) -> io::Result<()> {
+    pub(super) fn write_elements(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(
             out,
             "<script type=\"application/json\" id=\"facts\">{}</script>",

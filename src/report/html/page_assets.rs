@@ -29,7 +29,7 @@ const SCRIPTS: [&str; 8] = [
 const STYLES: [&str; 2] = [include_str!("vendor/uPlot.min.css"), include_str!("page/page.css")];
 
 /// Returns the template as pieces: a mark, and the text after it. The first piece has no mark.
-pub fn split_template() -> impl Iterator<Item = (Option<&'static str>, &'static str)> {
+pub(super) fn split_template() -> impl Iterator<Item = (Option<&'static str>, &'static str)> {
     TEMPLATE.split("{{").enumerate().map(|(index, piece)| match piece.split_once("}}") {
         Some((mark, text)) if index > 0 => (Some(mark), text),
         _ => (None, piece),
@@ -46,7 +46,7 @@ fn page_style() -> String {
 }
 
 /// Returns the Content-Security-Policy: nothing is loaded, and only these scripts and styles are allowed.
-pub fn content_security_policy() -> String {
+pub(super) fn content_security_policy() -> String {
     let hash = |text: &str| format!("'sha256-{}'", STANDARD.encode(Sha256::digest(text.as_bytes())));
     let mut scripts: Vec<String> = LIBRARIES.iter().map(|(_, script, _)| hash(script)).collect();
     scripts.push(hash(&page_script()));
@@ -57,11 +57,11 @@ pub fn content_security_policy() -> String {
     )
 }
 
-pub fn write_styles(out: &mut dyn Write) -> io::Result<()> {
+pub(super) fn write_styles(out: &mut dyn Write) -> io::Result<()> {
     write!(out, "<style>{}</style>", page_style())
 }
 
-pub fn write_scripts(out: &mut dyn Write) -> io::Result<()> {
+pub(super) fn write_scripts(out: &mut dyn Write) -> io::Result<()> {
     for (_, script, _) in LIBRARIES {
         // The hash in the policy covers every byte between the tags. With one more line break there, the
         // browser would not run the script.
@@ -70,7 +70,7 @@ pub fn write_scripts(out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "<script>{}</script>", page_script())
 }
 
-pub fn write_licences(out: &mut dyn Write) -> io::Result<()> {
+pub(super) fn write_licences(out: &mut dyn Write) -> io::Result<()> {
     for (name, _, licence) in LIBRARIES {
         write!(out, "<h3>{name}</h3><pre>")?;
         markup::write_text(out, licence)?;

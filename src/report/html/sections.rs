@@ -19,7 +19,7 @@ use std::sync::Arc;
 const PER_GROUP: usize = 10;
 
 /// Writes a section by its name in the template.
-pub fn write_section(
+pub(super) fn write_section(
     section: &str,
     comparison: &Comparison<'_>,
     drawing: &[String],

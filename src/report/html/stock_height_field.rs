@@ -7,7 +7,7 @@ const MOST_COLUMNS: usize = 240;
 
 /// Heights on a square grid.
 #[derive(Debug, Clone, PartialEq)]
-pub struct StockHeightField {
+pub(super) struct StockHeightField {
     /// The centre of the first column (x, y), mm.
     pub first_mm: [f64; 2],
     /// The distance between columns, mm.
@@ -26,7 +26,7 @@ pub struct StockHeightField {
 
 impl StockHeightField {
     /// Computes the highest material of blocks of columns. Returns `None` if no material remains.
-    pub fn from_dexels(dexels: &Dexels) -> Option<Self> {
+    pub(super) fn from_dexels(dexels: &Dexels) -> Option<Self> {
         let layout = dexels.grid();
         let coarser = layout.columns.max(layout.rows).div_ceil(MOST_COLUMNS).max(1);
         let (columns, rows) = (layout.columns.div_ceil(coarser), layout.rows.div_ceil(coarser));

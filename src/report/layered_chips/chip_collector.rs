@@ -42,7 +42,7 @@ pub(super) struct ChipCollector<'m, 'p> {
 }
 
 impl<'m, 'p> ChipCollector<'m, 'p> {
-    pub fn new(machining: &'m Machining<'p>, keep: ChipReportOptions, tolerance: f64) -> Self {
+    pub(super) fn new(machining: &'m Machining<'p>, keep: ChipReportOptions, tolerance: f64) -> Self {
         let names = operation::find_operations(machining.program()).into_iter().map(|found| found.name);
         let names: Vec<String> = names.collect();
         let operation = |name: &String| OperationChips { name: name.clone(), ..OperationChips::default() };
@@ -66,7 +66,7 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
     }
 
     /// Adds a motion.
-    pub fn add_motion(&mut self, cut: &MotionChips<'_>) {
+    pub(super) fn add_motion(&mut self, cut: &MotionChips<'_>) {
         if cut.motion.path == MotionPath::Start {
             return;
         }
@@ -204,7 +204,7 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
     }
 
     /// Makes the report.
-    pub fn into_report(mut self, options: LayerRunOptions, ran: LayerRunResult) -> ChipReport {
+    pub(super) fn into_report(mut self, options: LayerRunOptions, ran: LayerRunResult) -> ChipReport {
         self.totals.stock_mm3 = ran.before_mm3;
         self.totals.left_mm3 = ran.left.volume_mm3();
         let assumptions = self.list_assumptions();

@@ -28,7 +28,7 @@ pub(super) struct ChipThicknessModel<'m> {
 impl ChipThicknessModel<'_> {
     /// Returns the thickest chip of a tooth on a layer of a piece, in mm. The normal of the flank is
     /// perpendicular to the axis. Returns `None` for a film that is an error of chords.
-    pub fn max_chip_thickness_mm(&self, step: &MotionPiece, layer: &LayerChip) -> Option<f64> {
+    pub(super) fn max_chip_thickness_mm(&self, step: &MotionPiece, layer: &LayerChip) -> Option<f64> {
         if layer.area_mm2 <= 0.0 {
             return Some(0.0);
         }

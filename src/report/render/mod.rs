@@ -25,7 +25,7 @@ pub(crate) struct SeverityCounts {
 
 impl SeverityCounts {
     /// Counts findings.
-    pub fn from_findings(diagnostics: &[Diagnostic]) -> Self {
+    pub(crate) fn from_findings(diagnostics: &[Diagnostic]) -> Self {
         let stands =
             |severity: Severity| move |found: &&Diagnostic| !found.is_allowed && found.severity == severity;
         let count = |severity| diagnostics.iter().filter(stands(severity)).count();

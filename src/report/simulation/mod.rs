@@ -22,7 +22,7 @@ mod unknown_feeds;
 pub use motion_row::{MotionRow, write_csv};
 pub use simulation_document::to_json;
 pub use sums::{OperationSums, SimulationPeak, SimulationSums};
-pub use target_comparison::TargetComparison;
+pub use target_comparison::{TargetComparison, TargetMismatch, ThickestMismatch};
 pub use text::to_text;
 
 use crate::diagnostic::{Diagnostic, Failure};

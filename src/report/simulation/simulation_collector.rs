@@ -46,7 +46,7 @@ pub(super) struct CollectedSimulation {
 }
 
 impl<'m, 'p> SimulationCollector<'m, 'p> {
-    pub fn new(machining: &'m Machining<'p>, cell: f64) -> Self {
+    pub(super) fn new(machining: &'m Machining<'p>, cell: f64) -> Self {
         let machine = &machining.setup().machine;
         let rapid = machine.rapid_feed.map(|feed| feed.get());
         let material = machining.setup().require_material().ok();
@@ -73,7 +73,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
     }
 
     /// Adds a motion.
-    pub fn add_motion(&mut self, cut: &EngagedMotion<'_>) {
+    pub(super) fn add_motion(&mut self, cut: &EngagedMotion<'_>) {
         let motion = cut.motion;
         if motion.path == MotionPath::Start {
             return;
@@ -213,7 +213,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
     }
 
     /// Returns the results.
-    pub fn into_collected(mut self) -> CollectedSimulation {
+    pub(super) fn into_collected(mut self) -> CollectedSimulation {
         let program = self.machining.program();
         let acceleration = self.machining.setup().machine.max_acceleration.map(|most| most.get());
         self.faults.unknown_feeds = self.unknown.count;

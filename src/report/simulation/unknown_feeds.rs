@@ -19,7 +19,13 @@ pub(super) struct UnknownFeedCollector {
 impl UnknownFeedCollector {
     /// Checks a motion that cuts. `feed` is its feed and `rpm` its speed, if they are known. A spindle that
     /// does not turn has a finding of its own.
-    pub fn check_motion(&mut self, program: &Program, motion: &Motion, feed: Option<f64>, rpm: Option<f64>) {
+    pub(super) fn check_motion(
+        &mut self,
+        program: &Program,
+        motion: &Motion,
+        feed: Option<f64>,
+        rpm: Option<f64>,
+    ) {
         let speed = motion.spindle.as_deref().and_then(|spindle| spindle.speed);
         let turns = motion.spindle.as_deref().is_some_and(|spindle| spindle.on);
         let label_of_feed = motion.feed_from.unwrap_or_else(|| motion.last_statement());
@@ -55,7 +61,7 @@ impl UnknownFeedCollector {
     }
 
     /// Returns all findings.
-    pub fn into_findings(self) -> Vec<Diagnostic> {
+    pub(super) fn into_findings(self) -> Vec<Diagnostic> {
         self.found
     }
 }

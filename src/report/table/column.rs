@@ -47,7 +47,11 @@ enum ColumnMedium {
 
 impl<R> Column<R> {
     /// Makes a column. `key` is its name for machines, to which the unit is added.
-    pub fn new(key: &'static str, unit: ColumnUnit, value: for<'r> fn(&'r R) -> TableValue<'r>) -> Self {
+    pub(crate) fn new(
+        key: &'static str,
+        unit: ColumnUnit,
+        value: for<'r> fn(&'r R) -> TableValue<'r>,
+    ) -> Self {
         Self {
             key,
             json_key: None,
@@ -64,61 +68,61 @@ impl<R> Column<R> {
 
     /// Sets the head of the column in tables for people, without unit. An empty one leaves the unit alone as
     /// the head.
-    pub fn titled(mut self, title: &'static str) -> Self {
+    pub(crate) fn titled(mut self, title: &'static str) -> Self {
         self.title = Some(title);
         self
     }
 
     /// Sets how the value is worded in a sentence: `thickest chip: 0.0512 mm`.
-    pub fn worded_as(mut self, words: &'static str, decimals: usize) -> Self {
+    pub(crate) fn worded_as(mut self, words: &'static str, decimals: usize) -> Self {
         self.sentence = Some(ColumnSentence { words, decimals });
         self
     }
 
     /// Prints numbers for people with a fixed number of decimals.
-    pub fn decimals(mut self, decimals: usize) -> Self {
+    pub(crate) fn decimals(mut self, decimals: usize) -> Self {
         self.decimals = ColumnDecimals::Fixed(decimals);
         self
     }
 
     /// Aligns the column to the left in HTML. In plain text and Markdown only the first column is to the
     /// left.
-    pub fn left_aligned(mut self) -> Self {
+    pub(crate) fn left_aligned(mut self) -> Self {
         self.is_left_aligned = true;
         self
     }
 
     /// Sets what stands for a value that is not known, in plain text. CSV has an empty cell, JSON `null`.
-    pub fn missing(mut self, text: &'static str) -> Self {
+    pub(crate) fn missing(mut self, text: &'static str) -> Self {
         self.missing = text;
         self
     }
 
     /// Keeps a JSON key that is older than this model and does not end with the column's unit.
-    pub fn old_json_key(mut self, key: &'static str) -> Self {
+    pub(crate) fn old_json_key(mut self, key: &'static str) -> Self {
         self.json_key = Some(key);
         self
     }
 
     /// Leaves the column out of JSON.
-    pub fn only_in_csv(mut self) -> Self {
+    pub(crate) fn only_in_csv(mut self) -> Self {
         self.medium = ColumnMedium::Csv;
         self
     }
 
     /// Leaves the column out of CSV.
-    pub fn only_in_json(mut self) -> Self {
+    pub(crate) fn only_in_json(mut self) -> Self {
         self.medium = ColumnMedium::Json;
         self
     }
 
     /// Returns the unit.
-    pub fn unit(&self) -> ColumnUnit {
+    pub(crate) fn unit(&self) -> ColumnUnit {
         self.unit
     }
 
     /// Returns how numbers are printed for people, once they are converted.
-    pub fn shown_decimals(&self, units: DisplayUnits) -> ColumnDecimals {
+    pub(crate) fn shown_decimals(&self, units: DisplayUnits) -> ColumnDecimals {
         match self.decimals {
             ColumnDecimals::Fixed(decimals) => ColumnDecimals::Fixed(units.decimals(self.unit, decimals)),
             ColumnDecimals::Trimmed(most) => ColumnDecimals::Trimmed(units.decimals(self.unit, most)),
@@ -126,53 +130,53 @@ impl<R> Column<R> {
     }
 
     /// Returns what stands for a value that is not known, in plain text.
-    pub fn missing_text(&self) -> &'static str {
+    pub(crate) fn missing_text(&self) -> &'static str {
         self.missing
     }
 
     /// Returns how the value is worded in a sentence, if it ever is.
-    pub fn sentence(&self) -> Option<ColumnSentence> {
+    pub(crate) fn sentence(&self) -> Option<ColumnSentence> {
         self.sentence
     }
 
     /// Returns whether the column is aligned to the left in HTML.
-    pub fn is_left_aligned(&self) -> bool {
+    pub(crate) fn is_left_aligned(&self) -> bool {
         self.is_left_aligned
     }
 
     /// Returns whether the column is one of a CSV table.
-    pub fn is_in_csv(&self) -> bool {
+    pub(crate) fn is_in_csv(&self) -> bool {
         self.medium != ColumnMedium::Json
     }
 
     /// Returns whether the column is a key of JSON objects.
-    pub fn is_in_json(&self) -> bool {
+    pub(crate) fn is_in_json(&self) -> bool {
         self.medium != ColumnMedium::Csv
     }
 
     /// Returns the value of a row.
-    pub fn value<'r>(&self, row: &'r R) -> TableValue<'r> {
+    pub(crate) fn value<'r>(&self, row: &'r R) -> TableValue<'r> {
         (self.value)(row)
     }
 
     /// Returns the head of the column in CSV: its key and its unit.
-    pub fn csv_head(&self, units: DisplayUnits) -> String {
+    pub(crate) fn csv_head(&self, units: DisplayUnits) -> String {
         units.key(self.key, self.unit).into_owned()
     }
 
     /// Returns the key of the column in JSON.
-    pub fn json_key(&self, units: DisplayUnits) -> Cow<'static, str> {
+    pub(crate) fn json_key(&self, units: DisplayUnits) -> Cow<'static, str> {
         self.json_key.map_or_else(|| units.key(self.key, self.unit), Cow::Borrowed)
     }
 
     /// Returns the head of the column in tables for people: its title and its unit, `at feed, mm`.
-    pub fn head(&self, looks: TableLooks) -> String {
+    pub(crate) fn head(&self, looks: TableLooks) -> String {
         join_unit(self.title.unwrap_or(self.key), self.unit, looks)
     }
 
     /// Returns the head of a row that gives the column's values, if rows and columns are swapped: the words
     /// of the sentence and the unit.
-    pub fn row_head(&self, looks: TableLooks) -> String {
+    pub(crate) fn row_head(&self, looks: TableLooks) -> String {
         let words = self.sentence.map(|sentence| sentence.words);
         join_unit(words.or(self.title).unwrap_or(self.key), self.unit, looks)
     }

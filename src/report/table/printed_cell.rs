@@ -28,22 +28,22 @@ pub(crate) enum TableStyle {
 
 impl TableLooks {
     /// Makes the style of plain text.
-    pub const fn plain(units: DisplayUnits) -> Self {
+    pub(crate) const fn plain(units: DisplayUnits) -> Self {
         Self { units, style: TableStyle::Plain, has_units_in_heads: true }
     }
 
     /// Makes the style of Markdown and HTML.
-    pub const fn markup(units: DisplayUnits) -> Self {
+    pub(crate) const fn markup(units: DisplayUnits) -> Self {
         Self { units, style: TableStyle::Markup, has_units_in_heads: true }
     }
 
     /// Leaves the units out of the heads, because a line above the table gives them.
-    pub fn without_units_in_heads(self) -> Self {
+    pub(crate) fn without_units_in_heads(self) -> Self {
         Self { has_units_in_heads: false, ..self }
     }
 
     /// Returns a unit as people write it.
-    pub fn unit_symbol(self, unit: ColumnUnit) -> &'static str {
+    pub(crate) fn unit_symbol(self, unit: ColumnUnit) -> &'static str {
         match self.style {
             TableStyle::Plain => unit.symbol(self.units.shown_in),
             TableStyle::Markup => unit.marked_symbol(self.units.shown_in),
@@ -51,7 +51,7 @@ impl TableLooks {
     }
 
     /// Prints the cell of a row.
-    pub fn print_cell<R>(self, column: &Column<R>, row: &R) -> String {
+    pub(crate) fn print_cell<R>(self, column: &Column<R>, row: &R) -> String {
         let number = |value: f64| self.print_number(column, value);
         match column.value(row) {
             TableValue::Missing => self.missing_text(column),
@@ -71,7 +71,7 @@ impl TableLooks {
     }
 
     /// Prints a number of a column in the reader's unit.
-    pub fn print_number<R>(self, column: &Column<R>, value: f64) -> String {
+    pub(crate) fn print_number<R>(self, column: &Column<R>, value: f64) -> String {
         let value = self.units.convert(column.unit(), value);
         match column.shown_decimals(self.units) {
             ColumnDecimals::Fixed(decimals) => format_fixed(value, decimals),
@@ -81,7 +81,7 @@ impl TableLooks {
 
     /// Words a largest value as a sentence: `thickest chip: 0.0512 mm on line 17`. Returns `None` if it is
     /// not known, or if the column is not for sentences.
-    pub fn word_peak<R>(self, column: &Column<R>, row: &R) -> Option<String> {
+    pub(crate) fn word_peak<R>(self, column: &Column<R>, row: &R) -> Option<String> {
         let sentence = column.sentence()?;
         let TableValue::Peak { value, place } = column.value(row) else { return None };
         let value = self.units.convert(column.unit(), value);

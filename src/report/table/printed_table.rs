@@ -23,7 +23,7 @@ struct PrintedHead {
 
 impl PrintedTable {
     /// Prints rows by their columns.
-    pub fn from_rows<'r, R: 'r>(
+    pub(crate) fn from_rows<'r, R: 'r>(
         columns: &[Column<R>],
         rows: impl IntoIterator<Item = &'r R>,
         looks: TableLooks,
@@ -39,38 +39,38 @@ impl PrintedTable {
     }
 
     /// Adds a column to the right, before any row is added.
-    pub fn push_column(&mut self, head: impl Into<String>, is_left_aligned: bool) {
+    pub(crate) fn push_column(&mut self, head: impl Into<String>, is_left_aligned: bool) {
         debug_assert!(self.rows.is_empty(), "the rows that are there have no cell for this column");
         self.head.push(PrintedHead { text: head.into(), is_left_aligned });
     }
 
     /// Adds a row with a cell for each column.
-    pub fn push_row(&mut self, cells: Vec<String>) {
+    pub(crate) fn push_row(&mut self, cells: Vec<String>) {
         debug_assert_eq!(cells.len(), self.head.len(), "a cell for each column");
         self.rows.push(cells);
     }
 
     /// Keeps the first rows and counts the others.
-    pub fn keep_rows(mut self, most: usize) -> Self {
+    pub(crate) fn keep_rows(mut self, most: usize) -> Self {
         self.rows_left_out += self.rows.len().saturating_sub(most);
         self.rows.truncate(most);
         self
     }
 
     /// Counts rows that were left out before they came here.
-    pub fn leave_out(mut self, rows: usize) -> Self {
+    pub(crate) fn leave_out(mut self, rows: usize) -> Self {
         self.rows_left_out += rows;
         self
     }
 
     /// Returns whether there is no row.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
 
     /// Returns the table as plain text, with the first column to the left, the others to the right, and a
     /// last line about the rows that are left out.
-    pub fn to_text(&self) -> String {
+    pub(crate) fn to_text(&self) -> String {
         let head = self.head.iter().map(|head| head.text.clone()).collect();
         let mut all: Vec<Vec<String>> = vec![head];
         all.extend(self.rows.iter().cloned());
@@ -83,7 +83,7 @@ impl PrintedTable {
 
     /// Returns the table as Markdown (GitHub's and GitLab's tables) with an empty line after it: the first
     /// column to the left, the others to the right.
-    pub fn to_markdown(&self) -> String {
+    pub(crate) fn to_markdown(&self) -> String {
         let join = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
         // Heads are the program's own words, which need no escaping.
         let mut text = join(self.head.iter().map(|head| head.text.clone()).collect());
@@ -100,7 +100,7 @@ impl PrintedTable {
     ///
     /// # Errors
     /// Returns the errors of `out`.
-    pub fn write_html(&self, out: &mut dyn Write) -> io::Result<()> {
+    pub(crate) fn write_html(&self, out: &mut dyn Write) -> io::Result<()> {
         let class = |column: usize| {
             let is_left = self.head.get(column).is_some_and(|head| head.is_left_aligned);
             if is_left { "" } else { " class=\"n\"" }

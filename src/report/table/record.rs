@@ -34,14 +34,14 @@ struct RecordFormat {
 
 impl<R> JsonColumns<R> {
     /// Takes the columns that JSON has, with their keys.
-    pub fn new(columns: &[Column<R>], units: DisplayUnits, numbers: RecordNumbers) -> Self {
+    pub(crate) fn new(columns: &[Column<R>], units: DisplayUnits, numbers: RecordNumbers) -> Self {
         let columns: Vec<Column<R>> = columns.iter().filter(|column| column.is_in_json()).copied().collect();
         let keys = columns.iter().map(|column| column.json_key(units)).collect();
         Self { columns, keys, format: RecordFormat { units, numbers } }
     }
 
     /// Makes a JSON list of rows.
-    pub fn serialize_rows<S: Serializer>(
+    pub(crate) fn serialize_rows<S: Serializer>(
         &self,
         rows: impl Iterator<Item = R>,
         serializer: S,
@@ -54,7 +54,7 @@ impl<R> JsonColumns<R> {
     }
 
     /// Returns a row as something that becomes a JSON object.
-    pub fn object<'a>(&'a self, row: &'a R) -> JsonObject<'a, R> {
+    pub(crate) fn object<'a>(&'a self, row: &'a R) -> JsonObject<'a, R> {
         let (columns, keys) = (self.columns.as_slice(), self.keys.as_slice());
         JsonObject { columns, keys, row, format: self.format }
     }
@@ -70,7 +70,7 @@ pub(crate) struct JsonObject<'a, R> {
 
 impl<R> JsonObject<'_, R> {
     /// Adds the columns to an object that may hold other keys as well.
-    pub fn serialize_entries<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
+    pub(crate) fn serialize_entries<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
         for (column, key) in self.columns.iter().zip(self.keys) {
             let value = JsonValue { value: column.value(self.row), unit: column.unit(), format: self.format };
             map.serialize_entry(key.as_ref(), &value)?;
@@ -152,7 +152,7 @@ impl<R, W: Write> CsvTable<R, W> {
     ///
     /// # Errors
     /// Returns the errors of `out`.
-    pub fn begin(columns: &[Column<R>], units: DisplayUnits, out: W) -> io::Result<Self> {
+    pub(crate) fn begin(columns: &[Column<R>], units: DisplayUnits, out: W) -> io::Result<Self> {
         let columns: Vec<Column<R>> = columns.iter().filter(|column| column.is_in_csv()).copied().collect();
         let mut writer = csv::WriterBuilder::new().has_headers(false).from_writer(out);
         writer.write_record(columns.iter().map(|column| column.csv_head(units))).map_err(to_io_error)?;
@@ -163,7 +163,7 @@ impl<R, W: Write> CsvTable<R, W> {
     ///
     /// # Errors
     /// Returns the errors of the output.
-    pub fn write_row(&mut self, row: &R) -> io::Result<()> {
+    pub(crate) fn write_row(&mut self, row: &R) -> io::Result<()> {
         let cells = CsvRow { columns: &self.columns, row, units: self.units };
         self.writer.serialize(cells).map_err(to_io_error)
     }
@@ -172,7 +172,7 @@ impl<R, W: Write> CsvTable<R, W> {
     ///
     /// # Errors
     /// Returns the errors of the output.
-    pub fn finish(mut self) -> io::Result<()> {
+    pub(crate) fn finish(mut self) -> io::Result<()> {
         self.writer.flush()
     }
 }

@@ -38,22 +38,22 @@ pub(crate) enum PeakPlace {
 
 impl<'r> TableValue<'r> {
     /// Makes a cell of a text that lives as long as the row.
-    pub fn text(text: &'r str) -> Self {
+    pub(crate) fn text(text: &'r str) -> Self {
         Self::Text(Cow::Borrowed(text))
     }
 
     /// Makes a cell of a time that leaves nothing out, or that is not known.
-    pub fn duration(seconds: Option<f64>) -> Self {
+    pub(crate) fn duration(seconds: Option<f64>) -> Self {
         seconds.map_or(Self::Missing, |seconds| Self::Duration { seconds, is_lower_bound: false })
     }
 
     /// Returns whether nothing is known.
-    pub fn is_missing(&self) -> bool {
+    pub(crate) fn is_missing(&self) -> bool {
         matches!(self, Self::Missing)
     }
 
     /// Returns the value as one number for comparisons, if it is one.
-    pub fn as_number(&self) -> Option<f64> {
+    pub(crate) fn as_number(&self) -> Option<f64> {
         match self {
             Self::Number(value) | Self::Peak { value, .. } => Some(*value),
             Self::Duration { seconds, .. } => Some(*seconds),

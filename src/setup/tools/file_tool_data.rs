@@ -27,7 +27,7 @@ pub(super) struct FileToolData {
 }
 
 impl FileToolData {
-    pub fn from_tool_data(data: Option<&ToolData>, units: LengthUnit) -> Self {
+    pub(super) fn from_tool_data(data: Option<&ToolData>, units: LengthUnit) -> Self {
         let rounding = ROUNDING * units.mm_per_unit();
         let Some(data) = data else { return Self { rounding_mm: rounding, ..Self::default() } };
         let to_mm = |value: Option<f64>| value.map(|value| value * units.mm_per_unit());

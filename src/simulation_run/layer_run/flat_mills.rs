@@ -10,7 +10,7 @@ const NONE: f64 = 1e-6;
 
 /// The property that makes a cutter no flat end mill, to be read after "tool 3 has".
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum NotFlat {
+pub(crate) enum NotFlat {
     /// The bottom is a cone.
     #[error("a bottom that is {degrees:.1} degrees from flat")]
     Bottom {

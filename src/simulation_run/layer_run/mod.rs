@@ -1,7 +1,7 @@
 //! This module runs a program over its stock in layers and finds the chip of every motion.
 //!
 //! It works like [`Machining::simulate_program`](super::Machining::simulate_program), with the exact chips of
-//! [`crate::layered_chips`] instead of columns. Columns and layers are two simulations of the same path, with
+//! `crate::layered_chips` instead of columns. Columns and layers are two simulations of the same path, with
 //! the same frames, chords and checks, so each one checks the other.
 //!
 //! Layers model flat end mills whose axis is not nearly parallel to the layers. A motion that they cannot

@@ -37,7 +37,7 @@ pub(crate) struct BallClearanceField {
 
 impl BallClearanceField {
     /// Sorts a mesh's triangles for a ball of `radius_mm`.
-    pub fn new(mesh: &Mesh, radius_mm: f64) -> Self {
+    pub(crate) fn new(mesh: &Mesh, radius_mm: f64) -> Self {
         let bounded = |corners: [[f64; 3]; 3]| {
             let [a, b, c] = corners.map(Vector3::from);
             ([a, b, c], a.inf(&b).inf(&c), a.sup(&b).sup(&c))
@@ -56,7 +56,7 @@ impl BallClearanceField {
     /// The distance of a point of the mesh from a cutter that moves straight is a convex function of the
     /// travel. So between two samples a point gets no deeper into the cutter than a ball's sagitta, `step^2 /
     /// (8 R)`.
-    pub fn measure_clearance(&self, path: &[[f64; 3]], step_mm: f64) -> Option<PathClearance> {
+    pub(crate) fn measure_clearance(&self, path: &[[f64; 3]], step_mm: f64) -> Option<PathClearance> {
         let first = path.first().filter(|_| path.iter().flatten().all(|value| value.is_finite()))?;
         let mut distance = self.clearance_at(*first, self.radius);
         let mut found =

@@ -16,7 +16,7 @@ pub(super) struct TriangleColumns {
 
 impl TriangleColumns {
     /// Sorts a mesh's triangles for a cutter of `radius_mm`.
-    pub fn new(mesh: &Mesh, radius_mm: f64) -> Self {
+    pub(super) fn new(mesh: &Mesh, radius_mm: f64) -> Self {
         let ([x0, y0, _], [x1, y1, _]) = mesh.bounds();
         let cell = (radius_mm / 2.0).max((x1 - x0).max(y1 - y0) / MOST_COLUMNS);
         let size = [x1 - x0, y1 - y0].map(|width| (width / cell) as usize + 1);
@@ -36,7 +36,7 @@ impl TriangleColumns {
 
     /// Returns the triangles of each column that a rectangle touches. A triangle in several columns is
     /// returned several times.
-    pub fn columns_within(&self, low: [f64; 2], high: [f64; 2]) -> impl Iterator<Item = &[u32]> {
+    pub(super) fn columns_within(&self, low: [f64; 2], high: [f64; 2]) -> impl Iterator<Item = &[u32]> {
         self.covered_columns(low, high).filter_map(|column| self.columns.get(column)).map(Vec::as_slice)
     }
 

@@ -44,7 +44,7 @@ pub(super) struct GraphSegment {
 
 impl HeightGraph {
     /// Returns the height at u. Beyond its ends a circle continues at the height of its centre.
-    pub fn height_at(&self, u: f64) -> f64 {
+    pub(super) fn height_at(&self, u: f64) -> f64 {
         match *self {
             Self::Line { left, right } => left.z + (u - left.u) / (right.u - left.u) * (right.z - left.z),
             Self::Round { centre, radius, upper } => {
@@ -57,7 +57,7 @@ impl HeightGraph {
     }
 
     /// Returns the absolute slope at u; it is not finite where the graph is vertical.
-    pub fn steepness_at(&self, u: f64) -> f64 {
+    pub(super) fn steepness_at(&self, u: f64) -> f64 {
         match *self {
             Self::Line { left, right } => ((right.z - left.z) / (right.u - left.u)).abs(),
             Self::Round { centre, radius, .. } => {
@@ -69,7 +69,7 @@ impl HeightGraph {
 
     /// Returns the values of u between `lo` and `hi` at which two graphs may cross. They ascend, are at most
     /// two, and may include some where the graphs do not cross.
-    pub fn find_crossings(&self, other: &Self, lo: f64, hi: f64) -> [Option<f64>; 2] {
+    pub(super) fn find_crossings(&self, other: &Self, lo: f64, hi: f64) -> [Option<f64>; 2] {
         let found = match (*self, *other) {
             (Self::Line { .. }, Self::Line { .. }) => {
                 let (at_lo, at_hi) =
@@ -120,7 +120,7 @@ fn intersect_circles(a: Point, ra: f64, b: Point, rb: f64) -> [f64; 2] {
 
 impl GraphSegment {
     /// Returns the height at u.
-    pub fn height_at(&self, u: f64) -> f64 {
+    pub(super) fn height_at(&self, u: f64) -> f64 {
         if u == self.left.u {
             self.left.z
         } else if u == self.right.u {
@@ -131,17 +131,17 @@ impl GraphSegment {
     }
 
     /// Returns the point at u.
-    pub fn point_at(&self, u: f64) -> Point {
+    pub(super) fn point_at(&self, u: f64) -> Point {
         Point::new(u, self.height_at(u))
     }
 
     /// Returns the part from `lo` to `hi`, which are both inside.
-    pub fn sub_segment(&self, lo: f64, hi: f64) -> Self {
+    pub(super) fn sub_segment(&self, lo: f64, hi: f64) -> Self {
         Self { left: self.point_at(lo), right: self.point_at(hi), ..*self }
     }
 
     /// Converts the segment to a piece of a chain.
-    pub fn to_piece(self) -> ChainPiece {
+    pub(super) fn to_piece(self) -> ChainPiece {
         let (from, to) = (self.left, self.right);
         match self.graph {
             HeightGraph::Line { .. } => ChainPiece::line(from, to),

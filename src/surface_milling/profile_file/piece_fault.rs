@@ -10,16 +10,16 @@ pub(super) struct PieceFault {
 }
 
 impl PieceFault {
-    pub fn new(message: impl Into<String>, label: &'static str) -> Self {
+    pub(super) fn new(message: impl Into<String>, label: &'static str) -> Self {
         Self { message: message.into(), label, help: None, key: None, index: None }
     }
 
-    pub fn at_key(mut self, key: &'static str) -> Self {
+    pub(super) fn at_key(mut self, key: &'static str) -> Self {
         self.key = Some(key);
         self
     }
 
-    pub fn with_help(mut self, help: impl Into<String>) -> Self {
+    pub(super) fn with_help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }

@@ -105,7 +105,7 @@ pub(super) fn make_profile_schema() -> serde_json::Value {
 }
 
 impl PieceText {
-    pub fn yaml_key(&self) -> &'static str {
+    pub(super) fn yaml_key(&self) -> &'static str {
         match self {
             Self::Line(_) => "line",
             Self::Polyline(_) => "polyline",

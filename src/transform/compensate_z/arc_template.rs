@@ -65,7 +65,7 @@ impl ArcTemplate {
     ///
     /// # Errors
     /// Returns an error if a new statement does not read back.
-    pub fn insert_arc(
+    pub(super) fn insert_arc(
         &self,
         editor: &mut ProgramEditor,
         arc: &ArcPiece,

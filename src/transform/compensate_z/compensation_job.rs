@@ -30,7 +30,11 @@ pub(super) struct CompensateZJob {
 }
 
 impl CompensateZJob {
-    pub fn new(step: &CompensateZ, file: LengthUnit, context: &StepContext<'_>) -> Result<Self, Failure> {
+    pub(super) fn new(
+        step: &CompensateZ,
+        file: LengthUnit,
+        context: &StepContext<'_>,
+    ) -> Result<Self, Failure> {
         let recipe = context.units.mm_per_unit();
         let mm = |value: Option<Positive>| value.map(|value| value.get() * recipe);
         let was = mm(step.was_radius);
@@ -65,14 +69,14 @@ impl CompensateZJob {
 
     /// Returns how much higher everything around the passes has to be, in mm. When tips become centres, it
     /// rises by the radius.
-    pub fn lift_mm(&self) -> f64 {
+    pub(super) fn lift_mm(&self) -> f64 {
         let was = if self.was_centre { self.was.unwrap_or(0.0) } else { 0.0 };
         if self.centre { (self.radius - was).max(0.0) } else { 0.0 }
     }
 
     /// Takes the cutter from the tool of the motions, unless the step gives the radius. The motions must have
     /// a single tool.
-    pub fn take_tool_cutter(
+    pub(super) fn take_tool_cutter(
         &mut self,
         program: &Program,
         motions: &[Motion],

@@ -29,12 +29,12 @@ pub(crate) struct BallGouge {
 
 impl BallContact {
     /// Returns the centre of a ball of `radius` mm that touches here.
-    pub fn ball_centre(&self, radius: f64) -> Point3<f64> {
+    pub(super) fn ball_centre(&self, radius: f64) -> Point3<f64> {
         self.point + self.normal.into_inner() * radius
     }
 
     /// Returns the tip of that ball: `Pc + R (n - a)`.
-    pub fn ball_tip(&self, radius: f64) -> Point3<f64> {
+    pub(super) fn ball_tip(&self, radius: f64) -> Point3<f64> {
         self.ball_centre(radius) - self.axis.into_inner() * radius
     }
 }

@@ -18,7 +18,7 @@ pub(super) struct MotionFindings<'a> {
 
 impl MotionFindings<'_> {
     /// Builds a finding at the statement that ends a motion, and at the step.
-    pub fn build_finding(
+    pub(super) fn build_finding(
         &self,
         code: DiagnosticCode,
         message: String,
@@ -38,7 +38,7 @@ impl MotionFindings<'_> {
     }
 
     /// Builds the failure that stops the step at a motion.
-    pub fn build_failure(
+    pub(super) fn build_failure(
         &self,
         message: String,
         motion: usize,
@@ -48,7 +48,7 @@ impl MotionFindings<'_> {
         self.build_finding(codes::STEP_FAILED, message, motion, label, context).into()
     }
 
-    pub fn describe_no_pass(&self, why: NoPassReason, context: &StepContext<'_>) -> Failure {
+    pub(super) fn describe_no_pass(&self, why: NoPassReason, context: &StepContext<'_>) -> Failure {
         match why {
             NoPassReason::LeavesPlane(motion) => {
                 let help = "Name the finishing passes by `where`, or compensate `against: { mesh: ... }` or `normals`, which need no planes.";
@@ -80,7 +80,7 @@ impl MotionFindings<'_> {
         }
     }
 
-    pub fn describe_lead_conflict(&self, why: LeadConflict, context: &StepContext<'_>) -> Failure {
+    pub(super) fn describe_lead_conflict(&self, why: LeadConflict, context: &StepContext<'_>) -> Failure {
         let (motion, message, help) = match why {
             LeadConflict::Rapid(motion) => (
                 motion,
@@ -103,7 +103,12 @@ impl MotionFindings<'_> {
             .into()
     }
 
-    pub fn describe_pass_fault(&self, why: &PassFault, motion: usize, context: &StepContext<'_>) -> Failure {
+    pub(super) fn describe_pass_fault(
+        &self,
+        why: &PassFault,
+        motion: usize,
+        context: &StepContext<'_>,
+    ) -> Failure {
         match why {
             PassFault::Pass(why) => self.describe_no_pass(*why, context),
             PassFault::Geometry(why) => self.build_failure(
@@ -116,7 +121,7 @@ impl MotionFindings<'_> {
     }
 
     /// Words the reason why a motion could not be written. A failure of the editor stays as it is.
-    pub fn describe_write_fault(
+    pub(super) fn describe_write_fault(
         &self,
         fault: WriteFault,
         motion: usize,
@@ -128,7 +133,7 @@ impl MotionFindings<'_> {
         }
     }
 
-    pub fn describe_unwritable_motion(
+    pub(super) fn describe_unwritable_motion(
         &self,
         why: UnwritableMotion,
         motion: usize,

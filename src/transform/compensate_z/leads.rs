@@ -41,7 +41,7 @@ pub(super) struct PassSurroundings<'a> {
 }
 
 impl<'a> PassSurroundings<'a> {
-    pub fn new(
+    pub(super) fn new(
         program: &Program,
         motions: &'a [Motion],
         meant: &[bool],

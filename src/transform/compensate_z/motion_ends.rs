@@ -15,7 +15,7 @@ impl PassWriter<'_> {
     ///
     /// # Errors
     /// Returns an error if a statement does not read back, and for records that cannot be moved.
-    pub fn move_end(
+    pub(super) fn move_end(
         &self,
         editor: &mut ProgramEditor,
         index: usize,

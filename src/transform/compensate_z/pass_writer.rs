@@ -56,7 +56,7 @@ pub(super) struct PassWriter<'a> {
 }
 
 impl<'a> PassWriter<'a> {
-    pub fn new(program: &Program, motions: &'a [Motion], mm_per_unit: f64) -> Self {
+    pub(super) fn new(program: &Program, motions: &'a [Motion], mm_per_unit: f64) -> Self {
         // A file may print its own points with two or three decimals, but a compensated path would lose its
         // tolerance to them.
         let decimals = FileStyle::from_program(program).length_decimals.max(4);
@@ -64,7 +64,7 @@ impl<'a> PassWriter<'a> {
     }
 
     /// Returns whether the file has records that state arcs.
-    pub fn has_arcs(&self) -> bool {
+    pub(super) fn has_arcs(&self) -> bool {
         self.arc.is_some()
     }
 
@@ -72,7 +72,7 @@ impl<'a> PassWriter<'a> {
     ///
     /// # Errors
     /// Returns [`UnwritableMotion`] if they cannot.
-    pub fn check_writable(&self, program: &Program, index: usize) -> Result<(), UnwritableMotion> {
+    pub(super) fn check_writable(&self, program: &Program, index: usize) -> Result<(), UnwritableMotion> {
         let motion = self.motions.get(index).ok_or(UnwritableMotion::NoGoto)?;
         let last = motion.last_statement();
         // A GOTO of several points cannot be split without changing the neighbouring motions.
@@ -107,7 +107,7 @@ impl<'a> PassWriter<'a> {
     ///
     /// # Errors
     /// Returns [`WriteFault`] if a statement does not read back, or if there is no GOTO to model new ones on.
-    pub fn write_pass(
+    pub(super) fn write_pass(
         &self,
         editor: &mut ProgramEditor,
         pass: &VerticalPass,
@@ -147,7 +147,7 @@ impl<'a> PassWriter<'a> {
     ///
     /// # Errors
     /// Returns the errors of [`PassWriter::write_pass`].
-    pub fn write_points(
+    pub(super) fn write_points(
         &self,
         editor: &mut ProgramEditor,
         motions: Range<usize>,

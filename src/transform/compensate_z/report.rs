@@ -71,14 +71,14 @@ pub(super) struct PassReporter<'a> {
 }
 
 impl<'a> PassReporter<'a> {
-    pub fn new(program: &'a Program, motions: &'a [Motion]) -> Self {
+    pub(super) fn new(program: &'a Program, motions: &'a [Motion]) -> Self {
         let operations =
             operation::find_operations(program).into_iter().map(|operation| operation.name).collect();
         Self { program, motions, operations }
     }
 
     /// Makes the report of a pass, before anything is measured.
-    pub fn start_report(&self, motions: &Range<usize>, after: usize) -> PassReport {
+    pub(super) fn start_report(&self, motions: &Range<usize>, after: usize) -> PassReport {
         let first = self.motions.get(motions.start);
         debug_assert!(first.is_some(), "a pass has motions");
         let line = |motion: &Motion| {

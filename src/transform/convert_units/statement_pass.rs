@@ -20,7 +20,7 @@ const LENGTHS_OF_POSTS: &[&str] = &[
 /// Converts every statement.
 ///
 /// Returns an error if a statement does not read back.
-pub fn convert_statements(
+pub(super) fn convert_statements(
     editor: &mut ProgramEditor,
     conversion: UnitConversion,
     context: &mut StepContext<'_>,

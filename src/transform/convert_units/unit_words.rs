@@ -10,7 +10,7 @@ use std::ops::Range;
 
 /// Returns the numbers of a statement that are feeds, with the unit word that governs each of them. That is
 /// the word before the number, or the only one of the record (CATIA writes it after the number).
-pub fn find_feeds(syntax: &StatementSyntax<'_>) -> Vec<(usize, Option<FeedUnit>)> {
+pub(super) fn find_feeds(syntax: &StatementSyntax<'_>) -> Vec<(usize, Option<FeedUnit>)> {
     let units = find_feed_words(syntax);
     let mut found = Vec::new();
     for (index, (at, _)) in syntax.numbers().iter().enumerate() {
@@ -24,7 +24,7 @@ pub fn find_feeds(syntax: &StatementSyntax<'_>) -> Vec<(usize, Option<FeedUnit>)
 ///
 /// # Errors
 /// Returns an error if the new text does not read back.
-pub fn swap_feed_words(
+pub(super) fn swap_feed_words(
     editor: &mut ProgramEditor,
     id: StatementId,
     conversion: UnitConversion,
@@ -41,7 +41,11 @@ pub fn swap_feed_words(
 ///
 /// # Errors
 /// Returns an error if the new text does not read back.
-pub fn swap_speed_word(editor: &mut ProgramEditor, id: StatementId, to: LengthUnit) -> Result<(), Failure> {
+pub(super) fn swap_speed_word(
+    editor: &mut ProgramEditor,
+    id: StatementId,
+    to: LengthUnit,
+) -> Result<(), Failure> {
     let (old, new) = match to {
         LengthUnit::Inch => ("SMM", "SFM"),
         LengthUnit::Mm => ("SFM", "SMM"),
@@ -55,7 +59,7 @@ pub fn swap_speed_word(editor: &mut ProgramEditor, id: StatementId, to: LengthUn
 ///
 /// # Errors
 /// Returns an error if the new text does not read back.
-pub fn swap_units(editor: &mut ProgramEditor, id: StatementId, to: LengthUnit) -> Result<(), Failure> {
+pub(super) fn swap_units(editor: &mut ProgramEditor, id: StatementId, to: LengthUnit) -> Result<(), Failure> {
     let syntax = write::statement_syntax(editor.program(), id);
     let name = match to {
         LengthUnit::Inch => "INCHES",

@@ -40,7 +40,7 @@ fn build_over_turns(ramp: &Ramp, turns: &[Point2<f64>]) -> Option<Ramp> {
 /// Returns ramps along the chord P1-Pn with legs of at least `least` (mm), the shortest first. If the chord
 /// is long enough, the ramp runs along it. Otherwise the ramp runs beyond the end and back, or starts
 /// backwards, or does both. A closed ramp has no chord, so the list is empty.
-pub fn lengthen_along_chord(ramp: &Ramp, least: f64) -> Vec<Ramp> {
+pub(super) fn lengthen_along_chord(ramp: &Ramp, least: f64) -> Vec<Ramp> {
     let (start, end) = (ramp.start.xy(), ramp.end_point().xy());
     let s = (end - start).norm();
     let Some(along) = (end - start).try_normalize(NOTHING) else { return Vec::new() };
@@ -56,7 +56,7 @@ pub fn lengthen_along_chord(ramp: &Ramp, least: f64) -> Vec<Ramp> {
 
 /// Returns a ramp from P1 to a point beyond Pn in a direction, and back to Pn. The operation's first cutting
 /// pass runs there anyway. The point is no farther away than both legs need.
-pub fn lengthen_along_pass(ramp: &Ramp, direction: Vector2<f64>, least: f64) -> Option<Ramp> {
+pub(super) fn lengthen_along_pass(ramp: &Ramp, direction: Vector2<f64>, least: f64) -> Option<Ramp> {
     let direction =
         direction.try_normalize(1e-9).filter(|vector| vector.iter().all(|value| value.is_finite()))?;
     let back = ramp.end_point().xy() - ramp.start.xy();
@@ -73,7 +73,7 @@ pub fn lengthen_along_pass(ramp: &Ramp, direction: Vector2<f64>, least: f64) -> 
 
 /// Returns the helix about the same axis with the radius `radius` (mm). A level link leads from P1 out to it,
 /// and another one from its end to Pn. Its chords stay as close to their circle as before.
-pub fn widen_helix(ramp: &Ramp, helix: &Helix, radius: f64) -> Ramp {
+pub(super) fn widen_helix(ramp: &Ramp, helix: &Helix, radius: f64) -> Ramp {
     let ratio = radius / helix.radius;
     let out = |point: Point3<f64>| {
         let at = helix.centre + (point.xy() - helix.centre) * ratio;

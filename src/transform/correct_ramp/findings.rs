@@ -28,7 +28,7 @@ impl RampFindings<'_> {
     }
 
     /// Returns the place where the ramp begins in the source.
-    pub fn begin_span(&self) -> Span {
+    pub(super) fn begin_span(&self) -> Span {
         self.statement_span(self.found.motions.start, false)
     }
 

@@ -18,18 +18,18 @@ pub(super) struct LevelMotions<'m> {
 }
 
 impl<'m> LevelMotions<'m> {
-    pub fn new(motions: &'m [Motion], mm_per_unit: f64) -> Self {
+    pub(super) fn new(motions: &'m [Motion], mm_per_unit: f64) -> Self {
         Self { motions, mm_per_unit, known: HashMap::new() }
     }
 
     /// Returns the convex hull of the ramp and of everything that its operation cuts at the level of its end.
-    pub fn level_hull(&mut self, found: &FoundRamp) -> ToolRegion {
+    pub(super) fn level_hull(&mut self, found: &FoundRamp) -> ToolRegion {
         ToolRegion::from_hull(self.level_paths(found).into_iter().flatten())
     }
 
     /// Returns the region in which a tool of a radius (mm) covers only what the operation cuts at the level
     /// of the ramp's end, or what the ramp itself covers. It is computed within `reach` (mm) of the ramp.
-    pub fn milled_region(&mut self, found: &FoundRamp, radius: f64, reach: f64) -> ToolRegion {
+    pub(super) fn milled_region(&mut self, found: &FoundRamp, radius: f64, reach: f64) -> ToolRegion {
         ToolRegion::Milled(MilledArea::new(
             &self.level_paths(found),
             radius,

@@ -1,8 +1,8 @@
 //! `correct_ramp` makes ramp approaches that an indexable cutter survives (Zhou 2020).
 //!
-//! `ramp_search` reads ramps from motions. The geometry modules know no text: [`ramp`] is a ramp,
-//! [`ramp_limits`] holds what the cutter allows, and [`correct_ramp()`] makes the ramp keep these limits
-//! ([`circumscribed_circle`], [`ramp_passes`], detours, inside a [`tool_region`]). `ramp_writer` writes the
+//! `ramp_search` reads ramps from motions. The geometry modules know no text: `ramp` is a ramp,
+//! `ramp_limits` holds what the cutter allows, and `ramp_correction` makes the ramp keep these limits
+//! (`circumscribed_circle`, `ramp_passes`, detours, inside a `tool_region`). `ramp_writer` writes the
 //! new points into the CL text, and the step measures them again.
 //!
 //! A ramp is recognized by what follows it: it is a descent at feed after which the tool continues to cut at
@@ -43,6 +43,8 @@ pub(crate) mod tool_region;
 
 pub use milled_area::MilledArea;
 pub use parameters::{CorrectRamp, ImpossibleRampHandling, PlungeHandling, RampRegionSpec, RampToolSpec};
+pub use ramp::{Ramp, RampArc, RampLeg, RampStep};
 pub use ramp_check::check_ramps;
 pub use ramp_correction::{ImpossibleCorrection, LengtheningMethod};
+pub use ramp_limits::RampMeasurement;
 pub use report::{CorrectRampReport, RampOutcome, RampReport};

@@ -10,7 +10,7 @@ use crate::source::Span;
 use std::f64::consts::PI;
 
 /// An arc of the program before the move.
-pub struct ArcSweep {
+pub(super) struct ArcSweep {
     /// The place in the source of the statement that ends it.
     place: Span,
     /// The sweep in radians.
@@ -18,7 +18,7 @@ pub struct ArcSweep {
 }
 
 /// Returns all arcs of a program in order.
-pub fn collect_sweeps(program: &Program) -> Vec<ArcSweep> {
+pub(super) fn collect_sweeps(program: &Program) -> Vec<ArcSweep> {
     iter_arcs(program).collect()
 }
 
@@ -26,7 +26,7 @@ pub fn collect_sweeps(program: &Program) -> Vec<ArcSweep> {
 ///
 /// # Errors
 /// Returns the place of the first arc that has gained or lost most of a turn, or that is no arc any more.
-pub fn check_sweeps(program: &Program, before: &[ArcSweep]) -> Result<(), Span> {
+pub(super) fn check_sweeps(program: &Program, before: &[ArcSweep]) -> Result<(), Span> {
     let mut before = before.iter();
     for after in iter_arcs(program) {
         // Moving a program keeps the sweep of its arcs, and rounding changes it very little. A change by more

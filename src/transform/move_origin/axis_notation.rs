@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 
 /// The notation of tool axes in a dialect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AxisNotation {
+pub(super) enum AxisNotation {
     /// Six values where the axis changes. The axis stays in force for GOTOs with three values (NX).
     Modal,
     /// Six values in every GOTO whose axis is not z (Creo and ISO under MULTAX, SolidWorks without it).
@@ -23,7 +23,7 @@ pub enum AxisNotation {
 
 impl AxisNotation {
     /// Returns the notation of a dialect.
-    pub fn for_dialect(dialect: Dialect) -> Self {
+    pub(super) fn for_dialect(dialect: Dialect) -> Self {
         match dialect {
             Dialect::Nx => Self::Modal,
             Dialect::Catia | Dialect::CatiaIcam => Self::Word,
@@ -36,7 +36,7 @@ impl AxisNotation {
 
 /// An axis that a motion must state.
 #[derive(Debug, Clone, Copy)]
-pub struct RequiredAxis {
+pub(super) struct RequiredAxis {
     /// The axis.
     pub axis: Vector3<f64>,
     /// The first statement that belongs to this motion alone (its RAPID, CIRCLE or INDIRV).
@@ -45,7 +45,7 @@ pub struct RequiredAxis {
 
 /// The outcome of writing an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AxisWriteOutcome {
+pub(super) enum AxisWriteOutcome {
     /// The axis was written.
     Done,
     /// The axis was written, and MULTAX was inserted before it.
@@ -58,7 +58,7 @@ pub enum AxisWriteOutcome {
 ///
 /// # Errors
 /// Returns an error if the new text does not read back.
-pub fn write_axis(
+pub(super) fn write_axis(
     editor: &mut ProgramEditor,
     id: StatementId,
     need: RequiredAxis,

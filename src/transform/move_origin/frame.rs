@@ -16,7 +16,7 @@ use nalgebra::{Matrix3, Vector3};
 ///
 /// # Errors
 /// Returns an error if there is no frame, or if one cannot take the transform.
-pub fn move_frames(
+pub(super) fn move_frames(
     program: Program,
     place: &Affine,
     scope: &SelectedStatements,

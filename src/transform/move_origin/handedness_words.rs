@@ -15,7 +15,7 @@ const SENSES: &[[&str; 2]] = &[["CLOCKWISE", "COUNTERCLOCKWISE"], ["CLW", "CCLW"
 ///
 /// # Errors
 /// Returns an error if the new text does not read back.
-pub fn swap_sides(editor: &mut ProgramEditor, id: StatementId) -> Result<(), Failure> {
+pub(super) fn swap_sides(editor: &mut ProgramEditor, id: StatementId) -> Result<(), Failure> {
     swap_words(editor, id, SIDES)
 }
 
@@ -23,12 +23,12 @@ pub fn swap_sides(editor: &mut ProgramEditor, id: StatementId) -> Result<(), Fai
 ///
 /// # Errors
 /// Returns an error if the new text does not read back.
-pub fn swap_senses(editor: &mut ProgramEditor, id: StatementId) -> Result<(), Failure> {
+pub(super) fn swap_senses(editor: &mut ProgramEditor, id: StatementId) -> Result<(), Failure> {
     swap_words(editor, id, SENSES)
 }
 
 /// Returns the normal of the plane that a CUTCOM names. Returns `None` if it names none.
-pub fn named_plane_normal(syntax: &StatementSyntax<'_>) -> Option<Vector3<f64>> {
+pub(super) fn named_plane_normal(syntax: &StatementSyntax<'_>) -> Option<Vector3<f64>> {
     (0..syntax.fields.len()).find_map(|field| match syntax.word_at(field)?.as_str() {
         "XYPLAN" => Some(Vector3::z()),
         "YZPLAN" => Some(Vector3::x()),
@@ -38,7 +38,7 @@ pub fn named_plane_normal(syntax: &StatementSyntax<'_>) -> Option<Vector3<f64>> 
 }
 
 /// Returns whether the transform keeps a plane and the side from which its word is meant.
-pub fn keeps_plane(place: &Affine, normal: Vector3<f64>) -> bool {
+pub(super) fn keeps_plane(place: &Affine, normal: Vector3<f64>) -> bool {
     place.keeps_direction(normal)
 }
 

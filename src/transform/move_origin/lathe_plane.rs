@@ -12,7 +12,7 @@ const SAME_PLANE: f64 = 1e-4;
 ///
 /// # Errors
 /// The first point that would leave it.
-pub fn check_lathe_plane(
+pub(super) fn check_lathe_plane(
     program: &Program,
     place: &Affine,
     scope: &SelectedStatements,

@@ -41,12 +41,12 @@ pub struct RotationSpec {
 }
 
 /// Returns three numbers as a vector.
-pub fn vector_from_spec(triple: &VectorSpec) -> Vector3<f64> {
+pub(super) fn vector_from_spec(triple: &VectorSpec) -> Vector3<f64> {
     Vector3::from(triple.map(Finite::get))
 }
 
 /// Combines mirror, then rotation, then translation into a single transform, in the file's unit.
-pub fn compose_affine(
+pub(super) fn compose_affine(
     mirror: Option<&MirrorSpec>,
     rotate: Option<&RotationSpec>,
     translate: Option<&VectorSpec>,

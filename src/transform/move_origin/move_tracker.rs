@@ -14,7 +14,7 @@ use nalgebra::Vector3;
 
 /// The reason why a program cannot be moved.
 #[derive(Debug)]
-pub struct MoveRefusal {
+pub(super) struct MoveRefusal {
     /// The reason.
     pub message: &'static str,
     /// The statement that prevents the move.
@@ -25,7 +25,7 @@ pub struct MoveRefusal {
 
 /// The state while statements are read in order.
 #[derive(Debug)]
-pub struct MoveTracker<'p> {
+pub(super) struct MoveTracker<'p> {
     place: &'p Affine,
     dialect: Dialect,
     form: AxisNotation,
@@ -51,7 +51,7 @@ pub struct MoveTracker<'p> {
 
 impl<'p> MoveTracker<'p> {
     /// Makes the state before the first statement.
-    pub fn new(place: &'p Affine, dialect: Dialect) -> Self {
+    pub(super) fn new(place: &'p Affine, dialect: Dialect) -> Self {
         Self {
             place,
             dialect,
@@ -75,23 +75,23 @@ impl<'p> MoveTracker<'p> {
     }
 
     /// Returns whether MULTAX is in force.
-    pub fn is_multi_axis(&self) -> bool {
+    pub(super) fn is_multi_axis(&self) -> bool {
         self.multi_axis
     }
 
     /// Returns whether the transform keeps the axis in force.
-    pub fn keeps_axis(&self) -> bool {
+    pub(super) fn keeps_axis(&self) -> bool {
         self.place.keeps_direction(self.old)
     }
 
     /// Notes a MULTAX that the step inserts.
-    pub fn note_multax(&mut self) {
+    pub(super) fn note_multax(&mut self) {
         self.multi_axis = true;
     }
 
     /// Reads a statement before it changes. `moved` tells whether it will be moved. Returns the axis that has
     /// to be written there.
-    pub fn observe_statement(
+    pub(super) fn observe_statement(
         &mut self,
         id: StatementId,
         record: &Record,
@@ -144,7 +144,7 @@ impl<'p> MoveTracker<'p> {
 
     /// Checks the whole program after its last statement. A mirror that reverses the tool axis of every
     /// motion is a mistake.
-    pub fn finish(&self) -> Result<(), MoveRefusal> {
+    pub(super) fn finish(&self) -> Result<(), MoveRefusal> {
         match self.turned_over {
             Some(statement) if !self.keeps_sense => Err(MoveRefusal {
                 message: "the mirror plane is normal to the tool axis: the tool would reach the part from its other end. \

@@ -16,7 +16,7 @@ use nalgebra::Vector3;
 /// # Errors
 /// Returns an error if the file does not allow the move. The program is lost then, so nothing is left
 /// half-moved.
-pub fn move_points(
+pub(super) fn move_points(
     program: Program,
     place: &Affine,
     scope: &SelectedStatements,

@@ -25,12 +25,12 @@ pub(super) struct Bindings<'t> {
 
 impl<'t> Bindings<'t> {
     /// Makes bindings without any name.
-    pub fn new(text: &'t [u8]) -> Self {
+    pub(super) fn new(text: &'t [u8]) -> Self {
         Self { text, found: Vec::new() }
     }
 
     /// Binds a name. `None` and `_` bind nothing.
-    pub fn bind(&mut self, name: Option<&'t str>, at: Range<usize>) {
+    pub(super) fn bind(&mut self, name: Option<&'t str>, at: Range<usize>) {
         if let Some(name) = name.filter(|name| *name != "_") {
             self.found.push((name, at));
         }
@@ -38,7 +38,7 @@ impl<'t> Bindings<'t> {
 
     /// Returns whether a name that is bound several times always has the same value: equal numbers, or the
     /// same word.
-    pub fn is_consistent(&self) -> bool {
+    pub(super) fn is_consistent(&self) -> bool {
         self.found.iter().enumerate().all(|(index, (name, at))| {
             let earlier = self.found.iter().take(index).find(|(other, _)| other == name);
             earlier
@@ -47,19 +47,19 @@ impl<'t> Bindings<'t> {
     }
 
     /// Returns the place of a name's argument in the statement's text.
-    pub fn argument_range(&self, name: &str) -> Option<Range<usize>> {
+    pub(super) fn argument_range(&self, name: &str) -> Option<Range<usize>> {
         self.found.iter().find(|(bound, _)| *bound == name).map(|(_, at)| at.clone())
     }
 
     /// Returns the bytes of a name's argument as they stand, without the breaks of full lines, which belong
     /// to their columns. They are empty if the name is not bound.
-    pub fn argument_text(&self, name: &str) -> Cow<'t, [u8]> {
+    pub(super) fn argument_text(&self, name: &str) -> Cow<'t, [u8]> {
         let range = self.argument_range(name).unwrap_or_default();
         without_full_breaks(self.text, &range)
     }
 
     /// Returns the value of a name's argument.
-    pub fn argument_value(&self, name: &str) -> ExpressionValue {
+    pub(super) fn argument_value(&self, name: &str) -> ExpressionValue {
         parse_value(&join_broken(&self.argument_text(name)))
     }
 

@@ -19,7 +19,7 @@ pub(super) enum Charset {
 
 impl Charset {
     /// Returns the character set of a program's file.
-    pub fn from_program(program: &Program) -> Self {
+    pub(super) fn from_program(program: &Program) -> Self {
         match std::str::from_utf8(program.source().bytes()) {
             Ok(_) => Self::Utf8,
             Err(_) => Self::Latin1,
@@ -30,7 +30,7 @@ impl Charset {
     ///
     /// # Errors
     /// Returns the first letter that the file cannot hold.
-    pub fn encode(self, text: &str) -> Result<Vec<u8>, MissingLetter> {
+    pub(super) fn encode(self, text: &str) -> Result<Vec<u8>, MissingLetter> {
         if self == Self::Utf8 {
             return Ok(text.as_bytes().to_vec());
         }

@@ -71,7 +71,7 @@ impl Expression {
     ///
     /// # Errors
     /// Returns an error if the expression cannot have a value.
-    pub fn kind(&self) -> Result<ExpressionKind, RuleFault> {
+    pub(super) fn kind(&self) -> Result<ExpressionKind, RuleFault> {
         Ok(match self {
             Self::Number(_) => ExpressionKind::Number,
             Self::Word(_) => ExpressionKind::Word,
@@ -115,7 +115,7 @@ impl Expression {
     ///
     /// # Errors
     /// Returns an error if a name is not bound, or if it is bound to several arguments.
-    pub fn check_names(&self, names: &[BoundName]) -> Result<(), RuleFault> {
+    pub(super) fn check_names(&self, names: &[BoundName]) -> Result<(), RuleFault> {
         self.names().into_iter().try_for_each(|name| match names.iter().find(|known| known.text == *name) {
             None => {
                 Err(bindings::unbound_name(name, names, "A word to compare with stands in quotes: 'MMPM'."))
@@ -129,7 +129,7 @@ impl Expression {
     }
 
     /// Returns the names in the expression, in order.
-    pub fn names(&self) -> Vec<&str> {
+    pub(super) fn names(&self) -> Vec<&str> {
         match self {
             Self::Number(_) | Self::Word(_) => Vec::new(),
             Self::Name(name) => vec![name],
@@ -142,7 +142,7 @@ impl Expression {
     ///
     /// # Errors
     /// Returns an error if an argument has the wrong kind, or if a number is divided by zero.
-    pub fn evaluate(&self, bindings: &Bindings<'_>) -> Result<ExpressionValue, EvaluationError> {
+    pub(super) fn evaluate(&self, bindings: &Bindings<'_>) -> Result<ExpressionValue, EvaluationError> {
         match self {
             Self::Number(value) => Ok(ExpressionValue::Number(*value)),
             Self::Word(word) => Ok(ExpressionValue::Word(fold_word(word))),
@@ -157,7 +157,7 @@ impl Expression {
     ///
     /// # Errors
     /// Returns the errors of [`Expression::evaluate`].
-    pub fn evaluate_truth(&self, bindings: &Bindings<'_>) -> Result<bool, EvaluationError> {
+    pub(super) fn evaluate_truth(&self, bindings: &Bindings<'_>) -> Result<bool, EvaluationError> {
         match self.evaluate(bindings)? {
             ExpressionValue::Truth(value) => Ok(value),
             _ => Err(EvaluationError { message: "this is neither true nor false".to_owned(), at: None }),

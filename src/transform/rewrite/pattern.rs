@@ -39,23 +39,23 @@ impl StatementPattern {
     ///
     /// # Errors
     /// Returns what is wrong with the text.
-    pub fn new(text: &str) -> Result<Self, RuleFault> {
+    pub(super) fn new(text: &str) -> Result<Self, RuleFault> {
         Self::compile(text, Charset::Utf8)
     }
 
     /// Returns the pattern for a file of this character set. Returns `None` if the character set does not
     /// have all of its characters, because nothing in the file can match then.
-    pub fn for_charset(&self, charset: Charset) -> Option<Self> {
+    pub(super) fn for_charset(&self, charset: Charset) -> Option<Self> {
         if self.text.is_ascii() { Some(self.clone()) } else { Self::compile(&self.text, charset).ok() }
     }
 
     /// Returns whether it is the same in every character set.
-    pub fn is_ascii(&self) -> bool {
+    pub(super) fn is_ascii(&self) -> bool {
         self.text.is_ascii()
     }
 
     /// Returns the names that it binds, each of them once.
-    pub fn names(&self) -> &[BoundName] {
+    pub(super) fn names(&self) -> &[BoundName] {
         &self.names
     }
 
@@ -104,7 +104,7 @@ impl StatementPattern {
 
     /// Returns whether the first letters allow a match. It is cheap enough for every statement of a large
     /// file.
-    pub fn may_match(&self, text: &[u8]) -> bool {
+    pub(super) fn may_match(&self, text: &[u8]) -> bool {
         let text = text.trim_ascii_start();
         let starts_with = |letters: &[u8]| {
             text.get(..letters.len()).is_some_and(|start| start.eq_ignore_ascii_case(letters))
@@ -117,7 +117,7 @@ impl StatementPattern {
     }
 
     /// Matches a statement and binds its arguments.
-    pub fn matches<'p>(&'p self, subject: &RuleSubject<'p>) -> Option<Bindings<'p>> {
+    pub(super) fn matches<'p>(&'p self, subject: &RuleSubject<'p>) -> Option<Bindings<'p>> {
         let mut bindings = Bindings::new(subject.text);
         let fits = self.class == subject.class
             && self.word.matches(subject.text, &subject.word, &mut bindings)

@@ -30,7 +30,7 @@ struct PendingInsertion {
 }
 
 impl<'w> RewriteRun<'w> {
-    pub fn new(
+    pub(super) fn new(
         rules: &'w [ActiveRule<'w>],
         hits: &'w [RuleMatch],
         charset: Charset,
@@ -43,7 +43,7 @@ impl<'w> RewriteRun<'w> {
     ///
     /// # Errors
     /// Returns an error if an expression has no value, or if the result of a rule is no statement.
-    pub fn rewrite_program(&self, program: Program) -> Result<Program, Failure> {
+    pub(super) fn rewrite_program(&self, program: Program) -> Result<Program, Failure> {
         let mut editor = ProgramEditor::new(program, self.context.step);
         let mut look = SpacingStyle::from_program(editor.program(), editor.style().line_end);
         let mut insertions = Vec::new();

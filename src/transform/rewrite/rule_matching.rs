@@ -39,7 +39,7 @@ pub(super) struct RuleFailure {
 
 impl<'r> ActiveRule<'r> {
     /// Prepares the rules of a step for a file.
-    pub fn activate_rules(step: &'r Rewrite, charset: Charset) -> Vec<Self> {
+    pub(super) fn activate_rules(step: &'r Rewrite, charset: Charset) -> Vec<Self> {
         let rules = step.rules.iter().enumerate();
         rules
             .map(|(index, rule)| {
@@ -50,12 +50,12 @@ impl<'r> ActiveRule<'r> {
     }
 
     /// Returns whether a statement matched the pattern, whatever its `if` was.
-    pub fn has_matched(&self) -> bool {
+    pub(super) fn has_matched(&self) -> bool {
         self.fitted
     }
 
     /// Binds the arguments of a statement. Returns `None` if it does not match.
-    pub fn bind_arguments<'s>(&'s self, subject: &RuleSubject<'s>) -> Option<Bindings<'s>> {
+    pub(super) fn bind_arguments<'s>(&'s self, subject: &RuleSubject<'s>) -> Option<Bindings<'s>> {
         self.pattern.as_ref()?.matches(subject)
     }
 

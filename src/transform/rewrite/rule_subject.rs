@@ -39,7 +39,7 @@ pub(super) struct RuleSubject<'t> {
 impl<'t> RuleSubject<'t> {
     /// Splits a statement's text into its parts. Text after the first statement is ignored; see
     /// [`RuleSubject::is_whole`].
-    pub fn from_text(text: &'t [u8]) -> Self {
+    pub(super) fn from_text(text: &'t [u8]) -> Self {
         if let Some(numbers) = parse::plain_goto_numbers(text) {
             let number = |(at, value)| StatementField { at, kind: FieldKind::Number(value) };
             let fields = numbers.into_iter().map(number).collect();
@@ -91,12 +91,12 @@ impl<'t> RuleSubject<'t> {
     }
 
     /// Returns whether a text is this one statement and nothing more.
-    pub fn is_whole(&self, text: &[u8]) -> bool {
+    pub(super) fn is_whole(&self, text: &[u8]) -> bool {
         self.text.len() == text.len() && !self.open
     }
 
     /// Returns the bytes at a place.
-    pub fn bytes_at(&self, at: &Range<usize>) -> &'t [u8] {
+    pub(super) fn bytes_at(&self, at: &Range<usize>) -> &'t [u8] {
         self.text.get(at.clone()).unwrap_or_default()
     }
 

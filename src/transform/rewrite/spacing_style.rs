@@ -18,13 +18,13 @@ pub(super) struct SpacingStyle {
 
 impl SpacingStyle {
     /// Prepares the spacing of a program.
-    pub fn from_program(program: &Program, line_end: &'static str) -> Self {
+    pub(super) fn from_program(program: &Program, line_end: &'static str) -> Self {
         Self { line_end, columns: program.dialect().has_columns(), ..Self::default() }
     }
 
     /// Returns the text of a statement without its line end, spaced as the file spaces its own. Free text
     /// stays unchanged.
-    pub fn apply_spacing(&mut self, text: &[u8], program: &Program) -> Vec<u8> {
+    pub(super) fn apply_spacing(&mut self, text: &[u8], program: &Program) -> Vec<u8> {
         let subject = RuleSubject::from_text(text);
         let mut out = Vec::with_capacity(text.len() + 8);
         let mut copied = 0;

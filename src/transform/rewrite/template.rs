@@ -37,7 +37,7 @@ impl StatementTemplate {
     ///
     /// # Errors
     /// Returns what is wrong with the text.
-    pub fn new(text: &str) -> Result<Self, RuleFault> {
+    pub(super) fn new(text: &str) -> Result<Self, RuleFault> {
         let pieces = parse_rule_text(text)?;
         let mut tried = String::new();
         let mut is_plain = true;
@@ -81,7 +81,7 @@ impl StatementTemplate {
     }
 
     /// Returns whether it is the same in every character set.
-    pub fn is_ascii(&self) -> bool {
+    pub(super) fn is_ascii(&self) -> bool {
         self.is_ascii
     }
 
@@ -89,7 +89,7 @@ impl StatementTemplate {
     ///
     /// # Errors
     /// Returns what is wrong with the text.
-    pub fn check_names(&self, names: &[BoundName]) -> Result<(), RuleFault> {
+    pub(super) fn check_names(&self, names: &[BoundName]) -> Result<(), RuleFault> {
         self.pieces.iter().try_for_each(|piece| match piece {
             RuleTextPart::Bound(name) | RuleTextPart::Rest(Some(name))
                 if !names.iter().any(|known| known.text == *name) =>
@@ -112,7 +112,7 @@ impl StatementTemplate {
     /// # Errors
     /// Returns an error if an expression has no value here, or if the file cannot hold a letter of the
     /// template.
-    pub fn fill(&self, filling: &TemplateInputs<'_>) -> Result<Vec<u8>, EvaluationError> {
+    pub(super) fn fill(&self, filling: &TemplateInputs<'_>) -> Result<Vec<u8>, EvaluationError> {
         let mut out = Vec::new();
         let mut comma_goes = false;
         for (index, piece) in self.pieces.iter().enumerate() {

@@ -40,7 +40,7 @@ impl WildcardPattern {
     ///
     /// # Errors
     /// Returns an error if the text cannot be matched unambiguously.
-    pub fn compile(marked: &[u8], wildcards: &[Wildcard]) -> Result<Self, RuleFault> {
+    pub(super) fn compile(marked: &[u8], wildcards: &[Wildcard]) -> Result<Self, RuleFault> {
         let folded: Vec<u8> =
             fold_bytes(marked, &(0..marked.len())).into_iter().map(|(byte, _)| byte).collect();
         let mut parts: Vec<WildcardPart> = Vec::new();
@@ -86,12 +86,12 @@ impl WildcardPattern {
     }
 
     /// Returns whether it has a `$...`.
-    pub fn has_rest(&self) -> bool {
+    pub(super) fn has_rest(&self) -> bool {
         matches!(self.0.last(), Some(WildcardPart::Rest(..)))
     }
 
     /// Returns the letters with which every match begins, up to the first blank, comma or wildcard.
-    pub fn first_letters(&self) -> &[u8] {
+    pub(super) fn first_letters(&self) -> &[u8] {
         match self.0.first() {
             Some(WildcardPart::Literal(literal)) => {
                 literal.split(|byte| matches!(byte, b' ' | b',')).next().unwrap_or_default()
@@ -101,7 +101,12 @@ impl WildcardPattern {
     }
 
     /// Matches a part of a text and binds the wildcards.
-    pub fn matches<'p>(&'p self, text: &'p [u8], at: &Range<usize>, bindings: &mut Bindings<'p>) -> bool {
+    pub(super) fn matches<'p>(
+        &'p self,
+        text: &'p [u8],
+        at: &Range<usize>,
+        bindings: &mut Bindings<'p>,
+    ) -> bool {
         let folded = fold_bytes(text, at);
         let bytes: Vec<u8> = folded.iter().map(|(byte, _)| *byte).collect();
         let mut next = 0;

@@ -71,7 +71,7 @@ pub(super) struct MotionSpeed {
 impl SpeedPlan {
     /// Collects the speeds of all SPINDLs and motions of a program, and reports those that are meant but
     /// cannot be changed.
-    pub fn new(
+    pub(super) fn new(
         change: SpindleSpeedChange,
         program: &Program,
         selected: &SelectedStatements,
@@ -119,7 +119,7 @@ impl SpeedPlan {
 
     /// Returns the speed of a motion by its index. Returns `None` if the spindle does not turn, or if its
     /// speed is not known.
-    pub fn find_motion(&self, number: usize) -> Option<&MotionSpeed> {
+    pub(super) fn find_motion(&self, number: usize) -> Option<&MotionSpeed> {
         let found = self.motions.binary_search_by_key(&number, |speed| speed.motion).ok()?;
         self.motions.get(found)
     }
@@ -128,7 +128,7 @@ impl SpeedPlan {
     ///
     /// # Errors
     /// Returns an error if a speed cannot be printed as a record that reads back.
-    pub fn write_speeds(&self, editor: &mut ProgramEditor) -> Result<(usize, usize), Failure> {
+    pub(super) fn write_speeds(&self, editor: &mut ProgramEditor) -> Result<(usize, usize), Failure> {
         let mut writer = SpeedWriter { editor, in_force: None, direction: None, changed: 0, added: 0 };
         let mut motions = self.motions.iter().peekable();
         for spindle in &self.spindles {

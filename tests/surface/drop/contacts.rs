@@ -2,8 +2,8 @@
 
 use super::super::solids::{cube, mesh, sphere, terrain};
 use super::{cutters, over, tip};
-use clsmith::stock::Mesh;
 use clsmith::internals::surface::drop_cutter::{DropCutter, DropCutterShape};
+use clsmith::stock::Mesh;
 
 fn near(found: f64, expected: f64, within: f64) {
     assert!((found - expected).abs() <= within, "{found} is not {expected}");

@@ -1,10 +1,10 @@
 //! Curves that become chains.
 
-use clsmith::program::geometry::Spline;
 use clsmith::internals::surface::profile::{
     Chain, EllipseArc, NurbsCurve, NurbsError, ParametricCurve, Point, ProfilePlane, check_tip_path,
     compensate_profile, to_arcs, to_chords,
 };
+use clsmith::program::geometry::Spline;
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::PI;
 

@@ -1,6 +1,8 @@
 //! Time and feeds under an acceleration limit, against closed forms and a brute force.
 
-use clsmith::internals::transform::optimize_feed::{FeedBlock, FeedLimit, FeedRules, LimitedPiece, plan_block_feeds};
+use clsmith::internals::transform::optimize_feed::{
+    FeedBlock, FeedLimit, FeedRules, LimitedPiece, plan_block_feeds,
+};
 use clsmith::internals::transform::optimize_feed::{TimedSegment, path_time_s, speed_change_distance_mm};
 
 fn stretch(length: f64, feed: f64) -> TimedSegment {

@@ -1,8 +1,8 @@
 //! Motions split in the text: what exactly is written, form by form.
 
 use crate::support;
-use clsmith::program::{Dialect, StepId};
 use clsmith::internals::transform::optimize_feed::{SplitProgram, UnsplitReason, split_motions};
+use clsmith::program::{Dialect, StepId};
 
 /// Splits one motion and gives the text and the result.
 fn split_one(dialect: Dialect, text: &str, motion: usize, shares: &[f64]) -> (String, SplitProgram) {

@@ -1,10 +1,10 @@
 //! Every motion of every file split in three, and read back.
 
 use crate::support;
+use clsmith::internals::transform::optimize_feed::{SplitProgram, UnsplitReason, split_motions};
 use clsmith::program::geometry::MotionPath as ClPath;
 use clsmith::program::motion::Motion;
 use clsmith::program::{Dialect, Program, Record, StatementChange, StepId};
-use clsmith::internals::transform::optimize_feed::{SplitProgram, UnsplitReason, split_motions};
 use nalgebra::Point3;
 use std::collections::BTreeMap;
 

@@ -56,7 +56,7 @@ pub(super) struct TurningMotion {
 impl TurningMotion {
     /// Makes the motion on which the tip moves straight and the axis along the great circle. Between opposite
     /// axes the great circle is not unique, and any of them is taken.
-    pub fn new(from: GridPose, to: GridPose) -> Self {
+    pub(super) fn new(from: GridPose, to: GridPose) -> Self {
         let cross = from.axis.cross(&to.axis);
         let cos = from.axis.dot(&to.axis);
         let angle = cross.norm().atan2(cos);
@@ -70,7 +70,7 @@ impl TurningMotion {
     }
 
     /// Divides the motion in equal legs.
-    pub fn split_legs(&self, count: usize) -> Vec<SweepLeg> {
+    pub(super) fn split_legs(&self, count: usize) -> Vec<SweepLeg> {
         let part = 1.0 / count as f64;
         let at = |share: f64| {
             // Slerp, written with the direction of the turn: a(t) = a cos(t angle) + d sin(t angle).
@@ -115,7 +115,7 @@ pub(super) fn unit_vector_across(axis: &Vector3<f64>) -> Vector3<f64> {
 impl SweepLeg {
     /// Returns the pose at a time of the leg.
     #[inline]
-    pub fn pose_at(&self, at: f64) -> GridPose {
+    pub(super) fn pose_at(&self, at: f64) -> GridPose {
         if at <= 0.0 {
             return self.from;
         }
@@ -132,13 +132,13 @@ impl SweepLeg {
 
     /// Returns the velocity (displacement per leg) of a point of the cutter, which is given from the tip.
     #[inline]
-    pub fn velocity_of(&self, from_tip: &Vector3<f64>) -> Vector3<f64> {
+    pub(super) fn velocity_of(&self, from_tip: &Vector3<f64>) -> Vector3<f64> {
         if self.angle == 0.0 { self.travel } else { self.travel + self.spin.cross(from_tip) }
     }
 
     /// Returns the cutter over a column at a time of the leg, or `None` if it is not over the column.
     #[inline]
-    pub fn sample_column(
+    pub(super) fn sample_column(
         &self,
         solid: &RevolvedSolid,
         [x, y]: [f64; 2],

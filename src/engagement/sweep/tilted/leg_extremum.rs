@@ -51,7 +51,7 @@ pub(super) struct PassingTime {
 
 impl PassingTime {
     /// Prepares the time for a leg; returns `None` if the cutter does not move sideways.
-    pub fn new(leg: &SweepLeg, solid: &RevolvedSolid) -> Option<Self> {
+    pub(super) fn new(leg: &SweepLeg, solid: &RevolvedSolid) -> Option<Self> {
         let middle = leg.pose_at(0.5);
         let axis = middle.axis;
         let swing = leg.spin.cross(&axis);

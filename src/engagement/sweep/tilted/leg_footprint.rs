@@ -17,7 +17,7 @@ impl LegFootprint {
     /// Makes the ground of everything within a radius of the axis between two heights. While the axis turns,
     /// a point leaves the straight line between its two ends by at most `distance angle^2 / 8`, so the radius
     /// is increased by that.
-    pub fn new(leg: &SweepLeg, radius: f64, heights: [f64; 2]) -> Self {
+    pub(super) fn new(leg: &SweepLeg, radius: f64, heights: [f64; 2]) -> Self {
         let [low, high] = heights;
         let at = |tip: &Vector3<f64>, axis: &Vector3<f64>, height: f64| {
             let point = tip + axis * height;
@@ -33,14 +33,14 @@ impl LegFootprint {
     }
 
     /// Returns the rows of a grid that the ground touches.
-    pub fn row_range(&self, layout: &DexelGrid) -> Range<usize> {
+    pub(super) fn row_range(&self, layout: &DexelGrid) -> Range<usize> {
         let low = self.centers.iter().fold(f64::INFINITY, |least, [_, y]| least.min(*y)) - self.radius;
         let high = self.centers.iter().fold(f64::NEG_INFINITY, |most, [_, y]| most.max(*y)) + self.radius;
         center_index_range([low, high], layout.origin_mm[1], layout.cell_mm, layout.rows)
     }
 
     /// Returns the columns of a row of a grid that the ground touches.
-    pub fn column_range(&self, row: usize, layout: &DexelGrid) -> Range<usize> {
+    pub(super) fn column_range(&self, row: usize, layout: &DexelGrid) -> Range<usize> {
         let y = layout.column_center(0, row)[1];
         match self.x_range_at(y) {
             Some(stretch) => center_index_range(stretch, layout.origin_mm[0], layout.cell_mm, layout.columns),

@@ -67,7 +67,12 @@ pub(in crate::engagement) struct TiltedSweep {
 
 impl TiltedSweep {
     /// Prepares a piece between two poses.
-    pub fn new(piece: &PathPiece, cutter: &CutterModel, layout: &DexelGrid, around: SweepContext) -> Self {
+    pub(crate) fn new(
+        piece: &PathPiece,
+        cutter: &CutterModel,
+        layout: &DexelGrid,
+        around: SweepContext,
+    ) -> Self {
         let base = Vector3::new(0.0, 0.0, layout.base_mm);
         let [from, to] = [piece.from, piece.to].map(|place| GridPose {
             tip: place.point.coords - base,
@@ -154,12 +159,12 @@ impl TiltedSweep {
     }
 
     /// Returns the rows that the piece can change.
-    pub fn row_range(&self) -> Range<usize> {
+    pub(crate) fn row_range(&self) -> Range<usize> {
         self.rows.clone()
     }
 
     /// Removes what the piece sweeps from a band.
-    pub fn sweep_band(&self, band: &mut DexelBand) -> BandEngagement {
+    pub(crate) fn sweep_band(&self, band: &mut DexelBand) -> BandEngagement {
         let mut partial = BandEngagement::new();
         let (first, end) =
             (self.rows.start.max(band.first_row), self.rows.end.min(band.first_row + band.row_count()));

@@ -26,7 +26,7 @@ impl FlankSilhouette {
     /// Returns the advance ratio of a sliver that the grid may hide beside the flank. It is not 0 if a column
     /// one cell further out than the flank has material at a height where the flank passes. Slivers above or
     /// below are not hidden, since columns have exact heights.
-    pub fn hidden_sliver_ratio(
+    pub(super) fn hidden_sliver_ratio(
         &self,
         leg: &SweepLeg,
         band: &DexelBand,
@@ -111,13 +111,13 @@ pub(super) struct NonCuttingSolid {
 
 impl NonCuttingSolid {
     /// Returns the ground under a leg.
-    pub fn leg_footprint(&self, leg: &SweepLeg) -> LegFootprint {
+    pub(super) fn leg_footprint(&self, leg: &SweepLeg) -> LegFootprint {
         LegFootprint::new(leg, self.solid.radius_mm(), [self.solid.floor_mm(), self.solid.top_mm()])
     }
 
     /// Returns the greatest depth in a row by which the solid is below the top of material that it meets, mm;
     /// 0 if it meets none.
-    pub fn collision_depth_mm(
+    pub(super) fn collision_depth_mm(
         &self,
         leg: &SweepLeg,
         band: &DexelBand,

@@ -152,7 +152,7 @@ pub(super) struct RevolvedSolid {
 impl RevolvedSolid {
     /// Makes the cutting part of a cutter up to a height above the tip, or at least to slightly above the
     /// start of its flank.
-    pub fn from_meridian(profile: &Meridian, limit: f64) -> Self {
+    pub(super) fn from_meridian(profile: &Meridian, limit: f64) -> Self {
         let [radius, start] = profile.flank_start();
         let top = profile.height_mm().min(limit.max(start + 1e-3));
         let slope = profile.taper_rad().tan();
@@ -173,7 +173,7 @@ impl RevolvedSolid {
     }
 
     /// Makes the solid of a shank or holder.
-    pub fn from_non_cutting(collar: &NonCuttingCylinder) -> Self {
+    pub(super) fn from_non_cutting(collar: &NonCuttingCylinder) -> Self {
         let NonCuttingCylinder { radius_mm: radius, from_mm: from, to_mm: to, .. } = *collar;
         Self {
             cone: None,
@@ -187,28 +187,28 @@ impl RevolvedSolid {
     }
 
     /// Returns the height of the upper end above the tip, mm.
-    pub fn top_mm(&self) -> f64 {
+    pub(super) fn top_mm(&self) -> f64 {
         self.flank.to
     }
 
     /// Returns the height of the lower end above the tip, mm.
-    pub fn floor_mm(&self) -> f64 {
+    pub(super) fn floor_mm(&self) -> f64 {
         self.floor
     }
 
     /// Returns whether the solid is a ball-end mill: only a sphere and a cylinder.
-    pub fn is_ball(&self) -> bool {
+    pub(super) fn is_ball(&self) -> bool {
         self.cone.is_none() && self.flank.slope == 0.0 && self.corner.is_some_and(|corner| corner.disc <= 0.0)
     }
 
     /// Returns the largest distance from the axis, mm.
-    pub fn radius_mm(&self) -> f64 {
+    pub(super) fn radius_mm(&self) -> f64 {
         self.points.iter().fold(0.0, |most, [r, _]| most.max(*r))
     }
 
     /// Returns where a vertical line enters and leaves, counted upwards from the tip's height.
     #[inline]
-    pub fn intersect_line(&self, line: &ColumnLine) -> Option<[f64; 2]> {
+    pub(super) fn intersect_line(&self, line: &ColumnLine) -> Option<[f64; 2]> {
         let mut found = self.flank.intersect_line(line);
         if let Some(corner) = &self.corner {
             found = hull_of_spans(found, corner.intersect_line(line, self.flank.to));
@@ -223,7 +223,7 @@ impl RevolvedSolid {
     /// distance from the axis and its height. The distance is convex. At a sharp edge it is the larger of the
     /// distances from the two faces.
     #[inline]
-    pub fn surface_distance(&self, rho: f64, z: f64) -> SurfaceDistance {
+    pub(super) fn surface_distance(&self, rho: f64, z: f64) -> SurfaceDistance {
         let ([sin_bottom, cos_bottom], [sin, cos]) = (self.bottom, self.taper);
         let lid = z - self.flank.to;
         let side = (rho - self.flank.radius) * cos - (z - self.flank.from) * sin;
@@ -250,7 +250,7 @@ impl RevolvedSolid {
 
     /// Returns how far the meridian reaches in a direction, and the height of that point. The direction is
     /// given by its components across the axis and along it, together of length 1.
-    pub fn furthest_meridian_point(&self, across: f64, along: f64) -> [f64; 2] {
+    pub(super) fn furthest_meridian_point(&self, across: f64, along: f64) -> [f64; 2] {
         let mut best = [f64::NEG_INFINITY, 0.0];
         let mut add = |value: f64, height: f64| {
             if value > best[0] {

@@ -48,7 +48,7 @@ struct TiltedContact {
 
 impl TiltedContactFinder {
     /// Adds the contacts of a column at x, y from which `low..top` was removed.
-    pub fn add_column_contacts(
+    pub(super) fn add_column_contacts(
         &self,
         [x, y]: [f64; 2],
         [low, top]: [f64; 2],

@@ -16,10 +16,10 @@ pub(super) struct WindowContent {
 }
 
 impl WindowContent {
-    pub const NOTHING: Self =
+    pub(super) const NOTHING: Self =
         Self { lowest: f64::INFINITY, lowest_cut: f64::INFINITY, air: false, cutting: false };
 
-    pub fn from_piece(piece: &ClassedPiece, all: &[ClassedPiece]) -> Self {
+    pub(super) fn from_piece(piece: &ClassedPiece, all: &[ClassedPiece]) -> Self {
         match piece.kind {
             PieceClass::Air => Self { air: true, ..Self::NOTHING },
             PieceClass::Cut(limit) => Self { lowest: limit, lowest_cut: limit, cutting: true, air: false },
@@ -37,7 +37,7 @@ impl WindowContent {
         }
     }
 
-    pub fn combined_with(self, other: Self) -> Self {
+    pub(super) fn combined_with(self, other: Self) -> Self {
         Self {
             lowest: self.lowest.min(other.lowest),
             lowest_cut: self.lowest_cut.min(other.lowest_cut),
@@ -56,7 +56,7 @@ pub(super) struct FeedBounds {
 }
 
 impl FeedBounds {
-    pub fn from_rules(block: &FeedBlock, rules: &FeedRules) -> Self {
+    pub(super) fn from_rules(block: &FeedBlock, rules: &FeedRules) -> Self {
         let feed_at = |ratio: Option<f64>| ratio.map(|ratio| ratio * block.programmed);
         let most = rules.max_feed.min(feed_at(rules.max_ratio).unwrap_or(f64::INFINITY));
         let least = rules.min_feed.max(feed_at(rules.min_ratio).unwrap_or(0.0)).min(most);
@@ -64,7 +64,7 @@ impl FeedBounds {
     }
 
     /// Returns the feed of a window. Returns `None` if nothing limits it, so that the programmed feed stays.
-    pub fn window_feed_mm_min(&self, content: WindowContent) -> Option<f64> {
+    pub(super) fn window_feed_mm_min(&self, content: WindowContent) -> Option<f64> {
         let air = if content.air { self.air } else { None };
         let wanted = match (content.cutting, air) {
             (false, air) => air?,

@@ -29,7 +29,7 @@ pub(in crate::transform::optimize_feed) struct SpindleRotation {
 
 impl LoadLimits {
     /// Collects the limits (in mm). `material` is needed if a criterion needs it.
-    pub fn new(
+    pub(crate) fn new(
         limits: Vec<(LoadCriterion, f64)>,
         tooling: &Tooling,
         material: Option<CuttingCoefficients>,
@@ -40,12 +40,12 @@ impl LoadLimits {
     }
 
     /// Returns the limits.
-    pub fn criterion_limits(&self) -> &[(LoadCriterion, f64)] {
+    pub(crate) fn criterion_limits(&self) -> &[(LoadCriterion, f64)] {
         &self.limits
     }
 
     /// Returns whether a piece cuts more than rounding leaves.
-    pub fn is_cutting(&self, found: &Engagement) -> bool {
+    pub(crate) fn is_cutting(&self, found: &Engagement) -> bool {
         let speck = match self.resolution {
             StockResolution::Cell(cell) => SPECK * cell.powi(3),
             // Layers have no rounding: films are never part of a chip.
@@ -55,7 +55,7 @@ impl LoadLimits {
     }
 
     /// Returns the largest feed for a piece that a cutter engages.
-    pub fn find_feed_limit(
+    pub(crate) fn find_feed_limit(
         &self,
         found: &Engagement,
         cutter: &CutterModel,
@@ -86,7 +86,7 @@ impl LoadLimits {
 
     /// Returns the load of a piece at a feed: the best estimate, and an upper bound that includes what the
     /// grid may hide.
-    pub fn measure_criterion(
+    pub(crate) fn measure_criterion(
         &self,
         criterion: LoadCriterion,
         found: &Engagement,

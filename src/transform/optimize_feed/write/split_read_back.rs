@@ -20,7 +20,7 @@ pub(super) struct ReadMotions {
 }
 
 impl ReadMotions {
-    pub fn from_program(program: &Program) -> Self {
+    pub(super) fn from_program(program: &Program) -> Self {
         let mut all = program.motions();
         let motions = all.by_ref().collect();
         let mut problems: Vec<StatementId> =

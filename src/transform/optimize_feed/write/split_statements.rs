@@ -39,7 +39,7 @@ pub(super) struct SplitMotion {
 
 impl SplitMotion {
     /// Returns start and end of each part as fractions, in order.
-    pub fn part_fractions(&self) -> impl Iterator<Item = (f64, f64)> {
+    pub(super) fn part_fractions(&self) -> impl Iterator<Item = (f64, f64)> {
         let starts = std::iter::once(0.0).chain(self.fractions.iter().copied());
         starts.zip(self.fractions.iter().copied().chain([1.0]))
     }

@@ -2,7 +2,9 @@
 
 use super::{LIMITS, all_near, near, points, ramp};
 use clsmith::internals::transform::correct_ramp::tool_region::ToolRegion;
-use clsmith::internals::transform::correct_ramp::{ImpossibleCorrection, LengtheningMethod, RampTask, correct_ramp};
+use clsmith::internals::transform::correct_ramp::{
+    ImpossibleCorrection, LengtheningMethod, RampTask, correct_ramp,
+};
 use nalgebra::Vector2;
 
 /// How it becomes longer, nu, passes and P1..Pn.

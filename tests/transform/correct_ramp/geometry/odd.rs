@@ -3,9 +3,13 @@
 use super::{LIMITS, Turns, all_near, points, ramp};
 use clsmith::internals::transform::correct_ramp::ramp::{Ramp, RampArc};
 use clsmith::internals::transform::correct_ramp::ramp_kind::RampKind;
-use clsmith::internals::transform::correct_ramp::ramp_limits::{RampLimits, RampMeasurement, is_within_limits};
+use clsmith::internals::transform::correct_ramp::ramp_limits::{
+    RampLimits, RampMeasurement, is_within_limits,
+};
 use clsmith::internals::transform::correct_ramp::tool_region::ToolRegion;
-use clsmith::internals::transform::correct_ramp::{ImpossibleCorrection, LengtheningMethod, RampTask, correct_ramp};
+use clsmith::internals::transform::correct_ramp::{
+    ImpossibleCorrection, LengtheningMethod, RampTask, correct_ramp,
+};
 use nalgebra::{Point2, Vector2};
 
 const ANYWHERE: RampTask<'_> =

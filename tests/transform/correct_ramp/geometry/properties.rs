@@ -5,7 +5,9 @@ use clsmith::internals::transform::correct_ramp::ramp::{Ramp, RampArc, RampStep}
 use clsmith::internals::transform::correct_ramp::ramp_kind::RampKind;
 use clsmith::internals::transform::correct_ramp::ramp_limits::{RampLimits, is_within_limits};
 use clsmith::internals::transform::correct_ramp::tool_region::ToolRegion;
-use clsmith::internals::transform::correct_ramp::{ImpossibleCorrection, LengtheningMethod, RampTask, correct_ramp};
+use clsmith::internals::transform::correct_ramp::{
+    ImpossibleCorrection, LengtheningMethod, RampTask, correct_ramp,
+};
 use nalgebra::{Point2, Point3, Rotation2, Vector2};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
