@@ -4,7 +4,8 @@ use super::area::{circle, square, star, turned};
 use super::stack::stack_of;
 use clsmith::internals::layered_chips::area::{AreaGrid, Clipper, GridArea};
 use clsmith::internals::layered_chips::chip::{Chip, LayerChip};
-use clsmith::layered_chips::{Polygon, stl_export};
+use clsmith::internals::layered_chips::stl_export;
+use clsmith::layered_chips::Polygon;
 use clsmith::stock::{Mesh, SolidBody};
 use proptest::prelude::*;
 

@@ -31,7 +31,7 @@ pub(super) fn reachable_feed_mm_min(from: f64, acceleration: f64, length: f64) -
 /// time.
 ///
 /// ```
-/// use clsmith::transform::optimize_feed::{TimedSegment, path_time_s};
+/// use clsmith::internals::transform::optimize_feed::{TimedSegment, path_time_s};
 ///
 /// let at = |feed: f64| TimedSegment { length: 100.0, feed, breaks_chain: false };
 /// let path = [at(3000.0), at(6000.0)];
