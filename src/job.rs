@@ -110,7 +110,8 @@ impl CorrectionJob<'_> {
     /// Returns all findings, as the policy leaves them, once one of them is an error, and
     /// [`Failure::Interrupted`] when `watch` stopped the job.
     pub fn correct_source(&self, source: &Arc<Source>) -> Result<JobOutcome, Failure> {
-        let (program, found) = check::read_and_check(source, self.dialect);
+        let (program, found) =
+            check::read_and_check_with_vocabulary(source, self.dialect, &self.setup.vocabulary);
         self.watch.check_stop()?;
         // Which findings are known is asked before the steps, since they take the program.
         let known = KnownFindings::new(&program, &found);
@@ -175,7 +176,11 @@ fn find_new_findings(
     let name = format!("{} (corrected)", source.name());
     let corrected_source = Source::new(name, program.to_bytes())
         .map_err(|too_large| Diagnostic::new(codes::TOO_LARGE, too_large.to_string()))?;
-    let (corrected, found) = check::read_and_check(&corrected_source, Some(program.dialect()));
+    let (corrected, found) = check::read_and_check_with_vocabulary(
+        &corrected_source,
+        Some(program.dialect()),
+        program.vocabulary(),
+    );
     if let Some(differs) = find_first_difference(program, &corrected) {
         let end = corrected_source.bytes().len();
         let statement = corrected.statement_behind(differs).map(|id| corrected.statement(id));

@@ -17,16 +17,18 @@ mod points;
 mod spindle;
 mod stale_records;
 mod structure;
+mod thread_pitch;
 mod tool;
 mod units;
 mod unknown_words;
 
 pub use stale_records::{STALE_CODES, find_stale_records};
+pub use unknown_words::list_unknown_words;
 
 use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
 use crate::parse::{self, ParsedProgram};
 use crate::program::motion::{Motion, MotionProblem};
-use crate::program::{Dialect, Program, Statement, StatementId};
+use crate::program::{Dialect, Program, ShopVocabulary, Statement, StatementId};
 use crate::source::Source;
 use findings::LintFindings;
 use std::sync::Arc;
@@ -48,7 +50,17 @@ use std::sync::Arc;
 /// # Ok::<(), clsmith::source::SourceTooLarge>(())
 /// ```
 pub fn read_and_check(source: &Arc<Source>, dialect: Option<Dialect>) -> (Program, Vec<Diagnostic>) {
-    let ParsedProgram { program, mut diagnostics, refused } = parse::parse(source, dialect);
+    read_and_check_with_vocabulary(source, dialect, &Arc::default())
+}
+
+/// Reads a file and checks it as [`read_and_check`] does, and gives the shop's own words their meanings.
+pub fn read_and_check_with_vocabulary(
+    source: &Arc<Source>,
+    dialect: Option<Dialect>,
+    vocabulary: &Arc<ShopVocabulary>,
+) -> (Program, Vec<Diagnostic>) {
+    let ParsedProgram { program, mut diagnostics, refused } =
+        parse::parse_with_vocabulary(source, dialect, vocabulary);
     if !refused {
         let unread = diagnostics.iter().any(Diagnostic::is_error);
         // Motions that could not be read are no missing motions.
@@ -100,6 +112,7 @@ pub const LINTS: &[LintRow] = &[
     lint_row::<points::LeftInCutLint>(&[codes::LEFT_IN_CUT]),
     lint_row::<feed::FeedLint>(feed::CODES),
     lint_row::<spindle::SpindleLint>(spindle::CODES),
+    lint_row::<thread_pitch::ThreadPitchLint>(&[codes::THREAD_PITCH_DIFFERS]),
     lint_row::<spindle::CoolantLint>(&[codes::NO_COOLANT]),
     lint_row::<tool::ToolShapeLint>(tool::CODES),
     lint_row::<tool::ToolNumberLint>(&[codes::TOOL_NUMBERS_DIFFER]),

@@ -2,8 +2,9 @@
 
 use super::{Lint, LintFindings};
 use crate::diagnostic::{DiagnosticCode, codes};
+use crate::parse;
 use crate::program::motion::Motion;
-use crate::program::{Dialect, FieldKind, Record, Statement, StatementId};
+use crate::program::{Dialect, FieldKind, Program, Record, Statement, StatementId};
 
 /// Words without which the machine would do something else.
 const IMPORTANT_WORDS: &[&str] = &[
@@ -123,6 +124,24 @@ impl Lint for UnknownWordLint {
             found.report(codes::POINTS_MISSING, found.statement_span(*first), message, "");
         }
     }
+}
+
+/// Returns the words of a program that clsmith does not know, in the order in which they appear.
+pub fn list_unknown_words(program: &Program) -> Vec<String> {
+    let mut words: Vec<String> = Vec::new();
+    for (_, statement) in program.live_statements() {
+        match statement.record() {
+            Record::ProgramEnd => break,
+            Record::Other => {
+                let word = parse::syntax(program.statement_text(statement)).major_word();
+                if !word.is_empty() && !words.contains(&word) {
+                    words.push(word);
+                }
+            }
+            _ => {}
+        }
+    }
+    words
 }
 
 fn add_statement(list: &mut Vec<(String, Vec<StatementId>)>, word: String, id: StatementId) {

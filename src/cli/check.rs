@@ -6,7 +6,7 @@ use super::input_files;
 use super::terminal;
 use crate::cli::stop::Stop;
 use clap::Args;
-use clsmith::check::read_and_check;
+use clsmith::check::read_and_check_with_vocabulary;
 use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::program::Dialect;
 use clsmith::report::stats::ResolvedLengthUnit;
@@ -15,6 +15,7 @@ use clsmith::transform::correct_ramp::check_ramps;
 use clsmith::transform::find_feeds_above_machine;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -85,7 +86,8 @@ impl CheckArgs {
     /// Reads and checks a program, with what the setup knows of tools and machine.
     fn check_program(&self, path: &Path, setup: Option<&Setup>) -> Result<Vec<Diagnostic>, Failure> {
         let source = input_files::read_source(path)?;
-        let (program, mut found) = read_and_check(&source, self.dialect);
+        let vocabulary = setup.map(|setup| Arc::clone(&setup.vocabulary)).unwrap_or_default();
+        let (program, mut found) = read_and_check_with_vocabulary(&source, self.dialect, &vocabulary);
         // A program that is wrong in itself has other ramps when it is right.
         let sound = !found.iter().any(Diagnostic::is_error);
         if let Some(setup) = setup.filter(|_| sound) {

@@ -177,15 +177,6 @@ pub(super) fn report_unwritable(target: &Path, error: &io::Error) -> Diagnostic 
     Diagnostic::new(codes::UNWRITABLE, format!("{} cannot be written: {error}", target.display()))
 }
 
-/// Ignores a closed pipe. What only people see may fail: with `clsmith ... 2>&1 | head` the outputs are still
-/// written.
-pub(super) fn ignore_closed_pipe(shown: io::Result<()>) -> io::Result<()> {
-    match shown {
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-        shown => shown,
-    }
-}
-
 /// Prints a summary on standard output, or on standard error if an output goes there.
 pub(super) fn print_summary(text: &str, output_is_taken: bool) -> io::Result<()> {
     if output_is_taken {

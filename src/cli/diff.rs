@@ -7,9 +7,10 @@ use super::terminal;
 use crate::cli::stop::Stop;
 use clap::Args;
 use clsmith::diagnostic::Diagnostic;
-use clsmith::parse::parse;
+use clsmith::parse::parse_with_vocabulary;
 use clsmith::program::{Dialect, Program};
 use clsmith::report::diff;
+use clsmith::setup::Setup;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -42,6 +43,9 @@ pub(super) struct DiffArgs {
     /// The dialect of both, instead of finding it from the text
     #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
     dialect: Option<Dialect>,
+    /// A setup file, for the words of the shop in both programs
+    #[arg(long, value_name = "FILE")]
+    setup: Option<PathBuf>,
     #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
 }
@@ -52,9 +56,10 @@ impl DiffArgs {
         if self.a == self.b && self.a == Path::new(input_files::STANDARD) {
             return Err(Stop::Usage("standard input can be read only once".to_owned()));
         }
+        let setup = self.setup.as_deref().map_or_else(|| Ok(Setup::default()), input_files::read_setup)?;
         let mut programs = Vec::new();
         for path in [&self.a, &self.b] {
-            let (program, found) = self.read_program(path);
+            let (program, found) = self.read_program(path, &setup);
             let found = policy.apply(found);
             if !found.is_empty() {
                 let name = path.to_string_lossy();
@@ -85,10 +90,10 @@ impl DiffArgs {
         Ok(if found.same_meaning { CommandExit::Done } else { CommandExit::Differ })
     }
 
-    fn read_program(&self, path: &Path) -> (Option<Program>, Vec<Diagnostic>) {
+    fn read_program(&self, path: &Path, setup: &Setup) -> (Option<Program>, Vec<Diagnostic>) {
         match input_files::read_source(path) {
             Ok(source) => {
-                let parsed = parse(&source, self.dialect);
+                let parsed = parse_with_vocabulary(&source, self.dialect, &setup.vocabulary);
                 (Some(parsed.program), parsed.diagnostics)
             }
             Err(failure) => (None, failure.into_findings()),

@@ -7,7 +7,7 @@ use super::input_files;
 use super::stop::Stop;
 use super::terminal;
 use clap::Args;
-use clsmith::check::read_and_check;
+use clsmith::check::{list_unknown_words, read_and_check};
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::program::Dialect;
 use clsmith::recipe::recipe_schema;
@@ -69,7 +69,7 @@ impl InitArgs {
         let schema =
             |schema: &serde_json::Value| serde_json::to_string_pretty(schema).map_err(io::Error::from);
         let files = [
-            ("setup.yaml", starter_files::write_starter_setup(&stats)),
+            ("setup.yaml", starter_files::write_starter_setup(&stats, &list_unknown_words(&program))),
             ("recipe.yaml", starter_files::write_starter_recipe(&stats, "setup.yaml")),
             ("clsmith-setup.schema.json", schema(&Setup::schema())?),
             ("clsmith-recipe.schema.json", schema(&recipe_schema::<Step>())?),

@@ -1,7 +1,8 @@
 //! This module runs commands that measure one program with its setup: `simulate` and `chips`.
 
+use crate::cli::closed_pipe::ignore_closed_pipe;
 use crate::cli::command_exit::CommandExit;
-use crate::cli::command_outputs::{CommandOutputs, ignore_closed_pipe, print_summary};
+use crate::cli::command_outputs::{CommandOutputs, print_summary};
 use crate::cli::finding_args::FindingArgs;
 use crate::cli::input_files::STANDARD;
 use crate::cli::progress::CommandProgress;
@@ -10,11 +11,12 @@ use crate::cli::stop::Stop;
 use crate::cli::terminal;
 use clsmith::check::check_program;
 use clsmith::diagnostic::Diagnostic;
-use clsmith::parse::parse;
-use clsmith::program::{Dialect, Program};
+use clsmith::parse::parse_with_vocabulary;
+use clsmith::program::{Dialect, Program, ShopVocabulary};
 use clsmith::report::finding_policy::FindingPolicy;
 use std::io;
 use std::path::Path;
+use std::sync::Arc;
 
 /// The arguments of every such command.
 pub(super) struct MeasuringCommand<'a> {
@@ -45,10 +47,15 @@ pub(super) struct MeasuringContext<'r> {
 impl MeasuringContext<'_> {
     /// Reads a program and checks it. A text that cannot be read stops the run; what else is wrong with the
     /// program is seen better in the measurement.
-    pub(super) fn read_program(&mut self, path: &Path, dialect: Option<Dialect>) -> Result<Program, Stop> {
+    pub(super) fn read_program(
+        &mut self,
+        path: &Path,
+        dialect: Option<Dialect>,
+        vocabulary: &Arc<ShopVocabulary>,
+    ) -> Result<Program, Stop> {
         let source = crate::cli::input_files::read_source(path)?;
         self.progress.check_size(&source)?;
-        let parsed = parse(&source, dialect);
+        let parsed = parse_with_vocabulary(&source, dialect, vocabulary);
         let unread = self.policy.apply(parsed.diagnostics.clone()).iter().any(Diagnostic::is_error);
         self.findings.extend(parsed.diagnostics);
         if unread {

@@ -5,6 +5,7 @@ mod bad_argument;
 mod batch;
 mod check;
 mod chips;
+mod closed_pipe;
 mod command_exit;
 mod command_outputs;
 mod diff;

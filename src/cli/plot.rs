@@ -1,7 +1,8 @@
 //! This module runs `clsmith plot`.
 
+use super::closed_pipe::ignore_closed_pipe;
 use super::command_exit::CommandExit;
-use super::command_outputs::{CommandOutputs, ignore_closed_pipe, refuse_overwritten_input};
+use super::command_outputs::{CommandOutputs, refuse_overwritten_input};
 use super::display_args::DisplayArgs;
 use super::finding_args::FindingArgs;
 use super::input_files::{self, STANDARD};
@@ -10,7 +11,7 @@ use super::progress::CommandProgress;
 use super::stop::Stop;
 use super::terminal;
 use clap::{Args, ValueEnum};
-use clsmith::check::read_and_check;
+use clsmith::check::read_and_check_with_vocabulary;
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::parameters::LengthUnit;
 use clsmith::program::{Dialect, Program};
@@ -215,7 +216,7 @@ impl PlotArgs {
         let mut programs = Vec::new();
         for path in std::iter::once(&self.program).chain(&self.after) {
             let source = input_files::read_source(path)?;
-            let (program, found) = read_and_check(&source, self.dialect);
+            let (program, found) = read_and_check_with_vocabulary(&source, self.dialect, &setup.vocabulary);
             findings.extend(found);
             if policy.apply(findings.clone()).iter().any(Diagnostic::is_error) {
                 // They are among the findings already.

@@ -7,10 +7,11 @@ use super::input_files;
 use super::terminal;
 use crate::cli::stop::Stop;
 use clap::Args;
-use clsmith::diagnostic::Diagnostic;
+use clsmith::check::check_program;
+use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::parameters::LengthUnit;
-use clsmith::parse::parse;
-use clsmith::program::Dialect;
+use clsmith::parse::parse_with_vocabulary;
+use clsmith::program::{Dialect, Program, Record, Statement};
 use clsmith::report::stats;
 use clsmith::setup::Setup;
 use std::io::{self, Write};
@@ -62,8 +63,10 @@ impl StatsArgs {
                     continue;
                 }
             };
-            let parsed = parse(&source, self.dialect);
-            let found = policy.apply(parsed.diagnostics);
+            let parsed = parse_with_vocabulary(&source, self.dialect, &setup.vocabulary);
+            let mut found = parsed.diagnostics;
+            found.extend(find_missing_points(&parsed.program));
+            let found = policy.apply(found);
             if !found.is_empty() {
                 self.show_findings(&found, Some(source.name()))?;
             }
@@ -88,4 +91,15 @@ impl StatsArgs {
     fn show_findings(&self, findings: &[Diagnostic], file: Option<&str>) -> io::Result<()> {
         self.findings.write_findings(&mut io::stderr().lock(), terminal::is_stderr_terminal(), findings, file)
     }
+}
+
+/// Finds statements that may be points of the path, without which lengths and times are too small.
+fn find_missing_points(program: &Program) -> Vec<Diagnostic> {
+    let unknown = |statement: &Statement| matches!(statement.record(), Record::Other);
+    if !program.live_statements().any(|(_, statement)| unknown(statement)) {
+        return Vec::new();
+    }
+    let mut found = check_program(program);
+    found.retain(|finding| finding.code == codes::POINTS_MISSING);
+    found
 }

@@ -1,7 +1,7 @@
 //! This module holds the reason why a command ended early, and is the only place that reports it.
 
+use super::closed_pipe::ignore_closed_pipe;
 use super::command_exit::CommandExit;
-use super::command_outputs::ignore_closed_pipe;
 use super::finding_args::FindingArgs;
 use super::terminal;
 use clsmith::diagnostic::{Diagnostic, Failure};

@@ -13,7 +13,9 @@ pub use grammar::parse_statement as syntax;
 
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::record::{self, BadRecord};
-use crate::program::{Dialect, DialectDetector, NumberRole, Program, Record, StatementKind, StatementSyntax};
+use crate::program::{
+    Dialect, DialectDetector, NumberRole, Program, Record, ShopVocabulary, StatementKind, StatementSyntax,
+};
 use crate::source::{Source, Span};
 use std::ops::Range;
 use std::sync::Arc;
@@ -49,6 +51,40 @@ pub struct ParsedProgram {
 /// # Ok::<(), clsmith::source::SourceTooLarge>(())
 /// ```
 pub fn parse(source: &Arc<Source>, dialect: Option<Dialect>) -> ParsedProgram {
+    read_program(source, dialect)
+}
+
+/// Reads a whole file as [`parse()`] does, and gives the shop's own words their meanings.
+pub fn parse_with_vocabulary(
+    source: &Arc<Source>,
+    dialect: Option<Dialect>,
+    vocabulary: &Arc<ShopVocabulary>,
+) -> ParsedProgram {
+    let mut parsed = read_program(source, dialect);
+    if vocabulary.is_empty() || parsed.refused {
+        return parsed;
+    }
+    let mut found = Vec::new();
+    parsed.program.set_vocabulary(vocabulary, |text, span| {
+        // Only statements that begin with such a word are read again.
+        vocabulary.find_word(text)?;
+        match Record::read_shop_word(vocabulary, &split_statement(text).0)? {
+            Ok(record) => Some(record),
+            Err(problem) => {
+                found.push(bad_record_finding(source, span, problem));
+                None
+            }
+        }
+    });
+    if !found.is_empty() {
+        parsed.diagnostics.extend(found);
+        parsed.diagnostics.sort_by_key(|finding| finding.labels.first().map(|label| label.span.start));
+    }
+    parsed
+}
+
+/// Reads a whole file in the words of its dialect.
+fn read_program(source: &Arc<Source>, dialect: Option<Dialect>) -> ParsedProgram {
     let bytes = source.bytes();
     let mut reader = StatementReader {
         source,
@@ -133,7 +169,7 @@ pub fn number_roles(record: &Record, text: &[u8]) -> Vec<NumberRole> {
 ///
 /// # Errors
 /// Returns the errors of [`read_record`], and an error if the text holds more than one statement.
-pub(crate) fn read_whole_record(text: &[u8]) -> Result<Record, BadRecord> {
+pub(crate) fn read_whole_record(text: &[u8], vocabulary: &ShopVocabulary) -> Result<Record, BadRecord> {
     if let Some((goto, length)) = shortcut::read_plain_goto(text)
         && length == text.len()
     {
@@ -145,7 +181,8 @@ pub(crate) fn read_whole_record(text: &[u8]) -> Result<Record, BadRecord> {
     let (record, syntax) = read_record(text)?;
     let length = syntax.text.len();
     if length == text.len() && !syntax.open {
-        return Ok(record);
+        let own = record.may_be_shop_word().then(|| Record::read_shop_word(vocabulary, &syntax)).flatten();
+        return own.unwrap_or(Ok(record));
     }
     let problem = "a statement ends before the text does, or goes on after it".to_owned();
     Err(BadRecord { at: length..text.len(), problem, is_number: false })
@@ -240,9 +277,7 @@ impl StatementReader<'_> {
                 Err(problem) => problem,
             },
         };
-        let code = if problem.is_number { codes::BAD_NUMBER } else { codes::BAD_ARGUMENTS };
-        let at = span.sub_span(problem.at.start, problem.at.end);
-        self.diagnostics.push(Diagnostic::new(code, problem.problem).with_label(self.source, at, ""));
+        self.diagnostics.push(bad_record_finding(self.source, span, problem));
         Record::Unparsed
     }
 
@@ -255,6 +290,13 @@ impl StatementReader<'_> {
         }
         ParsedProgram { program, diagnostics: vec![diagnostic], refused: true }
     }
+}
+
+/// Makes the finding for a word whose arguments do not fit.
+fn bad_record_finding(source: &Arc<Source>, span: Span, problem: BadRecord) -> Diagnostic {
+    let code = if problem.is_number { codes::BAD_NUMBER } else { codes::BAD_ARGUMENTS };
+    let at = span.sub_span(problem.at.start, problem.at.end);
+    Diagnostic::new(code, problem.problem).with_label(source, at, "")
 }
 
 /// Makes the finding for a statement that the grammar refuses.

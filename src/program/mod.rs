@@ -18,12 +18,14 @@ mod program_stamp;
 mod provenance_comments;
 pub mod record;
 mod record_kind;
+mod shop_vocabulary;
 mod statement;
 mod statement_id;
 mod statements;
 mod step_edits;
 mod syntax;
-pub(crate) mod units;
+pub(crate) mod turning;
+mod units;
 
 pub(crate) use dialect::DialectDetector;
 pub use dialect::{ArcRule, Dialect};
@@ -33,6 +35,7 @@ pub(crate) use provenance_comments::OWN_WORD;
 pub use provenance_comments::ProvenanceComment;
 pub use record::{NumberRole, Record};
 pub use record_kind::RecordKind;
+pub use shop_vocabulary::{ShopVocabulary, ShopWordMeaning};
 pub use statement::{Statement, StatementChange, StepId};
 pub use statement_id::{InsertionPoint, StatementId, StatementRange};
 pub use step_edits::StepEdits;
@@ -68,6 +71,7 @@ pub struct Program {
     history: Option<Box<history::EditHistory>>,
     step_edits: step_edits::StepEditCounts,
     stamp: program_stamp::ProgramStamp,
+    vocabulary: Arc<ShopVocabulary>,
 }
 
 impl Program {
@@ -81,11 +85,37 @@ impl Program {
             history: None,
             step_edits: step_edits::StepEditCounts::default(),
             stamp: program_stamp::ProgramStamp::new(),
+            vocabulary: Arc::default(),
         }
     }
 
     pub(crate) fn set_dialect(&mut self, dialect: Dialect) {
         self.dialect = dialect;
+    }
+
+    /// Gives statements the meanings of a shop's own words; `read` returns the meaning of a statement that
+    /// begins with one.
+    pub(crate) fn set_vocabulary(
+        &mut self,
+        vocabulary: &Arc<ShopVocabulary>,
+        mut read: impl FnMut(&[u8], Span) -> Option<Record>,
+    ) {
+        self.vocabulary = Arc::clone(vocabulary);
+        for index in 0..self.statements.len() {
+            let Some(statement) = self.statements.get(index) else { break };
+            let text = self.text_at(statement.text);
+            if statement.record.may_be_shop_word()
+                && let Some(record) = read(text, statement.origin)
+                && let Some(statement) = self.statements.get_mut(index)
+            {
+                statement.record = record;
+            }
+        }
+    }
+
+    /// Returns the words of the shop with which the program was read.
+    pub fn vocabulary(&self) -> &Arc<ShopVocabulary> {
+        &self.vocabulary
     }
 
     pub(crate) fn reserve(&mut self, statements: usize) {

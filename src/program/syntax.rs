@@ -4,7 +4,6 @@
 //! A [`StatementSyntax`] is made on demand and never stored. Records read their meaning from it; edits and
 //! rewrite rules work on it.
 
-use super::record::NumberRole;
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -105,23 +104,6 @@ impl<'t> StatementSyntax<'t> {
         let mut found = Vec::new();
         collect_numbers(&self.fields, &mut found);
         found
-    }
-
-    /// Returns roles of numbers that the word before them tells: those behind a word that `is_length` accepts are
-    /// lengths, all others are plain. A word governs the numbers up to the next word.
-    pub(crate) fn roles_by_word(&self, is_length: impl Fn(&str) -> bool) -> Vec<NumberRole> {
-        let mut length = false;
-        let mut roles = Vec::new();
-        for field in &self.fields {
-            match &field.kind {
-                FieldKind::Text => length = is_length(&fold_text(self.bytes_at(&field.at))),
-                FieldKind::Number(_) => {
-                    roles.push(if length { NumberRole::Length } else { NumberRole::Plain });
-                }
-                _ => {}
-            }
-        }
-        roles
     }
 
     /// Returns the text of a field in upper case if it is a word.

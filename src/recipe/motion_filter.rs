@@ -27,6 +27,10 @@ pub struct MotionFilter {
     /// match.
     #[serde(default, deserialize_with = "deserialize_feed_range")]
     pub feed: Option<FeedRange>,
+    /// `true` for taps and thread passes alone, `false` for all but these. Their feed is the pitch times the
+    /// spindle speed, so a step changes it only where `true` asks for it by name.
+    #[serde(default)]
+    pub threads: Option<bool>,
     /// Whether it is an error if nothing in the program fits, which is the rule: a step that selects nothing
     /// is most often a name with a slip. `false` for recipes that serve programs of which some have nothing
     /// to select.
@@ -36,7 +40,7 @@ pub struct MotionFilter {
 
 impl Default for MotionFilter {
     fn default() -> Self {
-        Self { operations: None, tools: None, motions: None, feed: None, required: true }
+        Self { operations: None, tools: None, motions: None, feed: None, threads: None, required: true }
     }
 }
 
@@ -67,12 +71,18 @@ pub struct MotionFacts<'a> {
     pub motion: Option<MotionClass>,
     /// The programmed feed, in the recipe's unit per minute. It is `None` for rapids.
     pub feed: Option<f64>,
+    /// Whether it taps a hole or cuts a thread.
+    pub cuts_thread: bool,
 }
 
 impl MotionFilter {
     /// Returns whether it leaves nothing out.
     pub fn is_everything(&self) -> bool {
-        self.operations.is_none() && self.tools.is_none() && self.motions.is_none() && self.feed.is_none()
+        self.operations.is_none()
+            && self.tools.is_none()
+            && self.motions.is_none()
+            && self.feed.is_none()
+            && self.threads.is_none()
     }
 
     /// Returns whether a motion is meant. What is asked for but not known does not fit.
@@ -93,6 +103,7 @@ impl MotionFilter {
     /// tool_name: None,
     /// motion: Some(MotionClass::Engage),
     /// feed: Some(600.0),
+    /// cuts_thread: false,
     /// };
     /// assert!(filter.matches_motion(&facts));
     /// facts.motion = Some(MotionClass::Cut);
@@ -103,6 +114,7 @@ impl MotionFilter {
         self.matches_operation(facts.operation)
             && self.matches_tool(facts.tool_number, facts.tool_name)
             && self.matches_kind(facts.motion, facts.feed)
+            && self.threads.is_none_or(|wanted| wanted == facts.cuts_thread)
     }
 
     /// Returns whether an operation of this name is meant.

@@ -14,8 +14,9 @@ const SETUP_SCHEMA: &str = "# yaml-language-server: $schema=clsmith-setup.schema
 /// Room around the path of the feed motions that the proposed stock has at its sides, in tool diameters.
 const SIDE_ROOM: f64 = 0.5;
 
-/// Writes a commented setup for a program: machine, stock around its cuts, and every tool that moves.
-pub fn write_starter_setup(stats: &ProgramStats) -> String {
+/// Writes a commented setup for a program: machine, stock around its cuts, every tool that moves, and the words
+/// that are not known.
+pub fn write_starter_setup(stats: &ProgramStats, unknown_words: &[String]) -> String {
     let unit = stats.units.unit;
     let mut out = format!(
         "{SETUP_SCHEMA}\n# What {} does not say. Every key is in configs/README.md; numbers behind # are guesses.\nunits: {}\n\n",
@@ -25,7 +26,23 @@ pub fn write_starter_setup(stats: &ProgramStats) -> String {
     append_machine(&mut out, stats);
     append_stock(&mut out, stats);
     append_tools(&mut out, stats);
+    append_words(&mut out, unknown_words);
     out
+}
+
+/// Writes the words that are not known, for their meanings.
+fn append_words(out: &mut String, unknown_words: &[String]) {
+    const MOST_WORDS: usize = 40;
+    if unknown_words.is_empty() {
+        return;
+    }
+    out.push_str(
+        "\n# Words of the program that are not known. A word may be an operation, operation_end, tool_change, frame,\n\
+         # channel, spindle, feed or text. As text nothing is said of it, whatever numbers are in it.\n# words:\n",
+    );
+    for word in unknown_words.iter().take(MOST_WORDS) {
+        let _ = writeln!(out, "#   {}: text", quote_yaml(word));
+    }
 }
 
 /// Writes a commented recipe for a program. `setup_file` is the name of its setup file.

@@ -9,6 +9,7 @@ mod machine_limits;
 mod material;
 mod setup_reader;
 mod setup_text;
+mod shop_words;
 mod stock;
 mod stock_text;
 mod tools;
@@ -22,6 +23,7 @@ pub use tools::{CutterInsert, ResolvedCutter, ToolCylinder, ToolDataFault, ToolD
 pub use yaml_location::YamlLocation;
 
 use crate::diagnostic::{Diagnostic, Failure, codes};
+use crate::program::ShopVocabulary;
 use crate::source::Source;
 use std::path::Path;
 use std::sync::Arc;
@@ -53,6 +55,8 @@ pub struct Setup {
     pub tools: Vec<ToolEntry>,
     /// The work material.
     pub material: Option<MaterialChoice>,
+    /// The words that the shop's post knows and no dialect.
+    pub vocabulary: Arc<ShopVocabulary>,
 }
 
 impl Setup {
@@ -76,6 +80,10 @@ impl Setup {
             stock: self.stock.or(base.stock),
             tools,
             material: self.material.or(base.material),
+            vocabulary: match base.vocabulary.is_empty() {
+                true => self.vocabulary,
+                false => Arc::new((*self.vocabulary).clone().override_base((*base.vocabulary).clone())),
+            },
         }
     }
 

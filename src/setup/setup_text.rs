@@ -3,6 +3,7 @@
 use super::machine_limits::MachineText;
 use super::material::MaterialText;
 use super::setup_reader::SetupReader;
+use super::shop_words::ShopWordsText;
 use super::stock_text::StockText;
 use super::tools::ToolText;
 use super::{Setup, YamlLocation};
@@ -32,6 +33,11 @@ struct SetupFileText {
     tools: Option<Vec<ToolText>>,
     /// The work material.
     material: Option<MaterialText>,
+    /// What the shop's own words mean, so that operations are found by them, frames and channels are
+    /// understood, and nothing is said of texts: `{ OP_NAME: operation, TDATA: text }`. A word is the first
+    /// word of a statement, or the beginning of its text (`PPRINT/OPERATION`); case and blanks do not count.
+    #[serde(default)]
+    words: ShopWordsText,
 }
 
 /// The data around the program: machine, stock, tools and material.
@@ -48,13 +54,19 @@ pub(crate) struct SetupText {
     tools: Option<Vec<ToolText>>,
     /// The work material.
     material: Option<MaterialText>,
+    /// What the shop's own words mean, so that operations are found by them, frames and channels are
+    /// understood, and nothing is said of texts: `{ OP_NAME: operation, TDATA: text }`. A word is the first
+    /// word of a statement, or the beginning of its text (`PPRINT/OPERATION`); case and blanks do not count.
+    #[serde(default)]
+    words: ShopWordsText,
 }
 
 /// Reads a setup file.
 pub(super) fn load_setup(source: &Arc<Source>) -> Result<Setup, Failure> {
     let document = YamlDocument::parse(source)?;
-    let SetupFileText { units, machine, stock, tools, material } = document.deserialize_checked(|_| None)?;
-    SetupText { machine, stock, tools, material }
+    let SetupFileText { units, machine, stock, tools, material, words } =
+        document.deserialize_checked(|_| None)?;
+    SetupText { machine, stock, tools, material, words }
         .check_setup(units, YamlLocation::new(&Arc::new(document), &[]))
 }
 
@@ -80,6 +92,7 @@ impl SetupText {
             material: self
                 .material
                 .and_then(|material| material.check_material(&mut reader, &place.at_key("material"))),
+            vocabulary: self.words.into_vocabulary(),
         };
         reader.finish_value(setup)
     }

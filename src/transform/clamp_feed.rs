@@ -77,7 +77,7 @@ impl Transform for ClampFeed {
         let file = context.file_length_unit(&program);
         let mut selection = MotionSelection::new(&self.r#where, &program, context);
         let mut unknown = Vec::new();
-        let plan = FeedPlan::for_motions(&program, |motion| {
+        let plan = FeedPlan::for_selected_motions(&program, &self.r#where, |motion| {
             let feed = motion.feed?.value;
             if !selection.contains(motion, context) {
                 return None;

@@ -13,6 +13,7 @@ use crate::number;
 use crate::parse;
 use crate::program::motion::Motion;
 use crate::program::{NumberRole, Program, Record, StatementId, StatementKind};
+use crate::recipe::MotionFilter;
 use crate::source::Span;
 use crate::write::{FEED_SHARE, ProgramEditor};
 
@@ -89,6 +90,17 @@ impl FeedPlan {
     /// programmed feed.
     pub fn for_motions(program: &Program, mut want: impl FnMut(&Motion) -> Option<f64>) -> Self {
         Self::for_numbered_motions(program, |_, motion| want(motion))
+    }
+
+    /// Does the same as [`FeedPlan::for_motions`], and also changes the feeds of taps and threads where the
+    /// step's `where` asks for them by name.
+    pub(super) fn for_selected_motions(
+        program: &Program,
+        wanted: &MotionFilter,
+        mut want: impl FnMut(&Motion) -> Option<f64>,
+    ) -> Self {
+        let threads = if wanted.threads == Some(true) { ThreadFeeds::Changed } else { ThreadFeeds::Kept };
+        Self::collect_wishes(program, threads, |_, motion| want(motion))
     }
 
     /// Does the same as [`FeedPlan::for_motions`], but `want` also gets the index of the motion among all

@@ -53,6 +53,7 @@ impl<'w> MotionSelection<'w> {
             tool_name: tool.and_then(|tool| tool.name.as_deref()),
             motion: Some(motion.class),
             feed,
+            cuts_thread: motion.cuts_thread,
         }
     }
 }

@@ -63,7 +63,7 @@ impl Transform for ScaleFeed {
         let factor = self.factor.get();
         check_factor(factor, &["factor"], context);
         let mut selection = MotionSelection::new(&self.r#where, &program, context);
-        let plan = FeedPlan::for_motions(&program, |motion| {
+        let plan = FeedPlan::for_selected_motions(&program, &self.r#where, |motion| {
             let feed = motion.feed?.value;
             selection.contains(motion, context).then_some(feed * factor)
         });

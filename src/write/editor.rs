@@ -219,7 +219,7 @@ impl ProgramEditor {
 
     /// Reads a text back; makes an error of a text that is not one statement.
     fn read_back(&self, at: InsertionPoint, text: &[u8]) -> Result<Record, Failure> {
-        let problem = match parse::read_whole_record(text) {
+        let problem = match parse::read_whole_record(text, self.program.vocabulary()) {
             Ok(record) => return Ok(record),
             Err(problem) => problem,
         };

@@ -1,6 +1,7 @@
 //! Words of a shop's own, words without a slash, channels, and points behind a tool change.
 
 use super::{MOVE, alarms, findings, read, totals};
+use crate::support;
 use crate::transform::apply as apply_with_findings;
 
 #[test]
@@ -36,4 +37,73 @@ fn a_tool_change_goes_elsewhere_between_two_equal_points() {
     assert_eq!(repeated(text), 0);
     assert_eq!(repeated(&text.replace("LOADTL/2\n", "")), 1);
     assert_eq!(alarms(text), []);
+}
+
+/// A program in a shop's own words, and what its setup says of them.
+const SHOP: &str = "$$     CATIA APT VERSION 1.0\nWCS_DEF/ 12.0, -4.0, 0.0, 0.0, 1.0,$\n 0.0, -1.0, 0.0, 0.0\n\
+    OP_NAME/ROUGH, BASE\nPPRINT TOOL NO 7\nCUTTER/ 16.0, 2.0\nPP_SPEED/ 1500.0,RPM,CLW\nPP_FEED/ 640.0,MMPM\n\
+    GOTO/0,0,0\nGOTO/60,0,0\nOP_END\n\
+    op_name / 'FINISH WALL'  $$ second\nPP_FEED/ 480.0,MMPM\nGOTO/60,12,0\nGOTO/0,12,0\nOP_END\nTDATA/1,2,3\nFINI\n";
+
+const SHOP_WORDS: &str = "words:\n  OP_NAME: operation\n  OP_END: operation_end\n  WCS_DEF: frame\n  TDATA: text\n  \
+    PPRINT TOOL NO: tool_change\n  PP_SPEED: spindle\n  PP_FEED: feed\n";
+
+fn read_in_shop_words(text: &str) -> clsmith::program::Program {
+    let setup = clsmith::setup::Setup::load(&support::text(SHOP_WORDS)).unwrap();
+    let parsed = clsmith::parse::parse_with_vocabulary(&support::text(text), None, &setup.vocabulary);
+    assert!(parsed.diagnostics.is_empty(), "{:?}", parsed.diagnostics);
+    assert_eq!(parsed.program.to_bytes(), text.as_bytes());
+    parsed.program
+}
+
+#[test]
+fn a_setup_teaches_the_words_of_a_shop() {
+    let program = read_in_shop_words(SHOP);
+    let operations = clsmith::program::operation::find_operations(&program);
+    let names: Vec<&str> = operations.iter().map(|operation| operation.name.as_str()).collect();
+    assert_eq!(names, ["ROUGH, BASE", "FINISH WALL"]);
+    let motions: Vec<_> = program.motions().collect();
+    assert_eq!(motions.iter().map(|motion| motion.operation).collect::<Vec<_>>(), [0, 0, 1, 1]);
+    assert_eq!(motions[1].feed.map(|feed| feed.value), Some(640.0));
+    assert_eq!(motions[3].feed.map(|feed| feed.value), Some(480.0));
+    assert_eq!(motions[1].spindle_rpm(), Some(1500.0));
+    assert_eq!(motions[1].tool.as_ref().and_then(|tool| tool.number), Some(7));
+    let frame = motions[1].frame.as_ref().unwrap();
+    assert_eq!(frame.origin.as_slice(), [12.0, -4.0, 0.0]);
+    // Without the words nothing of this is known.
+    assert!(read(SHOP).motions().all(|motion| motion.feed.is_none() && motion.frame.is_none()));
+}
+
+#[test]
+fn steps_work_in_the_words_of_a_shop_and_read_them_back() {
+    let recipe = format!(
+        "version: 1\nsetup:\n  {}\nsteps:\n  - scale_feed: {{ factor: 0.5, where: {{ operations: ['FINISH*'] }} }}\n",
+        SHOP_WORDS.trim_end().replace('\n', "\n  ")
+    );
+    let recipe = clsmith::transform::Recipe::load(&support::text(recipe)).unwrap();
+    let policy = clsmith::report::finding_policy::FindingPolicy::default();
+    let job = clsmith::job::CorrectionJob::new(&recipe, &recipe.setup, &policy);
+    let outcome = job.correct_source(&support::text(SHOP)).unwrap();
+    let text = String::from_utf8(outcome.program.to_bytes()).unwrap();
+    assert_eq!(text, SHOP.replace("480.0", "240.0"));
+}
+
+#[test]
+fn a_word_of_the_language_cannot_be_given_another_meaning() {
+    for (words, code) in [("GOTO: text", "CL0215"), ("' ': text", "CL0215"), ("OP: nothing", "CL0212")] {
+        let setup = clsmith::setup::Setup::load(&support::text(format!("words: {{ {words} }}\n")));
+        let found = setup.expect_err(words).into_findings();
+        assert_eq!(found[0].code.to_string(), code, "{words}: {found:?}");
+    }
+}
+
+#[test]
+fn arguments_that_do_not_fit_the_meaning_are_told_at_their_place() {
+    let setup = clsmith::setup::Setup::load(&support::text(SHOP_WORDS)).unwrap();
+    let text = "GOTO/0,0,0\nWCS_DEF/1,2\nPPRINT TOOL NO X\nGOTO/1,0,0\n";
+    let parsed = clsmith::parse::parse_with_vocabulary(&support::text(text), None, &setup.vocabulary);
+    let lines: Vec<_> =
+        parsed.diagnostics.iter().map(|found| (found.code.to_string(), found.labels[0].span.start)).collect();
+    assert_eq!(lines, [("CL0002".to_owned(), 11), ("CL0002".to_owned(), 23)], "{:?}", parsed.diagnostics);
+    assert_eq!(parsed.program.to_bytes(), text.as_bytes());
 }

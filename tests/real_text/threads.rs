@@ -83,3 +83,30 @@ fn a_cycle_that_clears_is_no_cycle() {
                 GOTO/9,0,0\nCYCLE/OFF\n";
     assert_eq!(findings(text, true), []);
 }
+
+#[test]
+fn a_step_changes_threads_where_it_asks_for_them_by_name() {
+    let asked = "  - scale_feed: { factor: 0.5, where: { threads: true } }\n";
+    let (text, found) = apply_with_findings(asked, NX);
+    assert_eq!(text, NX.replace("560.0000", "280.0000"));
+    assert!(found.iter().all(|found| found.code.to_string() != "CL0309"), "{found:?}");
+    // The pitch is another one now, and that is told.
+    assert!(found.iter().any(|found| found.code.to_string() == "CL0315"), "{found:?}");
+
+    let left_out = "  - scale_feed: { factor: 0.5, where: { threads: false } }\n";
+    let (text, found) = apply_with_findings(left_out, NX);
+    assert_eq!(text, NX.replace("900.0000", "450.0000"));
+    assert!(found.iter().all(|found| found.code.to_string() != "CL0309"), "nothing was to be left alone");
+}
+
+#[test]
+fn a_tap_whose_feed_does_not_fit_its_name_is_told_once() {
+    let tap = |name: &str, feed: &str| {
+        let text = NX.replace("TOOL PATH/B,TOOL,TAP", &format!("TOOL PATH/B,TOOL,{name}"));
+        alarms(text.replace("560.0000", feed)).into_iter().filter(|(code, _)| code == "CL0136").count()
+    };
+    assert_eq!(tap("TAP M12x1.75", "560.0000"), 0);
+    assert_eq!(tap("TAP M12x1.5", "560.0000"), 1);
+    assert_eq!(tap("TAP M12x1.75", "56.0000"), 1);
+    assert_eq!(tap("TAP M12", "56.0000"), 0);
+}

@@ -22,6 +22,7 @@ fn what_is_given_must_all_fit_and_of_a_list_one_has_to() {
         tool_name: Some("BALL_6"),
         motion: Some(MotionClass::StepOver),
         feed: Some(500.0),
+        cuts_thread: false,
     };
     assert!(matches("{ operations: [X, POCKET*] }", facts));
     assert!(!matches("{ operations: [pocket*] }", facts), "names differ by case");
@@ -34,6 +35,9 @@ fn what_is_given_must_all_fit_and_of_a_list_one_has_to() {
     assert!(!matches("{ feed: { max: 499.9 } }", facts));
     assert!(!matches("{ feed: { min: 500.1 } }", facts));
     assert!(!matches("{ operations: [POCKET*], tools: [4] }", facts));
+    assert!(!matches("{ threads: true }", facts));
+    assert!(matches("{ threads: false }", facts));
+    assert!(matches("{ threads: true }", MotionFacts { cuts_thread: true, ..facts }));
 }
 
 #[test]

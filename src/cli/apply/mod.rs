@@ -3,8 +3,9 @@
 mod outputs;
 mod usage_problem;
 
+use super::closed_pipe::ignore_closed_pipe;
 use super::command_exit::CommandExit;
-use super::command_outputs::{CommandOutputs, ignore_closed_pipe, refuse_overwritten_input};
+use super::command_outputs::{CommandOutputs, refuse_overwritten_input};
 use super::display_args::DisplayArgs;
 use super::finding_args::FindingArgs;
 use super::input_files::{self, LoadedRecipe, STANDARD};
@@ -17,7 +18,7 @@ use clap::Args;
 use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::fingerprint::RecipeFingerprint;
 use clsmith::job::{CorrectionJob, JobOutcome, catch_defect};
-use clsmith::parse::parse;
+use clsmith::parse::parse_with_vocabulary;
 use clsmith::program::{Dialect, Program};
 use clsmith::recipe::Provenance;
 use clsmith::report::unified_diff;
@@ -159,7 +160,8 @@ impl ApplyArgs {
             Err(Failure::Interrupted) => return Err(Stop::Interrupted),
             // Analysis of a refused program is still wanted: it shows what is wrong with it.
             Err(Failure::Found(findings)) => {
-                ApplyOutcome { program: parse(&source, job.dialect).program, findings, reports: Vec::new() }
+                let parsed = parse_with_vocabulary(&source, job.dialect, &job.setup.vocabulary);
+                ApplyOutcome { program: parsed.program, findings, reports: Vec::new() }
             }
         };
         let mut run = ApplyRun { job, setup_files, source: &source, outcome, shown_in: self.display.asked() };

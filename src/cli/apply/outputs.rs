@@ -9,7 +9,7 @@ use crate::cli::stop::Stop;
 use clsmith::diagnostic::Diagnostic;
 use clsmith::fingerprint::RecipeFingerprint;
 use clsmith::job::{CorrectionJob, is_program_changed};
-use clsmith::parse::parse;
+use clsmith::parse::parse_with_vocabulary;
 use clsmith::program::{LengthUnit, Program};
 use clsmith::report::DisplayUnits;
 use clsmith::report::changes::{self, RecipeChanges};
@@ -45,7 +45,8 @@ pub(super) struct ApplyRun<'r> {
 impl ApplyRun<'_> {
     /// Returns the program as it was read.
     fn parse_original(&self) -> Program {
-        parse(self.source, Some(self.outcome.program.dialect())).program
+        let after = &self.outcome.program;
+        parse_with_vocabulary(self.source, Some(after.dialect()), after.vocabulary()).program
     }
 
     fn compare_with_original(&self, before: &Program) -> RecipeChanges {

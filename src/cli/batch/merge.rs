@@ -1,8 +1,9 @@
 //! This module runs `clsmith merge`.
 
 use super::exit_for_records;
+use crate::cli::closed_pipe::ignore_closed_pipe;
 use crate::cli::command_exit::CommandExit;
-use crate::cli::command_outputs::{CommandOutputs, ignore_closed_pipe, print_summary};
+use crate::cli::command_outputs::{CommandOutputs, print_summary};
 use crate::cli::finding_args::FindingArgs;
 use crate::cli::input_files;
 use crate::cli::stop::Stop;

@@ -5,8 +5,9 @@ mod progress;
 
 pub(super) use merge::MergeArgs;
 
+use super::closed_pipe::ignore_closed_pipe;
 use super::command_exit::CommandExit;
-use super::command_outputs::{CommandOutputs, ignore_closed_pipe, print_summary};
+use super::command_outputs::{CommandOutputs, print_summary};
 use super::finding_args::FindingArgs;
 use super::input_files::{self, LoadedRecipe, STANDARD};
 use super::run_limits::TimeLimitArgs;

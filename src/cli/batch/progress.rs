@@ -1,7 +1,7 @@
 //! This module shows progress bars of a batch: one for all files, and one for each file that runs. Findings
 //! are printed as they come.
 
-use crate::cli::command_outputs::ignore_closed_pipe;
+use crate::cli::closed_pipe::ignore_closed_pipe;
 use crate::cli::finding_args::FindingArgs;
 use crate::cli::run_limits::{RunLimitWatch, RunLimits};
 use crate::cli::terminal;

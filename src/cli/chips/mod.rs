@@ -139,7 +139,7 @@ impl ChipsArgs {
     fn find_chips(&self, under: &mut MeasuringContext<'_>) -> Result<(ChipReport, ChipDrawings), Stop> {
         let setup = input_files::read_setup(&self.setup)?;
         self.check_outputs(&setup)?;
-        let program = under.read_program(&self.program, self.dialect)?;
+        let program = under.read_program(&self.program, self.dialect, &setup.vocabulary)?;
         let units = ResolvedLengthUnit::from_program(&program, self.units).unit;
         let machining = Machining::new(&program, &setup, units, under.findings)?;
         let options =

@@ -11,8 +11,9 @@ mod older_results;
 mod post_process;
 mod post_workspace;
 
+use super::closed_pipe::ignore_closed_pipe;
 use super::command_exit::CommandExit;
-use super::command_outputs::{CommandOutputs, ignore_closed_pipe};
+use super::command_outputs::CommandOutputs;
 use super::finding_args::FindingArgs;
 use super::input_files::{self, STANDARD};
 use super::progress::CommandProgress;

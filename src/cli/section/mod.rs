@@ -4,8 +4,9 @@ mod command_line;
 mod options;
 mod outputs;
 
+use super::closed_pipe::ignore_closed_pipe;
 use super::command_exit::CommandExit;
-use super::command_outputs::{CommandOutputs, ignore_closed_pipe};
+use super::command_outputs::CommandOutputs;
 use super::finding_args::FindingArgs;
 use super::input_files;
 use super::terminal;

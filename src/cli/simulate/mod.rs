@@ -174,7 +174,7 @@ impl SimulateArgs {
         let setup = Setup::load(&setup_file)?;
         self.check_outputs(&setup)?;
         let setup = setup.read_material_file(input_files::read_bytes)?;
-        let program = under.read_program(&self.program, self.dialect)?;
+        let program = under.read_program(&self.program, self.dialect, &setup.vocabulary)?;
         let units = ResolvedLengthUnit::from_program(&program, self.units).unit;
         let target = self.target.as_deref().map(|path| read_target(path, units)).transpose()?;
         let mut simulated = self.simulate_program(&program, &setup, under.progress, under.findings)?;
@@ -207,7 +207,7 @@ impl SimulateArgs {
     ) -> Result<Vec<u8>, Stop> {
         let mut series = Vec::new();
         if let Some(path) = &self.plot_before {
-            let before = under.read_program(path, self.dialect)?;
+            let before = under.read_program(path, self.dialect, &setup.vocabulary)?;
             // Faults of the program in the background are not reported.
             let before = self.simulate_program(&before, setup, under.progress, &mut Vec::new())?;
             series.push(before.to_time_series(path.to_string_lossy()));

@@ -15,8 +15,9 @@ mod watch_folders;
 mod watch_run;
 mod watch_state;
 
+use super::closed_pipe::ignore_closed_pipe;
 use super::command_exit::CommandExit;
-use super::command_outputs::{CommandOutputs, ignore_closed_pipe};
+use super::command_outputs::CommandOutputs;
 use super::finding_args::FindingArgs;
 use super::input_files;
 use super::progress::CommandProgress;

@@ -167,6 +167,12 @@ super::area! {
         "TOOLNO describes one number and the load that follows it, before any cut, names another. Post and operator see \
          different tools.";
 
+    THREAD_PITCH_DIFFERS = "CL0136", Warning, "a thread whose feed and speed do not make the pitch of its tool",
+        "Make the feed the pitch times the speed, or call the tool by its right name.",
+        "The name of the tool gives a metric thread with its pitch (M10x1.5), and the feed divided by the spindle speed is \
+         another one. A tap in a chuck without compensation breaks, or the thread has the wrong pitch. Names without a pitch \
+         (M10) are not asked.";
+
     CUTCOM_LEFT_ON = "CL0140", Warning, "cutter compensation is left on",
         "Put CUTCOM/OFF before the last retract of the operation.",
         "The operation, the tool or the program ends and CUTCOM was not switched off. The next approach then moves by the \

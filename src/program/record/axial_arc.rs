@@ -1,8 +1,7 @@
 //! This module reads arcs that say all about themselves in one record: CATIA's `HELICAL/`, and its drive arcs on
 //! cylinders about any axis.
 
-use super::path::{has_direction, read_group_numbers};
-use super::{BadRecord, NumberRole, Record, bad_record, read_number};
+use super::{BadRecord, NumberRole, Record, bad_record, has_direction, read_group_numbers, read_number};
 use crate::program::syntax::{FieldGroup, FieldKind, StatementField, StatementSyntax, fold_text};
 use nalgebra::{Point3, Vector3};
 

@@ -203,7 +203,7 @@ fn read_cutter_compensation(syntax: &StatementSyntax<'_>) -> Result<Record, BadR
 /// Returns the roles of the numbers of a feed or a spindle.
 pub(super) fn number_roles(record: &Record, syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
     if let Record::CutterCompensation(_) = record {
-        return syntax.roles_by_word(|word| word == "OFFSET");
+        return super::role::roles_by_word(syntax, |word| word == "OFFSET");
     }
     let surface =
         matches!(record, Record::Spindle(spindle) if spindle.unit != SpindleUnit::RevolutionsPerMinute);

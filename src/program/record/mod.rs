@@ -10,6 +10,7 @@ mod feed;
 mod frame;
 mod path;
 mod role;
+mod shop_word;
 mod structure;
 mod tool;
 
@@ -18,7 +19,7 @@ pub use cycle::{CycleKind, DrillingCycle};
 pub use feed::{CompensationSide, CutterCompensation, Spindle, SpindleDirection, SpindleUnit, Threading};
 pub use frame::{FrameRecord, FrameWord};
 pub use path::{ArcSense, Circle, DriveArc, Goto, MoveArc};
-pub(crate) use path::{goto_roles as path_roles, has_contact_normal, has_direction, has_tool_axes};
+pub(crate) use path::{goto_roles as path_roles, has_contact_normal, has_tool_axes};
 pub use role::NumberRole;
 pub use structure::{MotionMark, OperationNames, known_words};
 pub use tool::{ToolCall, ToolData, ToolWord};
@@ -292,4 +293,18 @@ fn point_from_numbers(numbers: &[f64]) -> Option<Point3<f64>> {
 /// Returns the vector of the first three numbers.
 fn vector_from_numbers(numbers: &[f64]) -> Option<Vector3<f64>> {
     point_from_numbers(numbers).map(|point| point.coords)
+}
+
+/// Returns whether a printed vector is long enough to have a direction.
+pub(crate) fn has_direction(vector: &Vector3<f64>) -> bool {
+    let length = vector.norm();
+    length > 1e-6 && length.is_finite()
+}
+
+/// Reads all fields of a nested record as numbers.
+fn read_group_numbers(
+    syntax: &StatementSyntax<'_>,
+    group: &super::syntax::FieldGroup,
+) -> Result<Vec<f64>, BadRecord> {
+    group.fields.iter().map(|field| read_number(syntax, field)).collect()
 }

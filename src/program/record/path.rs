@@ -1,10 +1,10 @@
 //! This module reads points, arcs and splines.
 
 use super::{
-    BadRecord, NumberRole, Record, RecordReading, axial_arc, bad_record, point_from_numbers,
-    read_all_numbers, read_number, vector_from_numbers, wrong_count,
+    BadRecord, NumberRole, Record, RecordReading, axial_arc, bad_record, has_direction, point_from_numbers,
+    read_all_numbers, read_group_numbers, read_number, vector_from_numbers, wrong_count,
 };
-use crate::program::syntax::{FieldGroup, FieldKind, StatementSyntax, fold_text};
+use crate::program::syntax::{FieldKind, StatementSyntax, fold_text};
 use nalgebra::{Point3, Vector3};
 
 /// A point with or without a tool axis. Without one, the axis in force stays (measured: 15,397 GOTOs with
@@ -134,12 +134,6 @@ fn require_axis_direction(goto: Goto, syntax: &StatementSyntax<'_>) -> Result<Go
         }
         _ => Ok(goto),
     }
-}
-
-/// Returns whether a printed vector is long enough to have a direction.
-pub(crate) fn has_direction(vector: &Vector3<f64>) -> bool {
-    let length = vector.norm();
-    length > 1e-6 && length.is_finite()
 }
 
 /// Returns the point of three or six numbers.
@@ -372,14 +366,6 @@ fn read_drive_arc(major: &str, syntax: &StatementSyntax<'_>) -> Result<Record, B
 /// that points may be missing.
 fn read_other_drive_arc(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     axial_arc::read_cylinder_arc(syntax).map(|arc| arc.unwrap_or(Record::Other))
-}
-
-/// Reads all fields of a nested record as numbers.
-pub(super) fn read_group_numbers(
-    syntax: &StatementSyntax<'_>,
-    group: &FieldGroup,
-) -> Result<Vec<f64>, BadRecord> {
-    group.fields.iter().map(|field| read_number(syntax, field)).collect()
 }
 
 /// Returns the roles of the numbers of this family.

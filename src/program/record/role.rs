@@ -3,6 +3,8 @@
 //!
 //! Transforms of geometry and units work on roles, so they need no list of records of their own.
 
+use crate::program::syntax::{FieldKind, StatementSyntax, fold_text};
+
 /// The role of one number. The numbers `0..=2` are the components x, y, z.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
@@ -27,4 +29,24 @@ pub enum NumberRole {
     SurfaceSpeed,
     /// A count, an angle, a time or a knot; it never changes.
     Plain,
+}
+
+/// Returns roles of numbers that the word before them tells: those behind a word that `is_length` accepts are
+/// lengths, all others are plain. A word governs the numbers up to the next word.
+pub(super) fn roles_by_word(
+    syntax: &StatementSyntax<'_>,
+    is_length: impl Fn(&str) -> bool,
+) -> Vec<NumberRole> {
+    let mut length = false;
+    let mut roles = Vec::new();
+    for field in &syntax.fields {
+        match &field.kind {
+            FieldKind::Text => length = is_length(&fold_text(syntax.bytes_at(&field.at))),
+            FieldKind::Number(_) => {
+                roles.push(if length { NumberRole::Length } else { NumberRole::Plain });
+            }
+            _ => {}
+        }
+    }
+    roles
 }

@@ -128,7 +128,7 @@ pub(super) fn read_comma_record(major: &str, syntax: &StatementSyntax<'_>) -> Re
 }
 
 /// Reads the number of a channel; one that is no number is passed on.
-fn read_channel(syntax: &StatementSyntax<'_>) -> Record {
+pub(super) fn read_channel(syntax: &StatementSyntax<'_>) -> Record {
     match syntax.number_at(0) {
         Some(channel)
             if channel.fract() == 0.0 && (0.0..1e6).contains(&channel) && syntax.fields.len() == 1 =>
@@ -251,7 +251,7 @@ pub(super) fn number_roles(syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
         }
         // A slope by its rise (MOVARC's posts) and heights; a CUTCOM's OFFSET is a length, its ADJUST a register.
         "ARCSLP" | "CLRSRF" | "RETRCT" | "SAFETY" => NumberRole::Length,
-        "CUTCOM" => return syntax.roles_by_word(|word| word == "OFFSET"),
+        "CUTCOM" => return super::role::roles_by_word(syntax, |word| word == "OFFSET"),
         "BOX"
         | "INTOL"
         | "OUTTOL"

@@ -144,7 +144,7 @@ fn read_tool_axis(major: &str, syntax: &StatementSyntax<'_>) -> Result<Record, B
         return Ok(Record::Known);
     }
     match path::read_vector(major, syntax)? {
-        axis if path::has_direction(&axis) => Ok(Record::ToolAxis(Box::new(axis))),
+        axis if super::has_direction(&axis) => Ok(Record::ToolAxis(Box::new(axis))),
         _ => Err(super::bad_record(path::vector_range(syntax, 0), "the tool axis has no direction")),
     }
 }
@@ -162,7 +162,7 @@ pub(super) fn number_roles(record: &Record, syntax: &StatementSyntax<'_>) -> Vec
         Record::ToolCall(call) if !call.loads && count == 2 => vec![NumberRole::Plain, NumberRole::Length],
         // The length of the tool, and the place of its tip in a lathe's turret.
         Record::ToolCall(call) if call.loads => {
-            syntax.roles_by_word(|word| matches!(word, "LENGTH" | "SETOOL"))
+            super::role::roles_by_word(syntax, |word| matches!(word, "LENGTH" | "SETOOL"))
         }
         _ => vec![NumberRole::Plain; count],
     }

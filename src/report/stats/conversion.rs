@@ -2,7 +2,7 @@
 
 use super::{
     FeedRow, LengthUnitOrigin, MotionBoundingBox, MotionTotals, ProgramStats, ReportedRange,
-    ResolvedLengthUnit,
+    ResolvedLengthUnit, ToolStats,
 };
 use crate::program::LengthUnit;
 use crate::report::table::{ColumnUnit, DisplayUnits};
@@ -46,9 +46,8 @@ impl ProgramStats {
         self.frames.iter_mut().flat_map(|frame| &mut frame.origin).for_each(length);
         for tool in &mut self.tools {
             totals(&mut tool.totals);
-            [&mut tool.diameter, &mut tool.corner_radius, &mut tool.length, &mut tool.flute_length]
-                .into_iter()
-                .for_each(optional);
+            let ToolStats { diameter, nose_radius, corner_radius, length, flute_length, .. } = tool;
+            [diameter, nose_radius, corner_radius, length, flute_length].into_iter().for_each(optional);
         }
         for operation in &mut self.operations {
             totals(&mut operation.totals);

@@ -190,6 +190,8 @@ pub struct ToolStats {
     pub name: Option<String>,
     /// Diameter.
     pub diameter: Option<f64>,
+    /// Radius of the nose of a lathe tool, which has no diameter.
+    pub nose_radius: Option<f64>,
     /// Corner radius.
     pub corner_radius: Option<f64>,
     /// Length below the holder.

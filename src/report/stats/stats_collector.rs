@@ -8,6 +8,7 @@ use super::{
 };
 use crate::program::geometry::MotionPath;
 use crate::program::motion::{ActiveTool, CoordinateFrame, Motion};
+use crate::program::record::{ToolData, ToolWord};
 use crate::program::{LengthUnit, MotionClass, Program, Record, operation};
 use crate::setup::Setup;
 use std::sync::Arc;
@@ -17,6 +18,7 @@ struct StatsCollector<'p> {
     program: &'p Program,
     unit: LengthUnit,
     rapid: Option<f64>,
+    turning: bool,
     totals: MotionTotals,
     classes: Vec<ClassStats>,
     feeds: FeedRowCollector,
@@ -39,6 +41,7 @@ pub(super) fn collect_stats(program: &Program, setup: &Setup, units: ResolvedLen
     let operations = operation::find_operations(program).into_iter();
     let mut all = StatsCollector {
         program,
+        turning: program.is_turning(),
         unit: units.unit,
         rapid,
         totals,
@@ -157,7 +160,7 @@ impl StatsCollector<'_> {
         let index = self.tools.iter().position(|(known, _)| same(known)).unwrap_or(self.tools.len());
         if index == self.tools.len() {
             let totals = MotionTotals::new(self.rapid.is_some());
-            self.tools.push((tool.as_ref().clone(), describe_tool(tool, totals)));
+            self.tools.push((tool.as_ref().clone(), describe_tool(tool, self.turning, totals)));
         }
         self.tool = Some((Arc::clone(tool), index));
         Some(index)
@@ -193,12 +196,17 @@ impl StatsCollector<'_> {
     }
 }
 
-fn describe_tool(tool: &ActiveTool, totals: MotionTotals) -> ToolStats {
+/// Describes a tool. The single number of a CUTTER is a diameter in a milling program, and that of the nose
+/// in a `turning` one.
+fn describe_tool(tool: &ActiveTool, turning: bool, totals: MotionTotals) -> ToolStats {
     let data = tool.data.as_ref();
+    let nose = |data: &&ToolData| turning && data.word == ToolWord::Cutter && data.corner_radius.is_none();
+    let nose_radius = data.filter(nose).and_then(|data| data.diameter).map(|diameter| diameter / 2.0);
     ToolStats {
         number: tool.number,
         name: tool.name.clone(),
-        diameter: data.and_then(|data| data.diameter),
+        diameter: data.and_then(|data| data.diameter).filter(|_| nose_radius.is_none()),
+        nose_radius,
         corner_radius: data.and_then(|data| data.corner_radius),
         length: data.and_then(|data| data.length),
         flute_length: data.and_then(|data| data.flute_length),

@@ -103,7 +103,7 @@ pub(super) fn operation_columns<'a>() -> [Column<NamedOperation<'a>>; 3] {
 }
 
 /// Returns the columns of a tool besides its sums, in the order of the JSON.
-pub(super) fn tool_columns() -> [Column<ToolStats>; 9] {
+pub(super) fn tool_columns() -> [Column<ToolStats>; 10] {
     use ColumnUnit as Unit;
     [
         Column::new("tool", Unit::None, |tool: &ToolStats| TableValue::Text(format_tool(tool).into()))
@@ -119,6 +119,9 @@ pub(super) fn tool_columns() -> [Column<ToolStats>; 9] {
         .only_in_json(),
         Column::new("diameter", Unit::Length, |tool: &ToolStats| tool.diameter.into())
             .old_json_key("diameter"),
+        Column::new("nose_radius", Unit::Length, |tool: &ToolStats| tool.nose_radius.into())
+            .titled("nose radius")
+            .old_json_key("nose_radius"),
         Column::new("corner_radius", Unit::Length, |tool: &ToolStats| tool.corner_radius.into())
             .titled("corner")
             .old_json_key("corner_radius"),

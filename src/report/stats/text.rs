@@ -135,7 +135,10 @@ fn append_tools(out: &mut String, stats: &ProgramStats) {
     if stats.tools.is_empty() {
         return;
     }
-    let shape = ["tool", "diameter", "corner_radius", "length", "flute_length"];
+    let mut shape = vec!["tool", "diameter", "corner_radius", "length", "flute_length"];
+    if stats.tools.iter().any(|tool| tool.nose_radius.is_some()) {
+        shape.insert(2, "nose_radius");
+    }
     let mut columns = pick_columns(&tool_columns(), &shape);
     columns.extend(pick_columns(&totals_columns(), &["motions", "feed_length", "feed_time"]));
     let table = PrintedTable::from_rows(&columns, &stats.tools, table_looks(stats)).keep_rows(MOST_ROWS);

@@ -2,8 +2,8 @@
 //! figure are those of its column.
 
 use super::column::Column;
-use super::printed_cell::TableLooks;
 use super::printed_table::PrintedTable;
+use super::table_looks::TableLooks;
 
 /// Prints the figures of two programs side by side with their change in percent. A figure that is known of
 /// neither is left out.

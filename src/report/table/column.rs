@@ -1,6 +1,6 @@
 //! This module holds columns: a name, a unit, the value of a row and its printing, all in one place.
 
-use super::printed_cell::TableLooks;
+use super::table_looks::TableLooks;
 use super::table_value::TableValue;
 use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use std::borrow::Cow;

@@ -12,6 +12,7 @@ mod column;
 mod printed_cell;
 mod printed_table;
 mod record;
+mod table_looks;
 mod table_value;
 #[cfg(test)]
 mod tests;
@@ -19,7 +20,7 @@ mod tests;
 pub(crate) use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 pub(crate) use before_after::{compare_figures, list_figures, print_change};
 pub(crate) use column::{Column, pick_columns};
-pub(crate) use printed_cell::TableLooks;
 pub(crate) use printed_table::PrintedTable;
 pub(crate) use record::{CsvTable, JsonColumns, RecordNumbers};
+pub(crate) use table_looks::TableLooks;
 pub(crate) use table_value::{PeakPlace, TableValue};

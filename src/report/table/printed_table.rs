@@ -1,7 +1,7 @@
 //! This module holds tables with printed cells, as plain text, Markdown and HTML.
 
 use super::column::Column;
-use super::printed_cell::TableLooks;
+use super::table_looks::TableLooks;
 use crate::report::escaping::{escape_html, escape_markdown};
 use crate::report::text_format::{format_count, format_table};
 use std::io::{self, Write};

@@ -1,7 +1,6 @@
 //! A lathe's path lies in one plane: a turn or mirror that takes it out of that plane makes no path.
 
 use super::move_tracker::MoveRefusal;
-use crate::program::record::ToolWord;
 use crate::program::{Program, Record};
 use crate::transform::{Affine, SelectedStatements};
 
@@ -17,7 +16,7 @@ pub(super) fn check_lathe_plane(
     place: &Affine,
     scope: &SelectedStatements,
 ) -> Result<(), MoveRefusal> {
-    if !is_turning(program) {
+    if !program.is_turning() {
         return Ok(());
     }
     for (id, statement) in program.live_statements().filter(|(id, _)| scope.contains(*id)) {
@@ -32,24 +31,4 @@ pub(super) fn check_lathe_plane(
         }
     }
     Ok(())
-}
-
-/// Whether a program turns: it describes a turning tool, or cuts a thread with one, and no point lies beside the plane.
-fn is_turning(program: &Program) -> bool {
-    let mut tool = false;
-    for (_, statement) in program.live_statements() {
-        match statement.record() {
-            Record::Goto(goto) if goto.point.y != 0.0 => return false,
-            Record::Threading(_) => tool = true,
-            Record::ToolData(data) if data.word == ToolWord::TlDataOther => {
-                let text = program.statement_text(statement);
-                tool |= memchr::memmem::find(text, b"WEDM").is_none();
-            }
-            Record::ToolCall(call) if !call.loads => {
-                tool |= memchr::memmem::find(program.statement_text(statement), b"TURN").is_some();
-            }
-            _ => {}
-        }
-    }
-    tool
 }

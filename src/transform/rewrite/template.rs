@@ -8,7 +8,7 @@ use super::rule_fault::RuleFault;
 use super::rule_subject::{RuleSubject, SubjectClass};
 use super::rule_text::{RuleTextPart, parse_rule_text, quote_text};
 use crate::parse;
-use crate::program::{NumberRole, Record};
+use crate::program::{NumberRole, Record, ShopVocabulary};
 use crate::write::FileStyle;
 
 /// A statement that will be written.
@@ -66,7 +66,7 @@ impl StatementTemplate {
             return Err(RuleFault::new("this is not one statement", help));
         }
         // Arguments are only known when the rule runs. Then the whole statement is read back again.
-        let problem = match parse::read_whole_record(tried.as_bytes()) {
+        let problem = match parse::read_whole_record(tried.as_bytes(), &ShopVocabulary::default()) {
             Err(problem) if is_plain => Some(problem.problem),
             _ if subject.class == SubjectClass::Other => Some("it starts with no word".to_owned()),
             _ => None,
