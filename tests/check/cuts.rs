@@ -44,6 +44,13 @@ fn spindles() -> Vec<Case> {
     let start = "TLDATA/MILL,9.0,0.0,9.0\nFEDRAT/MMPM,9.0\nGOTO/0.0,0.0,0.0\n";
     let change =
         |spindle: &str| nx(&format!("RAPID\nGOTO/0.0,0.0,9.0\nLOAD/TOOL,2\n{spindle}GOTO/0.0,0.0,1.0\n"));
+    let tap = |name: &str| {
+        nx("").replace("END-OF-PATH\n", "").replacen("FINI\n", "", 1)
+            + &format!(
+                "TOOL PATH/TAP,TOOL,{name}\nTLDATA/DRILL,MILL,12.,0.,75.,118.,40.\nLOAD/TOOL,2\nSPINDL/RPM,320,CLW\n\
+                 CYCLE/TAP,RAPTO,5.,FEDTO,-17.,MMPM,560.0000\nGOTO/9,0,0\nCYCLE/OFF\nEND-OF-PATH\n"
+            )
+    };
     let off = |word: &str| nx(&format!("COOLNT/FLOOD\nGOTO/1.0,0.0,0.0\nCOOLNT/{word}\nGOTO/2.0,0.0,0.0\n"));
     vec![
         case(
@@ -71,6 +78,12 @@ fn spindles() -> Vec<Case> {
             change("COOLNT/ON\n"),
             "0.0,0.0,1.0",
             nx("LOAD/TOOL,1\nGOTO/1.0,0.0,0.0\n"),
+        ),
+        case(
+            codes::THREAD_PITCH_DIFFERS,
+            tap("TAP M12x1.5"),
+            "CYCLE/TAP,RAPTO,5.,FEDTO,-17.,MMPM,560.0000",
+            tap("TAP M12x1.75"),
         ),
         case(codes::NO_COOLANT, off("OFF"), "0.0000,0.0000,0.0000", nx("GOTO/1.0,0.0,0.0\n")),
     ]
