@@ -36,7 +36,7 @@ fn main() {
         fs::write(folder.path().join("recipe.yaml"), recipe).expect("a recipe");
         println!("{count} files, {name}");
         for (out, more) in
-            [("done", &["--jobs", "4"][..]), ("again", &["--jobs", "1"]), ("done", &["--resume"])]
+            [("done", &["--threads", "4"][..]), ("again", &["--threads", "1"]), ("done", &["--resume"])]
         {
             let (most, seconds) = run(folder.path(), out, more);
             let rate = count as f64 / seconds;
@@ -99,7 +99,7 @@ fn run(folder: &Path, out: &str, more: &[&str]) -> (u64, f64) {
     let memory = MEMORY.to_string();
     let run = Command::new(env!("CARGO_BIN_EXE_clsmith"))
         .current_dir(folder)
-        .args(["batch", "--recipe", "recipe.yaml", "-q", "--memory", &memory, "--out", out])
+        .args(["batch", "--recipe", "recipe.yaml", "-q", "--memory", &memory, "--output", out])
         .args(more)
         .arg("programs/**/*.cls")
         .stderr(Stdio::null())

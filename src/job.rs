@@ -18,7 +18,7 @@ use crate::recipe::Provenance;
 use crate::report::finding_policy::FindingPolicy;
 use crate::report::stats::ResolvedLengthUnit;
 use crate::setup::Setup;
-use crate::simulation_run::{RunWatcher, SilentWatcher};
+use crate::simulation_run::{RunPhase, RunWatcher, SilentWatcher};
 use crate::source::{Source, Span};
 use crate::transform::{self, Recipe, RecipeOutcome, TransformReport, unit_slips};
 use std::collections::BTreeMap;
@@ -110,6 +110,7 @@ impl CorrectionJob<'_> {
     /// Returns all findings, as the policy leaves them, once one of them is an error, and
     /// [`Failure::Interrupted`] when `watch` stopped the job.
     pub fn correct_source(&self, source: &Arc<Source>) -> Result<JobOutcome, Failure> {
+        self.watch.begin_phase(RunPhase::Reading);
         let (program, found) =
             check::read_and_check_with_vocabulary(source, self.dialect, &self.setup.vocabulary);
         self.watch.check_stop()?;
@@ -150,6 +151,7 @@ impl CorrectionJob<'_> {
         let unit = ResolvedLengthUnit::from_program(&program, Some(self.recipe.units)).unit;
         new.extend(unit_slips::find_feeds_above_machine(&program, self.setup, unit));
         if is_program_changed(&program) {
+            self.watch.begin_phase(RunPhase::Checking);
             match find_new_findings(source, &program, known) {
                 Ok(worse) => new.extend(worse),
                 Err(failure) => return Err(failure.after(new)),

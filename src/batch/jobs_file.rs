@@ -76,7 +76,7 @@ impl JobsFileLocation {
 #[serde(deny_unknown_fields)]
 #[schemars(title = "clsmith jobs file", rename = "Jobs")]
 struct BatchJobsText {
-    /// The output folder, relative to this file's folder. `--out` overrides it.
+    /// The output folder, relative to this file's folder. `--output` overrides it.
     out: Option<FilePath>,
     /// The jobs.
     #[serde(deserialize_with = "deserialize_some")]

@@ -8,21 +8,18 @@ mod arcs;
 mod axis;
 mod compensation;
 mod cycle;
-mod displacement;
 mod feed;
 mod fields_and_lines;
 mod findings;
 mod frame;
 mod points;
 mod spindle;
-mod stale_records;
 mod structure;
 mod thread_pitch;
 mod tool;
 mod units;
 mod unknown_words;
 
-pub use stale_records::{STALE_CODES, find_stale_records};
 pub use unknown_words::list_unknown_words;
 
 use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};

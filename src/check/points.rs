@@ -95,7 +95,7 @@ impl Lint for LeftInCutLint {
     }
 
     fn check_motion(&mut self, motion: &Motion, found: &mut LintFindings<'_>) {
-        let cut = motion.class_is_told && motion.class == MotionClass::Cut && !found.facts.wire;
+        let cut = motion.class_is_stated && motion.class == MotionClass::Cut && !found.facts.wire;
         self.cut = cut.then(|| motion.last_statement());
     }
 

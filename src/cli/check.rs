@@ -3,12 +3,14 @@
 use super::command_exit::CommandExit;
 use super::finding_args::{FindingArgs, FindingFormat};
 use super::input_files;
+use super::output_args::{JsonArgs, TextOutputArgs};
 use super::terminal;
 use crate::cli::stop::Stop;
 use clap::Args;
 use clsmith::check::read_and_check_with_vocabulary;
 use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::program::Dialect;
+use clsmith::report::render::json;
 use clsmith::report::stats::ResolvedLengthUnit;
 use clsmith::setup::Setup;
 use clsmith::transform::correct_ramp::check_ramps;
@@ -25,7 +27,8 @@ Examples:
   clsmith check --deny warnings programs/*.cls       fail on warnings, too
   clsmith check --allow CL0001 part.aptsource        a broken line is known and meant
   clsmith check --format line part.cls               file:line:column: CODE: message
-  clsmith check --format sarif part.cls > out.sarif";
+  clsmith check part.cls --json | jq '.[].code'        the findings for programs
+  clsmith check --format sarif part.cls -o out.sarif";
 
 /// Finds faults of programs, with their exact places
 #[derive(Debug, Args)]
@@ -38,8 +41,12 @@ pub(super) struct CheckArgs {
     #[arg(long, value_name = "FILE")]
     setup: Option<PathBuf>,
     /// The dialect, instead of finding it from the text
-    #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
+    #[arg(long, value_parser = input_files::dialect_parser(), value_name = "NAME")]
     dialect: Option<Dialect>,
+    #[command(flatten)]
+    json: JsonArgs,
+    #[command(flatten)]
+    output: TextOutputArgs,
     #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
 }
@@ -48,9 +55,11 @@ impl CheckArgs {
     pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         let policy = self.findings.build_policy()?;
         let setup = self.setup.as_deref().map(input_files::read_setup).transpose()?;
-        let mut out = io::stdout().lock();
-        let mut all = Vec::new();
+        // Findings come as they are found, unless they are one document, or go to a file as a whole.
+        let at_once = self.output.is_standard() && !self.json.is_standard();
+        let (mut text, mut all) = (Vec::new(), Vec::new());
         let mut worst = CommandExit::Done;
+        let seen = at_once && terminal::is_stdout_terminal();
         for path in &self.files {
             let name = path.to_string_lossy().into_owned();
             let found = match is_yaml(path) {
@@ -61,26 +70,42 @@ impl CheckArgs {
             if found.iter().any(Diagnostic::is_error) {
                 worst = CommandExit::Errors;
             }
-            match self.findings.format {
-                // There is a single document for all files.
-                FindingFormat::Json | FindingFormat::Sarif => all.extend(found),
-                FindingFormat::Human | FindingFormat::Line => {
-                    self.findings.write_findings(
-                        &mut out,
-                        terminal::is_stdout_terminal(),
-                        &found,
-                        Some(&name),
-                    )?;
-                }
+            if !self.is_one_document() {
+                self.findings.write_findings(&mut text, seen, &found, Some(&name))?;
             }
+            if at_once {
+                io::stdout().lock().write_all(&text)?;
+                text.clear();
+            }
+            all.extend(found);
         }
-        if matches!(self.findings.format, FindingFormat::Json | FindingFormat::Sarif) {
+        if self.is_one_document() {
             let file =
                 self.files.first().filter(|_| self.files.len() == 1).map(|path| path.to_string_lossy());
-            self.findings.write_findings(&mut out, terminal::is_stdout_terminal(), &all, file.as_deref())?;
+            self.findings.write_findings(&mut text, seen, &all, file.as_deref())?;
         }
-        out.flush()?;
+        self.write_outputs(&String::from_utf8_lossy(&text), &all)?;
         Ok(worst)
+    }
+
+    /// Returns whether the findings of all files are a single document.
+    fn is_one_document(&self) -> bool {
+        matches!(self.findings.format, FindingFormat::Json | FindingFormat::Sarif)
+    }
+
+    /// Writes the findings as JSON, and what is left of them as a text.
+    fn write_outputs(&self, text: &str, all: &[Diagnostic]) -> Result<(), Stop> {
+        let inputs: Vec<&Path> = self.files.iter().chain(&self.setup).map(PathBuf::as_path).collect();
+        if self.json.is_wanted() {
+            let mut document = Vec::new();
+            json::render_json(&mut document, all)?;
+            let document = String::from_utf8_lossy(&document).into_owned();
+            self.json.write_document(&inputs, || document)?;
+        }
+        match self.json.is_standard() && self.output.is_standard() {
+            true => Ok(()),
+            false => self.output.write_text(text, &inputs),
+        }
     }
 
     /// Reads and checks a program, with what the setup knows of tools and machine.

@@ -3,6 +3,7 @@
 use super::command_exit::CommandExit;
 use super::finding_args::FindingArgs;
 use super::input_files;
+use super::output_args::{JsonArgs, TextOutputArgs};
 use super::terminal;
 use crate::cli::stop::Stop;
 use clap::Args;
@@ -11,13 +12,13 @@ use clsmith::parse::parse_with_vocabulary;
 use clsmith::program::{Dialect, Program};
 use clsmith::report::diff;
 use clsmith::setup::Setup;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
 Examples:
   clsmith diff part.cls corrected.cls
-  clsmith diff --json part.cls corrected.cls
+  clsmith diff part.cls corrected.cls --json | jq .same_meaning
   clsmith diff --summary part.cls corrected.cls
 
 Exit codes: 0 the programs mean the same (they may be written differently), 3 they differ, 1 one of them
@@ -31,9 +32,10 @@ pub(super) struct DiffArgs {
     a: PathBuf,
     /// The second program
     b: PathBuf,
-    /// As JSON
-    #[arg(long, conflicts_with = "summary")]
-    json: bool,
+    #[command(flatten)]
+    json: JsonArgs,
+    #[command(flatten)]
+    output: TextOutputArgs,
     /// Only the summary
     #[arg(long)]
     summary: bool,
@@ -41,7 +43,7 @@ pub(super) struct DiffArgs {
     #[arg(long, default_value_t = 20, value_name = "N")]
     most: usize,
     /// The dialect of both, instead of finding it from the text
-    #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
+    #[arg(long, value_parser = input_files::dialect_parser(), value_name = "NAME")]
     dialect: Option<Dialect>,
     /// A setup file, for the words of the shop in both programs
     #[arg(long, value_name = "FILE")]
@@ -74,19 +76,16 @@ impl DiffArgs {
         }
         let [a, b] = programs.as_slice() else { return Ok(CommandExit::Errors) };
         let found = diff::ProgramDiff::from_programs(a, b);
-        let text = if self.json {
-            diff::to_json(&found)
-        } else if self.summary {
+        let inputs = [self.a.as_path(), self.b.as_path()];
+        self.json.write_document(&inputs, || diff::to_json(&found))?;
+        let text = if self.summary {
             diff::summarize_diff(&found)
         } else {
             diff::to_text(&found, if self.most == 0 { usize::MAX } else { self.most })
         };
-        let mut out = io::stdout().lock();
-        out.write_all(text.as_bytes())?;
-        if !text.ends_with('\n') {
-            out.write_all(b"\n")?;
+        if !self.json.is_standard() || !self.output.is_standard() {
+            self.output.write_text(&text, &inputs)?;
         }
-        out.flush()?;
         Ok(if found.same_meaning { CommandExit::Done } else { CommandExit::Differ })
     }
 

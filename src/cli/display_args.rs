@@ -8,8 +8,8 @@ use clsmith::report::DisplayUnits;
 /// What people and other programs see.
 #[derive(Debug, Clone, Copy, Args)]
 pub(super) struct DisplayArgs {
-    /// Unit that lengths and feeds are shown in, in every output of the command: mm or inch; that of the program if not given
-    #[arg(long, value_parser = input_files::parse_length_unit, value_name = "UNIT")]
+    /// Unit that lengths and feeds are shown in, in every output of the command; that of the program if not given
+    #[arg(long, value_parser = input_files::length_unit_parser(), value_name = "UNIT")]
     display_units: Option<LengthUnit>,
 }
 

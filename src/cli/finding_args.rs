@@ -1,8 +1,10 @@
 //! This module holds the options of findings, and shows findings.
 
+use super::choice_parser::ChoiceParser;
 use super::terminal::{self, ColorMode};
+use clap::builder::StringValueParser;
 use clap::{Args, ValueEnum};
-use clsmith::diagnostic::Diagnostic;
+use clsmith::diagnostic::{CATALOGUE, Diagnostic};
 use clsmith::report::finding_policy::{FindingPolicy, FindingPolicyError};
 use clsmith::report::render::{human, json, line, sarif};
 use std::io::{self, Write};
@@ -24,10 +26,12 @@ pub(super) enum FindingFormat {
 #[command(next_help_heading = "Findings")]
 pub(super) struct FindingArgs {
     /// Treat a code as an error; `warnings` treats all of them so. It may be given several times
-    #[arg(long, value_name = "CODE", value_delimiter = ',')]
+    #[arg(long, value_name = "CODE", value_delimiter = ',', hide_possible_values = true,
+        value_parser = ChoiceParser::new(StringValueParser::new(), || [&["warnings"], &*list_codes()].concat()))]
     deny: Vec<String>,
     /// Let a code pass: it stops nothing, and is counted as allowed by hand. May be given several times
-    #[arg(long, value_name = "CODE", value_delimiter = ',')]
+    #[arg(long, value_name = "CODE", value_delimiter = ',', hide_possible_values = true,
+        value_parser = ChoiceParser::new(StringValueParser::new(), list_codes))]
     allow: Vec<String>,
     /// Show notes, too
     #[arg(long)]
@@ -42,6 +46,11 @@ pub(super) struct FindingArgs {
     /// When to use colours
     #[arg(long, value_enum, default_value = "auto", value_name = "WHEN")]
     pub color: ColorMode,
+}
+
+/// Returns all codes, for completions.
+pub(super) fn list_codes() -> Vec<&'static str> {
+    CATALOGUE.iter().flat_map(|rows| rows.iter()).map(|code| code.id()).collect()
 }
 
 impl FindingArgs {
@@ -67,7 +76,7 @@ impl FindingArgs {
                 let options = human::HumanRenderOptions::default()
                     .with_color(self.color.is_wanted(is_terminal))
                     .with_unicode(terminal::has_unicode())
-                    .with_width(terminal::width_columns())
+                    .with_width(terminal::width_columns(is_terminal))
                     .with_per_code(self.max_per_code);
                 human::render_human(out, findings, file, &options)
             }

@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 const EXAMPLES: &str = "\
 Examples:
   clsmith init part.cls               setup.yaml and recipe.yaml beside it, from what the file says
-  clsmith init part.cls --out shop    the same in the folder shop
+  clsmith init part.cls -o shop       the same in the folder shop
 
 Both files are valid at once, and say in comments what the program does and what it does not tell. Their schemas
 stand beside them, so editors complete and check them. Files that are there already are not touched.";
@@ -34,10 +34,10 @@ pub(super) struct InitArgs {
     #[arg(value_name = "PROGRAM")]
     program: PathBuf,
     /// The folder to write into; the program's if not given
-    #[arg(short, long, value_name = "FOLDER")]
-    out: Option<PathBuf>,
+    #[arg(short, long, alias = "out", value_name = "FOLDER")]
+    output: Option<PathBuf>,
     /// The dialect, instead of finding it from the text
-    #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
+    #[arg(long, value_parser = input_files::dialect_parser(), value_name = "NAME")]
     dialect: Option<Dialect>,
     /// Say nothing but findings
     #[arg(short, long)]
@@ -65,7 +65,7 @@ impl InitArgs {
             return Ok(CommandExit::Errors);
         }
         let stats = ProgramStats::from_program(&program, &Setup::default());
-        let folder = self.out.as_deref().or_else(|| self.program.parent()).unwrap_or(Path::new(""));
+        let folder = self.output.as_deref().or_else(|| self.program.parent()).unwrap_or(Path::new(""));
         let schema =
             |schema: &serde_json::Value| serde_json::to_string_pretty(schema).map_err(io::Error::from);
         let files = [
@@ -79,7 +79,7 @@ impl InitArgs {
             let path = folder.join(name);
             if path.exists() {
                 let message = format!("{} is there already; it is not overwritten", path.display());
-                let help = "Move it away, or give another folder by --out.";
+                let help = "Move it away, or give another folder by -o.";
                 return Err(Diagnostic::new(codes::UNWRITABLE, message).with_help(help).into());
             }
         }

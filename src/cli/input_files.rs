@@ -1,6 +1,8 @@
 //! This module reads inputs: CL files, recipes and setups, from files and from standard input.
 
 use crate::cli::bad_argument::BadArgument;
+use crate::cli::choice_parser::ChoiceParser;
+use clap::builder::TypedValueParser;
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::program::{Dialect, LengthUnit};
 use clsmith::recipe::Provenance;
@@ -89,22 +91,34 @@ pub(super) fn path_beside_recipe(recipe: &Path, name: &str) -> PathBuf {
     recipe.parent().unwrap_or(Path::new("")).join(name)
 }
 
-/// Reads `--dialect`.
-pub(super) fn parse_dialect(name: &str) -> Result<Dialect, BadArgument> {
+/// Reads `--dialect`; its values are known.
+pub(super) fn dialect_parser() -> impl TypedValueParser<Value = Dialect> {
+    ChoiceParser::new(parse_dialect, || Dialect::ALL.iter().map(|dialect| dialect.name()).collect())
+}
+
+/// Reads `--units` and `--display-units`; their values are known.
+pub(super) fn length_unit_parser() -> impl TypedValueParser<Value = LengthUnit> {
+    ChoiceParser::new(parse_length_unit, || vec!["mm", "inch"])
+}
+
+/// Reads `--provenance`; its values are known.
+pub(super) fn provenance_parser() -> impl TypedValueParser<Value = Provenance> {
+    ChoiceParser::new(parse_provenance, || Provenance::ALL.iter().map(|one| one.name()).collect())
+}
+
+fn parse_dialect(name: &str) -> Result<Dialect, BadArgument> {
     Dialect::from_name(name).ok_or_else(|| {
         let names: Vec<&str> = Dialect::ALL.iter().map(|dialect| dialect.name()).collect();
         BadArgument::new(format!("the dialects are {}", names.join(", ")))
     })
 }
 
-/// Reads `--provenance`.
-pub(super) fn parse_provenance(name: &str) -> Result<Provenance, BadArgument> {
+fn parse_provenance(name: &str) -> Result<Provenance, BadArgument> {
     let found = Provenance::ALL.into_iter().find(|provenance| provenance.name() == name);
     found.ok_or(BadArgument::new("this is none, header or comments"))
 }
 
-/// Reads `--units`.
-pub(super) fn parse_length_unit(text: &str) -> Result<LengthUnit, BadArgument> {
+fn parse_length_unit(text: &str) -> Result<LengthUnit, BadArgument> {
     match text {
         "mm" => Ok(LengthUnit::Mm),
         "inch" => Ok(LengthUnit::Inch),

@@ -5,8 +5,8 @@ use crate::cli::command_exit::CommandExit;
 use crate::cli::command_outputs::{CommandOutputs, print_summary};
 use crate::cli::finding_args::FindingArgs;
 use crate::cli::input_files::STANDARD;
-use crate::cli::progress::CommandProgress;
-use crate::cli::run_limits::RunLimits;
+use crate::cli::progress::{CommandProgress, ProgressArgs};
+use crate::cli::run_limits::LimitArgs;
 use crate::cli::stop::Stop;
 use crate::cli::terminal;
 use clsmith::check::check_program;
@@ -14,6 +14,7 @@ use clsmith::diagnostic::Diagnostic;
 use clsmith::parse::parse_with_vocabulary;
 use clsmith::program::{Dialect, Program, ShopVocabulary};
 use clsmith::report::finding_policy::FindingPolicy;
+use clsmith::simulation_run::{RunPhase, RunWatcher};
 use std::io;
 use std::path::Path;
 use std::sync::Arc;
@@ -24,12 +25,12 @@ pub(super) struct MeasuringCommand<'a> {
     pub program: &'a Path,
     /// The paths of outputs.
     pub outputs: Vec<&'a Path>,
-    /// Whether to print neither summary nor progress.
-    pub quiet: bool,
-    /// The number of threads. With `None` it is the number of cores.
-    pub threads: Option<u16>,
-    /// Memory and time that it may take.
-    pub limits: RunLimits,
+    /// What is said besides findings.
+    pub progress: ProgressArgs,
+    /// How many programs are simulated.
+    pub simulations: usize,
+    /// Memory, time and threads that it may take.
+    pub limits: LimitArgs,
     /// Which findings stop, and how they are shown.
     pub findings: &'a FindingArgs,
 }
@@ -80,17 +81,18 @@ impl MeasuringCommand<'_> {
     ) -> Result<CommandExit, Stop> {
         problem.map_or(Ok(()), |problem| Err(Stop::Usage(problem)))?;
         let policy = self.findings.build_policy()?;
-        if let Some(threads) = self.threads {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into());
-            pool.build_global().map_err(io::Error::other)?;
-        }
+        self.limits.threads().start_threads()?;
         let outputs = CommandOutputs::default();
-        let progress = CommandProgress::with_limits(self.quiet, outputs.interrupt(), self.limits);
+        let progress = CommandProgress::new(self.progress, outputs.interrupt(), self.limits.of_run())
+            .with_simulations(self.simulations);
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
         progress.begin_program(&self.program.to_string_lossy());
         let mut findings = Vec::new();
         let done =
             measure(&mut MeasuringContext { policy: &policy, progress: &progress, findings: &mut findings });
+        if done.is_ok() {
+            progress.begin_phase(RunPhase::Writing);
+        }
         progress.clear_bar();
         let measured = match done {
             Ok(measured) => measured,
@@ -105,7 +107,7 @@ impl MeasuringCommand<'_> {
         if !findings.is_empty() {
             self.show_findings(&findings)?;
         }
-        if !self.quiet {
+        if !self.progress.quiet {
             // An output may go to standard output.
             let is_taken = self.outputs.contains(&Path::new(STANDARD));
             ignore_closed_pipe(print_summary(&summary(&measured), is_taken))?;
@@ -116,7 +118,7 @@ impl MeasuringCommand<'_> {
     }
 
     fn say_nothing_written(&self) -> CommandExit {
-        if !self.quiet && !self.outputs.is_empty() {
+        if !self.progress.quiet && !self.outputs.is_empty() {
             eprintln!("{}: nothing was written", self.program.display());
         }
         CommandExit::Errors

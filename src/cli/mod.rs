@@ -5,19 +5,26 @@ mod bad_argument;
 mod batch;
 mod check;
 mod chips;
+mod choice_parser;
 mod closed_pipe;
 mod command_exit;
 mod command_outputs;
+mod command_words;
+mod completions;
 mod diff;
 mod display_args;
 mod finding_args;
+mod help_layout;
 mod hook;
 mod init;
 mod input_files;
 mod measuring_command;
+mod output_args;
 mod output_endings;
+mod phase_track;
 mod plot;
 mod progress;
+mod progress_line;
 mod reference;
 mod report_args;
 mod run_limits;
@@ -30,10 +37,11 @@ mod unattended;
 mod undo;
 mod watch;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use clsmith::job::{catch_defect, remember_panics};
 use command_exit::CommandExit;
 use finding_args::FindingArgs;
+use std::ffi::OsString;
 use std::process::ExitCode;
 use stop::Stop;
 
@@ -41,7 +49,7 @@ const EXAMPLES: &str = "\
 Examples:
   clsmith apply recipe.yaml part.cls -o out.cls    correct a program by a recipe
   clsmith apply recipe.yaml part.cls --diff        see what would change
-  clsmith batch --recipe recipe.yaml --out done 'programs/**/*.cls'
+  clsmith batch --recipe recipe.yaml -o done 'programs/**/*.cls'
                                                    correct many programs
   clsmith check part.cls                           what is wrong with a program
   clsmith stats part.cls                           what is in it
@@ -52,7 +60,7 @@ Examples:
                                                    a program for a ball over a part
   clsmith hook --recipe recipe.yaml part.cls -- mypost {}
                                                    correct a program and post the result
-  clsmith watch exports --recipe recipe.yaml --out corrected '*.cls'
+  clsmith watch exports --recipe recipe.yaml -o corrected '*.cls'
                                                    correct what lands in a folder
   clsmith diff part.cls out.cls                    what changed, by meaning
   clsmith plot part.cls --after out.cls -o feed.svg
@@ -76,7 +84,7 @@ Exit codes:
 /// It runs between the CAM system's export and the post-processor. What a recipe does not change is written
 /// byte for byte, and nothing is written if there is an error.
 #[derive(Debug, Parser)]
-#[command(name = "clsmith", version, after_help = EXAMPLES, max_term_width = 100)]
+#[command(name = "clsmith", version, after_help = EXAMPLES)]
 struct Cli {
     #[command(subcommand)]
     command: CliCommand,
@@ -105,10 +113,29 @@ enum CliCommand {
     Man(reference::ManArgs),
 }
 
+/// Reads the words of the command line, and notes spellings of earlier versions. A wrong command line, a help
+/// and a version end the process.
+fn parse_command_line(words: Vec<OsString>) -> Cli {
+    let columns = terminal::width_columns(terminal::is_stdout_terminal() || terminal::is_stderr_terminal());
+    let mut command = help_layout::fit_help(Cli::command(), columns);
+    let parsed = command_words::parse_words(&command, words.clone());
+    let matches = parsed.unwrap_or_else(|error| error.exit());
+    if let Some((name, matches)) = matches.subcommand()
+        && !is_quiet(matches)
+    {
+        command_words::find_old_spellings(name, &words).iter().for_each(|note| eprintln!("{note}"));
+    }
+    Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.format(&mut command).exit())
+}
+
+fn is_quiet(matches: &clap::ArgMatches) -> bool {
+    matches.try_get_one::<bool>("quiet").is_ok_and(|quiet| quiet == Some(&true))
+}
+
 /// Runs the command of the process's arguments.
 pub(crate) fn run_command_line() -> ExitCode {
     remember_panics();
-    let cli = Cli::parse();
+    let cli = parse_command_line(std::env::args_os().collect());
     // What fails outside of the work on a file is told like all else, too.
     let run = || cli.command.run_command();
     let (name, findings) = cli.command.name_and_findings();

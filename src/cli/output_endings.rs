@@ -21,8 +21,6 @@ pub(super) enum OutputContent {
     Stl,
     /// Stock for the next program.
     Stock,
-    /// A drawing as SVG alone.
-    Svg,
     /// A drawing as SVG or PNG.
     Drawing,
 }
@@ -44,7 +42,6 @@ impl OutputContent {
             Self::Csv => &["csv", "txt"],
             Self::Stl => &["stl"],
             Self::Stock => &["clstock"],
-            Self::Svg => &["svg"],
             Self::Drawing => &["svg", "png"],
         }
     }
@@ -58,7 +55,6 @@ impl OutputContent {
             Self::Csv => "a table (CSV)",
             Self::Stl => "a mesh (STL)",
             Self::Stock => "stock (clstock)",
-            Self::Svg => "a drawing (SVG)",
             Self::Drawing => "a drawing (SVG or PNG)",
         }
     }
@@ -101,7 +97,7 @@ mod tests {
     fn an_ending_that_promises_something_else_is_refused() {
         for (content, path) in [
             (OutputContent::Page, "report.pdf"),
-            (OutputContent::Svg, "layers.png"),
+            (OutputContent::Drawing, "layers.pdf"),
             (OutputContent::Program, "done/part.NC"),
             (OutputContent::Json, "a.yaml"),
             (OutputContent::Stl, "a.obj"),

@@ -7,7 +7,8 @@ use super::display_args::DisplayArgs;
 use super::finding_args::FindingArgs;
 use super::input_files::{self, STANDARD};
 use super::output_endings::{OutputContent, find_wrong_ending};
-use super::progress::CommandProgress;
+use super::progress::{CommandProgress, ProgressArgs};
+use super::run_limits::LimitArgs;
 use super::stop::Stop;
 use super::terminal;
 use clap::{Args, ValueEnum};
@@ -57,14 +58,15 @@ pub(super) struct PlotArgs {
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// The dialect, instead of finding it from the text
-    #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
+    #[arg(long, value_parser = input_files::dialect_parser(), value_name = "NAME")]
     dialect: Option<Dialect>,
-    /// Unit of lengths of a file that does not state it: mm or inch
-    #[arg(long, value_parser = input_files::parse_length_unit, value_name = "UNIT")]
+    /// Unit of lengths of a file that does not state it
+    #[arg(long, value_parser = input_files::length_unit_parser(), value_name = "UNIT")]
     units: Option<LengthUnit>,
-    /// No progress, findings only
-    #[arg(short, long)]
-    quiet: bool,
+    #[command(flatten)]
+    progress: ProgressArgs,
+    #[command(flatten)]
+    limits: LimitArgs,
     #[command(flatten)]
     display: DisplayArgs,
     #[command(flatten)]
@@ -154,9 +156,12 @@ impl PlotArgs {
         self.find_usage_problem().map_or(Ok(()), |problem| Err(Stop::Usage(problem)))?;
         let policy = self.findings.build_policy()?;
         let outputs = CommandOutputs::default();
-        let progress = CommandProgress::new(self.quiet, outputs.interrupt());
+        self.limits.threads().start_threads()?;
+        let progress = CommandProgress::new(self.progress, outputs.interrupt(), self.limits.of_run())
+            .with_simulations(1 + usize::from(self.after.is_some()));
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
         let mut findings = Vec::new();
+        progress.begin_program(&self.program.to_string_lossy());
         let drawn = self.draw_panels(&policy, &progress, &mut findings);
         progress.clear_bar();
         let drawn = match drawn {
@@ -172,7 +177,7 @@ impl PlotArgs {
             self.show_findings(&findings)?;
         }
         let Some(PlotDrawing { svg, empty }) = drawn else { return Ok(CommandExit::Errors) };
-        if svg.is_none() || !self.quiet {
+        if svg.is_none() || !self.progress.quiet {
             empty.iter().for_each(|sentence| eprintln!("clsmith plot: {sentence}"));
         }
         let Some(svg) = svg else {
@@ -272,7 +277,6 @@ impl PlotArgs {
     ) -> Result<SimulationReport, Stop> {
         let units = ResolvedLengthUnit::from_program(program, self.units).unit;
         let machining = Machining::new(program, setup, units, findings)?;
-        progress.begin_bar(program.source().name());
         Ok(SimulationReport::simulate_program(&machining, &SimulationRunOptions::default(), progress)?)
     }
 

@@ -1,30 +1,93 @@
-//! This module shows the progress of a simulation on a terminal, with the remaining time.
+//! This module shows the progress of the work on a program: its phase, how far it is, and the remaining time.
 
+use super::phase_track::PhaseTrack;
+use super::progress_line::ProgressLines;
 use super::run_limits::{RunLimitWatch, RunLimits};
 use super::terminal;
+use clap::{Args, ValueEnum};
 use clsmith::diagnostic::Failure;
 use clsmith::output_files::Interrupt;
-use clsmith::simulation_run::RunWatcher;
+use clsmith::simulation_run::{RunPhase, RunWatcher};
 use clsmith::source::Source;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
-/// A bar on standard error. Nothing is drawn if it is no terminal, or if it is not wanted.
+/// Work that ends sooner shows no bar.
+pub(super) const BEFORE_BAR: Duration = Duration::from_millis(500);
+
+/// The positions of a bar.
+const TICKS: f64 = 10_000.0;
+
+/// What is said besides findings.
+#[derive(Debug, Clone, Copy, Args)]
+pub(super) struct ProgressArgs {
+    /// No summary and no progress, findings only
+    #[arg(short, long)]
+    pub quiet: bool,
+    /// When to show progress: after half a second on a terminal, always, or never
+    #[arg(long, value_enum, default_value = "auto", value_name = "WHEN")]
+    progress: ProgressMode,
+}
+
+/// When to show progress.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum ProgressMode {
+    /// After half a second, if standard error is a terminal
+    Auto,
+    /// Also where standard error is no terminal: as lines, from the beginning
+    Always,
+    /// Never
+    Never,
+}
+
+/// Where progress is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum ProgressPlace {
+    /// A bar on a terminal.
+    Bar,
+    /// Lines on standard error.
+    Lines,
+    /// Nowhere.
+    Nowhere,
+}
+
+impl ProgressArgs {
+    /// Returns where progress is shown.
+    pub(super) fn place(self) -> ProgressPlace {
+        match (self.progress, terminal::is_stderr_terminal()) {
+            _ if self.quiet => ProgressPlace::Nowhere,
+            (ProgressMode::Never, _) | (ProgressMode::Auto, false) => ProgressPlace::Nowhere,
+            (ProgressMode::Always, false) => ProgressPlace::Lines,
+            (ProgressMode::Auto | ProgressMode::Always, true) => ProgressPlace::Bar,
+        }
+    }
+}
+
+/// A bar on standard error, or lines. Nothing is shown if it is not wanted.
 pub(super) struct CommandProgress {
     bar: ProgressBar,
+    place: ProgressPlace,
+    shown: Mutex<ShownProgress>,
     interrupt: Interrupt,
     limits: RunLimitWatch,
+    /// How many simulations are expected besides those of a recipe's steps.
+    simulations: usize,
+}
+
+/// The program that is worked on, and what of it was shown.
+struct ShownProgress {
+    name: String,
+    track: PhaseTrack,
+    lines: ProgressLines,
+    /// Whether the work on the program goes on. A bar appears and goes under this lock.
+    running: Arc<Mutex<bool>>,
 }
 
 impl CommandProgress {
-    pub(super) fn new(quiet: bool, interrupt: &Interrupt) -> Self {
-        Self::with_limits(quiet, interrupt, RunLimits::default())
-    }
-
-    /// A bar of work that is stopped when it takes more than its limits.
-    pub(super) fn with_limits(quiet: bool, interrupt: &Interrupt, limits: RunLimits) -> Self {
-        let seen = terminal::is_stderr_terminal() && !quiet;
-        let target = if seen { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
-        let bar = ProgressBar::with_draw_target(Some(0), target);
+    /// Makes a bar for work that is stopped when it takes more than its limits.
+    pub(super) fn new(args: ProgressArgs, interrupt: &Interrupt, limits: RunLimits) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(TICKS as u64), ProgressDrawTarget::hidden());
         let (template, marks) = if terminal::has_unicode() {
             ("{msg} {wide_bar} {percent:>3} %, {eta} left", "█▌ ")
         } else {
@@ -33,19 +96,52 @@ impl CommandProgress {
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style.progress_chars(marks));
         }
-        Self { bar, interrupt: interrupt.clone(), limits: RunLimitWatch::new(limits, "the program") }
+        let shown = ShownProgress {
+            name: String::new(),
+            track: PhaseTrack::new(0),
+            lines: ProgressLines::default(),
+            running: Arc::default(),
+        };
+        Self {
+            bar,
+            place: args.place(),
+            shown: Mutex::new(shown),
+            interrupt: interrupt.clone(),
+            limits: RunLimitWatch::new(limits, "the program"),
+            simulations: 0,
+        }
     }
 
-    /// Begins again with another name.
-    pub(super) fn begin_bar(&self, name: &str) {
-        self.bar.set_message(terminal::escape_controls(name));
-        self.bar.reset();
+    /// Returns the bar for work that simulates so often besides a recipe's steps.
+    #[must_use]
+    pub(super) fn with_simulations(mut self, simulations: usize) -> Self {
+        self.simulations = simulations;
+        self
     }
 
-    /// The work on a program begins: its limits count from now on.
+    /// The work on a program begins: its limits count from now on, and its bar appears if it takes long.
     pub(super) fn begin_program(&self, name: &str) {
         self.limits.begin_program(name);
-        self.begin_bar(name);
+        let running = Arc::new(Mutex::new(true));
+        let mut shown = self.lock_shown();
+        shown.name = terminal::escape_controls(name);
+        shown.track = PhaseTrack::new(self.simulations);
+        shown.lines = ProgressLines::default();
+        if self.place == ProgressPlace::Bar {
+            self.bar.reset();
+            let (bar, running) = (self.bar.clone(), Arc::clone(&running));
+            std::thread::spawn(move || {
+                std::thread::sleep(BEFORE_BAR);
+                let running = running.lock().unwrap_or_else(PoisonError::into_inner);
+                if *running {
+                    bar.set_draw_target(ProgressDrawTarget::stderr());
+                    bar.enable_steady_tick(Duration::from_millis(200));
+                }
+            });
+        }
+        shown.running = running;
+        drop(shown);
+        self.begin_phase(RunPhase::Reading);
     }
 
     /// Refuses a program whose size alone tells that it takes too much memory.
@@ -55,7 +151,12 @@ impl CommandProgress {
 
     /// Takes the bar away.
     pub(super) fn clear_bar(&self) {
+        let running = Arc::clone(&self.lock_shown().running);
+        let mut running = running.lock().unwrap_or_else(PoisonError::into_inner);
+        *running = false;
+        self.bar.disable_steady_tick();
         self.bar.finish_and_clear();
+        self.bar.set_draw_target(ProgressDrawTarget::hidden());
     }
 
     /// Returns a function that removes the bar, for the handler of Ctrl-C.
@@ -63,14 +164,33 @@ impl CommandProgress {
         let bar = self.bar.clone();
         move || bar.finish_and_clear()
     }
+
+    fn lock_shown(&self) -> MutexGuard<'_, ShownProgress> {
+        self.shown.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn show_progress(&self, shown: &mut ShownProgress) {
+        match self.place {
+            ProgressPlace::Nowhere => {}
+            ProgressPlace::Bar => self.bar.set_position((shown.track.fraction() * TICKS) as u64),
+            ProgressPlace::Lines => shown.lines.show_line(&shown.name, &shown.track),
+        }
+    }
 }
 
 impl RunWatcher for CommandProgress {
+    fn begin_phase(&self, phase: RunPhase) {
+        let mut shown = self.lock_shown();
+        shown.track.begin_phase(phase);
+        self.bar.set_message(format!("{} {}", phase.name(), shown.name));
+        self.show_progress(&mut shown);
+    }
+
     fn report_progress(&self, done: f64, whole: f64) {
-        // Lengths are counted in tenths of a millimetre, so that short paths move the bar, too.
-        let tenths = |length: f64| (length * 10.0) as u64;
-        self.bar.set_length(tenths(whole).max(1));
-        self.bar.set_position(tenths(done));
+        let mut shown = self.lock_shown();
+        if shown.track.report_progress(done, whole) {
+            self.show_progress(&mut shown);
+        }
     }
 
     fn is_stop_requested(&self) -> bool {

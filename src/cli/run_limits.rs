@@ -1,45 +1,86 @@
 //! Limits of memory and time for the work on one program.
 
 use super::input_files;
+use crate::cli::bad_argument::BadArgument;
 use bytesize::ByteSize;
 use clap::Args;
 use clsmith::batch::memory_budget::estimate_memory_bytes;
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::source::Source;
+use std::io;
+use std::num::NonZeroUsize;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// How often the memory of the process is looked at.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
 
+/// What a command that computes may take.
 #[derive(Debug, Clone, Copy, Default, Args)]
 #[command(next_help_heading = "Limits")]
-pub(super) struct MemoryLimitArgs {
-    /// Memory that the run may take: 512M, 2G, 1.5GiB. It ends with an error when it needs more
-    #[arg(long, value_name = "SIZE")]
+pub(super) struct LimitArgs {
+    /// Memory that the run may take, with its unit: 512MB, 4GiB. It ends with an error when it needs more
+    #[arg(long, value_name = "SIZE", value_parser = parse_memory)]
     memory: Option<ByteSize>,
-}
-
-#[derive(Debug, Clone, Copy, Default, Args)]
-#[command(next_help_heading = "Limits")]
-pub(super) struct TimeLimitArgs {
     /// Longest time for one program. It ends with an error when it takes longer, and nothing of it is written
     #[arg(long, value_name = "SECONDS", value_parser = input_files::parse_seconds)]
     time_limit: Option<Duration>,
+    #[command(flatten)]
+    threads: ThreadArgs,
 }
 
-impl MemoryLimitArgs {
-    /// The limits that these options and those of time ask for.
-    pub(super) fn with_time(self, time: TimeLimitArgs) -> RunLimits {
-        RunLimits { memory_bytes: self.memory.map(|size| size.as_u64()), time: time.time_limit }
+/// How many processors a command that computes may use.
+#[derive(Debug, Clone, Copy, Default, Args)]
+#[command(next_help_heading = "Limits")]
+pub(super) struct ThreadArgs {
+    /// Threads; by default as many as there are processors. The result is the same
+    #[arg(long, alias = "jobs", value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+}
+
+impl LimitArgs {
+    /// Returns the limits of a run on one program at a time.
+    pub(super) fn of_run(self) -> RunLimits {
+        RunLimits { memory_bytes: self.memory_bytes(), time: self.time_limit }
     }
-}
 
-impl TimeLimitArgs {
-    /// The limits of a program of a batch, whose memory is planned for all programs together.
+    /// Returns the limits of a program of a batch, whose memory is planned for all programs together.
     pub(super) fn of_batch_file(self) -> RunLimits {
         RunLimits { memory_bytes: None, time: self.time_limit }
     }
+
+    /// Returns the memory that was asked for, in bytes.
+    pub(super) fn memory_bytes(self) -> Option<u64> {
+        self.memory.map(|size| size.as_u64())
+    }
+
+    /// Returns how many threads compute.
+    pub(super) fn threads(self) -> ThreadArgs {
+        self.threads
+    }
+}
+
+impl ThreadArgs {
+    /// Makes the threads of the process, before anything computes.
+    pub(super) fn start_threads(self) -> io::Result<()> {
+        let Some(threads) = self.threads else { return Ok(()) };
+        rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global().map_err(io::Error::other)
+    }
+
+    /// Returns how many threads were asked for, or how many processors there are.
+    pub(super) fn count(self) -> usize {
+        let processors = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+        self.threads.map_or_else(processors, usize::from)
+    }
+}
+
+/// Reads an amount of memory. A number without a unit would be bytes, which nobody means.
+fn parse_memory(text: &str) -> Result<ByteSize, BadArgument> {
+    let help = "this must be a size with its unit: 512MB, 4GiB, 1.5G";
+    if text.trim().parse::<f64>().is_ok() {
+        return Err(BadArgument::new(help));
+    }
+    text.trim().parse().ok().filter(|size: &ByteSize| size.as_u64() > 0).ok_or(BadArgument::new(help))
 }
 
 /// What the work on one program may take.

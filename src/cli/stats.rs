@@ -4,6 +4,7 @@ use super::command_exit::CommandExit;
 use super::display_args::DisplayArgs;
 use super::finding_args::FindingArgs;
 use super::input_files;
+use super::output_args::{JsonArgs, TextOutputArgs};
 use super::terminal;
 use crate::cli::stop::Stop;
 use clap::Args;
@@ -14,15 +15,18 @@ use clsmith::parse::parse_with_vocabulary;
 use clsmith::program::{Dialect, Program, Record, Statement};
 use clsmith::report::stats;
 use clsmith::setup::Setup;
-use std::io::{self, Write};
-use std::path::PathBuf;
+use std::io;
+use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
 Examples:
   clsmith stats part.cls
-  clsmith stats --json part.cls | jq .operations
+  clsmith stats part.cls --json | jq .operations
+  clsmith stats part.cls --json part.json    the text on the terminal, JSON in a file
   clsmith stats --units inch part.ncl        for a file that does not state its unit
-  clsmith stats --setup shop.yaml part.cls   with the time of rapids, if the machine's rapid_feed is known";
+  clsmith stats --setup shop.yaml part.cls   with the time of rapids, if the machine's rapid_feed is known
+
+JSON of several programs is one document for each, one after the other.";
 
 /// Measures programs: operations, tools, lengths, times, feeds, bounding box
 #[derive(Debug, Args)]
@@ -31,14 +35,15 @@ pub(super) struct StatsArgs {
     /// The programs; `-` is standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// As JSON: one document for each file, one after the other
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: JsonArgs,
+    #[command(flatten)]
+    output: TextOutputArgs,
     /// The dialect, instead of finding it from the text
-    #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
+    #[arg(long, value_parser = input_files::dialect_parser(), value_name = "NAME")]
     dialect: Option<Dialect>,
-    /// Unit of lengths of a file that does not state it: mm or inch
-    #[arg(long, value_parser = input_files::parse_length_unit, value_name = "UNIT")]
+    /// Unit of lengths of a file that does not state it
+    #[arg(long, value_parser = input_files::length_unit_parser(), value_name = "UNIT")]
     units: Option<LengthUnit>,
     /// A setup file
     #[arg(long, value_name = "FILE")]
@@ -53,9 +58,9 @@ impl StatsArgs {
     pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         let policy = self.findings.build_policy()?;
         let setup = self.setup.as_deref().map_or_else(|| Ok(Setup::default()), input_files::read_setup)?;
-        let mut out = io::stdout().lock();
+        let (mut text, mut documents) = (String::new(), String::new());
         let mut exit = CommandExit::Done;
-        for (index, path) in self.files.iter().enumerate() {
+        for path in &self.files {
             let source = match input_files::read_source(path) {
                 Ok(source) => source,
                 Err(failure) => {
@@ -75,16 +80,19 @@ impl StatsArgs {
             }
             let stats = stats::ProgramStats::with_assumed_unit(&parsed.program, &setup, self.units);
             let stats = stats.shown_in(self.display.asked());
-            if self.json {
-                out.write_all(stats::to_json(&stats).as_bytes())?;
-            } else {
-                if index > 0 {
-                    writeln!(out)?;
-                }
-                out.write_all(stats::to_text(&stats).as_bytes())?;
+            if self.json.is_wanted() {
+                documents.push_str(&stats::to_json(&stats));
             }
+            if !text.is_empty() {
+                text.push('\n');
+            }
+            text.push_str(&stats::to_text(&stats));
         }
-        out.flush()?;
+        let inputs: Vec<&Path> = self.files.iter().chain(&self.setup).map(PathBuf::as_path).collect();
+        self.json.write_document(&inputs, || documents)?;
+        if !self.json.is_standard() || !self.output.is_standard() {
+            self.output.write_text(&text, &inputs)?;
+        }
         Ok(exit)
     }
 

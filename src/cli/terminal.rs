@@ -36,13 +36,27 @@ pub(super) fn is_stdout_terminal() -> bool {
     std::io::stdout().is_terminal()
 }
 
-/// Returns the columns to draw in: the value of COLUMNS, else 100.
-pub(super) fn width_columns() -> usize {
-    std::env::var("COLUMNS")
-        .ok()
-        .and_then(|columns| columns.parse().ok())
-        .filter(|&width| width >= 40)
-        .unwrap_or(100)
+/// The columns of a stream that is no terminal, the same everywhere.
+const FIXED_COLUMNS: usize = 100;
+
+/// Narrower than this, nothing is readable.
+const FEWEST_COLUMNS: usize = 40;
+
+/// Returns the columns to draw in: the value of COLUMNS if it is set, else those of the terminal, else 100.
+pub(super) fn width_columns(is_terminal: bool) -> usize {
+    choose_columns(std::env::var("COLUMNS").ok(), is_terminal.then(measure_terminal).flatten())
+}
+
+/// Returns the columns of a terminal among the streams of the process.
+fn measure_terminal() -> Option<usize> {
+    terminal_size::terminal_size().map(|(width, _)| usize::from(width.0))
+}
+
+fn choose_columns(variable: Option<String>, measured: Option<usize>) -> usize {
+    let asked = variable.and_then(|columns| columns.trim().parse().ok()).filter(|columns| *columns > 0);
+    // A terminal without a size says 0.
+    let measured = measured.filter(|columns| *columns > 0);
+    asked.or(measured).unwrap_or(FIXED_COLUMNS).max(FEWEST_COLUMNS)
 }
 
 /// Returns whether lines and arrows may be other than ASCII: the locale is UTF-8, or not set.
@@ -57,4 +71,20 @@ pub(super) fn has_unicode() -> bool {
 /// Returns a name that is safe to show. One from outside must not send commands to the terminal.
 pub(super) fn escape_controls(name: &str) -> String {
     to_safe_line(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::choose_columns;
+
+    #[test]
+    fn columns_are_asked_for_then_measured_then_fixed() {
+        let asked = |text: &str| Some(text.to_owned());
+        assert_eq!(choose_columns(asked("72"), Some(200)), 72);
+        assert_eq!(choose_columns(None, Some(200)), 200);
+        assert_eq!(choose_columns(None, None), 100);
+        assert_eq!(choose_columns(asked("wide"), Some(60)), 60);
+        assert_eq!(choose_columns(asked("0"), Some(0)), 100);
+        assert_eq!(choose_columns(asked("3"), None), 40);
+    }
 }

@@ -22,7 +22,8 @@ impl Engagement {
     pub fn chip_thickness_mm(&self, teeth: &Teeth, feed_mm_min: f64, rpm: f64) -> f64 {
         let per_turn = feed_mm_min / rpm;
         let of = |bin: &crate::engagement::EngagementBin| {
-            let chip = teeth.max_chip_thickness_mm(per_turn * f64::from(bin.share), f64::from(bin.radial));
+            let chip =
+                teeth.max_chip_thickness_mm(per_turn * f64::from(bin.advance_ratio), f64::from(bin.radial));
             chip.min(self.material_thickness_mm(bin, per_turn))
         };
         self.engaged_bins().map(of).fold(0.0, f64::max)
@@ -34,8 +35,8 @@ impl Engagement {
     pub fn chip_thickness_bound_mm(&self, teeth: &Teeth, feed_mm_min: f64, rpm: f64) -> f64 {
         let per_turn = feed_mm_min / rpm;
         let of = |bin: &crate::engagement::EngagementBin| {
-            let chip =
-                teeth.max_chip_thickness_mm(per_turn * f64::from(bin.share_bound), f64::from(bin.radial));
+            let chip = teeth
+                .max_chip_thickness_mm(per_turn * f64::from(bin.advance_ratio_bound), f64::from(bin.radial));
             chip.min(self.material_thickness_mm(bin, per_turn))
         };
         // A sliver beside the flank touches the cylinder, so its normal is radial.
@@ -61,7 +62,7 @@ impl Engagement {
         };
         let (mut all, mut thick) = (limit(self.graze, 1.0), limit(self.graze, 1.0));
         for bin in self.engaged_bins() {
-            let feed = limit(f64::from(bin.share_bound), f64::from(bin.radial));
+            let feed = limit(f64::from(bin.advance_ratio_bound), f64::from(bin.radial));
             all = all.min(feed);
             if f64::from(bin.thickness) > target_mm {
                 thick = thick.min(feed);

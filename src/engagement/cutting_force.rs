@@ -77,7 +77,7 @@ pub struct LoadModel {
 struct EngagedBin {
     low: f64,
     high: f64,
-    share: f64,
+    advance_ratio: f64,
     thickness: f64,
 }
 
@@ -208,7 +208,7 @@ impl LoadModel {
         // The advance ratio v.n / |v| of this point: n has the parts sin psi cos(angle) along the feed and
         // -cos psi along the axis.
         let share = part.sin * cos * contact.across - part.cos * contact.along;
-        let held = share.min(bin.share);
+        let held = share.min(bin.advance_ratio);
         if held * per_turn <= 0.0 {
             return None;
         }
@@ -266,7 +266,7 @@ impl LoadModel {
             *to = EngagedBin {
                 low: f64::from(from.low),
                 high: f64::from(from.high),
-                share: f64::from(from.share),
+                advance_ratio: f64::from(from.advance_ratio),
                 thickness: f64::from(from.thickness),
             };
             low = low.min(to.low);

@@ -7,7 +7,7 @@
 //! program is simulated once and not once for every feed.
 //!
 //! The uncertainty of the grid is on the safe side. The boundary of material is known to half a cell; the
-//! estimate `share` allows for that half cell, and the bound `share_bound` allows for a whole one. A sliver
+//! estimate `advance_ratio` allows for that half cell, and the bound `advance_ratio_bound` allows for a whole one. A sliver
 //! beside the flank that no column hits may be there wherever material is within a cell of the flank; `graze`
 //! holds its advance ratio. Feeds are made from the bounds, and reports show the estimates and the
 //! differences.
@@ -30,10 +30,10 @@ pub struct EngagementBin {
     pub high: f32,
     /// The largest advance ratio `v.n / |v|` of the contacts: the surface's speed along its normal, divided
     /// by the feed.
-    pub share: f32,
+    pub advance_ratio: f32,
     /// An upper bound of the true advance ratio, with everything that the grid may have missed.
-    pub share_bound: f32,
-    /// The radial part of the normal (1 on the flank, 0 on the bottom) at the contact of `share`.
+    pub advance_ratio_bound: f32,
+    /// The radial part of the normal (1 on the flank, 0 on the bottom) at the contact of `advance_ratio`.
     pub radial: f32,
     /// The largest thickness of the removed material along the normal, mm. A chip is never thicker.
     pub thickness: f32,
@@ -44,8 +44,8 @@ impl EngagementBin {
     pub const EMPTY: Self = Self {
         low: f32::INFINITY,
         high: f32::NEG_INFINITY,
-        share: 0.0,
-        share_bound: 0.0,
+        advance_ratio: 0.0,
+        advance_ratio_bound: 0.0,
         radial: 1.0,
         thickness: 0.0,
     };
@@ -55,9 +55,9 @@ impl EngagementBin {
         self.low = self.low.min(other.low);
         self.high = self.high.max(other.high);
         self.thickness = self.thickness.max(other.thickness);
-        self.share_bound = self.share_bound.max(other.share_bound);
-        if other.share > self.share {
-            self.share = other.share;
+        self.advance_ratio_bound = self.advance_ratio_bound.max(other.advance_ratio_bound);
+        if other.advance_ratio > self.advance_ratio {
+            self.advance_ratio = other.advance_ratio;
             self.radial = other.radial;
         }
     }
@@ -187,7 +187,7 @@ impl Engagement {
     /// Returns the largest advance ratio `v.n / |v|` over all contacts, where the v in the denominator is the
     /// tip's velocity. It is above 1 where a turning axis moves the surface faster than the tip.
     pub fn max_advance_ratio(&self) -> f64 {
-        self.bins.iter().map(|bin| f64::from(bin.share)).fold(0.0, f64::max)
+        self.bins.iter().map(|bin| f64::from(bin.advance_ratio)).fold(0.0, f64::max)
     }
 }
 

@@ -33,6 +33,12 @@ impl<'de> Deserialize<'de> for FilePath {
     }
 }
 
+impl serde::Serialize for FilePath {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&self.0)
+    }
+}
+
 struct FilePathVisitor;
 
 impl Visitor<'_> for FilePathVisitor {

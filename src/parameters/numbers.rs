@@ -75,7 +75,7 @@ number! {
 }
 number! {
     /// An angle in degrees, which may be any finite number.
-    Degrees, "an angle in degrees", |value| value.is_finite(), { }
+    Degrees, "an angle in degrees", |value| value.is_finite(), { "x-unit": "degrees" }
 }
 number! {
     /// A factor greater than 0.
@@ -86,17 +86,17 @@ number! {
     /// An angle in degrees between a line and a plane or an axis to which it is never perpendicular, for
     /// example a taper or the bottom of a cutter.
     Slope, "an angle from 0 to below 90 degrees", |value| (0.0..90.0).contains(&value),
-    { "minimum": 0, "exclusiveMaximum": 90 }
+    { "minimum": 0, "exclusiveMaximum": 90, "x-unit": "degrees" }
 }
 number! {
     /// The full point angle of a drill in degrees. A flat bottom has 180.
     PointAngle, "an angle above 0 and up to 180 degrees", |value| value > 0.0 && value <= 180.0,
-    { "exclusiveMinimum": 0, "maximum": 180 }
+    { "exclusiveMinimum": 0, "maximum": 180, "x-unit": "degrees" }
 }
 number! {
     /// The helix angle of teeth in degrees. It is negative for a left-hand helix.
     HelixAngle, "an angle between -90 and 90 degrees", |value| value.abs() < 90.0,
-    { "exclusiveMinimum": -90, "exclusiveMaximum": 90 }
+    { "exclusiveMinimum": -90, "exclusiveMaximum": 90, "x-unit": "degrees" }
 }
 
 /// Adds the conversion to radians to types of angles in degrees.

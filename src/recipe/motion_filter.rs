@@ -14,18 +14,22 @@ pub struct MotionFilter {
     /// Names of operations. `*` and `?` are wildcards.
     #[serde(default, deserialize_with = "deserialize_not_empty")]
     #[schemars(length(min = 1))]
+    #[schemars(extend("x-default" = "all"))]
     pub operations: Option<Vec<Glob>>,
     /// Numbers or names of tools.
     #[serde(default, deserialize_with = "deserialize_not_empty")]
     #[schemars(length(min = 1))]
+    #[schemars(extend("x-default" = "all"))]
     pub tools: Option<Vec<ToolPattern>>,
     /// Classes of motion.
     #[serde(default, deserialize_with = "deserialize_not_empty")]
     #[schemars(length(min = 1))]
+    #[schemars(extend("x-default" = "all"))]
     pub motions: Option<Vec<MotionClass>>,
     /// The range of the programmed feed, in the recipe's unit per minute. Motions without a feed do not
     /// match.
     #[serde(default, deserialize_with = "deserialize_feed_range")]
+    #[schemars(extend("x-default" = "any feed, and motions without one"))]
     pub feed: Option<FeedRange>,
     /// `true` for taps and thread passes alone, `false` for all but these. Their feed is the pitch times the
     /// spindle speed, so a step changes it only where `true` asks for it by name.
@@ -53,8 +57,10 @@ pub(super) fn default_required() -> bool {
 #[serde(deny_unknown_fields)]
 pub struct FeedRange {
     /// The lowest feed that matches, in the recipe's unit per minute.
+    #[schemars(extend("x-unit" = "the recipe's unit per minute", "x-default" = "no lowest feed"))]
     pub min: Option<NonNegative>,
     /// The highest feed that matches, in the recipe's unit per minute.
+    #[schemars(extend("x-unit" = "the recipe's unit per minute", "x-default" = "no highest feed"))]
     pub max: Option<Positive>,
 }
 

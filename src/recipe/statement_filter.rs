@@ -13,11 +13,13 @@ pub struct StatementFilter {
     /// Names of operations. `*` and `?` are wildcards. Statements before the first operation belong to it.
     #[serde(default, deserialize_with = "deserialize_not_empty")]
     #[schemars(length(min = 1))]
+    #[schemars(extend("x-default" = "all"))]
     pub operations: Option<Vec<Glob>>,
     /// Numbers or names of tools. The tool in force after the statement counts, so a LOAD/TOOL belongs to the
     /// tool that it loads.
     #[serde(default, deserialize_with = "deserialize_not_empty")]
     #[schemars(length(min = 1))]
+    #[schemars(extend("x-default" = "all"))]
     pub tools: Option<Vec<ToolPattern>>,
     /// Whether it is an error if nothing in the program fits; `false` for recipes that serve programs of
     /// which some have nothing to select.
@@ -53,6 +55,7 @@ pub struct OperationFilter {
     /// Names of operations. `*` and `?` are wildcards.
     #[serde(default, deserialize_with = "deserialize_not_empty")]
     #[schemars(length(min = 1))]
+    #[schemars(extend("x-default" = "all"))]
     pub operations: Option<Vec<Glob>>,
     /// Whether it is an error if nothing in the program fits; `false` for recipes that serve programs of
     /// which some have nothing to select.

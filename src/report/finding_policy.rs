@@ -84,7 +84,7 @@ pub enum FindingPolicyError {
     EndsRun(DiagnosticCode),
     /// The finding is about the run itself.
     #[error("{code} cannot be allowed, because it is always reported: {meaning}", code = .0, meaning = .0.meaning())]
-    AlwaysTold(DiagnosticCode),
+    AlwaysReported(DiagnosticCode),
     /// The code is in both lists.
     #[error("{0} is both denied and allowed")]
     DeniedAndAllowed(DiagnosticCode),
@@ -139,7 +139,7 @@ impl FindingPolicy {
                 return Err(FindingPolicyError::EndsRun(code));
             }
             if NEVER_SILENT.contains(&code) {
-                return Err(FindingPolicyError::AlwaysTold(code));
+                return Err(FindingPolicyError::AlwaysReported(code));
             }
             if policy.deny.contains(&code) {
                 return Err(FindingPolicyError::DeniedAndAllowed(code));

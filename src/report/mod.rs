@@ -18,6 +18,7 @@ pub mod path_drawing;
 pub mod plot;
 pub mod render;
 mod rounding;
+mod schema_wording;
 pub mod simulation;
 pub mod starter_files;
 pub mod stats;

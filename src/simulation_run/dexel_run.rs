@@ -1,7 +1,7 @@
 //! This module runs a program over its stock of columns.
 
 use super::faults::FaultCollector;
-use super::{Machining, RunWatcher, SimulationRunOptions};
+use super::{Machining, RunPhase, RunWatcher, SimulationRunOptions};
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::engagement::{Engagement, MotionPiece, PathLinearizer, PathPiece, Simulation};
 use crate::program::motion::Motion;
@@ -70,6 +70,7 @@ impl Machining<'_> {
         watch: &dyn RunWatcher,
         sink: &mut dyn FnMut(&EngagedMotion<'_>),
     ) -> Result<DexelRunResult, Failure> {
+        watch.begin_phase(RunPhase::Simulating);
         let plan = self.estimate_cost(&options.within_limits(watch))?;
         // The estimate has already compared the number of columns with the budget, so no limit is needed
         // here.

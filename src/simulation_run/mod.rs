@@ -22,7 +22,7 @@ pub(crate) use dexel_run::chord_tolerance_mm;
 pub use dexel_run::{DexelRunResult, EngagedMotion};
 pub(crate) use engagement_model::{EngagementModel, EngagementRunResult, StockResolution};
 pub use tooling::{NeededTools, Tooling};
-pub use watcher::{RunWatcher, SilentWatcher};
+pub use watcher::{RunPhase, RunWatcher, SilentWatcher};
 
 use crate::cutter::CutterModel;
 use crate::diagnostic::{Diagnostic, Failure};
@@ -85,11 +85,13 @@ impl SimulationRunOptions {
         self
     }
 
-    /// Lowers the budget of memory to what the watcher of a run allows.
+    /// Takes the memory that the watcher of a run allows as the budget. A budget that the caller chose is only
+    /// lowered to it.
     #[must_use]
     pub fn within_limits(mut self, watch: &dyn RunWatcher) -> Self {
         if let Some(most) = watch.memory_limit_bytes() {
-            self.budget.bytes = self.budget.bytes.min(most);
+            let chosen = self.budget != SimulationBudget::default();
+            self.budget.bytes = if chosen { self.budget.bytes.min(most) } else { most };
         }
         self
     }

@@ -2,8 +2,48 @@
 
 use crate::diagnostic::Failure;
 
+/// A part of the work on a program. Parts may come again: a step that proves its result simulates twice.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum RunPhase {
+    /// The text is read and checked.
+    Reading,
+    /// A step of a recipe begins. Steps are counted from 0.
+    Step {
+        /// The index of the step.
+        index: usize,
+        /// The number of steps of the recipe.
+        count: usize,
+    },
+    /// Stock is removed motion by motion.
+    Simulating,
+    /// New feeds are planned.
+    Planning,
+    /// The corrected program is read back and compared.
+    Checking,
+    /// Outputs are written.
+    Writing,
+}
+
+impl RunPhase {
+    /// Returns the word for people: `simulating`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Reading => "reading",
+            Self::Step { .. } => "correcting",
+            Self::Simulating => "simulating",
+            Self::Planning => "planning",
+            Self::Checking => "checking",
+            Self::Writing => "writing",
+        }
+    }
+}
+
 /// A caller that watches a run.
 pub trait RunWatcher: Sync {
+    /// Learns that another part of the work begins.
+    fn begin_phase(&self, _phase: RunPhase) {}
+
     /// Gets the length of the path that is done and the whole length, in mm, from time to time.
     fn report_progress(&self, done: f64, whole: f64);
 

@@ -21,16 +21,26 @@ use serde::Deserialize;
 ///
 /// A changed feed is rounded to the allowed side of the limit. The step is idempotent: a second run changes
 /// nothing.
+///
+/// ```yaml
+/// version: 1
+/// units: mm
+/// steps:
+///   - clamp_feed: { min: 50, max: 600 }
+/// ```
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ClampFeed {
     /// The lowest feed, in the recipe's unit per minute.
+    #[schemars(extend("x-unit" = "the recipe's unit per minute", "x-default" = "no lowest feed"))]
     pub min: Option<Positive>,
     /// The highest feed, in the recipe's unit per minute. Without it, the machine's `max_feed` from the setup
     /// counts.
+    #[schemars(extend("x-unit" = "the recipe's unit per minute", "x-default" = "the max_feed of the machine"))]
     pub max: Option<Positive>,
     /// Which motions are meant; all of them when it is left out.
     #[serde(default)]
+    #[schemars(extend("x-default" = "the whole program"))]
     pub r#where: MotionFilter,
 }
 

@@ -6,7 +6,7 @@ use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::{LengthUnit, Program};
 use crate::recipe::{Provenance, YamlPathSegment};
 use crate::setup::Setup;
-use crate::simulation_run::{RunWatcher, SilentWatcher};
+use crate::simulation_run::{RunPhase, RunWatcher, SilentWatcher};
 
 /// The result of a recipe for a program.
 #[derive(Debug)]
@@ -119,6 +119,7 @@ impl StepSequence<'_> {
         for (index, step) in self.steps.iter().enumerate() {
             context.step = step_id(index);
             self.watch.check_stop()?;
+            self.watch.begin_phase(RunPhase::Step { index, count: self.steps.len() });
             let earlier = context.findings.len();
             let threads = thread_pitches::find_thread_pitches(&program);
             let applied = step.apply(program, &mut context);

@@ -19,13 +19,22 @@ use serde::Deserialize;
 /// one before it, and the programmed feed returns after it.
 ///
 /// The step is not idempotent: a second run multiplies again.
+///
+/// ```yaml
+/// version: 1
+/// steps:
+///   # Ramps and leads into the material run at half the feed.
+///   - scale_feed: { factor: 0.5, where: { motions: [engage] } }
+/// ```
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ScaleFeed {
     /// The factor by which feeds are multiplied, above 0. For example, 0.8 makes them a fifth slower.
+    #[schemars(extend("x-unit" = "none (times the programmed feed)"))]
     pub factor: Factor,
     /// Which motions are meant; all of them when it is left out.
     #[serde(default)]
+    #[schemars(extend("x-default" = "the whole program"))]
     pub r#where: MotionFilter,
 }
 

@@ -30,7 +30,7 @@ fn straight() -> [PathPiece; 2] {
 }
 
 fn bound(found: &Engagement) -> f64 {
-    found.bins.iter().map(|bin| f64::from(bin.share_bound)).fold(found.graze, f64::max)
+    found.bins.iter().map(|bin| f64::from(bin.advance_ratio_bound)).fold(found.graze, f64::max)
 }
 
 /// Degrees of the middles of the bins engaged.
@@ -58,7 +58,7 @@ fn a_slot_engages_half_a_turn_and_all_of_the_feed() {
     assert!(directions.iter().all(|at| at.abs() < 90.0) && directions.len() >= 58, "{directions:?}");
     for (at, bin) in directions.iter().zip(found.engaged_bins()) {
         let [most, least] = [at.abs() - 1.5, at.abs() + 1.5].map(|at| at.to_radians().cos());
-        let [share, bound] = [bin.share, bin.share_bound].map(f64::from);
+        let [share, bound] = [bin.advance_ratio, bin.advance_ratio_bound].map(f64::from);
         assert!(share >= least - 0.01 && share <= most + 0.01, "{at}: {share} of {least}..{most}");
         assert!(bound >= most - 0.03 && bound <= most + 0.06, "{at}: {bound} of {most}");
         // Heights from the tip to the upper side of the stock, as lengths along the meridian.
@@ -216,8 +216,8 @@ proptest! {
         let error = ShareError::new(0.1, 0.1, &pieces[1]);
         for (index, bin) in dexels.bins.iter().enumerate().filter(|(_, bin)| bin.is_engaged() && bin.thickness >= 0.1) {
             let direction = 3.0 * index as f64 - 178.5;
-            let least = f64::from(bin.share) - error.upward(direction, bin, dexels.height_mm[1]);
-            prop_assert!(least <= bound(layers), "{direction}: dexels {}, at least {least}; layers {}..{}", bin.share, layers.max_advance_ratio(), bound(layers));
+            let least = f64::from(bin.advance_ratio) - error.upward(direction, bin, dexels.height_mm[1]);
+            prop_assert!(least <= bound(layers), "{direction}: dexels {}, at least {least}; layers {}..{}", bin.advance_ratio, layers.max_advance_ratio(), bound(layers));
         }
         // A bound holds what the turn does over the arc of a sample and half a layer.
         let close = 0.1 * (1.0 + layers.max_advance_ratio()) + 0.3 * turn / layers.length_mm;

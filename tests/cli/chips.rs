@@ -24,7 +24,7 @@ fn text(bytes: &[u8]) -> String {
 fn every_output_is_written() {
     let folder = job();
     let outputs =
-        ["--csv", "a.csv", "--json", "a.json", "--stl", "a.stl", "--svg", "a.svg", "--diagram", "b.svg"];
+        ["--csv", "a.csv", "--json", "a.json", "--stl", "a.stl", "--plot", "a.svg", "--diagram", "b.svg"];
     let done = run(folder.path(), &outputs).success();
     assert_eq!(
         names(folder.path()),
@@ -60,7 +60,7 @@ fn the_same_bytes_whatever_the_threads() {
     let folder = job();
     for threads in ["1", "3"] {
         let (csv, svg) = (format!("{threads}.csv"), format!("{threads}.svg"));
-        run(folder.path(), &["--threads", threads, "--csv", &csv, "--svg", &svg, "-q"])
+        run(folder.path(), &["--threads", threads, "--csv", &csv, "--plot", &svg, "-q"])
             .success()
             .stdout("")
             .stderr("");
@@ -89,11 +89,11 @@ fn an_error_is_in_all_outputs_and_in_the_exit_code() {
 #[test]
 fn a_height_with_nothing_to_draw_is_an_error() {
     let folder = job();
-    let done = run(folder.path(), &["--svg", "a.svg", "--at", "-5"]).code(1);
+    let done = run(folder.path(), &["--plot", "a.svg", "--at", "-5"]).code(1);
     let shown = text(&done.get_output().stderr);
     assert!(shown.contains("CL0525") && shown.contains("at z -5"), "{shown}");
     assert!(!folder.path().join("a.svg").exists());
-    run(folder.path(), &["--svg", "a.svg", "--at", "-0.3"]).success();
+    run(folder.path(), &["--plot", "a.svg", "--at", "-0.3"]).success();
 }
 
 #[test]

@@ -48,7 +48,7 @@ fn assert_others_are_done(folder: &Path, out: &str) {
 fn batch_goes_on_with_the_next_file() {
     let folder = shop();
     let done = unlucky(folder.path())
-        .args(["batch", "--recipe", "recipe.yaml", "--out", "out", "in/*.cls"])
+        .args(["batch", "--recipe", "recipe.yaml", "--output", "out", "in/*.cls"])
         .assert()
         .code(1);
     assert_defect_is_told(&done);
@@ -61,7 +61,7 @@ fn batch_goes_on_with_the_next_file() {
 #[test]
 fn watch_goes_on_with_the_next_file_and_moves_the_unlucky_one_aside() {
     let folder = shop();
-    let args = ["watch", "in", "--recipe", "recipe.yaml", "--out", "out", "--once", "*.cls"];
+    let args = ["watch", "in", "--recipe", "recipe.yaml", "--output", "out", "--once", "*.cls"];
     let pace = ["--settle", "0.1", "--poll", "0.05", "--log", "log.jsonl"];
     let done = unlucky(folder.path()).args(args).args(pace).assert().code(1);
     assert_defect_is_told(&done);

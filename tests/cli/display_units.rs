@@ -60,7 +60,7 @@ const COMMANDS: [(&str, &[&str]); 6] = [
         &["s.csv", "s.json", "s.svg", "s.html", "s.md"],
     ),
     (
-        "chips part.cls --setup shop.yaml --layer 0.5 --csv c.csv --json c.json --svg c.svg",
+        "chips part.cls --setup shop.yaml --layer 0.5 --csv c.csv --json c.json --plot c.svg",
         &["c.csv", "c.json", "c.svg"],
     ),
     ("plot part.cls --setup shop.yaml --of feed,chip,removal,z -o p.svg", &["p.svg"]),

@@ -101,8 +101,8 @@ fn an_empty_export_is_refused_by_every_command() {
     for (args, exit) in [
         (&["check", "part.apt"][..], 1),
         (&["apply", "recipe.yaml", "part.apt", "-o", "out.apt"], 1),
-        (&["batch", "--recipe", "recipe.yaml", "--out", "done", "part.apt"], 1),
-        (&["watch", "watched", "--recipe", "recipe.yaml", "--out", "out", "--once", "*.apt"], 1),
+        (&["batch", "--recipe", "recipe.yaml", "--output", "done", "part.apt"], 1),
+        (&["watch", "watched", "--recipe", "recipe.yaml", "--output", "out", "--once", "*.apt"], 1),
         (&["hook", "--recipe", "recipe.yaml", "part.apt", "--", "cp", "{}", "posted"], 125),
     ] {
         let done = clsmith(at).args(args).output().unwrap();

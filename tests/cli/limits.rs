@@ -75,7 +75,7 @@ fn a_program_that_takes_too_long_is_an_error_and_not_written() {
     let done = clsmith(folder.path()).args(apply).args(limit).assert().code(1);
     assert!(stderr(&done).contains("CL0441"), "{}", stderr(&done));
     assert!(!folder.path().join("out.cls").exists());
-    let batch = ["batch", "--recipe", "recipe.yaml", "--out", "done", "*.cls"];
+    let batch = ["batch", "--recipe", "recipe.yaml", "--output", "done", "*.cls"];
     clsmith(folder.path()).args(batch).args(limit).assert().code(1);
     let results = fs::read_to_string(folder.path().join("done/results.jsonl")).unwrap();
     assert!(results.contains("CL0441"), "{results}");

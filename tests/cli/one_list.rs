@@ -291,7 +291,7 @@ fn unattended_commands(at: &Path, policy: &[&str], expected: &Told, case: &str) 
 
     let _ = fs::remove_dir_all(at.join("done"));
     let (exit, _, human) =
-        run(at, &[&["batch", "--recipe", "recipe.yaml", "--out", "done", "part.apt"], policy].concat());
+        run(at, &[&["batch", "--recipe", "recipe.yaml", "--output", "done", "part.apt"], policy].concat());
     assert_eq!(exit, i32::from(expected.errors > 0), "batch, {case}: {human}");
     let results = fs::read_to_string(at.join("done/results.jsonl")).unwrap();
     let records = results.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
@@ -314,7 +314,7 @@ fn unattended_commands(at: &Path, policy: &[&str], expected: &Told, case: &str) 
         "watched",
         "--recipe",
         "recipe.yaml",
-        "--out",
+        "--output",
         "out",
         "--once",
         "--log",
@@ -389,7 +389,7 @@ fn a_file_is_not_what_its_ending_does_not_promise() {
         [&apply[..], &["--dry-run", "--summary", "a.html"]].concat(),
         [&simulate[..], &["--csv", "a.json"]].concat(),
         [&simulate[..], &["--save-stock", "a.stl"]].concat(),
-        [&chips[..], &["--svg", "a.png"]].concat(),
+        [&chips[..], &["--plot", "a.pdf"]].concat(),
     ] {
         let (exit, _, said) = run(at, &args);
         assert_eq!(exit, 2, "{args:?}: {said}");

@@ -101,7 +101,7 @@ fn hook_and_batch_write_the_same_comments_as_apply() {
     let run = |args: &[&str]| clsmith(folder.path()).args(args).assert().success();
     run(&["apply", "recipe.yaml", "part.cls", "-o", "apply.cls", "-q"]);
     run(&["hook", "--recipe", "recipe.yaml", "--keep", "hook.cls", "-q", "part.cls", "--", "true", "{}"]);
-    run(&["batch", "--recipe", "recipe.yaml", "--out", "done", "part.cls", "-q"]);
+    run(&["batch", "--recipe", "recipe.yaml", "--output", "done", "part.cls", "-q"]);
     let apply = read(folder.path(), "apply.cls");
     assert_eq!(read(folder.path(), "hook.cls"), apply);
     assert_eq!(read(folder.path(), "done/part.cls"), apply);
@@ -173,7 +173,8 @@ fn a_batch_makes_room_for_comments() {
         let recipe =
             format!("version: 1\nprovenance: {provenance}\nsteps: [{{ scale_feed: {{ factor: 0.5 }} }}]\n");
         std::fs::write(folder.path().join("recipe.yaml"), recipe).unwrap();
-        let args = ["batch", "--recipe", "recipe.yaml", "--out", provenance, "--memory", "16MB", "part.apt"];
+        let args =
+            ["batch", "--recipe", "recipe.yaml", "--output", provenance, "--memory", "16MB", "part.apt"];
         let done = clsmith(folder.path()).args(args).assert().success();
         String::from_utf8_lossy(&done.get_output().stderr).contains("CL0425")
     };

@@ -36,7 +36,7 @@ fn once(folder: &Path, options: &[&str]) -> Command {
 
 fn once_settling(seconds: &str, folder: &Path, options: &[&str]) -> Command {
     let mut command = clsmith(folder);
-    command.args(["watch", "exports", "--out", "out", "--once", "--settle", seconds, "--poll", "0.05"]);
+    command.args(["watch", "exports", "--output", "out", "--once", "--settle", seconds, "--poll", "0.05"]);
     command.args(["--log", "log.jsonl"]).args(options);
     command
 }
@@ -70,7 +70,7 @@ fn start(folder: &Path) -> Child {
 fn start_settling(seconds: &str, folder: &Path) -> Child {
     std::process::Command::new(env!("CARGO_BIN_EXE_clsmith"))
         .current_dir(folder)
-        .args(["watch", "exports", "--recipe", "recipe.yaml", "--out", "out"])
+        .args(["watch", "exports", "--recipe", "recipe.yaml", "--output", "out"])
         .args(["--log", "log.jsonl", "--settle", seconds, "--poll", "0.05", "*.cls"])
         .stderr(Stdio::null())
         .spawn()
@@ -268,12 +268,12 @@ fn a_pipe_with_the_right_name_is_left_alone() {
 fn folders_stand_side_by_side() {
     let folder = shop();
     for options in [
-        &["--out", "exports"][..],
-        &["--out", "exports/out"],
-        &["--out", "."],
-        &["--out", "out", "--refused", "exports/refused"],
-        &["--out", "out", "--state", "exports/state"],
-        &["--out", "out", "--log", "exports/log.cls"],
+        &["--output", "exports"][..],
+        &["--output", "exports/out"],
+        &["--output", "."],
+        &["--output", "out", "--refused", "exports/refused"],
+        &["--output", "out", "--state", "exports/state"],
+        &["--output", "out", "--log", "exports/log.cls"],
     ] {
         let mut command = clsmith(folder.path());
         command.args(["watch", "exports", "--once", "--recipe", "recipe.yaml", "*.cls"]).args(options);
@@ -283,8 +283,10 @@ fn folders_stand_side_by_side() {
     }
     assert!(!folder.path().join("out").exists());
     let mut command = clsmith(folder.path());
-    let done =
-        command.args(["watch", "nowhere", "--out", "out", "--recipe", "recipe.yaml", "*"]).assert().code(1);
+    let done = command
+        .args(["watch", "nowhere", "--output", "out", "--recipe", "recipe.yaml", "*"])
+        .assert()
+        .code(1);
     assert!(stderr(&done).contains("CL0401"), "{}", stderr(&done));
 }
 
@@ -297,7 +299,7 @@ fn a_folder_has_one_watch() {
     assert!(stderr(&done).contains("CL0418"), "{}", stderr(&done));
     // Another folder for outputs does not help.
     let mut command = clsmith(folder.path());
-    command.args(["watch", "exports", "--out", "other", "--once", "--recipe", "recipe.yaml", "*.cls"]);
+    command.args(["watch", "exports", "--output", "other", "--once", "--recipe", "recipe.yaml", "*.cls"]);
     assert!(stderr(&command.assert().code(1)).contains("CL0418"));
     stop(child);
     recipe(folder.path(), "*.cls").assert().code(0);
@@ -372,7 +374,7 @@ fn files_that_cannot_be_read_and_folders_that_cannot_be_written_are_told() {
     };
     let run = || {
         let mut command = Command::from_std(super::as_anybody(folder.path()));
-        command.args(["watch", "exports", "--out", "out", "--once", "--settle", "0.1", "--poll", "0.05"]);
+        command.args(["watch", "exports", "--output", "out", "--once", "--settle", "0.1", "--poll", "0.05"]);
         command.args(["--recipe", "recipe.yaml", "*.cls"]).assert()
     };
     fs::create_dir(folder.path().join("out")).unwrap();
@@ -395,7 +397,7 @@ fn a_full_disk_leaves_nothing_half_written() {
     fs::write(folder.path().join("exports/long.cls"), &long).unwrap();
     // A limit on the size of files is a full disk that needs no disk.
     let command = format!(
-        "ulimit -f 64; trap '' XFSZ; exec '{}' watch exports --out out --once --settle 0.1 --recipe recipe.yaml '*.cls'",
+        "ulimit -f 64; trap '' XFSZ; exec '{}' watch exports -o out --once --settle 0.1 --recipe recipe.yaml '*.cls'",
         env!("CARGO_BIN_EXE_clsmith")
     );
     let mut shell = Command::new("bash");
@@ -485,11 +487,11 @@ fn ctrl_c_ends_a_watch() {
 fn the_watchs_command_line_is_checked() {
     let folder = shop();
     let run = |args: &[&str]| clsmith(folder.path()).arg("watch").args(args).assert().code(2);
-    run(&["exports", "--out", "out", "*.cls"]);
+    run(&["exports", "--output", "out", "*.cls"]);
     run(&["exports", "--recipe", "recipe.yaml", "*.cls"]);
-    run(&["exports", "--out", "out", "--recipe", "recipe.yaml", "[.cls"]);
-    run(&["exports", "--out", "out", "--recipe", "recipe.yaml", "--settle", "-1", "*.cls"]);
-    run(&["exports", "--out", "out", "--recipe", "recipe.yaml", "--allow", "CL0419", "*.cls"]);
+    run(&["exports", "--output", "out", "--recipe", "recipe.yaml", "[.cls"]);
+    run(&["exports", "--output", "out", "--recipe", "recipe.yaml", "--settle", "-1", "*.cls"]);
+    run(&["exports", "--output", "out", "--recipe", "recipe.yaml", "--allow", "CL0419", "*.cls"]);
 }
 
 #[test]

@@ -48,7 +48,7 @@ fn radial_depths_from_a_twentieth_to_the_whole_diameter() {
                 "{share}: {} not in {low}..{high}",
                 found.max_advance_ratio()
             );
-            let bound = found.bins.iter().map(|bin| bin.share_bound).fold(0.0, f32::max);
+            let bound = found.bins.iter().map(|bin| bin.advance_ratio_bound).fold(0.0, f32::max);
             assert!(f64::from(bound) >= classic(depth) - 1e-6, "the bound holds");
             near(found.removed_mm3, 10.0 * depth * 3.0, 10.0 * 3.0 * CELL);
             let [right, left] = found.lateral_mm;
@@ -79,7 +79,7 @@ fn a_ramp_cuts_with_flank_and_bottom() {
     near(found[0].max_advance_ratio(), slope.cos(), 1e-3);
     let bottom = found[0].bins.iter().filter(|bin| bin.is_engaged() && bin.radial < 0.5);
     for bin in bottom {
-        near(f64::from(bin.share), slope.sin(), 1e-6);
+        near(f64::from(bin.advance_ratio), slope.sin(), 1e-6);
     }
     // Behind the axis only the bottom cuts.
     assert!(found[0].bins[..28].iter().any(|bin| bin.is_engaged() && bin.radial == 0.0));

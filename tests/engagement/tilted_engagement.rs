@@ -51,7 +51,7 @@ fn a_lead_angle_shares_feed_between_flank_and_bottom() {
             .bins
             .iter()
             .filter(|bin| bin.is_engaged() && bin.radial < 0.1)
-            .map(|bin| f64::from(bin.share))
+            .map(|bin| f64::from(bin.advance_ratio))
             .collect();
         for share in &bottom {
             near(*share, if lead < 0.0 { angle.sin() } else { 0.0 }, 1e-6);
@@ -98,7 +98,7 @@ fn radial_depth_of_a_tilted_flank() {
             "{depth}: {share}, {}",
             classic(depth)
         );
-        let bound = found[1].bins.iter().map(|bin| f64::from(bin.share_bound)).fold(0.0, f64::max);
+        let bound = found[1].bins.iter().map(|bin| f64::from(bin.advance_ratio_bound)).fold(0.0, f64::max);
         assert!(bound >= classic(depth) - 1e-6);
     }
 }

@@ -25,7 +25,7 @@ fn nx_colours_are_classes() {
     .concat();
     let found = clean_motions(&program(&text));
     assert_eq!(classes(&program(&text)), [Approach, Rapid, Engage, Cut, StepOver, Retract, Retract]);
-    assert!(found.iter().all(|motion| motion.class_is_told));
+    assert!(found.iter().all(|motion| motion.class_is_stated));
 }
 
 #[test]
@@ -39,7 +39,7 @@ fn a_rapid_never_cuts_and_a_feed_move_is_never_rapid_whatever_the_colour() {
     let text = "GOTO/0,0,0\nPAINT/COLOR,31\nRAPID\nGOTO/1,0,0\nPAINT/COLOR,42\nRAPID\nGOTO/2,0,0\nPAINT/COLOR,211\nGOTO/3,0,0\n";
     let found = clean_motions(&program(text));
     assert_eq!(found.iter().map(|motion| motion.class).collect::<Vec<_>>()[1..], [Rapid, Rapid, Cut]);
-    assert!(found[1..].iter().all(|motion| !motion.class_is_told));
+    assert!(found[1..].iter().all(|motion| !motion.class_is_stated));
 }
 
 #[test]

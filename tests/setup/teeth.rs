@@ -1,6 +1,6 @@
 //! Teeth: pitch and runout.
 
-use super::{close, good};
+use super::{close, good, load};
 use clsmith::cutter::Teeth;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -52,4 +52,19 @@ fn a_list_of_runout_is_of_each_tooth_and_in_the_files_unit() {
     }
     close(found.pitch_angles_rad()[0], FRAC_PI_2);
     close(found.helix_rad, -9_f64.to_radians());
+}
+
+#[test]
+fn flutes_are_the_number_of_teeth_as_nx_calls_it() {
+    let counts = ["teeth: 4", "flutes: 4"].map(|key| {
+        let setup = good(&format!("tools: [ {{ match: {{}}, {key}, flute_length: 25 }} ]"));
+        setup.tools[0].teeth.as_ref().map(|teeth| teeth.count())
+    });
+    assert_eq!(counts, [Some(4), Some(4)]);
+    let found = load("tools:\n  - match: {}\n    flutes: 4\n    teeth: 3\n").unwrap_err();
+    assert!(found.iter().any(|found| found.message.contains("given twice")), "{found:?}");
+    // A length with the word for a number of teeth is no length.
+    assert!(load("tools: [ { match: {}, flutes: 25.4 } ]").is_err());
+    let many = load("tools:\n  - match: {}\n    flutes: 5000\n").unwrap_err();
+    assert_eq!(many[0].labels[0].span.to_range(), 33..37, "{many:?}");
 }

@@ -90,7 +90,7 @@ soon ended "$merge"
 tail -n +1 clsmith-*.log
 
 # A whole run without Slurm has the same results and outputs.
-clsmith batch jobs.yaml --out alone --quiet 2>/dev/null && failed "the broken program was not found"
+clsmith batch jobs.yaml -o alone --quiet 2>/dev/null && failed "the broken program was not found"
 cmp done/results.jsonl alone/results.jsonl
 diff --recursive --exclude='.clsmith-batch*' --exclude='results-*' done alone
 

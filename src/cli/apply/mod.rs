@@ -9,9 +9,10 @@ use super::command_outputs::{CommandOutputs, refuse_overwritten_input};
 use super::display_args::DisplayArgs;
 use super::finding_args::FindingArgs;
 use super::input_files::{self, LoadedRecipe, STANDARD};
-use super::progress::CommandProgress;
+use super::output_args::JsonArgs;
+use super::progress::{CommandProgress, ProgressArgs};
 use super::report_args::ReportArgs;
-use super::run_limits::{MemoryLimitArgs, TimeLimitArgs};
+use super::run_limits::LimitArgs;
 use super::terminal;
 use crate::cli::stop::Stop;
 use clap::Args;
@@ -22,6 +23,7 @@ use clsmith::parse::parse_with_vocabulary;
 use clsmith::program::{Dialect, Program};
 use clsmith::recipe::Provenance;
 use clsmith::report::unified_diff;
+use clsmith::simulation_run::{RunPhase, RunWatcher};
 use clsmith::source::Source;
 use outputs::{ApplyOutcome, ApplyRun, write_program};
 use std::io::{self, Write};
@@ -40,6 +42,8 @@ Examples:
                                                      what changed, to look at and for a merge request
   clsmith apply recipe.yaml part.cls -o out.cls --provenance comments --json out.json
                                                      what changed, in the program itself; `undo` needs out.json
+  clsmith apply recipe.yaml part.cls --dry-run --json | jq .changes
+                                                     what would change, for programs
 
 Every output appears whole or not at all, and never over an input. With several inputs each stands for
 itself: those with errors are not written, the others are, and the exit code is 1.";
@@ -67,25 +71,21 @@ pub(super) struct ApplyArgs {
     plot: Option<PathBuf>,
     #[command(flatten)]
     reports: ReportArgs,
-    /// What changed as JSON, with everything that `clsmith undo` needs to restore the original
-    #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
-    /// What the output states about the run, in comments: none, header or comments. It overrides the recipe
-    #[arg(long, value_parser = input_files::parse_provenance, value_name = "WHAT")]
+    #[command(flatten)]
+    json: JsonArgs,
+    /// What the output states about the run, in comments. It overrides the recipe
+    #[arg(long, value_parser = input_files::provenance_parser(), value_name = "WHAT")]
     provenance: Option<Provenance>,
     /// A setup file. It overrides the recipe's setup
     #[arg(long, value_name = "FILE")]
     setup: Option<PathBuf>,
     /// The dialect, instead of finding it from the text
-    #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
+    #[arg(long, value_parser = input_files::dialect_parser(), value_name = "NAME")]
     dialect: Option<Dialect>,
-    /// Say nothing but findings
-    #[arg(short, long)]
-    quiet: bool,
     #[command(flatten)]
-    memory: MemoryLimitArgs,
+    progress: ProgressArgs,
     #[command(flatten)]
-    time: TimeLimitArgs,
+    limits: LimitArgs,
     #[command(flatten)]
     display: DisplayArgs,
     #[command(flatten)]
@@ -101,7 +101,7 @@ impl ApplyArgs {
             loaded.map_err(|failure| Stop::from(failure).about(&self.recipe))?;
         recipe.provenance = self.provenance.unwrap_or(recipe.provenance);
         // The fingerprint reads models and stock once more, so it is only computed if it is needed.
-        let needed = self.json.is_some() || recipe.provenance != Provenance::None;
+        let needed = self.json.is_wanted() || recipe.provenance != Provenance::None;
         let wanted = needed || self.reports.is_wanted();
         let print = match wanted.then(|| RecipeFingerprint::read_files(&texts, &recipe, &setup)).transpose() {
             Ok(print) => print,
@@ -112,8 +112,8 @@ impl ApplyArgs {
         // The first one is the recipe.
         let setup_files = texts.get(1..).unwrap_or_default();
         let outputs = CommandOutputs::default();
-        let progress =
-            CommandProgress::with_limits(self.quiet, outputs.interrupt(), self.memory.with_time(self.time));
+        self.limits.threads().start_threads()?;
+        let progress = CommandProgress::new(self.progress, outputs.interrupt(), self.limits.of_run());
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
         let job = CorrectionJob::new(&recipe, &setup, &policy)
             .with_print(print.as_ref())
@@ -153,9 +153,7 @@ impl ApplyArgs {
         self.find_wrong_ending(target.as_deref()).map_or(Ok(()), |wrong| Err(Stop::Usage(wrong)))?;
         let source = input_files::read_source(input)?;
         progress.check_size(&source)?;
-        let corrected = job.correct_source(&source);
-        progress.clear_bar();
-        let outcome = match corrected {
+        let outcome = match job.correct_source(&source) {
             Ok(JobOutcome { program, findings, reports }) => ApplyOutcome { program, findings, reports },
             Err(Failure::Interrupted) => return Err(Stop::Interrupted),
             // Analysis of a refused program is still wanted: it shows what is wrong with it.
@@ -178,7 +176,10 @@ impl ApplyArgs {
         outputs: &CommandOutputs,
         progress: &CommandProgress,
     ) -> Result<(), Stop> {
-        let simulated = self.simulate_for_reports(run, progress)?;
+        let simulated = self.simulate_for_reports(run, progress);
+        progress.begin_phase(RunPhase::Writing);
+        progress.clear_bar();
+        let simulated = simulated?;
         let findings = &run.outcome.findings;
         let refused = findings.iter().any(Diagnostic::is_error);
         if !findings.is_empty() {
@@ -191,7 +192,7 @@ impl ApplyArgs {
         // The program comes last: one that was replaced without its report could not be undone.
         self.write_side_outputs(run, simulated.as_ref(), target, outputs)?;
         if refused {
-            if !self.quiet {
+            if !self.progress.quiet {
                 eprintln!("{}: {}", run.source.name(), self.describe_refusal());
             }
             return Err(Stop::Exit(CommandExit::Errors));
@@ -199,7 +200,7 @@ impl ApplyArgs {
         if let Some(target) = target {
             write_program(&run.outcome.program, target, outputs)?;
         }
-        if !self.quiet {
+        if !self.progress.quiet {
             ignore_closed_pipe(self.show_summary(run, target))?;
         }
         Ok(())

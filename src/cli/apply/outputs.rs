@@ -95,11 +95,9 @@ impl ApplyArgs {
         if !self.reports.is_wanted() {
             return Ok(None);
         }
-        progress.begin_bar(&format!("{}: report", run.source.name()));
         let before = run.parse_original();
         let options = SimulationRunOptions::default();
         let runs = ComparisonRuns::simulate_subject(&run.report_subject(&before, None), &options, progress);
-        progress.clear_bar();
         let runs = runs?;
         if let Some(simulated) = &runs.after {
             run.outcome.findings.extend(run.job.policy.apply(simulated.findings.clone()));
@@ -117,7 +115,7 @@ impl ApplyArgs {
         target: Option<&Path>,
         outputs: &CommandOutputs,
     ) -> Result<(), Stop> {
-        if let (Some(path), Some(print)) = (&self.json, run.job.print) {
+        if let (Some(path), Some(print)) = (self.json.path(), run.job.print) {
             self.write_run_report(path, run, print, target, outputs)?;
         }
         if let Some(path) = &self.plot {
@@ -157,7 +155,7 @@ impl ApplyArgs {
     ) -> Result<(), Stop> {
         let panels: Vec<_> = reports.iter().flat_map(|report| report.build_panels(units)).collect();
         let Some(text) = path_drawing::draw_path_panels(&panels)? else {
-            if !self.quiet {
+            if !self.progress.quiet {
                 eprintln!("{}: not drawn, because no step has a drawing", path.display());
             }
             return Ok(());

@@ -70,14 +70,14 @@ impl ApplyArgs {
         let wrong = find_wrong_ending([
             ("-o", target, OutputContent::Program),
             ("--plot", self.plot.as_deref(), OutputContent::Drawing),
-            ("--json", self.json.as_deref(), OutputContent::Json),
+            ("--json", self.json.path(), OutputContent::Json),
         ]);
         wrong.or_else(|| self.reports.find_wrong_ending())
     }
 
     /// Options beside those of reports that name a file to write.
     pub(super) fn named_outputs(&self) -> impl Iterator<Item = (&'static str, &Path)> {
-        let both = [("--plot", &self.plot), ("--json", &self.json)];
-        both.into_iter().filter_map(|(name, path)| Some((name, path.as_deref()?)))
+        let both = [("--plot", self.plot.as_deref()), ("--json", self.json.path())];
+        both.into_iter().filter_map(|(name, path)| Some((name, path?)))
     }
 }

@@ -10,7 +10,8 @@ use super::command_exit::CommandExit;
 use super::command_outputs::{CommandOutputs, print_summary};
 use super::finding_args::FindingArgs;
 use super::input_files::{self, LoadedRecipe, STANDARD};
-use super::run_limits::TimeLimitArgs;
+use super::progress::ProgressArgs;
+use super::run_limits::LimitArgs;
 use super::terminal;
 use crate::cli::stop::Stop;
 use bytesize::ByteSize;
@@ -26,16 +27,15 @@ use clsmith::output_files::is_same_file;
 use clsmith::program::Dialect;
 use progress::BatchProgress;
 use std::io;
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 const EXAMPLES: &str = "\
 Examples:
-  clsmith batch --recipe recipe.yaml --out done 'programs/**/*.cls'
+  clsmith batch --recipe recipe.yaml -o done 'programs/**/*.cls'
   clsmith batch jobs.yaml                              recipes, files and output folder from a file
   clsmith batch jobs.yaml --resume                     go on after a power cut; do what is new or changed
-  clsmith batch jobs.yaml --memory 2G --jobs 4         bounds for memory and processors
+  clsmith batch jobs.yaml --memory 2GiB --threads 4    bounds for memory and processors
   clsmith batch jobs.yaml --shard 2/8                  the second of eight machines' parts
   clsmith merge done/results-*-of-8.jsonl -o all.jsonl   the parts' results in one
 
@@ -53,6 +53,9 @@ An output appears whole or not at all. A file with errors is not written; the ot
 is 1. What cannot be right (a pattern without files, two inputs for one output, an output that is an input or
 leaves the folder) is refused before anything runs.
 
+As many files run at once as there are threads, and as fit into --memory, which counts for all of them together;
+without it, that is half of what is available.
+
 Results are JSON Lines, sorted by name, the same whatever the order, threads or shards; names that are no UTF-8
 are { \"lossy\": ..., \"hex\": ... }. The folder also gets .clsmith-batch.journal, which --resume reads.";
 
@@ -64,14 +67,14 @@ pub(super) struct BatchArgs {
     #[arg(required = true, value_name = "JOBS|PATTERN")]
     what: Vec<PathBuf>,
     /// The recipe (YAML) for all programs, instead of a jobs file
-    #[arg(long, value_name = "FILE", requires = "out")]
+    #[arg(long, value_name = "FILE", requires = "output")]
     recipe: Option<PathBuf>,
     /// A setup file. It overrides the recipe's setup
     #[arg(long, value_name = "FILE", requires = "recipe")]
     setup: Option<PathBuf>,
     /// The output folder. It overrides that of a jobs file, and is made if it does not exist
-    #[arg(short, long, visible_alias = "output", value_name = "FOLDER")]
-    out: Option<PathBuf>,
+    #[arg(short, long, alias = "out", value_name = "FOLDER")]
+    output: Option<PathBuf>,
     /// Skip files that are done and unchanged: input, recipe with its files, options, version and output are
     /// compared by content
     #[arg(long)]
@@ -79,14 +82,8 @@ pub(super) struct BatchArgs {
     /// Do part I of N, counted from 1: every Nth file of the sorted list
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
-    /// How many files are processed at once, and threads in all; by default as many as there are processors
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    jobs: Option<u16>,
-    /// Memory for all files together: 512M, 2G, 1.5GiB; by default half of what is available
-    #[arg(long, value_name = "SIZE")]
-    memory: Option<ByteSize>,
     #[command(flatten)]
-    time: TimeLimitArgs,
+    limits: LimitArgs,
     /// Begin no file after one has failed
     #[arg(long)]
     fail_fast: bool,
@@ -98,11 +95,10 @@ pub(super) struct BatchArgs {
     #[arg(long)]
     times: bool,
     /// The dialect of all programs, instead of finding it from their text
-    #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
+    #[arg(long, value_parser = input_files::dialect_parser(), value_name = "NAME")]
     dialect: Option<Dialect>,
-    /// Say nothing but findings
-    #[arg(short, long)]
-    quiet: bool,
+    #[command(flatten)]
+    progress: ProgressArgs,
     #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
 }
@@ -133,8 +129,8 @@ impl BatchArgs {
         }
         let policy = self.findings.build_policy()?;
         let jobs = self.read_jobs()?;
-        let Some(out) = self.out.clone().or_else(|| jobs.out.clone()) else {
-            return usage("the jobs file names no output folder (`out:`); give one with --out");
+        let Some(out) = self.output.clone().or_else(|| jobs.out.clone()) else {
+            return usage("the jobs file names no output folder (`out:`); give one with -o");
         };
         let began = Instant::now();
         let ready = self.prepare_batch(&jobs, &out)?;
@@ -147,14 +143,17 @@ impl BatchArgs {
         self.show_findings(&warnings)?;
         // Old results would look like those of this batch if it were killed.
         remove_old_results(&ready.results)?;
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.worker_count()).stack_size(STACK).build();
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(self.limits.threads().count())
+            .stack_size(STACK)
+            .build();
         let pool = pool.map_err(io::Error::other)?;
         let outputs = CommandOutputs::default();
         let bars = BatchProgress::new(
-            self.quiet,
+            self.progress,
             &self.findings,
             outputs.interrupt(),
-            (self.time.of_batch_file(), self.memory.map(|size| size.as_u64())),
+            (self.limits.of_batch_file(), self.limits.memory_bytes()),
         );
         outputs.stop_gently(bars.clear_on_ctrl_c())?;
         let options = format!("{policy:?} {:?}", self.dialect);
@@ -270,10 +269,10 @@ impl BatchArgs {
             Err(Stop::Found { findings, .. }) => found.extend(findings),
             written => written?,
         }
-        if !self.quiet {
+        if !self.progress.quiet {
             let seconds = Some(began.elapsed().as_secs_f64());
             let mut text = summary::summary_to_text(&ran.records, ran.before, seconds);
-            let (workers, memory) = (self.worker_count(), ByteSize::b(ready.memory).display().si());
+            let (workers, memory) = (self.limits.threads().count(), ByteSize::b(ready.memory).display().si());
             text.push_str(&format!("\nat most {workers} at once, in {memory}\n"));
             text.push_str(&format!("results: {}\n", ready.results.display()));
             ignore_closed_pipe(print_summary(&text, false))?;
@@ -295,14 +294,9 @@ impl BatchArgs {
         ))
     }
 
-    fn worker_count(&self) -> usize {
-        let processors = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-        self.jobs.map_or_else(processors, usize::from)
-    }
-
     /// Returns the memory for all files together, in bytes.
     fn memory_bytes(&self) -> u64 {
-        self.memory.map_or_else(|| available_memory_bytes() / 2, |size| size.as_u64())
+        self.limits.memory_bytes().unwrap_or_else(|| available_memory_bytes() / 2)
     }
 }
 

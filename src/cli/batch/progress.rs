@@ -3,21 +3,28 @@
 
 use crate::cli::closed_pipe::ignore_closed_pipe;
 use crate::cli::finding_args::FindingArgs;
+use crate::cli::phase_track::PhaseTrack;
+use crate::cli::progress::{BEFORE_BAR, ProgressArgs, ProgressPlace};
 use crate::cli::run_limits::{RunLimitWatch, RunLimits};
 use crate::cli::terminal;
 use clsmith::batch::{BatchRecord, BatchWatcher, FileOutcome, PlannedFile};
 use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::output_files::Interrupt;
-use clsmith::simulation_run;
+use clsmith::simulation_run::{self, RunPhase, SimulationBudget};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 /// Bars on standard error. Nothing is drawn if it is no terminal, or if bars are not wanted.
 pub(super) struct BatchProgress<'a> {
     all: MultiProgress,
     whole: ProgressBar,
+    place: ProgressPlace,
+    /// Whether the batch goes on. Bars appear and go under this lock.
+    running: Arc<Mutex<bool>>,
+    done: AtomicUsize,
     failed: AtomicUsize,
     findings: &'a FindingArgs,
     interrupt: &'a Interrupt,
@@ -28,16 +35,38 @@ pub(super) struct BatchProgress<'a> {
 
 impl<'a> BatchProgress<'a> {
     pub(super) fn new(
-        quiet: bool,
+        progress: ProgressArgs,
         findings: &'a FindingArgs,
         interrupt: &'a Interrupt,
         (limits, stock_bytes): (RunLimits, Option<u64>),
     ) -> Self {
-        let seen = terminal::is_stderr_terminal() && !quiet;
-        let target = if seen { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
-        let all = MultiProgress::with_draw_target(target);
+        let place = progress.place();
+        let all = MultiProgress::with_draw_target(ProgressDrawTarget::hidden());
         let whole = all.add(ProgressBar::new(0));
-        Self { all, whole, failed: AtomicUsize::new(0), findings, interrupt, limits, stock_bytes }
+        let running = Arc::new(Mutex::new(true));
+        if place == ProgressPlace::Bar {
+            let (all, running) = (all.clone(), Arc::clone(&running));
+            std::thread::spawn(move || {
+                std::thread::sleep(BEFORE_BAR);
+                let running = running.lock().unwrap_or_else(PoisonError::into_inner);
+                if *running {
+                    all.set_draw_target(ProgressDrawTarget::stderr());
+                }
+            });
+        }
+        let failed = AtomicUsize::new(0);
+        Self {
+            all,
+            whole,
+            place,
+            running,
+            done: AtomicUsize::new(0),
+            failed,
+            findings,
+            interrupt,
+            limits,
+            stock_bytes,
+        }
     }
 
     /// Begins with the files to process. Bytes are counted, because they take the time.
@@ -54,6 +83,8 @@ impl<'a> BatchProgress<'a> {
 
     /// Removes the bars.
     pub(super) fn clear_bars(&self) {
+        let mut running = self.running.lock().unwrap_or_else(PoisonError::into_inner);
+        *running = false;
         self.whole.finish_and_clear();
     }
 
@@ -85,12 +116,16 @@ impl BatchWatcher for BatchProgress<'_> {
     fn begin_file(&self, file: &PlannedFile) -> Box<dyn simulation_run::RunWatcher + '_> {
         let bar = self.all.add(ProgressBar::no_length());
         set_bar_style(&bar, "  {spinner} {msg}");
-        bar.set_message(file.input.to_string());
-        if !self.all.is_hidden() {
+        bar.set_message(terminal::escape_controls(&file.input.to_string()));
+        if self.place == ProgressPlace::Bar {
             bar.enable_steady_tick(Duration::from_millis(200));
         }
         let limits = RunLimitWatch::new(self.limits, &file.input.to_string());
-        Box::new(FileBar { bar, interrupt: self.interrupt, limits, stock_bytes: self.stock_bytes })
+        // Several programs share the memory, so none of them takes all of it for its stock.
+        let stock_bytes = self.stock_bytes.map(|bytes| bytes.min(SimulationBudget::default().bytes));
+        let track = Mutex::new(PhaseTrack::new(0));
+        let name = terminal::escape_controls(&file.input.to_string());
+        Box::new(FileBar { bar, name, track, interrupt: self.interrupt, limits, stock_bytes })
     }
 
     fn end_file(&self, file: &PlannedFile, record: &BatchRecord, findings: &[Diagnostic], _before: bool) {
@@ -100,8 +135,15 @@ impl BatchWatcher for BatchProgress<'_> {
             self.show_findings(findings, Some(&file.input.to_string()));
         }
         self.whole.inc(progress_weight(file));
+        let done = 1 + self.done.fetch_add(1, Ordering::Relaxed);
+        if self.place == ProgressPlace::Lines {
+            eprintln!("{}: {done} done", terminal::escape_controls(&file.input.to_string()));
+        }
     }
 }
+
+/// The positions of a file's bar.
+const TICKS: u64 = 1000;
 
 /// Returns the weight of a file. An empty file takes time, too.
 fn progress_weight(file: &PlannedFile) -> u64 {
@@ -119,19 +161,29 @@ fn set_bar_style(bar: &ProgressBar, template: &str) {
 /// The bar of one file. It rotates, and grows once a step reports its progress.
 struct FileBar<'a> {
     bar: ProgressBar,
+    name: String,
+    track: Mutex<PhaseTrack>,
     interrupt: &'a Interrupt,
     limits: RunLimitWatch,
     stock_bytes: Option<u64>,
 }
 
 impl simulation_run::RunWatcher for FileBar<'_> {
+    fn begin_phase(&self, phase: RunPhase) {
+        let mut track = self.track.lock().unwrap_or_else(PoisonError::into_inner);
+        track.begin_phase(phase);
+        self.bar.set_message(format!("{} {}", phase.name(), self.name));
+    }
+
     fn report_progress(&self, done: f64, whole: f64) {
-        if self.bar.length().is_none() {
-            set_bar_style(&self.bar, "  {spinner} {msg} {wide_bar} {percent:>3} %");
+        let mut track = self.track.lock().unwrap_or_else(PoisonError::into_inner);
+        if track.report_progress(done, whole) {
+            if self.bar.length().is_none() {
+                set_bar_style(&self.bar, "  {spinner} {msg} {wide_bar} {percent:>3} %");
+                self.bar.set_length(TICKS);
+            }
+            self.bar.set_position((track.fraction() * TICKS as f64) as u64);
         }
-        let tenths = |length: f64| (length * 10.0) as u64;
-        self.bar.set_length(tenths(whole).max(1));
-        self.bar.set_position(tenths(done));
     }
 
     fn is_stop_requested(&self) -> bool {

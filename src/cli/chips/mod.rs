@@ -9,7 +9,9 @@ use crate::cli::display_args::DisplayArgs;
 use crate::cli::finding_args::FindingArgs;
 use crate::cli::input_files;
 use crate::cli::measuring_command::{MeasuringCommand, MeasuringContext};
-use crate::cli::run_limits::{MemoryLimitArgs, TimeLimitArgs};
+use crate::cli::output_args::JsonArgs;
+use crate::cli::progress::ProgressArgs;
+use crate::cli::run_limits::LimitArgs;
 use crate::cli::stop::Stop;
 use clap::Args;
 use clsmith::parameters::LengthUnit;
@@ -27,7 +29,7 @@ Examples:
   clsmith chips part.cls --setup shop.yaml --layer 0.5                     chips of all motions, in sums
   clsmith chips part.cls --setup shop.yaml --layer 0.5 --json chips.json   every chip's borders, layer by layer
   clsmith chips part.cls --setup shop.yaml --layer 0.5 --csv - | head      one row for each motion and layer
-  clsmith chips part.cls --setup shop.yaml --layer 0.5 --lines 40..48 --svg corner.svg --at -2
+  clsmith chips part.cls --setup shop.yaml --layer 0.5 --lines 40..48 --plot corner.svg --at -2
                                                                            the moves through a corner, side by side
   clsmith chips part.cls --setup shop.yaml --layer 0.2 --lines 44 --stl chip.stl --diagram diagram.svg
                                                                            one chip as a solid, and how it was found
@@ -58,19 +60,18 @@ pub(super) struct ChipsArgs {
     /// motions after them are not run
     #[arg(long, value_name = "A..B", value_parser = line_range::parse_line_range, default_value = "..", hide_default_value = true)]
     lines: RangeInclusive<usize>,
-    /// Everything as JSON, with the boundaries of all pieces; `-` is standard output
-    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArgs,
     /// A table with one row for each motion and layer; `-` is standard output
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     csv: Option<PathBuf>,
     /// The chips as solids, stacked of their layers, as a binary STL in mm
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     stl: Option<PathBuf>,
-    /// Layers of the first moves that cut, side by side, as SVG
-    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
-    svg: Option<PathBuf>,
-    /// The boundary construction diagrams of these moves, as SVG
+    /// Layers of the first moves that cut, side by side, as SVG, or as PNG if the file ends in .png
+    #[arg(long, alias = "svg", value_name = "FILE", help_heading = "Outputs")]
+    plot: Option<PathBuf>,
+    /// The boundary construction diagrams of these moves, as SVG or PNG
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     diagram: Option<PathBuf>,
     /// Draw only the layer at this height; by default a few of all layers
@@ -82,22 +83,16 @@ pub(super) struct ChipsArgs {
     /// The largest distance between straight pieces of a boundary, or chords of arcs, and the curve
     #[arg(long, value_name = "MM", default_value = "0.002", value_parser = parse_tolerance_mm)]
     tolerance: f64,
-    /// Threads; by default as many as there are cores. The result is the same
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
     /// The dialect, instead of finding it from the text
-    #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
+    #[arg(long, value_parser = input_files::dialect_parser(), value_name = "NAME")]
     dialect: Option<Dialect>,
-    /// Unit of lengths of a file that does not state it: mm or inch
-    #[arg(long, value_parser = input_files::parse_length_unit, value_name = "UNIT")]
+    /// Unit of lengths of a file that does not state it
+    #[arg(long, value_parser = input_files::length_unit_parser(), value_name = "UNIT")]
     units: Option<LengthUnit>,
-    /// No summary and no progress, findings only
-    #[arg(short, long)]
-    quiet: bool,
     #[command(flatten)]
-    memory: MemoryLimitArgs,
+    progress: ProgressArgs,
     #[command(flatten)]
-    time: TimeLimitArgs,
+    limits: LimitArgs,
     #[command(flatten)]
     display: DisplayArgs,
     #[command(flatten)]
@@ -122,9 +117,9 @@ impl ChipsArgs {
         let measuring = MeasuringCommand {
             program: &self.program,
             outputs: self.output_paths().collect(),
-            quiet: self.quiet,
-            threads: self.threads,
-            limits: self.memory.with_time(self.time),
+            progress: self.progress,
+            simulations: 1,
+            limits: self.limits,
             findings: &self.findings,
         };
         measuring.run_measurement(
@@ -144,12 +139,11 @@ impl ChipsArgs {
         let machining = Machining::new(&program, &setup, units, under.findings)?;
         let options =
             LayerRunOptions::new(self.layer).with_tolerance_mm(self.tolerance).with_lines(self.lines.clone());
-        let scenes = if self.svg.is_some() || self.diagram.is_some() { usize::from(self.moves) } else { 0 };
+        let scenes = if self.plot.is_some() || self.diagram.is_some() { usize::from(self.moves) } else { 0 };
         let keep = ChipReportOptions::default()
-            .with_borders(self.json.is_some() || self.stl.is_some())
+            .with_borders(self.json.is_wanted() || self.stl.is_some())
             .with_scenes(scenes)
             .with_at_z_mm(self.at);
-        under.progress.begin_bar(program.source().name());
         let mut report = ChipReport::simulate_layers(&machining, &options, keep, under.progress)?;
         report.units = self.display.of_program(units);
         under.findings.append(&mut report.findings);

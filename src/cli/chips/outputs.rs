@@ -4,19 +4,20 @@ use super::ChipsArgs;
 use crate::cli::command_outputs::{CommandOutputs, refuse_overwritten_input};
 use crate::cli::input_files::STANDARD;
 use crate::cli::output_endings::{OutputContent, find_wrong_ending};
+use crate::cli::plot::encode_drawing;
 use crate::cli::stop::Stop;
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::output_files::is_same_file;
 use clsmith::report::layered_chips::{self, ChipReport};
 use clsmith::setup::Setup;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The drawings that were requested.
 #[derive(Debug, Default)]
 pub(super) struct ChipDrawings {
-    layers: Option<String>,
-    diagrams: Option<String>,
+    layers: Option<Vec<u8>>,
+    diagrams: Option<Vec<u8>>,
 }
 
 impl ChipsArgs {
@@ -33,15 +34,15 @@ impl ChipsArgs {
         if self.program == standard && self.setup == standard {
             return Some("standard input can be read only once".into());
         }
-        if self.at.is_some() && self.svg.is_none() && self.diagram.is_none() {
-            return Some("--at is for --svg and --diagram".into());
+        if self.at.is_some() && self.plot.is_none() && self.diagram.is_none() {
+            return Some("--at is for --plot and --diagram".into());
         }
         (self.stl.as_deref() == Some(standard)).then(|| "--stl needs a file".into())
     }
 
     pub(super) fn output_paths(&self) -> impl Iterator<Item = &Path> {
-        let all = [&self.csv, &self.json, &self.stl, &self.svg, &self.diagram];
-        all.into_iter().filter_map(|path| path.as_deref())
+        let all = [&self.csv, &self.stl, &self.plot, &self.diagram];
+        all.into_iter().filter_map(|path| path.as_deref()).chain(self.json.path())
     }
 
     /// Checks that no output is an input, or a file that the setup names.
@@ -51,17 +52,17 @@ impl ChipsArgs {
         refuse_overwritten_input(self.output_paths(), &inputs)?;
         let wrong = find_wrong_ending([
             ("--csv", self.csv.as_deref(), OutputContent::Csv),
-            ("--json", self.json.as_deref(), OutputContent::Json),
+            ("--json", self.json.path(), OutputContent::Json),
             ("--stl", self.stl.as_deref(), OutputContent::Stl),
-            ("--svg", self.svg.as_deref(), OutputContent::Svg),
-            ("--diagram", self.diagram.as_deref(), OutputContent::Svg),
+            ("--plot", self.plot.as_deref(), OutputContent::Drawing),
+            ("--diagram", self.diagram.as_deref(), OutputContent::Drawing),
         ]);
         wrong.map_or(Ok(()), |wrong| Err(Stop::Usage(wrong)))
     }
 
     /// Draws the requested drawings.
     pub(super) fn draw_chips(&self, report: &ChipReport) -> Result<ChipDrawings, Stop> {
-        if self.svg.is_none() && self.diagram.is_none() {
+        if self.plot.is_none() && self.diagram.is_none() {
             return Ok(ChipDrawings::default());
         }
         if report.scenes.is_empty() {
@@ -75,15 +76,15 @@ impl ChipsArgs {
         }
         let failed = |error: io::Error| Diagnostic::new(codes::UNWRITABLE, error.to_string());
         let layers = self
-            .svg
+            .plot
             .as_ref()
-            .map(|_| layered_chips::draw_layers(report, self.at))
+            .map(|path| encode_drawing(path, layered_chips::draw_layers(report, self.at)?))
             .transpose()
             .map_err(failed)?;
         let diagrams = self
             .diagram
             .as_ref()
-            .map(|_| layered_chips::draw_diagrams(report, self.at))
+            .map(|path| encode_drawing(path, layered_chips::draw_diagrams(report, self.at)?))
             .transpose()
             .map_err(failed)?;
         Ok(ChipDrawings { layers, diagrams })
@@ -98,17 +99,17 @@ impl ChipsArgs {
         outputs: &CommandOutputs,
     ) -> Result<(), Stop> {
         type Writer<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
-        let all: [(&Option<PathBuf>, Writer<'_>); 5] = [
-            (&self.csv, Box::new(|out| layered_chips::write_csv(report, out))),
-            (&self.json, Box::new(|out| layered_chips::write_json(report, findings, out))),
-            (&self.stl, Box::new(|out| layered_chips::write_stl(report, out))),
+        let all: [(Option<&Path>, Writer<'_>); 5] = [
+            (self.csv.as_deref(), Box::new(|out| layered_chips::write_csv(report, out))),
+            (self.json.path(), Box::new(|out| layered_chips::write_json(report, findings, out))),
+            (self.stl.as_deref(), Box::new(|out| layered_chips::write_stl(report, out))),
             (
-                &self.svg,
-                Box::new(|out| out.write_all(drawn.layers.as_deref().unwrap_or_default().as_bytes())),
+                self.plot.as_deref(),
+                Box::new(|out| out.write_all(drawn.layers.as_deref().unwrap_or_default())),
             ),
             (
-                &self.diagram,
-                Box::new(|out| out.write_all(drawn.diagrams.as_deref().unwrap_or_default().as_bytes())),
+                self.diagram.as_deref(),
+                Box::new(|out| out.write_all(drawn.diagrams.as_deref().unwrap_or_default())),
             ),
         ];
         for (path, write_all) in &all {

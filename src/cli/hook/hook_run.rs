@@ -242,7 +242,7 @@ impl<'h> HookRun<'h> {
                 return Ok(REFUSED);
             }
         };
-        if !self.hook.quiet {
+        if !self.hook.progress.quiet {
             ignore_closed_pipe(self.show_summary())?;
         }
         self.output = Some(LoggedOutput {
@@ -266,7 +266,7 @@ impl<'h> HookRun<'h> {
             protected.extend(self.hook.keep_path());
             let folder = self.hook.input.parent().unwrap_or(Path::new(""));
             let (put, faults) = desk.copy_post_outputs(folder, &protected, self.outputs.interrupt());
-            if !self.hook.quiet {
+            if !self.hook.progress.quiet {
                 put.iter().for_each(|path| {
                     eprintln!("{}: from the post", escape_controls(&path.to_string_lossy()))
                 });

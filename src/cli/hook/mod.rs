@@ -16,8 +16,8 @@ use super::command_exit::CommandExit;
 use super::command_outputs::CommandOutputs;
 use super::finding_args::FindingArgs;
 use super::input_files::{self, STANDARD};
-use super::progress::CommandProgress;
-use super::run_limits::{MemoryLimitArgs, TimeLimitArgs};
+use super::progress::{CommandProgress, ProgressArgs};
+use super::run_limits::LimitArgs;
 use super::terminal;
 use super::unattended::{RecipeArgs, RunLog};
 use crate::cli::stop::Stop;
@@ -86,13 +86,10 @@ pub(super) struct HookArgs {
     /// Keep the program for the post: a file, or a folder (one that exists, or a path that ends in a slash)
     #[arg(long, value_name = "PATH")]
     keep: Option<PathBuf>,
-    /// Say nothing but findings
-    #[arg(short, long)]
-    quiet: bool,
     #[command(flatten)]
-    memory: MemoryLimitArgs,
+    progress: ProgressArgs,
     #[command(flatten)]
-    time: TimeLimitArgs,
+    limits: LimitArgs,
     #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
     /// The exported program
@@ -121,8 +118,8 @@ impl HookArgs {
             }
         };
         let outputs = CommandOutputs::default();
-        let progress =
-            CommandProgress::with_limits(self.quiet, outputs.interrupt(), self.memory.with_time(self.time));
+        self.limits.threads().start_threads()?;
+        let progress = CommandProgress::new(self.progress, outputs.interrupt(), self.limits.of_run());
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
         let run = || HookRun::new(self, &outputs, log).run_hook(&policy, &progress);
         catch_defect(&self.input.to_string_lossy(), run).unwrap_or_else(|defect| {

@@ -9,6 +9,7 @@ use super::command_exit::CommandExit;
 use super::command_outputs::CommandOutputs;
 use super::finding_args::FindingArgs;
 use super::input_files;
+use super::run_limits::ThreadArgs;
 use super::terminal;
 use crate::cli::bad_argument::BadArgument;
 use crate::cli::stop::Stop;
@@ -120,13 +121,13 @@ pub(super) struct SectionArgs {
     /// nx
     #[arg(long, value_parser = parse_writable_dialect, value_name = "NAME", help_heading = "Program")]
     dialect: Option<Dialect>,
-    /// The unit of lengths here, in the STL and in the program: mm or inch
-    #[arg(long, value_parser = input_files::parse_length_unit, value_name = "UNIT", default_value = "mm", help_heading = "Program")]
+    /// The unit of lengths here, in the STL and in the program
+    #[arg(long, value_parser = input_files::length_unit_parser(), value_name = "UNIT", default_value = "mm", help_heading = "Program")]
     units: LengthUnit,
     /// Where to write the program; `-` is standard output
     #[arg(short, long, value_name = "FILE", required_unless_present = "dry_run", help_heading = "Outputs")]
     output: Option<PathBuf>,
-    /// A drawing of the middle plane: part, shifted contact points, tip path (SVG)
+    /// A drawing of the middle plane: part, shifted contact points, tip path; SVG, or PNG if the file ends in .png
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     plot: Option<PathBuf>,
     /// Make and prove the program, but do not write it
@@ -135,6 +136,8 @@ pub(super) struct SectionArgs {
     /// No summary, findings only
     #[arg(short, long)]
     quiet: bool,
+    #[command(flatten)]
+    threads: ThreadArgs,
     #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
 }
@@ -171,6 +174,7 @@ impl SectionArgs {
             Ok(options) => options,
             Err(failure) => return self.refuse_part(failure, &policy, CommandExit::Usage),
         };
+        self.threads.start_threads()?;
         let outputs = CommandOutputs::default();
         outputs.stop_on_ctrl_c(|| {})?;
         if let Err(failure) = self.check_outputs() {

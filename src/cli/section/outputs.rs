@@ -4,6 +4,7 @@ use super::SectionArgs;
 use crate::cli::command_outputs::{CommandOutputs, print_summary};
 use crate::cli::input_files::STANDARD;
 use crate::cli::output_endings::{OutputContent, find_wrong_ending};
+use crate::cli::plot::encode_drawing;
 use crate::cli::stop::Stop;
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::output_files::is_same_file;
@@ -21,8 +22,8 @@ impl SectionArgs {
     ) -> Result<(), Stop> {
         // The drawing is written first: if it fails, no program was written.
         if let Some(plot) = &self.plot {
-            let drawn = report::draw_middle_plane(surfaced, options)?;
-            outputs.write_output(plot, |out| out.write_all(drawn.as_bytes()))?;
+            let drawn = encode_drawing(plot, report::draw_middle_plane(surfaced, options)?)?;
+            outputs.write_output(plot, |out| out.write_all(&drawn))?;
         }
         match self.output.as_deref().filter(|_| !self.dry_run) {
             Some(output) => outputs.write_output(output, |out| out.write_all(&surfaced.text)),

@@ -8,10 +8,11 @@ use crate::cli::display_args::DisplayArgs;
 use crate::cli::finding_args::FindingArgs;
 use crate::cli::input_files;
 use crate::cli::measuring_command::{MeasuringCommand, MeasuringContext};
+use crate::cli::output_args::JsonArgs;
 use crate::cli::plot::encode_drawing;
-use crate::cli::progress::CommandProgress;
+use crate::cli::progress::{CommandProgress, ProgressArgs};
 use crate::cli::report_args::ReportArgs;
-use crate::cli::run_limits::{MemoryLimitArgs, TimeLimitArgs};
+use crate::cli::run_limits::LimitArgs;
 use crate::cli::stop::Stop;
 use clap::Args;
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
@@ -33,6 +34,7 @@ Examples:
   clsmith simulate part.cls --setup shop.yaml                       what is cut, how hard, what collides
   clsmith simulate part.cls --setup shop.yaml --csv loads.csv       one row a motion
   clsmith simulate part.cls --setup shop.yaml --csv - | head        the same to standard output
+  clsmith simulate part.cls --setup shop.yaml --json | jq .tools    the same for programs
   clsmith simulate part.cls --setup shop.yaml --target part.stl     gouges and excess against the part
   clsmith simulate op1.cls --setup shop.yaml --save-stock op1.clstock --stl left.stl
   clsmith simulate new.cls --setup shop.yaml --plot loads.svg --plot-before old.cls
@@ -60,9 +62,8 @@ pub(super) struct SimulateArgs {
     /// The motions as a table; `-` is standard output
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     csv: Option<PathBuf>,
-    /// Everything as JSON; `-` is standard output
-    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArgs,
     /// The remaining stock, as a binary STL in mm
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     stl: Option<PathBuf>,
@@ -86,25 +87,19 @@ pub(super) struct SimulateArgs {
     /// Distance between the columns of the stock; by default a fortieth of the smallest cutter
     #[arg(long, value_name = "MM", value_parser = parse_positive)]
     cell: Option<f64>,
-    /// The memory for the stock
-    #[arg(long, value_name = "GIB", value_parser = parse_positive, default_value = "2")]
-    budget: f64,
-    /// Threads; by default as many as there are cores. The result is the same
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
+    /// The memory for the stock alone, as earlier versions had it
+    #[arg(long, value_name = "GIB", value_parser = parse_positive, hide = true, conflicts_with = "memory")]
+    budget: Option<f64>,
     /// The dialect, instead of finding it from the text
-    #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
+    #[arg(long, value_parser = input_files::dialect_parser(), value_name = "NAME")]
     dialect: Option<Dialect>,
-    /// Unit of lengths of a file that does not state it: mm or inch
-    #[arg(long, value_parser = input_files::parse_length_unit, value_name = "UNIT")]
+    /// Unit of lengths of a file that does not state it
+    #[arg(long, value_parser = input_files::length_unit_parser(), value_name = "UNIT")]
     units: Option<LengthUnit>,
-    /// No summary and no progress, findings only
-    #[arg(short, long)]
-    quiet: bool,
     #[command(flatten)]
-    memory: MemoryLimitArgs,
+    progress: ProgressArgs,
     #[command(flatten)]
-    time: TimeLimitArgs,
+    limits: LimitArgs,
     #[command(flatten)]
     display: DisplayArgs,
     #[command(flatten)]
@@ -155,9 +150,9 @@ impl SimulateArgs {
         let measuring = MeasuringCommand {
             program: &self.program,
             outputs: self.output_paths().collect(),
-            quiet: self.quiet,
-            threads: self.threads,
-            limits: self.memory.with_time(self.time),
+            progress: self.progress,
+            simulations: 1 + usize::from(self.plot_before.is_some()),
+            limits: self.limits,
             findings: &self.findings,
         };
         measuring.run_measurement(
@@ -226,11 +221,11 @@ impl SimulateArgs {
     ) -> Result<SimulationReport, Stop> {
         let units = ResolvedLengthUnit::from_program(program, self.units).unit;
         let machining = Machining::new(program, setup, units, findings)?;
-        let bytes = (self.budget * f64::from(1 << 30)) as u64;
-        let options = SimulationRunOptions::default()
-            .with_cell_mm(self.cell)
-            .with_budget(SimulationBudget::default().with_bytes(bytes));
-        progress.begin_bar(program.source().name());
+        let mut options = SimulationRunOptions::default().with_cell_mm(self.cell);
+        if let Some(gib) = self.budget {
+            let bytes = (gib * f64::from(1 << 30)) as u64;
+            options = options.with_budget(SimulationBudget::default().with_bytes(bytes));
+        }
         let mut simulated = SimulationReport::simulate_program(&machining, &options, progress)?;
         simulated.units = self.display.of_program(units);
         Ok(simulated)

@@ -12,7 +12,7 @@ use clsmith::report::simulation;
 use clsmith::setup::Setup;
 use clsmith::stock::{stl_export, stock_file};
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 impl SimulateArgs {
     /// Returns the fault of the command line, as far as clap cannot find it.
@@ -35,8 +35,9 @@ impl SimulateArgs {
     }
 
     pub(super) fn output_paths(&self) -> impl Iterator<Item = &Path> {
-        let all = [&self.csv, &self.json, &self.stl, &self.save_stock, &self.plot];
-        all.into_iter().filter_map(|path| path.as_deref()).chain(self.reports.output_paths())
+        let all = [&self.csv, &self.stl, &self.save_stock, &self.plot];
+        let named = all.into_iter().filter_map(|path| path.as_deref());
+        named.chain(self.json.path()).chain(self.reports.output_paths())
     }
 
     /// Checks that no output is an input, or a file that the setup names.
@@ -47,7 +48,7 @@ impl SimulateArgs {
         refuse_overwritten_input(self.output_paths(), &inputs)?;
         let wrong = find_wrong_ending([
             ("--csv", self.csv.as_deref(), OutputContent::Csv),
-            ("--json", self.json.as_deref(), OutputContent::Json),
+            ("--json", self.json.path(), OutputContent::Json),
             ("--stl", self.stl.as_deref(), OutputContent::Stl),
             ("--save-stock", self.save_stock.as_deref(), OutputContent::Stock),
             ("--plot", self.plot.as_deref(), OutputContent::Drawing),
@@ -67,19 +68,22 @@ impl SimulateArgs {
             return Ok(());
         };
         type Writer<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
-        let all: [(&Option<PathBuf>, Writer<'_>); 5] = [
-            (&self.csv, Box::new(|out| simulation::write_csv(simulated, out))),
-            (&self.json, Box::new(|out| out.write_all(simulation::to_json(simulated, findings).as_bytes()))),
-            (&self.stl, Box::new(|out| stl_export::write_stl(&simulated.left, out))),
-            (&self.save_stock, Box::new(|out| stock_file::write_clstock(&simulated.left, out))),
-            (&self.plot, Box::new(|out| out.write_all(ran.drawn.as_deref().unwrap_or_default()))),
+        let all: [(Option<&Path>, Writer<'_>); 5] = [
+            (self.csv.as_deref(), Box::new(|out| simulation::write_csv(simulated, out))),
+            (
+                self.json.path(),
+                Box::new(|out| out.write_all(simulation::to_json(simulated, findings).as_bytes())),
+            ),
+            (self.stl.as_deref(), Box::new(|out| stl_export::write_stl(&simulated.left, out))),
+            (self.save_stock.as_deref(), Box::new(|out| stock_file::write_clstock(&simulated.left, out))),
+            (self.plot.as_deref(), Box::new(|out| out.write_all(ran.drawn.as_deref().unwrap_or_default()))),
         ];
         let refused = findings.iter().any(Diagnostic::is_error);
         for (path, write_all) in &all {
             let Some(path) = path else { continue };
             // Analysis is written also when errors were found. What a program with a crash leaves is no stock
             // for the next.
-            if refused && self.save_stock.as_ref() == Some(path) {
+            if refused && self.save_stock.as_deref() == Some(*path) {
                 continue;
             }
             outputs.write_output(path, write_all)?;

@@ -19,7 +19,7 @@ pub(crate) struct RecipeArgs {
     #[arg(long, value_name = "FILE", conflicts_with = "select")]
     setup: Option<PathBuf>,
     /// The dialect, instead of finding it from the text
-    #[arg(long, value_parser = input_files::parse_dialect, value_name = "NAME")]
+    #[arg(long, value_parser = input_files::dialect_parser(), value_name = "NAME")]
     pub dialect: Option<Dialect>,
 }
 

@@ -142,7 +142,7 @@ impl WatchRun<'_> {
     }
 
     fn print_outcome(&self, name: &str, correction: &UnattendedCorrection, target: &Path) {
-        if self.watch.quiet {
+        if self.watch.progress.quiet {
             return;
         }
         let what = match (correction.outcome, &correction.recipe) {

@@ -20,8 +20,8 @@ use super::command_exit::CommandExit;
 use super::command_outputs::CommandOutputs;
 use super::finding_args::FindingArgs;
 use super::input_files;
-use super::progress::CommandProgress;
-use super::run_limits::{MemoryLimitArgs, TimeLimitArgs};
+use super::progress::{CommandProgress, ProgressArgs};
+use super::run_limits::LimitArgs;
 use super::terminal;
 use super::unattended::{RecipeArgs, RunLog};
 use crate::cli::bad_argument::BadArgument;
@@ -39,16 +39,16 @@ use watch_state::WatchState;
 
 const EXAMPLES: &str = "\
 Examples:
-  clsmith watch exports --recipe shop.yaml --out corrected '*.cls'
-  clsmith watch exports --select recipes.yaml --out corrected --log watch.jsonl '**/*.aptsource'
-  clsmith watch exports --recipe shop.yaml --out corrected --once '*.cls'
+  clsmith watch exports --recipe shop.yaml -o corrected '*.cls'
+  clsmith watch exports --select recipes.yaml -o corrected --log watch.jsonl '**/*.aptsource'
+  clsmith watch exports --recipe shop.yaml -o corrected --once '*.cls'
                                                  what is there now, then end
 
 Looks every --poll seconds. A file is taken when its size and time have not changed for --settle
 seconds and it reads the same twice; a file that changes meanwhile is left for the next look. The
-corrected program appears whole under the same name in --out, over an earlier one. A program that
+corrected program appears whole under the same name in --output, over an earlier one. A program that
 cannot be corrected is moved to --refused with NAME.diagnostics.txt beside it; what stands there
-already is never overwritten, and what an earlier export became stays in --out.
+already is never overwritten, and what an earlier export became stays in --output.
 
 What was done is remembered by content in --state, one line of JSON each, so a restart, even after
 a crash, does nothing twice: only a file whose content has changed is done again. Another recipe
@@ -67,18 +67,18 @@ pub(super) struct WatchArgs {
     /// The folder that is watched
     #[arg(value_name = "FOLDER")]
     folder: PathBuf,
-    /// Which files are taken
-    #[arg(value_parser = parse_glob, value_name = "GLOB", default_value = EXPORTS)]
+    /// Which files are taken; those with the usual endings of CL data if it is not given
+    #[arg(value_parser = parse_glob, value_name = "GLOB", default_value = EXPORTS, hide_default_value = true)]
     files: GlobMatcher,
     #[command(flatten)]
     recipe: RecipeArgs,
     /// The folder for corrected programs
-    #[arg(long, value_name = "FOLDER")]
-    out: PathBuf,
-    /// The folder for programs that cannot be corrected [default: `refused` in --out]
+    #[arg(short, long, alias = "out", value_name = "FOLDER")]
+    output: PathBuf,
+    /// The folder for programs that cannot be corrected [default: `refused` in --output]
     #[arg(long, value_name = "FOLDER")]
     refused: Option<PathBuf>,
-    /// The file that remembers finished programs [default: .clsmith-watch.jsonl in --out]
+    /// The file that remembers finished programs [default: .clsmith-watch.jsonl in --output]
     #[arg(long, value_name = "FILE")]
     state: Option<PathBuf>,
     /// Add a line of JSON about each program to a file
@@ -93,13 +93,10 @@ pub(super) struct WatchArgs {
     /// How long a file must not have changed
     #[arg(long, default_value = "5", value_name = "SECONDS", value_parser = input_files::parse_seconds)]
     settle: Duration,
-    /// Say nothing but findings
-    #[arg(short, long)]
-    quiet: bool,
     #[command(flatten)]
-    memory: MemoryLimitArgs,
+    progress: ProgressArgs,
     #[command(flatten)]
-    time: TimeLimitArgs,
+    limits: LimitArgs,
     #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
 }
@@ -110,8 +107,8 @@ impl WatchArgs {
         let (folders, log, state) =
             self.prepare_watch().map_err(|failure| Stop::from(failure).about(&self.folder))?;
         let outputs = CommandOutputs::default();
-        let progress =
-            CommandProgress::with_limits(self.quiet, outputs.interrupt(), self.memory.with_time(self.time));
+        self.limits.threads().start_threads()?;
+        let progress = CommandProgress::new(self.progress, outputs.interrupt(), self.limits.of_run());
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
         WatchRun::new(self, &folders, &outputs, &policy, &progress, (log, state)).watch_folder()
     }

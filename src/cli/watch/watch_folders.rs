@@ -34,10 +34,10 @@ impl WatchFolders {
             let message = format!("{} is no folder", watch.folder.display());
             return Err(Diagnostic::new(codes::UNREADABLE, message).into());
         }
-        let refused = watch.refused.clone().unwrap_or_else(|| watch.out.join("refused"));
-        let state = watch.state.clone().unwrap_or_else(|| watch.out.join(".clsmith-watch.jsonl"));
+        let refused = watch.refused.clone().unwrap_or_else(|| watch.output.join("refused"));
+        let state = watch.state.clone().unwrap_or_else(|| watch.output.join(".clsmith-watch.jsonl"));
         // This comes before anything is made, so a refused command line leaves no folder behind.
-        let folders = [(&watch.out, true), (&refused, true)];
+        let folders = [(&watch.output, true), (&refused, true)];
         let files = [Some(&state), watch.log.as_ref()].into_iter().flatten().map(|file| (file, false));
         for (path, is_folder) in folders.into_iter().chain(files) {
             let real = resolve_future_path(path);
@@ -51,17 +51,17 @@ impl WatchFolders {
                 return Err(Diagnostic::new(codes::WATCHED_FOLDERS, message).into());
             }
         }
-        for folder in [&watch.out, &refused] {
+        for folder in [&watch.output, &refused] {
             fs::create_dir_all(folder).map_err(|error| report_unwritable(folder, &error))?;
         }
-        let mut locks = vec![lock_folder(&watch.out)?];
+        let mut locks = vec![lock_folder(&watch.output)?];
         match lock_folder(&watched) {
             Ok(held) => locks.push(held),
             // A folder of exports that is write-protected cannot be locked, but the one for outputs is.
             Err(found) if found.code == codes::UNWRITABLE => {}
             Err(found) => return Err(found.into()),
         }
-        Ok(Self { watched, out: watch.out.clone(), refused, state, _locks: locks })
+        Ok(Self { watched, out: watch.output.clone(), refused, state, _locks: locks })
     }
 }
 

@@ -291,24 +291,4 @@ super::area! {
         "Save the file without the mark (UTF-8 without BOM, or ANSI).",
         "An editor has put three invisible bytes in front of the first word. A post does not know that word then: PARTNO, \
          UNITS or TOOL PATH is lost.";
-
-    STALE_FRAME = "CL0180", Warning, "a frame describes the points before they were moved",
-        "Change the frame too if the step re-expressed the program for another datum.",
-        "A step has moved the points and left this frame unchanged. `$$*CATIA0`, `$$-> CSYS` and CAMERA state how the part \
-         lies in the printed coordinates, and were applied when these were computed; SolidWorks' CSYS has the tool axis as \
-         its z. A post that reads it now finds the old place. MSYS is not meant: moving points inside it is what such a step is \
-         for.";
-    STALE_HEIGHT = "CL0181", Warning, "a height or extent describes the points before they were moved",
-        "Correct the number to the new place; a transform does not know what the post makes of it.",
-        "A step has moved the points and left a record with absolute coordinates of its own as it was: a clearance plane \
-         (CLEARP), the escape height or least height of Makino FF, the stock's box (BOX) or size (INSERT/Stock Size). The \
-         retract may now end inside the part.";
-    STALE_CYCLE = "CL0182", Warning, "a cycle keeps its distances although the points were scaled",
-        "Scale FEDTO, RAPTO and the other distances with the points.",
-        "Depth, clearance and retract of a cycle are distances from the hole's point. The step changed the distances \
-         between points, but not these.";
-    STALE_COMPENSATION = "CL0183", Error, "a mirrored path keeps the side of its cutter compensation",
-        "Swap LEFT and RIGHT.",
-        "In a mirror image the tool runs on the other side of the contour. The step mirrored the points, and this CUTCOM \
-         still names the old side: the control would move the tool by its diameter into the part.";
 }

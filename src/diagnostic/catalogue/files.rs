@@ -70,7 +70,7 @@ super::area! {
          whole, upper and lower case differ, and `*` stands for any text; a program without a MACHIN record, such as any of \
          NX, has no machine that a rule could ask for.";
     WATCHED_FOLDERS = "CL0417", Error, "folders of a watch that lie in each other",
-        "Give three folders side by side: exports, `--out` and `--refused`.",
+        "Give three folders side by side: exports, `--output` and `--refused`.",
         "The folder for corrected or refused programs, or the file for the log or the state, lies in the watched folder, or the \
          watched folder lies in one for outputs. What the watch writes would then be taken for a new export and corrected \
          again: a feed scaled by 0.8 would be scaled by 0.64 next, and so on. Links are followed before folders are compared.";

@@ -11,8 +11,8 @@ pub(in crate::engagement) struct BinContact {
     /// The length along the meridian from the tip, mm.
     pub length: f32,
     /// The advance ratio `v.n / |v|`: the best estimate, and an upper bound with all that the grid may hide.
-    pub share: f32,
-    pub share_bound: f32,
+    pub advance_ratio: f32,
+    pub advance_ratio_bound: f32,
     /// The radial part of the normal.
     pub radial: f32,
     /// The thickness of the removed material along the normal, mm.
@@ -153,8 +153,8 @@ impl BandEngagement {
         bin.merge_bin(&EngagementBin {
             low: contact.length,
             high: contact.length,
-            share: contact.share,
-            share_bound: contact.share_bound,
+            advance_ratio: contact.advance_ratio,
+            advance_ratio_bound: contact.advance_ratio_bound,
             radial: contact.radial,
             thickness: contact.thickness,
         });

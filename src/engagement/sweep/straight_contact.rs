@@ -102,8 +102,8 @@ impl StraightContactFinder {
             angle: atan2_fast(column.left as f32, column.along as f32),
             length: self.profile.arc_length_of_contact_mm(rho, self.profile.height_at_radius_mm(rho), 1.0)
                 as f32,
-            share: 1.0,
-            share_bound: 1.0,
+            advance_ratio: 1.0,
+            advance_ratio_bound: 1.0,
             radial: 1.0,
             thickness: f32::INFINITY,
         }
@@ -183,8 +183,8 @@ impl StraightContactFinder {
         BinContact {
             angle,
             length: self.profile.arc_length_of_contact_mm(touch.rho, touch.height, touch.sin) as f32,
-            share: share(self.cell / 2.0),
-            share_bound: share(self.cell),
+            advance_ratio: share(self.cell / 2.0),
+            advance_ratio_bound: share(self.cell),
             radial: touch.sin as f32,
             // Between two columns, material may be thicker by the rise of the surface over half a cell.
             thickness: (thickness + self.cell / 2.0 * touch.sin) as f32,

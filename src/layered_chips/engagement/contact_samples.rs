@@ -30,7 +30,7 @@ pub(super) struct ContactSample {
     pub angle: f64,
     /// The lowest and highest engaged length along the meridian, mm.
     pub along: [f64; 2],
-    pub share: f64,
+    pub advance_ratio: f64,
     pub bound: f64,
     pub thickness: f64,
 }
@@ -101,8 +101,9 @@ fn sample_boundary(
             let parts = (turn.abs() / (TAU / 240.0)).ceil() as usize;
             found.extend((1..parts).map(|part| {
                 let part = part as f64 / parts as f64;
-                let share = contact.share + (next.share - contact.share) * part;
-                ContactSample { angle: contact.angle + turn * part, share, ..sample }
+                let advance_ratio =
+                    contact.advance_ratio + (next.advance_ratio - contact.advance_ratio) * part;
+                ContactSample { angle: contact.angle + turn * part, advance_ratio, ..sample }
             }));
         }
     }
@@ -167,18 +168,18 @@ fn sample_contact(
     let bound = if flank && contact.most > 0.0 {
         // The bound is the ratio at an angle nearer to straight ahead: by the distance to the next sample,
         // and to the side by what chords and the lean of half a layer may hide.
-        let angle = (contact.share / contact.most).clamp(-1.0, 1.0).acos();
+        let angle = (contact.advance_ratio / contact.most).clamp(-1.0, 1.0).acos();
         let aside = (motion.chord_error_mm() + half * lean) / radius;
         let side = ((angle - apart).max(0.0).sin() - aside).max(0.0);
         contact.most * (1.0 - side * side).max(0.0).sqrt()
     } else {
-        contact.share
+        contact.advance_ratio
     };
     ContactSample {
         flank,
         angle: contact.angle,
         along,
-        share: contact.share,
+        advance_ratio: contact.advance_ratio,
         bound: bound + turned,
         thickness,
     }

@@ -5,7 +5,7 @@
 //! is sampled, and the interior in addition. For each sample the time at which the moving cylinder reaches it
 //! is solved for, and at that time the advance ratio of the surface is exact.
 //!
-//! **Bounds.** [`EngagementBin::share_bound`] includes what is between samples, what chords may hide (twice
+//! **Bounds.** [`EngagementBin::advance_ratio_bound`] includes what is between samples, what chords may hide (twice
 //! the tolerance), and what is between the middle of a layer and its upper and lower side if the axis is
 //! tilted or turns. It does not include material that reaches the middle of no layer, so is lower than a
 //! layer, or stock whose own walls lean within a layer. Material that is thinner than twice the tolerance was
@@ -44,7 +44,7 @@ pub fn measure_engagement(chip: &Chip, mill: &FlatMill, piece: &PathPiece, toler
                 &motion,
                 0.0,
                 span,
-                EngagementBin { share: 1.0, share_bound: 1.0, ..EngagementBin::EMPTY },
+                EngagementBin { advance_ratio: 1.0, advance_ratio_bound: 1.0, ..EngagementBin::EMPTY },
             );
         }
         for polygon in &layer.pieces {
@@ -76,14 +76,14 @@ pub(crate) fn largest_feed_fraction(
     let slab = LayerSlab { z: layer.z_mm, thickness: layer.thickness_mm };
     let samples =
         layer.pieces.iter().flat_map(|polygon| contact_samples::sample_polygon(&motion, &slab, polygon));
-    samples.map(|sample| sample.share).reduce(f64::max)
+    samples.map(|sample| sample.advance_ratio).reduce(f64::max)
 }
 
 /// Adds a sample to the engagement.
 fn add_sample(found: &mut Engagement, motion: &MovingCylinder, sample: &ContactSample) {
     let bin = EngagementBin {
-        share: sample.share as f32,
-        share_bound: sample.bound.max(sample.share) as f32,
+        advance_ratio: sample.advance_ratio as f32,
+        advance_ratio_bound: sample.bound.max(sample.advance_ratio) as f32,
         radial: if sample.flank { 1.0 } else { 0.0 },
         thickness: sample.thickness as f32,
         ..EngagementBin::EMPTY

@@ -55,7 +55,7 @@ pub(super) struct CylinderContact {
     /// The outward unit normal of the surface.
     pub normal: Vector3<f64>,
     /// The advance ratio of the surface, and the largest one in any direction at this height.
-    pub share: f64,
+    pub advance_ratio: f64,
     pub most: f64,
     /// The cosine of the angle between the axis and z, not negative.
     pub upright: f64,
@@ -136,7 +136,7 @@ impl MovingCylinder {
             (gap - self.near, face)
         };
         let advances = |at: f64, face: CylinderFace| {
-            Some(self.contact_at(place, at, face)).filter(|contact| contact.share > 0.0)
+            Some(self.contact_at(place, at, face)).filter(|contact| contact.advance_ratio > 0.0)
         };
         let (mut at, (mut before, mut face)) = (0.0, out(0.0));
         if before <= 0.0
@@ -172,15 +172,15 @@ impl MovingCylinder {
         let velocity = self.way + self.spin.cross(&(aside + axis * height));
         let level = velocity - axis * velocity.dot(&axis);
         let ahead = self.feed_direction_at(&axis);
-        let share = velocity.dot(&normal) / self.pace;
+        let advance_ratio = velocity.dot(&normal) / self.pace;
         CylinderContact {
             face,
             angle: axis.cross(&ahead).dot(&outward).atan2(ahead.dot(&outward)),
             rho: rho.min(self.radius),
             height: height.clamp(0.0, self.flutes),
             normal,
-            share,
-            most: if face == CylinderFace::Flank { level.norm() / self.pace } else { share },
+            advance_ratio,
+            most: if face == CylinderFace::Flank { level.norm() / self.pace } else { advance_ratio },
             upright: axis.z.abs(),
         }
     }

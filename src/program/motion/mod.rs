@@ -59,7 +59,7 @@ pub struct Motion {
     /// Whether the motion cuts a thread, tapping or turning: its feed is the pitch times the spindle speed.
     pub cuts_thread: bool,
     /// Whether the file states the class. Otherwise it was found from rapid, axis and direction.
-    pub class_is_told: bool,
+    pub class_is_stated: bool,
     /// The index of the operation, as [`super::operation::find_operations`] counts them.
     pub operation: usize,
     /// In a drilling cycle, the number of the hole and the cycle. A hole is one group of motions: at rapid to

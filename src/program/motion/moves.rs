@@ -265,7 +265,7 @@ impl Motions<'_> {
         let first = self.pending.first.take().unwrap_or(statement);
         let rapid = self.pending.rapid.take().is_some();
         self.pending.direction = None;
-        let (class, class_is_told) = self.classify_motion(rapid, &from, &to, &path);
+        let (class, class_is_stated) = self.classify_motion(rapid, &from, &to, &path);
         let state = &self.state;
         let pitch = state.pitch.filter(|_| state.threading && !rapid);
         let surface_rpm = self.mean_surface_rpm(&from, &to, &path);
@@ -286,7 +286,7 @@ impl Motions<'_> {
             tool: state.tool.clone(),
             frame: state.frame.clone(),
             class,
-            class_is_told,
+            class_is_stated,
             operation: state.operation,
             hole: None,
         }

@@ -112,6 +112,35 @@ pub struct UncutMotion {
     pub reason: String,
 }
 
+/// How many ranges of lines are listed.
+const MOST_RANGES: usize = 8;
+
+/// Says on which lines motions end. Lines are in order.
+fn describe_motion_lines(lines: &[usize]) -> String {
+    let mut ranges: Vec<(usize, usize)> = Vec::new();
+    for line in lines {
+        match ranges.last_mut() {
+            Some((_, last)) if *last == *line || *last + 1 == *line => *last = *line,
+            _ => ranges.push((*line, *line)),
+        }
+    }
+    let told =
+        |(from, to): &(usize, usize)| if from == to { from.to_string() } else { format!("{from}..{to}") };
+    let mut shown: Vec<String> = ranges.iter().take(MOST_RANGES).map(told).collect();
+    if let Some(last) = ranges.last().filter(|_| ranges.len() > MOST_RANGES) {
+        shown.push(format!("... up to {}", last.1));
+        return format!("motions end on lines {}", shown.join(", "));
+    }
+    match shown.as_slice() {
+        [] => "the program has no motions".to_owned(),
+        [one] if !one.contains("..") => format!("the only motion ends on line {one}"),
+        [most @ .., last] if !most.is_empty() => {
+            format!("motions end on lines {} and {last}", most.join(", "))
+        }
+        all => format!("motions end on lines {}", all.join(", ")),
+    }
+}
+
 impl ChipReport {
     /// Runs a program over its stock in layers. Returns `None` if `watch` has stopped it.
     ///
@@ -130,11 +159,12 @@ impl ChipReport {
         let ran = machining.simulate_layers(&options, watch, &mut |cut| gathering.add_motion(cut))?;
         if gathering.rows.is_empty() && gathering.skipped.is_empty() {
             let (from, to) = (*options.lines.start(), *options.lines.end());
-            let message = match to {
+            let asked = match to {
                 usize::MAX => format!("no motion ends on line {from} or after it"),
                 to if to == from => format!("no motion ends on line {from}"),
                 to => format!("no motion ends on lines {from} to {to}"),
             };
+            let message = format!("{asked}; {}", describe_motion_lines(&machining.motion_lines()));
             return Err(Diagnostic::new(codes::NO_MOTION_ASKED, message).into());
         }
         Ok(gathering.into_report(options, ran))

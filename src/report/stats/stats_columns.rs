@@ -127,7 +127,7 @@ pub(super) fn tool_columns() -> [Column<ToolStats>; 10] {
             .old_json_key("corner_radius"),
         Column::new("length", Unit::Length, |tool: &ToolStats| tool.length.into()).old_json_key("length"),
         Column::new("flute_length", Unit::Length, |tool: &ToolStats| tool.flute_length.into())
-            .titled("flutes")
+            .titled("flute length")
             .old_json_key("flute_length"),
         Column::new("taper", Unit::Angle, |tool: &ToolStats| tool.taper_degrees.into())
             .old_json_key("taper_degrees"),

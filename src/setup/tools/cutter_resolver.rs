@@ -139,7 +139,7 @@ impl CutterResolver<'_> {
         })?;
         let collars = self.resolve_shank_and_holder(&profile)?;
         let teeth = self.entry.and_then(|entry| entry.teeth.clone());
-        if teeth.is_some() && self.entry.is_some_and(|entry| !entry.helix_is_told) {
+        if teeth.is_some() && self.entry.is_some_and(|entry| !entry.helix_is_given) {
             self.assumptions.push("helix 0: setup.tools gives none".to_owned());
         }
         Ok(ResolvedCutter { cutter: CutterModel { profile, collars, teeth }, assumptions: self.assumptions })

@@ -122,6 +122,8 @@ impl JsonSchema for RunoutText {
 /// The data of an entry about its teeth.
 pub(super) struct TeethText<'a> {
     pub teeth: Option<PositiveCount>,
+    /// The key that states their number.
+    pub teeth_key: &'static str,
     pub pitch: Option<&'a PitchText>,
     pub helix: Option<HelixAngle>,
     pub runout: Option<&'a RunoutText>,
@@ -139,7 +141,7 @@ pub(super) fn check_teeth(
         _ => None,
     };
     let said = [
-        (text.teeth.and_then(|count| usize::try_from(count.get()).ok()), "teeth"),
+        (text.teeth.and_then(|count| usize::try_from(count.get()).ok()), text.teeth_key),
         (text.pitch.map(|pitch| pitch.0.len()), "pitch"),
         (offsets.map(Vec::len), "runout"),
     ];

@@ -98,7 +98,7 @@ impl ToolDataFault {
                     MeridianError::Height => (
                         "flute_length: …",
                         format!(
-                            "flutes {} mm, diameter {} mm",
+                            "flute length {} mm, diameter {} mm",
                             format_dimension(flute_length),
                             format_dimension(diameter)
                         ),

@@ -30,7 +30,7 @@ pub struct ToolEntry {
     /// The teeth.
     pub teeth: Option<Teeth>,
     /// Whether the helix of the teeth is given. Otherwise it is 0.
-    pub helix_is_told: bool,
+    pub helix_is_given: bool,
     /// The cutting inserts.
     pub insert: Option<CutterInsert>,
     /// The place of the entry in the setup.

@@ -41,6 +41,8 @@ pub(crate) struct ToolText {
     holder: Option<HolderText>,
     /// The number of teeth.
     teeth: Option<PositiveCount>,
+    /// The number of teeth, as NX and tool catalogues call it. It excludes `teeth`.
+    flutes: Option<PositiveCount>,
     /// The angles in degrees from each tooth to the next, and from the last to the first. They add up to 360.
     /// The pitch is even when it is left out.
     pitch: Option<PitchText>,
@@ -100,8 +102,15 @@ struct InsertText {
 impl ToolText {
     /// Returns the entry in millimetres and radians.
     pub(crate) fn check_tool(self, reader: &mut SetupReader, place: YamlLocation) -> ToolEntry {
+        if self.teeth.is_some() && self.flutes.is_some() {
+            let message = "the number of teeth is given twice, by `teeth` and by `flutes`".to_owned();
+            let help = "Keep one of them; the length of the flutes is `flute_length`.";
+            let keys = [(place.at_key("flutes"), "given again here"), (place.at_key("teeth"), "and here")];
+            reader.add_key_fault(codes::BAD_VALUE, message, help, &keys);
+        }
         let teeth = TeethText {
-            teeth: self.teeth,
+            teeth: self.teeth.or(self.flutes),
+            teeth_key: if self.teeth.is_some() { "teeth" } else { "flutes" },
             pitch: self.pitch.as_ref(),
             helix: self.helix,
             runout: self.runout.as_ref(),
@@ -142,7 +151,7 @@ impl ToolText {
             shank,
             holder,
             teeth,
-            helix_is_told: self.helix.is_some(),
+            helix_is_given: self.helix.is_some(),
             insert,
             place,
         };

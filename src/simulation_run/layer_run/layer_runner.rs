@@ -13,7 +13,7 @@ use crate::program::motion::Motion;
 use crate::program::{Program, StatementId};
 use crate::simulation_run::faults::FaultCollector;
 use crate::simulation_run::tooling::statement_span;
-use crate::simulation_run::{Machining, RunWatcher};
+use crate::simulation_run::{Machining, RunPhase, RunWatcher};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -66,6 +66,7 @@ impl Machining<'_> {
         watch: &dyn RunWatcher,
         sink: &mut dyn FnMut(&MotionChips<'_>),
     ) -> Result<LayerRunResult, Failure> {
+        watch.begin_phase(RunPhase::Simulating);
         let stack = LayerStack::new(&self.stock, options.layer_mm).map_err(|error| {
             let message = format!("the stock cannot be cut into layers of {} mm: {error}", options.layer_mm);
             Diagnostic::new(codes::LAYERS, message)
@@ -98,6 +99,13 @@ impl Machining<'_> {
         running.cut_queued(sink);
         let findings = running.collect_findings();
         Ok(LayerRunResult { left: running.stack, before_mm3, findings })
+    }
+}
+
+impl Machining<'_> {
+    /// Returns the lines on which motions end, counted from 1, in the order of the program.
+    pub(crate) fn motion_lines(&self) -> Vec<usize> {
+        self.program.motions().map(|motion| end_line_number(self.program, &motion)).collect()
     }
 }
 

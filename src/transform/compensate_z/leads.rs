@@ -57,7 +57,7 @@ impl<'a> PassSurroundings<'a> {
             let upright = (displacement - motion.to.axis * displacement.dot(&motion.to.axis)).norm()
                 * mm_per_unit
                 <= STRAIGHT_DOWN;
-            !*meant && is_cutting(motion) && (motion.class_is_told || !upright)
+            !*meant && is_cutting(motion) && (motion.class_is_stated || !upright)
         };
         Self {
             motions,

@@ -3,7 +3,7 @@
 use crate::parameters::{FilePath, Positive};
 use crate::recipe::MotionFilter;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// Puts the tip of a ball-nose cutter where the ball touches the part, for a path that was programmed on the
 /// part itself.
@@ -23,11 +23,20 @@ use serde::Deserialize;
 /// fails if gouge or gap exceed the tolerance.
 ///
 /// The step is not idempotent with `input: contact`: a second run would take tips for contact points.
+///
+/// ```yaml
+/// version: 1
+/// units: mm
+/// steps:
+///   # The path has the points of the part; a ball of this radius shall touch them.
+///   - compensate_z: { radius: 5 }
+/// ```
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CompensateZ {
     /// The radius of the ball, in the recipe's unit. Without it, the radius of the tool in the setup or in
     /// the CL file counts.
+    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "that of the tool"))]
     pub radius: Option<Positive>,
     /// What the points of the path are: contact points, tips or centres.
     #[serde(default)]
@@ -37,8 +46,10 @@ pub struct CompensateZ {
     pub output: OutputPointKind,
     /// The radius of the ball that the path was made for, in the recipe's unit. It is needed with `input:
     /// tip` or `input: centre`.
+    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "none; needed unless `input` is `contact`"))]
     pub was_radius: Option<Positive>,
     /// The allowed gouge and gap, in the recipe's unit; 0.005 mm when it is left out.
+    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "0.005 mm"))]
     pub tolerance: Option<Positive>,
     /// What the cutter is compensated against: the profile of the pass, contact normals or a model.
     #[serde(default)]
@@ -48,11 +59,12 @@ pub struct CompensateZ {
     pub arcs: ArcOutput,
     /// Which motions are meant; all cuts when it is left out.
     #[serde(default)]
+    #[schemars(extend("x-default" = "all cuts"))]
     pub r#where: MotionFilter,
 }
 
 /// What the points of a path are.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum InputPointKind {
     /// The points lie on the part, where the cutter has to touch it.
@@ -65,7 +77,7 @@ pub enum InputPointKind {
 }
 
 /// What the points of the path become.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum OutputPointKind {
     /// They become the tip (south pole) of the cutter.
@@ -76,7 +88,7 @@ pub enum OutputPointKind {
 }
 
 /// What the cutter is compensated against.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CompensationReference {
     /// The pass itself is the profile of the part in its vertical plane.
@@ -90,7 +102,7 @@ pub enum CompensationReference {
 }
 
 /// How arcs are written.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ArcOutput {
     /// As arcs, if the file has an arc of known sense on which they can be modelled: a CIRCLE (NX,

@@ -89,7 +89,7 @@ fn trim_plunge_and_retract(motions: &[Motion], mut run: Range<usize>, mm_per_uni
         motions.get(index).is_some_and(|motion| {
             let displacement = (motion.to.point - motion.from.point) * mm_per_unit;
             let along = displacement.dot(&motion.to.axis);
-            (!motion.class_is_told || beside_rapid)
+            (!motion.class_is_stated || beside_rapid)
                 && matches!(motion.path, MotionPath::Line)
                 && (displacement - motion.to.axis * along).norm() <= STRAIGHT_DOWN
                 && (if up { along >= 0.0 } else { along <= 0.0 })
@@ -297,5 +297,5 @@ pub(super) fn is_cutting(motion: &Motion) -> bool {
     !motion.rapid
         && motion.hole.is_none()
         && !matches!(motion.path, MotionPath::Start)
-        && (!motion.class_is_told || motion.class == MotionClass::Cut)
+        && (!motion.class_is_stated || motion.class == MotionClass::Cut)
 }

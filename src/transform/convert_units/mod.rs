@@ -26,6 +26,13 @@ use unit_conversion::UnitConversion;
 ///
 /// The step is idempotent where the file states its unit: a program that already has the unit is left
 /// unchanged. A file that states no unit is refused if its feeds already name the new unit.
+///
+/// ```yaml
+/// version: 1
+/// steps:
+///   # A file that states its unit needs no `from`.
+///   - convert_units: { from: mm, to: inch }
+/// ```
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ConvertUnits {
@@ -33,6 +40,7 @@ pub struct ConvertUnits {
     pub to: LengthUnit,
     /// The unit that the program has now. It is only needed where the file does not state it (NX, CATIA), and
     /// an error where the file states another.
+    #[schemars(extend("x-default" = "what the file states"))]
     pub from: Option<LengthUnit>,
 }
 

@@ -5,7 +5,7 @@ use crate::parameters::{Finite, NonNegative, Positive};
 use crate::recipe::MotionFilter;
 use schemars::JsonSchema;
 use serde::de::Error;
-use serde::{Deserialize, Deserializer};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// Corrects ramp approaches whose legs are too short or too steep for an indexable cutter, which does not cut
 /// around its axis.
@@ -21,15 +21,28 @@ use serde::{Deserialize, Deserializer};
 /// (PAINT/COLOR engage, leads) tell where it has them. Otherwise, geometry tells in operations that mostly
 /// cut level. Drilling cycles, turning and surfaces have no ramps. The start (across the axis) and the end of
 /// a ramp stay, and so does every statement outside of it. A second run changes nothing.
+///
+/// ```yaml
+/// version: 1
+/// units: mm
+/// setup:
+///   tools:
+///     - { match: {}, insert: { height: 4, radius: 6 } }
+/// steps:
+///   - correct_ramp: { depth_of_cut: 3, clearance: 2.5 }
+/// ```
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CorrectRamp {
     /// The cutter. What is left out comes from `setup.tools` (`insert:`) and from the CL file.
+    #[schemars(extend("x-default" = "the tool of the setup and the program"))]
     pub tool: Option<RampToolSpec>,
     /// The largest depth of cut A_p, in the recipe's unit. A ramp that is too steep then begins at
     /// `depth_of_cut` + `clearance` above its end. Without it, the ramp begins where it did before.
+    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "the height at which the ramp began"))]
     pub depth_of_cut: Option<Positive>,
     /// How far above the depth of cut a ramp may begin, in the recipe's unit; 2.5 mm when it is left out.
+    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "2.5 mm"))]
     pub clearance: Option<NonNegative>,
     /// Where the tool's centre may go. `milled`: where its disc covers only what the operation itself cuts at
     /// the ramp's level. `hull`: within the convex hull of that, which also covers islands and, around an
@@ -47,6 +60,7 @@ pub struct CorrectRamp {
     /// Which motions are meant; all of them when it is left out. A ramp is meant if its first descending
     /// motion is.
     #[serde(default)]
+    #[schemars(extend("x-default" = "the whole program"))]
     pub r#where: MotionFilter,
 }
 
@@ -55,15 +69,18 @@ pub struct CorrectRamp {
 #[serde(deny_unknown_fields)]
 pub struct RampToolSpec {
     /// The diameter D.
+    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "that of the setup or the program"))]
     pub diameter: Option<Positive>,
     /// The radius r of the insert's bottom circle.
+    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "that of the setup"))]
     pub insert_radius: Option<Positive>,
     /// The cutting height h of the insert.
+    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "that of the setup"))]
     pub insert_height: Option<Positive>,
 }
 
 /// Where the tool's centre may go.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RampRegionSpec {
     /// Where the tool covers only what the operation cuts at the ramp's level, or what the ramp itself
@@ -77,11 +94,12 @@ pub enum RampRegionSpec {
     None,
     /// Within a polygon of `[x, y]` vertices, in the recipe's unit and the coordinates of the CL file (for a
     /// tilted tool, across its axis).
+    #[schemars(extend("x-unit" = "the recipe's unit"))]
     Polygon(#[serde(deserialize_with = "read_vertices")] Vec<[Finite; 2]>),
 }
 
 /// What happens if a ramp cannot be corrected.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ImpossibleRampHandling {
     /// The step fails, and nothing is written.
@@ -92,7 +110,7 @@ pub enum ImpossibleRampHandling {
 }
 
 /// What happens to straight descents.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PlungeHandling {
     /// They become ramps.

@@ -65,7 +65,7 @@ pub(super) fn find_ramps(motions: &[Motion], mm_per_unit: f64, begin: Option<f64
         let goes_on = |next: &Motion| {
             may(next)
                 && next.operation == motion.operation
-                && next.class_is_told == motion.class_is_told
+                && next.class_is_stated == motion.class_is_stated
                 && has_same_axis(next, motion)
         };
         let count = run.iter().take_while(|next| goes_on(next)).count().max(1);
@@ -114,7 +114,7 @@ fn find_ramp_in_run(
     let surface = next.is_some_and(|next| {
         !next.rapid && next.class == MotionClass::Cut && next.operation == first.operation
     });
-    if ramp.height_mm() < LEAST_HEIGHT || !has_level && (!first.class_is_told || surface) {
+    if ramp.height_mm() < LEAST_HEIGHT || !has_level && (!first.class_is_stated || surface) {
         return None;
     }
     Some(FoundRamp { operation: first.operation, motions: run, frame, ramp, has_level, passes })
@@ -123,7 +123,7 @@ fn find_ramp_in_run(
 /// Returns whether a motion may be part of a ramp. It must be a descent at feed with a constant axis, neither
 /// drilling nor turning.
 fn is_candidate(motion: &Motion, mm_per_unit: f64) -> bool {
-    let marked_otherwise = motion.class_is_told && motion.class != MotionClass::Engage;
+    let marked_otherwise = motion.class_is_stated && motion.class != MotionClass::Engage;
     !motion.rapid
         && !marked_otherwise
         && motion.hole.is_none()
@@ -226,7 +226,7 @@ fn find_pass_directions(
         .take_while(|motion| continues_at_level(motion, first, mm_per_unit))
         .take(MOST_FOLLOWING)
         .collect();
-    let marked = level.iter().find(|motion| motion.class_is_told && motion.class == MotionClass::Cut);
+    let marked = level.iter().find(|motion| motion.class_is_stated && motion.class == MotionClass::Cut);
     let longest =
         level.iter().copied().reduce(|one, next| if next.length() > one.length() { next } else { one });
     let wanted = marked.copied().or(longest).into_iter().chain(level.first().copied());
@@ -289,7 +289,8 @@ impl OperationSurvey {
         if nose && high - low <= LEVEL {
             return false;
         }
-        motion.class_is_told || self.level >= LEAST_LEVEL_FRACTION * self.level_or_rising && self.level > 0.0
+        motion.class_is_stated
+            || self.level >= LEAST_LEVEL_FRACTION * self.level_or_rising && self.level > 0.0
     }
 }
 
@@ -304,7 +305,7 @@ fn survey_operations(motions: &[Motion], mm_per_unit: f64) -> Vec<OperationSurve
         let [low, high] = survey.y;
         survey.y = [low.min(y), high.max(y)];
         let up = rise_along_axis(motion);
-        if motion.rapid || motion.hole.is_some() || motion.class_is_told || up * mm_per_unit < -LEVEL {
+        if motion.rapid || motion.hole.is_some() || motion.class_is_stated || up * mm_per_unit < -LEVEL {
             continue;
         }
         // Pythagoras: only the part across the axis counts, so a plunge does not make an operation level.

@@ -15,7 +15,7 @@ use crate::program::Program;
 use crate::recipe::OperationFilter;
 pub use move_parameters::{DirectionSpec, MirrorSpec, RotationSpec, VectorSpec};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// Moves, rotates or mirrors the path.
 ///
@@ -35,26 +35,37 @@ use serde::Deserialize;
 ///
 /// The step is not idempotent: a second run moves the path again. A transform that moves nothing changes no
 /// byte.
+///
+/// ```yaml
+/// version: 1
+/// units: mm
+/// steps:
+///   - move_origin: { rotate: { axis: z, degrees: 90 }, translate: [250, 0, 0] }
+/// ```
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MoveOrigin {
     /// The plane of the mirror: `x`, `y` or `z` (the plane normal to it, through the origin), or `{ normal:
     /// [1, 1, 0], through: [0, 0, 0] }`.
+    #[schemars(extend("x-default" = "no mirror"))]
     pub mirror: Option<MirrorSpec>,
     /// The rotation: `{ axis: z, degrees: 90, about: [0, 0, 0] }`.
+    #[schemars(extend("x-default" = "no rotation"))]
     pub rotate: Option<RotationSpec>,
     /// The displacement that is added to every point: `[x, y, z]`, in the recipe's unit.
+    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "no displacement"))]
     pub translate: Option<move_parameters::VectorSpec>,
     /// What gets new numbers: the points, or the frame in which they are printed.
     #[serde(default)]
     pub change: MoveOriginTarget,
     /// Which operations are meant; all of them when it is left out.
     #[serde(default)]
+    #[schemars(extend("x-default" = "the whole program"))]
     pub r#where: OperationFilter,
 }
 
 /// What `move_origin` changes.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MoveOriginTarget {
     /// The points, directions and axes.

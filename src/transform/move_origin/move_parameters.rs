@@ -33,10 +33,12 @@ pub struct MirrorSpec {
 #[serde(deny_unknown_fields)]
 pub struct RotationSpec {
     /// The direction of the axis: `x`, `y`, `z` or `[i, j, k]`.
+    #[schemars(extend("x-unit" = "a direction, of any length"))]
     pub axis: DirectionSpec,
     /// The angle in degrees, counter-clockwise when the axis points at you. Quarter turns are exact.
     pub degrees: Degrees,
     /// A point of the axis, in the recipe's unit; the origin when it is left out.
+    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "the origin"))]
     pub about: Option<VectorSpec>,
 }
 
@@ -138,8 +140,10 @@ impl<'de> Deserialize<'de> for MirrorSpec {
 #[serde(deny_unknown_fields)]
 struct MirrorPlaneSpec {
     /// The plane's normal.
+    #[schemars(extend("x-unit" = "a direction, of any length"))]
     normal: DirectionSpec,
     /// A point of the plane, in the recipe's unit; the origin when it is left out.
+    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "the origin"))]
     through: Option<VectorSpec>,
 }
 

@@ -7,7 +7,7 @@ use crate::program::MotionClass;
 use crate::recipe::{MotionFilter, deserialize_not_empty};
 use crate::simulation_run::EngagementModel;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// Gives every block the feed at which the cutter's load reaches its target, by simulating what the cutter
 /// really removes.
@@ -20,6 +20,18 @@ use serde::Deserialize;
 ///
 /// Rapids, drilling cycles and motions that are not selected keep their feeds. A second run changes nothing
 /// beyond `min_change`, unless `min_ratio` or `max_ratio` tie the feeds to the programmed ones.
+///
+/// ```yaml
+/// version: 1
+/// units: mm
+/// setup:
+///   machine: { max_feed: 8000 }
+///   stock: { block: { from: [0, -20, -10], to: [60, 20, 0] } }
+///   tools:
+///     - { match: {}, diameter: 10, flute_length: 20, teeth: 4 }
+/// steps:
+///   - optimize_feed: { target: 0.05 }
+/// ```
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OptimizeFeed {
@@ -27,50 +39,64 @@ pub struct OptimizeFeed {
     #[serde(default)]
     pub criterion: LoadCriterion,
     /// The allowed load, in the unit of the criterion.
+    #[schemars(extend("x-unit" = "the criterion's: mm, mm3/min, N, N m or kW"))]
     pub target: Positive,
     /// Further limits that hold at the same time. The lowest feed counts.
     #[serde(default, deserialize_with = "deserialize_not_empty")]
     #[schemars(length(min = 1))]
+    #[schemars(extend("x-default" = "no further limits"))]
     pub limits: Option<Vec<LoadLimitSpec>>,
     /// Which part of the path counts for the feed of a block.
     #[serde(default)]
     pub window: WindowSpec,
     /// The lowest feed, in the recipe's unit per minute.
+    #[schemars(extend("x-unit" = "the recipe's unit per minute", "x-default" = "no lowest feed"))]
     pub min_feed: Option<Positive>,
     /// The highest feed, in the recipe's unit per minute. Without it, the machine's `max_feed` counts; if
     /// both are given, the lower one.
+    #[schemars(extend("x-unit" = "the recipe's unit per minute", "x-default" = "the max_feed of the machine"))]
     pub max_feed: Option<Positive>,
     /// The lowest feed as a fraction of the programmed one.
+    #[schemars(extend("x-unit" = "none (times the programmed feed)", "x-default" = "no lowest ratio"))]
     pub min_ratio: Option<Factor>,
     /// The highest feed as a fraction of the programmed one.
+    #[schemars(extend("x-unit" = "none (times the programmed feed)", "x-default" = "no highest ratio"))]
     pub max_ratio: Option<Factor>,
     /// The feed in air, in the recipe's unit per minute. Without it, air keeps the programmed feed, except in
     /// blocks that come within `margin` of material: these have the cutting feed there.
+    #[schemars(extend("x-unit" = "the recipe's unit per minute", "x-default" = "the programmed feed"))]
     pub air_feed: Option<Positive>,
     /// The length of path before and after material that keeps the cutting feed, in the recipe's unit; 0.5 mm
     /// when it is left out.
+    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "0.5 mm"))]
     pub margin: Option<NonNegative>,
     /// The largest change of feed along the path, in the recipe's unit per minute and second. Without it, the
     /// machine's value counts.
+    #[schemars(extend("x-unit" = "the recipe's unit per minute and second", "x-default" = "that of the machine"))]
     pub max_acceleration: Option<Positive>,
     /// Splits long blocks whose load varies. Blocks are never split when it is left out.
+    #[schemars(extend("x-default" = "no block is split"))]
     pub split: Option<SplitSpec>,
     /// Changes that are smaller than this fraction keep the feed in force.
     #[serde(default = "default_min_change")]
+    #[schemars(extend("x-unit" = "none (a part of the feed in force)"))]
     pub min_change: Fraction,
     /// Feeds are rounded down to multiples of this, in the recipe's unit per minute; 0 keeps as many decimals
     /// as the file prints.
     #[serde(default = "default_round_down_to")]
+    #[schemars(extend("x-unit" = "the recipe's unit per minute"))]
     pub round_down_to: NonNegative,
     /// The model that finds where the cutter is engaged.
     #[serde(default)]
     pub engagement: EngagementSpec,
     /// The distance of the simulation's columns, in the recipe's unit; a fortieth of the smallest cutter's
     /// diameter when it is left out. It is only allowed with `engagement: dexels`.
+    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "a fortieth of the diameter of the smallest cutter"))]
     pub cell: Option<Positive>,
     /// The thickness of the layers, in the recipe's unit; a fortieth of the smallest cutter's diameter when
     /// it is left out. Material thinner than a layer may be missed. It is only allowed with `engagement:
     /// layers`.
+    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "a fortieth of the diameter of the smallest cutter"))]
     pub layer: Option<Positive>,
     /// The classes of motion that may get another feed.
     #[serde(default = "default_motions")]
@@ -78,6 +104,7 @@ pub struct OptimizeFeed {
     pub motions: Vec<MotionClass>,
     /// Which motions are meant; all of them when it is left out.
     #[serde(default)]
+    #[schemars(extend("x-default" = "the whole program"))]
     pub r#where: MotionFilter,
 }
 
@@ -88,11 +115,12 @@ pub struct LoadLimitSpec {
     /// The load that it limits.
     pub criterion: LoadCriterion,
     /// The allowed load, in the unit of the criterion.
+    #[schemars(extend("x-unit" = "the criterion's: mm, mm3/min, N, N m or kW"))]
     pub target: Positive,
 }
 
 /// Which part of the path counts for the feed of a block.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum WindowSpec {
     /// All of the block, so the target is never exceeded.
@@ -104,7 +132,7 @@ pub enum WindowSpec {
 }
 
 /// The model that finds where the cutter is engaged.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum EngagementSpec {
     /// Columns of material along z, for every cutter and axis, with shank and holder.
@@ -121,10 +149,13 @@ pub enum EngagementSpec {
 #[serde(deny_unknown_fields)]
 pub struct SplitSpec {
     /// Only blocks longer than this are split.
+    #[schemars(extend("x-unit" = "the recipe's unit"))]
     pub above: Positive,
     /// No part becomes shorter than this.
+    #[schemars(extend("x-unit" = "the recipe's unit"))]
     pub shortest: Positive,
     /// A block gets at most so many parts.
+    #[schemars(extend("x-unit" = "parts"))]
     pub at_most: PositiveCount,
 }
 

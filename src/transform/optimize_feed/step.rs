@@ -12,7 +12,9 @@ use crate::parameters::Positive;
 use crate::program::Program;
 use crate::program::motion::{ActiveTool, Motion};
 use crate::setup::Setup;
-use crate::simulation_run::{EngagementModel, EngagementRunResult, Machining, SimulationRunOptions};
+use crate::simulation_run::{
+    EngagementModel, EngagementRunResult, Machining, RunPhase, SimulationRunOptions,
+};
 use crate::transform::{MotionSelection, StepContext, Transform};
 
 /// The longest piece of path that is measured on its own where blocks may not be split, in mm. Margins and
@@ -57,6 +59,7 @@ impl Transform for OptimizeFeed {
         // Assumptions and crashes are only reported once, for the program before the change.
         context.findings.extend(ran.findings);
         warn_of_distant_targets(&job.goals, &before, context);
+        context.watch.begin_phase(RunPhase::Planning);
         let OptimizedProgram { mut program, excused, parts } =
             plan_and_write_feeds(&job.goals, program, &before, context)?;
         let kept_findings = std::mem::take(&mut context.findings);

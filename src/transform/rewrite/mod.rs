@@ -58,11 +58,21 @@ use serde::de::{Deserializer, Error as _};
 /// The step is idempotent if a statement does not match any more once it is replaced. Statements are not
 /// inserted where they already stand in the same order right beside the matched one, nor beside one that is
 /// the same itself. So running the step twice inserts them once.
+///
+/// ```yaml
+/// version: 1
+/// steps:
+///   - rewrite:
+///       rules:
+///         - match: "COOLNT/ON"
+///           replace: "COOLNT/FLOOD"
+/// ```
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Rewrite {
     /// Which statements are meant; all of them when it is left out. Use `if` for conditions on feeds.
     #[serde(default)]
+    #[schemars(extend("x-default" = "the whole program"))]
     pub r#where: StatementFilter,
     /// The rules, in the order in which they are tried.
     #[serde(deserialize_with = "at_least_one")]

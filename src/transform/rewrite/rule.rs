@@ -23,18 +23,22 @@ pub struct RewriteRule {
     /// The condition: the rule only applies to statements for which this is true, for example `$F > 1000 and
     /// $U == 'MMPM'`.
     #[schemars(with = "Option<String>")]
+    #[schemars(extend("x-default" = "every statement that matches"))]
     pub(super) r#if: Option<RuleCondition>,
     /// The statement that is written in its place.
     #[schemars(with = "Option<StatementSchema>")]
+    #[schemars(extend("x-default" = "the statement stays"))]
     pub(super) replace: Option<StatementTemplate>,
     /// Whether the statement is deleted.
     #[schemars(default)]
     pub(super) delete: bool,
     /// A statement, or a list of them, that is inserted before it.
     #[schemars(with = "Option<StatementListSchema>")]
+    #[schemars(extend("x-default" = "nothing"))]
     pub(super) insert_before: Vec<StatementTemplate>,
     /// A statement, or a list of them, that is inserted after it.
     #[schemars(with = "Option<StatementListSchema>")]
+    #[schemars(extend("x-default" = "nothing"))]
     pub(super) insert_after: Vec<StatementTemplate>,
 }
 

@@ -33,6 +33,13 @@ use std::collections::BTreeSet;
 ///
 /// A limit holds as printed. The step is idempotent with `set` and `clamp`: a second run changes nothing.
 /// With `scale`, a second run multiplies again.
+///
+/// ```yaml
+/// version: 1
+/// steps:
+///   # Four fifths of the speed, with the same feed per tooth.
+///   - set_spindle: { speed: { scale: 0.8 }, feeds: follow }
+/// ```
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SetSpindle {
@@ -42,6 +49,7 @@ pub struct SetSpindle {
     pub feeds: SpindleFeedHandling,
     /// Which statements and motions are meant; all of them when it is left out.
     #[serde(default)]
+    #[schemars(extend("x-default" = "the whole program"))]
     pub r#where: StatementFilter,
 }
 
@@ -51,8 +59,10 @@ pub struct SetSpindle {
 pub enum SpindleSpeedChange {
     /// The speed is multiplied by a factor. The result has the decimals of the programmed speed, and more
     /// only where a thousandth of it would be lost.
+    #[schemars(extend("x-unit" = "none (times the programmed speed)"))]
     Scale(Factor),
     /// The speed becomes this, in rev/min.
+    #[schemars(extend("x-unit" = "rev/min"))]
     Set(Positive),
     /// The speed is kept within limits, in rev/min.
     Clamp(#[serde(deserialize_with = "read_speed_range")] SpindleSpeedRange),
@@ -63,8 +73,10 @@ pub enum SpindleSpeedChange {
 #[serde(deny_unknown_fields)]
 pub struct SpindleSpeedRange {
     /// The lowest speed, in rev/min.
+    #[schemars(extend("x-unit" = "rev/min", "x-default" = "no lowest speed"))]
     pub min: Option<Positive>,
     /// The highest speed, in rev/min.
+    #[schemars(extend("x-unit" = "rev/min", "x-default" = "no highest speed"))]
     pub max: Option<Positive>,
 }
 

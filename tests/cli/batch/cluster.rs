@@ -23,7 +23,7 @@ fn shell(folder: &Path) -> Command {
 fn the_jobs_file_is_good() {
     let out = tempfile::tempdir().unwrap();
     let jobs = cluster().join("jobs.yaml");
-    clsmith(out.path()).arg("batch").arg(jobs).args(["-q", "--out", "done"]).assert().success();
+    clsmith(out.path()).arg("batch").arg(jobs).args(["-q", "--output", "done"]).assert().success();
     assert!(lines(&out.path().join("done/results.jsonl")).len() >= 5);
     assert!(out.path().join("done/inch/part.aptsource").exists());
 }

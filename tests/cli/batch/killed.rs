@@ -11,7 +11,17 @@ fn start(folder: &Path, out: &str) -> Child {
     Command::new(env!("CARGO_BIN_EXE_clsmith"))
         .current_dir(folder)
         .args([
-            "batch", "--recipe", "r.yaml", "--resume", "--jobs", "2", "--memory", "64M", "-q", "--out", out,
+            "batch",
+            "--recipe",
+            "r.yaml",
+            "--resume",
+            "--threads",
+            "2",
+            "--memory",
+            "64M",
+            "-q",
+            "--output",
+            out,
             ALL,
         ])
         .stdout(Stdio::null())

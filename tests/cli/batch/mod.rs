@@ -56,12 +56,12 @@ pub fn write(folder: &Path, name: &str, text: &str) {
 
 pub const ALL: &str = "programs/**/*.cls";
 
-/// `clsmith batch --recipe r.yaml --out OUT 'programs/**/*.cls'` and more arguments.
+/// `clsmith batch --recipe r.yaml -o OUT 'programs/**/*.cls'` and more arguments.
 pub fn batch(folder: &Path, out: &str, more: &[&str]) -> assert_cmd::assert::Assert {
     let mut command = clsmith(folder);
-    command.args(["batch", "--recipe", "r.yaml", "--out", out]).args(more);
+    command.args(["batch", "--recipe", "r.yaml", "--output", out]).args(more);
     if !more.contains(&"--memory") {
-        command.args(["--memory", "64M", "--jobs", "4"].iter().take(if more.contains(&"--jobs") {
+        command.args(["--memory", "64M", "--threads", "4"].iter().take(if more.contains(&"--threads") {
             2
         } else {
             4
@@ -130,7 +130,7 @@ fn the_summary_and_the_results_tell_what_happened() {
         "TOOL PATH/A,TOOL,T\nRAPID\nGOTO/0.0000,0.0000,50.0000\nEND-OF-PATH\n",
     );
     write(shop.path(), "programs/empty.cls", "$$ only a comment\n");
-    let done = batch(shop.path(), "done", &["--jobs", "1"]).code(1);
+    let done = batch(shop.path(), "done", &["--threads", "1"]).code(1);
     let mut settings = support::snapshots("cli");
     settings.add_filter(r"in \d+\.\d s", "in [seconds]");
     settings.bind(|| insta::assert_snapshot!("batch_summary", format!("{}{}", stderr(&done), stdout(&done))));
@@ -171,7 +171,7 @@ fn a_jobs_file_has_its_paths_beside_itself() {
     assert_eq!(lines(&shop.path().join("done/results.jsonl"))[0]["input"], "../programs/a/b/p002.cls");
     clsmith(&shop.path().join("jobs")).args(["batch", "all.yaml"]).assert().success();
     assert_eq!(tree(&shop.path().join("done")), done);
-    run(&["--out", "elsewhere"]);
+    run(&["--output", "elsewhere"]);
     assert_eq!(tree(&shop.path().join("elsewhere")), done);
     assert!(stdout(&run(&[])).contains("all"), "a sum over the recipes");
     let schema = clsmith(shop.path()).args(["schema", "--jobs"]).assert().success();
@@ -183,9 +183,9 @@ fn results_do_not_depend_on_threads_memory_or_order() {
     let shop = shop(30);
     write(shop.path(), "programs/long.cls", &long_part(3000));
     write(shop.path(), "programs/bad.cls", "GOTO/x\n");
-    batch(shop.path(), "one", &["--jobs", "1"]).code(1);
-    batch(shop.path(), "four", &["--jobs", "4"]).code(1);
-    batch(shop.path(), "little", &["--jobs", "4", "--memory", "9M"]).code(1);
+    batch(shop.path(), "one", &["--threads", "1"]).code(1);
+    batch(shop.path(), "four", &["--threads", "4"]).code(1);
+    batch(shop.path(), "little", &["--threads", "4", "--memory", "9M"]).code(1);
     let one = tree(&shop.path().join("one"));
     assert_eq!(one.len(), 32);
     assert_eq!(one, tree(&shop.path().join("four")));
@@ -207,9 +207,9 @@ fn one_failure_stops_the_rest_only_if_asked() {
     let shop = shop(20);
     // The largest is first.
     write(shop.path(), "programs/bad.cls", &format!("GOTO/x\n{}", long_part(200)));
-    batch(shop.path(), "done", &["--jobs", "1"]).code(1);
+    batch(shop.path(), "done", &["--threads", "1"]).code(1);
     assert_eq!(tree(&shop.path().join("done")).len(), 21);
-    let done = batch(shop.path(), "stopped", &["--jobs", "1", "--fail-fast"]).code(1);
+    let done = batch(shop.path(), "stopped", &["--threads", "1", "--fail-fast"]).code(1);
     assert_eq!(tree(&shop.path().join("stopped")).len(), 1, "only results");
     let results = lines(&shop.path().join("stopped/results.jsonl"));
     let not_run = results.iter().filter(|line| line["outcome"] == "not_run").count();

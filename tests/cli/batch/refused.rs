@@ -16,9 +16,9 @@ fn what_cannot_be_right_is_told_and_nothing_runs() {
     let mut text = String::new();
     let mut refused = |out: &str, files: &[&str]| {
         let mut command = clsmith(shop.path());
-        command.args(["batch", "--recipe", "r.yaml", "--format", "line", "--out", out]).args(files);
+        command.args(["batch", "--recipe", "r.yaml", "--format", "line", "--output", out]).args(files);
         let done = command.assert().code(1);
-        writeln!(text, "$ --out {out} {}\n{}", files.join(" "), stderr(&done)).unwrap();
+        writeln!(text, "$ -o {out} {}\n{}", files.join(" "), stderr(&done)).unwrap();
     };
     refused("done", &["programs/*.clsf"]);
     refused("done", &["nowhere/**/*.cls", "programs", "none.cls", "programs/[a.cls", "programs/*/../*.cls"]);
@@ -80,12 +80,12 @@ fn the_command_line_is_checked() {
     run(&["a.yaml", "b.yaml"]);
     run(&["--recipe", "r.yaml", "programs/*.cls"]);
     run(&["jobs.yaml", "--setup", "s.yaml"]);
-    run(&["--recipe", "r.yaml", "--out", "done", "programs/*.cls", "--shard", "0/4"]);
-    run(&["--recipe", "r.yaml", "--out", "done", "programs/*.cls", "--memory", "much"]);
-    run(&["--recipe", "r.yaml", "--out", "done", "programs/*.cls", "--jobs", "0"]);
-    run(&["--recipe", "r.yaml", "--out", "done", "programs/*.cls", "--results", "-"]);
-    run(&["--recipe", "r.yaml", "--out", "done", "programs/*.cls", "--deny", "CL9999"]);
-    run(&["--recipe", "r.yaml", "--out", "done", "programs/*.cls", "--allow", "CL0421"]);
+    run(&["--recipe", "r.yaml", "--output", "done", "programs/*.cls", "--shard", "0/4"]);
+    run(&["--recipe", "r.yaml", "--output", "done", "programs/*.cls", "--memory", "much"]);
+    run(&["--recipe", "r.yaml", "--output", "done", "programs/*.cls", "--threads", "0"]);
+    run(&["--recipe", "r.yaml", "--output", "done", "programs/*.cls", "--results", "-"]);
+    run(&["--recipe", "r.yaml", "--output", "done", "programs/*.cls", "--deny", "CL9999"]);
+    run(&["--recipe", "r.yaml", "--output", "done", "programs/*.cls", "--allow", "CL0421"]);
 }
 
 #[test]

@@ -118,7 +118,7 @@ fn old_results_do_not_outlive_a_new_run() {
     fs::remove_file(shop.path().join("done/.clsmith-batch.journal")).unwrap();
     fs::create_dir(shop.path().join("done/.clsmith-batch.journal")).unwrap();
     let run = clsmith(shop.path())
-        .args(["batch", "--recipe", "r.yaml", "--out", "done", "programs/**/*.cls"])
+        .args(["batch", "--recipe", "r.yaml", "--output", "done", "programs/**/*.cls"])
         .assert()
         .code(1);
     assert!(super::stderr(&run).contains("CL0402"), "{}", super::stderr(&run));

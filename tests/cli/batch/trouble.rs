@@ -17,7 +17,7 @@ fn the_second_of_two_batches_is_refused() {
         });
         let mut first = std::process::Command::new(env!("CARGO_BIN_EXE_clsmith"))
             .current_dir(shop.path())
-            .args(["batch", "--recipe", "r.yaml", "--jobs", "1", "-q", "--out", "done", ALL])
+            .args(["batch", "--recipe", "r.yaml", "--threads", "1", "-q", "--output", "done", ALL])
             .spawn()
             .unwrap();
         let lock = shop.path().join("done/.clsmith-batch.lock");
@@ -127,7 +127,7 @@ fn a_setup_that_is_changed_meanwhile_is_told() {
             write(shop.path(), &format!("programs/long{number}.cls"), &long_part(3_000 * size))
         });
         let mut run = clsmith(shop.path());
-        run.args(["batch", "--recipe", "r.yaml", "--jobs", "1", "--out", "done", ALL, "-q"]);
+        run.args(["batch", "--recipe", "r.yaml", "--threads", "1", "--output", "done", ALL, "-q"]);
         let journal = shop.path().join("done/.clsmith-batch.journal");
         let done = std::thread::scope(|scope| {
             scope.spawn(|| {

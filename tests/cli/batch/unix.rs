@@ -44,7 +44,7 @@ fn names_in_any_encoding_come_out_as_they_went_in() {
     assert!(stdout(&again).contains("12 done before"));
     // Named, and not by a pattern.
     let mut one = clsmith(shop.path());
-    one.args(["batch", "--recipe", "r.yaml", "--out", "one", "--"]).arg(path("programs", names[0]));
+    one.args(["batch", "--recipe", "r.yaml", "--output", "one", "--"]).arg(path("programs", names[0]));
     one.arg(path("programs", names[5])).assert().success();
     assert_eq!(tree(&shop.path().join("one")).len(), 3);
 }
@@ -126,7 +126,7 @@ fn a_write_protected_folder_is_told_and_keeps_what_it_has() {
     set("done/a/b", 0o777);
     let run = |args: &[&str]| {
         let mut command = as_anybody(shop.path());
-        command.args(["batch", "--recipe", "r.yaml", "--format", "line", ALL, "--out"]).args(args);
+        command.args(["batch", "--recipe", "r.yaml", "--format", "line", ALL, "--output"]).args(args);
         let run = command.output().unwrap();
         (run.status.code(), String::from_utf8_lossy(&run.stderr).into_owned())
     };
@@ -153,7 +153,7 @@ fn a_full_disk_costs_what_does_not_fit_and_leaves_nothing_half_written() {
     write(shop.path(), "programs/long.cls", &long_part(20_000));
     // A limit for the size of a file: writing more fails as it does on a full disk.
     let script = format!(
-        "trap '' XFSZ; ulimit -f 64; exec '{}' batch --recipe r.yaml --format line --out done '{ALL}'",
+        "trap '' XFSZ; ulimit -f 64; exec '{}' batch --recipe r.yaml --format line -o done '{ALL}'",
         env!("CARGO_BIN_EXE_clsmith")
     );
     let run = Command::new("sh").current_dir(shop.path()).args(["-c", &script]).output().unwrap();
@@ -182,7 +182,7 @@ fn a_disk_too_full_for_the_journal_is_told() {
     let shop = shop(12);
     // Room for every program and not for a dozen lines about them.
     let script = format!(
-        "trap '' XFSZ; ulimit -f 4; exec '{}' batch --recipe r.yaml --format line --out done '{ALL}'",
+        "trap '' XFSZ; ulimit -f 4; exec '{}' batch --recipe r.yaml --format line -o done '{ALL}'",
         env!("CARGO_BIN_EXE_clsmith")
     );
     let run = Command::new("sh").current_dir(shop.path()).args(["-c", &script]).output().unwrap();

@@ -56,7 +56,7 @@ fn thin_material_limits_the_chip_and_not_the_feed() {
 fn uncertainty_lowers_the_feed() {
     let mut slot = milling(&cutter(10.0, 0.0), 3.0, 45.0, 90.0);
     let sure = slot.feed_for_chip_mm_min(&teeth(), RPM, 0.05);
-    slot.bins.iter_mut().for_each(|bin| bin.share_bound *= 1.1);
+    slot.bins.iter_mut().for_each(|bin| bin.advance_ratio_bound *= 1.1);
     let wary = slot.feed_for_chip_mm_min(&teeth(), RPM, 0.05);
     close(wary, sure / 1.1, 1e-6);
     close(slot.chip_thickness_bound_mm(&teeth(), wary, RPM), 0.05, 1e-6);

@@ -37,8 +37,8 @@ fn milling(profile: &Meridian, depth: f64, from: f64, to: f64) -> Engagement {
             *bin = EngagementBin {
                 low: low as f32,
                 high: high as f32,
-                share,
-                share_bound: share,
+                advance_ratio: share,
+                advance_ratio_bound: share,
                 radial: psi.sin() as f32,
                 thickness: THICK,
             };
@@ -64,8 +64,8 @@ fn plunge(profile: &Meridian) -> Engagement {
     let bin = EngagementBin {
         low: 0.0,
         high: profile.bottom_arc_length_mm() as f32,
-        share: 1.0,
-        share_bound: 1.0,
+        advance_ratio: 1.0,
+        advance_ratio_bound: 1.0,
         radial: 0.0,
         thickness: THICK,
     };

@@ -92,7 +92,7 @@ fn the_feed_of_the_ramp_governs_its_new_points() {
     let program = support::program(&done.text);
     let feeds: Vec<(f64, bool)> = program
         .motions()
-        .filter(|motion| !motion.rapid && motion.class_is_told)
+        .filter(|motion| !motion.rapid && motion.class_is_stated)
         .map(|motion| (motion.feed.unwrap().value, motion.class == clsmith::program::MotionClass::Engage))
         .collect();
     assert!(feeds.iter().all(|(feed, engages)| (*feed == 300.0) == *engages || !engages));

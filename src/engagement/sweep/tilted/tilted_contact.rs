@@ -77,7 +77,7 @@ impl TiltedContactFinder {
         if !self.continues && is_inside_at_start(Vector3::new(x, y, top), legs) {
             // How the material was reached is not known, so it gets the largest advance ratio there can be.
             let known = self.bin_contact(&upper, f64::INFINITY, 1.0);
-            partial.add_contact(&BinContact { share_bound: 1.0, ..known });
+            partial.add_contact(&BinContact { advance_ratio_bound: 1.0, ..known });
             return;
         }
         let mut give =
@@ -170,8 +170,8 @@ impl TiltedContactFinder {
         BinContact {
             angle: (touch.left as f32).atan2(touch.ahead as f32),
             length: self.profile.arc_length_of_contact_mm(touch.rho, touch.height, touch.radial) as f32,
-            share: share(self.cell / 2.0),
-            share_bound: share(self.cell).max(self.raised_advance_ratio(touch) as f32),
+            advance_ratio: share(self.cell / 2.0),
+            advance_ratio_bound: share(self.cell).max(self.raised_advance_ratio(touch) as f32),
             radial: touch.radial as f32,
             thickness: thickness as f32,
         }

@@ -122,7 +122,7 @@ impl LoadLimits {
     fn bound_engagement(&self, found: &Engagement) -> Engagement {
         let mut bounded = found.clone();
         // Loads grow with every fraction and with the volume, so the bounds of both give bounds of the loads.
-        bounded.bins.iter_mut().for_each(|bin| bin.share = bin.share_bound);
+        bounded.bins.iter_mut().for_each(|bin| bin.advance_ratio = bin.advance_ratio_bound);
         // Half a cell (or layer) on either side makes an extent longer by one, so the volume grows by the
         // fraction resolution / extent.
         let more = |extent: f64, resolution: f64| {

@@ -77,7 +77,7 @@ pub(super) fn find_faulty_splits(
 fn has_same_attributes(old: &Motion, new: &Motion) -> bool {
     old.feed == new.feed
         && old.rapid == new.rapid
-        && (old.class, old.class_is_told) == (new.class, new.class_is_told)
+        && (old.class, old.class_is_stated) == (new.class, new.class_is_stated)
         && old.operation == new.operation
         && old.tool == new.tool
         && old.spindle == new.spindle
