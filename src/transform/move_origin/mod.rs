@@ -47,7 +47,7 @@ use serde::{Deserialize, Serialize};
 pub struct MoveOrigin {
     /// The plane of the mirror: `x`, `y` or `z` (the plane normal to it, through the origin), or `{ normal:
     /// [1, 1, 0], through: [0, 0, 0] }`.
-    #[schemars(extend("x-default" = "no mirror"))]
+    #[schemars(extend("x-unit" = "none (a direction of any length)", "x-default" = "no mirror"))]
     pub mirror: Option<MirrorSpec>,
     /// The rotation: `{ axis: z, degrees: 90, about: [0, 0, 0] }`.
     #[schemars(extend("x-default" = "no rotation"))]

@@ -33,7 +33,7 @@ pub struct MirrorSpec {
 #[serde(deny_unknown_fields)]
 pub struct RotationSpec {
     /// The direction of the axis: `x`, `y`, `z` or `[i, j, k]`.
-    #[schemars(extend("x-unit" = "a direction, of any length"))]
+    #[schemars(extend("x-unit" = "none (a direction of any length)"))]
     pub axis: DirectionSpec,
     /// The angle in degrees, counter-clockwise when the axis points at you. Quarter turns are exact.
     pub degrees: Degrees,
@@ -140,7 +140,7 @@ impl<'de> Deserialize<'de> for MirrorSpec {
 #[serde(deny_unknown_fields)]
 struct MirrorPlaneSpec {
     /// The plane's normal.
-    #[schemars(extend("x-unit" = "a direction, of any length"))]
+    #[schemars(extend("x-unit" = "none (a direction of any length)"))]
     normal: DirectionSpec,
     /// A point of the plane, in the recipe's unit; the origin when it is left out.
     #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "the origin"))]
