@@ -76,7 +76,8 @@ impl DiffArgs {
         }
         let [a, b] = programs.as_slice() else { return Ok(CommandExit::Errors) };
         let found = diff::ProgramDiff::from_programs(a, b);
-        let inputs = [self.a.as_path(), self.b.as_path()];
+        let inputs: Vec<&Path> =
+            [&self.a, &self.b].into_iter().chain(&self.setup).map(PathBuf::as_path).collect();
         self.json.write_document(&inputs, || diff::to_json(&found))?;
         let text = if self.summary {
             diff::summarize_diff(&found)
