@@ -43,6 +43,17 @@ pub struct Meridian {
     /// The tangents of `bottom_angle` and `taper`, which the sweeps need at every column.
     bottom_tan: f64,
     taper_tan: f64,
+    /// The upper side of a cutter that is narrower above its widest place.
+    top: Option<Box<CutterTop>>,
+}
+
+/// The upper side of a cutter that is narrower above its widest place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CutterTop {
+    /// The meridian of the upper side, upside down: heights count downwards from `height_mm`.
+    pub profile: Meridian,
+    /// The height of its tip above the cutter's tip, mm.
+    pub height_mm: f64,
 }
 
 /// A point of the meridian.
@@ -135,7 +146,26 @@ impl Meridian {
             height: flute_length_mm.max(flank_start[1] + SAME),
             bottom_tan: tan_tip,
             taper_tan: taper_rad.tan(),
+            top: None,
         })
+    }
+
+    /// Returns the upper side of a cutter that is narrower above its widest place; `None` for all others.
+    pub fn top(&self) -> Option<&CutterTop> {
+        self.top.as_deref()
+    }
+
+    /// Returns the radius at the upper end of the cutting part, mm, where the neck or shank begins.
+    pub fn upper_radius_mm(&self) -> f64 {
+        match self.top() {
+            Some(top) => top.profile.radius_at_height_mm(top.height_mm - self.height),
+            None => self.radius_mm(),
+        }
+    }
+
+    /// Gives the cutter an upper side.
+    pub(super) fn with_top(self, top: CutterTop) -> Self {
+        Self { top: Some(Box::new(top)), ..self }
     }
 
     /// Returns the largest radius of the cutting part, mm.

@@ -6,7 +6,8 @@
 mod cutter_model;
 mod meridian;
 pub(crate) mod teeth;
+mod undercut;
 
 pub use cutter_model::{CutterModel, NonCuttingCylinder, NonCuttingKind};
-pub use meridian::{Meridian, MeridianError, MeridianPoint};
+pub use meridian::{CutterTop, Meridian, MeridianError, MeridianPoint};
 pub use teeth::Teeth;

@@ -6,10 +6,15 @@ use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::engagement::{Engagement, MotionPiece, PathLinearizer, PathPiece, Simulation};
 use crate::program::motion::Motion;
 use crate::stock::Dexels;
+use nalgebra::Vector3;
 
 /// The number of pieces that are simulated together: enough for every thread, and few enough to need little
 /// memory.
 const BATCH: usize = 1024;
+
+/// An axis that is no further from z than this in any component is upright. Files print axes with four decimals
+/// at least.
+const UPRIGHT: f64 = 1e-6;
 
 /// The largest distance of a chord from its arc, as a fraction of a cell, and in mm; the smaller one counts.
 const SAGITTA: (f64, f64) = (0.02, 0.002);
@@ -98,6 +103,10 @@ impl Machining<'_> {
                 let start = batch.steps.len();
                 if let Some(cutter) = cutter {
                     trace.append_pieces(motion, cutter, &mut batch.steps);
+                    let pieces = batch.steps.get(start..).unwrap_or_default();
+                    if self.has_tilted_undercut(cutter, pieces) {
+                        return Err(faults.refuse_tilted_undercut(self.program, motion).into());
+                    }
                 }
                 if trace.take_limit_reached() {
                     faults.report_piece_limit(self.program, motion);
@@ -117,6 +126,17 @@ impl Machining<'_> {
         }
         let findings = faults.into_findings();
         Ok(DexelRunResult { left: simulation.into_stock(), before_mm3, cell_mm: plan.cell_mm, findings })
+    }
+}
+
+impl Machining<'_> {
+    /// Returns whether pieces tilt a cutter that is narrower above its widest place, of which only upright
+    /// sweeps are known.
+    fn has_tilted_undercut(&self, cutter: usize, pieces: &[MotionPiece]) -> bool {
+        let undercut =
+            self.tooling.cutters().get(cutter).is_some_and(|cutter| cutter.profile.top().is_some());
+        let tilted = |axis: &Vector3<f64>| (axis - Vector3::z()).amax() > UPRIGHT;
+        undercut && pieces.iter().any(|step| tilted(&step.piece.from.axis) || tilted(&step.piece.to.axis))
     }
 }
 

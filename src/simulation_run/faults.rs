@@ -62,6 +62,14 @@ impl FaultCollector {
         self.add_finding(program, motion, Diagnostic::new(codes::PIECE_LIMIT, message), "divided coarsely");
     }
 
+    /// Makes the error for a motion that tilts a cutter of which only upright sweeps are known.
+    pub(super) fn refuse_tilted_undercut(&self, program: &Program, motion: &Motion) -> Diagnostic {
+        let message = "a cutter that is narrower above its widest place is tilted here; only upright ones can be \
+                       simulated";
+        let at = statement_span(program, motion.last_statement());
+        Diagnostic::new(codes::TILTED_UNDERCUT, message).with_label(program.source(), at, "tilted")
+    }
+
     /// Adds a finding at a motion.
     pub(super) fn add_finding(&mut self, program: &Program, motion: &Motion, found: Diagnostic, label: &str) {
         let at = statement_span(program, motion.last_statement());

@@ -3,6 +3,7 @@
 mod chips;
 mod exact;
 mod paths;
+mod undercut;
 
 use crate::support;
 use clsmith::diagnostic::{Diagnostic, Failure};

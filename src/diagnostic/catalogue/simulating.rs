@@ -131,6 +131,10 @@ super::area! {
          a taper or a point has no such chip, nor has a motion whose axis is more than 80 degrees from z or turns by half a turn. Nothing \
          is guessed: without the engagement of one motion, its feed and what it leaves for later motions would both be wrong, so \
          the step stops.";
+    TILTED_UNDERCUT = "CL0529", Error, "a dovetail, T-slot cutter or lollipop whose axis is tilted",
+        "Give the tool without `dovetail_angle` and `upper_corner_radius`: more is removed then than in truth.",
+        "What an upright cutter leaves standing above its widest place is computed exactly; for a tilted one it is not, and what it \
+         removes would be a guess.";
     PIECE_LIMIT = "CL0527", Warning, "a motion that is divided less finely than its tolerance asks for",
         "Look at the motion: a helix of so many turns, or a spline with a point far away, is mostly a slip in the export.",
         "Arcs, helices and splines are simulated as short straight pieces, no further from the curve than a fiftieth of a column. A motion \

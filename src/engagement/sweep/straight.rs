@@ -4,7 +4,7 @@ use super::band_engagement::BandEngagement;
 use super::cutter_underside::{CutterUnderside, SweepPath, SweepRow};
 use super::straight_contact::{RemovedColumn, StraightContactFinder};
 use super::straight_footprint::StraightFootprint;
-use crate::cutter::{CutterModel, NonCuttingCylinder};
+use crate::cutter::{CutterModel, Meridian, NonCuttingCylinder};
 use crate::stock::dexel::{DexelBand, DexelGrid, THINNEST};
 
 /// The number of columns that are tested together.
@@ -22,12 +22,50 @@ pub(in crate::engagement) struct StraightSweep {
     /// The height of the flutes' upper end above the grid's base at the start; infinite if no material
     /// reaches above it.
     flutes_end: f32,
+    /// The upper side of a cutter that is narrower above its widest place.
+    upper: Option<UpperSweep>,
     collars: Vec<(usize, NonCuttingCylinder, CutterUnderside)>,
     layout: DexelGrid,
     ends: bool,
     /// The radius of the cutter where the flank leaves the stock. On a tapered cutter it is less than the
     /// largest radius.
     widest: f64,
+}
+
+/// The sweep of a cutter's upper side: that of the underside of the same body upside down, along the path upside
+/// down. What it computes is the negative of the upper end.
+#[derive(Debug, Clone)]
+struct UpperSweep {
+    surface: CutterUnderside,
+    path: SweepPath,
+    rises: bool,
+}
+
+impl UpperSweep {
+    /// Prepares the upper side for a piece whose tip goes from one height to another, above the grid's base,
+    /// over a horizontal length.
+    fn new(profile: &Meridian, [from, to]: [f64; 2], length: f64) -> Option<Self> {
+        let top = profile.top()?;
+        let vertical = length <= 0.0;
+        let slope = if vertical { 0.0 } else { (to - from) / length };
+        let highest = if vertical { from.max(to) } else { from };
+        let path = SweepPath {
+            ux: 1.0,
+            uy: 0.0,
+            length: length as f32,
+            slope: -slope as f32,
+            start: -(highest + top.height_mm) as f32,
+        };
+        Some(Self { surface: CutterUnderside::new(&top.profile, -slope), path, rises: to > from })
+    }
+
+    /// Returns the upper end of the sweep over a column, above the grid's base.
+    fn top_over(&self, along: f64, left: f64, cell: f64) -> f32 {
+        let mut height = [0.0];
+        let row = SweepRow { x: along as f32, y: left as f32, cell: cell as f32 };
+        self.surface.sweep_heights(&mut height, row, self.path);
+        -height[0]
+    }
 }
 
 /// The facts about a piece that are known before its columns are examined.
@@ -69,7 +107,12 @@ impl StraightSweep {
         let reaches = |height: f64| around.highest > lowest_tip + height;
         // Ground counts as cleared only if the flutes were higher than all material: what was above them is
         // still there.
-        let continues = around.continues && !reaches(cutter.flute_length_mm());
+        let upper = UpperSweep::new(
+            profile,
+            [from[2] - layout.base_mm, to[2] - layout.base_mm],
+            if vertical { 0.0 } else { horizontal },
+        );
+        let continues = around.continues && upper.is_none() && !reaches(cutter.flute_length_mm());
         let (cleared_before, cleared_disc) = match continues {
             // These values say which ground the piece before has cleared, so that columns there can be
             // skipped.
@@ -99,7 +142,7 @@ impl StraightSweep {
             cleared_before,
             cleared_disc,
         };
-        let flutes_end = if reaches(cutter.flute_length_mm()) {
+        let flutes_end = if upper.is_some() || reaches(cutter.flute_length_mm()) {
             (from[2].max(if vertical { to[2] } else { from[2] }) + cutter.flute_length_mm() - layout.base_mm)
                 as f32
         } else {
@@ -132,6 +175,7 @@ impl StraightSweep {
             },
             extent,
             flutes_end,
+            upper,
             collars,
             layout: *layout,
             ends: around.ends,
@@ -253,6 +297,10 @@ impl StraightSweep {
             let upper =
                 if self.flutes_end.is_finite() { self.flute_top_over(along, left) } else { f32::INFINITY };
             band.cut_column(range.start + hit, lowest, upper, |low, top| {
+                if self.upper.as_ref().is_some_and(|upper| upper.rises) {
+                    // The advance of the upper side on the way up is not measured: no share is larger than 1.
+                    partial.graze = 1.0;
+                }
                 let column = RemovedColumn { along, left, low: f64::from(low), top: f64::from(top) };
                 self.motion.add_column_contacts(column, &self.surface, partial);
             });
@@ -261,6 +309,9 @@ impl StraightSweep {
 
     /// Returns the upper end of the flutes' sweep over a column, above the grid's base.
     fn flute_top_over(&self, along: f64, left: f64) -> f32 {
+        if let Some(upper) = &self.upper {
+            return upper.top_over(along, left, self.layout.cell_mm);
+        }
         let radius = self.extent.radius;
         // The upper plane is a disc; on a slope its highest place over the column is at one of the two
         // passages of its rim.

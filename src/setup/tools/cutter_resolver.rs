@@ -5,7 +5,7 @@ use super::file_tool_data::FileToolData;
 use super::tool_data_fault::{ToolDataFault, ToolDataFaultKind, format_dimension};
 use super::tool_entry::ToolEntry;
 use super::tool_text::LENGTH_TOLERANCE_MM;
-use crate::cutter::{CutterModel, Meridian, NonCuttingCylinder, NonCuttingKind};
+use crate::cutter::{CutterModel, Meridian, MeridianError, NonCuttingCylinder, NonCuttingKind};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::LengthUnit;
 use crate::program::motion::ActiveTool;
@@ -126,7 +126,7 @@ impl CutterResolver<'_> {
         let flute_length = self.resolve_flute_length_mm(diameter, tip);
         let (diameter, taper, tip) =
             point_cutter(diameter, corner, taper, flute_length).unwrap_or((diameter, taper, tip));
-        let profile = Meridian::new(diameter, corner, taper, tip, flute_length).map_err(|error| {
+        let profile = self.make_profile(diameter, corner, taper, tip, flute_length).map_err(|error| {
             let (taper, tip) = (taper.to_degrees(), tip.to_degrees());
             self.make_gap(ToolDataFaultKind::Shape {
                 error,
@@ -143,6 +143,28 @@ impl CutterResolver<'_> {
             self.assumptions.push("helix 0: setup.tools gives none".to_owned());
         }
         Ok(ResolvedCutter { cutter: CutterModel { profile, collars, teeth }, assumptions: self.assumptions })
+    }
+
+    /// Makes the meridian, with its upper side if the cutter is narrower there. The CL file writes a flank that
+    /// narrows upwards as a taper below 0.
+    fn make_profile(
+        &self,
+        diameter_mm: f64,
+        corner_mm: f64,
+        taper_rad: f64,
+        tip_rad: f64,
+        flute_length_mm: f64,
+    ) -> Result<Meridian, MeridianError> {
+        let own = self.entry.and_then(|entry| entry.dovetail_rad);
+        let narrowing = own.or((taper_rad < 0.0).then_some(-taper_rad));
+        let profile = match narrowing {
+            Some(angle) => Meridian::dovetail(diameter_mm, corner_mm, angle, tip_rad, flute_length_mm)?,
+            None => Meridian::new(diameter_mm, corner_mm, taper_rad, tip_rad, flute_length_mm)?,
+        };
+        match self.entry.and_then(|entry| entry.upper_corner_radius_mm) {
+            Some(radius_mm) => profile.with_upper_corner(radius_mm),
+            None => Ok(profile),
+        }
     }
 
     fn make_gap(&self, kind: ToolDataFaultKind) -> ToolDataFault {
@@ -196,13 +218,13 @@ impl CutterResolver<'_> {
             (Some(shank), _) => (shank.diameter_mm / 2.0, shank.length_mm),
             (None, Some(length)) if length > flutes + LENGTH_TOLERANCE_MM => {
                 let (diameter, length_text) =
-                    (format_dimension(2.0 * profile.radius_mm()), format_dimension(length));
+                    (format_dimension(2.0 * profile.upper_radius_mm()), format_dimension(length));
                 self.assumptions.push(format!(
                     "a shank of {diameter} mm up to {length_text} mm, as thick as the cutter: setup.tools gives none"
                 ));
-                (profile.radius_mm(), length)
+                (profile.upper_radius_mm(), length)
             }
-            (None, _) => (profile.radius_mm(), flutes),
+            (None, _) => (profile.upper_radius_mm(), flutes),
         };
         let mut collars = Vec::new();
         if end > flutes + LENGTH_TOLERANCE_MM {

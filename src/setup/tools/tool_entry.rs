@@ -19,6 +19,10 @@ pub struct ToolEntry {
     pub corner_radius_mm: Option<f64>,
     /// The angle between flank and axis.
     pub taper_rad: Option<f64>,
+    /// The angle by which the flank narrows upwards.
+    pub dovetail_rad: Option<f64>,
+    /// The radius of the upper edge of the cutting part.
+    pub upper_corner_radius_mm: Option<f64>,
     /// The angle between the bottom and the plane across the axis.
     pub tip_rad: Option<f64>,
     /// The length of the flutes from the tip.

@@ -28,6 +28,12 @@ pub(crate) struct ToolText {
     corner_radius: Option<NonNegative>,
     /// The angle between flank and axis in degrees. The cutter widens upwards.
     taper: Option<Slope>,
+    /// The angle in degrees by which the flank of a dovetail cutter narrows upwards, against the axis. It
+    /// excludes `taper`.
+    dovetail_angle: Option<Slope>,
+    /// The radius of the upper edge of the cutting part: of a T-slot cutter, or half the diameter for a lollipop,
+    /// whose neck begins at the end of the flutes.
+    upper_corner_radius: Option<Positive>,
     /// The angle between the bottom and the plane across the axis in degrees: 0 for a flat one, 31 for a
     /// drill of 118. It excludes `point`.
     tip: Option<Slope>,
@@ -146,6 +152,12 @@ impl ToolText {
                 "corner_radius",
             ),
             taper_rad: self.taper.map(Slope::radians),
+            dovetail_rad: self.dovetail_angle.map(Slope::radians).filter(|angle| *angle > 0.0),
+            upper_corner_radius_mm: reader.optional_size_mm(
+                self.upper_corner_radius,
+                &place,
+                "upper_corner_radius",
+            ),
             tip_rad: self.tip.map(Slope::radians).or(point),
             flute_length_mm: reader.optional_size_mm(self.flute_length, &place, "flute_length"),
             shank,
@@ -169,6 +181,11 @@ impl ToolEntry {
             let help = "Say the cone's `taper`, or a diameter above 0.";
             let message = "a diameter of 0 is that of a cone on its tip, which has a taper";
             reader.add_fault(|| place.at_key("diameter"), message, "no taper", help);
+        }
+        if self.dovetail_rad.is_some() && self.taper_rad.is_some_and(|taper| taper > 0.0) {
+            let message = "the flank widens by `taper` and narrows by `dovetail_angle`".to_owned();
+            let keys = [(place.at_key("dovetail_angle"), "narrows"), (place.at_key("taper"), "widens")];
+            reader.add_key_fault(codes::BAD_VALUE, message, "Keep one of them.", &keys);
         }
         if let (Some(diameter), Some(corner)) = (self.diameter_mm, self.corner_radius_mm)
             && corner > diameter / 2.0 + LENGTH_TOLERANCE_MM

@@ -29,6 +29,9 @@ pub(crate) enum NotFlat {
         /// The radius of the corner, mm.
         radius_mm: f64,
     },
+    /// The cutter is narrower above its widest place.
+    #[error("a neck or a flank that narrows upwards")]
+    Undercut,
     /// The flank is a cone.
     #[error("a taper of {degrees:.2} degrees")]
     Taper {
@@ -43,6 +46,9 @@ pub(crate) enum NotFlat {
 /// Returns the property that makes it no flat end mill.
 pub(crate) fn to_flat_mill(cutter: &CutterModel) -> Result<FlatMill, NotFlat> {
     let profile = &cutter.profile;
+    if profile.top().is_some() {
+        return Err(NotFlat::Undercut);
+    }
     if profile.bottom_angle_rad() > NONE {
         return Err(NotFlat::Bottom { degrees: profile.bottom_angle_rad().to_degrees() });
     }
