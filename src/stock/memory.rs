@@ -1,6 +1,8 @@
 //! This module takes memory whose size comes from a user's file or setup, so that memory that is not there is an
 //! error of that file and does not end the process.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 /// There is no memory for what a file or setup asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("there is no memory for {what}: {:.1} MB", *bytes as f64 / 1e6)]
@@ -34,17 +36,18 @@ pub(crate) fn fill_values<T: Clone>(value: T, count: usize, what: &'static str) 
     Ok(values)
 }
 
-/// Refuses memory from a size on that the environment variable `CLSMITH_TEST_NO_MEMORY` says, in bytes: so tests see
-/// that a file for which there is no memory stops no other file. A release does not look at the variable.
-#[cfg(debug_assertions)]
-pub(crate) fn is_refused_for_test(bytes: u64) -> bool {
-    std::env::var("CLSMITH_TEST_NO_MEMORY")
-        .is_ok_and(|least| least.parse().is_ok_and(|least: u64| bytes >= least))
+/// From how many bytes on memory is refused.
+static REFUSED_FROM: AtomicU64 = AtomicU64::new(u64::MAX);
+
+/// Refuses memory from so many bytes on. With it, tests of the command see that a file for which there is no memory
+/// stops no other file.
+#[doc(hidden)]
+pub fn refuse_memory_for_test(least_bytes: u64) {
+    REFUSED_FROM.store(least_bytes, Ordering::Relaxed);
 }
 
-#[cfg(not(debug_assertions))]
-pub(crate) fn is_refused_for_test(_: u64) -> bool {
-    false
+pub(crate) fn is_refused_for_test(bytes: u64) -> bool {
+    bytes >= REFUSED_FROM.load(Ordering::Relaxed)
 }
 
 #[cfg(test)]

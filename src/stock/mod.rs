@@ -25,6 +25,8 @@ pub(crate) use dexel::DexelBand;
 pub use dexel::{DexelGrid, DexelSpan, Dexels};
 pub(crate) use dexel_spans::merge_span;
 pub use memory::NoMemory;
+#[doc(hidden)]
+pub use memory::refuse_memory_for_test;
 pub use mesh::{Mesh, MeshError};
 pub use raw_stock::Stock;
 pub use solid_body::SolidBody;

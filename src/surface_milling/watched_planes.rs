@@ -12,7 +12,7 @@ pub(super) struct WatchedPlanes<'w> {
 }
 
 impl<'w> WatchedPlanes<'w> {
-    pub fn new(watch: &'w dyn RunWatcher, planes: usize) -> Self {
+    pub(super) fn new(watch: &'w dyn RunWatcher, planes: usize) -> Self {
         Self { watch, planes, done: AtomicUsize::new(0) }
     }
 
@@ -20,7 +20,7 @@ impl<'w> WatchedPlanes<'w> {
     ///
     /// # Errors
     /// Returns what stops the work; then it is not begun.
-    pub fn do_next<T>(&self, work: impl FnOnce() -> T) -> Result<T, Failure> {
+    pub(super) fn do_next<T>(&self, work: impl FnOnce() -> T) -> Result<T, Failure> {
         self.check()?;
         let made = work();
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
@@ -32,7 +32,7 @@ impl<'w> WatchedPlanes<'w> {
     ///
     /// # Errors
     /// Returns what stops it.
-    pub fn check(&self) -> Result<(), Failure> {
+    pub(super) fn check(&self) -> Result<(), Failure> {
         self.watch.check_stop()
     }
 }

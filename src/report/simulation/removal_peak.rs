@@ -49,12 +49,12 @@ pub(super) struct RemovalPeakFinder {
 }
 
 impl RemovalPeakFinder {
-    pub fn new(window_mm: f64) -> Self {
+    pub(super) fn new(window_mm: f64) -> Self {
         Self { window: window_mm, parts: VecDeque::new(), through: 0, end: 0.0, peaks: Vec::new() }
     }
 
     /// Adds a piece of the motion with the number `row` at a feed in mm/min.
-    pub fn add_piece(&mut self, row: usize, feed_mm_min: f64, length_mm: f64, engaged: &Engagement) {
+    pub(super) fn add_piece(&mut self, row: usize, feed_mm_min: f64, length_mm: f64, engaged: &Engagement) {
         if length_mm <= 0.0 || feed_mm_min <= 0.0 {
             return;
         }
@@ -144,7 +144,7 @@ impl RemovalPeakFinder {
     }
 
     /// Ends a path at feed.
-    pub fn end_path(&mut self) {
+    pub(super) fn end_path(&mut self) {
         let rest: Vec<PathPart> = self.parts.iter().skip(self.through).copied().collect();
         let whole = (self.end < self.window).then(|| self.rate_between(0.0, self.end));
         for part in rest {
@@ -158,7 +158,7 @@ impl RemovalPeakFinder {
     }
 
     /// Returns the largest rate of each motion, by its number, mm3/min; `None` where it is not known.
-    pub fn into_peaks(mut self) -> Vec<Option<f64>> {
+    pub(super) fn into_peaks(mut self) -> Vec<Option<f64>> {
         self.end_path();
         self.peaks
     }

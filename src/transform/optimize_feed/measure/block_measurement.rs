@@ -1,8 +1,8 @@
 //! This module simulates a program and collects its blocks with their loads.
 
 use super::feed_block::{FeedBlock, FeedLimit, LimitedPiece};
-use super::machine_stops::has_machine_stop;
 use super::load_limits::{LoadLimits, SpindleRotation};
+use super::machine_stops::has_machine_stop;
 use super::short_pieces::lower_short_pieces;
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::geometry::MotionPath;

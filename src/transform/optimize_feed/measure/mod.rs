@@ -9,7 +9,7 @@ mod machine_stops;
 mod short_pieces;
 
 pub(super) use block_measurement::{BlockMeasurement, MeasuredBlocks, measure_blocks};
-pub(super) use machine_stops::has_machine_stop;
 pub use feed_block::{FeedBlock, FeedLimit, LimitedPiece};
 pub use load_criterion::LoadCriterion;
 pub(super) use load_limits::LoadLimits;
+pub(super) use machine_stops::has_machine_stop;

@@ -8,5 +8,5 @@ mod path_time;
 mod path_timer;
 
 pub use block_feeds::{BlockFeeds, PlannedSegment, plan_block_feeds};
-pub(crate) use path_timer::PathTimer;
 pub use path_time::{TimedSegment, path_time_s, speed_change_distance_mm};
+pub(crate) use path_timer::PathTimer;

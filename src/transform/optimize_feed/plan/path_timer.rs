@@ -18,13 +18,13 @@ pub(crate) struct PathTimer {
 
 impl PathTimer {
     /// Begins with nothing. `acceleration` is how fast feeds may change, (mm/min)/s.
-    pub fn new(acceleration: Option<f64>) -> Self {
+    pub(crate) fn new(acceleration: Option<f64>) -> Self {
         Self { acceleration, path: Vec::new(), before: None }
     }
 
     /// Adds a motion with its length in mm and its feed in mm/min where that is known. Rapids, tool changes and
     /// stops end chains of motions at feed.
-    pub fn add_motion(&mut self, program: &Program, motion: &Motion, length: f64, feed: Option<f64>) {
+    pub(crate) fn add_motion(&mut self, program: &Program, motion: &Motion, length: f64, feed: Option<f64>) {
         if self.acceleration.is_none() {
             return;
         }
@@ -42,7 +42,7 @@ impl PathTimer {
     }
 
     /// Returns the time in seconds; `None` where the acceleration is not known.
-    pub fn seconds(&self) -> Option<f64> {
+    pub(crate) fn seconds(&self) -> Option<f64> {
         self.acceleration.map(|acceleration| path_time_s(&self.path, Some(acceleration)))
     }
 }
