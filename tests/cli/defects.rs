@@ -175,7 +175,7 @@ fn tight_shop() -> tempfile::TempDir {
     folder
 }
 
-/// The command with memory for fewer columns than the small cutter needs: 400,000 of 8 bytes.
+/// The command with memory for fewer columns than the small cutter needs: 3.6 MB.
 fn tight(folder: &Path) -> Command {
     let mut command = clsmith(folder);
     command.env("CLSMITH_TEST_NO_MEMORY", "1000000");
@@ -191,7 +191,7 @@ fn a_file_without_memory_for_its_stock_stops_no_other_file() {
         .assert()
         .code(1);
     let text = all_output(&done);
-    assert!(text.contains("CL0442") && text.contains("no memory for columns of stock: 3.2 MB"), "{text}");
+    assert!(text.contains("CL0442") && text.contains("no memory for columns of stock: 3.6 MB"), "{text}");
     let results = fs::read_to_string(folder.path().join("out/results.jsonl")).unwrap();
     assert_eq!(results.matches("\"corrected\"").count(), 2, "{results}");
     let args = ["watch", "in", "--recipe", "recipe.yaml", "--out", "watched", "--once", "*.cls"];
