@@ -54,7 +54,8 @@ fn main() {
     let bytes = stl(&ball());
     let ball = timed("read and checked", || Mesh::from_stl(&bytes).expect("a closed ball"));
     let (from, to) = ball.bounds();
-    let dexels = timed("columns", || ball.to_dexels(DexelGrid::covering_box(from, to, CELL)));
+    let dexels =
+        timed("columns", || ball.to_dexels(DexelGrid::covering_box(from, to, CELL)).expect("memory"));
     let mut surface = Vec::new();
     timed("surface as STL", || write_stl(&dexels, &mut surface).expect("a vector grows"));
     let triangles = (surface.len() - 84) / 50;

@@ -56,6 +56,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
             "stock",
             "engagement",
             "surface",
+            "simulation_run",
         ],
     ),
     (

@@ -2,7 +2,9 @@
 //! meanwhile, and writes it.
 
 use super::batch_plan::{PlannedFile, PreparedRecipe, report_outside_link};
-use super::{BatchRecord, FileOutcome, JournalEntry, LockedFolder, StatementChangeCounts};
+use super::{
+    BatchRecord, FileOutcome, JournalEntry, LockedFolder, StatementChangeCounts, set_older_output_aside,
+};
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::fingerprint::Digest;
 use crate::job::{self, CorrectionJob, JobOutcome};
@@ -58,7 +60,11 @@ pub(super) fn run_file(
     let findings = match corrected.unwrap_or_else(|defect| Err(defect.into())) {
         Ok(findings) => findings,
         Err(Failure::Interrupted) => return FileRunResult::Interrupted,
-        Err(Failure::Found(found)) => found,
+        Err(Failure::Found(mut found)) => {
+            let older = settings.folder.folder().root().join(&file.output);
+            found.extend(set_older_output_aside(&older, &file.output_name.to_string()));
+            found
+        }
     };
     record.count_findings(&findings, &name);
     record.seconds = Some(started.elapsed().as_secs_f64());

@@ -29,6 +29,7 @@ pub mod jobs_file;
 mod journal;
 pub mod memory_budget;
 pub mod merge;
+mod older_output;
 mod output_folder;
 mod path_pattern;
 mod portable_path;
@@ -42,6 +43,7 @@ pub use batch_record::{
 pub use batch_run::{BatchOutcome, BatchRun, BatchWatcher};
 pub use file_run::report_input_changed;
 pub(crate) use journal::{BatchJournal, JournalEntry};
+pub use older_output::set_older_output_aside;
 pub use output_folder::{LockedFolder, OutputFolder};
 pub use portable_path::PortablePath;
 pub use shard::{BadShard, Shard};

@@ -31,7 +31,9 @@ pub fn summary_to_text(records: &[BatchRecord], before: usize, seconds: Option<f
     let failed: Vec<&BatchRecord> =
         records.iter().filter(|record| record.outcome == FileOutcome::Failed).collect();
     if !failed.is_empty() {
-        text.push_str("\nFailed, and not written (what an earlier run wrote of them stays):\n");
+        text.push_str(
+            "\nFailed, and not written (what an earlier run wrote of them is NAME.outdated now):\n",
+        );
     }
     for record in failed.iter().take(MOST_LISTED) {
         let error = record.findings.iter().find(|found| found.severity == "error");

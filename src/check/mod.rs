@@ -13,6 +13,7 @@ mod fields_and_lines;
 mod findings;
 mod frame;
 mod points;
+mod points_apart;
 mod spindle;
 mod structure;
 mod thread_pitch;
@@ -106,6 +107,7 @@ pub const LINTS: &[LintRow] = &[
     lint_row::<axis::MultaxLint>(&[codes::AXIS_WITHOUT_MULTAX]),
     lint_row::<axis::AxisJumpLint>(&[codes::AXIS_JUMP]),
     lint_row::<points::PointLint>(&[codes::REPEATED_POINT, codes::FAR_AWAY, codes::NO_MOTION]),
+    lint_row::<points_apart::PointApartLint>(&[codes::POINT_APART]),
     lint_row::<points::LeftInCutLint>(&[codes::LEFT_IN_CUT]),
     lint_row::<feed::FeedLint>(feed::CODES),
     lint_row::<spindle::SpindleLint>(spindle::CODES),

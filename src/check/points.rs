@@ -9,7 +9,7 @@ use crate::program::{Record, Statement, StatementId};
 use std::sync::Arc;
 
 /// A hundred metres in mm.
-const FAR: f64 = 1e5;
+pub(super) const FAR: f64 = 1e5;
 
 /// Reports repeated and distant points, and files without any.
 #[derive(Default)]

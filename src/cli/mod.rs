@@ -135,12 +135,24 @@ fn is_quiet(matches: &clap::ArgMatches) -> bool {
 /// Runs the command of the process's arguments.
 pub(crate) fn run_command_line() -> ExitCode {
     remember_panics();
+    #[cfg(debug_assertions)]
+    refuse_memory_if_asked();
     let cli = parse_command_line(std::env::args_os().collect());
     // What fails outside of the work on a file is told like all else, too.
     let run = || cli.command.run_command();
     let (name, findings) = cli.command.name_and_findings();
     let done = catch_defect(&format!("`clsmith {name}`"), run).unwrap_or_else(|defect| Err(defect.into()));
     done.unwrap_or_else(|stop| stop.finish_command(name, findings)).exit_process()
+}
+
+/// Refuses memory for stock and meshes from as many bytes on as the environment variable `CLSMITH_TEST_NO_MEMORY` says. A
+/// release does not look at the variable.
+#[cfg(debug_assertions)]
+fn refuse_memory_if_asked() {
+    let least = std::env::var("CLSMITH_TEST_NO_MEMORY").ok().and_then(|least| least.parse().ok());
+    if let Some(least) = least {
+        clsmith::stock::refuse_memory_for_test(least);
+    }
 }
 
 impl CliCommand {

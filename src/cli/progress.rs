@@ -7,11 +7,16 @@ use super::terminal;
 use clap::{Args, ValueEnum};
 use clsmith::diagnostic::Failure;
 use clsmith::output_files::Interrupt;
-use clsmith::simulation_run::{RunPhase, RunWatcher};
+use clsmith::simulation_run::{RunPhase, RunWatcher, SimulationCost};
 use clsmith::source::Source;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
+
+/// A run that takes no longer and no more memory than this is begun without a word.
+const LONG_SECONDS: f64 = 10.0;
+const LARGE_BYTES: u64 = 1 << 30;
 
 /// Work that ends sooner shows no bar.
 pub(super) const BEFORE_BAR: Duration = Duration::from_millis(500);
@@ -73,6 +78,10 @@ pub(super) struct CommandProgress {
     limits: RunLimitWatch,
     /// How many simulations are expected besides those of a recipe's steps.
     simulations: usize,
+    /// Whether nothing but findings is wanted.
+    quiet: bool,
+    /// Whether an estimate is still to be told of this program.
+    tells_estimate: AtomicBool,
 }
 
 /// The program that is worked on, and what of it was shown.
@@ -109,6 +118,8 @@ impl CommandProgress {
             interrupt: interrupt.clone(),
             limits: RunLimitWatch::new(limits, "the program"),
             simulations: 0,
+            quiet: args.quiet,
+            tells_estimate: AtomicBool::new(!args.quiet),
         }
     }
 
@@ -122,6 +133,7 @@ impl CommandProgress {
     /// The work on a program begins: its limits count from now on, and its bar appears if it takes long.
     pub(super) fn begin_program(&self, name: &str) {
         self.limits.begin_program(name);
+        self.tells_estimate.store(!self.quiet, Ordering::Relaxed);
         let running = Arc::new(Mutex::new(true));
         let mut shown = self.lock_shown();
         shown.name = terminal::escape_controls(name);
@@ -193,6 +205,14 @@ impl RunWatcher for CommandProgress {
         }
     }
 
+    fn report_estimate(&self, cost: &SimulationCost) {
+        // A recipe may simulate several times; one word is enough.
+        let Some(told) = describe_long_run(cost, rayon::current_num_threads()) else { return };
+        if self.tells_estimate.swap(false, Ordering::Relaxed) {
+            self.bar.suspend(|| eprintln!("clsmith: {told}"));
+        }
+    }
+
     fn is_stop_requested(&self) -> bool {
         self.interrupt.is_raised()
     }
@@ -203,5 +223,58 @@ impl RunWatcher for CommandProgress {
 
     fn memory_limit_bytes(&self) -> Option<u64> {
         self.limits.memory_bytes()
+    }
+}
+
+/// Describes what a run will take, if that is much.
+fn describe_long_run(cost: &SimulationCost, threads: usize) -> Option<String> {
+    let seconds = cost.estimate_seconds(threads);
+    let long = seconds > LONG_SECONDS;
+    if !long && cost.bytes <= LARGE_BYTES {
+        return None;
+    }
+    let time = if long { format!("up to about {} and ", describe_seconds(seconds)) } else { String::new() };
+    let memory = cost.bytes as f64 / LARGE_BYTES as f64;
+    Some(format!(
+        "the simulation will take {time}{memory:.1} GiB: {} columns of {:.3} mm, {:.0} mm of path",
+        cost.columns, cost.cell_mm, cost.path_mm
+    ))
+}
+
+/// Describes a rough time in words.
+fn describe_seconds(seconds: f64) -> String {
+    match seconds {
+        seconds if seconds < 120.0 => format!("{seconds:.0} s"),
+        seconds if seconds < 7200.0 => format!("{:.0} min", seconds / 60.0),
+        seconds => format!("{:.0} h", seconds / 3600.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clsmith::simulation_run::{Machining, SimulationRunOptions};
+
+    fn cost(cell: f64, size: f64) -> SimulationCost {
+        let shop = format!(
+            "stock: {{ block: {{ from: [0, 0, -10], to: [{size}, {size}, 0] }} }}\n\
+             tools: [ {{ match: {{}}, diameter: 10, flute_length: 20, teeth: 4 }} ]\n"
+        );
+        let setup = Source::new("shop.yaml", shop.into_bytes()).unwrap();
+        let setup = clsmith::setup::Setup::load(&setup).unwrap();
+        let part = format!("LOAD/TOOL,3\nRAPID\nGOTO/-10,0,-2\nFEDRAT/MMPM,1000.\nGOTO/{size},0,-2\n");
+        let program = clsmith::parse::parse(&Source::new("a.cls", part.into_bytes()).unwrap(), None).program;
+        let machining =
+            Machining::new(&program, &setup, clsmith::program::LengthUnit::Mm, &mut Vec::new()).unwrap();
+        machining.estimate_cost(&SimulationRunOptions::default().with_cell_mm(cell)).unwrap()
+    }
+
+    #[test]
+    fn only_what_takes_much_is_told() {
+        assert_eq!(describe_long_run(&cost(0.25, 100.0), 1), None);
+        let told = describe_long_run(&cost(0.002, 20.0), 1).unwrap();
+        assert!(told.starts_with("the simulation will take up to about "), "{told}");
+        assert!(told.contains("100000000 columns of 0.002 mm"), "{told}");
+        assert!(describe_long_run(&cost(0.05, 600.0), 8).unwrap().contains("take 1.1 GiB"));
     }
 }

@@ -12,7 +12,7 @@
 //! holds its advance ratio. Feeds are made from the bounds, and reports show the estimates and the
 //! differences.
 
-use crate::engagement::PathPiece;
+use crate::engagement::{PathPiece, RemovalProfile};
 use std::f64::consts::{PI, TAU};
 
 /// The number of angular bins around the cutter; each is 3 degrees wide.
@@ -91,6 +91,9 @@ pub struct Engagement {
     /// in a revolution meets material that earlier pieces have thinned, so [`EngagementBin::thickness`] is
     /// not valid for it.
     pub shortest_mm: f64,
+    /// Where on its way a single piece removes the volume, if the simulation was asked for it
+    /// ([`crate::engagement::Simulation::with_removal_window_mm`]). Joined pieces do not tell.
+    pub removal: RemovalProfile,
     /// The lateral extent of the removed material in mm, positive to the left of the path: the least and the
     /// greatest value.
     pub lateral_mm: [f64; 2],
@@ -114,6 +117,7 @@ impl Engagement {
     pub fn empty_along(across: f64, along: f64, length_mm: f64) -> Self {
         Self {
             removed_mm3: 0.0,
+            removal: RemovalProfile::default(),
             across,
             along,
             length_mm,
@@ -157,6 +161,7 @@ impl Engagement {
         self.length_mm = whole;
         self.shortest_mm = self.shortest_mm.min(other.shortest_mm);
         self.removed_mm3 += other.removed_mm3;
+        self.removal = RemovalProfile::default();
         self.lateral_mm = interval_hull(self.lateral_mm, other.lateral_mm);
         self.height_mm = interval_hull(self.height_mm, other.height_mm);
         self.graze = self.graze.max(other.graze);

@@ -17,6 +17,7 @@ mod immersion;
 mod load_limited_feed;
 mod path_linearizer;
 mod path_piece;
+mod removal_profile;
 mod simulation;
 mod sweep;
 
@@ -27,4 +28,6 @@ pub use exact_tooth_paths::{ExactChipThickness, ToothMotion, ToothSampling, meas
 pub(crate) use path_linearizer::PathLinearizer;
 pub use path_linearizer::{MOST_PIECES, MotionPiece};
 pub use path_piece::PathPiece;
+pub use removal_profile::RemovalProfile;
+pub(crate) use removal_profile::removal_window_mm;
 pub use simulation::Simulation;

@@ -47,6 +47,7 @@ pub struct Simulation {
     highest: f64,
     last: Option<(Pose, usize)>,
     detail: bool,
+    removal_window_mm: Option<f64>,
 }
 
 impl Simulation {
@@ -54,7 +55,14 @@ impl Simulation {
     /// takes several times as long.
     pub fn new(stock: Dexels, detail: bool) -> Self {
         let highest = stock.highest_z_mm().unwrap_or(f64::NEG_INFINITY);
-        Self { stock, highest, last: None, detail }
+        Self { stock, highest, last: None, detail, removal_window_mm: None }
+    }
+
+    /// Lets pieces that are longer than half of this window tell where on their way they remove how much
+    /// ([`Engagement::removal`]).
+    #[must_use]
+    pub fn with_removal_window_mm(self, window_mm: Option<f64>) -> Self {
+        Self { removal_window_mm: window_mm, ..self }
     }
 
     /// Returns the stock that is left.
@@ -140,7 +148,13 @@ impl Simulation {
         let cutter = cutters.get(piece.cutter)?;
         let continues = self.last == Some((piece.from, piece.cutter));
         self.last = Some((piece.to, piece.cutter));
-        let around = SweepContext { continues, ends, highest: self.highest, detail: self.detail };
+        let around = SweepContext {
+            continues,
+            ends,
+            highest: self.highest,
+            detail: self.detail,
+            removal_window_mm: self.removal_window_mm,
+        };
         let layout = self.stock.grid();
         let [from, to] = [piece.from.point, piece.to.point].map(|point| [point.x, point.y, point.z]);
         if self.surroundings_of_stock(cutter.reach_mm()).is_far_air(from, to) {

@@ -57,6 +57,18 @@ pub struct SimulationCost {
     pub path_mm: f64,
 }
 
+/// How many columns one thread looks at in a second, with the contacts that it finds there: a ball or bull-nose
+/// cutter in pieces of half a millimetre (`cargo bench --bench simulate`). Long pieces and flat ends are faster.
+const LOOKS_PER_SECOND: f64 = 5e7;
+
+impl SimulationCost {
+    /// Returns about how long the run takes at most on so many threads, in seconds. A run that turns the axis takes
+    /// longer, ten to twenty times as long where the axis turns all the time.
+    pub fn estimate_seconds(&self, threads: usize) -> f64 {
+        self.visits / LOOKS_PER_SECOND / threads.max(1) as f64
+    }
+}
+
 /// The number of cells in the smallest cutter's diameter if the cell is not given.
 const CELLS_ACROSS: f64 = 40.0;
 

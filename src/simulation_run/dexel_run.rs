@@ -3,9 +3,9 @@
 use super::faults::FaultCollector;
 use super::{Machining, RunPhase, RunWatcher, SimulationRunOptions};
 use crate::diagnostic::{Diagnostic, Failure, codes};
-use crate::engagement::{Engagement, MotionPiece, PathLinearizer, PathPiece, Simulation};
+use crate::engagement::{Engagement, MotionPiece, PathLinearizer, PathPiece, Simulation, removal_window_mm};
 use crate::program::motion::Motion;
-use crate::stock::Dexels;
+use crate::stock::{Dexels, StockError};
 use nalgebra::Vector3;
 
 /// The number of pieces that are simulated together: enough for every thread, and few enough to need little
@@ -77,13 +77,19 @@ impl Machining<'_> {
     ) -> Result<DexelRunResult, Failure> {
         watch.begin_phase(RunPhase::Simulating);
         let plan = self.estimate_cost(&options.within_limits(watch))?;
+        watch.report_estimate(&plan);
         // The estimate has already compared the number of columns with the budget, so no limit is needed
         // here.
         let stock = self.stock.to_dexels(plan.cell_mm, usize::MAX).map_err(|error| {
-            Diagnostic::new(codes::TOO_MUCH, format!("the stock cannot be simulated: {error}"))
+            let code = match error {
+                StockError::NoMemory(_) => codes::MEMORY_LIMIT,
+                _ => codes::TOO_MUCH,
+            };
+            Diagnostic::new(code, format!("the stock cannot be simulated: {error}"))
         })?;
         let before_mm3 = stock.volume_mm3();
-        let mut simulation = Simulation::new(stock, options.forces);
+        let window = options.removal_peaks.then(|| removal_window_mm(plan.cell_mm));
+        let mut simulation = Simulation::new(stock, options.forces).with_removal_window_mm(window);
         let mut trace = PathLinearizer::new(
             self.units.mm_per_unit(),
             chord_tolerance_mm(plan.cell_mm),

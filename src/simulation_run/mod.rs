@@ -41,6 +41,8 @@ pub struct SimulationRunOptions {
     pub longest_piece_mm: f64,
     /// Whether the engagement must be fine enough for forces, which takes several times as long.
     pub forces: bool,
+    /// Whether long pieces tell where on their way they remove how much, which largest removal rates need.
+    pub removal_peaks: bool,
     /// The most that a run may cost.
     pub budget: SimulationBudget,
 }
@@ -51,6 +53,7 @@ impl Default for SimulationRunOptions {
             cell_mm: None,
             longest_piece_mm: f64::INFINITY,
             forces: false,
+            removal_peaks: false,
             budget: SimulationBudget::default(),
         }
     }

@@ -4,7 +4,7 @@ use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::LengthUnit;
 use crate::setup::{FileRef, Setup, StockBodyShape};
 use crate::source::read_file_bytes;
-use crate::stock::{Mesh, MeshError, SolidBody, Stock, stock_file};
+use crate::stock::{Mesh, MeshError, NoMemory, SolidBody, Stock, StockFileError, stock_file};
 use std::sync::Arc;
 
 /// Builds the stock of a setup.
@@ -48,13 +48,23 @@ fn read_stock_file(file: &FileRef) -> Result<Vec<u8>, Diagnostic> {
 }
 
 fn read_stl_mesh(file: &FileRef, units: LengthUnit) -> Result<Mesh, Diagnostic> {
-    read_mesh_mm(&read_stock_file(file)?, units).map_err(|error| file.make_stock_finding(&error.to_string()))
+    read_mesh_mm(&read_stock_file(file)?, units).map_err(|error| match error {
+        MeshError::NoMemory(error) => report_no_memory(file, error),
+        error => file.make_stock_finding(&error.to_string()),
+    })
 }
 
 fn read_saved_stock(file: &FileRef) -> Result<SolidBody, Diagnostic> {
-    let dexels = stock_file::read_clstock(&read_stock_file(file)?)
-        .map_err(|error| file.make_stock_finding(&error.to_string()))?;
+    let dexels = stock_file::read_clstock(&read_stock_file(file)?).map_err(|error| match error {
+        StockFileError::NoMemory(error) => report_no_memory(file, error),
+        error => file.make_stock_finding(&error.to_string()),
+    })?;
     Ok(SolidBody::Remains(Arc::new(dexels)))
+}
+
+/// Reports a file of the stock for which there is no memory.
+fn report_no_memory(file: &FileRef, error: NoMemory) -> Diagnostic {
+    file.make_finding(codes::MEMORY_LIMIT, format!("the stock file `{}`: {error}", file.written))
 }
 
 /// Reads a mesh from STL and converts it to mm.

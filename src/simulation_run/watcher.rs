@@ -1,5 +1,6 @@
 //! This module lets a caller watch a run: it gets progress, and it can stop the run.
 
+use super::SimulationCost;
 use crate::diagnostic::Failure;
 
 /// A part of the work on a program. Parts may come again: a step that proves its result simulates twice.
@@ -46,6 +47,9 @@ pub trait RunWatcher: Sync {
 
     /// Gets the length of the path that is done and the whole length, in mm, from time to time.
     fn report_progress(&self, done: f64, whole: f64);
+
+    /// Gets what a simulation will cost, before it begins.
+    fn report_estimate(&self, _cost: &SimulationCost) {}
 
     /// Returns whether the run must stop; it is called from time to time.
     fn is_stop_requested(&self) -> bool {

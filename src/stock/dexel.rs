@@ -5,6 +5,7 @@
 //! store. Lower intervals, which only overhangs have, are kept in a separate map. Heights are `f32` values
 //! above the grid's own base, which gives a resolution of 0.000008 mm at 100 mm. A column takes 8 bytes.
 
+use crate::stock::memory::{self, NoMemory};
 use std::collections::BTreeMap;
 
 /// The number of rows in one band, which one thread processes at a time. It is fixed, so that sums do not
@@ -171,21 +172,58 @@ impl Dexels {
     pub(crate) const BYTES_PER_COLUMN: usize = 2 * size_of::<f32>();
 
     /// Makes a grid of empty columns.
+    ///
+    /// # Errors
+    /// Returns an error if there is no memory for them.
+    pub fn try_with_empty_columns(layout: DexelGrid) -> Result<Self, NoMemory> {
+        let what = "columns of stock";
+        let columns = layout.columns.saturating_mul(layout.rows) as u64;
+        let bytes = columns.saturating_mul(Self::BYTES_PER_COLUMN as u64);
+        if memory::is_refused_for_test(bytes) {
+            return Err(NoMemory { what, bytes });
+        }
+        let mut bands = memory::reserve_values(layout.rows.div_ceil(BAND_ROWS), what)?;
+        for first_row in (0..layout.rows).step_by(BAND_ROWS) {
+            let count = BAND_ROWS.min(layout.rows - first_row).saturating_mul(layout.columns);
+            bands.push(DexelBand {
+                first_row,
+                columns: layout.columns,
+                top: memory::fill_values(f32::NEG_INFINITY, count, what)?,
+                low: memory::fill_values(f32::NEG_INFINITY, count, what)?,
+                below: BTreeMap::new(),
+            });
+        }
+        Ok(Self { layout, bands })
+    }
+
+    /// Makes a grid of empty columns, for few of them: memory that is not there ends the process. Columns whose
+    /// number comes from a file are made by [`Dexels::try_with_empty_columns`].
     pub fn with_empty_columns(layout: DexelGrid) -> Self {
-        let bands = (0..layout.rows)
-            .step_by(BAND_ROWS)
-            .map(|first_row| {
-                let count = BAND_ROWS.min(layout.rows - first_row) * layout.columns;
-                DexelBand {
-                    first_row,
-                    columns: layout.columns,
-                    top: vec![f32::NEG_INFINITY; count],
-                    low: vec![f32::NEG_INFINITY; count],
-                    below: BTreeMap::new(),
-                }
-            })
-            .collect();
-        Self { layout, bands }
+        let bands = (0..layout.rows).step_by(BAND_ROWS).map(|first_row| {
+            let count = BAND_ROWS.min(layout.rows - first_row) * layout.columns;
+            DexelBand {
+                first_row,
+                columns: layout.columns,
+                top: vec![f32::NEG_INFINITY; count],
+                low: vec![f32::NEG_INFINITY; count],
+                below: BTreeMap::new(),
+            }
+        });
+        Self { layout, bands: bands.collect() }
+    }
+
+    /// Makes a copy.
+    ///
+    /// # Errors
+    /// Returns an error if there is no memory for it.
+    pub(crate) fn try_clone(&self) -> Result<Self, NoMemory> {
+        let mut copy = Self::try_with_empty_columns(self.layout)?;
+        for (copy, band) in copy.bands.iter_mut().zip(&self.bands) {
+            copy.top.copy_from_slice(&band.top);
+            copy.low.copy_from_slice(&band.low);
+            copy.below.clone_from(&band.below);
+        }
+        Ok(copy)
     }
 
     /// Returns the grid on which the columns stand.

@@ -1,14 +1,17 @@
 //! This module grows columns by a ball. It applies an allowance to a body that has no closed form.
 
 use crate::stock::dexel::BAND_ROWS;
-use crate::stock::{DexelSpan, Dexels, dexel_spans};
+use crate::stock::{DexelSpan, Dexels, NoMemory, dexel_spans};
 use rayon::prelude::*;
 
 /// Grows every interval: over a column at lateral distance d, both ends move outwards by `sqrt(radius^2 -
 /// d^2)` mm. The grid stays the same, so material that grows past its boundary is lost. The result is exact
 /// for lines of material through the centres: a wall moves by whole cells, and its rounded edge begins at the
 /// last centre, up to half a cell inside the wall.
-pub(super) fn dilate_by_ball(dexels: &Dexels, radius: f64) -> Dexels {
+///
+/// # Errors
+/// Returns an error if there is no memory for the grown columns.
+pub(super) fn dilate_by_ball(dexels: &Dexels, radius: f64) -> Result<Dexels, NoMemory> {
     let layout = *dexels.grid();
     // The offsets are sorted from the middle outwards, since the column itself covers most of what its
     // neighbours add.
@@ -27,7 +30,7 @@ pub(super) fn dilate_by_ball(dexels: &Dexels, radius: f64) -> Dexels {
         }
     }
     steps.sort_unstable_by_key(|(squared, up, right, _)| (*squared, *up, *right));
-    let mut grown = Dexels::with_empty_columns(layout);
+    let mut grown = Dexels::try_with_empty_columns(layout)?;
     grown.bands_mut().par_iter_mut().for_each(|band| {
         let mut intervals: Vec<DexelSpan> = Vec::new();
         for index in 0..band.row_count() * band.columns {
@@ -54,5 +57,5 @@ pub(super) fn dilate_by_ball(dexels: &Dexels, radius: f64) -> Dexels {
             }
         }
     });
-    grown
+    Ok(grown)
 }

@@ -10,6 +10,7 @@ mod axis_box;
 pub(crate) mod dexel;
 mod dexel_spans;
 mod dilate;
+pub(crate) mod memory;
 mod mesh;
 mod raw_stock;
 mod solid_body;
@@ -23,6 +24,9 @@ pub use axis_box::AxisBox;
 pub(crate) use dexel::DexelBand;
 pub use dexel::{DexelGrid, DexelSpan, Dexels};
 pub(crate) use dexel_spans::merge_span;
+pub use memory::NoMemory;
+#[doc(hidden)]
+pub use memory::refuse_memory_for_test;
 pub use mesh::{Mesh, MeshError};
 pub use raw_stock::Stock;
 pub use solid_body::SolidBody;

@@ -1,7 +1,7 @@
 //! This module holds the stock: the material that is on the machine before the program begins.
 
 use crate::stock::axis_box::{AxisBox, FARTHEST, union_boxes};
-use crate::stock::{DexelGrid, DexelSpan, Dexels, SolidBody, StockError, dexel_spans, dilate};
+use crate::stock::{DexelGrid, DexelSpan, Dexels, NoMemory, SolidBody, StockError, dexel_spans, dilate};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -82,7 +82,8 @@ impl Stock {
     /// kept; otherwise each column takes the nearest column of the remains.
     ///
     /// # Errors
-    /// Returns an error if the cell is not a positive length or makes no columns or too many.
+    /// Returns an error if the cell is not a positive length or makes no columns or too many, and
+    /// [`StockError::NoMemory`] if there is no memory for them.
     pub fn to_dexels(&self, cell_mm: f64, most: usize) -> Result<Dexels, StockError> {
         if !(cell_mm > 0.0 && cell_mm.is_finite()) {
             return Err(StockError::Cell);
@@ -95,15 +96,15 @@ impl Stock {
             return Err(StockError::Empty);
         }
         let layout = self.grid_for_cell(cell_mm);
-        let given: Vec<Dexels> =
-            self.bodies.iter().filter_map(|body| self.sample_body(body, layout)).collect();
+        let sampled = self.bodies.iter().filter_map(|body| self.sample_body(body, layout).transpose());
+        let given: Vec<Dexels> = sampled.collect::<Result<_, NoMemory>>()?;
         // A single sampled body is the result; otherwise the union is made column by column.
         let given = match <[Dexels; 1]>::try_from(given) {
             Ok([only]) if self.bodies.len() == 1 => return Ok(only),
             Ok([only]) => vec![only],
             Err(given) => given,
         };
-        let mut dexels = Dexels::with_empty_columns(layout);
+        let mut dexels = Dexels::try_with_empty_columns(layout)?;
         dexels.bands_mut().par_iter_mut().enumerate().for_each(|(number, band)| {
             let mut intervals: Vec<DexelSpan> = Vec::new();
             for index in 0..band.row_count() * band.columns {
@@ -128,14 +129,15 @@ impl Stock {
 
     /// Samples a body that has no closed form on a grid and grows it; returns `None` for blocks and
     /// cylinders.
-    fn sample_body(&self, body: &SolidBody, layout: DexelGrid) -> Option<Dexels> {
+    fn sample_body(&self, body: &SolidBody, layout: DexelGrid) -> Result<Option<Dexels>, NoMemory> {
         let sampled = match body {
-            SolidBody::Block { .. } | SolidBody::Cylinder { .. } => return None,
-            SolidBody::Mesh(mesh) => mesh.to_dexels(layout),
-            SolidBody::Remains(remains) if *remains.grid() == layout => Dexels::clone(remains),
-            SolidBody::Remains(remains) => resample_nearest(remains, layout),
+            SolidBody::Block { .. } | SolidBody::Cylinder { .. } => return Ok(None),
+            SolidBody::Mesh(mesh) => mesh.to_dexels(layout)?,
+            SolidBody::Remains(remains) if *remains.grid() == layout => remains.try_clone()?,
+            SolidBody::Remains(remains) => resample_nearest(remains, layout)?,
         };
-        Some(if self.allowance > 0.0 { dilate::dilate_by_ball(&sampled, self.allowance) } else { sampled })
+        let grows = self.allowance > 0.0;
+        Ok(Some(if grows { dilate::dilate_by_ball(&sampled, self.allowance)? } else { sampled }))
     }
 
     /// Returns the grid for a cell: the remains' own grid, widened by the allowance, if it has this cell;
@@ -169,8 +171,8 @@ impl Stock {
 
 /// Resamples columns on another grid. Each new column takes the old column whose centre is nearest; of two
 /// equally near ones it takes the one with the larger index.
-fn resample_nearest(from: &Dexels, layout: DexelGrid) -> Dexels {
-    let mut dexels = Dexels::with_empty_columns(layout);
+fn resample_nearest(from: &Dexels, layout: DexelGrid) -> Result<Dexels, NoMemory> {
+    let mut dexels = Dexels::try_with_empty_columns(layout)?;
     let old = *from.grid();
     let rise = (old.base_mm - layout.base_mm) as f32;
     let index = |at: f64, origin: f64, count: usize| {
@@ -190,5 +192,5 @@ fn resample_nearest(from: &Dexels, layout: DexelGrid) -> Dexels {
             band.set_column(at, &intervals);
         }
     });
-    dexels
+    Ok(dexels)
 }

@@ -1,6 +1,7 @@
 //! This module holds the reasons why bodies do not make stock.
 
 use crate::stock::axis_box::FARTHEST;
+use crate::stock::memory::NoMemory;
 
 /// The reason why there is no stock to simulate.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -28,6 +29,9 @@ pub enum StockError {
     /// The cell is not a positive length.
     #[error("the cell must be a positive length")]
     Cell,
+    /// There is no memory for the columns.
+    #[error(transparent)]
+    NoMemory(#[from] NoMemory),
     /// The grid would have more columns than there is memory for.
     #[error("a cell of {cell} mm makes {columns} columns, more than the {most} that are allowed")]
     TooMany {

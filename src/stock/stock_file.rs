@@ -18,7 +18,7 @@
 //! A column takes at least 4 bytes. So no file can ask for more memory than twice its own length, apart from
 //! the intervals.
 
-use crate::stock::{DexelGrid, DexelSpan, Dexels};
+use crate::stock::{DexelGrid, DexelSpan, Dexels, NoMemory};
 use std::io::{self, Write};
 
 const MAGIC: [u8; 8] = *b"\x89CLSTK\r\n";
@@ -56,6 +56,9 @@ pub enum StockFileError {
         /// A description of what is wrong.
         reason: &'static str,
     },
+    /// There is no memory for the columns.
+    #[error(transparent)]
+    NoMemory(#[from] NoMemory),
     /// The checksum does not fit, so something in the file has changed since it was written.
     #[error("the file is damaged: its checksum at byte {at} does not fit")]
     Checksum {
@@ -139,7 +142,7 @@ pub fn read_clstock(bytes: &[u8]) -> Result<Dexels, StockFileError> {
         return Err(StockFileError::Damaged { at, reason: "something stands where nothing should" });
     }
     let layout = reader.read_grid()?;
-    let mut dexels = Dexels::with_empty_columns(layout);
+    let mut dexels = Dexels::try_with_empty_columns(layout)?;
     let mut intervals = Vec::new();
     for row in 0..layout.rows {
         for column in 0..layout.columns {

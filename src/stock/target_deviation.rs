@@ -3,7 +3,7 @@
 //! Differences are measured along the columns. On a slope this vertical measure is larger than the distance
 //! between the surfaces, and a steep wall that is slightly off shows as a few columns over its full height.
 
-use crate::stock::{DexelSpan, Dexels, dexel_spans, dilate};
+use crate::stock::{DexelSpan, Dexels, NoMemory, dexel_spans, dilate};
 use rayon::prelude::*;
 
 /// The rounding of heights, mm.
@@ -47,6 +47,9 @@ pub enum GridMismatch {
     /// Their columns do not stand in the same places.
     #[error("the columns of stock and target do not stand in the same places")]
     Layout,
+    /// There is no memory for columns that are grown by the tolerance.
+    #[error(transparent)]
+    NoMemory(#[from] NoMemory),
 }
 
 impl TargetDeviation {
@@ -130,8 +133,8 @@ impl TargetDeviation {
         target: &Dexels,
         tolerance_mm: f64,
     ) -> Result<Self, GridMismatch> {
-        let [near_remains, near_target] =
-            [remains, target].map(|solid| dilate::dilate_by_ball(solid, tolerance_mm));
+        let near_remains = dilate::dilate_by_ball(remains, tolerance_mm)?;
+        let near_target = dilate::dilate_by_ball(target, tolerance_mm)?;
         // A piece within the other solid grown by the tolerance is nowhere further away than that.
         Self::sum_pieces(remains, target, |band, index, [low, top], is_left| {
             let near = if is_left { &near_target } else { &near_remains };

@@ -6,8 +6,10 @@ use super::plane_slices::{PassMaker, PlaneSlice};
 use super::section_profile::chain_bounds;
 use super::surface_program::{SurfaceProgram, draft_program};
 use super::surface_proof::{PassProver, ProvedPass, SurfaceProof};
+use super::watched_planes::WatchedPlanes;
 use super::{PassHeights, PassPattern, PassPlanes, SurfaceMillingOptions, SurfacePart, plane_offsets};
 use crate::diagnostic::{Diagnostic, Failure, codes};
+use crate::simulation_run::{RunWatcher, SilentWatcher};
 use crate::stock::Mesh;
 use crate::surface::drop_cutter::BallClearanceField;
 use crate::surface::drop_cutter::{DropCutter, DropCutterShape};
@@ -64,6 +66,19 @@ pub fn make_surface_program(
     part: &SurfacePart,
     options: &SurfaceMillingOptions,
 ) -> Result<SurfaceProgram, Failure> {
+    make_watched_surface_program(part, options, &SilentWatcher)
+}
+
+/// Makes a program as [`make_surface_program`] does. `watch` gets the planes that are made and proved, and can stop
+/// the work between two planes.
+///
+/// # Errors
+/// Returns the errors of [`make_surface_program`], and what `watch` stops the work with.
+pub fn make_watched_surface_program(
+    part: &SurfacePart,
+    options: &SurfaceMillingOptions,
+    watch: &dyn RunWatcher,
+) -> Result<SurfaceProgram, Failure> {
     let words = &options.words;
     let print = ProgramRounding { dialect: words.dialect, units: words.units };
     let ball = DropCutterShape::new(2.0 * options.radius_mm, options.radius_mm)
@@ -101,8 +116,11 @@ pub fn make_surface_program(
         ))
     })?;
     // Planes do not depend on each other; only the order of cutting does.
-    let slices: Vec<PlaneSlice> =
-        places.par_iter().map(|offset| slice_plane(&making, &ground, options, *offset)).collect();
+    let work = WatchedPlanes::new(watch, places.len());
+    let slices: Vec<PlaneSlice> = places
+        .par_iter()
+        .map(|offset| work.do_next(|| slice_plane(&making, &ground, options, *offset)))
+        .collect::<Result<_, Failure>>()?;
     let tracks = make_tracks(&slices, options, print);
     let passes: usize = tracks.iter().map(Vec::len).sum();
     if passes == 0 {
@@ -117,7 +135,8 @@ pub fn make_surface_program(
             ))
             .into());
     }
-    let proof = prove_passes(&slices, &tracks, &ground, options, print);
+    let proof = prove_passes(&slices, &tracks, &ground, options, print, &work)?;
+    watch.check_stop()?;
     // The clearance height is rounded up to a round number, as people write heights.
     let clear = (high.max(making.floor_mm) + options.clearance_mm) / words.units.mm_per_unit();
     let clear = new_program::round_coordinate((clear * 1e3 - 1e-6).ceil() / 1e3, words.dialect);
@@ -153,6 +172,7 @@ pub fn make_surface_program(
         |from, to| link_over_surface(&ground, &making, print, near, from, to),
         top,
     );
+    watch.check_stop()?;
     let draft = draft_program(options, print, moves);
     let text = new_program::write_program(&draft, words.dialect).map_err(|error| {
         let message = format!("the written program does not read back as it was meant: {error}");
@@ -282,7 +302,8 @@ fn prove_passes(
     ground: &PassGround<'_>,
     options: &SurfaceMillingOptions,
     print: ProgramRounding,
-) -> SurfaceProof {
+    work: &WatchedPlanes<'_>,
+) -> Result<SurfaceProof, Failure> {
     let space = match ground {
         PassGround::Mesh { mesh, .. } => Some(BallClearanceField::new(mesh, options.radius_mm)),
         PassGround::Profile { .. } => None,
@@ -305,7 +326,7 @@ fn prove_passes(
         print,
         space: space.as_ref(),
     };
-    look.prove_all(&passes)
+    look.prove_all(&passes, work)
 }
 
 /// Returns the points over the surface from the end of a pass to the start of one in the next plane, or

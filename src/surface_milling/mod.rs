@@ -24,12 +24,13 @@ mod profile_file;
 mod section_profile;
 mod surface_program;
 mod surface_proof;
+mod watched_planes;
 
 pub use crate::surface::profile::{
     ArcPiece, Chain, ChainError, ChainPiece, ChordError, EllipseArc, LinePiece, NurbsCurve, NurbsError,
     Point, ProfilePlane, UnreachablePart,
 };
-pub use make_program::make_surface_program;
+pub use make_program::{make_surface_program, make_watched_surface_program};
 pub use pass_linking::PassPattern;
 pub use pass_planes::{MOST_PLANES, PassPlanes, plane_offsets};
 pub use profile_file::{load_profile, profile_schema};

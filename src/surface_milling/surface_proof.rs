@@ -3,6 +3,8 @@
 
 use super::pass_planes::PassPlanes;
 use super::pass_track::{PassTrack, ProgramRounding};
+use super::watched_planes::WatchedPlanes;
+use crate::diagnostic::Failure;
 use crate::surface::drop_cutter::BallClearanceField;
 use crate::surface::profile::{Chain, check_tip_path};
 use rayon::prelude::*;
@@ -67,9 +69,20 @@ pub(super) struct PassProver<'a> {
 
 impl PassProver<'_> {
     /// Returns the worst values of all passes.
-    pub(super) fn prove_all(&self, passes: &[ProvedPass<'_>]) -> SurfaceProof {
-        let all: Vec<SurfaceProof> = passes.par_iter().map(|pass| self.prove_pass(pass)).collect();
-        all.into_iter().fold(SurfaceProof::default(), SurfaceProof::worse_of)
+    ///
+    /// # Errors
+    /// Returns what stops the work.
+    pub(super) fn prove_all(
+        &self,
+        passes: &[ProvedPass<'_>],
+        work: &WatchedPlanes<'_>,
+    ) -> Result<SurfaceProof, Failure> {
+        let proved = passes.par_iter().map(|pass| {
+            work.check()?;
+            Ok(self.prove_pass(pass))
+        });
+        let all: Vec<SurfaceProof> = proved.collect::<Result<_, Failure>>()?;
+        Ok(all.into_iter().fold(SurfaceProof::default(), SurfaceProof::worse_of))
     }
 
     fn prove_pass(&self, pass: &ProvedPass<'_>) -> SurfaceProof {

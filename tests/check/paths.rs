@@ -138,11 +138,32 @@ fn axes() -> Vec<Case> {
     ]
 }
 
+/// A zigzag of 40 mm with a point in its middle.
+fn zigzag(middle: &str) -> String {
+    let line =
+        |index: i32| format!("GOTO/{}.0000,{index}.0000,-1.0000\n", if index % 4 < 2 { 0 } else { 40 });
+    let lines: Vec<String> = (0..24).map(line).collect();
+    let (before, behind) = lines.split_at(12);
+    format!("{}GOTO/{middle}\n{}", before.concat(), behind.concat())
+}
+
 fn points() -> Vec<Case> {
     vec![
         case(codes::REPEATED_POINT, nx("GOTO/0.0,0.0,0.0\n"), "0.0,0.0,0.0", nx("GOTO/0.0,0.0,0.1\n")),
         case(codes::FAR_AWAY, nx("GOTO/1.0,250000.0,0.0\n"), "250000.0", nx("GOTO/1.0,25000.0,0.0\n")),
         case(codes::FAR_AWAY, "UNITS/INCHES\nGOTO/9000.,0,0\n", "9000.", "UNITS/MM\nGOTO/9000.,0,0\n"),
+        case(
+            codes::POINT_APART,
+            nx(&zigzag("1000.0000,12.5000,-1.0000")),
+            "1000.0000",
+            nx(&zigzag("400.0000,12.5000,-1.0000")),
+        ),
+        case(
+            codes::POINT_APART,
+            nx(&zigzag("30.0000,12.5000,-900.0000")),
+            "-900.0000",
+            nx(&zigzag("30.0000,12.5000,-90.0000")),
+        ),
         case(codes::NO_MOTION, "PARTNO X\n", "", "PARTNO X\nGOTO/0,0,0\n"),
         case(
             codes::LEFT_IN_CUT,
@@ -151,4 +172,23 @@ fn points() -> Vec<Case> {
             nx("PAINT/COLOR,31\nGOTO/1.0,0.0,0.0\n"),
         ),
     ]
+}
+
+#[test]
+fn ways_to_a_place_far_away_are_no_slips() {
+    let apart =
+        |text: &str| super::findings(text).iter().filter(|found| found.code == codes::POINT_APART).count();
+    let slip = "GOTO/1000.0000,12.5000,-1.0000\n";
+    assert_eq!(apart(&nx(&zigzag(slip.trim_start_matches("GOTO/").trim_end()))), 1);
+    // Home at both ends, by rapid and by feed.
+    let home = "GOTO/0.0000,0.0000,900.0000\n";
+    let middle = zigzag("20.0000,12.5000,-1.0000");
+    assert_eq!(apart(&nx(&format!("RAPID\n{home}FEDRAT/MMPM,500.0000\n{middle}RAPID\n{home}"))), 0);
+    assert_eq!(apart(&nx(&format!("{middle}RAPID\n{home}"))), 0);
+    // A way out and back.
+    assert_eq!(apart(&nx(&format!("{middle}{slip}{slip}{middle}"))), 0);
+    // Few points, and a large part.
+    assert_eq!(apart(&nx(slip)), 0);
+    let large: String = (0..40).map(|index| format!("GOTO/{}.0000,0.0000,0.0000\n", index * 100)).collect();
+    assert_eq!(apart(&nx(&large)), 0);
 }

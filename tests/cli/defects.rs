@@ -152,3 +152,74 @@ fn a_file_above_4_gib_is_refused_by_its_size() {
     let text = all_output(&done);
     assert!(text.contains("CL0403") && text.contains("below 4 GiB"), "{text}");
 }
+
+/// A folder whose recipe simulates. The second program's cutter is so small that its stock has a hundred times as many
+/// columns as that of the others.
+fn tight_shop() -> tempfile::TempDir {
+    let folder = shop();
+    let program = |diameter: f64| {
+        format!(
+            "TOOL PATH/A,TOOL,B\nTLDATA/MILL,{diameter:.4},0.0000,75.0000,0.0000,0.0000\nLOAD/TOOL,3\nSPINDL/RPM,3200,CLW\n\
+             RAPID\nGOTO/-10.0000,0.0000,5.0000\nFEDRAT/MMPM,700.0000\nGOTO/-10.0000,0.0000,-1.0000\n\
+             GOTO/30.0000,0.0000,-1.0000\nRAPID\nGOTO/30.0000,0.0000,9.0000\nEND-OF-PATH\n"
+        )
+    };
+    for (name, diameter) in [("a.cls", 12.0), ("b-large.cls", 1.2), ("c.cls", 12.0)] {
+        fs::write(folder.path().join("in").join(name), program(diameter)).unwrap();
+    }
+    fs::remove_file(folder.path().join("in/b-unlucky.cls")).unwrap();
+    let setup = "{ stock: { block: { from: [0, -10, -5], to: [20, 10, 0] } }, tools: [ { match: {}, teeth: 3 } ], \
+        machine: { max_feed: 3000, rapid_feed: 15000 } }";
+    let recipe = format!("version: 1\nsetup: {setup}\nsteps:\n  - optimize_feed: {{ target: 0.05 }}\n");
+    fs::write(folder.path().join("recipe.yaml"), recipe).unwrap();
+    folder
+}
+
+/// The command with memory for fewer columns than the small cutter needs: 3.6 MB.
+fn tight(folder: &Path) -> Command {
+    let mut command = clsmith(folder);
+    command.env("CLSMITH_TEST_NO_MEMORY", "1000000");
+    command
+}
+
+/// A failed allocation ends the process, if nobody asks first.
+#[test]
+fn a_file_without_memory_for_its_stock_stops_no_other_file() {
+    let folder = tight_shop();
+    let done = tight(folder.path())
+        .args(["batch", "--recipe", "recipe.yaml", "--out", "out", "in/*.cls"])
+        .assert()
+        .code(1);
+    let text = all_output(&done);
+    assert!(text.contains("CL0442") && text.contains("no memory for columns of stock: 3.6 MB"), "{text}");
+    let results = fs::read_to_string(folder.path().join("out/results.jsonl")).unwrap();
+    assert_eq!(results.matches("\"corrected\"").count(), 2, "{results}");
+    let args = ["watch", "in", "--recipe", "recipe.yaml", "--out", "watched", "--once", "*.cls"];
+    let pace = ["--settle", "0.1", "--poll", "0.05", "--log", "log.jsonl"];
+    let large = folder.path().join("in/b-large.cls");
+    let program = fs::read(&large).unwrap();
+    let done = tight(folder.path()).args(args).args(pace).assert().code(1);
+    assert!(all_output(&done).contains("CL0442"));
+    assert!(folder.path().join("watched/a.cls").exists() && folder.path().join("watched/c.cls").exists());
+    fs::write(&large, program).unwrap();
+    let hook = ["hook", "--recipe", "recipe.yaml", "in/b-large.cls", "--", "cp", "{}", "x"];
+    let done = tight(folder.path()).args(hook).assert().code(125);
+    assert!(all_output(&done).contains("CL0442"));
+    clsmith(folder.path()).args(hook).assert().code(0);
+}
+
+#[test]
+fn a_model_without_memory_is_an_error() {
+    let folder = shop();
+    let mut stl = vec![0_u8; 84];
+    stl[80..84].copy_from_slice(&100_000_u32.to_le_bytes());
+    stl.resize(84 + 50 * 100_000, 0);
+    fs::write(folder.path().join("part.stl"), stl).unwrap();
+    let args = ["section", "part.stl", "--radius", "5", "--step", "0.5", "--feed", "800", "--dry-run"];
+    let done = tight(folder.path()).args(args).assert().code(1);
+    assert!(
+        all_output(&done).contains("there is no memory for the vertices of a mesh"),
+        "{}",
+        all_output(&done)
+    );
+}

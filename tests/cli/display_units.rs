@@ -149,3 +149,56 @@ fn a_program_in_mm_is_shown_in_mm_and_can_be_shown_in_inches() {
     assert!(plain[1].contains("feed, mm/min"));
     assert!(run(folder.path(), line, &["--display-units", "inch"], &["p.svg"])[1].contains("feed, in/min"));
 }
+
+/// The words of a table's line: the times before and after, and the change.
+fn time_line<'t>(text: &'t str, name: &str) -> Vec<&'t str> {
+    let line = text.lines().find(|line| line.contains(name)).unwrap_or_else(|| panic!("{name}: {text}"));
+    let rest = line.split_once(name).unwrap().1;
+    rest.split(['|', ' ']).filter(|word| !word.is_empty()).collect()
+}
+
+#[test]
+fn one_time_is_told_everywhere() {
+    let folder = job();
+    let time = "time at feed, with acceleration";
+    let line = "apply recipe.yaml part.cls -o out.cls --summary a.md --report a.html";
+    let [shown, summary, page] = &run(folder.path(), line, &[], &["a.md", "a.html"])[..] else { panic!() };
+    let told = time_line(shown, time);
+    assert_eq!(told, time_line(summary, time), "{shown}\n{summary}");
+    assert!(page.contains(time));
+    // `optimize_feed` tells the same before and after.
+    let all = time_line(shown, "  all");
+    assert_eq!(told[..4], all[..4], "{shown}");
+    for (program, times) in [("part.cls", &told[..2]), ("out.cls", &told[2..4])] {
+        let stats = &run(folder.path(), &format!("stats {program} --setup shop.yaml"), &[], &[])[0];
+        assert!(stats.contains("times at feed with the machine's acceleration"), "{stats}");
+        assert!(stats.contains(&times.join(" ")), "{times:?}: {stats}");
+        let simulated = &run(folder.path(), &format!("simulate {program} --setup shop.yaml"), &[], &[])[0];
+        let words = format!("time: {} at feed with the machine's acceleration", times.join(" "));
+        assert!(simulated.contains(&words), "{words}: {simulated}");
+    }
+    let stats = &run(folder.path(), "stats part.cls", &[], &[])[0];
+    assert!(stats.contains("times at feed without acceleration"), "{stats}");
+}
+
+#[test]
+fn a_thickest_chip_says_how_exact_it_is() {
+    let folder = job();
+    let outputs = run(folder.path(), COMMANDS[3].0, &[], COMMANDS[3].1);
+    assert!(outputs[0].contains("thickest chip at most: 0.00"), "{}", outputs[0]);
+    assert!(
+        outputs[0].contains("(at most: with what columns 0.0125 in apart may have missed)"),
+        "{}",
+        outputs[0]
+    );
+    assert!(
+        outputs[1].contains(",chip_thickness_bound_in,removal_rate_mean_in3_min,removal_rate_peak_in3_min,")
+    );
+    assert!(
+        outputs[2].contains("\"chip_thickness_bound_in\": {") && outputs[2].contains("\"removal_window_in\"")
+    );
+    assert!(
+        outputs[4].contains("thickest chip at most, in")
+            && outputs[5].contains("| thickest chip at most, in |")
+    );
+}

@@ -1,6 +1,7 @@
 //! Limits of memory and time, and programs that would take far too much of both.
 
 use super::{clsmith, names};
+use crate::surface::solids::terrain;
 use assert_cmd::assert::Assert;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -112,4 +113,79 @@ fn limits_that_are_kept_change_nothing() {
         clsmith(folder.path()).args(apply).args(limits).assert().success();
     }
     assert_eq!(read("a.cls"), read("b.cls"));
+}
+
+/// Hills that take a while: 8,000 planes.
+fn hills() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let hills = terrain(80.0, 24, |x, y| 3.0 * (x / 9.0).sin() * (y / 7.0).cos());
+    let mut bytes = vec![b' '; 80];
+    bytes.extend((hills.len() as u32).to_le_bytes());
+    for triangle in &hills {
+        bytes.extend([0; 12]);
+        bytes.extend(triangle.iter().flatten().flat_map(|value| (*value as f32).to_le_bytes()));
+        bytes.extend([0; 2]);
+    }
+    fs::write(folder.path().join("hills.stl"), bytes).unwrap();
+    folder
+}
+
+const SECTION: [&str; 10] =
+    ["section", "hills.stl", "--radius", "5", "--step", "0.01", "--feed", "800", "-o", "out.cls"];
+
+#[test]
+fn a_surface_keeps_its_limits() {
+    let folder = hills();
+    let begun = Instant::now();
+    let done = clsmith(folder.path()).args(SECTION).args(["--time-limit", "0.5"]).assert().code(1);
+    assert!(stderr(&done).contains("CL0441"), "{}", stderr(&done));
+    // A plane takes some milliseconds; the rest is for a busy machine.
+    assert!(begun.elapsed() < Duration::from_secs(5), "{:?}", begun.elapsed());
+    let done = clsmith(folder.path()).args(SECTION).args(["--memory", "5M"]).assert().code(1);
+    assert!(stderr(&done).contains("CL0442"), "{}", stderr(&done));
+    assert!(!folder.path().join("out.cls").exists());
+    let coarse = SECTION.map(|word| if word == "0.01" { "10" } else { word });
+    clsmith(folder.path()).args(coarse).args(["--memory", "2G", "--time-limit", "600"]).assert().success();
+}
+
+#[cfg(unix)]
+#[test]
+fn a_surface_ends_within_two_seconds() {
+    let folder = hills();
+    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_clsmith"))
+        .current_dir(folder.path())
+        .args(SECTION)
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(Duration::from_millis(500));
+    let begun = Instant::now();
+    assert!(
+        std::process::Command::new("kill")
+            .args(["-INT", &child.id().to_string()])
+            .status()
+            .unwrap()
+            .success()
+    );
+    let ended = child.wait().unwrap();
+    assert!(begun.elapsed() < Duration::from_millis(2500), "{:?}", begun.elapsed());
+    assert_eq!(ended.code(), Some(130));
+    assert!(!folder.path().join("out.cls").exists());
+}
+
+/// What a run will take is told before it, if it is much.
+#[test]
+fn a_long_simulation_is_told_before_it() {
+    let folder = lost_point();
+    let mut program = fs::read_to_string(folder.path().join("part.cls")).unwrap();
+    let ways = "GOTO/-20.0000,-10.0000,-3.0000\nGOTO/20.0000,-10.0000,-3.0000\n".repeat(1500);
+    program = program.replace("GOTO/20.0000,100000000.0000,-3.0000\n", &ways);
+    fs::write(folder.path().join("part.cls"), program).unwrap();
+    let run = ["simulate", "part.cls", "--setup", "shop.yaml", "--threads", "1", "--time-limit", "1"];
+    let long = ["--cell", "0.02"];
+    let text = stderr(&clsmith(folder.path()).args(run).args(long).assert().code(1));
+    assert!(text.contains("the simulation will take up to about ") && text.contains(" GiB: "), "{text}");
+    let text = stderr(&clsmith(folder.path()).args(run).args(long).arg("-q").assert().code(1));
+    assert!(!text.contains("will take"), "{text}");
+    assert!(!stderr(&clsmith(folder.path()).args(run).args(["--cell", "1"]).assert()).contains("will take"));
 }

@@ -42,7 +42,7 @@ fn apply_writes_page_and_summary() {
     }
     let summary = read(&folder, "out.md");
     assert!(summary.contains("| thickest chip, mm | 0.0500 | 0.0250 | -50.0 % |"), "{summary}");
-    assert!(summary.contains("- with it the program takes "), "{summary}");
+    assert!(summary.contains("| time at feed, with acceleration | 12.4 s | 24.8 s |"), "{summary}");
     // Without writing the program, on standard output.
     let done = run(&["--dry-run", "--summary", "-", "-q"]).success();
     assert_eq!(String::from_utf8_lossy(&done.get_output().stdout), summary);

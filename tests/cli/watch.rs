@@ -195,6 +195,21 @@ fn refused_programs_are_moved_aside_and_nothing_there_is_overwritten() {
 }
 
 #[test]
+fn an_older_output_beside_a_refused_export_is_set_aside() {
+    let folder = shop();
+    recipe(folder.path(), "*.cls").assert().code(0);
+    let out = folder.path().join("out");
+    let before = fs::read(out.join("part.cls")).unwrap();
+    fs::write(folder.path().join("exports/part.cls"), BROKEN).unwrap();
+    let done = recipe(folder.path(), "*.cls").assert().code(1);
+    assert!(stderr(&done).contains("CL0443"), "{}", stderr(&done));
+    assert_eq!(seen(&out), ["part.cls.outdated", "refused"]);
+    assert_eq!(fs::read(out.join("part.cls.outdated")).unwrap(), before);
+    let lines = log(folder.path());
+    assert_eq!(lines.last().unwrap()["findings"]["CL0443"], 1);
+}
+
+#[test]
 fn a_refused_folder_may_be_elsewhere() {
     let folder = shop();
     fs::write(folder.path().join("exports/bad.cls"), BROKEN).unwrap();

@@ -103,7 +103,7 @@ fn a_step_changes_threads_where_it_asks_for_them_by_name() {
 fn a_tap_whose_feed_does_not_fit_its_name_is_told_once() {
     let tap = |name: &str, feed: &str| {
         let text = NX.replace("TOOL PATH/B,TOOL,TAP", &format!("TOOL PATH/B,TOOL,{name}"));
-        alarms(text.replace("560.0000", feed)).into_iter().filter(|(code, _)| code == "CL0136").count()
+        alarms(text.replace("560.0000", feed)).into_iter().filter(|(code, _)| code == "CL0137").count()
     };
     assert_eq!(tap("TAP M12x1.75", "560.0000"), 0);
     assert_eq!(tap("TAP M12x1.5", "560.0000"), 1);

@@ -23,7 +23,7 @@ fn times_say_what_they_leave_out() {
     let part = SLOT.replace("FEDRAT/MMPM,800.0000\n", "");
     assert!(part.len() < SLOT.len());
     let text = told("some/part.cls", part.as_bytes(), "  - clamp_feed: { max: 5000 }\n", "", to_markdown);
-    assert!(text.contains("| time at feed | \\> 0.0 s | \\> 0.0 s |  |"), "{text}");
+    assert!(text.contains("| time at feed, without acceleration | \\> 0.0 s | \\> 0.0 s |  |"), "{text}");
     assert!(text.contains("- the time at feed leaves out 5 motions whose feed is not known"), "{text}");
     assert!(text.contains("corrected program (of part.cls) sha256"), "{text}");
 }

@@ -18,7 +18,7 @@ fn equal_solids_do_not_differ() {
 
 #[test]
 fn gouge_and_excess_are_measured_where_they_are() {
-    let target = mesh(&cube([0.0; 3], [10.0, 8.0, 3.0])).to_dexels(*block().grid());
+    let target = mesh(&cube([0.0; 3], [10.0, 8.0, 3.0])).to_dexels(*block().grid()).unwrap();
     let mut left = target.clone();
     // Two columns too deep, one too high, one with an undercut too.
     left.set_column(3, 4, &[[0.0, 2.5]]);

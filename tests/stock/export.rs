@@ -62,7 +62,7 @@ proptest! {
         if dexels.highest_z_mm().is_some() {
             // Read back as a mesh, it is the same columns.
             let mesh = Mesh::from_stl(&bytes).unwrap();
-            prop_assert_eq!(mesh.to_dexels(*dexels.grid()), dexels);
+            prop_assert_eq!(mesh.to_dexels(*dexels.grid()).unwrap(), dexels);
         }
     }
 }

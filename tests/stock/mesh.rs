@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 
 fn columns(mesh: &Mesh, cell: f64) -> Dexels {
     let (from, to) = mesh.bounds();
-    mesh.to_dexels(DexelGrid::covering_box(from, to, cell))
+    mesh.to_dexels(DexelGrid::covering_box(from, to, cell)).unwrap()
 }
 
 fn near(found: f64, expected: f64, share: f64) {
@@ -44,7 +44,7 @@ fn columns_of_a_ball_end_on_it() {
 fn faces_and_corners_on_the_centres_count_once() {
     let solid = mesh(&cube([0.0; 3], [4.0, 3.0, 2.0]));
     let layout = DexelGrid { origin_mm: [-1.0, -1.0], base_mm: 0.0, cell_mm: 0.5, columns: 14, rows: 12 };
-    let dexels = solid.to_dexels(layout);
+    let dexels = solid.to_dexels(layout).unwrap();
     assert_eq!(dexels.volume_mm3(), 24.0);
     assert_eq!(dexels.column_spans(2, 2), [[0.0, 2.0]], "the lower corner is in");
     assert!(
@@ -59,7 +59,7 @@ fn faces_and_corners_on_the_centres_count_once() {
         faces.extend([[a, b, [0.0, 0.0, 3.0]], [b, a, [0.0, 0.0, -3.0]]]);
     }
     let layout = DexelGrid { origin_mm: [-4.0, -4.0], base_mm: -3.0, cell_mm: 1.0, columns: 9, rows: 9 };
-    let dexels = mesh(&faces).to_dexels(layout);
+    let dexels = mesh(&faces).to_dexels(layout).unwrap();
     for index in 0..81 {
         let [x, y] = layout.column_center(index % 9, index / 9);
         let half = (3.0 - x.abs() - y.abs()) as f32;
@@ -91,9 +91,9 @@ fn shells_wind() {
 #[test]
 fn what_is_beside_the_grid_is_left_out() {
     let layout = DexelGrid { origin_mm: [2.5, 2.5], base_mm: 0.0, cell_mm: 1.0, columns: 2, rows: 40 };
-    assert_eq!(mesh(&cube([0.0; 3], [8.0; 3])).to_dexels(layout).volume_mm3(), 2.0 * 6.0 * 8.0);
+    assert_eq!(mesh(&cube([0.0; 3], [8.0; 3])).to_dexels(layout).unwrap().volume_mm3(), 2.0 * 6.0 * 8.0);
     let none = DexelGrid { columns: 0, ..layout };
-    assert_eq!(mesh(&cube([0.0; 3], [8.0; 3])).to_dexels(none).highest_z_mm(), None);
+    assert_eq!(mesh(&cube([0.0; 3], [8.0; 3])).to_dexels(none).unwrap().highest_z_mm(), None);
 }
 
 #[test]
@@ -214,7 +214,7 @@ proptest! {
         let faces = hull(&points);
         let solid = mesh(&faces);
         let layout = DexelGrid { origin_mm: [-5.0, -5.0], base_mm: -5.0, cell_mm: 0.5, columns: 21, rows: 21 };
-        let dexels = solid.to_dexels(layout);
+        let dexels = solid.to_dexels(layout).unwrap();
         for index in 0..layout.column_count() {
             let [x, y] = layout.column_center(index % 21, index / 21);
             let (mut low, mut high) = (-1e9f64, 1e9f64);

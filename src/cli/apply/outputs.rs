@@ -53,6 +53,7 @@ impl ApplyRun<'_> {
         let recipe = self.job.recipe;
         let steps = recipe.step_names();
         RecipeChanges::from_programs(before, &self.outcome.program, &steps, Some(recipe.units))
+            .with_acceleration(before, &self.outcome.program, self.job.setup)
             .shown_in(self.shown_in)
     }
 

@@ -349,7 +349,7 @@ impl<'h> HookRun<'h> {
         let protected = self.list_read_files();
         let all = logged.into_iter().flatten().chain(kept);
         all.filter(|path| !protected.iter().any(|read| is_same_file(read, path)))
-            .filter_map(|path| older_results::set_aside(&path))
+            .filter_map(|path| batch::set_older_output_aside(&path, &path.to_string_lossy()))
             .collect()
     }
 }

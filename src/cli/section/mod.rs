@@ -9,9 +9,10 @@ use super::command_exit::CommandExit;
 use super::command_outputs::CommandOutputs;
 use super::finding_args::FindingArgs;
 use super::input_files;
-use super::run_limits::ThreadArgs;
+use super::run_limits::{LimitArgs, ThreadArgs};
 use super::terminal;
 use crate::cli::bad_argument::BadArgument;
+use crate::cli::progress::{CommandProgress, ProgressArgs};
 use crate::cli::stop::Stop;
 use clap::{Args, ValueEnum};
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
@@ -20,7 +21,7 @@ use clsmith::report::finding_policy::FindingPolicy;
 use clsmith::report::surface_milling as report;
 use clsmith::stock::Mesh;
 use clsmith::surface_milling::{
-    self, SurfaceMillingOptions, SurfacePart, SurfaceProgram, load_profile, make_surface_program,
+    self, SurfaceMillingOptions, SurfacePart, SurfaceProgram, load_profile, make_watched_surface_program,
 };
 use std::io;
 use std::path::{Path, PathBuf};
@@ -133,9 +134,10 @@ pub(super) struct SectionArgs {
     /// Make and prove the program, but do not write it
     #[arg(long)]
     dry_run: bool,
-    /// No summary, findings only
-    #[arg(short, long)]
-    quiet: bool,
+    #[command(flatten)]
+    progress: ProgressArgs,
+    #[command(flatten)]
+    limits: LimitArgs,
     #[command(flatten)]
     threads: ThreadArgs,
     #[command(flatten)]
@@ -176,12 +178,17 @@ impl SectionArgs {
         };
         self.threads.start_threads()?;
         let outputs = CommandOutputs::default();
-        outputs.stop_on_ctrl_c(|| {})?;
+        let progress = CommandProgress::new(self.progress, outputs.interrupt(), self.limits.of_run());
+        outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
         if let Err(failure) = self.check_outputs() {
             return self.refuse_part(failure, &policy, CommandExit::Errors);
         }
         self.find_wrong_ending().map_or(Ok(()), |wrong| Err(Stop::Usage(wrong)))?;
-        let done = self.read_part(&options).and_then(|part| make_surface_program(&part, &options));
+        progress.begin_program(&self.input_path().to_string_lossy());
+        let done = self
+            .read_part(&options)
+            .and_then(|part| make_watched_surface_program(&part, &options, &progress));
+        progress.clear_bar();
         match done {
             Ok(surfaced) => self.show_and_write(&surfaced, &options, &policy, &outputs),
             Err(failure) => self.refuse_part(failure, &policy, CommandExit::Errors),
@@ -228,7 +235,7 @@ impl SectionArgs {
         surfaced: &SurfaceProgram,
         options: &SurfaceMillingOptions,
     ) -> io::Result<()> {
-        if self.quiet { Ok(()) } else { ignore_closed_pipe(self.show_summary(surfaced, options)) }
+        if self.progress.quiet { Ok(()) } else { ignore_closed_pipe(self.show_summary(surfaced, options)) }
     }
 
     /// Reads the part, in mm.
@@ -256,7 +263,7 @@ impl SectionArgs {
     }
 
     fn say_nothing_written(&self) {
-        if !self.quiet && self.output_paths().next().is_some() {
+        if !self.progress.quiet && self.output_paths().next().is_some() {
             eprintln!("{}: nothing was written", self.input_path().display());
         }
     }

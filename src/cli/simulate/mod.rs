@@ -45,9 +45,11 @@ over an input. They are written also when errors were found (a collision is one)
 --save-stock is not. `--allow CL0511` lets collisions pass.
 Lengths are in the unit of the program, or in that of --display-units; of a program in inches the names end in _in.
 The columns of the CSV: line, operation, tool, length_mm, feed_mm_min, chip_thickness_mm,
-removal_rate_mm3_min, axial_depth_mm, radial_depth_mm, engagement_start_deg, engagement_end_deg, force_n,
-torque_nm, power_kw. An empty cell is a value that is not known.
-A name that begins as a formula does (= + - @) has an apostrophe in front.";
+chip_thickness_bound_mm, removal_rate_mean_mm3_min, removal_rate_peak_mm3_min, axial_depth_mm, radial_depth_mm,
+engagement_start_deg, engagement_end_deg, force_peak_n, torque_peak_nm, power_peak_kw. The bound is what the
+thickest chip may be at most, with all that the columns may have missed; the mean of the removal rate is over the
+motion, the peak over eight cells of path, at least 0.5 mm, also across the ends of motions. An empty cell is a
+value that is not known.";
 
 /// Removes the stock motion by motion: chips, depths, forces, collisions, remaining stock
 #[derive(Debug, Args)]

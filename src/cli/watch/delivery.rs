@@ -100,7 +100,7 @@ impl WatchRun<'_> {
         &mut self,
         export: &ExportedFile,
         digest: Digest,
-        correction: UnattendedCorrection,
+        mut correction: UnattendedCorrection,
         when: (String, Instant),
     ) -> Result<ExportStatus, Stop> {
         let name = export.name.to_string_lossy();
@@ -121,15 +121,13 @@ impl WatchRun<'_> {
         self.worst = self.worst.max(CommandExit::Errors);
         self.watch.show_findings(&correction.findings, &name)?;
         eprintln!("{}: refused -> {}", escape_controls(&name), escape_controls(&to.to_string_lossy()));
-        let before = self.folders.out.join(&export.name);
+        let older = self.folders.out.join(&export.name);
         // Somebody might take the older output for the result of this export, and machine a part with it.
-        if before.is_file() {
-            let before = before.to_string_lossy();
-            eprintln!(
-                "{}: {} belongs to an earlier export",
-                escape_controls(&name),
-                escape_controls(&before)
-            );
+        if self.find_write_conflict(export, &older).is_none()
+            && let Some(found) = batch::set_older_output_aside(&older, &older.to_string_lossy())
+        {
+            self.watch.show_findings(std::slice::from_ref(&found), &name)?;
+            correction.findings.push(found);
         }
         if let Some(found) = stays {
             self.watch.show_findings(&[*found], &name)?;

@@ -166,8 +166,14 @@ super::area! {
         "Make TOOLNO and LOADTL agree.",
         "TOOLNO describes one number and the load that follows it, before any cut, names another. Post and operator see \
          different tools.";
+    POINT_APART = "CL0136", Warning, "a point far outside everything else",
+        "Check the decimal point and the number of digits.",
+        "One coordinate lies 500 mm or more outside those of all other points of its operation, and more than ten times as far off \
+         as the middle half of them is wide. Such a point is most often a lost decimal point or a digit too many: the machine \
+         would run into its end stops or through the vise on the way. Rapids before the first feed motion of an operation and \
+         behind the last one are not looked at, and two points that lie out there together neither.";
 
-    THREAD_PITCH_DIFFERS = "CL0136", Warning, "a thread whose feed and speed do not make the pitch of its tool",
+    THREAD_PITCH_DIFFERS = "CL0137", Warning, "a thread whose feed and speed do not make the pitch of its tool",
         "Make the feed the pitch times the speed, or call the tool by its right name.",
         "The name of the tool gives a metric thread with its pitch (M10x1.5), and the feed divided by the spindle speed is \
          another one. A tap in a chuck without compensation breaks, or the thread has the wrong pitch. Names without a pitch \

@@ -186,10 +186,13 @@ super::area! {
         "Allow more by `--memory`, simulate with a coarser `cell`, or split the program by operation.",
         "The run was given a limit of memory (`--memory SIZE`). Before the work the size of the program is held against it, about 4 bytes \
          for a byte and 320 for a line, and so is the stock of a simulation; during the work it is what the process really takes. This \
-         program needs more. It was stopped, and nothing of it is written.";
+         program needs more. It was stopped, and nothing of it is written.\n\n\
+         Without a limit the code says that the system has no memory for the stock of a simulation or for a mesh: the size comes from \
+         the setup's stock and `cell`, or from the file. `batch`, `watch` and `hook` go on as with any program that cannot be corrected.";
     OLDER_RESULT = "CL0443", Warning, "the result of an earlier export, set aside",
-        "Correct the program and post it again. What was set aside belongs to an earlier export.",
-        "The hook posted nothing this time, and what the post made of an earlier export still stood beside the program. Under its own name \
-         it would look like the result of this export and could go to the machine. So it was renamed: `part.nc` is `part.nc.outdated` \
-         now. The next export that is posted writes `part.nc` anew.";
+        "Correct the program and run it again. What was set aside belongs to an earlier export.",
+        "This time nothing was written or posted, and the result of an earlier export still stood there. Under its own name it would \
+         look like the result of this export and could go to the machine. So it was renamed: `part.cls` is `part.cls.outdated` now, \
+         and what a post made, `part.nc`, is `part.nc.outdated`. The next export that goes through writes `part.cls` anew. `hook`, \
+         `watch` and `batch` do so.";
 }

@@ -1,7 +1,7 @@
 //! This module collects the contribution of one band of columns to the engagement of one piece.
 
-use crate::engagement::Engagement;
 use crate::engagement::engagement_bins::{BINS, EngagementBin, bin_index_at, interval_hull};
+use crate::engagement::{Engagement, RemovalProfile};
 
 /// A contact of the cutter with removed material.
 #[derive(Debug, Clone, Copy)]
@@ -24,6 +24,8 @@ pub(in crate::engagement) struct BinContact {
 pub(in crate::engagement) struct BandEngagement {
     /// The sum of the removed heights, mm.
     pub removed: f64,
+    /// Where on the piece heights were removed, mm.
+    pub removal: RemovalProfile,
     pub lateral: [f32; 2],
     pub height: [f32; 2],
     pub graze: f32,
@@ -66,9 +68,11 @@ impl RememberedContact {
 }
 
 impl BandEngagement {
-    pub(crate) fn new() -> Self {
+    /// Makes the contribution of a band in which nothing was found. `removal` is the piece's empty profile.
+    pub(crate) fn new(removal: RemovalProfile) -> Self {
         Self {
             removed: 0.0,
+            removal,
             lateral: [f32::INFINITY, f32::NEG_INFINITY],
             height: [f32::INFINITY, f32::NEG_INFINITY],
             graze: 0.0,
@@ -171,6 +175,7 @@ impl BandEngagement {
     /// mm.
     pub(crate) fn add_to_engagement(&self, engagement: &mut Engagement, area: f64, half: f64) {
         engagement.removed_mm3 += self.removed * area;
+        engagement.removal.merge_columns(&self.removal, area);
         if self.removed > 0.0 {
             let [least, greatest] = self.lateral.map(f64::from);
             engagement.lateral_mm = interval_hull(engagement.lateral_mm, [least - half, greatest + half]);

@@ -17,6 +17,7 @@ pub(super) mod silhouette;
 mod straight;
 mod straight_contact;
 mod straight_footprint;
+mod straight_removal;
 mod tilted;
 
 pub(super) use band_engagement::BandEngagement;

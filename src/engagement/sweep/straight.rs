@@ -5,6 +5,7 @@ use super::cutter_underside::{CutterUnderside, SweepPath, SweepRow};
 use super::straight_contact::{RemovedColumn, StraightContactFinder};
 use super::straight_footprint::StraightFootprint;
 use crate::cutter::{CutterModel, Meridian, NonCuttingCylinder};
+use crate::engagement::RemovalProfile;
 use crate::stock::dexel::{DexelBand, DexelGrid, THINNEST};
 
 /// The number of columns that are tested together.
@@ -26,6 +27,8 @@ pub(in crate::engagement) struct StraightSweep {
     upper: Option<UpperSweep>,
     collars: Vec<(usize, NonCuttingCylinder, CutterUnderside)>,
     layout: DexelGrid,
+    /// The empty profile of where the piece removes material.
+    removal: RemovalProfile,
     ends: bool,
     /// The radius of the cutter where the flank leaves the stock. On a tapered cutter it is less than the
     /// largest radius.
@@ -80,6 +83,8 @@ pub(in crate::engagement) struct SweepContext {
     pub ends: bool,
     /// Whether the engagement must be fine enough for forces.
     pub detail: bool,
+    /// The window over which the largest removal rate is wanted, mm; `None` if it is not.
+    pub removal_window_mm: Option<f64>,
 }
 
 impl StraightSweep {
@@ -169,6 +174,8 @@ impl StraightSweep {
                 start,
                 first: from[2] - layout.base_mm,
                 length: extent.length,
+                drop: (from[2] - to[2]).max(0.0),
+                part: around.removal_window_mm.map_or(f64::INFINITY, |window| window / 2.0),
                 cell: layout.cell_mm,
                 detail: around.detail,
                 fresh: !around.continues,
@@ -178,6 +185,7 @@ impl StraightSweep {
             upper,
             collars,
             layout: *layout,
+            removal: RemovalProfile::empty_for_piece(length, around.removal_window_mm),
             ends: around.ends,
             widest: if profile.taper_rad() > 0.0 {
                 profile.radius_at_height_mm(around.highest - lowest_tip)
@@ -218,7 +226,7 @@ impl StraightSweep {
 
     /// Removes what the piece sweeps from a band.
     pub(crate) fn sweep_band(&self, band: &mut DexelBand, scratch: &mut Vec<f32>) -> BandEngagement {
-        let mut partial = BandEngagement::new();
+        let mut partial = BandEngagement::new(self.removal.clone());
         let rows = self.row_range();
         let (first, end) = (rows.start.max(band.first_row), rows.end.min(band.first_row + band.row_count()));
         // The rows go from the middle outwards, so that contacts that dominate others come first.

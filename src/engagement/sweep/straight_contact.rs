@@ -24,6 +24,10 @@ pub(super) struct StraightContactFinder {
     pub first: f64,
     /// The length of the piece across the axis, mm.
     pub length: f64,
+    /// How much lower the tip is at the end than at the start, mm; 0 for a piece that does not descend.
+    pub drop: f64,
+    /// The length of the parts for which the removal is known, mm; see [`crate::engagement::RemovalProfile`].
+    pub part: f64,
     /// The distance of columns, mm.
     pub cell: f64,
     /// Whether the bins must be filled finely enough for forces.
@@ -73,9 +77,15 @@ impl StraightContactFinder {
         let depth = column.top - column.low;
         let place = self.cross_path_position(&column);
         if self.fresh && self.is_inside_at_start(&column) {
+            partial.removal.add_at_start(depth as f32);
             partial.add_volume(depth as f32, column.left as f32);
             partial.add_contact(&self.unknown_contact(&column));
-        } else if depth < FILM || (!self.detail && partial.is_dominated(&place, self.along >= 0.0, depth)) {
+            return;
+        }
+        if partial.removal.is_divided() {
+            self.add_removal(&column, surface, partial);
+        }
+        if depth < FILM || (!self.detail && partial.is_dominated(&place, self.along >= 0.0, depth)) {
             partial.add_volume(depth as f32, column.left as f32);
         } else {
             self.examine_column(column, place, surface, partial);

@@ -12,7 +12,11 @@ pub use text::{steps_to_text, to_text};
 use super::stats::{MotionLengthAndTime, MotionTotals, ResolvedLengthUnit};
 use super::table::DisplayUnits;
 use crate::program::RecordKind;
+use crate::program::geometry::MotionPath;
 use crate::program::{Program, StepEdits};
+use crate::report::comparison::measure_motion;
+use crate::setup::Setup;
+use crate::transform::optimize_feed::PathTimer;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -42,7 +46,13 @@ pub struct RecipeChanges {
     pub version: u32,
     /// The file's name.
     pub file: String,
-    /// The unit of lengths before and after. It is the unit of the program after the steps.
+    /// The unit of the program before.
+    #[serde(skip)]
+    units_before: LengthUnit,
+    /// The unit of the program after.
+    #[serde(skip)]
+    units_after: LengthUnit,
+    /// The unit of lengths, before and after: that of the program after.
     pub units: ResolvedLengthUnit,
     /// The steps in order, including those without a change.
     pub steps: Vec<StepChanges>,
@@ -93,6 +103,8 @@ impl RecipeChanges {
         let (steps, untouched) = count_step_changes(after, steps);
         Self {
             version: 1,
+            units_before: units_before.unit,
+            units_after: units.unit,
             file: after.source().name().to_owned(),
             units,
             steps,
@@ -100,6 +112,19 @@ impl RecipeChanges {
             before: sum_motions(before, units_before).converted(as_after),
             after: sum_motions(after, units),
         }
+    }
+
+    /// Adds the times with the machine's acceleration where the setup says it. The programs are those that were
+    /// compared.
+    #[must_use]
+    pub fn with_acceleration(mut self, before: &Program, after: &Program, setup: &Setup) -> Self {
+        let acceleration = setup.machine.max_acceleration.map(|most| most.get());
+        let told =
+            [(&mut self.before, before, self.units_before), (&mut self.after, after, self.units_after)];
+        for (totals, program, unit) in told {
+            totals.accelerated_seconds = time_with_acceleration(program, unit, acceleration);
+        }
+        self
     }
 
     /// Converts all lengths to the unit that a reader wants to see; `None` leaves them in the program's.
@@ -145,7 +170,17 @@ fn sum_motions(program: &Program, units: ResolvedLengthUnit) -> MotionTotals {
     totals
 }
 
-/// Returns the changes as a JSON document, indented and with a line end.
+fn time_with_acceleration(program: &Program, unit: LengthUnit, acceleration: Option<f64>) -> Option<f64> {
+    acceleration?;
+    let mut timer = PathTimer::new(acceleration);
+    for motion in program.motions().filter(|motion| motion.path != MotionPath::Start) {
+        let moved = measure_motion(&motion, unit, None);
+        timer.add_motion(program, &motion, moved.length_mm, moved.feed_mm_min);
+    }
+    timer.seconds()
+}
+
+/// The changes as one JSON document, indented and with a line end.
 pub fn to_json(changes: &RecipeChanges) -> String {
     super::to_json_text(changes)
 }

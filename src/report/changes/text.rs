@@ -43,7 +43,8 @@ fn format_kind_counts(map: &BTreeMap<RecordKind, usize>, verb: &str) -> Vec<Stri
 }
 
 fn format_totals(changes: &RecipeChanges) -> String {
-    let columns = pick_columns(&totals_columns(), &["feed_length", "rapid_length", "feed_time"]);
+    let time = if changes.after.accelerated_seconds.is_some() { "accelerated_time" } else { "feed_time" };
+    let columns = pick_columns(&totals_columns(), &["feed_length", "rapid_length", time]);
     let looks = TableLooks::plain(DisplayUnits::unconverted(changes.units.unit));
     compare_figures(&columns, Some(&changes.before), Some(&changes.after), looks).to_text()
 }

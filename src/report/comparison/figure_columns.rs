@@ -10,7 +10,7 @@ use crate::report::table::{
 use crate::report::text_format::format_count;
 
 /// The figures in the table of the whole program, in this order.
-const WHOLE: [&str; 11] = [
+const WHOLE: [&str; 12] = [
     "feed_time",
     "rapid_time",
     "feed_length",
@@ -18,6 +18,7 @@ const WHOLE: [&str; 11] = [
     "slowest_feed",
     "fastest_feed",
     "chip_thickness",
+    "chip_thickness_bound",
     "removal_rate",
     "force",
     "torque",
@@ -39,8 +40,15 @@ fn path_columns() -> Vec<Column<ComparisonFigures>> {
             // A time that leaves out motions is a lower bound.
             is_lower_bound: figures.untimed > 0,
         })
-        .titled("time")
-        .worded_as("time at feed", 1),
+        .titled("time without acceleration")
+        .worded_as("time at feed, without acceleration", 1),
+        Column::new("accelerated_time", Unit::Duration, |figures: &ComparisonFigures| {
+            let is_lower_bound = figures.untimed > 0;
+            let time = |seconds| TableValue::Duration { seconds, is_lower_bound };
+            figures.accelerated_seconds.map_or(TableValue::Missing, time)
+        })
+        .titled("time with acceleration")
+        .worded_as("time at feed, with acceleration", 1),
         Column::new("rapid_time", Unit::Duration, |figures: &ComparisonFigures| {
             TableValue::duration(figures.rapid_seconds)
         })
@@ -74,6 +82,11 @@ fn load_columns() -> Vec<Column<ComparisonFigures>> {
         })
         .titled("thickest chip")
         .decimals(4),
+        Column::new("chip_thickness_bound", Unit::Length, |figures: &ComparisonFigures| {
+            peak_value(figures.chip_thickness_bound_mm)
+        })
+        .titled("thickest chip at most")
+        .decimals(4),
         Column::new("removal_rate", Unit::RemovalRate, |figures: &ComparisonFigures| {
             peak_value(figures.removal_rate_mm3_min)
         })
@@ -86,8 +99,7 @@ fn load_columns() -> Vec<Column<ComparisonFigures>> {
             .titled("largest torque")
             .decimals(2),
         Column::new("power", Unit::Power, |figures: &ComparisonFigures| peak_value(figures.power_kw))
-            .titled("power")
-            .worded_as("largest power", 3)
+            .titled("largest power")
             .decimals(3),
     ]
 }
@@ -101,7 +113,9 @@ fn peak_value(peak: Option<ComparisonPeak>) -> TableValue<'static> {
 /// Makes the table of the whole program: its figures before, after and their change, or those of one program
 /// alone. Figures that are not known of any program are left out.
 pub(in crate::report) fn build_whole_table(comparison: &Comparison<'_>) -> PrintedTable {
-    let columns = pick_columns(&figure_columns(), &WHOLE);
+    let time = time_key(&comparison.whole);
+    let keys = WHOLE.map(|key| if key == "feed_time" { time } else { key });
+    let columns = pick_columns(&figure_columns(), &keys);
     let ComparisonRow { before, after, .. } = &comparison.whole;
     let looks = TableLooks::markup(comparison.units());
     match comparison.subject.before {
@@ -138,6 +152,12 @@ pub(in crate::report) fn build_operation_table(comparison: &Comparison<'_>) -> P
     table
 }
 
+/// Returns the key of the one time that is told: with the machine's acceleration where it is known.
+fn time_key(whole: &ComparisonRow) -> &'static str {
+    let is_known = whole.after.or(whole.before).is_some_and(|figures| figures.accelerated_seconds.is_some());
+    if is_known { "accelerated_time" } else { "feed_time" }
+}
+
 fn print_operation(
     name: &str,
     row: &ComparisonRow,
@@ -166,8 +186,8 @@ fn pick_operation_figures(comparison: &Comparison<'_>) -> Vec<Column<ComparisonF
     let is_known = |column: &Column<ComparisonFigures>| {
         [before, after].into_iter().flatten().any(|figures| !column.value(figures).is_missing())
     };
-    let mut columns = pick_columns(&figure_columns(), &["feed_time", "feed"]);
-    let loads = pick_columns(&figure_columns(), &["chip_thickness", "power"]);
+    let mut columns = pick_columns(&figure_columns(), &[time_key(&comparison.whole), "feed"]);
+    let loads = pick_columns(&figure_columns(), &["chip_thickness", "chip_thickness_bound", "power"]);
     columns.extend(loads.into_iter().filter(is_known));
     columns
 }

@@ -53,6 +53,8 @@ pub struct ComparisonFigures {
     pub rapid_mm: f64,
     /// Time at feed where it is known, s.
     pub feed_seconds: f64,
+    /// The same with the machine's acceleration; `None` when that is not known.
+    pub accelerated_seconds: Option<f64>,
     /// Motions at feed whose time is not known.
     pub untimed: usize,
     /// The time at rapid in s. It is `None` if the machine's rapid feed is not known.
@@ -61,7 +63,9 @@ pub struct ComparisonFigures {
     pub feed_range_mm_min: Option<[f64; 2]>,
     /// Thickest chip, mm.
     pub chip_thickness_mm: Option<ComparisonPeak>,
-    /// Largest removal rate, mm3/min.
+    /// What a chip may be at most, with all that the simulation may have missed, mm.
+    pub chip_thickness_bound_mm: Option<ComparisonPeak>,
+    /// Largest removal rate over a window of path, mm3/min.
     pub removal_rate_mm3_min: Option<ComparisonPeak>,
     /// Largest force, N.
     pub force_n: Option<ComparisonPeak>,
@@ -100,7 +104,8 @@ impl ComparisonFigures {
             }
         };
         raise(&mut self.chip_thickness_mm, row.chip_thickness_mm);
-        raise(&mut self.removal_rate_mm3_min, row.removal_rate_mm3_min);
+        raise(&mut self.chip_thickness_bound_mm, row.chip_thickness_bound_mm);
+        raise(&mut self.removal_rate_mm3_min, row.peak_removal_rate_mm3_min);
         raise(&mut self.force_n, row.force_n);
         raise(&mut self.torque_nm, row.torque_nm);
         raise(&mut self.power_kw, row.power_kw);

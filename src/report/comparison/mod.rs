@@ -23,13 +23,14 @@ use super::changes::RecipeChanges;
 use super::simulation::SimulationReport;
 use super::stats::{LengthUnitOrigin, ResolvedLengthUnit};
 use super::table::{ColumnUnit, DisplayUnits};
-use super::text_format::{format_counted, format_duration};
+use super::text_format::{self, format_counted};
 use crate::diagnostic::Diagnostic;
 use crate::program::motion::Motion;
 use crate::program::operation::find_operations;
 use crate::program::{LengthUnit, Program};
 use crate::setup::Setup;
 use crate::source::Source;
+use crate::transform::optimize_feed::PathTimer;
 use crate::transform::{Recipe, TransformReport};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -108,7 +109,12 @@ impl<'a> ComparisonSubject<'a> {
         self.setup.machine.rapid_feed.map(|feed| feed.get())
     }
 
-    /// Returns the motions of a program without its first points, to which no path leads.
+    /// How fast the machine changes feeds, (mm/min)/s.
+    pub(in crate::report) fn acceleration(&self) -> Option<f64> {
+        self.setup.machine.max_acceleration.map(|most| most.get())
+    }
+
+    /// The motions of a program that go somewhere: all but first points, which come from nowhere.
     pub(in crate::report) fn motions_after_start(program: &'a Program) -> impl Iterator<Item = Motion> + 'a {
         program.motions().filter(|motion| motion.path != crate::program::geometry::MotionPath::Start)
     }
@@ -162,8 +168,14 @@ fn measure_operations(
         operations: names.map(|name| (name, Vec::new(), ComparisonFigures::new(rapid.is_some()))).collect(),
         whole: (Vec::new(), ComparisonFigures::new(rapid.is_some())),
     };
+    let mut timer = PathTimer::new(subject.acceleration());
+    let mut timers = vec![timer.clone(); found.operations.len()];
     for (index, motion) in ComparisonSubject::motions_after_start(program).enumerate() {
         let moved = measure_motion(&motion, units, rapid);
+        timer.add_motion(program, &motion, moved.length_mm, moved.feed_mm_min);
+        if let Some(timer) = timers.get_mut(motion.operation) {
+            timer.add_motion(program, &motion, moved.length_mm, moved.feed_mm_min);
+        }
         let row = simulated.and_then(|simulated| simulated.motions.rows.get(index));
         let tool = motion.tool.as_ref().map(|tool| tool.display_name());
         let note = |tools: &mut Vec<String>| {
@@ -177,6 +189,10 @@ fn measure_operations(
         }
         note(&mut found.whole.0);
         found.whole.1.add_motion(index, &moved, row);
+    }
+    found.whole.1.accelerated_seconds = timer.seconds();
+    for ((.., figures), timer) in found.operations.iter_mut().zip(&timers) {
+        figures.accelerated_seconds = timer.seconds();
     }
     found
 }
@@ -226,19 +242,6 @@ fn describe_untimed_motions(whole: &ComparisonRow) -> Option<String> {
     Some(format!("the time at feed leaves out {left_out} whose feed is not known in mm/min"))
 }
 
-/// Describes how the machine's acceleration changes the time at feed and rapid, if the setup gives it.
-fn describe_accelerated_time(runs: &ComparisonRuns) -> Option<String> {
-    let of =
-        |simulated: &Option<SimulationReport>| simulated.as_ref().and_then(|one| one.accelerated_seconds);
-    let after = format_duration(of(&runs.after)?);
-    Some(match of(&runs.before) {
-        Some(before) => {
-            format!("with it the program takes {} before and {after} after", format_duration(before))
-        }
-        None => format!("with it the program takes {after}"),
-    })
-}
-
 fn list_assumptions(
     subject: &ComparisonSubject<'_>,
     whole: &ComparisonRow,
@@ -260,8 +263,18 @@ fn list_assumptions(
         }
         ResolvedLengthUnit { from: LengthUnitOrigin::File | LengthUnitOrigin::Shown, .. } => {}
     }
-    said.push("times are without dwells, and without the machine's acceleration".to_owned());
-    said.extend(describe_accelerated_time(runs));
+    said.push(match subject.acceleration() {
+        Some(acceleration) => {
+            let feed = ColumnUnit::FeedPerMinute;
+            let acceleration = text_format::format_short(units.convert(feed, acceleration));
+            let per_minute = feed.symbol(units.shown_in);
+            format!(
+                "times are without dwells, with feeds that change by {acceleration} ({per_minute})/s at most; places \
+                 along time in charts are without acceleration"
+            )
+        }
+        None => "times are without dwells, and without the machine's acceleration".to_owned(),
+    });
     if let Some(sentence) = describe_untimed_motions(whole) {
         said.push(sentence);
     }

@@ -67,7 +67,7 @@ type PageLoadColumn = (&'static str, ColumnUnit, fn(&MotionRow) -> Option<f64>);
 /// The quantities of a simulation that charts show.
 const LOADS: [PageLoadColumn; 5] = [
     ("chip", ColumnUnit::Length, |row| row.chip_thickness_mm),
-    ("removal", ColumnUnit::RemovalRate, |row| row.removal_rate_mm3_min),
+    ("removal", ColumnUnit::RemovalRate, |row| row.peak_removal_rate_mm3_min),
     ("force", ColumnUnit::Force, |row| row.force_n),
     ("torque", ColumnUnit::Torque, |row| row.torque_nm),
     ("power", ColumnUnit::Power, |row| row.power_kw),
@@ -113,7 +113,9 @@ impl PageMotionArrays {
             }
             for (name, unit, value) in LOADS {
                 if rows.iter().any(|row| value(row).is_some()) {
-                    let values = rows.iter().map(|row| value(row).map_or(f32::NAN, |value| value as f32));
+                    let shown =
+                        |row: &MotionRow| row.cut_load(value(row)).map_or(f32::NAN, |value| value as f32);
+                    let values = rows.iter().map(shown);
                     side.loads.push((name, unit, values.collect()));
                 }
             }

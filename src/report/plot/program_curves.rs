@@ -55,10 +55,10 @@ impl PlotQuantity {
         let words = match self {
             Self::Feed => "feed",
             Self::Chip => "thickest chip",
-            Self::Removal => "removal rate",
-            Self::Force => "force",
-            Self::Torque => "torque",
-            Self::Power => "power",
+            Self::Removal => "largest removal rate",
+            Self::Force => "largest force",
+            Self::Torque => "largest torque",
+            Self::Power => "largest power",
             Self::Z => "z",
         };
         units.title(words, self.unit())
@@ -81,14 +81,14 @@ impl PlotQuantity {
     }
 
     fn row_value(self, row: &MotionRow) -> Option<f64> {
-        match self {
+        row.cut_load(match self {
             Self::Chip => row.chip_thickness_mm,
-            Self::Removal => row.removal_rate_mm3_min,
+            Self::Removal => row.peak_removal_rate_mm3_min,
             Self::Force => row.force_n,
             Self::Torque => row.torque_nm,
             Self::Power => row.power_kw,
             Self::Feed | Self::Z => None,
-        }
+        })
     }
 }
 

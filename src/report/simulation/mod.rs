@@ -10,6 +10,7 @@
 //! keys may be added without.
 
 mod motion_row;
+mod removal_peak;
 mod simulation_collector;
 mod simulation_document;
 mod sum_columns;
@@ -26,6 +27,7 @@ pub use target_comparison::{TargetComparison, TargetMismatch, ThickestMismatch};
 pub use text::to_text;
 
 use crate::diagnostic::{Diagnostic, Failure};
+use crate::engagement::removal_window_mm;
 use crate::report::table::DisplayUnits;
 use crate::simulation_run::{
     Machining, RunWatcher, SimulationCost, SimulationRunOptions, chord_tolerance_mm,
@@ -128,6 +130,8 @@ pub struct SimulationAccuracy {
     pub lateral_mm: f64,
     /// Arcs and splines run as chords that are no further than this from them, mm.
     pub chord_mm: f64,
+    /// The length of path that the largest removal rate is the mean over, mm.
+    pub removal_window_mm: f64,
 }
 
 /// Volumes in mm3.
@@ -166,7 +170,11 @@ impl SimulationReport {
         watch: &dyn RunWatcher,
     ) -> Result<Self, Failure> {
         let material = machining.setup().require_material().ok();
-        let options = SimulationRunOptions { forces: material.is_some(), ..options.within_limits(watch) };
+        let options = SimulationRunOptions {
+            forces: material.is_some(),
+            removal_peaks: true,
+            ..options.within_limits(watch)
+        };
         let plan = machining.estimate_cost(&options)?;
         let mut gathering = simulation_collector::SimulationCollector::new(machining, plan.cell_mm);
         let mut sink = |cut: &crate::simulation_run::EngagedMotion<'_>| gathering.add_motion(cut);
@@ -185,10 +193,11 @@ impl SimulationReport {
                 cell_mm: ran.cell_mm,
                 lateral_mm: ran.cell_mm / 2.0,
                 chord_mm: chord_tolerance_mm(ran.cell_mm),
+                removal_window_mm: removal_window_mm(ran.cell_mm),
             },
             stock: StockVolumes { before_mm3: ran.before_mm3, removed_mm3, left_mm3 },
             totals: gathered.totals,
-            accelerated_seconds: gathered.accelerated_seconds,
+            accelerated_seconds: gathered.totals.accelerated_seconds,
             faults: gathered.faults,
             assumptions: gathered.assumptions,
             operations: gathered.operations,

@@ -27,9 +27,14 @@ pub struct MotionRow {
     pub seconds: Option<f64>,
     /// The thickest chip, mm.
     pub chip_thickness_mm: Option<f64>,
-    /// The removed volume by time in mm3/min, as the mean over the motion.
+    /// What the thickest chip may be at most, with all that the columns may have missed, mm.
+    pub chip_thickness_bound_mm: Option<f64>,
+    /// Removed volume by time, mm3/min: the mean over the motion.
     pub removal_rate_mm3_min: Option<f64>,
-    /// The height of the engaged part of the cutter along its axis, mm.
+    /// The largest removal rate over a window of path ([`super::SimulationAccuracy::removal_window_mm`]), mm3/min. A rapid has
+    /// none, and a motion that is shorter than the window may have less than its mean.
+    pub peak_removal_rate_mm3_min: Option<f64>,
+    /// Height of the engaged part of the cutter along its axis, mm.
     pub axial_depth_mm: Option<f64>,
     /// The width of the cut across path and axis, in mm. It is at most the diameter at the highest engaged
     /// point.
@@ -46,7 +51,15 @@ pub struct MotionRow {
     pub power_kw: Option<f64>,
 }
 
-/// A row with the names that it has in common with others.
+impl MotionRow {
+    /// Returns a load as drawings show it. A rapid through material is a crash, not a cut: what it would load is no
+    /// load of the program's cuts.
+    pub(in crate::report) fn cut_load(&self, load: Option<f64>) -> Option<f64> {
+        load.filter(|load| !self.rapid || *load == 0.0)
+    }
+}
+
+/// A row with the names that it shares with others.
 pub(super) struct NamedMotionRow<'a> {
     row: &'a MotionRow,
     motions: &'a MotionRows,
@@ -60,7 +73,7 @@ impl MotionRows {
 }
 
 /// Returns the columns of the CSV, which are the keys of the JSON as well.
-pub(super) fn motion_columns<'a>() -> [Column<NamedMotionRow<'a>>; 14] {
+pub(super) fn motion_columns<'a>() -> [Column<NamedMotionRow<'a>>; 16] {
     use ColumnUnit as Unit;
     type Row<'a> = NamedMotionRow<'a>;
     [
@@ -72,16 +85,22 @@ pub(super) fn motion_columns<'a>() -> [Column<NamedMotionRow<'a>>; 14] {
         Column::new("length", Unit::Length, |named: &Row<'a>| named.row.length_mm.into()),
         Column::new("feed", Unit::FeedPerMinute, |named: &Row<'a>| named.row.feed_mm_min.into()),
         Column::new("chip_thickness", Unit::Length, |named: &Row<'a>| named.row.chip_thickness_mm.into()),
-        Column::new("removal_rate", Unit::RemovalRate, |named: &Row<'a>| {
+        Column::new("chip_thickness_bound", Unit::Length, |named: &Row<'a>| {
+            named.row.chip_thickness_bound_mm.into()
+        }),
+        Column::new("removal_rate_mean", Unit::RemovalRate, |named: &Row<'a>| {
             named.row.removal_rate_mm3_min.into()
+        }),
+        Column::new("removal_rate_peak", Unit::RemovalRate, |named: &Row<'a>| {
+            named.row.peak_removal_rate_mm3_min.into()
         }),
         Column::new("axial_depth", Unit::Length, |named: &Row<'a>| named.row.axial_depth_mm.into()),
         Column::new("radial_depth", Unit::Length, |named: &Row<'a>| named.row.radial_depth_mm.into()),
         Column::new("engagement_start", Unit::Angle, |named: &Row<'a>| named.row.engagement_start_deg.into()),
         Column::new("engagement_end", Unit::Angle, |named: &Row<'a>| named.row.engagement_end_deg.into()),
-        Column::new("force", Unit::Force, |named: &Row<'a>| named.row.force_n.into()),
-        Column::new("torque", Unit::Torque, |named: &Row<'a>| named.row.torque_nm.into()),
-        Column::new("power", Unit::Power, |named: &Row<'a>| named.row.power_kw.into()),
+        Column::new("force_peak", Unit::Force, |named: &Row<'a>| named.row.force_n.into()),
+        Column::new("torque_peak", Unit::Torque, |named: &Row<'a>| named.row.torque_nm.into()),
+        Column::new("power_peak", Unit::Power, |named: &Row<'a>| named.row.power_kw.into()),
     ]
 }
 

@@ -1,17 +1,18 @@
 //! This module collects rows and sums, motion by motion.
 
+use super::removal_peak::RemovalPeakFinder;
 use super::unknown_feeds::UnknownFeedCollector;
 use super::{MotionRow, MotionRows, OperationSums, SimulationFaultCounts, SimulationSums};
-use crate::cutter::CutterModel;
+use crate::cutter::{CutterModel, Teeth};
 use crate::diagnostic::{Diagnostic, Severity};
-use crate::engagement::{CuttingLoads, Engagement, LoadModel};
+use crate::engagement::{CuttingLoads, Engagement, LoadModel, removal_window_mm};
 use crate::program::geometry::MotionPath;
 use crate::program::motion::{ActiveTool, Motion};
 use crate::program::operation;
 use crate::program::record::SpindleDirection;
 use crate::report::{statement_line, tool_name};
 use crate::simulation_run::{EngagedMotion, Machining};
-use crate::transform::optimize_feed::plan::{TimedSegment, path_time_s};
+use crate::transform::optimize_feed::PathTimer;
 use std::sync::Arc;
 
 /// The sums while motions are processed.
@@ -26,8 +27,11 @@ pub(super) struct SimulationCollector<'m, 'p> {
     tools: Vec<Option<Arc<ActiveTool>>>,
     totals: SimulationSums,
     operations: Vec<(Option<usize>, SimulationSums)>,
-    path: Vec<TimedSegment>,
-    /// The tool of the last motion at feed, unless a rapid came after it.
+    timer: PathTimer,
+    /// A timer for each operation.
+    operation_timers: Vec<PathTimer>,
+    removal: RemovalPeakFinder,
+    /// The tool of the motion before, if removal rates are looked for across its end.
     chained: Option<usize>,
     faults: SimulationFaultCounts,
     unknown: UnknownFeedCollector,
@@ -39,7 +43,6 @@ pub(super) struct CollectedSimulation {
     pub motions: MotionRows,
     pub totals: SimulationSums,
     pub operations: Vec<OperationSums>,
-    pub accelerated_seconds: Option<f64>,
     pub faults: SimulationFaultCounts,
     pub assumptions: Vec<String>,
     pub findings: Vec<Diagnostic>,
@@ -52,6 +55,8 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         let material = machining.setup().require_material().ok();
         let names = operation::find_operations(machining.program());
         let sums = SimulationSums::new(rapid.is_some());
+        let acceleration = machine.max_acceleration.map(|most| most.get());
+        let operation_timers = vec![PathTimer::new(acceleration); names.len()];
         Self {
             machining,
             speck: cell.powi(3),
@@ -64,7 +69,9 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
                 ..MotionRows::default()
             },
             tools: Vec::new(),
-            path: Vec::new(),
+            timer: PathTimer::new(acceleration),
+            operation_timers,
+            removal: RemovalPeakFinder::new(removal_window_mm(cell)),
             chained: None,
             faults: SimulationFaultCounts::default(),
             unknown: UnknownFeedCollector::default(),
@@ -120,7 +127,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
                 self.unknown.check_motion(program, motion, feed, rpm);
             }
         }
-        self.append_feed_path(&row);
+        self.follow_feed_path(cut, &row);
         self.totals.add_motion(&row, removed);
         if let Some((tool, sums)) = self.operations.get_mut(row.operation) {
             tool.get_or_insert(row.tool);
@@ -156,6 +163,9 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
             .teeth
             .as_ref()
             .map(|teeth| pieces().map(|piece| piece.chip_thickness_mm(teeth, feed, rpm)).fold(0.0, f64::max));
+        let bound = |piece: &Engagement, teeth: &Teeth| piece.chip_thickness_bound_mm(teeth, feed, rpm);
+        row.chip_thickness_bound_mm =
+            cutter.teeth.as_ref().map(|teeth| pieces().map(|piece| bound(piece, teeth)).fold(0.0, f64::max));
         let models =
             self.models.as_ref().zip(cut.cutter).and_then(|(models, index)| models.get(index)?.as_ref());
         let Some([clockwise, counter]) = models else { return };
@@ -177,6 +187,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
     fn fill_air_row(&self, row: &mut MotionRow) {
         let zero = Some(0.0);
         row.chip_thickness_mm = zero;
+        row.chip_thickness_bound_mm = zero;
         row.removal_rate_mm3_min = zero;
         row.axial_depth_mm = zero;
         row.radial_depth_mm = zero;
@@ -185,15 +196,39 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         }
     }
 
-    /// Adds a motion to the path for the time with acceleration. Rapids and tool changes end chains of
-    /// motions at feed.
-    fn append_feed_path(&mut self, row: &MotionRow) {
-        if row.rapid {
-            self.chained = None;
-        } else if let Some(feed) = row.feed_mm_min {
-            let breaks_chain = self.chained != Some(row.tool);
-            self.path.push(TimedSegment { length: row.length_mm, feed, breaks_chain });
-            self.chained = Some(row.tool);
+    /// Follows the path at feed: for the time with acceleration, and for the largest removal rate. A rapid, another tool
+    /// or a feed that is not known ends the path that removal rates are looked for on.
+    fn follow_feed_path(&mut self, cut: &EngagedMotion<'_>, row: &MotionRow) {
+        let program = self.machining.program();
+        self.timer.add_motion(program, cut.motion, row.length_mm, row.feed_mm_min);
+        if let Some(timer) = self.operation_timers.get_mut(row.operation) {
+            timer.add_motion(program, cut.motion, row.length_mm, row.feed_mm_min);
+        }
+        let at_feed = row.feed_mm_min.filter(|_| !row.rapid && cut.cutter.is_some());
+        if at_feed.is_none() || self.chained != Some(row.tool) {
+            self.removal.end_path();
+        }
+        self.chained = at_feed.map(|_| row.tool);
+        let Some(feed) = at_feed else { return };
+        for (step, engaged) in cut.pieces {
+            let length = (step.piece.to.point - step.piece.from.point).norm();
+            self.removal.add_piece(self.motions.rows.len(), feed, length, engaged);
+        }
+    }
+
+    /// Adds what is known once all motions are through: times with acceleration and largest removal rates.
+    fn finish_sums(&mut self) {
+        self.totals.accelerated_seconds = self.timer.seconds();
+        for ((_, sums), timer) in self.operations.iter_mut().zip(&self.operation_timers) {
+            sums.accelerated_seconds = timer.seconds();
+        }
+        let removal = std::mem::replace(&mut self.removal, RemovalPeakFinder::new(1.0));
+        for (row, peak) in self.motions.rows.iter_mut().zip(removal.into_peaks()) {
+            row.peak_removal_rate_mm3_min = peak;
+            self.totals.add_removal_peak(row);
+            if let Some((_, sums)) = self.operations.get_mut(row.operation) {
+                sums.add_removal_peak(row);
+            }
         }
     }
 
@@ -214,8 +249,8 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
 
     /// Returns the results.
     pub(super) fn into_collected(mut self) -> CollectedSimulation {
+        self.finish_sums();
         let program = self.machining.program();
-        let acceleration = self.machining.setup().machine.max_acceleration.map(|most| most.get());
         self.faults.unknown_feeds = self.unknown.count;
         let mut findings = self.unknown.into_findings();
         let gaps = self.machining.tooling().find_missing_teeth(program, self.machining.setup(), &|_| true);
@@ -247,7 +282,6 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         CollectedSimulation {
             totals: self.totals,
             operations,
-            accelerated_seconds: acceleration.map(|most| path_time_s(&self.path, Some(most))),
             faults: self.faults,
             assumptions,
             findings,

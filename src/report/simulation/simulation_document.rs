@@ -67,12 +67,15 @@ fn cost_columns() -> [Column<ReportedCost>; 4] {
     ]
 }
 
-fn accuracy_columns() -> [Column<SimulationAccuracy>; 3] {
+fn accuracy_columns() -> [Column<SimulationAccuracy>; 4] {
     let unit = ColumnUnit::Length;
     [
         Column::new("cell", unit, |accuracy: &SimulationAccuracy| accuracy.cell_mm.into()),
         Column::new("lateral", unit, |accuracy: &SimulationAccuracy| accuracy.lateral_mm.into()),
         Column::new("chord", unit, |accuracy: &SimulationAccuracy| accuracy.chord_mm.into()),
+        Column::new("removal_window", unit, |accuracy: &SimulationAccuracy| {
+            accuracy.removal_window_mm.into()
+        }),
     ]
 }
 

@@ -32,7 +32,7 @@ pub(super) fn sum_columns<R: AsRef<SimulationSums>>() -> Vec<Column<R>> {
     columns
 }
 
-fn path_columns<R: AsRef<SimulationSums>>() -> [Column<R>; 8] {
+fn path_columns<R: AsRef<SimulationSums>>() -> [Column<R>; 9] {
     use ColumnUnit as Unit;
     [
         Column::new("motions", Unit::None, |row: &R| row.as_ref().motions.into()),
@@ -48,8 +48,16 @@ fn path_columns<R: AsRef<SimulationSums>>() -> [Column<R>; 8] {
             // A time that leaves out motions is a lower bound.
             is_lower_bound: row.as_ref().untimed > 0,
         })
-        .titled("time")
+        .titled("time without acceleration")
         .old_json_key("feed_seconds"),
+        Column::new("accelerated_time", Unit::Duration, |row: &R| {
+            row.as_ref().accelerated_seconds.map_or(TableValue::Missing, |seconds| TableValue::Duration {
+                seconds,
+                is_lower_bound: row.as_ref().untimed > 0,
+            })
+        })
+        .titled("time with acceleration")
+        .old_json_key("accelerated_seconds"),
         Column::new("untimed", Unit::None, |row: &R| row.as_ref().untimed.into()),
         Column::new("rapid_time", Unit::Duration, |row: &R| TableValue::duration(row.as_ref().rapid_seconds))
             .titled("time")
@@ -60,33 +68,41 @@ fn path_columns<R: AsRef<SimulationSums>>() -> [Column<R>; 8] {
     ]
 }
 
-fn load_columns<R: AsRef<SimulationSums>>() -> [Column<R>; 7] {
+fn load_columns<R: AsRef<SimulationSums>>() -> [Column<R>; 8] {
     use ColumnUnit as Unit;
     [
         Column::new("chip_thickness", Unit::Length, |row: &R| peak(row.as_ref().chip_thickness_mm))
             .titled("chip")
             .worded_as("thickest chip", 4)
             .decimals(4),
-        Column::new("removal_rate", Unit::RemovalRate, |row: &R| peak(row.as_ref().removal_rate_mm3_min))
-            .titled("")
-            .worded_as("largest removal rate", 0)
-            .decimals(0),
+        Column::new("chip_thickness_bound", Unit::Length, |row: &R| {
+            peak(row.as_ref().chip_thickness_bound_mm)
+        })
+        .titled("chip at most")
+        .worded_as("thickest chip at most", 4)
+        .decimals(4),
+        Column::new("removal_rate_peak", Unit::RemovalRate, |row: &R| {
+            peak(row.as_ref().removal_rate_mm3_min)
+        })
+        .titled("peak")
+        .worded_as("largest removal rate", 0)
+        .decimals(0),
         Column::new("axial_depth", Unit::Length, |row: &R| peak(row.as_ref().axial_depth_mm))
             .titled("deep")
             .decimals(2),
         Column::new("radial_depth", Unit::Length, |row: &R| peak(row.as_ref().radial_depth_mm))
             .titled("wide")
             .decimals(2),
-        Column::new("force", Unit::Force, |row: &R| peak(row.as_ref().force_n))
-            .titled("")
+        Column::new("force_peak", Unit::Force, |row: &R| peak(row.as_ref().force_n))
+            .titled("peak")
             .worded_as("largest force", 0)
             .decimals(0),
-        Column::new("torque", Unit::Torque, |row: &R| peak(row.as_ref().torque_nm))
-            .titled("")
+        Column::new("torque_peak", Unit::Torque, |row: &R| peak(row.as_ref().torque_nm))
+            .titled("peak")
             .worded_as("largest torque", 2)
             .decimals(2),
-        Column::new("power", Unit::Power, |row: &R| peak(row.as_ref().power_kw))
-            .titled("")
+        Column::new("power_peak", Unit::Power, |row: &R| peak(row.as_ref().power_kw))
+            .titled("peak")
             .worded_as("largest power", 3)
             .decimals(3),
     ]

@@ -24,6 +24,8 @@ pub struct SimulationSums {
     pub rapid_mm: f64,
     /// Time at feed where the feed is known, without acceleration and dwells, s.
     pub feed_seconds: f64,
+    /// The same with the machine's acceleration; `null` when that is not known.
+    pub accelerated_seconds: Option<f64>,
     /// Motions at feed whose time is not known.
     pub untimed: usize,
     /// Time at rapid, s; `null` when the machine's rapid feed is not known.
@@ -32,7 +34,9 @@ pub struct SimulationSums {
     pub removed_mm3: f64,
     /// Thickest chip, mm.
     pub chip_thickness_mm: Option<SimulationPeak>,
-    /// Largest removal rate of a motion, mm3/min.
+    /// What a chip may be at most, with all that the columns may have missed, mm.
+    pub chip_thickness_bound_mm: Option<SimulationPeak>,
+    /// Largest removal rate over a window of path, mm3/min ([`super::SimulationAccuracy::removal_window_mm`]).
     pub removal_rate_mm3_min: Option<SimulationPeak>,
     /// Deepest cut along the axis, mm.
     pub axial_depth_mm: Option<SimulationPeak>,
@@ -81,17 +85,23 @@ impl SimulationSums {
         if row.rapid {
             return;
         }
-        let line = row.line;
-        let raise = |peak: &mut Option<SimulationPeak>, value: Option<f64>| {
-            let value = value.filter(|value| *value > peak.map_or(0.0, |peak| peak.value));
-            *peak = value.map(|value| SimulationPeak { value, line }).or(*peak);
-        };
+        let raise = |peak: &mut Option<SimulationPeak>, value: Option<f64>| raise_peak(peak, value, row.line);
         raise(&mut self.chip_thickness_mm, row.chip_thickness_mm);
-        raise(&mut self.removal_rate_mm3_min, row.removal_rate_mm3_min);
+        raise(&mut self.chip_thickness_bound_mm, row.chip_thickness_bound_mm);
         raise(&mut self.axial_depth_mm, row.axial_depth_mm);
         raise(&mut self.radial_depth_mm, row.radial_depth_mm);
         raise(&mut self.force_n, row.force_n);
         raise(&mut self.torque_nm, row.torque_nm);
         raise(&mut self.power_kw, row.power_kw);
     }
+
+    /// Adds the largest removal rate of a motion, which is known later than the rest.
+    pub(super) fn add_removal_peak(&mut self, row: &MotionRow) {
+        raise_peak(&mut self.removal_rate_mm3_min, row.peak_removal_rate_mm3_min, row.line);
+    }
+}
+
+fn raise_peak(peak: &mut Option<SimulationPeak>, value: Option<f64>, line: Option<usize>) {
+    let value = value.filter(|value| *value > peak.map_or(0.0, |peak| peak.value));
+    *peak = value.map(|value| SimulationPeak { value, line }).or(*peak);
 }

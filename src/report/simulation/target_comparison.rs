@@ -3,7 +3,7 @@
 use super::SimulationReport;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::number::format_named_point;
-use crate::stock::{Mesh, TargetDeviation};
+use crate::stock::{GridMismatch, Mesh, TargetDeviation};
 
 /// How what is left differs from the target. What is within the tolerance in some direction does not count.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,9 +45,19 @@ impl SimulationReport {
     pub fn compare_with_target(&mut self, target: &Mesh, name: &str, tolerance_mm: Option<f64>) {
         let layout = *self.left.grid();
         let tolerance_mm = tolerance_mm.unwrap_or(layout.cell_mm);
-        // Both are on the same grid, so that they can be compared.
-        let found = TargetDeviation::measure_by_distance(&self.left, &target.to_dexels(layout), tolerance_mm)
-            .unwrap_or_default();
+        // Both are on the same grid, so only memory can be missing.
+        let measured = target
+            .to_dexels(layout)
+            .map_err(GridMismatch::from)
+            .and_then(|columns| TargetDeviation::measure_by_distance(&self.left, &columns, tolerance_mm));
+        let found = match measured {
+            Ok(found) => found,
+            Err(error) => {
+                let message = format!("the target {name} cannot be compared: {error}");
+                self.findings.push(Diagnostic::new(codes::MEMORY_LIMIT, message));
+                return;
+            }
+        };
         let thickest = |piece: Option<(f64, [f64; 3])>| {
             piece.map(|(mm, at)| ThickestMismatch {
                 thickness_mm: mm,

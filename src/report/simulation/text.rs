@@ -1,8 +1,8 @@
 //! This module writes a simulation as text for people.
 
+use super::SimulationReport;
 use super::sum_columns::{operation_columns, sum_columns};
 use super::target_comparison::TargetMismatch;
-use super::{SimulationReport, SimulationSums};
 use crate::number::format_named_point;
 use crate::presentation::safe_text::to_safe_line;
 use crate::report::table::{ColumnUnit, PrintedTable, TableLooks, pick_columns};
@@ -57,10 +57,13 @@ fn append_stock(out: &mut String, simulated: &SimulationReport) {
 
 fn append_times(out: &mut String, simulated: &SimulationReport) {
     let totals = &simulated.totals;
-    let mut parts = vec![format!("{} at feed", format_feed_time(totals))];
-    if let Some(with) = simulated.accelerated_seconds.filter(|_| totals.untimed == 0) {
-        parts.push(format!("{} with the machine's acceleration", format_duration(with)));
-    }
+    let at_least = if totals.untimed > 0 { "> " } else { "" };
+    let (seconds, how) = match totals.accelerated_seconds {
+        Some(seconds) => (seconds, "with the machine's acceleration"),
+        None => (totals.feed_seconds, "without acceleration"),
+    };
+    // A time that leaves motions out is a lower bound, and says so.
+    let mut parts = vec![format!("{at_least}{} at feed {how}", format_duration(seconds))];
     if let Some(rapid) = totals.rapid_seconds {
         parts.push(format!("{} at rapid", format_duration(rapid)));
     }
@@ -71,28 +74,26 @@ fn append_times(out: &mut String, simulated: &SimulationReport) {
     }
 }
 
-/// Formats a time. If it leaves out motions, it is marked as a lower bound.
-fn format_feed_time(sums: &SimulationSums) -> String {
-    format!("{}{}", if sums.untimed > 0 { "> " } else { "" }, format_duration(sums.feed_seconds))
-}
-
 /// The sums of an operation in its table, in this order.
-const SUMS: [&str; 8] = [
+const SUMS: [&str; 9] = [
     "motions",
     "feed",
     "feed_time",
     "removed",
     "chip_thickness",
-    "removal_rate",
+    "chip_thickness_bound",
+    "removal_rate_peak",
     "axial_depth",
     "radial_depth",
 ];
 
 fn append_operations(out: &mut String, simulated: &SimulationReport) {
     let mut columns = operation_columns().to_vec();
-    columns.extend(pick_columns(&sum_columns(), &SUMS));
+    let time = if simulated.totals.accelerated_seconds.is_some() { "accelerated_time" } else { "feed_time" };
+    columns
+        .extend(pick_columns(&sum_columns(), &SUMS.map(|key| if key == "feed_time" { time } else { key })));
     if simulated.motions.rows.iter().any(|row| row.force_n.is_some()) {
-        columns.extend(pick_columns(&sum_columns(), &["force", "power"]));
+        columns.extend(pick_columns(&sum_columns(), &["force_peak", "power_peak"]));
     }
     let table = PrintedTable::from_rows(&columns, &simulated.operations, TableLooks::plain(simulated.units))
         .keep_rows(MOST_ROWS);
@@ -103,6 +104,15 @@ fn append_peaks(out: &mut String, simulated: &SimulationReport) {
     let (totals, looks) = (&simulated.totals, TableLooks::plain(simulated.units));
     for sentence in sum_columns().iter().filter_map(|column| looks.word_peak(column, totals)) {
         let _ = writeln!(out, "  {sentence}");
+    }
+    if totals.chip_thickness_bound_mm.is_some() {
+        let cell = simulated.units.tell_trimmed(ColumnUnit::Length, simulated.accuracy.cell_mm, 3);
+        let _ = writeln!(out, "  (at most: with what columns {cell} apart may have missed)");
+    }
+    if totals.removal_rate_mm3_min.is_some() {
+        let window = simulated.accuracy.removal_window_mm;
+        let window = simulated.units.tell_trimmed(ColumnUnit::Length, window, 3);
+        let _ = writeln!(out, "  (the largest removal rate is a mean over {window} of path)");
     }
     if totals.cutting == 0 {
         let _ = writeln!(out, "  nothing is cut");

@@ -45,7 +45,7 @@ impl SimulationReport {
             Some(PlottedMotion {
                 from_s: from,
                 to_s: at,
-                chip_thickness_mm: row.chip_thickness_mm,
+                chip_thickness_mm: row.cut_load(row.chip_thickness_mm),
                 feed_mm_min,
             })
         });

@@ -10,7 +10,9 @@ use crate::program::geometry::MotionPath;
 use crate::program::motion::{ActiveTool, CoordinateFrame, Motion};
 use crate::program::record::{ToolData, ToolWord};
 use crate::program::{LengthUnit, MotionClass, Program, Record, operation};
+use crate::report::comparison::measure_motion;
 use crate::setup::Setup;
+use crate::transform::optimize_feed::PathTimer;
 use std::sync::Arc;
 
 /// The sums while motions are processed.
@@ -33,6 +35,53 @@ struct StatsCollector<'p> {
     tools: Vec<(ActiveTool, ToolStats)>,
     tool: Option<(Arc<ActiveTool>, usize)>,
     operations: Vec<OperationStats>,
+    timers: StatsTimers,
+}
+
+/// Times with acceleration: of the program, and of each class, tool and operation.
+struct StatsTimers {
+    none: PathTimer,
+    whole: PathTimer,
+    classes: Vec<PathTimer>,
+    tools: Vec<PathTimer>,
+    operations: Vec<PathTimer>,
+}
+
+impl StatsTimers {
+    fn new(acceleration: Option<f64>) -> Self {
+        let none = PathTimer::new(acceleration);
+        let (whole, empty) = (none.clone(), Vec::new());
+        Self { none, whole, classes: empty.clone(), tools: empty.clone(), operations: empty }
+    }
+
+    /// Adds a motion to all that it belongs to.
+    fn add_motion(&mut self, program: &Program, motion: &Motion, unit: LengthUnit, tool: Option<usize>) {
+        if self.none.seconds().is_none() {
+            return;
+        }
+        let moved = measure_motion(motion, unit, None);
+        let (length, feed) = (moved.length_mm, moved.feed_mm_min);
+        self.whole.add_motion(program, motion, length, feed);
+        let groups = [
+            (&mut self.classes, Some(motion.class as usize)),
+            (&mut self.tools, tool),
+            (&mut self.operations, Some(motion.operation)),
+        ];
+        for (timers, index) in groups {
+            let Some(index) = index else { continue };
+            if timers.len() <= index {
+                timers.resize(index + 1, self.none.clone());
+            }
+            if let Some(timer) = timers.get_mut(index) {
+                timer.add_motion(program, motion, length, feed);
+            }
+        }
+    }
+
+    /// Returns the time of a group; one without motions at feed takes none.
+    fn group_seconds(&self, timers: &[PathTimer], index: usize) -> Option<f64> {
+        timers.get(index).unwrap_or(&self.none).seconds()
+    }
 }
 
 pub(super) fn collect_stats(program: &Program, setup: &Setup, units: ResolvedLengthUnit) -> ProgramStats {
@@ -60,8 +109,10 @@ pub(super) fn collect_stats(program: &Program, setup: &Setup, units: ResolvedLen
         operations: operations
             .map(|operation| OperationStats { name: operation.name, tool: None, totals, feed: None })
             .collect(),
+        timers: StatsTimers::new(setup.machine.max_acceleration.map(|most| most.get())),
     };
     program.motions().for_each(|motion| all.add_motion(&motion));
+    all.finish_times();
     let (bytes, lines) = count_bytes_and_lines(program);
     let unreadable = |record: &Record| matches!(record, Record::Unparsed | Record::Definition);
     ProgramStats {
@@ -105,6 +156,7 @@ impl StatsCollector<'_> {
         if let Some((_, stats)) = tool.and_then(|tool| self.tools.get_mut(tool)) {
             stats.totals.add_motion(&measured);
         }
+        self.timers.add_motion(self.program, motion, self.unit, tool);
         let rate = if motion.rapid { None } else { self.add_feed_motion(motion, &measured) };
         if let Some(operation) = self.operations.get_mut(motion.operation) {
             operation.totals.add_motion(&measured);
@@ -115,7 +167,22 @@ impl StatsCollector<'_> {
         }
     }
 
-    /// Adds a motion at feed. Returns its feed in the file's unit per minute.
+    /// Adds the times with the machine's acceleration.
+    fn finish_times(&mut self) {
+        let timers = &self.timers;
+        self.totals.accelerated_seconds = timers.whole.seconds();
+        for (index, class) in self.classes.iter_mut().enumerate() {
+            class.totals.accelerated_seconds = timers.group_seconds(&timers.classes, index);
+        }
+        for (index, (_, tool)) in self.tools.iter_mut().enumerate() {
+            tool.totals.accelerated_seconds = timers.group_seconds(&timers.tools, index);
+        }
+        for (index, operation) in self.operations.iter_mut().enumerate() {
+            operation.totals.accelerated_seconds = timers.group_seconds(&timers.operations, index);
+        }
+    }
+
+    /// A motion at feed; gives its feed in the file's unit per minute.
     fn add_feed_motion(&mut self, motion: &Motion, measured: &MotionLengthAndTime) -> Option<f64> {
         MotionBoundingBox::include_motion(&mut self.box_of_feed, motion);
         if let Some(rpm) = motion.spindle_rpm() {

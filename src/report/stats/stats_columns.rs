@@ -49,7 +49,7 @@ impl AsRef<MotionTotals> for ToolStats {
 }
 
 /// Returns the sums as columns, in the order of the JSON.
-pub(in crate::report) fn totals_columns<R: AsRef<MotionTotals>>() -> [Column<R>; 5] {
+pub(in crate::report) fn totals_columns<R: AsRef<MotionTotals>>() -> [Column<R>; 6] {
     use ColumnUnit as Unit;
     [
         Column::new("motions", Unit::None, |row: &R| row.as_ref().motions.into()),
@@ -67,8 +67,17 @@ pub(in crate::report) fn totals_columns<R: AsRef<MotionTotals>>() -> [Column<R>;
             is_lower_bound: row.as_ref().unknown_time.motions > 0,
         })
         .titled("time")
-        .worded_as("time at feed", 1)
+        .worded_as("time at feed, without acceleration", 1)
         .old_json_key("feed_seconds"),
+        Column::new("accelerated_time", Unit::Duration, |row: &R| {
+            let totals = row.as_ref();
+            let is_lower_bound = totals.unknown_time.motions > 0;
+            let time = |seconds| TableValue::Duration { seconds, is_lower_bound };
+            totals.accelerated_seconds.map_or(TableValue::Missing, time)
+        })
+        .titled("time")
+        .worded_as("time at feed, with acceleration", 1)
+        .old_json_key("accelerated_seconds"),
         Column::new("rapid_time", Unit::Duration, |row: &R| TableValue::duration(row.as_ref().rapid_seconds))
             .titled("time")
             .old_json_key("rapid_seconds"),

@@ -31,14 +31,18 @@ pub fn to_text(stats: &ProgramStats) -> String {
     );
     let _ = writeln!(
         out,
-        "  lengths in {unit} ({}), feeds in {unit}/min",
+        "  lengths in {unit} ({}), feeds in {unit}/min, times at feed {}",
         match stats.file_units {
             None => describe_unit_origin(stats.units.from).to_owned(),
             Some(file) => {
                 let origin = describe_unit_origin(file.from);
                 format!("as asked for; those of the file are in {}, {origin}", file.unit)
             }
-        }
+        },
+        match stats.totals.accelerated_seconds {
+            Some(_) => "with the machine's acceleration",
+            None => "without acceleration",
+        },
     );
     append_path_shapes(&mut out, stats);
     append_classes(&mut out, stats);
@@ -81,8 +85,15 @@ fn append_path_shapes(out: &mut String, stats: &ProgramStats) {
     }
 }
 
-/// The sums in tables, in this order.
-const TOTALS: [&str; 5] = ["motions", "feed_length", "feed_time", "rapid_length", "rapid_time"];
+/// The sums in tables, in this order. The one time at feed that is told is with the machine's acceleration where it
+/// is known.
+fn totals_keys(stats: &ProgramStats) -> [&'static str; 5] {
+    ["motions", "feed_length", time_key(stats), "rapid_length", "rapid_time"]
+}
+
+fn time_key(stats: &ProgramStats) -> &'static str {
+    if stats.totals.accelerated_seconds.is_some() { "accelerated_time" } else { "feed_time" }
+}
 
 /// Returns the style of the tables. A line above them gives the units.
 fn table_looks(stats: &ProgramStats) -> TableLooks {
@@ -100,7 +111,7 @@ fn append_classes(out: &mut String, stats: &ProgramStats) {
         .collect();
     rows.push(NamedTotals { name: "total".to_owned(), totals: &stats.totals });
     let mut columns = vec![name_column()];
-    columns.extend(pick_columns(&totals_columns(), &TOTALS));
+    columns.extend(pick_columns(&totals_columns(), &totals_keys(stats)));
     let _ = write!(out, "\n{}", PrintedTable::from_rows(&columns, &rows, table_looks(stats)).to_text());
     let unknown = stats.totals.unknown_time;
     let reasons = [
@@ -123,7 +134,7 @@ fn append_operations(out: &mut String, stats: &ProgramStats) {
     }
     let [name, tool, feed] = operation_columns();
     let mut columns = vec![name, tool];
-    columns.extend(pick_columns(&totals_columns(), &TOTALS));
+    columns.extend(pick_columns(&totals_columns(), &totals_keys(stats)));
     columns.push(feed);
     let named = |operation| NamedOperation { operation, tools: &stats.tools };
     let rows: Vec<NamedOperation<'_>> = stats.operations.iter().map(named).collect();
@@ -140,7 +151,7 @@ fn append_tools(out: &mut String, stats: &ProgramStats) {
         shape.insert(2, "nose_radius");
     }
     let mut columns = pick_columns(&tool_columns(), &shape);
-    columns.extend(pick_columns(&totals_columns(), &["motions", "feed_length", "feed_time"]));
+    columns.extend(pick_columns(&totals_columns(), &["motions", "feed_length", time_key(stats)]));
     let table = PrintedTable::from_rows(&columns, &stats.tools, table_looks(stats)).keep_rows(MOST_ROWS);
     let _ = write!(out, "\n{}", table.to_text());
 }

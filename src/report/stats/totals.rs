@@ -18,7 +18,9 @@ pub struct MotionTotals {
     pub rapid_length: f64,
     /// The time at feed, if the feed is known, without acceleration and dwells.
     pub feed_seconds: f64,
-    /// The time at rapid; `null` if the machine's rapid feed is not known.
+    /// The same with the machine's acceleration; `null` when that is not known.
+    pub accelerated_seconds: Option<f64>,
+    /// Time at rapid; `null` when the machine's rapid feed is not known.
     pub rapid_seconds: Option<f64>,
     /// The motions at feed whose time is not known, with the reasons.
     pub unknown_time: UntimedMotions,

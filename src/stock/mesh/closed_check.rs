@@ -6,6 +6,7 @@
 //! stock, [`crate::stock::stl_export`]). The conversion to columns counts both cases correctly.
 
 use super::{Mesh, MeshError};
+use crate::stock::memory;
 
 /// The faults of a surface's edges: how many edges are open or have turned neighbours, and the middle of the
 /// first one.
@@ -41,7 +42,8 @@ type AxisLine = (u8, [u64; 2]);
 /// # Errors
 /// Returns [`MeshError::Open`] or [`MeshError::Turned`] with the first place in the order of the vertices.
 pub(super) fn check_closed(mesh: &Mesh) -> Result<(), MeshError> {
-    let mut passes: Vec<([u32; 2], bool)> = Vec::with_capacity(mesh.triangles.len() * 3);
+    let mut passes: Vec<([u32; 2], bool)> =
+        memory::reserve_values(mesh.triangles.len().saturating_mul(3), "the edges of a mesh")?;
     for [a, b, c] in mesh.triangles.iter().copied() {
         for [from, to] in [[a, b], [b, c], [c, a]] {
             passes.push(([from.min(to), from.max(to)], from < to));

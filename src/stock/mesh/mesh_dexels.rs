@@ -8,7 +8,7 @@
 
 use super::Mesh;
 use crate::stock::dexel::BAND_ROWS;
-use crate::stock::{DexelBand, DexelGrid, DexelSpan, Dexels, dexel_spans};
+use crate::stock::{DexelBand, DexelGrid, DexelSpan, Dexels, NoMemory, dexel_spans};
 use rayon::prelude::*;
 
 /// A crossing of a column and the surface: the column's index in the band, the height above the base in mm,
@@ -20,10 +20,13 @@ impl Mesh {
     /// result is exact in z (to the resolution of `f32`) and sampled in x and y. Parts of the solid beside
     /// the grid are left out. The time grows with the number of triangles and with the number of columns
     /// below each.
-    pub fn to_dexels(&self, layout: DexelGrid) -> Dexels {
-        let mut dexels = Dexels::with_empty_columns(layout);
+    ///
+    /// # Errors
+    /// Returns an error if there is no memory for the columns.
+    pub fn to_dexels(&self, layout: DexelGrid) -> Result<Dexels, NoMemory> {
+        let mut dexels = Dexels::try_with_empty_columns(layout)?;
         if layout.columns == 0 {
-            return dexels;
+            return Ok(dexels);
         }
         let mut per_band: Vec<Vec<u32>> = vec![Vec::new(); dexels.bands().len()];
         for (index, triangle) in self.triangle_vertices().enumerate() {
@@ -44,7 +47,7 @@ impl Mesh {
             }
             fill_band(band, crossings);
         });
-        dexels
+        Ok(dexels)
     }
 }
 

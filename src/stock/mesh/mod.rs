@@ -5,6 +5,7 @@ mod mesh_dexels;
 mod stl;
 
 use crate::number::format_point;
+use crate::stock::NoMemory;
 use crate::stock::axis_box::{AxisBox, FARTHEST};
 
 /// A closed triangle mesh in mm. A point is inside where the winding number of the surface is not zero: so
@@ -58,6 +59,9 @@ pub enum MeshError {
         /// The triangle's number, counted from 1.
         triangle: usize,
     },
+    /// There is no memory for the triangles.
+    #[error(transparent)]
+    NoMemory(#[from] NoMemory),
     /// A triangle names a vertex that does not exist.
     #[error("triangle {triangle} names a vertex that does not exist")]
     Vertex {

@@ -1,6 +1,7 @@
 //! This module reads STL files, binary and text.
 
 use super::{Mesh, MeshError};
+use crate::stock::memory::{self, NoMemory};
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::io::{self, Cursor};
@@ -20,9 +21,13 @@ impl Mesh {
         let bytes = normalize_stl(bytes)?;
         let unreadable = |error: io::Error| MeshError::Stl { reason: error.to_string() };
         let mut cursor = Cursor::new(bytes.as_ref());
-        let mut vertices = Vec::new();
-        let mut triangles = Vec::new();
+        // A closed surface has about half as many vertices as triangles, and a text takes more bytes a triangle.
+        let most = bytes.len() / TRIANGLE as usize;
+        let mut vertices = memory::reserve_values(most / 2, "the vertices of a mesh")?;
+        let mut triangles = memory::reserve_values(most, "the triangles of a mesh")?;
         let mut known: HashMap<[u32; 3], u32> = HashMap::new();
+        let no_table = |_| NoMemory { what: "the vertices of a mesh", bytes: most as u64 * 16 };
+        known.try_reserve(most / 2).map_err(no_table)?;
         for triangle in stl_io::create_stl_reader(&mut cursor).map_err(unreadable)? {
             let mut corners = [0; 3];
             for (corner, vertex) in corners.iter_mut().zip(triangle.map_err(unreadable)?.vertices) {

@@ -22,4 +22,5 @@ pub(crate) mod write;
 
 pub use measure::LoadCriterion;
 pub use parameters::{EngagementSpec, LoadLimitSpec, OptimizeFeed, SplitSpec, WindowSpec};
+pub(crate) use plan::PathTimer;
 pub use prove::{OperationFeedReport, OptimizeFeedReport};

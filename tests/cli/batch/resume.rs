@@ -124,3 +124,25 @@ fn old_results_do_not_outlive_a_new_run() {
     assert!(super::stderr(&run).contains("CL0402"), "{}", super::stderr(&run));
     assert!(!shop.path().join("done/results.jsonl").exists());
 }
+
+#[test]
+fn an_older_output_beside_a_refused_program_is_set_aside() {
+    let shop = shop(2);
+    batch(shop.path(), "done", &[]).code(0);
+    let done = shop.path().join("done");
+    let before = std::fs::read(done.join("a/p001.cls")).unwrap();
+    write(shop.path(), "programs/a/p001.cls", "GOTO/x\n");
+    for more in [&[][..], &["--resume"], &["--resume"]] {
+        batch(shop.path(), "done", more).code(1);
+        assert!(!done.join("a/p001.cls").exists(), "it would look like the result of this program");
+        assert_eq!(std::fs::read(done.join("a/p001.cls.outdated")).unwrap(), before);
+    }
+    write(shop.path(), "programs/a/p001.cls", &super::part(1));
+    batch(shop.path(), "done", &["--resume"]).code(0);
+    assert_eq!(std::fs::read(done.join("a/p001.cls")).unwrap(), before);
+    write(shop.path(), "programs/a/p001.cls", "GOTO/x\n");
+    batch(shop.path(), "done", &["--resume"]).code(1);
+    let results = std::fs::read_to_string(done.join("results.jsonl")).unwrap();
+    assert_eq!(results.matches("CL0443").count(), 1, "{results}");
+    assert!(results.contains("a/p001.cls is of an earlier export"), "{results}");
+}

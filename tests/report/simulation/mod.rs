@@ -2,6 +2,7 @@
 
 mod faults;
 mod outputs;
+mod removal_peak;
 
 use crate::support::program;
 use clsmith::diagnostic::{Diagnostic, Failure};

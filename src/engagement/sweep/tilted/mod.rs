@@ -29,6 +29,7 @@ mod tilted_contact;
 use super::band_engagement::BandEngagement;
 use super::straight::SweepContext;
 use crate::cutter::CutterModel;
+use crate::engagement::RemovalProfile;
 use crate::engagement::path_piece::{PathPiece, STILL};
 use crate::stock::dexel::{DexelBand, DexelGrid};
 use crate::stock::merge_span;
@@ -61,6 +62,8 @@ pub(in crate::engagement) struct TiltedSweep {
     beside: FlankSilhouette,
     guards: Vec<NonCuttingSolid>,
     tolerance: f64,
+    /// The empty profile of where the piece removes material.
+    removal: RemovalProfile,
     rows: Range<usize>,
     layout: DexelGrid,
 }
@@ -153,6 +156,7 @@ impl TiltedSweep {
             parts,
             guards,
             tolerance,
+            removal: RemovalProfile::empty_for_piece(length, around.removal_window_mm),
             rows: if rows.start < rows.end { rows } else { 0..0 },
             layout: *layout,
         }
@@ -165,7 +169,7 @@ impl TiltedSweep {
 
     /// Removes what the piece sweeps from a band.
     pub(crate) fn sweep_band(&self, band: &mut DexelBand) -> BandEngagement {
-        let mut partial = BandEngagement::new();
+        let mut partial = BandEngagement::new(self.removal.clone());
         let (first, end) =
             (self.rows.start.max(band.first_row), self.rows.end.min(band.first_row + band.row_count()));
         let mut ranges: Vec<Range<usize>> = Vec::with_capacity(self.parts.len());

@@ -10,6 +10,11 @@ use nalgebra::Vector3;
 /// The number of samples over a column's height if forces are needed.
 const SAMPLES: usize = 4;
 
+/// The lower ends of slices of a column, as shares of its depth, whose contacts are looked for if it is asked where
+/// material is taken. They are heights on a quarter of a circle at equal angles: the underside of a ball over a column
+/// is nearly that.
+const SLICE_ENDS: [f64; 5] = [0.741, 0.5, 0.293, 0.134, 0.034];
+
 /// A point counts as reached when the cutter is this close, mm.
 const REACHED: f64 = 1e-5;
 
@@ -44,6 +49,8 @@ struct TiltedContact {
     /// The tip's displacement and the rotation vector of the leg.
     travel: Vector3<f64>,
     spin: Vector3<f64>,
+    /// The position on the piece, as a fraction.
+    way: f64,
 }
 
 impl TiltedContactFinder {
@@ -75,10 +82,16 @@ impl TiltedContactFinder {
         partial.add_column((top - low) as f32, upper.left as f32, heights.map(|height| height as f32));
         partial.add_column(0.0, bottom.left as f32, heights.map(|height| height as f32));
         if !self.continues && is_inside_at_start(Vector3::new(x, y, top), legs) {
+            partial.removal.add_at_start((top - low) as f32);
             // How the material was reached is not known, so it gets the largest advance ratio there can be.
             let known = self.bin_contact(&upper, f64::INFINITY, 1.0);
             partial.add_contact(&BinContact { advance_ratio_bound: 1.0, ..known });
             return;
+        }
+        if partial.removal.is_divided() {
+            let ways =
+                SLICE_ENDS.iter().filter_map(|share| Some((*share, at(low + (top - low) * share)?.way)));
+            add_removal((top - low) as f32, upper.way, ways.chain([(0.0, bottom.way)]), partial);
         }
         let mut give =
             |touch: &TiltedContact, cap: f64| partial.add_contact(&self.bin_contact(touch, thickness, cap));
@@ -123,7 +136,8 @@ impl TiltedContactFinder {
         }
         let (_, index, at) = nearest?;
         let (leg, solid) = legs.get(index)?;
-        Some(self.contact_at(leg, solid, point, at))
+        let way = (index as f64 + at) / legs.len() as f64;
+        Some(TiltedContact { way, ..self.contact_at(leg, solid, point, at) })
     }
 
     /// Returns the contact of a point with the cutter at a time of a leg.
@@ -158,6 +172,7 @@ impl TiltedContactFinder {
             frame: [ahead, left, axis],
             travel: leg.travel,
             spin: leg.spin,
+            way: 0.0,
         }
     }
 
@@ -254,6 +269,23 @@ impl TiltedContact {
     fn surface_velocity(&self, ahead: f64, left: f64) -> Vector3<f64> {
         let [forward, leftward, axis] = &self.frame;
         self.travel + self.spin.cross(&(forward * ahead + leftward * left + axis * self.height))
+    }
+}
+
+/// Adds where on the piece a column's material is taken, from the position at which its upper end is touched and those
+/// at which the lower ends of its slices are. Within a slice it counts as even.
+fn add_removal(
+    depth: f32,
+    upper: f64,
+    lower_ends: impl Iterator<Item = (f64, f64)>,
+    partial: &mut BandEngagement,
+) {
+    let (mut above, mut from) = (1.0, upper);
+    for (share, way) in lower_ends {
+        // A point may be touched a rounding before the one above it.
+        let to = f64::max(from, way);
+        partial.removal.add_volume(depth * (above - share) as f32, [from, to]);
+        (above, from) = (share, to);
     }
 }
 

@@ -91,6 +91,13 @@ class Page {
     this.readout();
   }
 
+  // Why a value is not shown: what a rapid through material would load is no load of a cut.
+  unknownText(name, motion) {
+    const flags = this.shown.flags[motion];
+    if (!(flags & RAPID)) return "not known";
+    return name === "feed" ? "rapid" : flags & CRASH ? "crash" : "not known";
+  }
+
   readout() {
     const { shown, motion } = this, other = this.programs.find((program) => program !== shown);
     const pair = other ? shown.pair[motion] : NONE, known = pair !== undefined && pair !== NONE;
@@ -105,7 +112,7 @@ class Page {
       ["time", `${shown.alongTime[motion].toFixed(2)} s`],
     ];
     for (const name of ["feed", ...shown.loads]) {
-      const text = printed(name, shown.value(name, motion)) || (name === "feed" && shown.flags[motion] & RAPID ? "rapid" : "not known");
+      const text = printed(name, shown.value(name, motion)) || this.unknownText(name, motion);
       const was = known ? printed(name, other.value(name, pair)) : "";
       cells.push([QUANTITIES[name].title, was && was !== text ? `${text} (${other.name} ${was})` : text]);
     }

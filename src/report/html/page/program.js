@@ -10,10 +10,10 @@ const LENGTH = facts.units?.length.name, MORE = facts.units?.length.more ?? 0;
 const QUANTITIES = {
   feed: { title: "feed", unit: facts.units?.feed.name, digits: 0 + (facts.units?.feed.more ?? 0) },
   chip: { title: "thickest chip", unit: LENGTH, digits: 4 + MORE },
-  removal: { title: "removal rate", unit: facts.units?.removal.name, digits: 0 + (facts.units?.removal.more ?? 0) },
-  force: { title: "force", unit: "N", digits: 0 },
-  torque: { title: "torque", unit: "N m", digits: 2 },
-  power: { title: "power", unit: "kW", digits: 3 },
+  removal: { title: "largest removal rate", unit: facts.units?.removal.name, digits: 0 + (facts.units?.removal.more ?? 0) },
+  force: { title: "largest force", unit: "N", digits: 0 },
+  torque: { title: "largest torque", unit: "N m", digits: 2 },
+  power: { title: "largest power", unit: "kW", digits: 3 },
   z: { title: "z", unit: LENGTH, digits: 3 + MORE },
 };
 

@@ -2,17 +2,17 @@
 
 use super::feed_block::{FeedBlock, FeedLimit, LimitedPiece};
 use super::load_limits::{LoadLimits, SpindleRotation};
+use super::machine_stops::has_machine_stop;
 use super::short_pieces::lower_short_pieces;
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::program::record::SpindleDirection;
-use crate::program::{Program, Record, Statement, StatementId};
+use crate::program::{Program, StatementId};
 use crate::simulation_run::{
     EngagedMotion, EngagementModel, EngagementRunResult, Machining, RunWatcher, SimulationRunOptions,
     StockResolution,
 };
-use crate::transform::statement_numbers::major_word;
 
 /// The path as blocks, with the loads at its targets.
 #[derive(Debug, Default)]
@@ -159,16 +159,6 @@ impl MeasuredBlocks {
             measured,
         });
     }
-}
-
-/// Returns whether the machine stands still between two statements: STOP, OPSTOP or DELAY.
-fn has_machine_stop(program: &Program, behind: StatementId, until: StatementId) -> bool {
-    let waits = |statement: &Statement| {
-        matches!(statement.record(), Record::Known | Record::Other)
-            && matches!(major_word(program.statement_text(statement)).as_str(), "STOP" | "OPSTOP" | "DELAY")
-    };
-    let between = program.statements_between(behind.after(), until.after());
-    between.iter().any(|statement| statement.is_live() && waits(statement))
 }
 
 fn describe_unknown_feed(program: &Program, motion: &Motion, feed: bool) -> Diagnostic {

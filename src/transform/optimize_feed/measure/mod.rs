@@ -5,9 +5,11 @@ mod block_measurement;
 mod feed_block;
 mod load_criterion;
 mod load_limits;
+mod machine_stops;
 mod short_pieces;
 
 pub(super) use block_measurement::{BlockMeasurement, MeasuredBlocks, measure_blocks};
 pub use feed_block::{FeedBlock, FeedLimit, LimitedPiece};
 pub use load_criterion::LoadCriterion;
 pub(super) use load_limits::LoadLimits;
+pub(super) use machine_stops::has_machine_stop;

@@ -5,6 +5,8 @@ mod acceleration;
 mod block_feeds;
 mod feed_rounding;
 mod path_time;
+mod path_timer;
 
 pub use block_feeds::{BlockFeeds, PlannedSegment, plan_block_feeds};
 pub use path_time::{TimedSegment, path_time_s, speed_change_distance_mm};
+pub(crate) use path_timer::PathTimer;

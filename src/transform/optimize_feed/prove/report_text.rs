@@ -32,7 +32,7 @@ fn describe_optimized_feed(report: &OptimizeFeedReport, units: DisplayUnits) -> 
         load.format_with_unit(report.target),
     );
     let mut rows = vec![
-        ["", "time before", "after", "saved", "largest before", "after", "at target before", "after"]
+        ["", "time at feed", "after", "saved", "largest before", "after", "at target before", "after"]
             .map(str::to_owned)
             .to_vec(),
     ];
@@ -44,16 +44,16 @@ fn describe_optimized_feed(report: &OptimizeFeedReport, units: DisplayUnits) -> 
     rows.push(operation_cells("all", &report.whole, load));
     out.push_str(&format_table(&rows));
     let with = report.acceleration.map_or_else(
-        || "feeds that change at once".to_owned(),
+        || "without acceleration".to_owned(),
         |acceleration| {
             let feed = ColumnUnit::FeedPerMinute;
             let acceleration = format_fixed(units.convert(feed, acceleration), 0);
-            format!("{acceleration} ({})/s", feed.symbol(units.shown_in))
+            format!("with acceleration, {acceleration} ({})/s", feed.symbol(units.shown_in))
         },
     );
     let _ = writeln!(
         out,
-        "  {} FEDRATs put in, {} changed, {} points put in; times at feed with {with}",
+        "  {} FEDRATs put in, {} changed, {} points put in; times at feed {with}",
         format_count(report.feeds_added as u64),
         format_count(report.feeds_changed as u64),
         format_count(report.points_added as u64),
