@@ -8,7 +8,10 @@
 
 use clsmith::parse::parse;
 use clsmith::source::Source;
-use std::fmt::Write as _;
+#[path = "support/mixes.rs"]
+mod mixes;
+
+use mixes::Mix;
 use std::hint::black_box;
 use std::path::Path;
 use std::process::Command;
@@ -29,33 +32,40 @@ fn compare() {
         std::env::var("CLSMITH_BENCH_MB").ok().and_then(|text| text.parse().ok()).unwrap_or(100);
     let folder = std::env::temp_dir().join(format!("clsmith-bench-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder for the benchmark");
-    for size in [megabytes / 10, megabytes].into_iter().filter(|size| *size > 0) {
-        let path = folder.join("part.cls");
-        std::fs::write(&path, program(size * 1_000_000)).expect("the benchmark's file");
-        println!("{size} MB of six-value GOTOs");
-        let mut bare = 0.0;
-        for stage in ["bare", "parse", "apply"] {
-            let output = Command::new(std::env::current_exe().expect("this benchmark"))
-                .env("CLSMITH_BENCH_STAGE", stage)
-                .env("CLSMITH_BENCH_FILE", &path)
-                .output()
-                .expect("a stage");
-            let text = String::from_utf8_lossy(&output.stdout).into_owned();
-            let mut words = text.split_whitespace().filter_map(|word| word.parse::<f64>().ok());
-            let (seconds, memory) = (words.next().unwrap_or(f64::NAN), words.next().unwrap_or(f64::NAN));
-            if stage == "bare" {
-                bare = seconds;
-            }
-            println!(
-                "  {stage:<6} {:8.1} ms  {:6.0} MB/s  {:5.2} x bare  peak {:5.2} x file",
-                seconds * 1e3,
-                size as f64 / seconds,
-                seconds / bare,
-                memory / (size as f64 * 1e6)
-            );
+    for mix in [Mix::Gotos, Mix::Nx, Mix::Catia] {
+        for size in [megabytes / 10, megabytes].into_iter().filter(|size| *size > 0) {
+            let path = folder.join(mix.file_name());
+            std::fs::write(&path, mix.write_program(size * 1_000_000)).expect("the benchmark's file");
+            println!("{size} MB, {}", mix.name());
+            compare_stages(&path, size as f64);
         }
     }
     std::fs::remove_dir_all(&folder).expect("the benchmark's folder");
+}
+
+/// Runs each stage on a file of so many megabytes, and prints what it took.
+fn compare_stages(path: &Path, size: f64) {
+    let mut bare = 0.0;
+    for stage in ["bare", "parse", "apply"] {
+        let output = Command::new(std::env::current_exe().expect("this benchmark"))
+            .env("CLSMITH_BENCH_STAGE", stage)
+            .env("CLSMITH_BENCH_FILE", path)
+            .output()
+            .expect("a stage");
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        let mut words = text.split_whitespace().filter_map(|word| word.parse::<f64>().ok());
+        let (seconds, memory) = (words.next().unwrap_or(f64::NAN), words.next().unwrap_or(f64::NAN));
+        if stage == "bare" {
+            bare = seconds;
+        }
+        println!(
+            "  {stage:<6} {:8.1} ms  {:6.0} MB/s  {:5.2} x bare  peak {:5.2} x file",
+            seconds * 1e3,
+            size / seconds,
+            seconds / bare,
+            memory / (size * 1e6)
+        );
+    }
 }
 
 /// Runs one stage a few times; prints the best time and the peak memory of the process.
@@ -96,35 +106,15 @@ fn measure(stage: &str, path: &Path) -> Duration {
     }
 }
 
-/// Lines split at LF, floats by std: the least any reader of CL text does.
+/// Lines split at LF, what is behind the slash split at commas, floats by std: the least any reader of CL text does.
 fn bare(bytes: &[u8]) -> f64 {
     let text = std::str::from_utf8(bytes).expect("ASCII");
     let mut sum = 0.0;
     for line in text.split('\n') {
-        if let Some(numbers) = line.strip_prefix("GOTO/") {
-            sum += numbers.split(',').filter_map(|number| number.parse::<f64>().ok()).sum::<f64>();
-        }
+        let fields = line.split_once('/').map_or(line, |(_, fields)| fields);
+        sum += fields.split(',').filter_map(|number| number.trim_ascii().parse::<f64>().ok()).sum::<f64>();
     }
     sum
-}
-
-fn program(bytes: usize) -> String {
-    let mut text = String::with_capacity(bytes + 128);
-    text.push_str("TOOL PATH/BENCH,TOOL,BALL\nTLDATA/MILL,10.0000,5.0000,75.0000,0.0000,0.0000\n");
-    text.push_str("FEDRAT/MMPM,1000.0000\n");
-    let mut step = 0.0_f64;
-    while text.len() < bytes {
-        let (sin, cos) = (step * 0.01).sin_cos();
-        let tilt = 0.3 * (step * 0.003).sin();
-        let point = [300.0 * cos, 300.0 * sin, step * 1e-4];
-        let axis = [tilt * cos, tilt * sin, (1.0 - tilt * tilt).sqrt()];
-        let [x, y, z] = point;
-        let [i, j, k] = axis;
-        writeln!(text, "GOTO/{x:.4},{y:.4},{z:.4},{i:.7},{j:.7},{k:.7}").expect("a string grows");
-        step += 1.0;
-    }
-    text.push_str("END-OF-PATH\n");
-    text
 }
 
 /// Peak resident memory, where the system tells it; 0 elsewhere.

@@ -27,6 +27,10 @@ pub mod layered_chips {
     }
 }
 
+pub mod parse {
+    pub use crate::parse::agreement::compare_with_grammar;
+}
+
 pub mod surface {
     pub mod drop_cutter {
         pub use crate::surface::drop_cutter::*;

@@ -1,11 +1,13 @@
 //! This module takes one program through one recipe: it reads it, corrects it, reads the result back and
 //! compares. `apply`, `hook`, `watch` and `batch` use it.
 //!
-//! The input is checked first; an error in it stops the job. The corrected program is read back as a whole
-//! before anything is written. Record by record it must be what the steps made of it. Then [`check`] looks at
-//! it, and each finding that the same statement of the original did not have counts as a finding of this run.
+//! The input is checked first; an error in it stops the job. The corrected program is read back before anything is
+//! written: its changed statements where that is a proof, else the whole text. Record by record it must be what the
+//! steps made of it. Then [`check`] looks at it, and each finding that the same statement of the original did not have
+//! counts as a finding of this run.
 
 mod defect_guard;
+mod read_back;
 
 pub use defect_guard::{catch_defect, remember_panics};
 
@@ -21,6 +23,7 @@ use crate::setup::Setup;
 use crate::simulation_run::{RunPhase, RunWatcher, SilentWatcher};
 use crate::source::{Source, Span};
 use crate::transform::{self, Recipe, RecipeOutcome, TransformReport, unit_slips};
+use read_back::ReadBack;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -175,6 +178,9 @@ fn find_new_findings(
     program: &Program,
     mut known: KnownFindings,
 ) -> Result<Vec<Diagnostic>, Failure> {
+    if read_back::read_changed_statements(program) == ReadBack::Proven && has_only_known(program, &known) {
+        return Ok(Vec::new());
+    }
     let name = format!("{} (corrected)", source.name());
     let corrected_source = Source::new(name, program.to_bytes())
         .map_err(|too_large| Diagnostic::new(codes::TOO_LARGE, too_large.to_string()))?;
@@ -202,8 +208,21 @@ fn find_new_findings(
     Ok(found.into_iter().filter(is_new).collect())
 }
 
+/// Returns whether a check of the program finds nothing that the original did not have. The places of what it finds are
+/// in the original, so a new finding is made by the check of the corrected text.
+fn has_only_known(program: &Program, known: &KnownFindings) -> bool {
+    let found = check::check_program(program);
+    let mut left = known.clone();
+    found.iter().all(|found| {
+        let statement = find_statement_of_finding(program, found);
+        let origin = statement.map(|id| StatementOrigin::from_statement(program.statement(id)));
+        left.take_known(found, origin)
+    })
+}
+
 /// The findings of the original, counted by code and statement. Messages do not tell them apart: a changed
 /// number in one makes no new finding.
+#[derive(Debug, Clone)]
 struct KnownFindings(BTreeMap<(DiagnosticCode, Option<StatementOrigin>), usize>);
 
 impl KnownFindings {

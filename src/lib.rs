@@ -140,6 +140,7 @@ pub mod number;
 pub mod parse;
 pub mod program;
 pub mod source;
+mod threads;
 pub mod write;
 
 #[cfg(feature = "files")]
@@ -196,6 +197,11 @@ pub mod internals;
 #[path = "../tests/support/property.rs"]
 #[allow(unreachable_pub)]
 mod property;
+
+#[cfg(test)]
+#[path = "../tests/support/fuzzed_statements.rs"]
+#[allow(unreachable_pub)]
+mod fuzzed_statements;
 
 #[doc(no_inline)]
 pub use {

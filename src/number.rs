@@ -150,7 +150,7 @@ impl NumberFormat {
         let mut text = String::new();
         let least = self.decimals.min(MOST_KEPT_DECIMALS);
         for decimals in least..=MOST_DECIMALS.max(least) {
-            text = format!("{wanted:.decimals$}");
+            text = print_decimals(wanted, decimals);
             let error =
                 parse_number(text.as_bytes()).map_or(f64::INFINITY, |printed| (printed - wanted).abs());
             // The slack allows for rounding: 0.00005 is not exactly half of 0.0001.
@@ -164,6 +164,46 @@ impl NumberFormat {
             ZeroStyle::Cut => cut_zeros(&text, self.point),
         }
     }
+}
+
+/// Prints a value with so many decimals, correctly rounded as `format!` does it.
+fn print_decimals(value: f64, decimals: usize) -> String {
+    print_near_integer(value, decimals).unwrap_or_else(|| format!("{value:.decimals$}"))
+}
+
+/// Does the same for values of machines by one multiplication, about ten times faster. Returns `None` for large
+/// values, and where the error of the product might decide how it is rounded.
+fn print_near_integer(value: f64, decimals: usize) -> Option<String> {
+    let scaled = value.abs() * EXACT_POWERS.get(decimals)?;
+    // This is false for what is not finite, too.
+    if !(scaled < 1e15) {
+        return None;
+    }
+    let floor = scaled.floor();
+    let rest = scaled - floor;
+    // The product is off by at most 2^-53 of itself; twice that is kept away from the tie.
+    if (rest - 0.5).abs() <= scaled * f64::EPSILON {
+        return None;
+    }
+    let mut digits = floor as u64 + u64::from(rest > 0.5);
+    let mut bytes = [b'0'; 48];
+    let mut start = bytes.len();
+    let mut count = 0;
+    while digits > 0 || count <= decimals {
+        if count == decimals && decimals > 0 {
+            start -= 1;
+            *bytes.get_mut(start)? = b'.';
+        }
+        start -= 1;
+        *bytes.get_mut(start)? = b'0' + (digits % 10) as u8;
+        digits /= 10;
+        count += 1;
+    }
+    if value.is_sign_negative() {
+        start -= 1;
+        *bytes.get_mut(start)? = b'-';
+    }
+    std::str::from_utf8(bytes.get(start..)?).ok().map(str::to_owned)
 }
 
 /// Removes the sign of a number that is printed as zero.
@@ -190,4 +230,42 @@ fn cut_zeros(text: &str, point: bool) -> String {
         return format!(".{decimals}");
     }
     if point && !cut.contains('.') { format!("{cut}.") } else { cut.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sizes and decimals of machines, ties, and values beside them.
+    #[test]
+    fn numbers_are_printed_as_the_standard_library_prints_them() {
+        let mut state = 1_u64;
+        for round in 0..200_000_u32 {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let decimals = (state >> 60) as usize;
+            let whole = (state >> 20) as i32 as f64;
+            let value = match round % 5 {
+                0 => whole / 1e4,
+                1 => whole / 131_072.0,
+                2 => (whole + 0.5) / 10f64.powi(decimals as i32),
+                3 => ((whole + 0.5) / 10f64.powi(decimals as i32)).next_up(),
+                _ => whole * 1e-9,
+            };
+            assert_eq!(
+                print_decimals(value, decimals),
+                format!("{value:.decimals$}"),
+                "{value:e} {decimals}"
+            );
+        }
+        for value in [0.0, -0.0, 0.5, 1.5, 2.5, -0.00004, 1e14, 1e15, 1e300, f64::MIN_POSITIVE, f64::INFINITY]
+        {
+            for decimals in [0, 1, 4, 7, 22, 40] {
+                assert_eq!(
+                    print_decimals(value, decimals),
+                    format!("{value:.decimals$}"),
+                    "{value:e} {decimals}"
+                );
+            }
+        }
+    }
 }

@@ -7,10 +7,11 @@ use std::path::{Path, PathBuf};
 const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("source", &[]),
     ("number", &[]),
+    ("threads", &[]),
     ("diagnostic", &["source"]),
     ("program", &["source", "number", "diagnostic"]),
     ("presentation", &["source", "number", "program"]),
-    ("parse", &["source", "number", "diagnostic", "program"]),
+    ("parse", &["source", "number", "diagnostic", "program", "threads"]),
     ("write", &["source", "number", "diagnostic", "program", "parse"]),
     ("output_files", &[]),
     ("parameters", &["source", "diagnostic", "program"]),
@@ -41,7 +42,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
             "layered_chips",
         ],
     ),
-    ("check", &["source", "number", "diagnostic", "program", "parse"]),
+    ("check", &["source", "number", "diagnostic", "program", "parse", "threads"]),
     (
         "surface_milling",
         &[

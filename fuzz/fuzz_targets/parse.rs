@@ -1,8 +1,10 @@
 //! Any bytes: read, written back as they were, motions and roles taken, without a panic and without delay. A long statement
-//! reads alike when it is broken at column 72, as CATIA breaks it.
+//! reads alike when it is broken at column 72, as CATIA breaks it. The parser's shortcuts read every statement as the grammar
+//! does, also from the middle of lines that belong together.
 
 #![no_main]
 
+use clsmith::internals::parse::compare_with_grammar;
 use clsmith::parse::{parse, read_record, syntax};
 use clsmith::program::operation::find_operations;
 use clsmith::source::Source;
@@ -16,6 +18,9 @@ fuzz_target!(|bytes: &[u8]| {
     for statement in parsed.program.statements() {
         assert_eq!(statement.origin().start, end, "the spans do not tile the file");
         end = statement.origin().end;
+        if let Err(difference) = compare_with_grammar(bytes.get(statement.origin().start as usize..).unwrap_or_default()) {
+            panic!("{difference}");
+        }
         let syntax = syntax(parsed.program.statement_text(statement));
         assert_eq!(statement.record().number_roles(&syntax).len(), syntax.numbers().len());
         assert_reads_alike_when_broken(parsed.program.statement_text(statement));
@@ -45,6 +50,9 @@ fn assert_reads_alike_when_broken(text: &[u8]) {
         rest = tail;
     }
     broken.extend_from_slice(rest);
+    if let Err(difference) = compare_with_grammar(&broken) {
+        panic!("{difference}");
+    }
     match (read_record(line), read_record(&broken)) {
         (Ok((whole, _)), Ok((joined, syntax))) => {
             assert_eq!(whole, joined);

@@ -68,7 +68,17 @@ pub(crate) struct LintFindings<'p> {
 
 impl<'p> LintFindings<'p> {
     pub(crate) fn new(program: &'p Program) -> Self {
-        Self { program, facts: ProgramFacts::from_program(program), list: Vec::new() }
+        Self::with_facts(program, ProgramFacts::from_program(program))
+    }
+
+    /// Makes an empty list for a program whose facts are known.
+    pub(crate) fn with_facts(program: &'p Program, facts: ProgramFacts) -> Self {
+        Self { program, facts, list: Vec::new() }
+    }
+
+    /// Takes the findings of other lints on the same program.
+    pub(crate) fn append(&mut self, other: Self) {
+        self.list.extend(other.list);
     }
 
     /// Returns the findings in the order of the file. Those about the whole file come last.

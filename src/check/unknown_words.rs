@@ -74,7 +74,7 @@ impl Lint for UnknownWordLint {
             return;
         }
         let syntax = found.statement_syntax(id);
-        let major = syntax.major_word();
+        let major = syntax.major_word().into_owned();
         let slip = |word: &&&str| {
             strsim::osa_distance(&major, word) == 1
                 && (found.program.dialect() == Dialect::Nx || !OF_NX.contains(word))
@@ -134,8 +134,8 @@ pub fn list_unknown_words(program: &Program) -> Vec<String> {
             Record::ProgramEnd => break,
             Record::Other => {
                 let word = parse::syntax(program.statement_text(statement)).major_word();
-                if !word.is_empty() && !words.contains(&word) {
-                    words.push(word);
+                if !word.is_empty() && !words.iter().any(|known| *known == word) {
+                    words.push(word.into_owned());
                 }
             }
             _ => {}

@@ -24,7 +24,7 @@ const LONGEST: usize = 2 << 20;
 /// `window` holds whole lines. `StatementSyntax::open` says that the statement continues past the end of the
 /// window; then the caller gives a longer window, unless the file ends there. This never fails: text that
 /// fits no form of the grammar gets [`StatementKind::Refused`].
-pub fn parse_statement(window: &[u8]) -> StatementSyntax<'_> {
+pub(super) fn parse_statement(window: &[u8]) -> StatementSyntax<'_> {
     if window.len() > LONGEST {
         return bare_syntax(window, StatementKind::Refused);
     }

@@ -1,22 +1,24 @@
-//! This module reads bytes to a [`Program`], one statement at a time. The grammar reads statements, and plain
-//! GOTO lines take a shortcut.
+//! This module reads bytes to a [`Program`], one statement at a time. The grammar defines how statements are read;
+//! plain ones, which are nearly all, take shortcuts that agree with it.
 //!
 //! pest keeps a line index of its whole input, so it gets one statement at a time. If the grammar reports
 //! that a statement continues past its window of lines, the window is doubled.
 
+pub(crate) mod agreement;
 pub(crate) mod columns;
 mod foreign_files;
 mod grammar;
+mod plain_statement;
 mod shortcut;
-
-pub use grammar::parse_statement as syntax;
 
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::record::{self, BadRecord};
 use crate::program::{
-    Dialect, DialectDetector, NumberRole, Program, Record, ShopVocabulary, StatementKind, StatementSyntax,
+    Dialect, DialectDetector, NumberRole, Program, Record, ShopVocabulary, StatementField, StatementKind,
+    StatementSyntax,
 };
 use crate::source::{Source, Span};
+use crate::threads::both_ways;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -68,7 +70,7 @@ pub fn parse_with_vocabulary(
     parsed.program.set_vocabulary(vocabulary, |text, span| {
         // Only statements that begin with such a word are read again.
         vocabulary.find_word(text)?;
-        match Record::read_shop_word(vocabulary, &split_statement(text).0)? {
+        match Record::read_shop_word(vocabulary, &split_statement(text, &mut Vec::new()).0)? {
             Ok(record) => Some(record),
             Err(problem) => {
                 found.push(bad_record_finding(source, span, problem));
@@ -86,14 +88,7 @@ pub fn parse_with_vocabulary(
 /// Reads a whole file in the words of its dialect.
 fn read_program(source: &Arc<Source>, dialect: Option<Dialect>) -> ParsedProgram {
     let bytes = source.bytes();
-    let mut reader = StatementReader {
-        source,
-        program: Program::new(Arc::clone(source)),
-        diagnostics: Vec::new(),
-        detector: DialectDetector::default(),
-        last_was_points: false,
-        definitions: Vec::new(),
-    };
+    let mut reader = StatementReader::new(source);
     if let Some(problem) = detect_non_text(bytes) {
         return reader.refuse_file(Diagnostic::new(codes::NOT_TEXT, problem).with_label(
             source,
@@ -106,30 +101,12 @@ fn read_program(source: &Arc<Source>, dialect: Option<Dialect>) -> ParsedProgram
         let diagnostic = Diagnostic::new(codes::NOT_CL_DATA, problem);
         return reader.refuse_file(diagnostic.with_label(source, Span::new(0, first.min(80)), ""));
     }
-    // A GOTO with six values has about 62 bytes, one with three values about 32.
-    reader.program.reserve(bytes.len() / 48);
-    let mut at = 0;
+    let mut start = 0;
     if bytes.starts_with(b"\xEF\xBB\xBF") {
         reader.program.push(Record::ByteOrderMark, Span::new(0, 3));
-        at = 3;
+        start = 3;
     }
-    // A plain GOTO is no mark of any dialect and neither are our own comments, so the detector need not see
-    // them.
-    while let Some(rest) = bytes.get(at..).filter(|rest| !rest.is_empty()) {
-        if let Some((goto, length)) = shortcut::read_plain_goto(rest) {
-            reader.program.push(Record::Goto(goto), Span::new(at, at + length));
-            reader.last_was_points = true;
-            at += length;
-            continue;
-        }
-        if let Some(length) = shortcut::provenance_comment_length(rest) {
-            reader.program.push(Record::Comment, Span::new(at, at + length));
-            reader.last_was_points = false;
-            at += length;
-            continue;
-        }
-        at += reader.read_statement(at, rest);
-    }
+    reader.read_all(start);
     if let Some(refusal) = reader.detect_part_program() {
         return reader.refuse_file(refusal);
     }
@@ -148,7 +125,7 @@ fn read_program(source: &Arc<Source>, dialect: Option<Dialect>) -> ParsedProgram
 /// assert_eq!(numbers, [(12..21, 1200.0)]);
 /// ```
 pub fn statement_numbers(text: &[u8]) -> Vec<(Range<usize>, f64)> {
-    shortcut::plain_goto_numbers(text).unwrap_or_else(|| split_statement(text).0.numbers())
+    shortcut::plain_goto_numbers(text).unwrap_or_else(|| split_statement(text, &mut Vec::new()).0.numbers())
 }
 
 /// Returns the same for a text that is one plain GOTO line, as most statements are. Returns `None` for any
@@ -161,7 +138,7 @@ pub(crate) fn plain_goto_numbers(text: &[u8]) -> Option<Vec<(Range<usize>, f64)>
 pub fn number_roles(record: &Record, text: &[u8]) -> Vec<NumberRole> {
     match record {
         Record::Goto(goto) => record::path_roles(goto.axis.is_some()),
-        _ => record.number_roles(&split_statement(text).0),
+        _ => record.number_roles(&split_statement(text, &mut Vec::new()).0),
     }
 }
 
@@ -193,13 +170,32 @@ pub(crate) fn read_whole_record(text: &[u8], vocabulary: &ShopVocabulary) -> Res
 /// # Errors
 /// Returns what is wrong with the text; refused text is an error too.
 pub fn read_record(text: &[u8]) -> Result<(Record, StatementSyntax<'_>), BadRecord> {
-    let syntax = split_statement(text).0;
+    let syntax = split_statement(text, &mut Vec::new()).0;
     if syntax.form == StatementKind::Refused {
         let at = grammar::find_refusal_offset(text).min(text.len().saturating_sub(1));
         let problem = "this is no CL statement".to_owned();
         return Err(BadRecord { at: at..text.len(), problem, is_number: false });
     }
     Record::read(&syntax).map(|record| (record, syntax))
+}
+
+/// The number of bytes from which a second thread gains more than it costs.
+const WORTH_A_THREAD: usize = 1 << 20;
+
+/// Finds a place behind `from` at which a statement begins, whatever stands before it: a word at the start of a
+/// line, behind a line without `$`, for nothing else continues a statement. Such a statement needs no point before it.
+fn find_border(bytes: &[u8], from: usize) -> Option<usize> {
+    let mut line = from + memchr::memchr(b'\n', bytes.get(from..)?)? + 1;
+    // A file without such a place near its middle has lines of another kind than clsmith knows.
+    for _ in 0..1000 {
+        let next = line + memchr::memchr(b'\n', bytes.get(line..)?)? + 1;
+        let whole = memchr::memchr(b'$', bytes.get(line..next)?).is_none();
+        if whole && bytes.get(next).is_some_and(u8::is_ascii_uppercase) {
+            return Some(next);
+        }
+        line = next;
+    }
+    None
 }
 
 /// The state of reading a file.
@@ -211,12 +207,83 @@ struct StatementReader<'s> {
     last_was_points: bool,
     /// The places of definitions of an APT part program, without blanks and line ends.
     definitions: Vec<Span>,
+    /// An empty list, whose memory the next statement's fields take.
+    spare_fields: Vec<StatementField>,
 }
 
-impl StatementReader<'_> {
+impl<'s> StatementReader<'s> {
+    fn new(source: &'s Arc<Source>) -> Self {
+        Self {
+            source,
+            program: Program::new(Arc::clone(source)),
+            diagnostics: Vec::new(),
+            detector: DialectDetector::default(),
+            last_was_points: false,
+            definitions: Vec::new(),
+            spare_fields: Vec::new(),
+        }
+    }
+
+    /// Reads all statements from `start` on, a long file in two halves at once.
+    fn read_all(&mut self, start: usize) {
+        let bytes = self.source.bytes();
+        let border = if bytes.len() >= WORTH_A_THREAD { find_border(bytes, bytes.len() / 2) } else { None };
+        let Some(border) = border.filter(|border| *border > start) else {
+            self.read_statements(start..bytes.len());
+            return;
+        };
+        let mut behind = StatementReader::new(self.source);
+        let (end, _) = both_ways(
+            true,
+            || self.read_statements(start..border),
+            || behind.read_statements(border..bytes.len()),
+        );
+        if end == border {
+            self.append(behind);
+        } else {
+            // A statement that is too long to be read reaches over the border.
+            self.read_statements(end..bytes.len());
+        }
+    }
+
+    /// Reads the statements that begin in a part of the file; returns the end of the last one.
+    fn read_statements(&mut self, part: Range<usize>) -> usize {
+        // A GOTO with six values has about 62 bytes, one with three values about 32.
+        self.program.reserve(part.len() / 40);
+        let bytes = self.source.bytes();
+        let mut at = part.start;
+        // A plain GOTO is no mark of any dialect and neither are our own comments, so the detector need not see
+        // them.
+        while let Some(rest) = bytes.get(at..).filter(|rest| !rest.is_empty() && at < part.end) {
+            if let Some((goto, length)) = shortcut::read_plain_goto(rest) {
+                self.program.push(Record::Goto(goto), Span::new(at, at + length));
+                self.last_was_points = true;
+                at += length;
+                continue;
+            }
+            if let Some(length) = shortcut::provenance_comment_length(rest) {
+                self.program.push(Record::Comment, Span::new(at, at + length));
+                self.last_was_points = false;
+                at += length;
+                continue;
+            }
+            at += self.read_statement(at, rest);
+        }
+        at
+    }
+
+    /// Adds what was read behind the end of this reader's part.
+    fn append(&mut self, behind: Self) {
+        self.program.append(behind.program);
+        self.diagnostics.extend(behind.diagnostics);
+        self.detector.append(&behind.detector);
+        self.last_was_points = behind.last_was_points;
+        self.definitions.extend(behind.definitions);
+    }
+
     /// Reads one statement and returns its length.
     fn read_statement(&mut self, at: usize, rest: &[u8]) -> usize {
-        let (syntax, length) = split_statement(rest);
+        let (mut syntax, length) = split_statement(rest, &mut self.spare_fields);
         let span = Span::new(at, at + length);
         let record = self.interpret_syntax(&syntax, span);
         if record == Record::Definition {
@@ -234,6 +301,8 @@ impl StatementReader<'_> {
         // A line of bare numbers may only follow points, which it continues.
         self.last_was_points = matches!(record, Record::Goto(_) | Record::Points(_));
         self.program.push(record, span);
+        self.spare_fields = std::mem::take(&mut syntax.fields);
+        self.spare_fields.clear();
         length
     }
 
@@ -310,9 +379,27 @@ fn malformed_finding(source: &Arc<Source>, text: &[u8], span: Span) -> Diagnosti
     )
 }
 
+/// Reads the statement at the start of `window`; the text of the result shows how many bytes it takes.
+///
+/// `window` holds whole lines. `StatementSyntax::open` says that the statement continues past the end of the
+/// window. This never fails: text that fits no form of the grammar gets [`StatementKind::Refused`].
+pub fn syntax(window: &[u8]) -> StatementSyntax<'_> {
+    plain_statement::read_plain_statement(window, &mut Vec::new())
+        .unwrap_or_else(|| grammar::parse_statement(window))
+}
+
 /// Splits off the statement at the start of `rest`, with as many lines as it continues over. Returns its
-/// syntax and its length in bytes.
-fn split_statement(rest: &[u8]) -> (StatementSyntax<'_>, usize) {
+/// syntax and its length in bytes. The fields may take the memory of `spare`, which is empty.
+fn split_statement<'t>(rest: &'t [u8], spare: &mut Vec<StatementField>) -> (StatementSyntax<'t>, usize) {
+    if let Some(syntax) = plain_statement::read_plain_statement(rest, spare) {
+        let length = syntax.text.len();
+        return (syntax, length);
+    }
+    split_by_grammar(rest)
+}
+
+/// Splits off the statement at the start of `rest` by the grammar alone.
+fn split_by_grammar(rest: &[u8]) -> (StatementSyntax<'_>, usize) {
     let mut lines = 1;
     let mut window = find_lines_end(rest, 0, lines);
     loop {

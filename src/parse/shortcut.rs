@@ -124,7 +124,7 @@ fn find_line_end(text: &[u8], at: usize) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::{provenance_comment_length, read_plain_goto};
-    use crate::parse::split_statement;
+    use crate::parse::split_by_grammar;
     use crate::program::Record;
     use proptest::prelude::*;
 
@@ -132,7 +132,7 @@ mod tests {
     /// same length, and no finding.
     fn agrees(text: &[u8]) -> Result<bool, TestCaseError> {
         let Some((short, length)) = read_plain_goto(text) else { return Ok(false) };
-        let (syntax, full_length) = split_statement(text);
+        let (syntax, full_length) = split_by_grammar(text);
         prop_assert!(!syntax.open, "open: {:?}", String::from_utf8_lossy(text));
         prop_assert_eq!(length, full_length, "{:?}", String::from_utf8_lossy(text));
         let Ok(Record::Goto(full)) = Record::read(&syntax) else {
@@ -250,7 +250,7 @@ mod tests {
         #[test]
         fn own_comments_are_comments_to_the_grammar(text in "\\$\\$ ?clsmith ?[ -~]{0,140}[$]?(\r\n|\n|\r|)(GOTO/1,2,3\n)?") {
             if let Some(length) = provenance_comment_length(text.as_bytes()) {
-                let (syntax, end) = crate::parse::split_statement(text.as_bytes());
+                let (syntax, end) = crate::parse::split_by_grammar(text.as_bytes());
                 prop_assert_eq!(syntax.form, crate::program::StatementKind::Comment);
                 prop_assert_eq!(end, length);
                 prop_assert!(!syntax.open);

@@ -170,6 +170,13 @@ impl DialectDetector {
         };
     }
 
+    /// Adds the marks of the statements that follow those that this one has seen.
+    pub(crate) fn append(&mut self, behind: &Self) {
+        self.catia |= behind.catia;
+        self.icam |= behind.icam;
+        self.found = self.found.or(behind.found);
+    }
+
     /// Returns whether a mark of any system was found.
     pub(crate) fn has_mark(&self) -> bool {
         self.found.is_some() || self.catia || self.icam
@@ -204,7 +211,7 @@ impl DialectDetector {
 /// Finds a mark in a text for people.
 fn detect_in_free_text(syntax: &StatementSyntax<'_>) -> Option<Dialect> {
     let text = syntax.fields.first().map(|field| syntax.bytes_at(&field.at)).unwrap_or_default();
-    match syntax.major_word().as_str() {
+    match syntax.major_word().as_ref() {
         "OPFEATSTART" => Some(Dialect::CamWorks),
         "PPRINT" if text.starts_with(b"APTCL-SPEC,MAKINO") => Some(Dialect::MakinoFf),
         _ => None,

@@ -130,22 +130,31 @@ impl Program {
         self.statements.push(Statement { record, text, origin: span, change: StatementChange::Untouched });
     }
 
+    /// Adds the statements of a program that was read from a later part of the same source.
+    pub(crate) fn append(&mut self, behind: Self) {
+        debug_assert!(behind.edits.is_empty(), "only what was just read is put together");
+        self.statements.extend(behind.statements);
+    }
+
     /// Returns the file from which the program was read.
     pub fn source(&self) -> &Arc<Source> {
         &self.source
     }
 
     /// Returns the dialect: detected, or forced when the program was parsed.
+    #[inline]
     pub fn dialect(&self) -> Dialect {
         self.dialect
     }
 
     /// Returns the current text of a statement with its line end.
+    #[inline]
     pub fn statement_text(&self, statement: &Statement) -> &[u8] {
         self.text_at(statement.text)
     }
 
     /// Returns the text at a location.
+    #[inline]
     fn text_at(&self, place: TextLocation) -> &[u8] {
         let start = place.start as usize;
         let length = place.length as usize;

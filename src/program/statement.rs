@@ -43,21 +43,25 @@ pub struct Statement {
 
 impl Statement {
     /// Returns the meaning.
+    #[inline]
     pub fn record(&self) -> &Record {
         &self.record
     }
 
     /// Returns its bytes in the source; for an inserted statement, the empty span at which it was inserted.
+    #[inline]
     pub fn origin(&self) -> Span {
         self.origin
     }
 
     /// Returns the change.
+    #[inline]
     pub fn change(&self) -> StatementChange {
         self.change
     }
 
     /// Returns whether it is still part of the program.
+    #[inline]
     pub fn is_live(&self) -> bool {
         !matches!(self.change, StatementChange::Deleted(_))
     }

@@ -94,7 +94,7 @@ impl<'t> StatementSyntax<'t> {
 
     /// Returns the major word in upper case, with single blanks between words and no blanks around commas:
     /// `TOOL PATH`, `TLON,GOFWD`.
-    pub fn major_word(&self) -> String {
+    pub fn major_word(&self) -> Cow<'t, str> {
         fold_text(self.bytes_at(&self.word))
     }
 
@@ -107,7 +107,7 @@ impl<'t> StatementSyntax<'t> {
     }
 
     /// Returns the text of a field in upper case if it is a word.
-    pub fn word_at(&self, index: usize) -> Option<String> {
+    pub fn word_at(&self, index: usize) -> Option<Cow<'t, str>> {
         let field = self.fields.get(index)?;
         matches!(field.kind, FieldKind::Text).then(|| fold_text(self.bytes_at(&field.at)))
     }
@@ -159,8 +159,14 @@ pub(crate) fn join_broken(bytes: &[u8]) -> Cow<'_, [u8]> {
 }
 
 /// Returns a text in upper case, with single blanks between words and no blanks around commas. Bytes from
-/// 0x80 on are read as Latin-1. Breaks in the text are left out.
-pub(crate) fn fold_text(bytes: &[u8]) -> String {
+/// 0x80 on are read as Latin-1. Breaks in the text are left out. A text that has that form is not copied.
+pub(crate) fn fold_text(bytes: &[u8]) -> Cow<'_, str> {
+    let is_folded = |byte: u8| matches!(byte, b'A'..=b'Z' | b'0'..=b'9' | b'_' | b'-' | b'.' | b',' | b'+');
+    if bytes.iter().all(|byte| is_folded(*byte))
+        && let Ok(text) = std::str::from_utf8(bytes)
+    {
+        return Cow::Borrowed(text);
+    }
     let bytes = &*join_broken(bytes);
     let mut text = String::with_capacity(bytes.len());
     let mut blank = false;
@@ -175,5 +181,5 @@ pub(crate) fn fold_text(bytes: &[u8]) -> String {
         blank = false;
         text.push(char::from(byte.to_ascii_uppercase()));
     }
-    text
+    Cow::Owned(text)
 }

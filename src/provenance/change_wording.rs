@@ -28,7 +28,7 @@ pub(super) fn record_name(record: &Record, text: &[u8]) -> String {
     let name = match (record, syntax.form) {
         (Record::MatrixRow(_), _) => "matrix".to_owned(),
         (_, StatementKind::Numbers) => "point".to_owned(),
-        _ => fold_text(syntax.bytes_at(&syntax.word)),
+        _ => fold_text(syntax.bytes_at(&syntax.word)).into_owned(),
     };
     shorten_middle(&to_printable_ascii(&name), LONGEST_NAME)
 }

@@ -168,5 +168,5 @@ fn find_header_position(program: &Program, places: &CommentPlaces) -> InsertionP
 }
 
 fn major_word(program: &Program, statement: &Statement) -> String {
-    parse::syntax(program.statement_text(statement)).major_word()
+    parse::syntax(program.statement_text(statement)).major_word().into_owned()
 }

@@ -9,6 +9,7 @@ use crate::diagnostic::{Diagnostic, codes};
 use crate::parse;
 use crate::program::record::{FrameRecord, FrameWord};
 use crate::program::{Program, Record, StatementId};
+use std::borrow::Cow;
 
 /// A kind of record that has become stale, and the reason.
 type StaleRecord = (&'static str, &'static str);
@@ -23,7 +24,7 @@ pub(super) fn report_stale_after_move(program: &Program, place: &Affine, context
             "the matrix in these comments still says where the points were in the part before they moved",
         )),
         Record::Frame(frame) => explain_stale_frame(frame, turns),
-        Record::Known => match major_word(text).as_str() {
+        Record::Known => match major_word(text).as_ref() {
             "BOX" => Some(("BOX", "this box still bounds the path as it was before the points moved")),
             "CLEARP" | "RETRCT" | "SAFETY" | "CLRSRF" if has_number(text) => {
                 Some(("CLEARP", "this height or plane was set for the path before the points moved"))
@@ -118,7 +119,7 @@ fn is_stock_size(text: &[u8]) -> bool {
 }
 
 /// Returns the text after the word of a free text (`PPRINT/ESCAPE-HEIGHT,50.0`), in upper case.
-fn text_behind_slash(text: &[u8]) -> String {
+fn text_behind_slash(text: &[u8]) -> Cow<'_, str> {
     let rest = text.iter().position(|byte| *byte == b'/').and_then(|at| text.get(at + 1..));
     crate::program::fold_text(rest.unwrap_or_default().trim_ascii())
 }

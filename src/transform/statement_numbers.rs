@@ -10,6 +10,7 @@ use crate::program::record::{has_contact_normal, has_tool_axes};
 use crate::program::{FieldKind, NumberRole, Record, StatementId};
 use crate::write::{ProgramEditor, copy_with_numbers};
 use nalgebra::Vector3;
+use std::borrow::Cow;
 
 /// The tolerance of a matrix in the comments of a CATIA file. It prints unit vectors with 5 decimals, but
 /// rotated ones need as many as an NX frame.
@@ -112,7 +113,7 @@ pub(super) fn set_matrix_row(
 
 /// Returns the major word of a statement in upper case, without the cost of the grammar. It is meant for
 /// comparisons with lists of words.
-pub(super) fn major_word(text: &[u8]) -> String {
+pub(super) fn major_word(text: &[u8]) -> Cow<'_, str> {
     let text = text.trim_ascii_start();
     // The number of a statement stands in front of its word (`N10 GOTO/`), numbers behind a comma (`CHANNEL,1`).
     let label = text.strip_prefix(b"N").or(text.strip_prefix(b"n")).unwrap_or(text);

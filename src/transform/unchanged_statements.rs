@@ -22,7 +22,7 @@ pub(super) fn report_unchanged_statements(
             Record::Unparsed | Record::Definition if meant(id) => unreadable.push(id),
             Record::Other if meant(id) => {
                 let text = program.statement_text(statement);
-                let word = major_word(text);
+                let word = major_word(text).into_owned();
                 if may_hold_lengths(text) && !words.contains(&word) {
                     context.report_unchanged(
                         format!(

@@ -82,7 +82,7 @@ impl ProgramEditor {
             return Err(self.unwritable_error(id, &message));
         }
         match number_patch::patch_existing_numbers(text, statement.record(), edits, &self.style) {
-            Ok(Some(patched)) => self.set_text(id, &patched),
+            Ok(Some(patched)) => self.put_text(id, patched),
             Ok(None) => Ok(()),
             Err(missing) => {
                 let message =
@@ -121,8 +121,12 @@ impl ProgramEditor {
     /// # Errors
     /// Returns an error if the statement is deleted, or if the text is not one well-formed statement.
     pub fn set_text(&mut self, id: StatementId, text: &[u8]) -> Result<(), Failure> {
+        self.put_text(id, text.to_vec())
+    }
+
+    fn put_text(&mut self, id: StatementId, text: Vec<u8>) -> Result<(), Failure> {
         let old = self.program.statement_text(self.live_statement(id)?);
-        let text = &fit_lines(old, text.to_vec(), self.style.full_column);
+        let text = &fit_lines(old, text, self.style.full_column);
         let record = self.read_back(id.before(), text)?;
         self.program.replace_statement(id, text, record, self.step);
         Ok(())

@@ -27,7 +27,9 @@ impl<'t> JoinedText<'t> {
     /// the text, in their order. A statement may have hundreds of thousands of them.
     pub(super) fn new(text: &'t [u8], numbers: &[(Range<usize>, f64)]) -> Self {
         let mut breaks = Vec::new();
-        for (start, line) in lines_with_starts(text) {
+        // Most statements have one line, which nothing breaks.
+        let one_line = memchr::memchr(b'\n', text).is_none_or(|end| end + 1 == text.len());
+        for (start, line) in lines_with_starts(text).filter(|_| !one_line) {
             let (end, after) = (start + line.len(), start + line.len() < text.len());
             let within_number = || {
                 let before = numbers.partition_point(|(at, _)| at.start < end);
@@ -73,14 +75,17 @@ impl<'t> JoinedText<'t> {
 /// which the file breaks full lines, if it does. A line that the old text broke is broken at the same column,
 /// and each line gets back the identification that the old one had.
 pub(super) fn fit_lines(old: &[u8], new: Vec<u8>, full_column: Option<usize>) -> Vec<u8> {
-    let before: Vec<_> = lines_with_starts(old).map(|(_, line)| (line, inspect_line(line))).collect();
-    let has_columns = before.iter().any(|(_, seen)| seen.full.is_some() || seen.identification.is_some());
+    let has_columns = lines_with_starts(old).any(|(_, line)| {
+        let seen = inspect_line(line);
+        seen.full.is_some() || seen.identification.is_some()
+    });
     let longest = || new.split(|byte| *byte == b'\n').map(|line| line.trim_ascii_end().len()).max();
     let too_long = full_column.is_some() && longest() > Some(DATA_COLUMNS);
     // What is not CL data proper has no columns: comments, and everything of a file that keeps none.
     if !(has_columns || too_long) || new.trim_ascii_start().starts_with(b"$$") {
         return new;
     }
+    let before: Vec<_> = lines_with_starts(old).map(|(_, line)| (line, inspect_line(line))).collect();
     let identifications: Vec<&[u8]> = before
         .iter()
         .map(|(line, seen)| seen.identification.clone().and_then(|at| line.get(at)).unwrap_or_default())

@@ -4,7 +4,7 @@ use super::file_style::FileStyle;
 use super::line_columns::{JoinedText, fit_lines};
 use crate::parse;
 use crate::program::{NumberRole, Record};
-use std::iter::Peekable;
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// A change below this fraction of the value is noise of the arithmetic and not an edit.
@@ -105,7 +105,8 @@ fn reprint_numbers(
     let mut out = Vec::with_capacity(text.len() + 16);
     let mut copied = 0;
     // One pass goes through both lists, because a statement may have hundreds of thousands of numbers.
-    let mut edits = in_number_order(edits);
+    let edits = in_number_order(edits);
+    let mut edits = edits.iter().copied().peekable();
     for (index, (at, old)) in places.iter().enumerate() {
         let Some((_, wanted)) = edits.next_if(|(edited, _)| *edited == index) else { continue };
         // If a number has two new values, the first one counts.
@@ -133,10 +134,13 @@ fn reprint_numbers(
     Some(fit_lines(text, out, style.full_column))
 }
 
-fn in_number_order(edits: &[(usize, f64)]) -> Peekable<impl Iterator<Item = (usize, f64)>> {
+fn in_number_order(edits: &[(usize, f64)]) -> Cow<'_, [(usize, f64)]> {
+    if edits.is_sorted_by_key(|(index, _)| *index) {
+        return Cow::Borrowed(edits);
+    }
     let mut edits = edits.to_vec();
     edits.sort_by_key(|(index, _)| *index);
-    edits.into_iter().peekable()
+    Cow::Owned(edits)
 }
 
 /// Ends the number in the column where the old one ended, by removing blanks before it or adding some.

@@ -2,6 +2,7 @@
 
 use crate::support;
 use clsmith::diagnostic::codes;
+use clsmith::internals::parse::compare_with_grammar;
 use clsmith::parse::parse;
 
 #[test]
@@ -56,4 +57,28 @@ fn cases_of_oddities_are_written_back_byte_for_byte() {
         programs += 1;
     }
     assert!(programs > 40, "{programs}");
+}
+
+/// The shortcuts must give what the grammar gives, statement by statement, in every real file and every odd one.
+#[test]
+fn shortcuts_agree_with_the_grammar_on_real_files() {
+    let Some(mut files) = support::require_corpus_with_part_programs() else { return };
+    let Some(cases) = support::require_shared_folder("cases") else { return };
+    files.extend(
+        std::fs::read_dir(cases).unwrap().map(|entry| entry.unwrap().path()).filter(|path| path.is_file()),
+    );
+    let (mut statements, mut by_shortcut) = (0, 0);
+    for path in files {
+        let bytes = std::fs::read(&path).unwrap();
+        let mut at = 0;
+        while at < bytes.len() {
+            let compared = compare_with_grammar(&bytes[at..]);
+            let (length, taken) = compared.unwrap_or_else(|found| panic!("{}: {found}", path.display()));
+            at += length;
+            statements += 1;
+            by_shortcut += usize::from(taken);
+        }
+    }
+    // Real text is nearly all plain.
+    assert!(by_shortcut * 10 > statements * 8, "{by_shortcut} of {statements}");
 }

@@ -15,7 +15,7 @@ fn shown(line: &str) -> (String, Vec<String>) {
             _ => text,
         }
     };
-    (line.major_word(), line.fields.iter().map(show).collect())
+    (line.major_word().into_owned(), line.fields.iter().map(show).collect())
 }
 
 #[track_caller]

@@ -17,7 +17,7 @@ fn an_unknown_word_is_one_note_and_no_slip_of_another_system() {
 fn numbers_behind_a_comma_are_no_part_of_the_word() {
     let text = "UNITS/MM\nLOCAL_ORIGIN,   40.00000,    85.50000,   0.000000\nGOTO/0,0,0\n";
     let syntax = clsmith::parse::syntax(b"LOCAL_ORIGIN,   40.00000,    85.50000,   0.000000\n");
-    assert_eq!((syntax.major_word().as_str(), syntax.numbers().len()), ("LOCAL_ORIGIN", 3));
+    assert_eq!((syntax.major_word().as_ref(), syntax.numbers().len()), ("LOCAL_ORIGIN", 3));
     let (_, found) = apply_with_findings(MOVE, text);
     assert!(found.iter().any(|found| found.message.contains("`LOCAL_ORIGIN`")), "{found:?}");
 }

@@ -4,6 +4,7 @@
 use super::{BadRecord, NumberRole, Record, bad_record, has_direction, read_group_numbers, read_number};
 use crate::program::syntax::{FieldGroup, FieldKind, StatementField, StatementSyntax, fold_text};
 use nalgebra::{Point3, Vector3};
+use std::borrow::Cow;
 
 /// An arc or helix with its end in the record. The direction in which it starts gives its sense.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,7 +61,7 @@ fn helical_numbers(syntax: &StatementSyntax<'_>) -> Result<Vec<(String, usize, f
                 if !text.starts_with(|first: char| first.is_ascii_alphabetic()) {
                     read_number(syntax, field)?;
                 }
-                (word, index) = (text, 0);
+                (word, index) = (text.into_owned(), 0);
             }
             FieldKind::Empty => {}
             _ => {
@@ -81,7 +82,7 @@ pub(super) fn read_cylinder_arc(syntax: &StatementSyntax<'_>) -> Result<Option<R
     let mut beyond_half = false;
     for field in &syntax.fields {
         match &field.kind {
-            FieldKind::Group(group) => match group_word(syntax, group).as_str() {
+            FieldKind::Group(group) => match group_word(syntax, group).as_ref() {
                 "CYLNDR" | "CIRCLE" => round = Some(read_group_numbers(syntax, group)?),
                 "LINE" => end = read_group_numbers(syntax, group)?.get(3..6).map(Vector3::from_column_slice),
                 "PLANE" => end = last_point(syntax, group)?,
@@ -127,7 +128,7 @@ fn last_point(syntax: &StatementSyntax<'_>, plane: &FieldGroup) -> Result<Option
     Ok(last)
 }
 
-fn group_word(syntax: &StatementSyntax<'_>, group: &FieldGroup) -> String {
+fn group_word<'t>(syntax: &StatementSyntax<'t>, group: &FieldGroup) -> Cow<'t, str> {
     fold_text(syntax.bytes_at(&group.word))
 }
 
@@ -169,7 +170,7 @@ fn group_roles(syntax: &StatementSyntax<'_>, group: &FieldGroup) -> Vec<NumberRo
     let mut own = || {
         let component = (next % 3) as u8;
         next += 1;
-        match (word.as_str(), next, count) {
+        match (word.as_ref(), next, count) {
             ("POINT" | "LINE", ..) | ("CIRCLE" | "CYLNDR", 1..=3, _) => NumberRole::Point(component),
             ("VECTOR", ..) | ("CYLNDR", 4..=6, 7) | ("PLANE", 1..=3, 4) => NumberRole::Direction(component),
             ("CIRCLE" | "CYLNDR" | "PLANE", ..) => NumberRole::Length,

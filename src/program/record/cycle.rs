@@ -45,7 +45,7 @@ pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordRe
         return None;
     }
     let first = syntax.word_at(0).unwrap_or_default();
-    Some(match first.as_str() {
+    Some(match first.as_ref() {
         "OFF" | "NOMORE" => Ok(Record::CycleOff),
         // CYCLE/ON switches the last cycle on again. CLT announces each cycle in this way, SolidWorks with
         // CYCLE/INIT. NX's CYCLE/ON,FEDTO,... changes the cycle in force.

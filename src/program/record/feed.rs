@@ -162,7 +162,7 @@ fn read_spindle(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     for field in &syntax.fields {
         match &field.kind {
             FieldKind::Number(number) => spindle.speed = spindle.speed.or(Some(*number)),
-            FieldKind::Text => match fold_text(syntax.bytes_at(&field.at)).as_str() {
+            FieldKind::Text => match fold_text(syntax.bytes_at(&field.at)).as_ref() {
                 "OFF" => spindle.on = false,
                 "RPM" => spindle.unit = SpindleUnit::RevolutionsPerMinute,
                 "SFM" => spindle.unit = SpindleUnit::SurfaceFeet,

@@ -175,7 +175,7 @@ fn read_circle(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     let mut fields = syntax.fields.iter().peekable();
     while let Some(field) = fields.next() {
         match &field.kind {
-            FieldKind::Text => match fold_text(syntax.bytes_at(&field.at)).as_str() {
+            FieldKind::Text => match fold_text(syntax.bytes_at(&field.at)).as_ref() {
                 "CLOCKWISE" | "CLW" => sense = ArcSense::Clockwise,
                 "COUNTERCLOCKWISE" | "CCLW" => sense = ArcSense::CounterClockwise,
                 "TIMES" => times = read_turn_count(syntax, fields.next(), field)?,
@@ -293,7 +293,7 @@ fn move_arc_numbers(syntax: &StatementSyntax<'_>) -> Result<Vec<(MoveArcPart, f6
             FieldKind::Text if single.is_some_and(|part| part != MoveArcPart::Other) => {
                 read_number(syntax, field)?;
             }
-            FieldKind::Text => match fold_text(syntax.bytes_at(&field.at)).as_str() {
+            FieldKind::Text => match fold_text(syntax.bytes_at(&field.at)).as_ref() {
                 "CENTER" => (next, single) = (0, None),
                 "AXIS" => (next, single) = (3, None),
                 "RADIUS" => (next, single) = (6, None),

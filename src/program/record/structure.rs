@@ -73,7 +73,7 @@ pub(super) fn read_comment(syntax: &StatementSyntax<'_>) -> Record {
 /// Reads a record whose rest is text for people. Some of these texts mark operations or motions.
 pub(super) fn read_free_text(syntax: &StatementSyntax<'_>) -> Record {
     let Some(field) = syntax.fields.first() else { return Record::Text };
-    match syntax.major_word().as_str() {
+    match syntax.major_word().as_ref() {
         "OPFEATSTART" => {
             Record::OperationStart(OperationNames { name: Box::new(field.at.clone()), tool: None })
         }
@@ -244,7 +244,7 @@ pub(super) fn number_roles(syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
     if major == "PSIS" {
         return super::axial_arc::nested_roles(syntax, &syntax.fields);
     }
-    let role = match major.as_str() {
+    let role = match major.as_ref() {
         // A plane is its normal and its distance; anything else is a height.
         "CLRSRF" if numbers == 4 => {
             return vec![NumberRole::Plain, NumberRole::Plain, NumberRole::Plain, NumberRole::Length];

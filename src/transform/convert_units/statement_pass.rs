@@ -162,14 +162,14 @@ fn report_unconverted(
             "the unit of this feed is not understood: it is not converted"
         }
         Record::Known
-            if LENGTHS_OF_POSTS.contains(&major_word(text).as_str())
+            if LENGTHS_OF_POSTS.contains(&major_word(text).as_ref())
                 && has_plain_number(statement.record(), text) =>
         {
             "only the post understands the numbers of this word, and they may be lengths: they are not converted"
         }
         _ => return,
     };
-    let word = major_word(text);
+    let word = major_word(text).into_owned();
     if !reported.contains(&word) {
         context.report_unchanged(message, program, id);
         reported.push(word);

@@ -82,7 +82,7 @@ fn split_words<'s>(syntax: &'s StatementSyntax<'_>) -> impl Iterator<Item = (Ran
         bytes.split(|byte| matches!(byte, b' ' | b'\t')).map(move |word| {
             let place = start + at..start + at + word.len();
             at += word.len() + 1;
-            (place, fold_text(word))
+            (place, fold_text(word).into_owned())
         })
     };
     syntax.fields.iter().filter(|field| field.kind == FieldKind::Text).flat_map(of_field)

@@ -29,7 +29,7 @@ pub(super) fn swap_senses(editor: &mut ProgramEditor, id: StatementId) -> Result
 
 /// Returns the normal of the plane that a CUTCOM names. Returns `None` if it names none.
 pub(super) fn named_plane_normal(syntax: &StatementSyntax<'_>) -> Option<Vector3<f64>> {
-    (0..syntax.fields.len()).find_map(|field| match syntax.word_at(field)?.as_str() {
+    (0..syntax.fields.len()).find_map(|field| match syntax.word_at(field)?.as_ref() {
         "XYPLAN" => Some(Vector3::z()),
         "YZPLAN" => Some(Vector3::x()),
         "ZXPLAN" => Some(Vector3::y()),

@@ -310,7 +310,7 @@ impl SpeedWriter<'_> {
         };
         let syntax = parse::syntax(&text);
         let senses = syntax.fields.iter().map(|field| field.at.clone());
-        let mut other = senses.filter(|at| matches!(fold_text(syntax.bytes_at(at)).as_str(), "CLW" | "CCLW"));
+        let mut other = senses.filter(|at| matches!(fold_text(syntax.bytes_at(at)).as_ref(), "CLW" | "CCLW"));
         if let Some(at) = other.next_back().filter(|at| fold_text(syntax.bytes_at(at)) != sense) {
             text.splice(at, sense.bytes());
         }

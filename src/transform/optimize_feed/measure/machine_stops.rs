@@ -11,7 +11,7 @@ pub(in crate::transform::optimize_feed) fn has_machine_stop(
 ) -> bool {
     let waits = |statement: &Statement| {
         matches!(statement.record(), Record::Known | Record::Other)
-            && matches!(major_word(program.statement_text(statement)).as_str(), "STOP" | "OPSTOP" | "DELAY")
+            && matches!(major_word(program.statement_text(statement)).as_ref(), "STOP" | "OPSTOP" | "DELAY")
     };
     let between = program.statements_between(behind.after(), until.after());
     between.iter().any(|statement| statement.is_live() && waits(statement))
